@@ -1,0 +1,143 @@
+#include "prt/environment.h"
+
+#include "prt/error.h"
+#include "prt/parallel.h"
+#include "prt/sh.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace prt {
+
+using detail::kPi;
+
+namespace {
+
+bool is_bad(const glm::vec3& pixel) {
+    for (int c = 0; c < 3; ++c)
+        if (!std::isfinite(pixel[c]) || pixel[c] < 0)
+            return true;
+    return false;
+}
+
+struct CubeFace {
+    glm::dvec3 outward, right, down;
+};
+
+constexpr std::array<CubeFace, 6> kCubeFaces = {{
+    {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+    {{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
+    {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}},
+    {{0, -1, 0}, {1, 0, 0}, {0, 0, 1}},
+    {{0, 0, 1}, {-1, 0, 0}, {0, -1, 0}},
+    {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}},
+}};
+
+/// Four bilinear taps and their weights.
+glm::vec3 bilinear(const Image& image, int x0, int x1, int y0, int y1, float u, float v) {
+    return (image.at(x0, y0) * (1 - u) + image.at(x1, y0) * u) * (1 - v) +
+           (image.at(x0, y1) * (1 - u) + image.at(x1, y1) * u) * v;
+}
+
+glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction) {
+    const glm::dvec2 position = lat_long_position(image.width, image.height, glm::dvec3(direction)) - 0.5;
+    const double x = std::floor(position.x), y = std::floor(position.y);
+    const auto wrap = [&](int i) { return (i % image.width + image.width) % image.width; };
+    const auto clamp = [&](int i) { return std::clamp(i, 0, image.height - 1); };
+    const int xi = static_cast<int>(x), yi = static_cast<int>(y);
+    return bilinear(image, wrap(xi), wrap(xi + 1), clamp(yi), clamp(yi + 1),
+                    static_cast<float>(position.x - x), static_cast<float>(position.y - y));
+}
+
+glm::vec3 sample_cube(const Image& image, const glm::vec3& direction) {
+    const glm::dvec3 d(direction);
+    int face = 0;
+    for (int f = 1; f < 6; ++f)
+        if (glm::dot(d, kCubeFaces[static_cast<std::size_t>(f)].outward) >
+            glm::dot(d, kCubeFaces[static_cast<std::size_t>(face)].outward))
+            face = f;
+    const CubeFace& f = kCubeFaces[static_cast<std::size_t>(face)];
+    const double depth = glm::dot(d, f.outward);
+    const int last = image.width - 1;
+    const double x = std::clamp((glm::dot(d, f.right) / depth + 1) * 0.5 * last, 0.0, double(last));
+    const double y = std::clamp((glm::dot(d, f.down) / depth + 1) * 0.5 * last, 0.0, double(last));
+    const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+    const int top = face * image.width;
+    return bilinear(image, x0, std::min(x0 + 1, last), top + y0, top + std::min(y0 + 1, last),
+                    static_cast<float>(x - x0), static_cast<float>(y - y0));
+}
+
+} // namespace
+
+std::size_t repair_pixels(Image& image, BadPixels policy) {
+    float largest = 0;
+    std::size_t count = 0, first = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        if (is_bad(image.pixels[i]) && count++ == 0)
+            first = i;
+        for (int c = 0; c < 3; ++c)
+            if (std::isfinite(image.pixels[i][c]))
+                largest = std::max(largest, image.pixels[i][c]);
+    }
+    if (count == 0)
+        return 0;
+    if (policy == BadPixels::error) {
+        const auto width = static_cast<std::size_t>(image.width);
+        throw Error(std::to_string(count) + " pixels are negative, infinite or not a number, the first at x " +
+                    std::to_string(first % width) + ", y " + std::to_string(first / width) +
+                    " (--bad-pixels zero or clamp repairs them)");
+    }
+    for (glm::vec3& pixel : image.pixels) {
+        if (!is_bad(pixel))
+            continue;
+        if (policy == BadPixels::zero) {
+            pixel = glm::vec3(0);
+            continue;
+        }
+        for (int c = 0; c < 3; ++c)
+            pixel[c] = std::isnan(pixel[c]) ? 0.0f : std::clamp(pixel[c], 0.0f, largest);
+    }
+    return count;
+}
+
+glm::dvec3 lat_long_direction(int width, int height, double x, double y) {
+    const double longitude = 2 * kPi * (0.5 - x / width);
+    const double theta = kPi * y / height;
+    return {std::sin(theta) * std::sin(longitude), std::cos(theta), std::sin(theta) * std::cos(longitude)};
+}
+
+glm::dvec2 lat_long_position(int width, int height, const glm::dvec3& direction) {
+    const double longitude = std::atan2(direction.x, direction.z);
+    const double theta = std::acos(std::clamp(direction.y, -1.0, 1.0));
+    return {(0.5 - longitude / (2 * kPi)) * width, theta / kPi * height};
+}
+
+glm::dvec3 cube_direction(int face, double u, double v) {
+    const CubeFace& f = kCubeFaces[static_cast<std::size_t>(face)];
+    return glm::normalize(f.outward + u * f.right + v * f.down);
+}
+
+glm::vec3 sample(const Environment& environment, const glm::vec3& direction) {
+    return environment.layout == EnvironmentLayout::cube ? sample_cube(environment.image, direction)
+                                                         : sample_lat_long(environment.image, direction);
+}
+
+Image resampled_lat_long(const Environment& environment, int height) {
+    if (environment.layout == EnvironmentLayout::lat_long && environment.image.height == height &&
+        environment.image.width == 2 * height)
+        return environment.image;
+    Image result{2 * height, height, {}};
+    result.pixels.resize(static_cast<std::size_t>(2 * height) * static_cast<std::size_t>(height));
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < 2 * height; ++x)
+            result.at(x, y) =
+                sample(environment, glm::vec3(lat_long_direction(2 * height, height, x + 0.5, y + 0.5)));
+    return result;
+}
+
+} // namespace prt

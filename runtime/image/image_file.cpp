@@ -1,0 +1,130 @@
+#include "prt/image_file.h"
+
+#include "exr.h"
+#include "prt/error.h"
+#include "prt/file.h"
+
+#include <stb/stb_image.h>
+#include <stb/stb_image_write.h>
+
+#include <algorithm>
+#include <climits>
+#include <cstring>
+#include <memory>
+#include <string>
+
+namespace prt {
+namespace {
+
+constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
+
+bool starts_with(std::span<const std::byte> file, std::string_view magic) {
+    return file.size() >= magic.size() && std::memcmp(file.data(), magic.data(), magic.size()) == 0;
+}
+
+struct StbFree {
+    void operator()(void* pixels) const { stbi_image_free(pixels); }
+};
+
+const stbi_uc* stb_bytes(std::span<const std::byte> file) {
+    return reinterpret_cast<const stbi_uc*>(file.data());
+}
+
+int stb_size(std::span<const std::byte> file) {
+    if (file.size() > INT_MAX)
+        throw Error("the image is larger than 2 GB");
+    return static_cast<int>(file.size());
+}
+
+void check_claimed_size(std::span<const std::byte> file) {
+    int width = 0, height = 0, channels = 0;
+    if (!stbi_info_from_memory(stb_bytes(file), stb_size(file), &width, &height, &channels))
+        throw Error(std::string("is a damaged or unsupported image: ") + stbi_failure_reason());
+    if (std::int64_t{width} * height > kMostPixels)
+        throw Error("claims " + std::to_string(width) + " x " + std::to_string(height) +
+                    " pixels, more than this program reads");
+}
+
+Image read_hdr(std::span<const std::byte> file) {
+    check_claimed_size(file);
+    Image image;
+    int channels = 0;
+    const std::unique_ptr<float, StbFree> pixels(
+        stbi_loadf_from_memory(stb_bytes(file), stb_size(file), &image.width, &image.height, &channels, 3));
+    if (!pixels)
+        throw Error(std::string("is a damaged or unsupported Radiance HDR: ") + stbi_failure_reason());
+    image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::vec3));
+    return image;
+}
+
+EnvironmentLayout layout_of(const Image& image, std::optional<EnvironmentLayout> stated) {
+    const bool cube_shaped = image.height == 6 * image.width;
+    if (stated == EnvironmentLayout::cube && !cube_shaped)
+        throw Error("is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                    " pixels, but a cube map has six square faces in a column");
+    if (stated)
+        return *stated;
+    if (image.width == 2 * image.height)
+        return EnvironmentLayout::lat_long;
+    if (cube_shaped)
+        return EnvironmentLayout::cube;
+    throw Error("is no environment map: it is " + std::to_string(image.width) + " x " +
+                std::to_string(image.height) +
+                " pixels and has no envmap attribute (a lat-long map is twice as wide as high, a cube map six "
+                "square faces in a column; --env-layout says what it is)");
+}
+
+} // namespace
+
+EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options) {
+    EnvironmentFile result;
+    std::optional<EnvironmentLayout> layout = options.layout;
+    const std::vector<std::byte> file = read_file(path);
+    if (starts_with(file, "\x76\x2f\x31\x01")) {
+        ExrFile exr = read_exr(path);
+        result.environment.image = std::move(exr.image);
+        if (!layout)
+            layout = exr.layout;
+    } else if (!starts_with(file, "#?")) {
+        throw Error(path.string() + ": is neither an OpenEXR nor a Radiance HDR image");
+    }
+    try {
+        if (result.environment.image.pixels.empty())
+            result.environment.image = read_hdr(file);
+        result.environment.layout = layout_of(result.environment.image, layout);
+        result.repaired_pixels = repair_pixels(result.environment.image, options.bad_pixels);
+    } catch (const Error& error) {
+        throw Error(path.string() + ": " + error.what());
+    }
+    return result;
+}
+
+Image8 decode_image(std::span<const std::byte> file) {
+    check_claimed_size(file);
+    Image8 image;
+    int channels = 0;
+    const std::unique_ptr<stbi_uc, StbFree> pixels(
+        stbi_load_from_memory(stb_bytes(file), stb_size(file), &image.width, &image.height, &channels, 4));
+    if (!pixels)
+        throw Error(std::string("is a damaged or unsupported image: ") + stbi_failure_reason());
+    image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::u8vec4));
+    return image;
+}
+
+void write_png(const std::filesystem::path& path, int width, int height, std::span<const glm::u8vec3> pixels) {
+    OutputFile output(path);
+    const auto append = [](void* context, void* data, int size) {
+        auto& bytes = *static_cast<std::vector<std::byte>*>(context);
+        const auto* begin = static_cast<const std::byte*>(data);
+        bytes.insert(bytes.end(), begin, begin + size);
+    };
+    std::vector<std::byte> file;
+    if (!stbi_write_png_to_func(append, &file, width, height, 3, pixels.data(), 3 * width))
+        throw Error(path.string() + ": the image could not be encoded");
+    output.write(file);
+    output.commit();
+}
+
+} // namespace prt

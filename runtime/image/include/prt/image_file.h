@@ -1,0 +1,49 @@
+#pragma once
+
+// Reading and writing images: OpenEXR, Radiance HDR, PNG; PNG and JPEG textures.
+
+#include "prt/environment.h"
+
+#include <glm/gtc/type_precision.hpp>
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+struct EnvironmentOptions {
+    /// How to read an image that does not say (EXR attribute `envmap`). Unset: by its shape, 2:1 or 1:6.
+    std::optional<EnvironmentLayout> layout;
+    BadPixels bad_pixels = BadPixels::error;
+};
+
+struct EnvironmentFile {
+    Environment environment;
+    std::size_t repaired_pixels = 0;
+};
+
+/// Reads an environment map from OpenEXR (any channel type and compression, scanline or tiled, RGB, luminance or
+/// luminance-chroma; other primaries are converted) or Radiance HDR. Throws `Error` that names the file for
+/// anything that is damaged or no environment map. Memory grows with what is decoded, not with what a header claims.
+EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
+
+/// 8-bit RGBA pixels as stored, without any conversion of colour.
+struct Image8 {
+    int width = 0, height = 0;
+    std::vector<glm::u8vec4> pixels; ///< [height][width]
+};
+
+/// Decodes a PNG or JPEG file in memory. Throws `Error` when it is damaged or something else.
+Image8 decode_image(std::span<const std::byte> file);
+
+/// Writes an 8-bit RGB PNG. `pixels` is [height][width].
+void write_png(const std::filesystem::path& path, int width, int height, std::span<const glm::u8vec3> pixels);
+
+/// Writes 32-bit float RGB, ZIP-compressed, marked as an environment map when `layout` is given.
+void write_exr(const std::filesystem::path& path, const Image& image,
+               std::optional<EnvironmentLayout> layout = std::nullopt);
+
+} // namespace prt

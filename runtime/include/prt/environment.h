@@ -1,0 +1,69 @@
+#pragma once
+
+// Environment maps in memory and their projection into SH. Layouts: docs/math.md, section 3.
+
+#include "prt/light.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace prt {
+
+/// RGB pixels, row by row from the top, linear Rec. 709.
+struct Image {
+    int width = 0, height = 0;
+    std::vector<glm::vec3> pixels; ///< [height][width]
+
+    const glm::vec3& at(int x, int y) const {
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)];
+    }
+    glm::vec3& at(int x, int y) { return const_cast<glm::vec3&>(static_cast<const Image&>(*this).at(x, y)); }
+};
+
+enum class EnvironmentLayout {
+    lat_long, ///< any size; top row +Y, centre column +Z, +X a quarter of the width left of the centre
+    cube,     ///< OpenEXR's: faces +X -X +Y -Y +Z -Z in a column, border texels centred on the cube's edges
+};
+
+struct Environment {
+    Image image;
+    EnvironmentLayout layout = EnvironmentLayout::lat_long;
+};
+
+/// What to do with pixels that cannot be radiance.
+enum class BadPixels {
+    error, ///< throw `Error` that counts them and names the first
+    zero,  ///< make them black
+    clamp, ///< NaN and negative become 0, +infinity the largest finite value of the image
+};
+
+/// Number of pixels with a NaN, infinite or negative component; they are treated as `policy` says.
+/// Throws `Error` under `BadPixels::error` when there are any.
+std::size_t repair_pixels(Image& image, BadPixels policy);
+
+/// Unit direction at the pixel position (x, y), where pixel i covers [i, i + 1].
+glm::dvec3 lat_long_direction(int width, int height, double x, double y);
+
+/// Pixel position, as in `lat_long_direction`, of a unit direction; x in [0, width], y in [0, height].
+glm::dvec2 lat_long_position(int width, int height, const glm::dvec3& direction);
+
+/// Unit direction at (u, v) in [-1, 1]² of face 0..5 of a cube map, u to the right and v down in the image. Texel i
+/// of n along an axis is centred at 2 i / (n - 1) - 1.
+glm::dvec3 cube_direction(int face, double u, double v);
+
+/// Bilinearly filtered radiance in unit direction `direction`.
+glm::vec3 sample(const Environment& environment, const glm::vec3& direction);
+
+/// The environment as a lat-long image of width 2 `height`, by `sample`; a lat-long of that size is returned as
+/// it is.
+Image resampled_lat_long(const Environment& environment, int height);
+
+/// Projects the environment, piecewise constant over its texels, into SH: the basis is integrated over each
+/// texel, not only taken at its centre, so that an image of one pixel is exactly a constant light. Sums are in
+/// double, row by row in a fixed order: the result does not depend on `threads` (0: all).
+Light project(const Environment& environment, int order, int threads = 0);
+
+} // namespace prt

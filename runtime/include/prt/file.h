@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace prt {
+
+/// The whole file. Throws `Error` that names it when it is missing, a directory, empty or unreadable.
+std::vector<std::byte> read_file(const std::filesystem::path& path);
+
+/// A file that appears under its name only when it is complete: it is written beside and renamed by `commit`.
+/// Destroyed without `commit`, it leaves nothing and the old file as it was.
+class OutputFile {
+  public:
+    /// Throws `Error` when nothing can be written there: no such folder, no permission, not a regular file.
+    explicit OutputFile(std::filesystem::path path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    /// Where to write, for libraries that open files themselves.
+    const std::filesystem::path& temporary_path() const { return temporary_; }
+    /// Appends. Throws `Error` when the disk is full.
+    void write(std::span<const std::byte> bytes);
+    void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
+    /// Flushes to disk and renames. Throws `Error` when that fails.
+    void commit();
+
+  private:
+    [[noreturn]] void fail(const char* what) const;
+    std::filesystem::path path_, temporary_;
+    int descriptor_ = -1;
+};
+
+} // namespace prt

@@ -1,0 +1,129 @@
+#pragma once
+
+// The real spherical-harmonic basis as a template that any number type can run: float, double, or a SIMD vector
+// of floats. Most callers want `evaluate_sh` of prt/sh.h.
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+
+namespace prt {
+
+/// Highest order N; bands are l = 0..N-1.
+inline constexpr int kMaxOrder = 10;
+
+constexpr int coefficient_count(int order) {
+    return order * order;
+}
+
+/// Index of the coefficient of band l and degree m, -l <= m <= l.
+constexpr int sh_index(int l, int m) {
+    return l * (l + 1) + m;
+}
+
+namespace detail {
+
+constexpr double kPi = 3.14159265358979323846;
+
+constexpr double square_root(double value) {
+    double root = value > 1 ? value : 1;
+    for (int i = 0; i < 64; ++i)
+        root = 0.5 * (root + value / root);
+    return root;
+}
+
+/// Factors of the recurrence over l of the normalised associated Legendre functions, divided by sin^m:
+/// Q_m^m = sectoral[m] and Q_l^m = a[l][m] z Q_{l-1}^m - b[l][m] Q_{l-2}^m (docs/math.md, eq. 3). The factor
+/// sqrt(2) of m != 0 and the Condon-Shortley phase (-1)^m are inside.
+struct LegendreRecurrence {
+    std::array<double, kMaxOrder> sectoral{};
+    std::array<std::array<double, kMaxOrder>, kMaxOrder> a{}, b{};
+
+    constexpr LegendreRecurrence() {
+        double product = 1;
+        for (int m = 0; m < kMaxOrder; ++m) {
+            if (m > 0)
+                product *= (2.0 * m + 1) / (2.0 * m);
+            const double norm = square_root((m > 0 ? 2.0 : 1.0) * product / (4 * kPi));
+            sectoral[static_cast<std::size_t>(m)] = m % 2 == 0 ? norm : -norm;
+        }
+        for (int m = 0; m < kMaxOrder; ++m) {
+            for (int l = m + 1; l < kMaxOrder; ++l) {
+                const double ll = l, mm = m, previous = l - 1;
+                const double factor = square_root((4 * ll * ll - 1) / (ll * ll - mm * mm));
+                const double inverse =
+                    square_root((previous * previous - mm * mm) / (4 * previous * previous - 1));
+                a[static_cast<std::size_t>(l)][static_cast<std::size_t>(m)] = factor;
+                b[static_cast<std::size_t>(l)][static_cast<std::size_t>(m)] = factor * inverse;
+            }
+        }
+    }
+};
+
+inline constexpr LegendreRecurrence kLegendre;
+
+template <class Real>
+struct ScalarOf {
+    using type = std::remove_cvref_t<decltype(std::declval<Real>()[0])>;
+};
+template <class Real>
+    requires std::is_floating_point_v<Real>
+struct ScalarOf<Real> {
+    using type = Real;
+};
+
+} // namespace detail
+
+/// Writes the Order² values of the basis in unit direction (x, y, z) to `basis`. Real, orthonormal,
+/// Condon-Shortley phase, polar axis z (docs/math.md, eq. 1 to 3).
+template <int Order, class Real>
+[[gnu::always_inline]] inline void sh_basis(const Real& x, const Real& y, const Real& z, Real* basis) {
+    using Scalar = typename detail::ScalarOf<Real>::type;
+    constexpr auto& k = detail::kLegendre;
+    Real cosine = Real{} + Scalar(1); // sin^m cos(m phi)
+    Real sine = Real{};               // sin^m sin(m phi)
+#pragma GCC unroll 10
+    for (int m = 0; m < Order; ++m) {
+        const auto mi = static_cast<std::size_t>(m);
+        Real before = Real{};
+        Real legendre = Real{} + static_cast<Scalar>(k.sectoral[mi]);
+#pragma GCC unroll 10
+        for (int l = m; l < Order; ++l) {
+            const auto li = static_cast<std::size_t>(l);
+            if (l > m) {
+                const Real next = static_cast<Scalar>(k.a[li][mi]) * (z * legendre) -
+                                  static_cast<Scalar>(k.b[li][mi]) * before;
+                before = legendre;
+                legendre = next;
+            }
+            if (m == 0) {
+                basis[sh_index(l, 0)] = legendre;
+            } else {
+                basis[sh_index(l, m)] = legendre * cosine;
+                basis[sh_index(l, -m)] = legendre * sine;
+            }
+        }
+        const Real rotated = x * cosine - y * sine;
+        sine = x * sine + y * cosine;
+        cosine = rotated;
+    }
+}
+
+/// Calls `body.operator()<N>()` for the N that equals `order`, 1 <= order <= kMaxOrder.
+template <class Body>
+decltype(auto) with_order(int order, Body&& body) {
+    switch (order) {
+    case 1: return body.template operator()<1>();
+    case 2: return body.template operator()<2>();
+    case 3: return body.template operator()<3>();
+    case 4: return body.template operator()<4>();
+    case 5: return body.template operator()<5>();
+    case 6: return body.template operator()<6>();
+    case 7: return body.template operator()<7>();
+    case 8: return body.template operator()<8>();
+    case 9: return body.template operator()<9>();
+    default: return body.template operator()<10>();
+    }
+}
+
+} // namespace prt

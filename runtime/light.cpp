@@ -1,0 +1,155 @@
+#include "prt/light.h"
+
+#include "prt/error.h"
+#include "prt/sh.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <string>
+
+namespace prt {
+
+using detail::kPi;
+
+namespace {
+
+/// SH coefficients of an RGB function that is symmetric about `axis`: c_lm = zonal(l) Y_lm(axis), where
+/// zonal(l) = 2 pi ∫ f(t) P_l(t) dt (Funk-Hecke; docs/math.md, eq. 8).
+Light zonal_light(int order, const glm::vec3& axis, const glm::vec3& scale,
+                  const std::function<double(int)>& zonal) {
+    check_order(order);
+    Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)))};
+    std::array<double, kMaxOrder * kMaxOrder> basis{};
+    evaluate_sh(order, glm::normalize(glm::dvec3(axis)), std::span<double>(basis));
+    for (int l = 0; l < order; ++l) {
+        const double factor = zonal(l);
+        for (int m = -l; m <= l; ++m) {
+            const auto i = static_cast<std::size_t>(sh_index(l, m));
+            light.coefficients[i] = glm::vec3(glm::dvec3(scale) * (factor * basis[i]));
+        }
+    }
+    return light;
+}
+
+Light with_band_factors(const Light& light, const std::function<double(int)>& factor) {
+    Light result = light;
+    for (int l = 0; l < light.order; ++l)
+        for (int m = -l; m <= l; ++m)
+            result.coefficients[static_cast<std::size_t>(sh_index(l, m))] *= static_cast<float>(factor(l));
+    return result;
+}
+
+/// Least radiance of any channel over a grid fine enough for the highest band (a ripple of band 9 is 20 degrees
+/// wide, the grid 3).
+float least_radiance(const Light& light) {
+    constexpr int kRows = 60;
+    float least = std::numeric_limits<float>::infinity();
+    for (int row = 0; row < kRows; ++row) {
+        const double theta = kPi * (row + 0.5) / kRows;
+        for (int column = 0; column < 2 * kRows; ++column) {
+            const double phi = kPi * (column + 0.5) / kRows;
+            const glm::vec3 value = radiance(light, glm::vec3(std::sin(theta) * std::cos(phi),
+                                                              std::sin(theta) * std::sin(phi), std::cos(theta)));
+            least = std::min({least, value.r, value.g, value.b});
+        }
+    }
+    return least;
+}
+
+/// The largest coefficient of float rounding that a sum of order² terms can show as a negative radiance.
+float rounding_floor(const Light& light) {
+    float largest = 0;
+    for (const glm::vec3& c : light.coefficients)
+        largest = std::max({largest, std::abs(c.r), std::abs(c.g), std::abs(c.b)});
+    return -1e-5f * largest;
+}
+
+Light deringed(const Light& light) {
+    if (least_radiance(light) >= rounding_floor(light))
+        return light;
+    // At width 1 only the mean is left; at 4 N the window is all but open.
+    double closed = 1, open = 4.0 * light.order;
+    for (int step = 0; step < 24; ++step) {
+        const double width = 0.5 * (closed + open);
+        const Light candidate = with_band_factors(light, [&](int l) { return hann_window(l, width); });
+        (least_radiance(candidate) >= rounding_floor(light) ? closed : open) = width;
+    }
+    return with_band_factors(light, [&](int l) { return hann_window(l, closed); });
+}
+
+} // namespace
+
+Light constant_light(int order, const glm::vec3& radiance) {
+    return zonal_light(order, {0, 0, 1}, radiance, [](int l) { return l == 0 ? 4 * kPi : 0; });
+}
+
+Light directional_light(int order, const glm::vec3& towards, const glm::vec3& irradiance) {
+    return zonal_light(order, towards, irradiance, [](int) { return 1.0; });
+}
+
+Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& radiance) {
+    std::array<double, kMaxOrder + 2> legendre{}; // P_l(cos half_angle)
+    const double t = std::cos(half_angle);
+    legendre[0] = 1;
+    legendre[1] = t;
+    for (std::size_t l = 2; l < legendre.size(); ++l) {
+        const double ld = static_cast<double>(l);
+        legendre[l] = ((2 * ld - 1) * t * legendre[l - 1] - (ld - 1) * legendre[l - 2]) / ld;
+    }
+    return zonal_light(order, axis, radiance, [&](int l) {
+        const auto i = static_cast<std::size_t>(l);
+        return 2 * kPi * (l == 0 ? 1 - t : (legendre[i - 1] - legendre[i + 1]) / (2 * l + 1));
+    });
+}
+
+Light overcast_sky(int order, const glm::vec3& zenith) {
+    // (1 + 2 t) / 3 on the upper hemisphere: a third of the half-sphere cone and two thirds of the clamped cosine.
+    const Light dome = cone_light(order, {0, 1, 0}, kPi / 2, zenith / 3.0f);
+    Light sky = zonal_light(order, {0, 1, 0}, zenith * (2.0f / 3.0f),
+                            [](int l) { return kPi * clamped_cosine_factor(l); });
+    for (std::size_t i = 0; i < sky.coefficients.size(); ++i)
+        sky.coefficients[i] += dome.coefficients[i];
+    return sky;
+}
+
+glm::vec3 radiance(const Light& light, const glm::vec3& direction) {
+    std::array<float, kMaxOrder * kMaxOrder> basis{};
+    evaluate_sh(light.order, direction, std::span<float>(basis));
+    glm::vec3 sum(0);
+    for (std::size_t i = 0; i < light.coefficients.size(); ++i)
+        sum += basis[i] * light.coefficients[i];
+    return sum;
+}
+
+Light truncated(const Light& light, int order) {
+    if (light.order < order)
+        throw Error("the lighting has order " + std::to_string(light.order) + ", but order " +
+                    std::to_string(order) + " is needed");
+    const auto count = static_cast<std::ptrdiff_t>(coefficient_count(order));
+    return {order, {light.coefficients.begin(), light.coefficients.begin() + count}};
+}
+
+Light rotated_about_y(const Light& light, double angle) {
+    Light result = light;
+    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)));
+    ShRotation(light.order, turn).apply(result.coefficients);
+    return result;
+}
+
+Light windowed(const Light& light, Window window) {
+    const double width = light.order;
+    switch (window) {
+    case Window::hann: return with_band_factors(light, [&](int l) { return hann_window(l, width); });
+    case Window::lanczos: return with_band_factors(light, [&](int l) { return lanczos_window(l, width); });
+    case Window::automatic: return deringed(light);
+    case Window::none: break;
+    }
+    return light;
+}
+
+} // namespace prt
