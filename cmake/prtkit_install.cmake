@@ -1,0 +1,19 @@
+# install() and the package that find_package(prtkit) reads.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+get_property(libraries GLOBAL PROPERTY PRTKIT_LIBRARIES)
+get_property(header_folders GLOBAL PROPERTY PRTKIT_HEADER_FOLDERS)
+install(TARGETS ${libraries} EXPORT prtkit ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY ${header_folders} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(DIRECTORY shaders/ DESTINATION ${CMAKE_INSTALL_DATADIR}/prtkit/shaders)
+install(EXPORT prtkit NAMESPACE prt:: FILE prtkitTargets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/prtkit)
+if(TARGET prt)
+    install(TARGETS prt RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+configure_package_config_file(cmake/prtkitConfig.cmake.in prtkitConfig.cmake
+    INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/prtkit)
+write_basic_package_version_file(prtkitConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/prtkitConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/prtkitConfigVersion.cmake
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/prtkit)

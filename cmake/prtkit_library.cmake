@@ -1,0 +1,20 @@
+# Compiler settings that everything of prtkit shares.
+add_library(prtkit_settings INTERFACE)
+target_compile_features(prtkit_settings INTERFACE cxx_std_20)
+target_compile_options(prtkit_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-psabi)
+if(PRTKIT_WERROR)
+    target_compile_options(prtkit_settings INTERFACE -Werror)
+endif()
+
+# prtkit_library(<target> <name>): gives a library its public headers, its alias prt::<name> and its export name.
+function(prtkit_library target name)
+    add_library(prt::${name} ALIAS ${target})
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:prtkit_settings>)
+    target_include_directories(${target}
+        PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>
+        PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
+    set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+    set_property(GLOBAL APPEND PROPERTY PRTKIT_LIBRARIES ${target})
+    set_property(GLOBAL APPEND PROPERTY PRTKIT_HEADER_FOLDERS ${CMAKE_CURRENT_SOURCE_DIR}/include/)
+endfunction()

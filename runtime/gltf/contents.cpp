@@ -1,0 +1,208 @@
+#include "contents.h"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+#include <string>
+
+namespace prt {
+namespace {
+
+void pad_to(std::vector<std::byte>& bytes, std::size_t alignment) {
+    bytes.resize((bytes.size() + alignment - 1) / alignment * alignment);
+}
+
+/// Calls `visit` with every object outside `extras`.
+void for_each_object(Json& json, const std::function<void(Json&)>& visit) {
+    if (json.is_object())
+        visit(json);
+    if (json.is_structured())
+        for (auto it = json.begin(); it != json.end(); ++it)
+            if (!json.is_object() || it.key() != "extras")
+                for_each_object(*it, visit);
+}
+
+/// Removes elements of the array `name`; returns the new index of each that stays.
+std::vector<std::size_t> remove_elements(Json& json, const char* name, const std::set<std::size_t>& removed) {
+    Json kept = Json::array();
+    std::vector<std::size_t> new_index;
+    for (std::size_t i = 0; i < json[name].size(); ++i) {
+        new_index.push_back(kept.size());
+        if (!removed.contains(i))
+            kept.push_back(std::move(json[name][i]));
+    }
+    if (kept.empty())
+        json.erase(name);
+    else
+        json[name] = std::move(kept);
+    return new_index;
+}
+
+void renumber(Json& value, const std::vector<std::size_t>& new_index) {
+    if (value.is_number_unsigned() && value.get<std::size_t>() < new_index.size())
+        value = new_index[value.get<std::size_t>()];
+}
+
+/// Everything in core glTF that refers to an accessor by index.
+void renumber_accessors(Json& json, const std::vector<std::size_t>& new_index) {
+    const auto all_of = [&](Json& attributes) {
+        for (Json& accessor : attributes)
+            renumber(accessor, new_index);
+    };
+    for (Json& mesh : member(json, "meshes", Json::value_t::array)) {
+        for (Json& primitive : mesh["primitives"]) {
+            all_of(primitive["attributes"]);
+            if (primitive.contains("indices"))
+                renumber(primitive["indices"], new_index);
+            if (primitive.contains("targets"))
+                for (Json& target : primitive["targets"])
+                    all_of(target);
+        }
+    }
+    if (json.contains("skins"))
+        for (Json& skin : json["skins"])
+            if (skin.contains("inverseBindMatrices"))
+                renumber(skin["inverseBindMatrices"], new_index);
+    if (json.contains("animations"))
+        for (Json& animation : json["animations"])
+            for (Json& sampler : animation["samplers"])
+                for (const char* key : {"input", "output"})
+                    renumber(sampler[key], new_index);
+    if (json.contains("nodes"))
+        for (Json& node : json["nodes"])
+            if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing"))
+                all_of(node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]);
+}
+
+struct ByteRange {
+    std::size_t begin, end;
+};
+
+ByteRange range_of(const Json& view) {
+    const std::size_t begin = view.value("byteOffset", std::size_t{0});
+    return {begin, begin + view.value("byteLength", std::size_t{0})};
+}
+
+/// Cuts the bytes of removed views out of the buffer, save those that a kept view covers too.
+void cut_bytes(GltfContents& contents, const std::set<std::size_t>& removed) {
+    std::vector<bool> drop(contents.binary.size(), false);
+    const Json& views = contents.json["bufferViews"];
+    for (int pass = 0; pass < 2; ++pass) // first mark the removed, then unmark the kept
+        for (std::size_t i = 0; i < views.size(); ++i)
+            if (removed.contains(i) == (pass == 0)) {
+                const ByteRange range = range_of(views[i]);
+                for (std::size_t b = range.begin; b < std::min(range.end, drop.size()); ++b)
+                    drop[b] = pass == 0;
+            }
+    // Whole groups of 8 bytes go, so that every kept view keeps its alignment.
+    std::vector<std::byte> kept;
+    std::vector<std::size_t> new_offset(contents.binary.size() + 1);
+    for (std::size_t b = 0; b < contents.binary.size(); b += 8) {
+        const std::size_t end = std::min(b + 8, contents.binary.size());
+        const bool whole = std::all_of(drop.begin() + static_cast<std::ptrdiff_t>(b),
+                                       drop.begin() + static_cast<std::ptrdiff_t>(end), [](bool d) { return d; });
+        for (std::size_t i = b; i < end; ++i) {
+            new_offset[i] = kept.size();
+            if (!whole)
+                kept.push_back(contents.binary[i]);
+        }
+    }
+    new_offset.back() = kept.size();
+    for (Json& view : contents.json["bufferViews"])
+        view["byteOffset"] = new_offset[std::min(range_of(view).begin, contents.binary.size())];
+    contents.binary = std::move(kept);
+}
+
+} // namespace
+
+Json& member(Json& object, const char* key, Json::value_t type) {
+    if (!object.contains(key))
+        object[key] = Json(type);
+    return object[key];
+}
+
+std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std::size_t stride, bool vertices) {
+    pad_to(binary, 8);
+    Json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
+    if (stride > 0)
+        view["byteStride"] = stride;
+    if (vertices)
+        view["target"] = TINYGLTF_TARGET_ARRAY_BUFFER;
+    binary.insert(binary.end(), bytes.begin(), bytes.end());
+    pad_to(binary, 8);
+    Json& views = member(json, "bufferViews", Json::value_t::array);
+    views.push_back(std::move(view));
+    return views.size() - 1;
+}
+
+std::size_t GltfContents::add_accessor(Json accessor) {
+    Json& accessors = member(json, "accessors", Json::value_t::array);
+    accessors.push_back(std::move(accessor));
+    return accessors.size() - 1;
+}
+
+void GltfContents::use_extension(const std::string& name) {
+    Json& used = member(json, "extensionsUsed", Json::value_t::array);
+    if (std::find(used.begin(), used.end(), name) == used.end())
+        used.push_back(name);
+}
+
+void GltfContents::remove_transfer() {
+    std::set<std::size_t> views, accessors;
+    const auto take_view = [&](Json& object) {
+        if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
+            views.insert(object["bufferView"].get<std::size_t>());
+    };
+    const auto take_extensions = [&](Json& owner) {
+        if (!owner.contains("extensions"))
+            return;
+        for (const char* name : {kTransferExtension, kClusteredExtension}) {
+            if (!owner["extensions"].contains(name))
+                continue;
+            for_each_object(owner["extensions"][name], take_view);
+            owner["extensions"].erase(name);
+        }
+        if (owner["extensions"].empty())
+            owner.erase("extensions");
+    };
+    for (Json& mesh : member(json, "meshes", Json::value_t::array)) {
+        for (Json& primitive : mesh["primitives"]) {
+            take_extensions(primitive);
+            Json kept = Json::object();
+            for (auto it = primitive["attributes"].begin(); it != primitive["attributes"].end(); ++it) {
+                if (it.key().starts_with("_PRT_"))
+                    accessors.insert(it->get<std::size_t>());
+                else
+                    kept[it.key()] = *it;
+            }
+            primitive["attributes"] = std::move(kept);
+        }
+    }
+    take_extensions(json);
+    for (const std::size_t accessor : accessors)
+        if (json.contains("accessors") && accessor < json["accessors"].size())
+            take_view(json["accessors"][accessor]);
+
+    if (!accessors.empty() && json.contains("accessors"))
+        renumber_accessors(json, remove_elements(json, "accessors", accessors));
+    if (!views.empty() && json.contains("bufferViews")) {
+        cut_bytes(*this, views);
+        const auto new_index = remove_elements(json, "bufferViews", views);
+        for_each_object(json, [&](Json& object) {
+            if (object.contains("bufferView"))
+                renumber(object["bufferView"], new_index);
+        });
+    }
+    if (json.contains("extensionsUsed")) {
+        Json kept = Json::array();
+        for (const Json& name : json["extensionsUsed"])
+            if (name != kTransferExtension && name != kClusteredExtension)
+                kept.push_back(name);
+        if (kept.empty())
+            json.erase("extensionsUsed");
+        else
+            json["extensionsUsed"] = std::move(kept);
+    }
+}
+
+} // namespace prt

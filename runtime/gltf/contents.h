@@ -1,0 +1,42 @@
+#pragma once
+
+// What a GltfDocument holds. Reading goes through tinygltf's model; writing edits the JSON itself, because
+// tinygltf's writer drops what it does not know.
+
+#include <nlohmann/json.hpp>
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace prt {
+
+using Json = nlohmann::ordered_json;
+
+struct GltfContents {
+    std::filesystem::path path;
+    tinygltf::Model model; ///< as read; edits of `json` do not reach it
+    Json json;
+    std::vector<std::byte> binary;              ///< buffer 0 of `json`
+    std::vector<std::vector<std::byte>> images; ///< encoded, by image index
+
+    /// Appends bytes, aligned to 4, and a buffer view on them. `stride` 0: none. Returns the view's index.
+    std::size_t add_buffer_view(std::span<const std::byte> bytes, std::size_t stride = 0, bool vertices = false);
+    /// Appends an accessor and returns its index.
+    std::size_t add_accessor(Json accessor);
+    /// Lists `name` in extensionsUsed.
+    void use_extension(const std::string& name);
+    /// Takes the extensions of prtkit out, with their attributes, accessors and data.
+    void remove_transfer();
+};
+
+inline constexpr const char* kTransferExtension = "PRTKIT_transfer";
+inline constexpr const char* kClusteredExtension = "PRTKIT_clustered_pca";
+
+/// The member `key` of `object`, made if it is not there.
+Json& member(Json& object, const char* key, Json::value_t type);
+
+} // namespace prt

@@ -1,0 +1,200 @@
+#include "prt/gltf.h"
+
+#include "accessor.h"
+#include "contents.h"
+#include "glb.h"
+#include "prt/error.h"
+#include "prt/file.h"
+
+#include <algorithm>
+#include <array>
+#include <climits>
+#include <string>
+#include <string_view>
+
+namespace prt {
+namespace {
+
+/// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their base
+/// colour is used.
+constexpr std::array<std::string_view, 21> kSupportedExtensions = {
+    kTransferExtension,
+    kClusteredExtension,
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_lights_punctual",
+    "KHR_animation_pointer",
+    "KHR_xmp_json_ld",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "EXT_lights_image_based",
+};
+
+std::string one_line(std::string text) {
+    while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
+        text.pop_back();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
+
+Json parse_json(std::string_view text) {
+    try {
+        Json json = Json::parse(text);
+        if (!json.is_object() || !json.contains("asset") || !json["asset"].is_object())
+            throw Error("is JSON, but no glTF: it has no asset");
+        const std::string version = json["asset"].value("version", "");
+        if (!version.starts_with("2."))
+            throw Error("is glTF of version '" + version + "', only 2 is supported");
+        return json;
+    } catch (const nlohmann::json::exception& error) {
+        throw Error("is no glTF: " + one_line(error.what()));
+    }
+}
+
+void check_required_extensions(const Json& json) {
+    if (!json.contains("extensionsRequired"))
+        return;
+    for (const Json& name : json["extensionsRequired"])
+        if (!name.is_string() ||
+            std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), name.get<std::string>()) ==
+                kSupportedExtensions.end())
+            throw Error("requires the glTF extension " + (name.is_string() ? name.get<std::string>() : name.dump()) +
+                        ", which is not supported");
+}
+
+/// Keeps the file of an image that stands in a URI. Images in buffer views are taken later, with bounds checked.
+bool keep_encoded(tinygltf::Image* image, const int index, std::string*, std::string*, int, int,
+                  const unsigned char* bytes, int size, void* user) {
+    auto& images = *static_cast<std::vector<std::vector<std::byte>>*>(user);
+    const auto i = static_cast<std::size_t>(index);
+    if (images.size() <= i)
+        images.resize(i + 1);
+    if (image->bufferView < 0) {
+        const auto* begin = reinterpret_cast<const std::byte*>(bytes);
+        images[i].assign(begin, begin + size);
+    }
+    return true;
+}
+
+void load_model(GltfContents& contents, std::span<const std::byte> file, std::string_view text, bool binary) {
+    if (file.size() > UINT_MAX)
+        throw Error("is larger than 4 GB");
+    tinygltf::TinyGLTF loader;
+    loader.SetImageLoader(keep_encoded, &contents.images);
+    std::string error, warning, folder = contents.path.parent_path().string();
+    if (folder.empty())
+        folder = ".";
+    const bool loaded =
+        binary ? loader.LoadBinaryFromMemory(&contents.model, &error, &warning,
+                                             reinterpret_cast<const unsigned char*>(file.data()),
+                                             static_cast<unsigned>(file.size()), folder)
+               : loader.LoadASCIIFromString(&contents.model, &error, &warning, text.data(),
+                                            static_cast<unsigned>(text.size()), folder);
+    if (!loaded)
+        throw Error(one_line(error.empty() ? warning : error));
+    contents.images.resize(contents.model.images.size());
+    for (std::size_t i = 0; i < contents.images.size(); ++i) {
+        const tinygltf::Image& image = contents.model.images[i];
+        if (image.bufferView >= 0) {
+            const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, image.bufferView));
+            contents.images[i].assign(bytes.begin(), bytes.end());
+        }
+        if (contents.images[i].empty())
+            throw Error("image " + std::to_string(i) +
+                        (image.uri.empty() ? " is empty" : " '" + image.uri + "' cannot be read"));
+    }
+}
+
+/// Joins all buffers into one and lets the buffer views point there.
+void join_buffers(GltfContents& contents) {
+    std::vector<std::size_t> begin;
+    for (const tinygltf::Buffer& buffer : contents.model.buffers) {
+        contents.binary.resize((contents.binary.size() + 7) / 8 * 8);
+        begin.push_back(contents.binary.size());
+        const auto bytes = std::as_bytes(std::span(buffer.data));
+        contents.binary.insert(contents.binary.end(), bytes.begin(), bytes.end());
+    }
+    const auto move = [&](Json& view) {
+        const std::size_t buffer = view.value("buffer", std::size_t{0});
+        if (buffer >= begin.size())
+            throw Error("a buffer view names buffer " + std::to_string(buffer) + ", which is not there");
+        view["buffer"] = 0;
+        view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + begin[buffer];
+    };
+    if (contents.json.contains("bufferViews"))
+        for (Json& view : contents.json["bufferViews"])
+            move(view);
+    contents.json.erase("buffers");
+}
+
+/// Images from files beside the glTF move inside.
+void embed_images(GltfContents& contents) {
+    for (std::size_t i = 0; i < contents.images.size(); ++i) {
+        Json& image = contents.json["images"][i];
+        const std::string uri = image.value("uri", "");
+        if (uri.empty() || uri.starts_with("data:"))
+            continue;
+        const auto& bytes = contents.images[i];
+        const bool png = bytes.size() > 1 && bytes[0] == std::byte{0x89} && bytes[1] == std::byte{'P'};
+        image.erase("uri");
+        image["mimeType"] = png ? "image/png" : "image/jpeg";
+        image["bufferView"] = contents.add_buffer_view(bytes);
+        if (!image.contains("name"))
+            image["name"] = std::filesystem::path(uri).stem().string();
+    }
+}
+
+} // namespace
+
+GltfDocument::GltfDocument(std::unique_ptr<GltfContents> contents) : contents_(std::move(contents)) {}
+GltfDocument::GltfDocument(GltfDocument&&) noexcept = default;
+GltfDocument& GltfDocument::operator=(GltfDocument&&) noexcept = default;
+GltfDocument::~GltfDocument() = default;
+
+GltfDocument load_gltf(const std::filesystem::path& path) {
+    const std::vector<std::byte> file = read_file(path);
+    auto contents = std::make_unique<GltfContents>();
+    contents->path = path;
+    try {
+        const bool binary = is_glb(file);
+        const std::string_view text =
+            binary ? glb_json(file) : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
+        contents->json = parse_json(text);
+        check_required_extensions(contents->json);
+        load_model(*contents, file, text, binary);
+        join_buffers(*contents);
+        embed_images(*contents);
+    } catch (const std::exception& error) { // ours, and those of the JSON library on members of a wrong type
+        throw Error(path.string() + ": " + one_line(error.what()));
+    }
+    return GltfDocument(std::move(contents));
+}
+
+void save_glb(const GltfDocument& document, const std::filesystem::path& path) {
+    const GltfContents& contents = document.contents();
+    Json json = contents.json;
+    if (!contents.binary.empty())
+        json["buffers"] = Json::array({Json{{"byteLength", contents.binary.size()}}});
+    OutputFile output(path);
+    std::vector<std::byte> file;
+    try {
+        file = make_glb(json.dump(-1, ' ', false, Json::error_handler_t::replace), contents.binary);
+    } catch (const Error& error) {
+        throw Error(path.string() + ": " + error.what());
+    }
+    output.write(file);
+    output.commit();
+}
+
+} // namespace prt

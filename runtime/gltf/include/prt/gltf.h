@@ -1,0 +1,75 @@
+#pragma once
+
+// glTF 2.0 files: reading scenes, and reading and writing transfer in them (docs/format.md).
+
+#include "prt/clustered_transfer.h"
+#include "prt/scene.h"
+#include "prt/transfer.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace prt {
+
+struct GltfContents;
+
+/// A glTF file in memory: its JSON as it stands, all its buffers joined into one. What prtkit does not know
+/// survives unchanged from `load_gltf` to `save_glb`.
+class GltfDocument {
+  public:
+    explicit GltfDocument(std::unique_ptr<GltfContents> contents);
+    GltfDocument(GltfDocument&&) noexcept;
+    GltfDocument& operator=(GltfDocument&&) noexcept;
+    ~GltfDocument();
+    GltfContents& contents() { return *contents_; }
+    const GltfContents& contents() const { return *contents_; }
+
+  private:
+    std::unique_ptr<GltfContents> contents_;
+};
+
+/// Reads .gltf or .glb with its buffers and images. Throws `Error` that names the file and the place in it.
+GltfDocument load_gltf(const std::filesystem::path& path);
+
+/// Flattens the default scene. Every node instance gets vertices of its own; skins and morph targets are taken in
+/// the pose of the file. Throws `Error` for accessors out of bounds, indices beyond the vertices, positions that
+/// are not finite, and a scene without triangles.
+Scene extract_scene(const GltfDocument& document);
+
+/// How a bake was made; written to the file and shown by `prt info`.
+struct BakeRecord {
+    int bounces = 0;
+    int rays = 0; ///< per receiver
+    std::uint64_t seed = 0;
+    std::string method;    ///< "trace"
+    std::string backend;   ///< "cpu"
+    std::string receivers; ///< receivers_id of the scene
+};
+
+struct BakedTransfer {
+    Transfer transfer; ///< receivers in the order of the scene's vertex arrays
+    BakeRecord record;
+};
+
+struct CompressedTransfer {
+    ClusteredTransfer transfer;
+    BakeRecord record;
+};
+
+/// Writes PRTKIT_transfer into `document`, from which `scene` was extracted: meshes that several nodes share get a
+/// copy per node, and primitives without normals get flat ones. Replaces any transfer that is there.
+void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked);
+
+/// Writes PRTKIT_clustered_pca and takes PRTKIT_transfer out.
+void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
+
+/// The transfer in the file; nothing when it holds none. Throws `Error` when it is damaged.
+std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene);
+std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);
+
+/// Writes a .glb with everything inside. Throws `Error` when it cannot, or when it would pass 4 GB.
+void save_glb(const GltfDocument& document, const std::filesystem::path& path);
+
+} // namespace prt

@@ -1,0 +1,85 @@
+#pragma once
+
+// A glTF scene, flattened: world-space vertices and triangles of the default scene, ready to bake and to draw.
+
+#include <glm/mat3x2.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace prt {
+
+enum class AlphaMode { opaque, mask, blend };
+enum class Wrap { repeat, mirror, clamp };
+
+/// A base-colour texture as a material uses it.
+struct TextureUse {
+    int image = -1; ///< index into Scene::images, -1: none
+    int texcoord = 0;
+    glm::mat3x2 transform{1, 0, 0, 1, 0, 0}; ///< KHR_texture_transform
+    Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
+};
+
+struct Material {
+    glm::vec4 base_color{1}; ///< linear Rec. 709 and alpha
+    TextureUse base_color_texture;
+    AlphaMode alpha_mode = AlphaMode::opaque;
+    float alpha_cutoff = 0.5f;
+    bool double_sided = false;
+};
+
+/// Vertices of one or several primitives of one node. Each vertex is a receiver.
+struct VertexArray {
+    std::vector<glm::vec3> positions;              ///< metres, world
+    std::vector<glm::vec3> normals;                ///< unit; zero where neither file nor triangles give one
+    std::vector<std::vector<glm::vec2>> texcoords; ///< [set][vertex]; a set that the file lacks is empty
+    std::vector<glm::vec4> colors;                 ///< COLOR_0, linear; empty: white
+    /// Index of the file's vertex that each vertex came from, where flat normals split some; empty: the same.
+    std::vector<std::uint32_t> source;
+    std::size_t first_receiver = 0;
+
+    std::size_t size() const { return positions.size(); }
+};
+
+struct Primitive {
+    int node = 0, mesh = 0, primitive = 0; ///< indices in the file
+    std::size_t vertices = 0;              ///< index into Scene::vertex_arrays
+    std::size_t material = 0;              ///< index into Scene::materials
+    bool mirrored = false;                 ///< the node's transform mirrors, so triangles were turned round
+    std::vector<glm::uvec3> triangles;     ///< counter-clockwise from the front, into the vertex array
+};
+
+struct EncodedImage {
+    std::string name; ///< for messages
+    std::vector<std::byte> bytes;
+};
+
+struct Scene {
+    std::vector<VertexArray> vertex_arrays;
+    std::vector<Primitive> primitives;
+    std::vector<Material> materials; ///< the file's, then glTF's default material
+    std::vector<EncodedImage> images;
+    std::vector<std::string> notices; ///< what a user should know about how the file was read, a line each
+
+    std::size_t receivers() const;
+    std::size_t triangles() const;
+};
+
+/// A third of the area of the triangles at each receiver, in m². [receivers]
+std::vector<float> receiver_areas(const Scene& scene);
+
+/// Hexadecimal hash of the positions and normals of all receivers: transfers belong together when it is equal.
+std::string receivers_id(const Scene& scene);
+
+/// Corners of the box round all triangles.
+struct Bounds {
+    glm::vec3 low, high;
+};
+Bounds bounds(const Scene& scene);
+
+} // namespace prt

@@ -1,0 +1,68 @@
+#include "prt/scene.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <bit>
+#include <cstdio>
+#include <limits>
+
+namespace prt {
+
+std::size_t Scene::receivers() const {
+    std::size_t count = 0;
+    for (const VertexArray& vertices : vertex_arrays)
+        count += vertices.size();
+    return count;
+}
+
+std::size_t Scene::triangles() const {
+    std::size_t count = 0;
+    for (const Primitive& primitive : primitives)
+        count += primitive.triangles.size();
+    return count;
+}
+
+std::vector<float> receiver_areas(const Scene& scene) {
+    std::vector<double> areas(scene.receivers(), 0);
+    for (const Primitive& primitive : scene.primitives) {
+        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+        for (const glm::uvec3& t : primitive.triangles) {
+            const glm::dvec3 a(vertices.positions[t.x]);
+            const double area = 0.5 * glm::length(glm::cross(glm::dvec3(vertices.positions[t.y]) - a,
+                                                             glm::dvec3(vertices.positions[t.z]) - a));
+            for (int corner = 0; corner < 3; ++corner)
+                areas[vertices.first_receiver + t[corner]] += area / 3;
+        }
+    }
+    return {areas.begin(), areas.end()};
+}
+
+std::string receivers_id(const Scene& scene) {
+    std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a, 64 bits, a word at a time
+    const auto add = [&](float value) { hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001b3; };
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        for (std::size_t i = 0; i < vertices.size(); ++i)
+            for (int axis = 0; axis < 3; ++axis) {
+                add(vertices.positions[i][axis]);
+                add(vertices.normals[i][axis]);
+            }
+    char text[17];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    return text;
+}
+
+Bounds bounds(const Scene& scene) {
+    Bounds box{glm::vec3(std::numeric_limits<float>::infinity()), glm::vec3(-std::numeric_limits<float>::infinity())};
+    for (const Primitive& primitive : scene.primitives) {
+        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+        for (const glm::uvec3& t : primitive.triangles)
+            for (int corner = 0; corner < 3; ++corner) {
+                box.low = glm::min(box.low, vertices.positions[t[corner]]);
+                box.high = glm::max(box.high, vertices.positions[t[corner]]);
+            }
+    }
+    return box;
+}
+
+} // namespace prt

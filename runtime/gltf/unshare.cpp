@@ -1,0 +1,160 @@
+#include "unshare.h"
+
+#include "accessor.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <set>
+
+namespace prt {
+namespace {
+
+/// Copies of meshes that more than one node uses: index of the mesh of each node afterwards.
+std::map<int, std::size_t> unshare_meshes(Json& json, const Scene& scene) {
+    std::map<int, std::size_t> mesh_of_node;
+    std::set<int> taken;
+    for (const Primitive& primitive : scene.primitives) {
+        if (mesh_of_node.contains(primitive.node))
+            continue;
+        auto mesh = static_cast<std::size_t>(primitive.mesh);
+        if (!taken.insert(primitive.mesh).second) {
+            Json copy = json["meshes"][mesh];
+            mesh = json["meshes"].size();
+            json["meshes"].push_back(std::move(copy));
+            json["nodes"][static_cast<std::size_t>(primitive.node)]["mesh"] = mesh;
+        }
+        mesh_of_node[primitive.node] = mesh;
+    }
+    return mesh_of_node;
+}
+
+/// Smallest and largest value of each component, as the glTF specification wants them for positions.
+void set_bounds(Json& accessor, std::span<const double> values, std::size_t components) {
+    std::vector<double> low(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(components)), high = low;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        low[i % components] = std::min(low[i % components], values[i]);
+        high[i % components] = std::max(high[i % components], values[i]);
+    }
+    accessor["min"] = low;
+    accessor["max"] = high;
+}
+
+/// Gathered components as numbers, integers without normalisation.
+std::vector<double> stored_values(int component_type, std::span<const std::byte> elements, std::size_t components,
+                                  const std::vector<std::uint32_t>& source) {
+    std::vector<double> values;
+    with_component_type(component_type, [&](auto type) {
+        for (const std::uint32_t i : source)
+            for (std::size_t c = 0; c < components; ++c) {
+                std::memcpy(&type, &elements[(i * components + c) * sizeof type], sizeof type);
+                values.push_back(static_cast<double>(type));
+            }
+    });
+    return values;
+}
+
+/// A new accessor whose element i is element source[i] of accessor `index`.
+std::size_t gather(GltfContents& contents, const Json& reference, const std::vector<std::uint32_t>& source) {
+    const int index = reference.get<int>();
+    const tinygltf::Accessor& old = contents.model.accessors.at(static_cast<std::size_t>(index));
+    const std::vector<std::byte> elements = read_elements(contents.model, index);
+    const auto components = static_cast<std::size_t>(component_count(old.type));
+    const std::size_t size = component_bytes(old.componentType) * components;
+    const std::size_t stride = (size + 3) / 4 * 4; // vertex attributes are aligned to 4 bytes
+    std::vector<std::byte> gathered(source.size() * stride);
+    for (std::size_t i = 0; i < source.size(); ++i)
+        std::memcpy(&gathered[i * stride], &elements[source[i] * size], size);
+
+    Json accessor = contents.json["accessors"][static_cast<std::size_t>(index)];
+    accessor.erase("sparse");
+    accessor.erase("byteOffset");
+    accessor["count"] = source.size();
+    accessor["bufferView"] = contents.add_buffer_view(gathered, stride, true);
+    if (accessor.contains("min") || accessor.contains("max"))
+        set_bounds(accessor, stored_values(old.componentType, elements, components, source), components);
+    return contents.add_accessor(std::move(accessor));
+}
+
+/// Face normals in the mesh's own frame. Triangles without area get an arbitrary unit normal, since glTF has no
+/// zero normals.
+std::vector<glm::vec3> flat_normals(const GltfContents& contents, const Json& position, const Scene& scene,
+                                    const Primitive& primitive) {
+    const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+    const std::vector<float> p = read_floats(contents.model, position.get<int>(), 3);
+    const auto at = [&](std::uint32_t vertex) {
+        const std::size_t i = 3 * std::size_t{vertices.source[vertex]};
+        return glm::dvec3(p[i], p[i + 1], p[i + 2]);
+    };
+    std::vector<glm::vec3> normals(vertices.size(), glm::vec3(0, 0, 1));
+    for (const glm::uvec3& t : primitive.triangles) {
+        const glm::dvec3 normal = glm::cross(at(t.y) - at(t.x), at(t.z) - at(t.x)) * (primitive.mirrored ? -1.0 : 1.0);
+        const double length = glm::length(normal);
+        if (length > 0)
+            for (int corner = 0; corner < 3; ++corner)
+                normals[t[corner]] = glm::vec3(normal / length);
+    }
+    return normals;
+}
+
+void write_split_vertices(GltfContents& contents, Json& primitive_json, const Scene& scene,
+                          const Primitive& primitive) {
+    const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+    const Json old_attributes = primitive_json["attributes"];
+    const std::vector<glm::vec3> normals = flat_normals(contents, old_attributes["POSITION"], scene, primitive);
+
+    Json attributes = Json::object();
+    for (auto it = old_attributes.begin(); it != old_attributes.end(); ++it)
+        if (it.key() != "TANGENT") // meaningless without the normals it was made for
+            attributes[it.key()] = gather(contents, *it, vertices.source);
+    const std::size_t view = contents.add_buffer_view(std::as_bytes(std::span(normals)), sizeof(glm::vec3), true);
+    attributes["NORMAL"] = contents.add_accessor({{"bufferView", view},
+                                                  {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
+                                                  {"count", normals.size()},
+                                                  {"type", "VEC3"}});
+    primitive_json["attributes"] = std::move(attributes);
+    if (primitive_json.contains("targets"))
+        for (Json& target : primitive_json["targets"]) {
+            const Json old_target = target;
+            target = Json::object();
+            for (auto it = old_target.begin(); it != old_target.end(); ++it)
+                if (it.key() != "NORMAL" && it.key() != "TANGENT") // deltas of what the file did not have
+                    target[it.key()] = gather(contents, *it, vertices.source);
+        }
+
+    std::vector<std::uint32_t> indices;
+    for (const glm::uvec3& t : primitive.triangles)
+        indices.insert(indices.end(), {t.x, primitive.mirrored ? t.z : t.y, primitive.mirrored ? t.y : t.z});
+    const std::size_t index_view = contents.add_buffer_view(std::as_bytes(std::span(indices)));
+    contents.json["bufferViews"][index_view]["target"] = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+    primitive_json["indices"] = contents.add_accessor({{"bufferView", index_view},
+                                                       {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
+                                                       {"count", indices.size()},
+                                                       {"type", "SCALAR"}});
+    primitive_json.erase("mode");
+}
+
+} // namespace
+
+std::vector<Json*> unshare(GltfContents& contents, const Scene& scene) {
+    const std::map<int, std::size_t> mesh_of_node = unshare_meshes(contents.json, scene);
+    std::vector<Json*> result;
+    for (const Primitive& primitive : scene.primitives) {
+        Json& json = contents.json["meshes"][mesh_of_node.at(primitive.node)]["primitives"]
+                                  [static_cast<std::size_t>(primitive.primitive)];
+        if (!scene.vertex_arrays[primitive.vertices].source.empty())
+            write_split_vertices(contents, json, scene, primitive);
+        // The vertices of a compressed copy may come in another order than those that our data belongs to.
+        if (json.contains("extensions")) {
+            json["extensions"].erase("KHR_draco_mesh_compression");
+            if (json["extensions"].empty())
+                json.erase("extensions");
+        }
+        result.push_back(&json);
+    }
+    return result;
+}
+
+} // namespace prt
