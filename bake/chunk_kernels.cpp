@@ -1,0 +1,126 @@
+// Compiled several times for different vector widths and chosen at run time (PRT_TARGET_CLONES). A clone reaches
+// only what is inlined into it, hence the always_inline helpers.
+
+#include "chunk_kernels.h"
+
+#include "prt/sh_basis.h"
+
+#include <cassert>
+#include <cmath>
+
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) &&                       \
+    !defined(__SANITIZE_ADDRESS__)
+#define PRT_TARGET_CLONES [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
+#else
+#define PRT_TARGET_CLONES
+#endif
+
+namespace prt {
+namespace {
+
+/// kPacket floats in registers.
+using Lanes [[gnu::vector_size(sizeof(float) * kPacket)]] = float;
+
+[[gnu::always_inline]] inline std::uint32_t laine_karras(std::uint32_t v, std::uint32_t seed) {
+    v ^= v * 0x3d20adeau;
+    v += seed;
+    v *= (seed >> 16) | 1u;
+    v ^= v * 0x05526c56u;
+    v ^= v * 0x53a22864u;
+    return v;
+}
+
+[[gnu::always_inline]] inline std::uint32_t reverse_bits(std::uint32_t v) {
+    v = (v >> 16) | (v << 16);
+    v = ((v & 0x00ff00ffu) << 8) | ((v >> 8) & 0x00ff00ffu);
+    v = ((v & 0x0f0f0f0fu) << 4) | ((v >> 4) & 0x0f0f0f0fu);
+    v = ((v & 0x33333333u) << 2) | ((v >> 2) & 0x33333333u);
+    return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
+}
+
+/// To [-1, 1): the upper 24 bits, at the centre of their interval so that neither end is hit.
+[[gnu::always_inline]] inline float to_signed_unit(std::uint32_t v) {
+    return (static_cast<float>(static_cast<std::int32_t>(v >> 8)) + 0.5f) * 0x1p-23f - 1.0f;
+}
+
+template <int Order>
+[[gnu::always_inline]] inline void add_basis_of_order(const ChunkDirections& directions, int count, double* sums) {
+    constexpr int kCoefficients = coefficient_count(Order);
+    Lanes total[kCoefficients] = {}, basis[kCoefficients];
+    const int whole = count / kPacket * kPacket;
+    for (int i = 0; i < whole; i += kPacket) {
+        sh_basis<Order>(*reinterpret_cast<const Lanes*>(&directions.x[static_cast<std::size_t>(i)]),
+                        *reinterpret_cast<const Lanes*>(&directions.y[static_cast<std::size_t>(i)]),
+                        *reinterpret_cast<const Lanes*>(&directions.z[static_cast<std::size_t>(i)]), basis);
+        for (int k = 0; k < kCoefficients; ++k)
+            total[k] += basis[k];
+    }
+    if (whole < count) {
+        sh_basis<Order>(*reinterpret_cast<const Lanes*>(&directions.x[static_cast<std::size_t>(whole)]),
+                        *reinterpret_cast<const Lanes*>(&directions.y[static_cast<std::size_t>(whole)]),
+                        *reinterpret_cast<const Lanes*>(&directions.z[static_cast<std::size_t>(whole)]), basis);
+        Lanes used = {};
+        for (int lane = 0; lane < count - whole; ++lane)
+            used[lane] = 1;
+        for (int k = 0; k < kCoefficients; ++k)
+            total[k] += used * basis[k];
+    }
+    for (int k = 0; k < kCoefficients; ++k)
+        for (int lane = 0; lane < kPacket; ++lane)
+            sums[k] += static_cast<double>(total[k][lane]);
+}
+
+} // namespace
+
+TangentFrame tangent_frame(const glm::vec3& n) {
+    const float sign = std::copysign(1.0f, n.z);
+    const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
+    return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
+}
+
+PRT_TARGET_CLONES
+void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint32_t seed, const TangentFrame& frame,
+                         ChunkDirections& directions) {
+    const std::uint32_t seed_x = pcg_hash(seed), seed_y = pcg_hash(seed ^ 0x9e3779b9u);
+    const std::uint32_t* sobol_x = chunk.x.data();
+    const std::uint32_t* sobol_y = chunk.y.data();
+    const glm::vec3 t = frame.tangent, b = frame.bitangent, n = frame.normal;
+    const std::size_t count = chunk.x.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        const float u = to_signed_unit(reverse_bits(laine_karras(sobol_x[i] ^ offset.x, seed_x)));
+        const float v = to_signed_unit(reverse_bits(laine_karras(sobol_y[i] ^ offset.y, seed_y)));
+        // Concentric map: radius is the larger coordinate, the angle pi/4 times the ratio; sine and cosine by their
+        // Taylor series, whose remainder on [-pi/4, pi/4] is below float rounding (3e-8 relative).
+        const bool wide = std::fabs(u) > std::fabs(v);
+        const float radius = wide ? u : v;
+        const float angle = 0.785398163f * (wide ? v : u) / radius;
+        const float a2 = angle * angle;
+        const float sine =
+            angle * (1 + a2 * (-1.0f / 6 + a2 * (1.0f / 120 + a2 * (-1.0f / 5040 + a2 * (1.0f / 362880)))));
+        const float cosine = 1 + a2 * (-0.5f + a2 * (1.0f / 24 + a2 * (-1.0f / 720 + a2 * (1.0f / 40320))));
+        const float x = radius * (wide ? cosine : sine), y = radius * (wide ? sine : cosine);
+        const float z = std::sqrt(std::fmax(0.0f, 1 - radius * radius));
+        directions.x[i] = t.x * x + b.x * y + n.x * z;
+        directions.y[i] = t.y * x + b.y * y + n.y * z;
+        directions.z[i] = t.z * x + b.z * y + n.z * z;
+    }
+}
+
+PRT_TARGET_CLONES
+void add_basis(int order, const ChunkDirections& directions, int count, std::span<double> sums) {
+    assert(order >= 1 && order <= kMaxOrder && count <= kChunk);
+    switch (order) {
+    case 1: return add_basis_of_order<1>(directions, count, sums.data());
+    case 2: return add_basis_of_order<2>(directions, count, sums.data());
+    case 3: return add_basis_of_order<3>(directions, count, sums.data());
+    case 4: return add_basis_of_order<4>(directions, count, sums.data());
+    case 5: return add_basis_of_order<5>(directions, count, sums.data());
+    case 6: return add_basis_of_order<6>(directions, count, sums.data());
+    case 7: return add_basis_of_order<7>(directions, count, sums.data());
+    case 8: return add_basis_of_order<8>(directions, count, sums.data());
+    case 9: return add_basis_of_order<9>(directions, count, sums.data());
+    default: return add_basis_of_order<10>(directions, count, sums.data());
+    }
+}
+
+} // namespace prt

@@ -1,0 +1,45 @@
+#pragma once
+
+// Ray queries against the triangles of a scene on the CPU, by Embree.
+
+#include "prt/scene.h"
+
+#include <embree3/rtcore.h>
+#include <glm/vec3.hpp>
+
+#include <memory>
+#include <vector>
+
+namespace prt {
+
+/// A bounding volume hierarchy over all triangles of a scene. Building is multithreaded; queries are thread-safe.
+class RayScene {
+  public:
+    /// Copies what it needs of `scene`. `threads` build it (0: all). Throws `Error` when memory runs out.
+    explicit RayScene(const Scene& scene, int threads = 0);
+
+    RTCScene handle() const { return scene_.get(); }
+
+    /// How far to move a ray's origin off the surface at `position` so that the surface does not block it: the
+    /// largest coordinate of any triangle that `position` lies on, times 32 units of float rounding. Rounding of
+    /// the origin, and of the vertices seen from it, moves either by at most a few such units.
+    float surface_offset(const glm::vec3& position) const;
+
+    struct Triangle {
+        std::uint32_t primitive, triangle; ///< indices into Scene::primitives and its triangles
+    };
+    /// What an Embree primID stands for.
+    Triangle triangle(unsigned id) const { return triangles_[id]; }
+
+  private:
+    struct Release {
+        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    };
+    std::unique_ptr<RTCDeviceTy, Release> device_;
+    std::unique_ptr<RTCSceneTy, Release> scene_;
+    std::vector<Triangle> triangles_;
+    std::vector<float> extents_; ///< per triangle its largest absolute coordinate
+};
+
+} // namespace prt

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "prt/scene.h"
+
+#include <glm/vec3.hpp>
+
+#include <vector>
+
+namespace prt {
+
+/// Where transfer is wanted. The baker does not care where receivers come from: vertices, samples on a surface,
+/// texels, probes. Arrays are parallel.
+struct Receivers {
+    std::vector<glm::vec3> positions; ///< metres
+    std::vector<glm::vec3> normals;   ///< unit; zero: no surface here, the transfer is zero
+    std::vector<float> areas;         ///< m²; zero: nobody sees it, the transfer is zero
+
+    std::size_t size() const { return positions.size(); }
+};
+
+/// Every vertex of the scene, in the order of its vertex arrays, with a third of the area of its triangles.
+Receivers vertex_receivers(const Scene& scene);
+
+} // namespace prt

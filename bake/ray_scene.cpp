@@ -1,0 +1,81 @@
+#include "prt/ray_scene.h"
+
+#include "prt/error.h"
+#include "prt/parallel.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace prt {
+namespace {
+
+float largest_coordinate(const glm::vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+} // namespace
+
+RayScene::RayScene(const Scene& scene, int threads) {
+    device_.reset(rtcNewDevice(("threads=" + std::to_string(thread_count(threads))).c_str()));
+    if (!device_)
+        throw Error("Embree cannot be started");
+    scene_.reset(rtcNewScene(device_.get()));
+    // Robust: the triangle test does not depend on the tree round it, so results do not depend on the build.
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
+
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), scene.receivers()));
+    auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), scene.triangles()));
+    if (!vertices || !indices)
+        throw Error("there is not enough memory for the triangles");
+    for (const VertexArray& array : scene.vertex_arrays)
+        vertices = std::copy(array.positions.begin(), array.positions.end(), vertices);
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
+        const Primitive& primitive = scene.primitives[p];
+        const VertexArray& array = scene.vertex_arrays[primitive.vertices];
+        for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
+            const glm::uvec3& triangle = primitive.triangles[t];
+            *indices++ = triangle + static_cast<unsigned>(array.first_receiver);
+            triangles_.push_back({static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(t)});
+            extents_.push_back(std::max({largest_coordinate(array.positions[triangle.x]),
+                                         largest_coordinate(array.positions[triangle.y]),
+                                         largest_coordinate(array.positions[triangle.z])}));
+        }
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_.get());
+    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE)
+        throw Error("the bounding volume hierarchy cannot be built: not enough memory");
+}
+
+float RayScene::surface_offset(const glm::vec3& position) const {
+    struct Search {
+        const std::vector<float>* extents;
+        float largest;
+    };
+    Search search{&extents_, largest_coordinate(position)};
+    RTCPointQuery query{position.x, position.y, position.z, 0,
+                        std::max(search.largest * 1e-6f, std::numeric_limits<float>::min())};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(
+        scene_.get(), &query, &context,
+        [](RTCPointQueryFunctionArguments* arguments) {
+            auto& s = *static_cast<Search*>(arguments->userPtr);
+            s.largest = std::max(s.largest, (*s.extents)[arguments->primID]);
+            return false; // the radius stays
+        },
+        &search);
+    return 32 * std::numeric_limits<float>::epsilon() / 2 * search.largest;
+}
+
+} // namespace prt

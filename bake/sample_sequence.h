@@ -1,0 +1,38 @@
+#pragma once
+
+// The samples of a receiver: cosine-distributed directions from Owen-scrambled Sobol points.
+
+#include <cstdint>
+#include <vector>
+
+namespace prt {
+
+/// Rays are generated and traced in chunks of this many, each an aligned part of the Sobol sequence.
+inline constexpr int kChunk = 1024;
+/// Rays that are traced together.
+inline constexpr int kPacket = 16;
+
+/// The first two dimensions of the Sobol sequence, bits reversed, for one chunk of `rays` points. The points are
+/// ordered by cell of a grid with about kPacket points each: a net has equally many points in each cell, nested
+/// scrambling takes cells to cells, and so packets of consecutive points stay narrow beams for every scramble.
+struct SobolChunk {
+    std::vector<std::uint32_t> x, y; ///< padded to a multiple of kPacket by repeating the last
+    int rays = 0;
+
+    explicit SobolChunk(int rays);
+};
+
+/// Sobol points are linear over GF(2): point (chunk · kChunk + j) is point j XOR this.
+struct SobolOffset {
+    std::uint32_t x, y;
+};
+SobolOffset sobol_chunk_offset(std::uint32_t chunk);
+
+/// A well-mixed 32-bit hash (Jarzynski and Olano 2020, pcg).
+constexpr std::uint32_t pcg_hash(std::uint32_t v) {
+    const std::uint32_t state = v * 747796405u + 2891336453u;
+    const std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
+    return (word >> 22) ^ word;
+}
+
+} // namespace prt
