@@ -1,25 +1,13 @@
-// Compiled several times for different vector widths and chosen at run time (PRT_TARGET_CLONES). A clone reaches
-// only what is inlined into it, hence the always_inline helpers.
-
 #include "chunk_kernels.h"
 
 #include "prt/sh_basis.h"
+#include "prt/vector_lanes.h"
 
 #include <cassert>
 #include <cmath>
 
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) &&                       \
-    !defined(__SANITIZE_ADDRESS__)
-#define PRT_TARGET_CLONES [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
-#else
-#define PRT_TARGET_CLONES
-#endif
-
 namespace prt {
 namespace {
-
-/// kPacket floats in registers.
-using Lanes [[gnu::vector_size(sizeof(float) * kPacket)]] = float;
 
 [[gnu::always_inline]] inline std::uint32_t laine_karras(std::uint32_t v, std::uint32_t seed) {
     v ^= v * 0x3d20adeau;
@@ -44,21 +32,24 @@ using Lanes [[gnu::vector_size(sizeof(float) * kPacket)]] = float;
 }
 
 template <int Order>
+[[gnu::always_inline]] inline void basis_of_packet(const ChunkDirections& directions, std::size_t first, Lanes* basis) {
+    const Lanes x = lanes_at(&directions.x[first]), y = lanes_at(&directions.y[first]),
+                z = lanes_at(&directions.z[first]);
+    sh_basis<Order>(x, y, z, basis);
+}
+
+template <int Order>
 [[gnu::always_inline]] inline void add_basis_of_order(const ChunkDirections& directions, int count, double* sums) {
     constexpr int kCoefficients = coefficient_count(Order);
     Lanes total[kCoefficients] = {}, basis[kCoefficients];
     const int whole = count / kPacket * kPacket;
     for (int i = 0; i < whole; i += kPacket) {
-        sh_basis<Order>(*reinterpret_cast<const Lanes*>(&directions.x[static_cast<std::size_t>(i)]),
-                        *reinterpret_cast<const Lanes*>(&directions.y[static_cast<std::size_t>(i)]),
-                        *reinterpret_cast<const Lanes*>(&directions.z[static_cast<std::size_t>(i)]), basis);
+        basis_of_packet<Order>(directions, static_cast<std::size_t>(i), basis);
         for (int k = 0; k < kCoefficients; ++k)
             total[k] += basis[k];
     }
     if (whole < count) {
-        sh_basis<Order>(*reinterpret_cast<const Lanes*>(&directions.x[static_cast<std::size_t>(whole)]),
-                        *reinterpret_cast<const Lanes*>(&directions.y[static_cast<std::size_t>(whole)]),
-                        *reinterpret_cast<const Lanes*>(&directions.z[static_cast<std::size_t>(whole)]), basis);
+        basis_of_packet<Order>(directions, static_cast<std::size_t>(whole), basis);
         Lanes used = {};
         for (int lane = 0; lane < count - whole; ++lane)
             used[lane] = 1;

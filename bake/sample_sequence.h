@@ -2,6 +2,8 @@
 
 // The samples of a receiver: cosine-distributed directions from Owen-scrambled Sobol points.
 
+#include "prt/vector_lanes.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -10,7 +12,7 @@ namespace prt {
 /// Rays are generated and traced in chunks of this many, each an aligned part of the Sobol sequence.
 inline constexpr int kChunk = 1024;
 /// Rays that are traced together.
-inline constexpr int kPacket = 16;
+inline constexpr int kPacket = kLaneCount;
 
 /// The first two dimensions of the Sobol sequence, bits reversed, for one chunk of `rays` points. The points are
 /// ordered by cell of a grid with about kPacket points each: a net has equally many points in each cell, nested

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "prt/transfer.h"
+#include "prt/vector_lanes.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Points that are worked on together: one per vector lane.
+inline constexpr std::size_t kLanes = kLaneCount;
+
+/// Transfer vectors as points of a Euclidean space, laid out for vector units: blocks of kLanes points, in each
+/// block coordinate by coordinate. The last block is filled up with copies of its first point.
+struct PointBlocks {
+    std::size_t count = 0, dimension = 0;
+    std::vector<float> values; ///< [blocks][dimension][kLanes]
+
+    PointBlocks(const Transfer& transfer, std::span<const std::uint32_t> receivers);
+
+    std::size_t blocks() const { return (count + kLanes - 1) / kLanes; }
+    const float* block(std::size_t b) const { return &values[b * dimension * kLanes]; }
+    float coordinate(std::size_t point, std::size_t i) const {
+        return values[(point / kLanes * dimension + i) * kLanes + point % kLanes];
+    }
+};
+
+/// An affine subspace per cluster: a mean and orthonormal directions. No directions: plain vector quantisation.
+struct ClusterModels {
+    std::size_t dimension = 0, max_components = 0;
+    std::vector<float> means;      ///< [clusters][dimension]
+    std::vector<float> directions; ///< [clusters][max_components][dimension]
+    std::vector<int> components;   ///< [clusters] directions in use
+
+    ClusterModels(std::size_t clusters, std::size_t dimensions, std::size_t components_at_most)
+        : dimension(dimensions), max_components(components_at_most), means(clusters * dimensions),
+          directions(clusters * components_at_most * dimensions), components(clusters, 0) {}
+
+    std::size_t clusters() const { return components.size(); }
+    float* mean(std::size_t k) { return &means[k * dimension]; }
+    const float* mean(std::size_t k) const { return &means[k * dimension]; }
+    float* direction(std::size_t k, std::size_t j) { return &directions[(k * max_components + j) * dimension]; }
+    const float* direction(std::size_t k, std::size_t j) const {
+        return &directions[(k * max_components + j) * dimension];
+    }
+};
+
+struct Assignment {
+    std::vector<std::uint32_t> clusters; ///< [points]
+    std::vector<float> errors;           ///< [points] squared distance to the cluster's subspace
+};
+
+/// Gives each point the cluster whose subspace is nearest; of equals the first.
+Assignment assign(const PointBlocks& points, const ClusterModels& models, int threads);
+
+/// Lowers `errors` [points] to the squared distance to `center` [dimension] where that is less.
+void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads);
+
+} // namespace prt
