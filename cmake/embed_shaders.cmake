@@ -1,7 +1,7 @@
 # prtkit_embed_shaders(<target> <file>...): makes the GLSL files of shaders/ part of a library, as
-# prt::embedded_shader("name"). `#include "name"` lines are resolved when the text is asked for.
+# prt::embedded_files().
 function(prtkit_embed_shaders target)
-    set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded_shaders.cpp)
+    set(source ${CMAKE_CURRENT_BINARY_DIR}/embedded_files.cpp)
     set(files)
     foreach(name ${ARGN})
         list(APPEND files ${PROJECT_SOURCE_DIR}/shaders/${name})

@@ -44,16 +44,6 @@ glm::vec3 bilinear(const Image& image, int x0, int x1, int y0, int y1, float u, 
            (image.at(x0, y1) * (1 - u) + image.at(x1, y1) * u) * v;
 }
 
-glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction) {
-    const glm::dvec2 position = lat_long_position(image.width, image.height, glm::dvec3(direction)) - 0.5;
-    const double x = std::floor(position.x), y = std::floor(position.y);
-    const auto wrap = [&](int i) { return (i % image.width + image.width) % image.width; };
-    const auto clamp = [&](int i) { return std::clamp(i, 0, image.height - 1); };
-    const int xi = static_cast<int>(x), yi = static_cast<int>(y);
-    return bilinear(image, wrap(xi), wrap(xi + 1), clamp(yi), clamp(yi + 1),
-                    static_cast<float>(position.x - x), static_cast<float>(position.y - y));
-}
-
 glm::vec3 sample_cube(const Image& image, const glm::vec3& direction) {
     const glm::dvec3 d(direction);
     int face = 0;
@@ -122,15 +112,25 @@ glm::dvec3 cube_direction(int face, double u, double v) {
     return glm::normalize(f.outward + u * f.right + v * f.down);
 }
 
+glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction) {
+    const glm::dvec2 position = lat_long_position(image.width, image.height, glm::dvec3(direction)) - 0.5;
+    const double x = std::floor(position.x), y = std::floor(position.y);
+    const auto wrap = [&](int i) { return (i % image.width + image.width) % image.width; };
+    const auto clamp = [&](int i) { return std::clamp(i, 0, image.height - 1); };
+    const int xi = static_cast<int>(x), yi = static_cast<int>(y);
+    return bilinear(image, wrap(xi), wrap(xi + 1), clamp(yi), clamp(yi + 1),
+                    static_cast<float>(position.x - x), static_cast<float>(position.y - y));
+}
+
 glm::vec3 sample(const Environment& environment, const glm::vec3& direction) {
     return environment.layout == EnvironmentLayout::cube ? sample_cube(environment.image, direction)
                                                          : sample_lat_long(environment.image, direction);
 }
 
-Image resampled_lat_long(const Environment& environment, int height) {
-    if (environment.layout == EnvironmentLayout::lat_long && environment.image.height == height &&
-        environment.image.width == 2 * height)
+Image resampled_lat_long(const Environment& environment) {
+    if (environment.layout == EnvironmentLayout::lat_long)
         return environment.image;
+    const int height = 2 * environment.image.width; // a face spans a quarter turn, the image's height half a turn
     Image result{2 * height, height, {}};
     result.pixels.resize(static_cast<std::size_t>(2 * height) * static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y)

@@ -56,10 +56,10 @@ glm::dvec3 cube_direction(int face, double u, double v);
 
 /// Bilinearly filtered radiance in unit direction `direction`.
 glm::vec3 sample(const Environment& environment, const glm::vec3& direction);
+glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction);
 
-/// The environment as a lat-long image of width 2 `height`, by `sample`; a lat-long of that size is returned as
-/// it is.
-Image resampled_lat_long(const Environment& environment, int height);
+/// The environment as a lat-long image: a lat-long as it is, a cube by `sample` at the resolution of its faces.
+Image resampled_lat_long(const Environment& environment);
 
 /// Projects the environment, piecewise constant over its texels, into SH: the basis is integrated over each
 /// texel, not only taken at its centre, so that an image of one pixel is exactly a constant light. Sums are in

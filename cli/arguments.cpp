@@ -1,0 +1,241 @@
+#include "arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <cstdio>
+#include <functional>
+#include <map>
+#include <string>
+
+namespace prt::cli {
+namespace {
+
+const std::map<std::string, Window> kWindows = {
+    {"none", Window::none}, {"hann", Window::hann}, {"lanczos", Window::lanczos}, {"auto", Window::automatic}};
+const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", EnvironmentLayout::lat_long},
+                                                           {"cube", EnvironmentLayout::cube}};
+const std::map<std::string, BadPixels> kBadPixels = {
+    {"error", BadPixels::error}, {"zero", BadPixels::zero}, {"clamp", BadPixels::clamp}};
+const std::map<std::string, WeightFormat> kWeights = {
+    {"float", WeightFormat::float32}, {"16", WeightFormat::snorm16}, {"8", WeightFormat::snorm8}};
+const std::map<std::string, Backend> kBackends = {
+    {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
+const std::map<std::string, Show> kShows = {
+    {"lit", Show::lit}, {"clusters", Show::clusters}, {"error", Show::error}, {"ao", Show::ao}};
+const std::map<std::string, ToneMap> kToneMaps = {{"filmic", ToneMap::filmic}, {"srgb", ToneMap::srgb}};
+
+/// An option whose value is one of `choices`.
+template <class T, class Target>
+CLI::Option* choice(CLI::App* command, const std::string& name, Target& target, const std::map<std::string, T>& choices,
+                    const std::string& text, const std::string& otherwise) {
+    std::string names;
+    for (const auto& [key, value] : choices)
+        names += (names.empty() ? "" : "|") + key;
+    return command
+        ->add_option_function<std::string>(
+            name, [&target, &choices](const std::string& key) { target = choices.at(key); }, text)
+        ->check(CLI::IsMember(choices))
+        ->type_name(names)
+        ->default_str(otherwise);
+}
+
+void parse_vector(const std::string& name, const std::string& text, std::optional<glm::vec3>& target) {
+    glm::vec3 v(0);
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%f,%f,%f%n", &v.x, &v.y, &v.z, &used) != 3 ||
+        static_cast<std::size_t>(used) != text.size())
+        throw CLI::ValidationError(name, "'" + text + "' is not x,y,z");
+    target = v;
+}
+
+void vector_option(CLI::App* command, const std::string& name, std::optional<glm::vec3>& target,
+                   const std::string& text) {
+    command
+        ->add_option_function<std::string>(
+            name, [name, &target](const std::string& value) { parse_vector(name, value, target); }, text)
+        ->type_name("x,y,z");
+}
+
+void add_threads(CLI::App* command, int& threads) {
+    command->add_option("--threads", threads, "number of threads, 0: all")->capture_default_str()->check(CLI::Range(0, 1024));
+}
+
+void add_json(CLI::App* command, Path& json) {
+    command->add_option("--json", json, "also write all figures to this file")->type_name("FILE");
+}
+
+void add_light_options(CLI::App* command, LightOptions& options) {
+    choice(command, "--window", options.window, kWindows, "window over the SH bands against ringing", "none");
+    command->add_option("--rotate", options.rotation_degrees,
+                        "turn the environment about +Y, degrees, counter-clockwise from above")
+        ->capture_default_str();
+    choice(command, "--env-layout", options.environment.layout, kLayouts,
+           "how to read an image that does not say; otherwise by its shape", "by shape");
+    choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
+           "what to do with negative, infinite and NaN pixels", "error");
+}
+
+void add_bake(CLI::App& app, BakeArguments& a) {
+    CLI::App* command = app.add_subcommand("bake", "Bake shadowed transfer vectors for every vertex of a glTF scene");
+    command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required();
+    command->add_option("-o,--output", a.output, "baked .glb to write")->required()->type_name("FILE");
+    command->add_option("--order", a.options.order, "SH order N, 1..10: N² coefficients")->capture_default_str();
+    command->add_option("--rays", a.options.rays, "rays per receiver")->capture_default_str();
+    command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
+    add_threads(command, a.options.threads);
+    add_json(command, a.json);
+}
+
+void add_compress(CLI::App& app, CompressArguments& a) {
+    CLI::App* command = app.add_subcommand("compress", "Compress a bake by clustered PCA");
+    command->add_option("baked", a.baked, "output of prt bake")->required();
+    command->add_option("-o,--output", a.output, "compressed .glb to write")->required()->type_name("FILE");
+    command->add_option("--clusters", a.options.clusters, "number of clusters, 1..65536")->capture_default_str();
+    command->add_option("--components", a.options.components, "PCA components per cluster")->capture_default_str();
+    choice(command, "--weights", a.options.weights, kWeights, "bits per weight, or float", "8");
+    command->add_option("--seed", a.options.seed, "seed of the clustering")->capture_default_str();
+    add_threads(command, a.options.threads);
+    add_json(command, a.json);
+}
+
+void add_evaluate(CLI::App& app, EvaluateArguments& a) {
+    CLI::App* command = app.add_subcommand("evaluate", "Measure the error of a compressed file against its bake");
+    command->add_option("baked", a.baked, "output of prt bake, the reference")->required();
+    command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")->required();
+    command->add_option("--lights", a.lights,
+                        "environments (.exr, .hdr) or lights (.json); otherwise a uniform light, an overcast sky and "
+                        "a sun")
+        ->type_name("FILE");
+    add_light_options(command, a.light_options);
+    add_threads(command, a.threads);
+    add_json(command, a.json);
+    command->add_option("--html", a.html, "also write a report page to this file")->type_name("FILE");
+}
+
+void add_project(CLI::App& app, ProjectArguments& a) {
+    CLI::App* command = app.add_subcommand("project", "Project an environment map into SH lighting");
+    command->add_option("environment", a.environment, "environment map, .exr or .hdr")->required();
+    command->add_option("-o,--output", a.output, "light to write, .json")->required()->type_name("FILE");
+    command->add_option("--order", a.order, "SH order N, 1..10")->capture_default_str();
+    add_light_options(command, a.light_options);
+    add_threads(command, a.threads);
+    add_json(command, a.json);
+}
+
+void add_render(CLI::App& app, RenderArguments& a) {
+    CLI::App* command = app.add_subcommand("render", "Draw a file under an environment, without a window");
+    command->add_option("model", a.model, "any .gltf or .glb: compressed, baked, or neither (then unshadowed)")->required();
+    command->add_option("--env", a.environment, "environment (.exr, .hdr) or light (.json)")->required()->type_name("FILE");
+    command->add_option("-o,--output", a.output, "picture to write, .png or .exr")->required()->type_name("FILE");
+    command
+        ->add_option_function<std::string>(
+            "--size",
+            [&a](const std::string& text) {
+                int used = 0;
+                if (std::sscanf(text.c_str(), "%dx%d%n", &a.width, &a.height, &used) != 2 ||
+                    static_cast<std::size_t>(used) != text.size() || a.width < 1 || a.height < 1 || a.width > 16384 ||
+                    a.height > 16384)
+                    throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT in 1..16384");
+            },
+            "size in pixels")
+        ->type_name("WxH")
+        ->default_str("1280x720");
+    vector_option(command, "--camera", a.camera, "position of the camera, metres; otherwise it sees the whole scene");
+    vector_option(command, "--look-at", a.look_at, "point the camera looks at; otherwise the middle of the scene");
+    command->add_option("--fov", a.field_of_view_degrees, "vertical field of view, degrees")
+        ->capture_default_str()
+        ->check(CLI::Range(1.0, 170.0));
+    choice(command, "--backend", a.backend, kBackends,
+           "gpu: OpenGL 4.5 of any kind; cpu: ray casting; auto: a hardware GPU, else the CPU", "auto");
+    choice(command, "--show", a.show, kShows,
+           "lit; the clusters; the error against --baked (white: 10 % of the mean radiance); ambient occlusion", "lit");
+    command->add_option("--baked", a.baked, "the bake that --show error compares with")->type_name("FILE");
+    command
+        ->add_option_function<std::string>(
+            "--exposure",
+            [&a](const std::string& text) {
+                double stops = 0;
+                if (text == "auto")
+                    a.exposure_stops.reset();
+                else if (CLI::detail::lexical_cast(text, stops))
+                    a.exposure_stops = stops;
+                else
+                    throw CLI::ValidationError("--exposure", "'" + text + "' is neither auto nor a number of stops");
+            },
+            "stops, or auto: the mean radiance of the environment becomes 0.5")
+        ->type_name("STOPS")
+        ->default_str("auto");
+    choice(command, "--tone-map", a.tone_map, kToneMaps, "tone curve of .png", "filmic");
+    command->add_option("--samples", a.samples, "samples per pixel along each axis")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16));
+    command->add_flag("!--no-background", a.background, "do not show the environment behind the scene");
+    add_light_options(command, a.light_options);
+    add_threads(command, a.threads);
+    add_json(command, a.json);
+}
+
+void add_info(CLI::App& app, InfoArguments& a) {
+    CLI::App* command = app.add_subcommand("info", "Say what a glTF file holds");
+    command->add_option("file", a.file, "any .gltf or .glb")->required();
+    add_json(command, a.json);
+}
+
+bool has_extension(const Path& path, std::initializer_list<const char*> extensions) {
+    for (const char* extension : extensions)
+        if (path.extension() == extension)
+            return true;
+    return false;
+}
+
+/// What CLI11 cannot see: file types, and options that need each other.
+void check_together(const RenderArguments& a) {
+    if (!has_extension(a.output, {".png", ".exr"}))
+        throw CLI::ValidationError("--output", "'" + a.output.string() + "' ends neither in .png nor in .exr");
+    if ((a.show == Show::error) == a.baked.empty())
+        throw CLI::ValidationError("--show error", "and --baked FILE go together");
+}
+
+} // namespace
+
+std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
+    CLI::App app("prtkit: bakes, compresses and relights precomputed radiance transfer", "prt");
+    app.set_version_flag("--version", "prt " PRTKIT_VERSION);
+    app.require_subcommand(1);
+    BakeArguments bake;
+    CompressArguments compress;
+    EvaluateArguments evaluate;
+    ProjectArguments project;
+    RenderArguments render;
+    InfoArguments info;
+    add_bake(app, bake);
+    add_compress(app, compress);
+    add_evaluate(app, evaluate);
+    add_project(app, project);
+    add_render(app, render);
+    add_info(app, info);
+    try {
+        app.parse(argc, argv);
+        if (app.got_subcommand("render"))
+            check_together(render);
+    } catch (const CLI::Success& nothing_to_do) {
+        return app.exit(nothing_to_do);
+    } catch (const CLI::ParseError& error) {
+        std::fprintf(stderr, "prt: error: %s\n", error.what());
+        return 2;
+    }
+    if (app.got_subcommand("bake"))
+        return Arguments(bake);
+    if (app.got_subcommand("compress"))
+        return Arguments(compress);
+    if (app.got_subcommand("evaluate"))
+        return Arguments(evaluate);
+    if (app.got_subcommand("project"))
+        return Arguments(project);
+    if (app.got_subcommand("render"))
+        return Arguments(render);
+    return Arguments(info);
+}
+
+} // namespace prt::cli

@@ -1,0 +1,79 @@
+#pragma once
+
+// What the command line says, as plain structs. Parsing is in arguments.cpp and nowhere else.
+
+#include "prt/bake.h"
+#include "prt/compress.h"
+#include "prt/image_file.h"
+#include "prt/light.h"
+#include "prt/tone_map.h"
+
+#include <filesystem>
+#include <optional>
+#include <variant>
+#include <vector>
+
+namespace prt::cli {
+
+using Path = std::filesystem::path;
+
+enum class Backend { automatic, cpu, gpu };
+enum class Show { lit, clusters, error, ao };
+
+/// How every command reads lighting.
+struct LightOptions {
+    EnvironmentOptions environment;
+    Window window = Window::none;
+    double rotation_degrees = 0;
+};
+
+struct BakeArguments {
+    Path scene, output, json;
+    BakeOptions options;
+};
+
+struct CompressArguments {
+    Path baked, output, json;
+    CompressOptions options;
+};
+
+struct EvaluateArguments {
+    Path baked, shipped, json, html;
+    std::vector<Path> lights;
+    LightOptions light_options;
+    int threads = 0;
+};
+
+struct ProjectArguments {
+    Path environment, output, json;
+    int order = 6;
+    LightOptions light_options;
+    int threads = 0;
+};
+
+struct RenderArguments {
+    Path model, environment, output, json, baked;
+    LightOptions light_options;
+    int width = 1280, height = 720, samples = 2;
+    std::optional<glm::vec3> camera, look_at;
+    double field_of_view_degrees = 35;
+    Backend backend = Backend::automatic;
+    Show show = Show::lit;
+    std::optional<double> exposure_stops; ///< unset: automatic
+    ToneMap tone_map = ToneMap::filmic;
+    bool background = true;
+    int threads = 0;
+};
+
+struct InfoArguments {
+    Path file, json;
+};
+
+using Arguments = std::variant<BakeArguments, CompressArguments, EvaluateArguments, ProjectArguments, RenderArguments,
+                               InfoArguments>;
+
+/// What was asked for, or the exit status when there is nothing to do: 0 after --help, 2 for wrong usage (a line
+/// on stderr says what).
+std::variant<Arguments, int> parse_arguments(int argc, char** argv);
+
+} // namespace prt::cli

@@ -1,0 +1,70 @@
+#include "commands.h"
+
+#include "inputs.h"
+#include "report.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace prt::cli {
+namespace {
+
+void describe_record(const BakeRecord& record) {
+    fmt::print("  baked by {} on {}, {} rays per receiver, {} bounces, seed {}\n", record.method, record.backend,
+               record.rays, record.bounces, record.seed);
+}
+
+} // namespace
+
+void run(const InfoArguments& a, Interrupt& interrupt) {
+    const Model model = load_model(a.file);
+    const Scene& scene = model.scene;
+    const Bounds box = bounds(scene);
+    fmt::print("{}: {} primitives, {} triangles, {} vertices, {} materials, {} images\n", a.file.string(),
+               scene.primitives.size(), scene.triangles(), scene.receivers(), scene.materials.size() - 1,
+               scene.images.size());
+    fmt::print("  from {:g} {:g} {:g} to {:g} {:g} {:g} m\n", box.low.x, box.low.y, box.low.z, box.high.x, box.high.y,
+               box.high.z);
+    Json report = {{"file", a.file.string()},
+                   {"primitives", scene.primitives.size()},
+                   {"triangles", scene.triangles()},
+                   {"vertices", scene.receivers()},
+                   {"materials", scene.materials.size() - 1},
+                   {"images", scene.images.size()},
+                   {"low_metres", {box.low.x, box.low.y, box.low.z}},
+                   {"high_metres", {box.high.x, box.high.y, box.high.z}}};
+    if (model.baked) {
+        const Transfer& t = model.baked->transfer;
+        fmt::print("  raw transfer: order {}, {} channels, {} bytes per vertex\n", t.order, t.channels,
+                   t.dimension() * sizeof(float));
+        describe_record(model.baked->record);
+        report["transfer"] = {{"order", t.order},
+                              {"channels", t.channels},
+                              {"bytes_per_vertex", t.dimension() * sizeof(float)},
+                              {"bake", bake_record_json(model.baked->record)}};
+    }
+    if (model.compressed) {
+        const ClusteredTransfer& t = model.compressed->transfer;
+        const auto [least, most] = std::minmax_element(t.bases.components.begin(), t.bases.components.end());
+        const std::size_t bits = 8 * bytes_per_weight(t.receivers.format);
+        fmt::print("  clustered PCA: order {}, {} channels, {} clusters x {} to {} components, {}-bit weights\n",
+                   t.bases.order, t.bases.channels, t.bases.clusters(), *least, *most, bits);
+        fmt::print("  {} bytes of bases, {} shader constants per frame\n", t.bases.rows.size() * sizeof(float),
+                   t.bases.clusters() * static_cast<std::size_t>(constants_per_cluster(t.bases)));
+        describe_record(model.compressed->record);
+        report["clustered_pca"] = {{"order", t.bases.order},
+                                   {"channels", t.bases.channels},
+                                   {"clusters", t.bases.clusters()},
+                                   {"components_least", *least},
+                                   {"components_most", *most},
+                                   {"bits_per_weight", bits},
+                                   {"bytes_bases", t.bases.rows.size() * sizeof(float)},
+                                   {"bake", bake_record_json(model.compressed->record)}};
+    }
+    if (!model.baked && !model.compressed)
+        fmt::print("  no transfer\n");
+    write_json(report, a.json, interrupt);
+}
+
+} // namespace prt::cli

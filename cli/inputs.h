@@ -1,0 +1,38 @@
+#pragma once
+
+// Files as the commands need them.
+
+#include "arguments.h"
+#include "prt/gltf.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace prt::cli {
+
+/// A scene file with whatever transfer it holds. Notices go to stderr.
+struct Model {
+    GltfDocument document;
+    Scene scene;
+    std::optional<BakedTransfer> baked;
+    std::optional<CompressedTransfer> compressed;
+
+    /// Order of the transfer, 0 where there is none.
+    int order() const;
+};
+Model load_model(const Path& path);
+
+struct LoadedLight {
+    std::string name;
+    Light light;
+    std::optional<Environment> environment; ///< where it came from an image
+};
+
+/// Lighting from an environment map or a light file, windowed and rotated, with `order` bands.
+LoadedLight load_light(const Path& path, int order, const LightOptions& options, int threads);
+
+/// What to evaluate under when the user names no lights: uniform, overcast, and a sun high in the front.
+std::vector<LoadedLight> default_lights(int order);
+
+} // namespace prt::cli

@@ -1,0 +1,40 @@
+#include "commands.h"
+
+#include "inputs.h"
+#include "prt/error.h"
+#include "prt/sh.h"
+#include "report.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+
+namespace prt::cli {
+
+void run(const ProjectArguments& a, Interrupt& interrupt) {
+    check_order(a.order);
+    const auto start = std::chrono::steady_clock::now();
+    const LoadedLight loaded = load_light(a.environment, a.order, a.light_options, a.threads);
+    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    write_json(light_json(loaded.light), a.output, interrupt);
+
+    const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(detail::kLegendre.sectoral[0]);
+    fmt::print("{}: order {}, mean radiance {:.4g} {:.4g} {:.4g}\n", a.output.string(), a.order, mean.r, mean.g,
+               mean.b);
+    Json report = {{"output", a.output.string()},
+                   {"order", a.order},
+                   {"mean_radiance", {mean.r, mean.g, mean.b}},
+                   {"seconds", seconds}};
+    if (loaded.environment) {
+        const Environment& environment = *loaded.environment;
+        const bool cube = environment.layout == EnvironmentLayout::cube;
+        fmt::print("  from a {} image of {} x {}\n", cube ? "cube" : "lat-long", environment.image.width,
+                   environment.image.height);
+        report["layout"] = cube ? "cube" : "lat-long";
+        report["width_pixels"] = environment.image.width;
+        report["height_pixels"] = environment.image.height;
+    }
+    write_json(report, a.json, interrupt);
+}
+
+} // namespace prt::cli

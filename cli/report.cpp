@@ -1,0 +1,63 @@
+#include "report.h"
+
+#include "prt/error.h"
+#include "prt/file.h"
+#include "prt/sh.h"
+
+#include <cmath>
+#include <string>
+
+namespace prt::cli {
+
+void write_json(const Json& json, const std::filesystem::path& path, Interrupt& interrupt) {
+    if (path.empty())
+        return;
+    const Interrupt::WritingScope writing(interrupt);
+    OutputFile file(path);
+    file.write(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+    file.commit();
+}
+
+Json bake_record_json(const BakeRecord& record) {
+    return {{"method", record.method},   {"backend", record.backend}, {"rays_per_receiver", record.rays},
+            {"bounces", record.bounces}, {"seed", record.seed},       {"receivers_id", record.receivers}};
+}
+
+Json light_json(const Light& light) {
+    Json channels = Json::object();
+    const char* names[3] = {"red", "green", "blue"};
+    for (int c = 0; c < 3; ++c)
+        for (const glm::vec3& coefficient : light.coefficients)
+            channels[names[c]].push_back(coefficient[c]);
+    return {{"prtkit_light", 1}, {"order", light.order}, {"coefficients", channels}};
+}
+
+Light read_light_json(const std::filesystem::path& path) {
+    const std::vector<std::byte> file = read_file(path);
+    try {
+        const Json json = Json::parse(reinterpret_cast<const char*>(file.data()),
+                                      reinterpret_cast<const char*>(file.data()) + file.size());
+        if (!json.is_object() || json.value("prtkit_light", 0) != 1)
+            throw Error("is JSON, but no light of prt project");
+        Light light{json.at("order").get<int>(), {}};
+        check_order(light.order);
+        light.coefficients.resize(static_cast<std::size_t>(coefficient_count(light.order)));
+        const char* names[3] = {"red", "green", "blue"};
+        for (int c = 0; c < 3; ++c) {
+            const auto values = json.at("coefficients").at(names[c]).get<std::vector<float>>();
+            if (values.size() != light.coefficients.size())
+                throw Error(std::string(names[c]) + " has " + std::to_string(values.size()) + " coefficients, order " +
+                            std::to_string(light.order) + " needs " + std::to_string(light.coefficients.size()));
+            for (std::size_t i = 0; i < values.size(); ++i) {
+                if (!std::isfinite(values[i]))
+                    throw Error("a coefficient is not finite");
+                light.coefficients[i][c] = values[i];
+            }
+        }
+        return light;
+    } catch (const std::exception& error) { // ours and the JSON library's
+        throw Error(path.string() + ": " + error.what());
+    }
+}
+
+} // namespace prt::cli

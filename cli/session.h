@@ -1,0 +1,60 @@
+#pragma once
+
+#include "prt/progress.h"
+
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+namespace prt::cli {
+
+/// Ctrl-C and SIGTERM. Work that watches the stop token ends by itself; what does not is ended by force before a
+/// second has passed, unless a file is being written. Make one, first thing in main, before any thread.
+class Interrupt {
+  public:
+    Interrupt();
+    ~Interrupt();
+    std::stop_token token() const { return stop_.get_token(); }
+
+    /// While alive, the program is not ended by force.
+    class WritingScope {
+      public:
+        explicit WritingScope(Interrupt& interrupt) : interrupt_(interrupt) { ++interrupt_.writing_; }
+        ~WritingScope() { --interrupt_.writing_; }
+        WritingScope(const WritingScope&) = delete;
+        WritingScope& operator=(const WritingScope&) = delete;
+
+      private:
+        Interrupt& interrupt_;
+    };
+
+  private:
+    void watch(const std::stop_token& finished);
+    std::stop_source stop_;
+    std::atomic<int> writing_ = 0;
+    std::jthread watcher_;
+};
+
+/// Shows how far a piece of work is: a bar with the time left on a terminal, plain lines in a log.
+class ProgressBar {
+  public:
+    ProgressBar(std::string_view title, std::stop_token stop);
+    ~ProgressBar();
+    Progress progress();
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    void show(double fraction);
+    std::string title_;
+    std::stop_token stop_;
+    bool terminal_;
+    Clock::time_point start_ = Clock::now(), shown_ = start_;
+};
+
+/// A line on stderr for each notice about `file`.
+void print_notices(std::string_view file, const std::vector<std::string>& notices);
+
+} // namespace prt::cli

@@ -1,0 +1,85 @@
+#include "prt/gl_objects.h"
+
+#include "embedded_shaders.h"
+#include "prt/error.h"
+
+#include <epoxy/gl.h>
+
+namespace prt {
+namespace {
+
+GLuint compile(GLenum stage, const std::string& file, const std::string& defines) {
+    const std::string source = shader_source(file, defines);
+    const GLuint shader = glCreateShader(stage);
+    const char* text = source.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+    if (compiled)
+        return shader;
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
+    glDeleteShader(shader);
+    throw Error("the driver does not compile " + file + ": " + log.substr(0, static_cast<std::size_t>(length)));
+}
+
+} // namespace
+
+GlObject::~GlObject() {
+    if (name_ == 0)
+        return;
+    switch (kind_) {
+    case GlKind::buffer: glDeleteBuffers(1, &name_); break;
+    case GlKind::texture: glDeleteTextures(1, &name_); break;
+    case GlKind::framebuffer: glDeleteFramebuffers(1, &name_); break;
+    case GlKind::vertex_array: glDeleteVertexArrays(1, &name_); break;
+    case GlKind::program: glDeleteProgram(name_); break;
+    }
+}
+
+GlObject make_buffer(std::span<const std::byte> bytes) {
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
+    GlObject buffer(GlKind::buffer, name);
+    constexpr std::byte kNothing[4] = {};
+    if (bytes.empty()) // OpenGL has no empty buffers
+        bytes = kNothing;
+    glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), GL_DYNAMIC_STORAGE_BIT);
+    check_gl("a buffer");
+    return buffer;
+}
+
+GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines,
+                      const char* captured) {
+    GlObject program(GlKind::program, glCreateProgram());
+    for (const auto& [stage, file] : {std::pair{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}) {
+        const GLuint shader = compile(static_cast<GLenum>(stage), file, defines);
+        glAttachShader(program.name(), shader);
+        glDeleteShader(shader); // lives on while attached
+    }
+    if (captured)
+        glTransformFeedbackVaryings(program.name(), 1, &captured, GL_INTERLEAVED_ATTRIBS);
+    glLinkProgram(program.name());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+    if (!linked) {
+        std::string log(4096, '\0');
+        GLsizei length = 0;
+        glGetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), &length, log.data());
+        throw Error("the driver does not link " + vertex + " and " + fragment + ": " +
+                    log.substr(0, static_cast<std::size_t>(length)));
+    }
+    return program;
+}
+
+void check_gl(const char* what) {
+    const GLenum error = glGetError();
+    if (error == GL_OUT_OF_MEMORY)
+        throw Error(std::string("the GPU has no memory for ") + what);
+    if (error != GL_NO_ERROR)
+        throw Error(std::string("OpenGL error ") + std::to_string(error) + " at " + what);
+}
+
+} // namespace prt

@@ -1,0 +1,95 @@
+#include "prt/gl_renderer.h"
+
+#include "prt/error.h"
+#include "shared_layout.h"
+
+#include <epoxy/gl.h>
+
+#include <string>
+
+namespace prt {
+namespace {
+
+GLenum component_type(WeightFormat format) {
+    switch (format) {
+    case WeightFormat::snorm8: return GL_BYTE;
+    case WeightFormat::snorm16: return GL_SHORT;
+    case WeightFormat::float32: break;
+    }
+    return GL_FLOAT;
+}
+
+} // namespace
+
+GlTransfer::GlTransfer(const ClusteredTransfer& transfer)
+    : format_(transfer.receivers.format), weight_vectors_(transfer.receivers.components / 4),
+      constants_per_cluster_(constants_per_cluster(transfer.bases)) {
+    if (transfer.bases.max_components() > kMostVertexComponents)
+        throw Error(std::to_string(transfer.bases.max_components()) + " components do not fit the " +
+                    std::to_string(kMostVertexComponents) + " of the vertex attributes");
+    clusters_ = make_buffer(std::span<const std::uint16_t>(transfer.receivers.clusters));
+    weights_ = make_buffer(std::span<const std::byte>(transfer.receivers.weights));
+}
+
+std::string GlTransfer::defines() const {
+    return "#define PRT_COMPRESSED\n#define PRT_WEIGHT_VECTORS " + std::to_string(weight_vectors_) + "\n";
+}
+
+void GlTransfer::set_light(const ClusteredBases& bases, const Light& light) {
+    std::vector<glm::vec4> constants(bases.clusters() * static_cast<std::size_t>(constants_per_cluster_));
+    form_constants(bases, light, constants);
+    constants_ = make_buffer(std::span<const glm::vec4>(constants));
+}
+
+void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {
+    constexpr GLuint kClusterBinding = 8, kWeightBinding = 9;
+    glVertexArrayVertexBuffer(vertex_array, kClusterBinding, clusters_.name(),
+                              static_cast<GLintptr>(first * sizeof(std::uint16_t)), sizeof(std::uint16_t));
+    glEnableVertexArrayAttrib(vertex_array, PRT_LOCATION_CLUSTER);
+    glVertexArrayAttribIFormat(vertex_array, PRT_LOCATION_CLUSTER, 1, GL_UNSIGNED_SHORT, 0);
+    glVertexArrayAttribBinding(vertex_array, PRT_LOCATION_CLUSTER, kClusterBinding);
+    if (weight_vectors_ == 0)
+        return;
+    const std::size_t size = 4 * bytes_per_weight(format_), stride = size * static_cast<std::size_t>(weight_vectors_);
+    glVertexArrayVertexBuffer(vertex_array, kWeightBinding, weights_.name(), static_cast<GLintptr>(first * stride),
+                              static_cast<GLsizei>(stride));
+    for (int v = 0; v < weight_vectors_; ++v) {
+        const auto location = static_cast<GLuint>(PRT_LOCATION_WEIGHTS + v);
+        glEnableVertexArrayAttrib(vertex_array, location);
+        glVertexArrayAttribFormat(vertex_array, location, 4, component_type(format_), GL_TRUE,
+                                  static_cast<GLuint>(static_cast<std::size_t>(v) * size));
+        glVertexArrayAttribBinding(vertex_array, location, kWeightBinding);
+    }
+}
+
+void GlTransfer::use(std::uint32_t program) const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CONSTANTS, constants_.name());
+    glProgramUniform1i(program, glGetUniformLocation(program, "prt_constants_per_cluster"), constants_per_cluster_);
+}
+
+std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Light& light, const GlContext&) {
+    GlTransfer on_gpu(transfer);
+    on_gpu.set_light(transfer.bases, truncated(light, transfer.bases.order));
+    const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");
+    GLuint name = 0;
+    glCreateVertexArrays(1, &name);
+    const GlObject vertex_array(GlKind::vertex_array, name);
+    on_gpu.attach(name, 0);
+    std::vector<glm::vec3> radiance(transfer.receivers.size());
+    const GlObject output = make_buffer(std::span<const glm::vec3>(radiance));
+    glUseProgram(program.name());
+    on_gpu.use(program.name());
+    glBindVertexArray(name);
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, output.name());
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(radiance.size()));
+    glEndTransformFeedback();
+    glDisable(GL_RASTERIZER_DISCARD);
+    glGetNamedBufferSubData(output.name(), 0, static_cast<GLsizeiptr>(radiance.size() * sizeof(glm::vec3)),
+                            radiance.data());
+    check_gl("reading the vertex shader's result back");
+    return radiance;
+}
+
+} // namespace prt

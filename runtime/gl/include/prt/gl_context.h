@@ -1,0 +1,35 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace prt {
+
+enum class GlDevice {
+    hardware, ///< a GPU only; Mesa's software rasterisers do not count
+    any,      ///< a GPU where there is one, else software
+};
+
+/// An OpenGL 4.5 core context without window or display, through EGL: a hardware device by enumeration
+/// (EGL_EXT_platform_device), else Mesa's surfaceless platform, else a software device. Current on the thread that
+/// made it, until it is destroyed.
+class GlContext {
+  public:
+    /// Null when there is no such device; `why` then says what was tried.
+    static std::unique_ptr<GlContext> create(GlDevice device, std::string* why = nullptr);
+    ~GlContext();
+    GlContext(const GlContext&) = delete;
+    GlContext& operator=(const GlContext&) = delete;
+
+    const std::string& renderer() const { return renderer_; } ///< as the driver names it
+    bool is_software() const;
+
+  private:
+    GlContext() = default;
+    void* display_ = nullptr;
+    void* context_ = nullptr;
+    std::string renderer_;
+    friend struct GlContextMaker;
+};
+
+} // namespace prt

@@ -1,0 +1,69 @@
+#include "prt/camera.h"
+
+#include "prt/error.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+
+Camera automatic_camera(const Bounds& box, float aspect, float vertical_field_of_view) {
+    Camera camera;
+    camera.vertical_field_of_view = vertical_field_of_view;
+    const glm::vec3 half = 0.5f * (box.high - box.low);
+    camera.target = box.low + half;
+    const glm::vec3 from = glm::normalize(glm::vec3(0.45f, 0.35f, 1.0f));
+    const glm::vec3 right = glm::normalize(glm::cross(camera.up, from)), up = glm::cross(from, right);
+    const float tangent = std::tan(0.5f * camera.vertical_field_of_view);
+    // Far enough that every corner of the box lies inside the view, and a little more.
+    float distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 v = half * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const float depth = glm::dot(v, from);
+        distance = std::max({distance, depth + std::abs(glm::dot(v, up)) / tangent,
+                             depth + std::abs(glm::dot(v, right)) / (tangent * aspect)});
+    }
+    if (!(distance > 0)) // a scene of one point
+        distance = 1;
+    camera.position = camera.target + from * (1.05f * distance);
+    return camera;
+}
+
+CameraFrame camera_frame(const Camera& camera) {
+    const glm::dvec3 view(camera.target - camera.position);
+    const glm::dvec3 side = glm::cross(view, glm::dvec3(camera.up));
+    if (!(glm::length(side) > 0))
+        throw Error("the camera looks straight up, straight down, or at itself");
+    CameraFrame frame;
+    frame.forward = glm::normalize(view);
+    frame.right = glm::normalize(side);
+    frame.up = glm::cross(frame.right, frame.forward);
+    frame.half_height = std::tan(0.5 * static_cast<double>(camera.vertical_field_of_view));
+    return frame;
+}
+
+glm::mat4 view_projection(const Camera& camera, const Bounds& box, float aspect) {
+    const CameraFrame frame = camera_frame(camera);
+    const glm::dvec3 position(camera.position);
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 v(corner & 1 ? box.high.x : box.low.x, corner & 2 ? box.high.y : box.low.y,
+                           corner & 4 ? box.high.z : box.low.z);
+        const double depth = glm::dot(v - position, frame.forward);
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    if (!(farthest > 0)) // everything is behind the camera
+        farthest = 1;
+    const double near_plane = std::max(nearest * 0.99, farthest * 1e-4);
+    const glm::dmat4 projection =
+        glm::perspective(static_cast<double>(camera.vertical_field_of_view), static_cast<double>(aspect), near_plane,
+                         std::max(farthest * 1.01, near_plane * 1.01));
+    return glm::mat4(projection * glm::lookAt(position, position + frame.forward, glm::dvec3(camera.up)));
+}
+
+} // namespace prt

@@ -1,0 +1,45 @@
+#pragma once
+
+// What a renderer draws, whichever renderer it is. `render_gl` (prt/gl_renderer.h) and `render_rays`
+// (prt/ray_renderer.h) make the same picture of it.
+
+#include "prt/camera.h"
+#include "prt/clustered_transfer.h"
+#include "prt/environment.h"
+#include "prt/light.h"
+#include "prt/scene.h"
+#include "prt/texture.h"
+
+#include <span>
+#include <vector>
+
+namespace prt {
+
+struct Picture {
+    const Scene* scene = nullptr;
+    std::span<const Texture> textures; ///< load_textures(*scene)
+
+    /// Per receiver: exit radiance for albedo 1, or a colour to show.
+    std::span<const glm::vec3> radiance;
+    /// Where set, OpenGL forms the exit radiance in the vertex shader from these instead of `radiance`.
+    const ClusteredTransfer* transfer = nullptr;
+    const Light* light = nullptr;
+
+    bool textured = true; ///< multiply by base colour; off for views that show a number
+    /// Lat-long picture behind the scene; null: black.
+    const Image* background = nullptr;
+    /// The background is turned about +Y by this, as in `rotated_about_y`. Radians.
+    float background_rotation = 0;
+
+    Camera camera;
+    int width = 1280, height = 720;
+    int samples = 2; ///< per pixel along each axis
+};
+
+/// Components that fit into the vertex attributes of OpenGL.
+inline constexpr int kMostVertexComponents = 48;
+
+/// `background` sampled for the view direction `direction`.
+glm::vec3 background_radiance(const Picture& picture, const glm::vec3& direction);
+
+} // namespace prt

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "prt/environment.h"
+#include "prt/light.h"
+#include "prt/sh_basis.h"
+
+#include <glm/gtc/type_precision.hpp>
+
+#include <vector>
+
+namespace prt {
+
+enum class ToneMap {
+    filmic, ///< shoulder and toe by the rational fit of Narkowicz (2016) to the ACES curve, then sRGB
+    srgb,   ///< clipped at 1, then sRGB
+};
+
+/// The sRGB transfer function (IEC 61966-2-1) and its inverse.
+float srgb_encode(float linear);
+float srgb_decode(float encoded);
+
+/// Factor on radiance that brings the mean radiance of the lighting to 0.5.
+float automatic_exposure(const Light& light);
+
+/// Averages blocks of `samples` x `samples` pixels.
+Image downsampled(const Image& image, int samples);
+
+/// 8-bit pixels of a linear image with `samples`² samples per pixel: exposure and tone curve per sample, then the
+/// average, so that edges against bright backgrounds stay smooth. Returns [height / samples][width / samples].
+std::vector<glm::u8vec3> tone_mapped(const Image& image, int samples, float exposure, ToneMap tone_map);
+
+} // namespace prt

@@ -1,0 +1,30 @@
+// Vertices of the scene. Define PRT_COMPRESSED to form the exit radiance here, from compressed transfer.
+
+#include "shared_layout.h"
+
+#ifdef PRT_COMPRESSED
+#include "prt_exit_radiance.glsl"
+#else
+layout(location = PRT_LOCATION_RADIANCE) in vec3 vertex_radiance;
+#endif
+
+layout(location = PRT_LOCATION_POSITION) in vec3 position;
+layout(location = PRT_LOCATION_TEXCOORD) in vec2 texcoord;
+layout(location = PRT_LOCATION_COLOR) in vec4 color;
+
+uniform mat4 view_projection;
+
+out vec3 radiance;
+out vec2 surface_texcoord;
+out vec4 surface_color;
+
+void main() {
+#ifdef PRT_COMPRESSED
+    radiance = prt_exit_radiance();
+#else
+    radiance = vertex_radiance;
+#endif
+    surface_texcoord = texcoord;
+    surface_color = color;
+    gl_Position = view_projection * vec4(position, 1.0);
+}
