@@ -29,7 +29,8 @@ std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers) {
 Receivers vertex_receivers(const Scene& scene) {
     Receivers receivers;
     for (const VertexArray& vertices : scene.vertex_arrays) {
-        receivers.positions.insert(receivers.positions.end(), vertices.positions.begin(), vertices.positions.end());
+        receivers.positions.insert(receivers.positions.end(), vertices.positions.begin(),
+                                   vertices.positions.end());
         receivers.normals.insert(receivers.normals.end(), vertices.normals.begin(), vertices.normals.end());
     }
     receivers.areas = receiver_areas(scene);
@@ -48,7 +49,8 @@ Transfer direct_transfer(Tracer& tracer, const Receivers& receivers, const Direc
         const auto part = std::span(indices).subspan(begin, std::min(batch, indices.size() - begin));
         tracer.direct_transfer(receivers, part, options, vectors);
         for (std::size_t i = 0; i < part.size(); ++i)
-            std::copy_n(&vectors[i * transfer.dimension()], transfer.dimension(), transfer.vector(part[i]).begin());
+            std::copy_n(&vectors[i * transfer.dimension()], transfer.dimension(),
+                        transfer.vector(part[i]).begin());
     }
     progress.update(1);
     return transfer;
@@ -60,7 +62,8 @@ double mean_visibility(const Transfer& transfer, std::span<const float> areas) {
     for (std::size_t p = 0; p < transfer.receivers(); ++p) {
         for (int c = 0; c < transfer.channels; ++c)
             sum += static_cast<double>(areas[p]) *
-                   static_cast<double>(transfer.vector(p)[static_cast<std::size_t>(c) * stride]) / transfer.channels;
+                   static_cast<double>(transfer.vector(p)[static_cast<std::size_t>(c) * stride]) /
+                   transfer.channels;
         area += static_cast<double>(areas[p]);
     }
     const double y00 = detail::kLegendre.sectoral[0];

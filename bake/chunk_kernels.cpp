@@ -32,14 +32,16 @@ namespace {
 }
 
 template <int Order>
-[[gnu::always_inline]] inline void basis_of_packet(const ChunkDirections& directions, std::size_t first, Lanes* basis) {
+[[gnu::always_inline]] inline void basis_of_packet(const ChunkDirections& directions, std::size_t first,
+                                                   Lanes* basis) {
     const Lanes x = lanes_at(&directions.x[first]), y = lanes_at(&directions.y[first]),
                 z = lanes_at(&directions.z[first]);
     sh_basis<Order>(x, y, z, basis);
 }
 
 template <int Order>
-[[gnu::always_inline]] inline void add_basis_of_order(const ChunkDirections& directions, int count, double* sums) {
+[[gnu::always_inline]] inline void add_basis_of_order(const ChunkDirections& directions, int count,
+                                                      double* sums) {
     constexpr int kCoefficients = coefficient_count(Order);
     Lanes total[kCoefficients] = {}, basis[kCoefficients];
     const int whole = count / kPacket * kPacket;
@@ -70,8 +72,8 @@ TangentFrame tangent_frame(const glm::vec3& n) {
 }
 
 PRT_TARGET_CLONES
-void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint32_t seed, const TangentFrame& frame,
-                         ChunkDirections& directions) {
+void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint32_t seed,
+                         const TangentFrame& frame, ChunkDirections& directions) {
     const std::uint32_t seed_x = pcg_hash(seed), seed_y = pcg_hash(seed ^ 0x9e3779b9u);
     const std::uint32_t* sobol_x = chunk.x.data();
     const std::uint32_t* sobol_y = chunk.y.data();
@@ -80,8 +82,8 @@ void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint3
     for (std::size_t i = 0; i < count; ++i) {
         const float u = to_signed_unit(reverse_bits(laine_karras(sobol_x[i] ^ offset.x, seed_x)));
         const float v = to_signed_unit(reverse_bits(laine_karras(sobol_y[i] ^ offset.y, seed_y)));
-        // Concentric map: radius is the larger coordinate, the angle pi/4 times the ratio; sine and cosine by their
-        // Taylor series, whose remainder on [-pi/4, pi/4] is below float rounding (3e-8 relative).
+        // Concentric map: radius is the larger coordinate, the angle pi/4 times the ratio; sine and cosine by
+        // their Taylor series, whose remainder on [-pi/4, pi/4] is below float rounding (3e-8 relative).
         const bool wide = std::fabs(u) > std::fabs(v);
         const float radius = wide ? u : v;
         const float angle = 0.785398163f * (wide ? v : u) / radius;
@@ -101,16 +103,26 @@ PRT_TARGET_CLONES
 void add_basis(int order, const ChunkDirections& directions, int count, std::span<double> sums) {
     assert(order >= 1 && order <= kMaxOrder && count <= kChunk);
     switch (order) {
-    case 1: return add_basis_of_order<1>(directions, count, sums.data());
-    case 2: return add_basis_of_order<2>(directions, count, sums.data());
-    case 3: return add_basis_of_order<3>(directions, count, sums.data());
-    case 4: return add_basis_of_order<4>(directions, count, sums.data());
-    case 5: return add_basis_of_order<5>(directions, count, sums.data());
-    case 6: return add_basis_of_order<6>(directions, count, sums.data());
-    case 7: return add_basis_of_order<7>(directions, count, sums.data());
-    case 8: return add_basis_of_order<8>(directions, count, sums.data());
-    case 9: return add_basis_of_order<9>(directions, count, sums.data());
-    default: return add_basis_of_order<10>(directions, count, sums.data());
+    case 1:
+        return add_basis_of_order<1>(directions, count, sums.data());
+    case 2:
+        return add_basis_of_order<2>(directions, count, sums.data());
+    case 3:
+        return add_basis_of_order<3>(directions, count, sums.data());
+    case 4:
+        return add_basis_of_order<4>(directions, count, sums.data());
+    case 5:
+        return add_basis_of_order<5>(directions, count, sums.data());
+    case 6:
+        return add_basis_of_order<6>(directions, count, sums.data());
+    case 7:
+        return add_basis_of_order<7>(directions, count, sums.data());
+    case 8:
+        return add_basis_of_order<8>(directions, count, sums.data());
+    case 9:
+        return add_basis_of_order<9>(directions, count, sums.data());
+    default:
+        return add_basis_of_order<10>(directions, count, sums.data());
     }
 }
 

@@ -23,14 +23,14 @@ struct TangentFrame {
 /// An orthonormal frame about unit `normal` (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
 TangentFrame tangent_frame(const glm::vec3& normal);
 
-/// Directions of `chunk` shifted by `offset`, scrambled by `seed`, distributed as the cosine about the normal of
-/// `frame`. Scrambling: Owen's by the hash of Laine and Karras (2011) in the form of Vegdahl (2021); the disk by
-/// the concentric map of Shirley and Chiu (1997).
-void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint32_t seed, const TangentFrame& frame,
-                         ChunkDirections& directions);
+/// Directions of `chunk` shifted by `offset`, scrambled by `seed`, distributed as the cosine about the normal
+/// of `frame`. Scrambling: Owen's by the hash of Laine and Karras (2011) in the form of Vegdahl (2021); the
+/// disk by the concentric map of Shirley and Chiu (1997).
+void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint32_t seed,
+                         const TangentFrame& frame, ChunkDirections& directions);
 
-/// Adds the basis in directions[0..count) to `sums` [order²]. `count` is at most kChunk; entries up to the next
-/// multiple of kPacket are read and ignored.
+/// Adds the basis in directions[0..count) to `sums` [order²]. `count` is at most kChunk; entries up to the
+/// next multiple of kPacket are read and ignored.
 void add_basis(int order, const ChunkDirections& directions, int count, std::span<double> sums);
 
 } // namespace prt

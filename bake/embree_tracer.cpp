@@ -1,5 +1,6 @@
-// Direct transfer by rays with the open lobe as control variate (docs/math.md, eq. 7): of the blocked and the open
-// rays of a chunk the fewer are summed. Open receivers get the lobe exactly, fully blocked ones exactly zero.
+// Direct transfer by rays with the open lobe as control variate (docs/math.md, eq. 7): of the blocked and the
+// open rays of a chunk the fewer are summed. Open receivers get the lobe exactly, fully blocked ones exactly
+// zero.
 
 #include "prt/embree_tracer.h"
 
@@ -88,7 +89,8 @@ void trace_receiver(const Plan& plan, const glm::vec3& position, const glm::vec3
     int control = 0; // rays of the chunks that use the control variate
     for (int c = 0; c < plan.chunks(); ++c) {
         const SobolChunk& chunk = plan.chunk(c);
-        generate_directions(chunk, sobol_chunk_offset(static_cast<std::uint32_t>(c)), seed, frame, directions);
+        generate_directions(chunk, sobol_chunk_offset(static_cast<std::uint32_t>(c)), seed, frame,
+                            directions);
         std::bitset<kChunk> hit;
         const int hits = trace_chunk(plan.scene.handle(), origin, directions, chunk.rays, hit);
         const bool mostly_open = 2 * hits <= chunk.rays;
@@ -117,8 +119,8 @@ void EmbreeTracer::direct_transfer(const Receivers& receivers, std::span<const s
         const auto directions = std::make_unique<ChunkDirections>();
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t receiver = indices[i];
-            trace_receiver(plan, receivers.positions[receiver], receivers.normals[receiver], receiver, *directions,
-                           vectors.subspan(i * coefficients, coefficients));
+            trace_receiver(plan, receivers.positions[receiver], receivers.normals[receiver], receiver,
+                           *directions, vectors.subspan(i * coefficients, coefficients));
         }
     });
 }

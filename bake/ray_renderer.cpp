@@ -20,13 +20,14 @@ struct Corners {
     glm::vec3 a, b, c;
 };
 
-/// Barycentric coordinates (of b and c) where the line through `origin` along `direction` meets the plane of the
-/// triangle.
+/// Barycentric coordinates (of b and c) where the line through `origin` along `direction` meets the plane of
+/// the triangle.
 glm::vec2 plane_barycentrics(const Corners& t, const glm::vec3& origin, const glm::vec3& direction) {
     const glm::dvec3 ab(t.b - t.a), ac(t.c - t.a), d(direction), s(origin - t.a);
     const glm::dvec3 p = glm::cross(d, ac), q = glm::cross(s, ab);
     const double determinant = glm::dot(ab, p);
-    return {static_cast<float>(glm::dot(s, p) / determinant), static_cast<float>(glm::dot(d, q) / determinant)};
+    return {static_cast<float>(glm::dot(s, p) / determinant),
+            static_cast<float>(glm::dot(d, q) / determinant)};
 }
 
 template <class T>
@@ -35,7 +36,7 @@ T interpolated(const std::vector<T>& values, const glm::uvec3& t, const glm::vec
 }
 
 class RayRenderer {
-  public:
+public:
     RayRenderer(const Picture& picture, const RayScene& ray_scene)
         : picture_(picture), rays_(ray_scene), frame_(camera_frame(picture.camera)),
           width_(picture.width * picture.samples), height_(picture.height * picture.samples) {}
@@ -51,7 +52,7 @@ class RayRenderer {
         return image;
     }
 
-  private:
+private:
     glm::vec3 direction(double x, double y) const {
         const double aspect = static_cast<double>(picture_.width) / picture_.height;
         return glm::vec3(frame_.forward +
@@ -70,8 +71,10 @@ class RayRenderer {
             rtcInitIntersectContext(&context);
             RTCRayHit hit{};
             const glm::vec3& origin = picture_.camera.position;
-            hit.ray = {origin.x, origin.y, origin.z, from, along.x, along.y, along.z, 0,
-                       std::numeric_limits<float>::infinity(), ~0u, 0, 0};
+            hit.ray = {origin.x, origin.y, origin.z,
+                       from,     along.x,  along.y,
+                       along.z,  0,        std::numeric_limits<float>::infinity(),
+                       ~0u,      0,        0};
             hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             rtcIntersect1(rays_.handle(), &context, &hit);
             if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
@@ -116,10 +119,11 @@ class RayRenderer {
         return {radiance * glm::vec3(base), std::clamp(base.a, 0.0f, 1.0f)};
     }
 
-    /// Filtered by the footprint of one sample: neighbouring rays meet the triangle's plane, as dFdx and dFdy do.
+    /// Filtered by the footprint of one sample: neighbouring rays meet the triangle's plane, as dFdx and dFdy
+    /// do.
     std::optional<glm::vec4> base_color_texel(const VertexArray& vertices, const TextureUse& use,
-                                              const Corners& corners, const glm::uvec3& t, const glm::vec2& uv, int x,
-                                              int y) const {
+                                              const Corners& corners, const glm::uvec3& t,
+                                              const glm::vec2& uv, int x, int y) const {
         if (use.image < 0 || static_cast<std::size_t>(use.texcoord) >= vertices.texcoords.size())
             return std::nullopt;
         const auto& set = vertices.texcoords[static_cast<std::size_t>(use.texcoord)];
@@ -130,8 +134,10 @@ class RayRenderer {
         };
         const glm::vec2 size(texture.levels[0].width, texture.levels[0].height);
         const glm::vec2 at = coordinate(uv);
-        const glm::vec2 dx = (coordinate(plane_barycentrics(corners, origin, direction(x + 1, y))) - at) * size;
-        const glm::vec2 dy = (coordinate(plane_barycentrics(corners, origin, direction(x, y + 1))) - at) * size;
+        const glm::vec2 dx =
+            (coordinate(plane_barycentrics(corners, origin, direction(x + 1, y))) - at) * size;
+        const glm::vec2 dy =
+            (coordinate(plane_barycentrics(corners, origin, direction(x, y + 1))) - at) * size;
         const float lod = 0.5f * std::log2(std::max(glm::dot(dx, dx), glm::dot(dy, dy)));
         return sample(texture, use, at, std::isfinite(lod) ? lod : 0.0f);
     }

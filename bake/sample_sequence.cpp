@@ -8,8 +8,8 @@
 namespace prt {
 namespace {
 
-/// Second Sobol dimension with reversed bits: the generator matrix is Pascal's triangle modulo 2, so column k is
-/// the XOR-shift of column k - 1.
+/// Second Sobol dimension with reversed bits: the generator matrix is Pascal's triangle modulo 2, so column k
+/// is the XOR-shift of column k - 1.
 std::uint32_t sobol_y_reversed(std::uint32_t index) {
     std::uint32_t column = 1, result = 0;
     for (; index != 0; index >>= 1) {

@@ -14,9 +14,10 @@ inline constexpr int kChunk = 1024;
 /// Rays that are traced together.
 inline constexpr int kPacket = kLaneCount;
 
-/// The first two dimensions of the Sobol sequence, bits reversed, for one chunk of `rays` points. The points are
-/// ordered by cell of a grid with about kPacket points each: a net has equally many points in each cell, nested
-/// scrambling takes cells to cells, and so packets of consecutive points stay narrow beams for every scramble.
+/// The first two dimensions of the Sobol sequence, bits reversed, for one chunk of `rays` points. The points
+/// are ordered by cell of a grid with about kPacket points each: a net has equally many points in each cell,
+/// nested scrambling takes cells to cells, and so packets of consecutive points stay narrow beams for every
+/// scramble.
 struct SobolChunk {
     std::vector<std::uint32_t> x, y; ///< padded to a multiple of kPacket by repeating the last
     int rays = 0;

@@ -11,8 +11,10 @@
 namespace prt::cli {
 namespace {
 
-const std::map<std::string, Window> kWindows = {
-    {"none", Window::none}, {"hann", Window::hann}, {"lanczos", Window::lanczos}, {"auto", Window::automatic}};
+const std::map<std::string, Window> kWindows = {{"none", Window::none},
+                                                {"hann", Window::hann},
+                                                {"lanczos", Window::lanczos},
+                                                {"auto", Window::automatic}};
 const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", EnvironmentLayout::lat_long},
                                                            {"cube", EnvironmentLayout::cube}};
 const std::map<std::string, BadPixels> kBadPixels = {
@@ -27,8 +29,9 @@ const std::map<std::string, ToneMap> kToneMaps = {{"filmic", ToneMap::filmic}, {
 
 /// An option whose value is one of `choices`.
 template <class T, class Target>
-CLI::Option* choice(CLI::App* command, const std::string& name, Target& target, const std::map<std::string, T>& choices,
-                    const std::string& text, const std::string& otherwise) {
+CLI::Option* choice(CLI::App* command, const std::string& name, Target& target,
+                    const std::map<std::string, T>& choices, const std::string& text,
+                    const std::string& otherwise) {
     std::string names;
     for (const auto& [key, value] : choices)
         names += (names.empty() ? "" : "|") + key;
@@ -58,7 +61,9 @@ void vector_option(CLI::App* command, const std::string& name, std::optional<glm
 }
 
 void add_threads(CLI::App* command, int& threads) {
-    command->add_option("--threads", threads, "number of threads, 0: all")->capture_default_str()->check(CLI::Range(0, 1024));
+    command->add_option("--threads", threads, "number of threads, 0: all")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
 }
 
 void add_json(CLI::App* command, Path& json) {
@@ -67,8 +72,9 @@ void add_json(CLI::App* command, Path& json) {
 
 void add_light_options(CLI::App* command, LightOptions& options) {
     choice(command, "--window", options.window, kWindows, "window over the SH bands against ringing", "none");
-    command->add_option("--rotate", options.rotation_degrees,
-                        "turn the environment about +Y, degrees, counter-clockwise from above")
+    command
+        ->add_option("--rotate", options.rotation_degrees,
+                     "turn the environment about +Y, degrees, counter-clockwise from above")
         ->capture_default_str();
     choice(command, "--env-layout", options.environment.layout, kLayouts,
            "how to read an image that does not say; otherwise by its shape", "by shape");
@@ -77,10 +83,12 @@ void add_light_options(CLI::App* command, LightOptions& options) {
 }
 
 void add_bake(CLI::App& app, BakeArguments& a) {
-    CLI::App* command = app.add_subcommand("bake", "Bake shadowed transfer vectors for every vertex of a glTF scene");
+    CLI::App* command =
+        app.add_subcommand("bake", "Bake shadowed transfer vectors for every vertex of a glTF scene");
     command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required();
     command->add_option("-o,--output", a.output, "baked .glb to write")->required()->type_name("FILE");
-    command->add_option("--order", a.options.order, "SH order N, 1..10: N² coefficients")->capture_default_str();
+    command->add_option("--order", a.options.order, "SH order N, 1..10: N² coefficients")
+        ->capture_default_str();
     command->add_option("--rays", a.options.rays, "rays per receiver")->capture_default_str();
     command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
     add_threads(command, a.options.threads);
@@ -91,8 +99,10 @@ void add_compress(CLI::App& app, CompressArguments& a) {
     CLI::App* command = app.add_subcommand("compress", "Compress a bake by clustered PCA");
     command->add_option("baked", a.baked, "output of prt bake")->required();
     command->add_option("-o,--output", a.output, "compressed .glb to write")->required()->type_name("FILE");
-    command->add_option("--clusters", a.options.clusters, "number of clusters, 1..65536")->capture_default_str();
-    command->add_option("--components", a.options.components, "PCA components per cluster")->capture_default_str();
+    command->add_option("--clusters", a.options.clusters, "number of clusters, 1..65536")
+        ->capture_default_str();
+    command->add_option("--components", a.options.components, "PCA components per cluster")
+        ->capture_default_str();
     choice(command, "--weights", a.options.weights, kWeights, "bits per weight, or float", "8");
     command->add_option("--seed", a.options.seed, "seed of the clustering")->capture_default_str();
     add_threads(command, a.options.threads);
@@ -100,12 +110,16 @@ void add_compress(CLI::App& app, CompressArguments& a) {
 }
 
 void add_evaluate(CLI::App& app, EvaluateArguments& a) {
-    CLI::App* command = app.add_subcommand("evaluate", "Measure the error of a compressed file against its bake");
+    CLI::App* command =
+        app.add_subcommand("evaluate", "Measure the error of a compressed file against its bake");
     command->add_option("baked", a.baked, "output of prt bake, the reference")->required();
-    command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")->required();
-    command->add_option("--lights", a.lights,
-                        "environments (.exr, .hdr) or lights (.json); otherwise a uniform light, an overcast sky and "
-                        "a sun")
+    command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")
+        ->required();
+    command
+        ->add_option(
+            "--lights", a.lights,
+            "environments (.exr, .hdr) or lights (.json); otherwise a uniform light, an overcast sky and "
+            "a sun")
         ->type_name("FILE");
     add_light_options(command, a.light_options);
     add_threads(command, a.threads);
@@ -125,31 +139,41 @@ void add_project(CLI::App& app, ProjectArguments& a) {
 
 void add_render(CLI::App& app, RenderArguments& a) {
     CLI::App* command = app.add_subcommand("render", "Draw a file under an environment, without a window");
-    command->add_option("model", a.model, "any .gltf or .glb: compressed, baked, or neither (then unshadowed)")->required();
-    command->add_option("--env", a.environment, "environment (.exr, .hdr) or light (.json)")->required()->type_name("FILE");
-    command->add_option("-o,--output", a.output, "picture to write, .png or .exr")->required()->type_name("FILE");
+    command
+        ->add_option("model", a.model, "any .gltf or .glb: compressed, baked, or neither (then unshadowed)")
+        ->required();
+    command->add_option("--env", a.environment, "environment (.exr, .hdr) or light (.json)")
+        ->required()
+        ->type_name("FILE");
+    command->add_option("-o,--output", a.output, "picture to write, .png or .exr")
+        ->required()
+        ->type_name("FILE");
     command
         ->add_option_function<std::string>(
             "--size",
             [&a](const std::string& text) {
                 int used = 0;
                 if (std::sscanf(text.c_str(), "%dx%d%n", &a.width, &a.height, &used) != 2 ||
-                    static_cast<std::size_t>(used) != text.size() || a.width < 1 || a.height < 1 || a.width > 16384 ||
-                    a.height > 16384)
+                    static_cast<std::size_t>(used) != text.size() || a.width < 1 || a.height < 1 ||
+                    a.width > 16384 || a.height > 16384)
                     throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT in 1..16384");
             },
             "size in pixels")
         ->type_name("WxH")
         ->default_str("1280x720");
-    vector_option(command, "--camera", a.camera, "position of the camera, metres; otherwise it sees the whole scene");
-    vector_option(command, "--look-at", a.look_at, "point the camera looks at; otherwise the middle of the scene");
+    vector_option(command, "--camera", a.camera,
+                  "position of the camera, metres; otherwise it sees the whole scene");
+    vector_option(command, "--look-at", a.look_at,
+                  "point the camera looks at; otherwise the middle of the scene");
     command->add_option("--fov", a.field_of_view_degrees, "vertical field of view, degrees")
         ->capture_default_str()
         ->check(CLI::Range(1.0, 170.0));
     choice(command, "--backend", a.backend, kBackends,
            "gpu: OpenGL 4.5 of any kind; cpu: ray casting; auto: a hardware GPU, else the CPU", "auto");
-    choice(command, "--show", a.show, kShows,
-           "lit; the clusters; the error against --baked (white: 10 % of the mean radiance); ambient occlusion", "lit");
+    choice(
+        command, "--show", a.show, kShows,
+        "lit; the clusters; the error against --baked (white: 10 % of the mean radiance); ambient occlusion",
+        "lit");
     command->add_option("--baked", a.baked, "the bake that --show error compares with")->type_name("FILE");
     command
         ->add_option_function<std::string>(
@@ -161,9 +185,10 @@ void add_render(CLI::App& app, RenderArguments& a) {
                 else if (CLI::detail::lexical_cast(text, stops))
                     a.exposure_stops = stops;
                 else
-                    throw CLI::ValidationError("--exposure", "'" + text + "' is neither auto nor a number of stops");
+                    throw CLI::ValidationError("--exposure",
+                                               "'" + text + "' is neither auto nor a number of stops");
             },
-            "stops, or auto: the mean radiance of the environment becomes 0.5")
+            "stops, or auto: the mean radiance of the environment becomes 0.25")
         ->type_name("STOPS")
         ->default_str("auto");
     choice(command, "--tone-map", a.tone_map, kToneMaps, "tone curve of .png", "filmic");
@@ -192,7 +217,8 @@ bool has_extension(const Path& path, std::initializer_list<const char*> extensio
 /// What CLI11 cannot see: file types, and options that need each other.
 void check_together(const RenderArguments& a) {
     if (!has_extension(a.output, {".png", ".exr"}))
-        throw CLI::ValidationError("--output", "'" + a.output.string() + "' ends neither in .png nor in .exr");
+        throw CLI::ValidationError("--output",
+                                   "'" + a.output.string() + "' ends neither in .png nor in .exr");
     if ((a.show == Show::error) == a.baked.empty())
         throw CLI::ValidationError("--show error", "and --baked FILE go together");
 }

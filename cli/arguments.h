@@ -69,11 +69,11 @@ struct InfoArguments {
     Path file, json;
 };
 
-using Arguments = std::variant<BakeArguments, CompressArguments, EvaluateArguments, ProjectArguments, RenderArguments,
-                               InfoArguments>;
+using Arguments = std::variant<BakeArguments, CompressArguments, EvaluateArguments, ProjectArguments,
+                               RenderArguments, InfoArguments>;
 
-/// What was asked for, or the exit status when there is nothing to do: 0 after --help, 2 for wrong usage (a line
-/// on stderr says what).
+/// What was asked for, or the exit status when there is nothing to do: 0 after --help, 2 for wrong usage (a
+/// line on stderr says what).
 std::variant<Arguments, int> parse_arguments(int argc, char** argv);
 
 } // namespace prt::cli

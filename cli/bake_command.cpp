@@ -17,8 +17,9 @@ void run(const BakeArguments& a, Interrupt& interrupt) {
     for (const Primitive& primitive : scene.primitives)
         not_opaque += scene.materials[primitive.material].alpha_mode != AlphaMode::opaque;
     if (not_opaque > 0)
-        print_notices(a.scene.string(),
-                      {fmt::format("{} primitives with alpha cast shadows as if they were opaque", not_opaque)});
+        print_notices(
+            a.scene.string(),
+            {fmt::format("{} primitives with alpha cast shadows as if they were opaque", not_opaque)});
 
     BakeResult result;
     {
@@ -32,8 +33,8 @@ void run(const BakeArguments& a, Interrupt& interrupt) {
     }
     const BakeStatistics& s = result.statistics;
     const std::size_t unused = s.receivers - s.traced;
-    fmt::print("{}: {} receivers, {} triangles, order {}, {} rays each\n", a.output.string(), s.receivers, s.triangles,
-               a.options.order, a.options.rays);
+    fmt::print("{}: {} receivers, {} triangles, order {}, {} rays each\n", a.output.string(), s.receivers,
+               s.triangles, a.options.order, a.options.rays);
     if (unused > 0)
         fmt::print("  {} receivers are on no surface and have zero transfer\n", unused);
     fmt::print("  {:.3f} s build, {:.3f} s trace, {:.2f} million rays/s\n", s.seconds_build, s.seconds_trace,

@@ -15,8 +15,9 @@ namespace prt::cli {
 void run(const CompressArguments& a, Interrupt& interrupt) {
     Model model = load_model(a.baked);
     if (!model.baked)
-        throw Error(a.baked.string() + (model.compressed ? ": is compressed already; compress the bake it came from"
-                                                         : ": holds no transfer; run prt bake first"));
+        throw Error(a.baked.string() + (model.compressed
+                                            ? ": is compressed already; compress the bake it came from"
+                                            : ": holds no transfer; run prt bake first"));
     const Transfer& transfer = model.baked->transfer;
     const std::vector<float> areas = receiver_areas(model.scene);
     CompressResult result;

@@ -42,7 +42,8 @@ void check_belong_together(const Model& baked, const Candidate& shipped, const E
 }
 
 /// Exit radiance of the measured file, by the road that a game takes.
-std::vector<glm::vec3> shipped_radiance(const Model& model, const Candidate& shipped, const Light& light, int threads) {
+std::vector<glm::vec3> shipped_radiance(const Model& model, const Candidate& shipped, const Light& light,
+                                        int threads) {
     return model.compressed ? exit_radiance(model.compressed->transfer, light, threads)
                             : exit_radiance(shipped.transfer, light, threads);
 }
@@ -65,18 +66,20 @@ void run(const EvaluateArguments& a, Interrupt& interrupt) {
         lights = default_lights(reference.order);
 
     const std::vector<float> areas = receiver_areas(baked.scene);
-    Evaluation evaluation{a.baked.string(), a.shipped.string(), relative_l2(reference, shipped.transfer, areas), {}, {}};
+    Evaluation evaluation{
+        a.baked.string(), a.shipped.string(), relative_l2(reference, shipped.transfer, areas), {}, {}};
     for (const LoadedLight& light : lights)
         evaluation.lights.push_back(
             {light.name, lit_error(exit_radiance(reference, light.light, a.threads),
-                                   shipped_radiance(model, shipped, light.light, a.threads), areas, baked.scene,
-                                   shipped.clusters)});
-    evaluation.facts = {{"receivers", fmt::format("{}", reference.receivers())},
-                        {"order", fmt::format("{}", reference.order)},
-                        {"channels", fmt::format("{}", reference.channels)},
-                        {"bytes per vertex, bake", fmt::format("{}", reference.dimension() * sizeof(float))},
-                        {"bytes of the file, bake", fmt::format("{}", std::filesystem::file_size(a.baked))},
-                        {"bytes of the file, shipped", fmt::format("{}", std::filesystem::file_size(a.shipped))}};
+                                   shipped_radiance(model, shipped, light.light, a.threads), areas,
+                                   baked.scene, shipped.clusters)});
+    evaluation.facts = {
+        {"receivers", fmt::format("{}", reference.receivers())},
+        {"order", fmt::format("{}", reference.order)},
+        {"channels", fmt::format("{}", reference.channels)},
+        {"bytes per vertex, bake", fmt::format("{}", reference.dimension() * sizeof(float))},
+        {"bytes of the file, bake", fmt::format("{}", std::filesystem::file_size(a.baked))},
+        {"bytes of the file, shipped", fmt::format("{}", std::filesystem::file_size(a.shipped))}};
     if (model.compressed) {
         const ClusteredTransfer& t = model.compressed->transfer;
         const std::size_t per_vertex =

@@ -11,11 +11,20 @@ std::string escaped(const std::string& text) {
     std::string result;
     for (const char c : text) {
         switch (c) {
-        case '&': result += "&amp;"; break;
-        case '<': result += "&lt;"; break;
-        case '>': result += "&gt;"; break;
-        case '"': result += "&quot;"; break;
-        default: result += c;
+        case '&':
+            result += "&amp;";
+            break;
+        case '<':
+            result += "&lt;";
+            break;
+        case '>':
+            result += "&gt;";
+            break;
+        case '"':
+            result += "&quot;";
+            break;
+        default:
+            result += c;
         }
     }
     return result;
@@ -27,14 +36,15 @@ constexpr const char* kStyle =
     "text-align:right}td:first-child,th:first-child{text-align:left}svg{max-width:100%}";
 
 /// Horizontal bars of one measure over the lights.
-std::string bars(const Evaluation& evaluation, const char* title, double LitError::* measure) {
+std::string bars(const Evaluation& evaluation, const char* title, double LitError::*measure) {
     double largest = 1e-12;
     for (const auto& light : evaluation.lights)
         largest = std::max(largest, light.second.*measure);
     constexpr int kRow = 26, kLeft = 230, kBar = 420;
     const int height = kRow * static_cast<int>(evaluation.lights.size()) + 10;
-    std::string svg = fmt::format("<h2>{}</h2>\n<svg width=\"800\" height=\"{}\" role=\"img\" aria-label=\"{}\">\n", title,
-                                  height, title);
+    std::string svg =
+        fmt::format("<h2>{}</h2>\n<svg width=\"800\" height=\"{}\" role=\"img\" aria-label=\"{}\">\n", title,
+                    height, title);
     int y = 0;
     for (const auto& [name, error] : evaluation.lights) {
         const double value = error.*measure;
@@ -57,12 +67,16 @@ std::string html_report(const Evaluation& evaluation) {
                                    "<p>Relative L2 of the transfer vectors: <b>{3:.4f} %</b></p>\n",
                                    escaped(evaluation.shipped), kStyle, escaped(evaluation.baked),
                                    100 * evaluation.relative_l2);
-    page += "<table>\n<tr><th>light</th><th>lit_rms</th><th>lit_max</th><th>seam</th><th>mean radiance</th></tr>\n";
+    page += "<table>\n<tr><th>light</th><th>lit_rms</th><th>lit_max</th><th>seam</th><th>mean "
+            "radiance</th></tr>\n";
     for (const auto& [name, error] : evaluation.lights)
-        page += fmt::format("<tr><td>{}</td><td>{:.4f} %</td><td>{:.3f} %</td><td>{:.3f} %</td><td>{:.4g}</td></tr>\n",
-                            escaped(name), 100 * error.rms, 100 * error.max, 100 * error.seam, error.mean);
-    page += "</table>\n<p>lit_rms: relative L2 of exit radiance for albedo 1. lit_max: largest error of a receiver, "
-            "seam: largest jump of the error along an edge between two clusters, both over the mean radiance.</p>\n";
+        page += fmt::format(
+            "<tr><td>{}</td><td>{:.4f} %</td><td>{:.3f} %</td><td>{:.3f} %</td><td>{:.4g}</td></tr>\n",
+            escaped(name), 100 * error.rms, 100 * error.max, 100 * error.seam, error.mean);
+    page += "</table>\n<p>lit_rms: relative L2 of exit radiance for albedo 1. lit_max: largest error of a "
+            "receiver, "
+            "seam: largest jump of the error along an edge between two clusters, both over the mean "
+            "radiance.</p>\n";
     page += bars(evaluation, "lit_rms", &LitError::rms);
     page += bars(evaluation, "lit_max", &LitError::max);
     page += "<h2>Sizes</h2>\n<table>\n";

@@ -11,8 +11,8 @@ namespace prt::cli {
 namespace {
 
 void describe_record(const BakeRecord& record) {
-    fmt::print("  baked by {} on {}, {} rays per receiver, {} bounces, seed {}\n", record.method, record.backend,
-               record.rays, record.bounces, record.seed);
+    fmt::print("  baked by {} on {}, {} rays per receiver, {} bounces, seed {}\n", record.method,
+               record.backend, record.rays, record.bounces, record.seed);
 }
 
 } // namespace
@@ -24,8 +24,8 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
     fmt::print("{}: {} primitives, {} triangles, {} vertices, {} materials, {} images\n", a.file.string(),
                scene.primitives.size(), scene.triangles(), scene.receivers(), scene.materials.size() - 1,
                scene.images.size());
-    fmt::print("  from {:g} {:g} {:g} to {:g} {:g} {:g} m\n", box.low.x, box.low.y, box.low.z, box.high.x, box.high.y,
-               box.high.z);
+    fmt::print("  from {:g} {:g} {:g} to {:g} {:g} {:g} m\n", box.low.x, box.low.y, box.low.z, box.high.x,
+               box.high.y, box.high.z);
     Json report = {{"file", a.file.string()},
                    {"primitives", scene.primitives.size()},
                    {"triangles", scene.triangles()},
@@ -48,9 +48,11 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
         const ClusteredTransfer& t = model.compressed->transfer;
         const auto [least, most] = std::minmax_element(t.bases.components.begin(), t.bases.components.end());
         const std::size_t bits = 8 * bytes_per_weight(t.receivers.format);
-        fmt::print("  clustered PCA: order {}, {} channels, {} clusters x {} to {} components, {}-bit weights\n",
-                   t.bases.order, t.bases.channels, t.bases.clusters(), *least, *most, bits);
-        fmt::print("  {} bytes of bases, {} shader constants per frame\n", t.bases.rows.size() * sizeof(float),
+        fmt::print(
+            "  clustered PCA: order {}, {} channels, {} clusters x {} to {} components, {}-bit weights\n",
+            t.bases.order, t.bases.channels, t.bases.clusters(), *least, *most, bits);
+        fmt::print("  {} bytes of bases, {} shader constants per frame\n",
+                   t.bases.rows.size() * sizeof(float),
                    t.bases.clusters() * static_cast<std::size_t>(constants_per_cluster(t.bases)));
         describe_record(model.compressed->record);
         report["clustered_pca"] = {{"order", t.bases.order},

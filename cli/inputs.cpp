@@ -31,7 +31,8 @@ LoadedLight load_light(const Path& path, int order, const LightOptions& options,
     if (path.extension() == ".json") {
         const Light light = read_light_json(path);
         if (light.order < order)
-            throw Error(fmt::format("{}: has order {}, but order {} is needed", path.string(), light.order, order));
+            throw Error(
+                fmt::format("{}: has order {}, but order {} is needed", path.string(), light.order, order));
         result.light = truncated(light, order);
     } else {
         EnvironmentFile file = load_environment(path, options.environment);

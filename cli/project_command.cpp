@@ -19,8 +19,8 @@ void run(const ProjectArguments& a, Interrupt& interrupt) {
     write_json(light_json(loaded.light), a.output, interrupt);
 
     const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(detail::kLegendre.sectoral[0]);
-    fmt::print("{}: order {}, mean radiance {:.4g} {:.4g} {:.4g}\n", a.output.string(), a.order, mean.r, mean.g,
-               mean.b);
+    fmt::print("{}: order {}, mean radiance {:.4g} {:.4g} {:.4g}\n", a.output.string(), a.order, mean.r,
+               mean.g, mean.b);
     Json report = {{"output", a.output.string()},
                    {"order", a.order},
                    {"mean_radiance", {mean.r, mean.g, mean.b}},

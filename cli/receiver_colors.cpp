@@ -68,7 +68,8 @@ std::vector<glm::vec3> error_colors(const Model& model, const Model& baked, cons
     std::vector<glm::vec3> colors;
     for (std::size_t p = 0; p < reference.size(); ++p) {
         const glm::vec3 d = glm::abs(reference[p] - approximation[p]);
-        const double error = mean > 0 ? static_cast<double>(std::max({d.r, d.g, d.b})) / (mean * kWhiteError) : 0;
+        const double error =
+            mean > 0 ? static_cast<double>(std::max({d.r, d.g, d.b})) / (mean * kWhiteError) : 0;
         const auto ramp = static_cast<float>(3 * std::min(error, 1.0));
         colors.emplace_back(glm::clamp(glm::vec3(ramp, ramp - 1, ramp - 2), 0.0f, 1.0f));
     }

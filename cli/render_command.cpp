@@ -31,10 +31,14 @@ std::unique_ptr<GlContext> choose_backend(Backend backend) {
 
 std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const Model& model, const Light& light) {
     switch (a.show) {
-    case Show::clusters: return cluster_colors(model);
-    case Show::ao: return ao_colors(model, a.threads);
-    case Show::error: return error_colors(model, load_model(a.baked), light, a.threads);
-    case Show::lit: break;
+    case Show::clusters:
+        return cluster_colors(model);
+    case Show::ao:
+        return ao_colors(model, a.threads);
+    case Show::error:
+        return error_colors(model, load_model(a.baked), light, a.threads);
+    case Show::lit:
+        break;
     }
     return lit_colors(model, light, a.threads);
 }
@@ -42,7 +46,7 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const Model& mod
 Camera choose_camera(const RenderArguments& a, const Scene& scene) {
     const float aspect = static_cast<float>(a.width) / static_cast<float>(a.height);
     const auto fov = static_cast<float>(glm::radians(a.field_of_view_degrees));
-    Camera camera = automatic_camera(bounds(scene), aspect, fov);
+    Camera camera = automatic_camera(scene, aspect, fov);
     if (a.look_at)
         camera.target = *a.look_at;
     if (a.camera)
@@ -96,14 +100,15 @@ void run(const RenderArguments& a, Interrupt& interrupt) {
             picture.transfer = &model.compressed->transfer;
             picture.light = &light.light;
         } else {
-            print_notices(a.model.string(), {fmt::format("has more than {} components, which do not fit the vertex "
-                                                         "attributes; exit radiance is formed on the CPU",
-                                                         kMostVertexComponents)});
+            print_notices(a.model.string(),
+                          {fmt::format("has more than {} components, which do not fit the vertex "
+                                       "attributes; exit radiance is formed on the CPU",
+                                       kMostVertexComponents)});
         }
     }
     const auto start = std::chrono::steady_clock::now();
-    const Image image =
-        context ? render_gl(picture, *context) : render_rays(picture, RayScene(model.scene, a.threads), a.threads);
+    const Image image = context ? render_gl(picture, *context)
+                                : render_rays(picture, RayScene(model.scene, a.threads), a.threads);
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     write_picture(a, image, light.light, interrupt);
 

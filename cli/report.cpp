@@ -46,8 +46,9 @@ Light read_light_json(const std::filesystem::path& path) {
         for (int c = 0; c < 3; ++c) {
             const auto values = json.at("coefficients").at(names[c]).get<std::vector<float>>();
             if (values.size() != light.coefficients.size())
-                throw Error(std::string(names[c]) + " has " + std::to_string(values.size()) + " coefficients, order " +
-                            std::to_string(light.order) + " needs " + std::to_string(light.coefficients.size()));
+                throw Error(std::string(names[c]) + " has " + std::to_string(values.size()) +
+                            " coefficients, order " + std::to_string(light.order) + " needs " +
+                            std::to_string(light.coefficients.size()));
             for (std::size_t i = 0; i < values.size(); ++i) {
                 if (!std::isfinite(values[i]))
                     throw Error("a coefficient is not finite");

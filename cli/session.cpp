@@ -74,7 +74,8 @@ void ProgressBar::show(double fraction) {
     if (terminal_) {
         constexpr int kWidth = 30;
         const int filled = static_cast<int>(fraction * kWidth);
-        fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %  {}", title_, std::string(static_cast<std::size_t>(filled), '#'),
+        fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %  {}", title_,
+                   std::string(static_cast<std::size_t>(filled), '#'),
                    std::string(static_cast<std::size_t>(kWidth - filled), '.'), 100 * fraction, left);
     } else {
         fmt::print(stderr, "{}: {:.0f} %, {}\n", title_, 100 * fraction, left);

@@ -11,27 +11,28 @@
 
 namespace prt::cli {
 
-/// Ctrl-C and SIGTERM. Work that watches the stop token ends by itself; what does not is ended by force before a
-/// second has passed, unless a file is being written. Make one, first thing in main, before any thread.
+/// Ctrl-C and SIGTERM. Work that watches the stop token ends by itself; what does not is ended by force
+/// before a second has passed, unless a file is being written. Make one, first thing in main, before any
+/// thread.
 class Interrupt {
-  public:
+public:
     Interrupt();
     ~Interrupt();
     std::stop_token token() const { return stop_.get_token(); }
 
     /// While alive, the program is not ended by force.
     class WritingScope {
-      public:
+    public:
         explicit WritingScope(Interrupt& interrupt) : interrupt_(interrupt) { ++interrupt_.writing_; }
         ~WritingScope() { --interrupt_.writing_; }
         WritingScope(const WritingScope&) = delete;
         WritingScope& operator=(const WritingScope&) = delete;
 
-      private:
+    private:
         Interrupt& interrupt_;
     };
 
-  private:
+private:
     void watch(const std::stop_token& finished);
     std::stop_source stop_;
     std::atomic<int> writing_ = 0;
@@ -40,12 +41,12 @@ class Interrupt {
 
 /// Shows how far a piece of work is: a bar with the time left on a terminal, plain lines in a log.
 class ProgressBar {
-  public:
+public:
     ProgressBar(std::string_view title, std::stop_token stop);
     ~ProgressBar();
     Progress progress();
 
-  private:
+private:
     using Clock = std::chrono::steady_clock;
     void show(double fraction);
     std::string title_;

@@ -25,7 +25,8 @@ void check(const Transfer& transfer, const CompressOptions& options) {
                     ", the dimension of the transfer vectors, not " + std::to_string(options.components));
     if (transfer.receivers() == 0)
         throw Error("there are no receivers to compress");
-    if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(), [](float v) { return std::isfinite(v); }))
+    if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(),
+                     [](float v) { return std::isfinite(v); }))
         throw Error("the transfer holds values that are not finite");
 }
 
@@ -76,7 +77,8 @@ void revive_empty(const PointBlocks& points, std::span<const float> weights, con
     const std::size_t wanted = std::min(empty, points.count);
     std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(wanted), worst.end(),
                       [&](std::uint32_t a, std::uint32_t b) {
-                          const float ea = weights[a] * assignment.errors[a], eb = weights[b] * assignment.errors[b];
+                          const float ea = weights[a] * assignment.errors[a],
+                                      eb = weights[b] * assignment.errors[b];
                           return ea != eb ? ea > eb : a < b;
                       });
     std::size_t next = 0;
@@ -90,11 +92,13 @@ void revive_empty(const PointBlocks& points, std::span<const float> weights, con
     }
 }
 
-/// Clustered PCA from vector quantisation: fit every cluster's subspace, give every point the nearest, repeat.
-/// Directions come one at a time, two rounds each, which finds better optima than starting with all of them; then
-/// rounds at the full number until nothing is gained. Returns relative L2 errors of the latter rounds.
-std::vector<double> iterate(const PointBlocks& points, std::span<const float> weights, const CompressOptions& options,
-                            ClusterModels& models, std::vector<std::uint32_t>& clusters, const Progress& progress) {
+/// Clustered PCA from vector quantisation: fit every cluster's subspace, give every point the nearest,
+/// repeat. Directions come one at a time, two rounds each, which finds better optima than starting with all
+/// of them; then rounds at the full number until nothing is gained. Returns relative L2 errors of the latter
+/// rounds.
+std::vector<double> iterate(const PointBlocks& points, std::span<const float> weights,
+                            const CompressOptions& options, ClusterModels& models,
+                            std::vector<std::uint32_t>& clusters, const Progress& progress) {
     double norm = 0;
     for (std::size_t p = 0; p < points.count; ++p)
         for (std::size_t i = 0; i < points.dimension; ++i)
@@ -143,9 +147,11 @@ void drop_empty(ClusterModels& models, std::vector<std::uint32_t>& clusters) {
         if (!used[k])
             continue;
         std::copy_n(models.mean(k), models.dimension, kept.mean(next));
-        std::copy_n(models.directions.begin() + static_cast<std::ptrdiff_t>(k * models.max_components * models.dimension),
+        std::copy_n(models.directions.begin() +
+                        static_cast<std::ptrdiff_t>(k * models.max_components * models.dimension),
                     models.max_components * models.dimension,
-                    kept.directions.begin() + static_cast<std::ptrdiff_t>(next * models.max_components * models.dimension));
+                    kept.directions.begin() +
+                        static_cast<std::ptrdiff_t>(next * models.max_components * models.dimension));
         kept.components[next] = models.components[k];
         new_index[k] = next++;
     }
@@ -156,8 +162,8 @@ void drop_empty(ClusterModels& models, std::vector<std::uint32_t>& clusters) {
 
 } // namespace
 
-CompressResult compress(const Transfer& transfer, std::span<const float> areas, const CompressOptions& options,
-                        const Progress& progress) {
+CompressResult compress(const Transfer& transfer, std::span<const float> areas,
+                        const CompressOptions& options, const Progress& progress) {
     check(transfer, options);
     const auto start = std::chrono::steady_clock::now();
     const Training training(areas);
@@ -185,8 +191,8 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas, 
     CompressStatistics& statistics = result.statistics;
     statistics.clusters = static_cast<int>(coded.bases.clusters());
     statistics.bytes_per_receiver =
-        (coded.bases.clusters() > 256 ? 2 : 1) +
-        static_cast<double>(coded.bases.max_components()) * static_cast<double>(bytes_per_weight(options.weights));
+        (coded.bases.clusters() > 256 ? 2 : 1) + static_cast<double>(coded.bases.max_components()) *
+                                                     static_cast<double>(bytes_per_weight(options.weights));
     statistics.basis_bytes = (coded.bases.rows.size() + coded.bases.scales.size()) * sizeof(float);
     statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     progress.update(1);

@@ -30,16 +30,20 @@ void store(std::byte* to, double value) {
 void store_weight(std::byte* to, double weight, double scale, WeightFormat format) {
     const double normalised = scale > 0 ? std::clamp(weight / scale, -1.0, 1.0) : 0;
     switch (format) {
-    case WeightFormat::float32: return store<float>(to, weight);
-    case WeightFormat::snorm16: return store<std::int16_t>(to, std::round(normalised * 32767));
-    case WeightFormat::snorm8: return store<std::int8_t>(to, std::round(normalised * 127));
+    case WeightFormat::float32:
+        return store<float>(to, weight);
+    case WeightFormat::snorm16:
+        return store<std::int16_t>(to, std::round(normalised * 32767));
+    case WeightFormat::snorm8:
+        return store<std::int8_t>(to, std::round(normalised * 127));
     }
 }
 
 } // namespace
 
 ClusteredTransfer encode(const PointBlocks& points, const ClusterModels& models,
-                         std::span<const std::uint32_t> clusters, const Transfer& shape, WeightFormat format) {
+                         std::span<const std::uint32_t> clusters, const Transfer& shape,
+                         WeightFormat format) {
     ClusteredTransfer result;
     ClusteredBases& bases = result.bases;
     bases = make_bases(models, shape);

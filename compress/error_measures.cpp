@@ -28,9 +28,10 @@ double relative_l2(const Transfer& reference, const Transfer& approximation, std
     for (std::size_t p = 0; p < reference.receivers(); ++p) {
         double receiver_error = 0, receiver_norm = 0;
         for (int c = 0; c < channels; ++c) {
-            const float* t = &reference.vector(p)[count * static_cast<std::size_t>(std::min(c, reference.channels - 1))];
-            const float* a =
-                &approximation.vector(p)[count * static_cast<std::size_t>(std::min(c, approximation.channels - 1))];
+            const float* t =
+                &reference.vector(p)[count * static_cast<std::size_t>(std::min(c, reference.channels - 1))];
+            const float* a = &approximation.vector(
+                p)[count * static_cast<std::size_t>(std::min(c, approximation.channels - 1))];
             for (std::size_t i = 0; i < count; ++i) {
                 const double difference = static_cast<double>(t[i]) - static_cast<double>(a[i]);
                 receiver_error += difference * difference;

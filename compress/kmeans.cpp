@@ -64,8 +64,8 @@ double total_error(std::span<const float> weights, std::span<const float> errors
     return total;
 }
 
-void move_to_means(const PointBlocks& points, std::span<const float> weights, std::span<const std::uint32_t> clusters,
-                   ClusterModels& models) {
+void move_to_means(const PointBlocks& points, std::span<const float> weights,
+                   std::span<const std::uint32_t> clusters, ClusterModels& models) {
     std::vector<double> sums(models.means.size(), 0), totals(models.clusters(), 0);
     for (std::size_t p = 0; p < points.count; ++p) {
         const double weight = static_cast<double>(weights[p]);

@@ -28,14 +28,15 @@ Eigen::MatrixXd centred_rows(const PointBlocks& points, std::span<const float> w
     return rows;
 }
 
-/// Variance that float rounding of the points alone can make along one direction, relative to the squared size of
-/// the points: (2^-24)² per coordinate, and a margin of 4.
+/// Variance that float rounding of the points alone can make along one direction, relative to the squared
+/// size of the points: (2^-24)² per coordinate, and a margin of 4.
 double rounding_variance(const Eigen::VectorXd& mean, double total_weight, double total_variance) {
     return 4 * 0x1p-48 * (mean.squaredNorm() * total_weight + total_variance);
 }
 
-void fit_cluster(const PointBlocks& points, std::span<const float> weights, std::span<const std::uint32_t> members,
-                 int components, std::size_t k, ClusterModels& models) {
+void fit_cluster(const PointBlocks& points, std::span<const float> weights,
+                 std::span<const std::uint32_t> members, int components, std::size_t k,
+                 ClusterModels& models) {
     models.components[k] = 0;
     if (members.empty())
         return;
@@ -68,7 +69,8 @@ void fit_cluster(const PointBlocks& points, std::span<const float> weights, std:
 } // namespace
 
 void fit_local_pca(const PointBlocks& points, std::span<const float> weights,
-                   std::span<const std::uint32_t> clusters, int components, ClusterModels& models, int threads) {
+                   std::span<const std::uint32_t> clusters, int components, ClusterModels& models,
+                   int threads) {
     std::vector<std::vector<std::uint32_t>> members(models.clusters());
     for (std::uint32_t p = 0; p < points.count; ++p)
         members[clusters[p]].push_back(p);
@@ -84,7 +86,8 @@ double project_point(const PointBlocks& points, std::size_t point, const Cluster
     thread_local std::vector<double> residual;
     residual.resize(dimension);
     for (std::size_t i = 0; i < dimension; ++i)
-        residual[i] = static_cast<double>(points.coordinate(point, i)) - static_cast<double>(models.mean(k)[i]);
+        residual[i] =
+            static_cast<double>(points.coordinate(point, i)) - static_cast<double>(models.mean(k)[i]);
     for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[k]); ++j) {
         const float* direction = models.direction(k, j);
         double weight = 0;

@@ -14,8 +14,9 @@ constexpr std::size_t kMostDimensions = 3 * kMaxOrder * kMaxOrder;
 
 /// Squared distance of a block's points to an affine subspace: |d|² - |B d|² with d = x - mean (docs/math.md,
 /// eq. 13). In float it loses digits below 1e-6 |d|²; it only decides between clusters.
-[[gnu::always_inline]] inline Lanes squared_distance(const float* block, std::size_t dimension, const float* mean,
-                                                     const float* directions, std::size_t components) {
+[[gnu::always_inline]] inline Lanes squared_distance(const float* block, std::size_t dimension,
+                                                     const float* mean, const float* directions,
+                                                     std::size_t components) {
     Lanes d[kMostDimensions];
     Lanes total = {};
     for (std::size_t i = 0; i < dimension; ++i) {
@@ -45,7 +46,8 @@ constexpr std::size_t kMostDimensions = 3 * kMaxOrder * kMaxOrder;
 }
 
 PRT_TARGET_CLONES
-void nearest_of_block(const float* block, const ClusterModels& models, std::uint32_t* clusters, float* errors) {
+void nearest_of_block(const float* block, const ClusterModels& models, std::uint32_t* clusters,
+                      float* errors) {
     for (std::size_t lane = 0; lane < kLanes; ++lane)
         errors[lane] = std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < models.clusters(); ++k) {
@@ -90,8 +92,8 @@ Assignment assign(const PointBlocks& points, const ClusterModels& models, int th
             nearest_of_block(points.block(b), models, clusters.data(), errors.data());
             const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
             std::copy_n(clusters.begin(), n, &result.clusters[first]);
-            std::transform(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(n), &result.errors[first],
-                           [](float e) { return std::max(e, 0.0f); });
+            std::transform(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(n),
+                           &result.errors[first], [](float e) { return std::max(e, 0.0f); });
         }
     });
     return result;

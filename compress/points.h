@@ -12,8 +12,8 @@ namespace prt {
 /// Points that are worked on together: one per vector lane.
 inline constexpr std::size_t kLanes = kLaneCount;
 
-/// Transfer vectors as points of a Euclidean space, laid out for vector units: blocks of kLanes points, in each
-/// block coordinate by coordinate. The last block is filled up with copies of its first point.
+/// Transfer vectors as points of a Euclidean space, laid out for vector units: blocks of kLanes points, in
+/// each block coordinate by coordinate. The last block is filled up with copies of its first point.
 struct PointBlocks {
     std::size_t count = 0, dimension = 0;
     std::vector<float> values; ///< [blocks][dimension][kLanes]
@@ -27,7 +27,8 @@ struct PointBlocks {
     }
 };
 
-/// An affine subspace per cluster: a mean and orthonormal directions. No directions: plain vector quantisation.
+/// An affine subspace per cluster: a mean and orthonormal directions. No directions: plain vector
+/// quantisation.
 struct ClusterModels {
     std::size_t dimension = 0, max_components = 0;
     std::vector<float> means;      ///< [clusters][dimension]
@@ -41,7 +42,9 @@ struct ClusterModels {
     std::size_t clusters() const { return components.size(); }
     float* mean(std::size_t k) { return &means[k * dimension]; }
     const float* mean(std::size_t k) const { return &means[k * dimension]; }
-    float* direction(std::size_t k, std::size_t j) { return &directions[(k * max_components + j) * dimension]; }
+    float* direction(std::size_t k, std::size_t j) {
+        return &directions[(k * max_components + j) * dimension];
+    }
     const float* direction(std::size_t k, std::size_t j) const {
         return &directions[(k * max_components + j) * dimension];
     }

@@ -25,9 +25,12 @@ float decoded(std::int8_t stored) {
 template <class Body>
 decltype(auto) with_weight_type(WeightFormat format, Body&& body) {
     switch (format) {
-    case WeightFormat::snorm16: return body(std::int16_t{});
-    case WeightFormat::snorm8: return body(std::int8_t{});
-    case WeightFormat::float32: break;
+    case WeightFormat::snorm16:
+        return body(std::int16_t{});
+    case WeightFormat::snorm8:
+        return body(std::int8_t{});
+    case WeightFormat::float32:
+        break;
     }
     return body(float{});
 }

@@ -78,7 +78,8 @@ std::size_t repair_pixels(Image& image, BadPixels policy) {
         return 0;
     if (policy == BadPixels::error) {
         const auto width = static_cast<std::size_t>(image.width);
-        throw Error(std::to_string(count) + " pixels are negative, infinite or not a number, the first at x " +
+        throw Error(std::to_string(count) +
+                    " pixels are negative, infinite or not a number, the first at x " +
                     std::to_string(first % width) + ", y " + std::to_string(first / width) +
                     " (--bad-pixels zero or clamp repairs them)");
     }
@@ -130,7 +131,8 @@ glm::vec3 sample(const Environment& environment, const glm::vec3& direction) {
 Image resampled_lat_long(const Environment& environment) {
     if (environment.layout == EnvironmentLayout::lat_long)
         return environment.image;
-    const int height = 2 * environment.image.width; // a face spans a quarter turn, the image's height half a turn
+    const int height =
+        2 * environment.image.width; // a face spans a quarter turn, the image's height half a turn
     Image result{2 * height, height, {}};
     result.pixels.resize(static_cast<std::size_t>(2 * height) * static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y)

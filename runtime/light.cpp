@@ -44,8 +44,8 @@ Light with_band_factors(const Light& light, const std::function<double(int)>& fa
     return result;
 }
 
-/// Least radiance of any channel over a grid fine enough for the highest band (a ripple of band 9 is 20 degrees
-/// wide, the grid 3).
+/// Least radiance of any channel over a grid fine enough for the highest band (a ripple of band 9 is 20
+/// degrees wide, the grid 3).
 float least_radiance(const Light& light) {
     constexpr int kRows = 60;
     float least = std::numeric_limits<float>::infinity();
@@ -53,8 +53,9 @@ float least_radiance(const Light& light) {
         const double theta = kPi * (row + 0.5) / kRows;
         for (int column = 0; column < 2 * kRows; ++column) {
             const double phi = kPi * (column + 0.5) / kRows;
-            const glm::vec3 value = radiance(light, glm::vec3(std::sin(theta) * std::cos(phi),
-                                                              std::sin(theta) * std::sin(phi), std::cos(theta)));
+            const glm::vec3 value =
+                radiance(light, glm::vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                          std::cos(theta)));
             least = std::min({least, value.r, value.g, value.b});
         }
     }
@@ -108,7 +109,8 @@ Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm:
 }
 
 Light overcast_sky(int order, const glm::vec3& zenith) {
-    // (1 + 2 t) / 3 on the upper hemisphere: a third of the half-sphere cone and two thirds of the clamped cosine.
+    // (1 + 2 t) / 3 on the upper hemisphere: a third of the half-sphere cone and two thirds of the clamped
+    // cosine.
     const Light dome = cone_light(order, {0, 1, 0}, kPi / 2, zenith / 3.0f);
     Light sky = zonal_light(order, {0, 1, 0}, zenith * (2.0f / 3.0f),
                             [](int l) { return kPi * clamped_cosine_factor(l); });
@@ -144,10 +146,14 @@ Light rotated_about_y(const Light& light, double angle) {
 Light windowed(const Light& light, Window window) {
     const double width = light.order;
     switch (window) {
-    case Window::hann: return with_band_factors(light, [&](int l) { return hann_window(l, width); });
-    case Window::lanczos: return with_band_factors(light, [&](int l) { return lanczos_window(l, width); });
-    case Window::automatic: return deringed(light);
-    case Window::none: break;
+    case Window::hann:
+        return with_band_factors(light, [&](int l) { return hann_window(l, width); });
+    case Window::lanczos:
+        return with_band_factors(light, [&](int l) { return lanczos_window(l, width); });
+    case Window::automatic:
+        return deringed(light);
+    case Window::none:
+        break;
     }
     return light;
 }

@@ -1,9 +1,9 @@
 // Projection of environment maps into SH (docs/math.md, section 3).
 //
-// A lat-long image is a product of rows and columns about its own poles, so its integral separates: per row a short
-// Fourier sum of the pixels, then the associated Legendre functions integrated over the row. That costs 2N-1
-// instead of N² multiply-adds per pixel and channel. The image's pole is +Y and the basis's is +Z, hence one exact
-// rotation at the end.
+// A lat-long image is a product of rows and columns about its own poles, so its integral separates: per row a
+// short Fourier sum of the pixels, then the associated Legendre functions integrated over the row. That costs
+// 2N-1 instead of N² multiply-adds per pixel and channel. The image's pole is +Y and the basis's is +Z, hence
+// one exact rotation at the end.
 
 #include "prt/environment.h"
 #include "prt/error.h"
@@ -53,8 +53,8 @@ struct Quadrature {
     }
 };
 
-/// How many quadrature points a texel that spans `angle` radians needs: over half a sphere 24 points integrate
-/// order 10 to rounding, over small texels 3 leave an error of order angle^7.
+/// How many quadrature points a texel that spans `angle` radians needs: over half a sphere 24 points
+/// integrate order 10 to rounding, over small texels 3 leave an error of order angle^7.
 int points_for(double angle) {
     return angle > 0.2 ? 24 : 3;
 }
@@ -65,8 +65,8 @@ struct RowFourier {
     std::array<glm::dvec3, kMaxOrder> cosine{}, sine{};
 };
 
-/// The azimuth in the image's polar frame (x', y', z') = (z, x, y) equals the longitude. `tables` holds for each
-/// m and column cos(m phi) and sin(m phi) at the column's centre.
+/// The azimuth in the image's polar frame (x', y', z') = (z, x, y) equals the longitude. `tables` holds for
+/// each m and column cos(m phi) and sin(m phi) at the column's centre.
 struct ColumnTables {
     std::vector<double> cosine, sine; // [m][column]
 
@@ -104,8 +104,8 @@ RowFourier row_fourier(const Image& image, int y, int order, const ColumnTables&
     return result;
 }
 
-/// ∫ over the row of Q_l^m(cos theta) sin^m(theta) sin(theta) dtheta, at [sh_index(l, m)], m >= 0: the basis at
-/// azimuth 0 holds the Legendre part.
+/// ∫ over the row of Q_l^m(cos theta) sin^m(theta) sin(theta) dtheta, at [sh_index(l, m)], m >= 0: the basis
+/// at azimuth 0 holds the Legendre part.
 std::array<double, kMaxOrder * kMaxOrder> row_legendre(int order, double theta0, double theta1,
                                                        const Quadrature& quadrature) {
     std::array<double, kMaxOrder * kMaxOrder> sum{}, basis{};
@@ -147,7 +147,8 @@ Coefficients project_lat_long(const Image& image, int order, int threads) {
             polar[i] += row[i];
 
     // From the image's polar frame (z, x, y) to ours: columns are the images of x', y', z'.
-    const ShRotation to_world(order, glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)));
+    const ShRotation to_world(order,
+                              glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)));
     Coefficients result{};
     for (int channel = 0; channel < 3; ++channel) {
         std::array<double, kMaxOrder * kMaxOrder> in{}, out{};

@@ -20,9 +20,8 @@ namespace {
 template <class Vector, class Real>
 void evaluate(int order, const Vector& direction, std::span<Real> basis) {
     assert(basis.size() >= static_cast<std::size_t>(coefficient_count(order)));
-    with_order(order, [&]<int Order>() {
-        sh_basis<Order>(direction.x, direction.y, direction.z, basis.data());
-    });
+    with_order(order,
+               [&]<int Order>() { sh_basis<Order>(direction.x, direction.y, direction.z, basis.data()); });
 }
 
 } // namespace
@@ -42,7 +41,8 @@ double clamped_cosine_factor(int l) {
         return 2.0 / 3.0;
     if (l % 2 == 1)
         return 0;
-    // Ramamoorthi and Hanrahan 2001, eq. 8, divided by pi: 2 (-1)^(l/2-1) / ((l+2)(l-1)) · l! / (2^l (l/2)!²).
+    // Ramamoorthi and Hanrahan 2001, eq. 8, divided by pi: 2 (-1)^(l/2-1) / ((l+2)(l-1)) · l! / (2^l
+    // (l/2)!²).
     double binomial = 1;
     for (int i = 1; i <= l / 2; ++i)
         binomial *= (l / 2.0 + i) / (4.0 * i);

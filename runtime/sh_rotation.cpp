@@ -1,6 +1,7 @@
-// Rotation matrices of real spherical harmonics by recursion over bands: J. Ivanic and K. Ruedenberg, "Rotation
-// Matrices for Real Spherical Harmonics. Direct Determination by Recursion", J. Phys. Chem. 1996, 100, 6342,
-// table 2 with the additions and corrections of 1998. Their basis has no Condon-Shortley phase; ours differs by
+// Rotation matrices of real spherical harmonics by recursion over bands: J. Ivanic and K. Ruedenberg,
+// "Rotation Matrices for Real Spherical Harmonics. Direct Determination by Recursion", J. Phys. Chem. 1996,
+// 100, 6342, table 2 with the additions and corrections of 1998. Their basis has no Condon-Shortley phase;
+// ours differs by
 // (-1)^m, which is applied to rows and columns at the end.
 
 #include "prt/sh.h"
@@ -52,8 +53,8 @@ struct Recursion {
         const double am = std::abs(m);
         const double denominator = std::abs(n) == l ? 2.0 * l * (2 * l - 1) : double(l + n) * (l - n);
         const double u = std::sqrt((l + am) * (l - am) / denominator);
-        const double v = 0.5 * std::sqrt((m == 0 ? 2 : 1) * (l + am - 1) * (l + am) / denominator) *
-                         (m == 0 ? -1 : 1);
+        const double v =
+            0.5 * std::sqrt((m == 0 ? 2 : 1) * (l + am - 1) * (l + am) / denominator) * (m == 0 ? -1 : 1);
         const double w = m == 0 ? 0 : -0.5 * std::sqrt((l - am - 1) * (l - am) / denominator);
         double sum = 0;
         if (u != 0)

@@ -12,7 +12,8 @@ glm::vec3 exit_radiance(std::span<const float> transfer, int channels, const Lig
             sum += transfer[i] * light.coefficients[i];
     } else {
         for (std::size_t i = 0; i < count; ++i)
-            sum += glm::vec3(transfer[i], transfer[count + i], transfer[2 * count + i]) * light.coefficients[i];
+            sum +=
+                glm::vec3(transfer[i], transfer[count + i], transfer[2 * count + i]) * light.coefficients[i];
     }
     return sum;
 }

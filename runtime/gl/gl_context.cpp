@@ -26,7 +26,8 @@ bool is_software_renderer(std::string_view renderer) {
 
 std::vector<EGLDeviceEXT> enumerate_devices() {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (!has_extension(client, "EGL_EXT_platform_device") || !has_extension(client, "EGL_EXT_device_enumeration"))
+    if (!has_extension(client, "EGL_EXT_platform_device") ||
+        !has_extension(client, "EGL_EXT_device_enumeration"))
         return {};
     EGLint count = 0;
     if (!eglQueryDevicesEXT(0, nullptr, &count) || count <= 0)
@@ -63,10 +64,10 @@ struct GlContextMaker {
                                                    EGL_OPENGL_BIT, EGL_NONE};
         const bool has_api = eglBindAPI(EGL_OPENGL_API);
         eglChooseConfig(display, kConfig.data(), &config, 1, &configs);
-        const EGLContext context =
-            has_api ? eglCreateContext(display, configs > 0 ? config : EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT,
-                                       kAttributes.data())
-                    : EGL_NO_CONTEXT;
+        const EGLContext context = has_api
+                                       ? eglCreateContext(display, configs > 0 ? config : EGL_NO_CONFIG_KHR,
+                                                          EGL_NO_CONTEXT, kAttributes.data())
+                                       : EGL_NO_CONTEXT;
         if (context == EGL_NO_CONTEXT || !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
             tried += std::string(tried.empty() ? "" : ", ") + name + ": no OpenGL 4.5";
             if (context != EGL_NO_CONTEXT)

@@ -22,7 +22,8 @@ GLuint compile(GLenum stage, const std::string& file, const std::string& defines
     GLsizei length = 0;
     glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), &length, log.data());
     glDeleteShader(shader);
-    throw Error("the driver does not compile " + file + ": " + log.substr(0, static_cast<std::size_t>(length)));
+    throw Error("the driver does not compile " + file + ": " +
+                log.substr(0, static_cast<std::size_t>(length)));
 }
 
 } // namespace
@@ -31,11 +32,21 @@ GlObject::~GlObject() {
     if (name_ == 0)
         return;
     switch (kind_) {
-    case GlKind::buffer: glDeleteBuffers(1, &name_); break;
-    case GlKind::texture: glDeleteTextures(1, &name_); break;
-    case GlKind::framebuffer: glDeleteFramebuffers(1, &name_); break;
-    case GlKind::vertex_array: glDeleteVertexArrays(1, &name_); break;
-    case GlKind::program: glDeleteProgram(name_); break;
+    case GlKind::buffer:
+        glDeleteBuffers(1, &name_);
+        break;
+    case GlKind::texture:
+        glDeleteTextures(1, &name_);
+        break;
+    case GlKind::framebuffer:
+        glDeleteFramebuffers(1, &name_);
+        break;
+    case GlKind::vertex_array:
+        glDeleteVertexArrays(1, &name_);
+        break;
+    case GlKind::program:
+        glDeleteProgram(name_);
+        break;
     }
 }
 

@@ -20,9 +20,12 @@ GLint uniform(const GlObject& program, const char* name) {
 
 GLint wrap_mode(Wrap wrap) {
     switch (wrap) {
-    case Wrap::clamp: return GL_CLAMP_TO_EDGE;
-    case Wrap::mirror: return GL_MIRRORED_REPEAT;
-    case Wrap::repeat: break;
+    case Wrap::clamp:
+        return GL_CLAMP_TO_EDGE;
+    case Wrap::mirror:
+        return GL_MIRRORED_REPEAT;
+    case Wrap::repeat:
+        break;
     }
     return GL_REPEAT;
 }
@@ -46,9 +49,9 @@ struct Target {
         GLint largest = 0;
         glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
         if (width > largest || height > largest)
-            throw Error("the picture with its samples is " + std::to_string(width) + " x " + std::to_string(height) +
-                        ", but this device draws at most " + std::to_string(largest) + " x " +
-                        std::to_string(largest));
+            throw Error("the picture with its samples is " + std::to_string(width) + " x " +
+                        std::to_string(height) + ", but this device draws at most " +
+                        std::to_string(largest) + " x " + std::to_string(largest));
         color = make_texture_2d(1, GL_RGBA32F, width, height);
         depth = make_texture_2d(1, GL_DEPTH_COMPONENT32F, width, height);
         GLuint name = 0;
@@ -88,11 +91,12 @@ void attach_floats(const GlObject& vertex_array, const GlObject& buffer, GLuint 
 }
 
 class GlRenderer {
-  public:
+public:
     explicit GlRenderer(const Picture& picture) : picture_(picture), target_(picture) {
         if (picture.transfer) {
             transfer_.emplace(*picture.transfer);
-            transfer_->set_light(picture.transfer->bases, truncated(*picture.light, picture.transfer->bases.order));
+            transfer_->set_light(picture.transfer->bases,
+                                 truncated(*picture.light, picture.transfer->bases.order));
         }
         program_ = make_program("scene.vert", "scene.frag", transfer_ ? transfer_->defines() : "");
         for (const Texture& texture : picture.textures)
@@ -116,17 +120,17 @@ class GlRenderer {
         return target_.read();
     }
 
-  private:
+private:
     GlObject upload(const Texture& texture) const {
         if (texture.levels.empty())
             return {};
         const Image8& base = texture.levels[0];
-        GlObject object =
-            make_texture_2d(static_cast<int>(texture.levels.size()), GL_SRGB8_ALPHA8, base.width, base.height);
+        GlObject object = make_texture_2d(static_cast<int>(texture.levels.size()), GL_SRGB8_ALPHA8,
+                                          base.width, base.height);
         for (std::size_t level = 0; level < texture.levels.size(); ++level) {
             const Image8& image = texture.levels[level];
-            glTextureSubImage2D(object.name(), static_cast<GLint>(level), 0, 0, image.width, image.height, GL_RGBA,
-                                GL_UNSIGNED_BYTE, image.pixels.data());
+            glTextureSubImage2D(object.name(), static_cast<GLint>(level), 0, 0, image.width, image.height,
+                                GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
         }
         glTextureParameteri(object.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
         glTextureParameteri(object.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
@@ -147,7 +151,8 @@ class GlRenderer {
         if (transfer_) {
             transfer_->attach(name, vertices.first_receiver);
         } else {
-            result.radiance = make_buffer(picture_.radiance.subspan(vertices.first_receiver, vertices.size()));
+            result.radiance =
+                make_buffer(picture_.radiance.subspan(vertices.first_receiver, vertices.size()));
             attach_floats(result.vertex_array, result.radiance, PRT_LOCATION_RADIANCE, 3);
         }
         return result;
@@ -159,7 +164,8 @@ class GlRenderer {
         const Image& image = *picture_.background;
         const GlObject texture = make_texture_2d(1, GL_RGB32F, image.width, image.height);
         glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-        glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGB, GL_FLOAT, image.pixels.data());
+        glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
+                            image.pixels.data());
         glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         const GlObject program = make_program("background.vert", "background.frag");
         const CameraFrame frame = camera_frame(picture_.camera);
@@ -194,7 +200,8 @@ class GlRenderer {
     }
 
     bool is_blended(const Primitive& primitive) const {
-        return picture_.textured && picture_.scene->materials[primitive.material].alpha_mode == AlphaMode::blend;
+        return picture_.textured &&
+               picture_.scene->materials[primitive.material].alpha_mode == AlphaMode::blend;
     }
 
     float distance(const Primitive& primitive) const {
@@ -226,9 +233,11 @@ class GlRenderer {
     }
 
     void attach_texcoords(GlVertices& on_gpu, const VertexArray& vertices, int set) const {
-        if (set < 0 || static_cast<std::size_t>(set) >= vertices.texcoords.size() || on_gpu.texcoord_set == set)
+        if (set < 0 || static_cast<std::size_t>(set) >= vertices.texcoords.size() ||
+            on_gpu.texcoord_set == set)
             return;
-        on_gpu.texcoords = make_buffer(std::span<const glm::vec2>(vertices.texcoords[static_cast<std::size_t>(set)]));
+        on_gpu.texcoords =
+            make_buffer(std::span<const glm::vec2>(vertices.texcoords[static_cast<std::size_t>(set)]));
         attach_floats(on_gpu.vertex_array, on_gpu.texcoords, PRT_LOCATION_TEXCOORD, 2);
         on_gpu.texcoord_set = set;
     }
@@ -242,7 +251,8 @@ class GlRenderer {
         const bool has_texture = use.image >= 0 && on_gpu.texcoord_set == use.texcoord;
         glUniform1i(uniform(program_, "has_texture"), has_texture);
         glUniform4fv(uniform(program_, "base_color"), 1, glm::value_ptr(material.base_color));
-        glUniformMatrix3x2fv(uniform(program_, "texture_transform"), 1, GL_FALSE, glm::value_ptr(use.transform));
+        glUniformMatrix3x2fv(uniform(program_, "texture_transform"), 1, GL_FALSE,
+                             glm::value_ptr(use.transform));
         glUniform1i(uniform(program_, "alpha_mode"), static_cast<int>(material.alpha_mode));
         glUniform1f(uniform(program_, "alpha_cutoff"), material.alpha_cutoff);
         if (has_texture) {
@@ -258,7 +268,8 @@ class GlRenderer {
         const GlObject indices = make_buffer(std::span<const glm::uvec3>(primitive.triangles));
         glVertexArrayElementBuffer(on_gpu.vertex_array.name(), indices.name());
         glBindVertexArray(on_gpu.vertex_array.name());
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(primitive.triangles.size() * 3), GL_UNSIGNED_INT, nullptr);
+        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(primitive.triangles.size() * 3), GL_UNSIGNED_INT,
+                       nullptr);
     }
 
     const Picture& picture_;

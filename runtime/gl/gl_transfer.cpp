@@ -12,9 +12,12 @@ namespace {
 
 GLenum component_type(WeightFormat format) {
     switch (format) {
-    case WeightFormat::snorm8: return GL_BYTE;
-    case WeightFormat::snorm16: return GL_SHORT;
-    case WeightFormat::float32: break;
+    case WeightFormat::snorm8:
+        return GL_BYTE;
+    case WeightFormat::snorm16:
+        return GL_SHORT;
+    case WeightFormat::float32:
+        break;
     }
     return GL_FLOAT;
 }
@@ -50,9 +53,10 @@ void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {
     glVertexArrayAttribBinding(vertex_array, PRT_LOCATION_CLUSTER, kClusterBinding);
     if (weight_vectors_ == 0)
         return;
-    const std::size_t size = 4 * bytes_per_weight(format_), stride = size * static_cast<std::size_t>(weight_vectors_);
-    glVertexArrayVertexBuffer(vertex_array, kWeightBinding, weights_.name(), static_cast<GLintptr>(first * stride),
-                              static_cast<GLsizei>(stride));
+    const std::size_t size = 4 * bytes_per_weight(format_),
+                      stride = size * static_cast<std::size_t>(weight_vectors_);
+    glVertexArrayVertexBuffer(vertex_array, kWeightBinding, weights_.name(),
+                              static_cast<GLintptr>(first * stride), static_cast<GLsizei>(stride));
     for (int v = 0; v < weight_vectors_; ++v) {
         const auto location = static_cast<GLuint>(PRT_LOCATION_WEIGHTS + v);
         glEnableVertexArrayAttrib(vertex_array, location);
@@ -64,10 +68,12 @@ void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {
 
 void GlTransfer::use(std::uint32_t program) const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CONSTANTS, constants_.name());
-    glProgramUniform1i(program, glGetUniformLocation(program, "prt_constants_per_cluster"), constants_per_cluster_);
+    glProgramUniform1i(program, glGetUniformLocation(program, "prt_constants_per_cluster"),
+                       constants_per_cluster_);
 }
 
-std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Light& light, const GlContext&) {
+std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Light& light,
+                                        const GlContext&) {
     GlTransfer on_gpu(transfer);
     on_gpu.set_light(transfer.bases, truncated(light, transfer.bases.order));
     const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");

@@ -24,12 +24,14 @@ Value load(const std::byte* from) {
     return value;
 }
 
-/// Copies `count` elements of `size` bytes that lie `stride` apart from `offset` on. Throws when they do not fit.
-void copy_strided(std::span<const unsigned char> from, std::size_t offset, std::size_t stride, std::size_t size,
-                  std::size_t count, std::byte* to, const std::string& name) {
+/// Copies `count` elements of `size` bytes that lie `stride` apart from `offset` on. Throws when they do not
+/// fit.
+void copy_strided(std::span<const unsigned char> from, std::size_t offset, std::size_t stride,
+                  std::size_t size, std::size_t count, std::byte* to, const std::string& name) {
     if (count == 0)
         return;
-    if (offset > from.size() || size > from.size() - offset || (count - 1) > (from.size() - offset - size) / stride)
+    if (offset > from.size() || size > from.size() - offset ||
+        (count - 1) > (from.size() - offset - size) / stride)
         throw Error(name + " reaches outside its buffer view: " + std::to_string(count) + " elements of " +
                     std::to_string(size) + " bytes from " + std::to_string(offset) + " on, in " +
                     std::to_string(from.size()) + " bytes");
@@ -47,8 +49,8 @@ std::size_t element_bytes(const tinygltf::Accessor& accessor) {
     return component_bytes(accessor.componentType) * static_cast<std::size_t>(component_count(accessor.type));
 }
 
-void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor, std::vector<std::byte>& elements,
-                  const std::string& name) {
+void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
+                  std::vector<std::byte>& elements, const std::string& name) {
     const auto& sparse = accessor.sparse;
     if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count)
         throw Error(name + " replaces more elements than it has");
@@ -57,11 +59,11 @@ void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& access
     const std::size_t index_size = component_bytes(sparse.indices.componentType);
     std::vector<std::byte> indices(count * index_size), values(count * size);
     copy_strided(buffer_view_bytes(model, sparse.indices.bufferView),
-                 static_cast<std::size_t>(std::max(0, sparse.indices.byteOffset)), index_size, index_size, count,
-                 indices.data(), name);
+                 static_cast<std::size_t>(std::max(0, sparse.indices.byteOffset)), index_size, index_size,
+                 count, indices.data(), name);
     copy_strided(buffer_view_bytes(model, sparse.values.bufferView),
-                 static_cast<std::size_t>(std::max(0, sparse.values.byteOffset)), size, size, count, values.data(),
-                 name);
+                 static_cast<std::size_t>(std::max(0, sparse.values.byteOffset)), size, size, count,
+                 values.data(), name);
     with_component_type(sparse.indices.componentType, [&](auto type) {
         for (std::size_t i = 0; i < count; ++i) {
             const auto index = static_cast<std::size_t>(load<decltype(type)>(&indices[i * sizeof type]));
@@ -84,7 +86,8 @@ float normalised(Stored value, bool is_normalised) {
     if constexpr (std::is_same_v<Stored, float>)
         return value;
     const auto number = static_cast<float>(value);
-    return is_normalised ? std::max(number / static_cast<float>(std::numeric_limits<Stored>::max()), -1.0f) : number;
+    return is_normalised ? std::max(number / static_cast<float>(std::numeric_limits<Stored>::max()), -1.0f)
+                         : number;
 }
 
 } // namespace
@@ -123,7 +126,8 @@ std::vector<std::byte> read_elements(const tinygltf::Model& model, int index) {
     std::vector<std::byte> elements;
     if (accessor.bufferView >= 0) {
         const auto bytes = buffer_view_bytes(model, accessor.bufferView);
-        const std::size_t stated = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
+        const std::size_t stated =
+            model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
         const std::size_t stride = stated > 0 ? stated : size;
         if (accessor.count > bytes.size()) // even elements of one byte would not fit
             throw Error(name + " reaches outside its buffer view: " + std::to_string(accessor.count) +

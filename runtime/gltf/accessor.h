@@ -12,8 +12,8 @@
 
 namespace prt {
 
-/// Elements of an accessor, tightly packed, sparse substitutions made. Throws `Error` naming the accessor when it
-/// reaches outside its buffer view or buffer.
+/// Elements of an accessor, tightly packed, sparse substitutions made. Throws `Error` naming the accessor
+/// when it reaches outside its buffer view or buffer.
 std::vector<std::byte> read_elements(const tinygltf::Model& model, int accessor);
 
 /// Elements converted to float, normalised integers to [0, 1] or [-1, 1]; [count][components].
@@ -30,13 +30,20 @@ std::span<const unsigned char> buffer_view_bytes(const tinygltf::Model& model, i
 template <class Body>
 void with_component_type(int component_type, Body&& body) {
     switch (component_type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return body(std::int8_t{});
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return body(std::uint8_t{});
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return body(std::int16_t{});
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return body(std::uint16_t{});
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return body(std::uint32_t{});
-    case TINYGLTF_COMPONENT_TYPE_FLOAT: return body(float{});
-    default: throw Error("unknown component type " + std::to_string(component_type));
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return body(std::int8_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return body(std::uint8_t{});
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return body(std::int16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return body(std::uint16_t{});
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return body(std::uint32_t{});
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return body(float{});
+    default:
+        throw Error("unknown component type " + std::to_string(component_type));
     }
 }
 

@@ -99,8 +99,9 @@ void cut_bytes(GltfContents& contents, const std::set<std::size_t>& removed) {
     std::vector<std::size_t> new_offset(contents.binary.size() + 1);
     for (std::size_t b = 0; b < contents.binary.size(); b += 8) {
         const std::size_t end = std::min(b + 8, contents.binary.size());
-        const bool whole = std::all_of(drop.begin() + static_cast<std::ptrdiff_t>(b),
-                                       drop.begin() + static_cast<std::ptrdiff_t>(end), [](bool d) { return d; });
+        const bool whole =
+            std::all_of(drop.begin() + static_cast<std::ptrdiff_t>(b),
+                        drop.begin() + static_cast<std::ptrdiff_t>(end), [](bool d) { return d; });
         for (std::size_t i = b; i < end; ++i) {
             new_offset[i] = kept.size();
             if (!whole)
@@ -121,7 +122,8 @@ Json& member(Json& object, const char* key, Json::value_t type) {
     return object[key];
 }
 
-std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std::size_t stride, bool vertices) {
+std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std::size_t stride,
+                                          bool vertices) {
     pad_to(binary, 8);
     Json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
     if (stride > 0)

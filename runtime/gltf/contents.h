@@ -24,7 +24,8 @@ struct GltfContents {
     std::vector<std::vector<std::byte>> images; ///< encoded, by image index
 
     /// Appends bytes, aligned to 4, and a buffer view on them. `stride` 0: none. Returns the view's index.
-    std::size_t add_buffer_view(std::span<const std::byte> bytes, std::size_t stride = 0, bool vertices = false);
+    std::size_t add_buffer_view(std::span<const std::byte> bytes, std::size_t stride = 0,
+                                bool vertices = false);
     /// Appends an accessor and returns its index.
     std::size_t add_accessor(Json accessor);
     /// Lists `name` in extensionsUsed.

@@ -15,8 +15,8 @@
 namespace prt {
 namespace {
 
-/// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their base
-/// colour is used.
+/// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
+/// base colour is used.
 constexpr std::array<std::string_view, 21> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
@@ -66,14 +66,15 @@ void check_required_extensions(const Json& json) {
     if (!json.contains("extensionsRequired"))
         return;
     for (const Json& name : json["extensionsRequired"])
-        if (!name.is_string() ||
-            std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), name.get<std::string>()) ==
-                kSupportedExtensions.end())
-            throw Error("requires the glTF extension " + (name.is_string() ? name.get<std::string>() : name.dump()) +
+        if (!name.is_string() || std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(),
+                                           name.get<std::string>()) == kSupportedExtensions.end())
+            throw Error("requires the glTF extension " +
+                        (name.is_string() ? name.get<std::string>() : name.dump()) +
                         ", which is not supported");
 }
 
-/// Keeps the file of an image that stands in a URI. Images in buffer views are taken later, with bounds checked.
+/// Keeps the file of an image that stands in a URI. Images in buffer views are taken later, with bounds
+/// checked.
 bool keep_encoded(tinygltf::Image* image, const int index, std::string*, std::string*, int, int,
                   const unsigned char* bytes, int size, void* user) {
     auto& images = *static_cast<std::vector<std::vector<std::byte>>*>(user);
@@ -95,12 +96,12 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
     std::string error, warning, folder = contents.path.parent_path().string();
     if (folder.empty())
         folder = ".";
-    const bool loaded =
-        binary ? loader.LoadBinaryFromMemory(&contents.model, &error, &warning,
-                                             reinterpret_cast<const unsigned char*>(file.data()),
-                                             static_cast<unsigned>(file.size()), folder)
-               : loader.LoadASCIIFromString(&contents.model, &error, &warning, text.data(),
-                                            static_cast<unsigned>(text.size()), folder);
+    const bool loaded = binary
+                            ? loader.LoadBinaryFromMemory(&contents.model, &error, &warning,
+                                                          reinterpret_cast<const unsigned char*>(file.data()),
+                                                          static_cast<unsigned>(file.size()), folder)
+                            : loader.LoadASCIIFromString(&contents.model, &error, &warning, text.data(),
+                                                         static_cast<unsigned>(text.size()), folder);
     if (!loaded)
         throw Error(one_line(error.empty() ? warning : error));
     contents.images.resize(contents.model.images.size());
@@ -169,7 +170,8 @@ GltfDocument load_gltf(const std::filesystem::path& path) {
     try {
         const bool binary = is_glb(file);
         const std::string_view text =
-            binary ? glb_json(file) : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
+            binary ? glb_json(file)
+                   : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
         contents->json = parse_json(text);
         check_required_extensions(contents->json);
         load_model(*contents, file, text, binary);

@@ -40,7 +40,8 @@ int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
     return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-void read_texcoords(const tinygltf::Model& model, const tinygltf::Primitive& primitive, VertexArray& vertices) {
+void read_texcoords(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                    VertexArray& vertices) {
     for (int set = 0;; ++set) {
         const int accessor = attribute(primitive, "TEXCOORD_" + std::to_string(set));
         if (accessor < 0)
@@ -83,8 +84,8 @@ void apply_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive
     }
 }
 
-/// Normals transform with the cofactors of the matrix: its inverse transposed, times the determinant, which also
-/// exists where the inverse does not.
+/// Normals transform with the cofactors of the matrix: its inverse transposed, times the determinant, which
+/// also exists where the inverse does not.
 glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
@@ -104,13 +105,13 @@ void transform(VertexArray& vertices, std::size_t i, const glm::dmat4& matrix) {
 }
 
 class SceneExtractor {
-  public:
+public:
     explicit SceneExtractor(const GltfContents& contents) : model_(contents.model) {
         for (std::size_t i = 0; i < contents.images.size(); ++i) {
             const tinygltf::Image& image = model_.images[i];
             const std::string name = !image.uri.empty() ? image.uri : image.name;
-            scene_.images.push_back({"image " + std::to_string(i) + (name.empty() ? "" : " '" + name + "'"),
-                                     contents.images[i]});
+            scene_.images.push_back(
+                {"image " + std::to_string(i) + (name.empty() ? "" : " '" + name + "'"), contents.images[i]});
         }
         scene_.materials = read_materials(model_);
     }
@@ -130,14 +131,14 @@ class SceneExtractor {
         return std::move(scene_);
     }
 
-  private:
+private:
     void add_node(const NodeTransform& transform, const std::vector<NodeTransform>& all) {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(transform.node)];
         if (node.mesh < 0)
             return;
         if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size())
-            throw Error("node " + std::to_string(transform.node) + " names mesh " + std::to_string(node.mesh) +
-                        ", which is not there");
+            throw Error("node " + std::to_string(transform.node) + " names mesh " +
+                        std::to_string(node.mesh) + ", which is not there");
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             try {

@@ -4,8 +4,8 @@
 
 namespace prt {
 
-/// Gives `vertices` flat normals: vertices whose triangles face different ways are split, and `source` says from
-/// which. Triangles without area keep a vertex with a zero normal.
+/// Gives `vertices` flat normals: vertices whose triangles face different ways are split, and `source` says
+/// from which. Triangles without area keep a vertex with a zero normal.
 void split_for_flat_normals(VertexArray& vertices, std::vector<glm::uvec3>& triangles);
 
 /// Replaces zero normals by the area-weighted normal of the triangles at the vertex, where there is one.

@@ -55,7 +55,8 @@ std::vector<std::byte> make_glb(std::string json, std::span<const std::byte> bin
         throw Error("the result has " + std::to_string(total) + " bytes, more than the 4 GB a .glb can hold");
     std::vector<std::byte> file;
     file.reserve(total);
-    for (const std::size_t value : {std::size_t{kMagic}, std::size_t{2}, total, json.size(), std::size_t{kJson}})
+    for (const std::size_t value :
+         {std::size_t{kMagic}, std::size_t{2}, total, json.size(), std::size_t{kJson}})
         append_word(file, value);
     const auto* text = reinterpret_cast<const std::byte*>(json.data());
     file.insert(file.end(), text, text + json.size());

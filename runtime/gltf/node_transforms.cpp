@@ -18,8 +18,8 @@ glm::dmat4 local_transform(const tinygltf::Node& node) {
     if (node.translation.size() == 3)
         local = glm::translate(local, glm::make_vec3(node.translation.data()));
     if (node.rotation.size() == 4)
-        local *= glm::mat4_cast(
-            glm::normalize(glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])));
+        local *= glm::mat4_cast(glm::normalize(
+            glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])));
     if (node.scale.size() == 3)
         local = glm::scale(local, glm::make_vec3(node.scale.data()));
     return local;

@@ -12,8 +12,8 @@ struct NodeTransform {
     glm::dmat4 world{1};
 };
 
-/// World transforms of the nodes of the default scene (or the first; of all root nodes where there is no scene),
-/// parents before children. Throws `Error` when the hierarchy is no tree.
+/// World transforms of the nodes of the default scene (or the first; of all root nodes where there is no
+/// scene), parents before children. Throws `Error` when the hierarchy is no tree.
 std::vector<NodeTransform> world_transforms(const tinygltf::Model& model);
 
 } // namespace prt

@@ -40,7 +40,9 @@ std::vector<float> receiver_areas(const Scene& scene) {
 
 std::string receivers_id(const Scene& scene) {
     std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a, 64 bits, a word at a time
-    const auto add = [&](float value) { hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001b3; };
+    const auto add = [&](float value) {
+        hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001b3;
+    };
     for (const VertexArray& vertices : scene.vertex_arrays)
         for (std::size_t i = 0; i < vertices.size(); ++i)
             for (int axis = 0; axis < 3; ++axis) {
@@ -53,7 +55,8 @@ std::string receivers_id(const Scene& scene) {
 }
 
 Bounds bounds(const Scene& scene) {
-    Bounds box{glm::vec3(std::numeric_limits<float>::infinity()), glm::vec3(-std::numeric_limits<float>::infinity())};
+    Bounds box{glm::vec3(std::numeric_limits<float>::infinity()),
+               glm::vec3(-std::numeric_limits<float>::infinity())};
     for (const Primitive& primitive : scene.primitives) {
         const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
         for (const glm::uvec3& t : primitive.triangles)

@@ -19,8 +19,8 @@ namespace {
 constexpr int kVersion = 1;
 
 Json record_json(const BakeRecord& record) {
-    return {{"method", record.method}, {"backend", record.backend}, {"raysPerReceiver", record.rays},
-            {"bounces", record.bounces}, {"seed", record.seed},     {"receivers", record.receivers}};
+    return {{"method", record.method},   {"backend", record.backend}, {"raysPerReceiver", record.rays},
+            {"bounces", record.bounces}, {"seed", record.seed},       {"receivers", record.receivers}};
 }
 
 BakeRecord read_record(const Json& json) {
@@ -90,19 +90,26 @@ Json write_float_view(GltfContents& contents, std::span<const float> values) {
 
 int weight_component_type(WeightFormat format) {
     switch (format) {
-    case WeightFormat::snorm8: return TINYGLTF_COMPONENT_TYPE_BYTE;
-    case WeightFormat::snorm16: return TINYGLTF_COMPONENT_TYPE_SHORT;
-    case WeightFormat::float32: break;
+    case WeightFormat::snorm8:
+        return TINYGLTF_COMPONENT_TYPE_BYTE;
+    case WeightFormat::snorm16:
+        return TINYGLTF_COMPONENT_TYPE_SHORT;
+    case WeightFormat::float32:
+        break;
     }
     return TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
 WeightFormat weight_format(int component_type) {
     switch (component_type) {
-    case TINYGLTF_COMPONENT_TYPE_BYTE: return WeightFormat::snorm8;
-    case TINYGLTF_COMPONENT_TYPE_SHORT: return WeightFormat::snorm16;
-    case TINYGLTF_COMPONENT_TYPE_FLOAT: return WeightFormat::float32;
-    default: throw Error("weights have component type " + std::to_string(component_type));
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+        return WeightFormat::snorm8;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+        return WeightFormat::snorm16;
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+        return WeightFormat::float32;
+    default:
+        throw Error("weights have component type " + std::to_string(component_type));
     }
 }
 
@@ -111,18 +118,19 @@ std::size_t write_clusters(GltfContents& contents, std::span<const std::uint16_t
     std::vector<std::byte> bytes(clusters.size() * 4);
     for (std::size_t i = 0; i < clusters.size(); ++i)
         std::memcpy(&bytes[i * 4], &clusters[i], wide ? 2 : 1); // little-endian, as glTF is
-    return contents.add_accessor(
-        {{"bufferView", contents.add_buffer_view(bytes, 4, true)},
-         {"componentType", wide ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE},
-         {"count", clusters.size()},
-         {"type", "SCALAR"}});
+    return contents.add_accessor({{"bufferView", contents.add_buffer_view(bytes, 4, true)},
+                                  {"componentType", wide ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT
+                                                         : TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE},
+                                  {"count", clusters.size()},
+                                  {"type", "SCALAR"}});
 }
 
 /// _PRT_WEIGHTS_`group` of receivers [first, first + count).
 std::size_t write_weights(GltfContents& contents, const ClusteredReceivers& receivers, std::size_t first,
                           std::size_t count, std::size_t group) {
     const std::size_t size = 4 * bytes_per_weight(receivers.format);
-    const std::size_t stride = static_cast<std::size_t>(receivers.components) * bytes_per_weight(receivers.format);
+    const std::size_t stride =
+        static_cast<std::size_t>(receivers.components) * bytes_per_weight(receivers.format);
     std::vector<std::byte> bytes(count * size);
     for (std::size_t i = 0; i < count; ++i)
         std::memcpy(&bytes[i * size], &receivers.weights[(first + i) * stride + group * size], size);
@@ -153,8 +161,8 @@ void read_clusters(const GltfContents& contents, const Json& attributes, std::si
                     std::to_string(to.size()) + " vertices");
     for (std::size_t i = 0; i < values.size(); ++i) {
         if (values[i] >= clusters)
-            throw Error("vertex " + std::to_string(i) + " is in cluster " + std::to_string(values[i]) + " of " +
-                        std::to_string(clusters));
+            throw Error("vertex " + std::to_string(i) + " is in cluster " + std::to_string(values[i]) +
+                        " of " + std::to_string(clusters));
         to[i] = static_cast<std::uint16_t>(values[i]);
     }
 }
@@ -163,13 +171,15 @@ void read_clusters(const GltfContents& contents, const Json& attributes, std::si
 void read_weights(const GltfContents& contents, const Json& attributes, std::size_t first, std::size_t count,
                   ClusteredReceivers& receivers) {
     const std::size_t size = 4 * bytes_per_weight(receivers.format);
-    const std::size_t stride = static_cast<std::size_t>(receivers.components) * bytes_per_weight(receivers.format);
+    const std::size_t stride =
+        static_cast<std::size_t>(receivers.components) * bytes_per_weight(receivers.format);
     for (std::size_t group = 0; group < static_cast<std::size_t>(receivers.components) / 4; ++group) {
         const int accessor = attributes.at("_PRT_WEIGHTS_" + std::to_string(group)).get<int>();
         const auto& description = contents.model.accessors.at(static_cast<std::size_t>(accessor));
         if (description.type != TINYGLTF_TYPE_VEC4 || description.count != count ||
             weight_format(description.componentType) != receivers.format)
-            throw Error("_PRT_WEIGHTS_" + std::to_string(group) + " has another type or number than the others");
+            throw Error("_PRT_WEIGHTS_" + std::to_string(group) +
+                        " has another type or number than the others");
         const std::vector<std::byte> elements = read_elements(contents.model, accessor);
         for (std::size_t i = 0; i < count; ++i)
             std::memcpy(&receivers.weights[(first + i) * stride + group * size], &elements[i * size], size);
@@ -205,11 +215,13 @@ void write_transfer(GltfDocument& document, const Scene& scene, const BakedTrans
     const Transfer& transfer = baked.transfer;
     std::vector<Json> views;
     for (const VertexArray& vertices : scene.vertex_arrays)
-        views.push_back(write_float_view(
-            contents, std::span(transfer.vectors)
-                          .subspan(vertices.first_receiver * transfer.dimension(), vertices.size() * transfer.dimension())));
+        views.push_back(
+            write_float_view(contents, std::span(transfer.vectors)
+                                           .subspan(vertices.first_receiver * transfer.dimension(),
+                                                    vertices.size() * transfer.dimension())));
     for (std::size_t i = 0; i < primitives.size(); ++i)
-        (*primitives[i])["extensions"][kTransferExtension] = {{"vectors", views[scene.primitives[i].vertices]}};
+        (*primitives[i])["extensions"][kTransferExtension] = {
+            {"vectors", views[scene.primitives[i].vertices]}};
     contents.json["extensions"][kTransferExtension] = {{"version", kVersion},
                                                        {"order", transfer.order},
                                                        {"channels", transfer.channels},
@@ -232,9 +244,9 @@ std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const S
             const Json& json = primitive_json(contents, primitive);
             if (!json.contains("extensions") || !json["extensions"].contains(kTransferExtension))
                 throw Error(primitive_name(primitive) + " has no " + kTransferExtension);
-            const auto values =
-                read_float_view(contents, json["extensions"][kTransferExtension].at("vectors"),
-                                vertices.size() * transfer.dimension(), "the vectors of " + primitive_name(primitive));
+            const auto values = read_float_view(
+                contents, json["extensions"][kTransferExtension].at("vectors"),
+                vertices.size() * transfer.dimension(), "the vectors of " + primitive_name(primitive));
             std::copy(values.begin(), values.end(),
                       transfer.vectors.begin() +
                           static_cast<std::ptrdiff_t>(vertices.first_receiver * transfer.dimension()));
@@ -252,9 +264,9 @@ void write_clustered(GltfDocument& document, const Scene& scene, const Compresse
     std::vector<Json> attributes;
     for (const VertexArray& vertices : scene.vertex_arrays) {
         Json added = Json::object();
-        added["_PRT_CLUSTER"] =
-            write_clusters(contents, std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()),
-                           bases.clusters() > 256);
+        added["_PRT_CLUSTER"] = write_clusters(
+            contents, std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()),
+            bases.clusters() > 256);
         for (std::size_t group = 0; group < static_cast<std::size_t>(receivers.components) / 4; ++group)
             added["_PRT_WEIGHTS_" + std::to_string(group)] =
                 write_weights(contents, receivers, vertices.first_receiver, vertices.size(), group);
@@ -288,14 +300,16 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
             const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
             try {
                 const Json& attributes = primitive_json(contents, primitive).at("attributes");
-                read_clusters(contents, attributes, bases.clusters(),
-                              std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()));
+                read_clusters(
+                    contents, attributes, bases.clusters(),
+                    std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()));
                 if (receivers.components == 0)
                     continue;
                 if (receivers.weights.empty()) {
                     const auto first = attributes.at("_PRT_WEIGHTS_0").get<std::size_t>();
                     receivers.format = weight_format(contents.model.accessors.at(first).componentType);
-                    receivers.weights.resize(scene.receivers() * static_cast<std::size_t>(receivers.components) *
+                    receivers.weights.resize(scene.receivers() *
+                                             static_cast<std::size_t>(receivers.components) *
                                              bytes_per_weight(receivers.format));
                 }
                 read_weights(contents, attributes, vertices.first_receiver, vertices.size(), receivers);

@@ -33,7 +33,8 @@ std::map<int, std::size_t> unshare_meshes(Json& json, const Scene& scene) {
 
 /// Smallest and largest value of each component, as the glTF specification wants them for positions.
 void set_bounds(Json& accessor, std::span<const double> values, std::size_t components) {
-    std::vector<double> low(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(components)), high = low;
+    std::vector<double> low(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(components)),
+        high = low;
     for (std::size_t i = 0; i < values.size(); ++i) {
         low[i % components] = std::min(low[i % components], values[i]);
         high[i % components] = std::max(high[i % components], values[i]);
@@ -43,8 +44,8 @@ void set_bounds(Json& accessor, std::span<const double> values, std::size_t comp
 }
 
 /// Gathered components as numbers, integers without normalisation.
-std::vector<double> stored_values(int component_type, std::span<const std::byte> elements, std::size_t components,
-                                  const std::vector<std::uint32_t>& source) {
+std::vector<double> stored_values(int component_type, std::span<const std::byte> elements,
+                                  std::size_t components, const std::vector<std::uint32_t>& source) {
     std::vector<double> values;
     with_component_type(component_type, [&](auto type) {
         for (const std::uint32_t i : source)
@@ -78,8 +79,8 @@ std::size_t gather(GltfContents& contents, const Json& reference, const std::vec
     return contents.add_accessor(std::move(accessor));
 }
 
-/// Face normals in the mesh's own frame. Triangles without area get an arbitrary unit normal, since glTF has no
-/// zero normals.
+/// Face normals in the mesh's own frame. Triangles without area get an arbitrary unit normal, since glTF has
+/// no zero normals.
 std::vector<glm::vec3> flat_normals(const GltfContents& contents, const Json& position, const Scene& scene,
                                     const Primitive& primitive) {
     const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
@@ -90,7 +91,8 @@ std::vector<glm::vec3> flat_normals(const GltfContents& contents, const Json& po
     };
     std::vector<glm::vec3> normals(vertices.size(), glm::vec3(0, 0, 1));
     for (const glm::uvec3& t : primitive.triangles) {
-        const glm::dvec3 normal = glm::cross(at(t.y) - at(t.x), at(t.z) - at(t.x)) * (primitive.mirrored ? -1.0 : 1.0);
+        const glm::dvec3 normal =
+            glm::cross(at(t.y) - at(t.x), at(t.z) - at(t.x)) * (primitive.mirrored ? -1.0 : 1.0);
         const double length = glm::length(normal);
         if (length > 0)
             for (int corner = 0; corner < 3; ++corner)
@@ -103,13 +105,15 @@ void write_split_vertices(GltfContents& contents, Json& primitive_json, const Sc
                           const Primitive& primitive) {
     const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
     const Json old_attributes = primitive_json["attributes"];
-    const std::vector<glm::vec3> normals = flat_normals(contents, old_attributes["POSITION"], scene, primitive);
+    const std::vector<glm::vec3> normals =
+        flat_normals(contents, old_attributes["POSITION"], scene, primitive);
 
     Json attributes = Json::object();
     for (auto it = old_attributes.begin(); it != old_attributes.end(); ++it)
         if (it.key() != "TANGENT") // meaningless without the normals it was made for
             attributes[it.key()] = gather(contents, *it, vertices.source);
-    const std::size_t view = contents.add_buffer_view(std::as_bytes(std::span(normals)), sizeof(glm::vec3), true);
+    const std::size_t view =
+        contents.add_buffer_view(std::as_bytes(std::span(normals)), sizeof(glm::vec3), true);
     attributes["NORMAL"] = contents.add_accessor({{"bufferView", view},
                                                   {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
                                                   {"count", normals.size()},
@@ -129,10 +133,11 @@ void write_split_vertices(GltfContents& contents, Json& primitive_json, const Sc
         indices.insert(indices.end(), {t.x, primitive.mirrored ? t.z : t.y, primitive.mirrored ? t.y : t.z});
     const std::size_t index_view = contents.add_buffer_view(std::as_bytes(std::span(indices)));
     contents.json["bufferViews"][index_view]["target"] = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
-    primitive_json["indices"] = contents.add_accessor({{"bufferView", index_view},
-                                                       {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
-                                                       {"count", indices.size()},
-                                                       {"type", "SCALAR"}});
+    primitive_json["indices"] =
+        contents.add_accessor({{"bufferView", index_view},
+                               {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
+                               {"count", indices.size()},
+                               {"type", "SCALAR"}});
     primitive_json.erase("mode");
 }
 

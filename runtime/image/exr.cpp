@@ -26,7 +26,8 @@ namespace {
 constexpr int kLargestSide = 65536;
 constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 
-/// Rows to decode at once: about four million pixels, so that a header's claim costs no memory until it is true.
+/// Rows to decode at once: about four million pixels, so that a header's claim costs no memory until it is
+/// true.
 int rows_per_strip(int width) {
     return std::clamp((1 << 22) / width, 1, 256);
 }
@@ -171,17 +172,20 @@ ExrFile read_exr(const std::filesystem::path& path) {
     }
 }
 
-void write_exr(const std::filesystem::path& path, const Image& image, std::optional<EnvironmentLayout> layout) {
+void write_exr(const std::filesystem::path& path, const Image& image,
+               std::optional<EnvironmentLayout> layout) {
     OutputFile output(path);
     try {
         Imf::Header header(image.width, image.height);
         header.compression() = Imf::ZIP_COMPRESSION;
         if (layout)
-            Imf::addEnvmap(header, *layout == EnvironmentLayout::cube ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
+            Imf::addEnvmap(header,
+                           *layout == EnvironmentLayout::cube ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
         for (const char* name : {"R", "G", "B"})
             header.channels().insert(name, Imf::Channel(Imf::FLOAT));
         Imf::FrameBuffer buffer;
-        insert_rgb(buffer, header.channels(), const_cast<glm::vec3*>(image.pixels.data()), header.dataWindow());
+        insert_rgb(buffer, header.channels(), const_cast<glm::vec3*>(image.pixels.data()),
+                   header.dataWindow());
         Imf::OutputFile file(output.temporary_path().c_str(), header);
         file.setFrameBuffer(buffer);
         file.writePixels(image.height);

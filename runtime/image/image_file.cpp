@@ -69,10 +69,10 @@ EnvironmentLayout layout_of(const Image& image, std::optional<EnvironmentLayout>
         return EnvironmentLayout::lat_long;
     if (cube_shaped)
         return EnvironmentLayout::cube;
-    throw Error("is no environment map: it is " + std::to_string(image.width) + " x " +
-                std::to_string(image.height) +
-                " pixels and has no envmap attribute (a lat-long map is twice as wide as high, a cube map six "
-                "square faces in a column; --env-layout says what it is)");
+    throw Error(
+        "is no environment map: it is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+        " pixels and has no envmap attribute (a lat-long map is twice as wide as high, a cube map six "
+        "square faces in a column; --env-layout says what it is)");
 }
 
 } // namespace
@@ -113,7 +113,8 @@ Image8 decode_image(std::span<const std::byte> file) {
     return image;
 }
 
-void write_png(const std::filesystem::path& path, int width, int height, std::span<const glm::u8vec3> pixels) {
+void write_png(const std::filesystem::path& path, int width, int height,
+               std::span<const glm::u8vec3> pixels) {
     OutputFile output(path);
     const auto append = [](void* context, void* data, int size) {
         auto& bytes = *static_cast<std::vector<std::byte>*>(context);

@@ -11,25 +11,29 @@
 
 namespace prt {
 
-Camera automatic_camera(const Bounds& box, float aspect, float vertical_field_of_view) {
+Camera automatic_camera(const Scene& scene, float aspect, float vertical_field_of_view) {
     Camera camera;
     camera.vertical_field_of_view = vertical_field_of_view;
-    const glm::vec3 half = 0.5f * (box.high - box.low);
-    camera.target = box.low + half;
+    const Bounds box = bounds(scene);
+    camera.target = box.low + 0.5f * (box.high - box.low);
     const glm::vec3 from = glm::normalize(glm::vec3(0.45f, 0.35f, 1.0f));
     const glm::vec3 right = glm::normalize(glm::cross(camera.up, from)), up = glm::cross(from, right);
     const float tangent = std::tan(0.5f * camera.vertical_field_of_view);
-    // Far enough that every corner of the box lies inside the view, and a little more.
+    // Far enough that every triangle lies inside the view, and a little more.
     float distance = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 v = half * glm::vec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
-        const float depth = glm::dot(v, from);
-        distance = std::max({distance, depth + std::abs(glm::dot(v, up)) / tangent,
-                             depth + std::abs(glm::dot(v, right)) / (tangent * aspect)});
+    for (const Primitive& primitive : scene.primitives) {
+        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+        for (const glm::uvec3& t : primitive.triangles)
+            for (int corner = 0; corner < 3; ++corner) {
+                const glm::vec3 v = vertices.positions[t[corner]] - camera.target;
+                const float depth = glm::dot(v, from);
+                distance = std::max({distance, depth + std::abs(glm::dot(v, up)) / tangent,
+                                     depth + std::abs(glm::dot(v, right)) / (tangent * aspect)});
+            }
     }
-    if (!(distance > 0)) // a scene of one point
+    if (!(distance > 0)) // all in one point
         distance = 1;
-    camera.position = camera.target + from * (1.05f * distance);
+    camera.position = camera.target + from * (1.08f * distance);
     return camera;
 }
 
@@ -61,8 +65,8 @@ glm::mat4 view_projection(const Camera& camera, const Bounds& box, float aspect)
         farthest = 1;
     const double near_plane = std::max(nearest * 0.99, farthest * 1e-4);
     const glm::dmat4 projection =
-        glm::perspective(static_cast<double>(camera.vertical_field_of_view), static_cast<double>(aspect), near_plane,
-                         std::max(farthest * 1.01, near_plane * 1.01));
+        glm::perspective(static_cast<double>(camera.vertical_field_of_view), static_cast<double>(aspect),
+                         near_plane, std::max(farthest * 1.01, near_plane * 1.01));
     return glm::mat4(projection * glm::lookAt(position, position + frame.forward, glm::dvec3(camera.up)));
 }
 

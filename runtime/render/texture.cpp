@@ -45,8 +45,9 @@ Image8 half_size(const Image8& image) {
     for (int y = 0; y < half.height; ++y)
         for (int x = 0; x < half.width; ++x) {
             const int x1 = std::min(2 * x + 1, image.width - 1), y1 = std::min(2 * y + 1, image.height - 1);
-            half.pixels.push_back(encoded(0.25f * (decoded(texel(image, 2 * x, 2 * y)) + decoded(texel(image, x1, 2 * y)) +
-                                                   decoded(texel(image, 2 * x, y1)) + decoded(texel(image, x1, y1)))));
+            half.pixels.push_back(
+                encoded(0.25f * (decoded(texel(image, 2 * x, 2 * y)) + decoded(texel(image, x1, 2 * y)) +
+                                 decoded(texel(image, 2 * x, y1)) + decoded(texel(image, x1, y1)))));
         }
     return half;
 }
@@ -61,7 +62,8 @@ int wrapped(int i, int size, Wrap wrap) {
 }
 
 glm::vec4 bilinear(const Image8& image, const TextureUse& use, const glm::vec2& uv) {
-    const float x = uv.x * static_cast<float>(image.width) - 0.5f, y = uv.y * static_cast<float>(image.height) - 0.5f;
+    const float x = uv.x * static_cast<float>(image.width) - 0.5f,
+                y = uv.y * static_cast<float>(image.height) - 0.5f;
     if (!(std::abs(x) < 1e9f) || !(std::abs(y) < 1e9f)) // texture coordinates that are not finite
         return glm::vec4(0, 0, 0, 1);
     const float fx = std::floor(x), fy = std::floor(y);

@@ -38,13 +38,14 @@ float automatic_exposure(const Light& light) {
     // Mean radiance over the sphere is L_0 Y_00; luminance by the weights of Rec. 709.
     const glm::vec3 mean = light.coefficients[0] * static_cast<float>(detail::kLegendre.sectoral[0]);
     const float luminance = 0.2126f * mean.r + 0.7152f * mean.g + 0.0722f * mean.b;
-    return luminance > 0 ? 0.5f / luminance : 1.0f;
+    return luminance > 0 ? 0.25f / luminance : 1.0f;
 }
 
 Image downsampled(const Image& image, int samples) {
     Image small = empty_smaller(image, samples);
     const float share = 1.0f / static_cast<float>(samples * samples);
-    for_each_sample(image, samples, [&](int x, int y, const glm::vec3& pixel) { small.at(x, y) += pixel * share; });
+    for_each_sample(image, samples,
+                    [&](int x, int y, const glm::vec3& pixel) { small.at(x, y) += pixel * share; });
     return small;
 }
 

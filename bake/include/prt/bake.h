@@ -30,8 +30,8 @@ struct BakeResult {
     BakeStatistics statistics;
 };
 
-/// Bakes direct shadowed transfer for every vertex. Deterministic from the seed, whatever the number of threads.
-/// Throws `Error` for options outside their range and `Cancelled`.
+/// Bakes direct shadowed transfer for every vertex. Deterministic from the seed, whatever the number of
+/// threads. Throws `Error` for options outside their range and `Cancelled`.
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
 
 /// Runs `tracer` over those `receivers` that have an area and a normal; the others get zeros.

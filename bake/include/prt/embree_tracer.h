@@ -7,7 +7,7 @@ namespace prt {
 
 /// Traces on the CPU. Results do not depend on the number of threads.
 class EmbreeTracer final : public Tracer {
-  public:
+public:
     /// Keeps a reference to `scene`. `threads` 0: all.
     explicit EmbreeTracer(const RayScene& scene, int threads = 0) : scene_(scene), threads_(threads) {}
     std::string backend() const override { return "cpu"; }
@@ -15,7 +15,7 @@ class EmbreeTracer final : public Tracer {
     void direct_transfer(const Receivers& receivers, std::span<const std::uint32_t> indices,
                          const DirectOptions& options, std::span<float> vectors) override;
 
-  private:
+private:
     const RayScene& scene_;
     int threads_;
 };

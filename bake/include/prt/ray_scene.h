@@ -12,17 +12,18 @@
 
 namespace prt {
 
-/// A bounding volume hierarchy over all triangles of a scene. Building is multithreaded; queries are thread-safe.
+/// A bounding volume hierarchy over all triangles of a scene. Building is multithreaded; queries are
+/// thread-safe.
 class RayScene {
-  public:
+public:
     /// Copies what it needs of `scene`. `threads` build it (0: all). Throws `Error` when memory runs out.
     explicit RayScene(const Scene& scene, int threads = 0);
 
     RTCScene handle() const { return scene_.get(); }
 
-    /// How far to move a ray's origin off the surface at `position` so that the surface does not block it: the
-    /// largest coordinate of any triangle that `position` lies on, times 32 units of float rounding. Rounding of
-    /// the origin, and of the vertices seen from it, moves either by at most a few such units.
+    /// How far to move a ray's origin off the surface at `position` so that the surface does not block it:
+    /// the largest coordinate of any triangle that `position` lies on, times 32 units of float rounding.
+    /// Rounding of the origin, and of the vertices seen from it, moves either by at most a few such units.
     float surface_offset(const glm::vec3& position) const;
 
     struct Triangle {
@@ -31,7 +32,7 @@ class RayScene {
     /// What an Embree primID stands for.
     Triangle triangle(unsigned id) const { return triangles_[id]; }
 
-  private:
+private:
     struct Release {
         void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
         void operator()(RTCScene scene) const { rtcReleaseScene(scene); }

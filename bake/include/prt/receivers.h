@@ -8,8 +8,8 @@
 
 namespace prt {
 
-/// Where transfer is wanted. The baker does not care where receivers come from: vertices, samples on a surface,
-/// texels, probes. Arrays are parallel.
+/// Where transfer is wanted. The baker does not care where receivers come from: vertices, samples on a
+/// surface, texels, probes. Arrays are parallel.
 struct Receivers {
     std::vector<glm::vec3> positions; ///< metres
     std::vector<glm::vec3> normals;   ///< unit; zero: no surface here, the transfer is zero

@@ -38,10 +38,10 @@ struct CompressResult {
     CompressStatistics statistics;
 };
 
-/// Compresses `transfer`; `areas` [receivers] weight the error. Receivers of area 0 are coded but do not count.
-/// Deterministic from the seed, whatever the number of threads. Thread-safe.
-/// Throws `Error` for options outside their range and transfer that is not finite, and `Cancelled`.
-CompressResult compress(const Transfer& transfer, std::span<const float> areas, const CompressOptions& options,
-                        const Progress& progress = {});
+/// Compresses `transfer`; `areas` [receivers] weight the error. Receivers of area 0 are coded but do not
+/// count. Deterministic from the seed, whatever the number of threads. Thread-safe. Throws `Error` for
+/// options outside their range and transfer that is not finite, and `Cancelled`.
+CompressResult compress(const Transfer& transfer, std::span<const float> areas,
+                        const CompressOptions& options, const Progress& progress = {});
 
 } // namespace prt

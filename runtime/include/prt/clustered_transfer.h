@@ -31,11 +31,13 @@ struct ClusteredBases {
     std::size_t clusters() const { return components.size(); }
     std::size_t dimension() const { return static_cast<std::size_t>(channels * coefficient_count(order)); }
     int max_components() const;
-    /// Index of the first row of cluster `cluster` in `rows`; its scales start at first_row(k) - k. [clusters + 1]
+    /// Index of the first row of cluster `cluster` in `rows`; its scales start at first_row(k) - k. [clusters
+    /// + 1]
     std::vector<std::size_t> first_rows() const;
 };
 
-/// How weights are stored. Normalised integers decode as in glTF and OpenGL: max(i / 127, -1), max(i / 32767, -1).
+/// How weights are stored. Normalised integers decode as in glTF and OpenGL: max(i / 127, -1), max(i / 32767,
+/// -1).
 enum class WeightFormat { float32, snorm16, snorm8 };
 
 std::size_t bytes_per_weight(WeightFormat format);
@@ -43,7 +45,7 @@ std::size_t bytes_per_weight(WeightFormat format);
 /// Per receiver: its cluster and its weights, ready to be uploaded.
 struct ClusteredReceivers {
     WeightFormat format = WeightFormat::float32;
-    int components = 0;                  ///< weights stored per receiver: max m_k rounded up to a multiple of 4
+    int components = 0; ///< weights stored per receiver: max m_k rounded up to a multiple of 4
     std::vector<std::uint16_t> clusters; ///< [receivers]
     std::vector<std::byte> weights;      ///< [receivers][components] of `format`; unused ones are 0
 
@@ -60,13 +62,13 @@ struct ClusteredTransfer {
 /// Rows of constants per cluster: the mean and max_components() directions.
 int constants_per_cluster(const ClusteredBases& bases);
 
-/// Writes M_k·L and scale_kj B_kj·L to `constants` [clusters][constants_per_cluster] as (r, g, b, 0); rows that a
-/// cluster does not have are 0. Allocates nothing when `light` has the order of the bases.
-/// Throws `Error` if `light` has fewer bands.
+/// Writes M_k·L and scale_kj B_kj·L to `constants` [clusters][constants_per_cluster] as (r, g, b, 0); rows
+/// that a cluster does not have are 0. Allocates nothing when `light` has the order of the bases. Throws
+/// `Error` if `light` has fewer bands.
 void form_constants(const ClusteredBases& bases, const Light& light, std::span<glm::vec4> constants);
 
-/// Exit radiance for albedo 1 of every receiver, `radiance` [receivers], from formed constants: what the vertex
-/// shader computes.
+/// Exit radiance for albedo 1 of every receiver, `radiance` [receivers], from formed constants: what the
+/// vertex shader computes.
 void evaluate(const ClusteredReceivers& receivers, int constants_per_cluster,
               std::span<const glm::vec4> constants, std::span<glm::vec3> radiance, int threads = 0);
 

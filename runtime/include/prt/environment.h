@@ -50,20 +50,21 @@ glm::dvec3 lat_long_direction(int width, int height, double x, double y);
 /// Pixel position, as in `lat_long_direction`, of a unit direction; x in [0, width], y in [0, height].
 glm::dvec2 lat_long_position(int width, int height, const glm::dvec3& direction);
 
-/// Unit direction at (u, v) in [-1, 1]² of face 0..5 of a cube map, u to the right and v down in the image. Texel i
-/// of n along an axis is centred at 2 i / (n - 1) - 1.
+/// Unit direction at (u, v) in [-1, 1]² of face 0..5 of a cube map, u to the right and v down in the image.
+/// Texel i of n along an axis is centred at 2 i / (n - 1) - 1.
 glm::dvec3 cube_direction(int face, double u, double v);
 
 /// Bilinearly filtered radiance in unit direction `direction`.
 glm::vec3 sample(const Environment& environment, const glm::vec3& direction);
 glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction);
 
-/// The environment as a lat-long image: a lat-long as it is, a cube by `sample` at the resolution of its faces.
+/// The environment as a lat-long image: a lat-long as it is, a cube by `sample` at the resolution of its
+/// faces.
 Image resampled_lat_long(const Environment& environment);
 
 /// Projects the environment, piecewise constant over its texels, into SH: the basis is integrated over each
-/// texel, not only taken at its centre, so that an image of one pixel is exactly a constant light. Sums are in
-/// double, row by row in a fixed order: the result does not depend on `threads` (0: all).
+/// texel, not only taken at its centre, so that an image of one pixel is exactly a constant light. Sums are
+/// in double, row by row in a fixed order: the result does not depend on `threads` (0: all).
 Light project(const Environment& environment, int order, int threads = 0);
 
 } // namespace prt

@@ -14,7 +14,7 @@ std::vector<std::byte> read_file(const std::filesystem::path& path);
 /// A file that appears under its name only when it is complete: it is written beside and renamed by `commit`.
 /// Destroyed without `commit`, it leaves nothing and the old file as it was.
 class OutputFile {
-  public:
+public:
     /// Throws `Error` when nothing can be written there: no such folder, no permission, not a regular file.
     explicit OutputFile(std::filesystem::path path);
     ~OutputFile();
@@ -29,7 +29,7 @@ class OutputFile {
     /// Flushes to disk and renames. Throws `Error` when that fails.
     void commit();
 
-  private:
+private:
     [[noreturn]] void fail(const char* what) const;
     std::filesystem::path path_, temporary_;
     int descriptor_ = -1;

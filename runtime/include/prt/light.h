@@ -18,12 +18,12 @@ enum class Window { none, hann, lanczos, automatic };
 /// Radiance `radiance` from every direction.
 Light constant_light(int order, const glm::vec3& radiance);
 
-/// A distant light of irradiance `irradiance` on a receiver that faces it; `towards` is the unit direction from
-/// the receiver to the light.
+/// A distant light of irradiance `irradiance` on a receiver that faces it; `towards` is the unit direction
+/// from the receiver to the light.
 Light directional_light(int order, const glm::vec3& towards, const glm::vec3& irradiance);
 
-/// Radiance `radiance` inside the cone of half angle `half_angle` (radians, at most pi) about unit `axis`, zero
-/// outside. Closed form: docs/math.md, eq. 9.
+/// Radiance `radiance` inside the cone of half angle `half_angle` (radians, at most pi) about unit `axis`,
+/// zero outside. Closed form: docs/math.md, eq. 9.
 Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& radiance);
 
 /// The CIE overcast sky about +Y over black ground: radiance `zenith` (1 + 2 y) / 3 for y >= 0.
@@ -39,8 +39,9 @@ Light truncated(const Light& light, int order);
 /// after a quarter turn.
 Light rotated_about_y(const Light& light, double angle);
 
-/// Scales the bands by a window. Hann and Lanczos use width `order`; `automatic` is the widest Hann window under
-/// which the radiance is nowhere negative (Sloan 2017, "Deringing Spherical Harmonics"), which may be none.
+/// Scales the bands by a window. Hann and Lanczos use width `order`; `automatic` is the widest Hann window
+/// under which the radiance is nowhere negative (Sloan 2017, "Deringing Spherical Harmonics"), which may be
+/// none.
 Light windowed(const Light& light, Window window);
 
 } // namespace prt

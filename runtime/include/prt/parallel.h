@@ -9,9 +9,9 @@ namespace prt {
 int thread_count(int requested);
 
 /// Calls `body(begin, end)` for consecutive blocks of at most `grain` indices that together cover [0, count),
-/// on `threads` threads (0: all). Blocks always start at multiples of `grain`, so that a result which is stored
-/// per block does not depend on the number of threads. The first exception that `body` throws is rethrown here
-/// after all threads have stopped.
+/// on `threads` threads (0: all). Blocks always start at multiples of `grain`, so that a result which is
+/// stored per block does not depend on the number of threads. The first exception that `body` throws is
+/// rethrown here after all threads have stopped.
 void parallel_for(std::size_t count, std::size_t grain, int threads,
                   const std::function<void(std::size_t begin, std::size_t end)>& body);
 

@@ -27,10 +27,10 @@ void clamped_cosine_lobe(int order, const glm::dvec3& normal, std::span<double> 
 /// Convolution factor A_l / pi of the clamped cosine for band l, any l >= 0.
 double clamped_cosine_factor(int l);
 
-/// Rotates SH vectors: for a function f with coefficients c, the result holds f'(w) = f(R^-1 w). Matrices by the
-/// recursion of Ivanic and Ruedenberg (1996, with the corrections of 1998), in double.
+/// Rotates SH vectors: for a function f with coefficients c, the result holds f'(w) = f(R^-1 w). Matrices by
+/// the recursion of Ivanic and Ruedenberg (1996, with the corrections of 1998), in double.
 class ShRotation {
-  public:
+public:
     /// `rotation` must be a proper rotation matrix.
     ShRotation(int order, const glm::dmat3& rotation);
 
@@ -40,13 +40,14 @@ class ShRotation {
     /// Rotates `coefficients` [order²] of RGB vectors in place.
     void apply(std::span<glm::vec3> coefficients) const;
 
-  private:
+private:
     double at(int l, int m, int n) const;
     int order_;
     std::vector<double> blocks_; // band l: (2l+1)² values, rows are m of the result
 };
 
-/// Windows that tame ringing (Sloan 2008, "Stupid SH Tricks"). `width` is the band at which the factor reaches 0.
+/// Windows that tame ringing (Sloan 2008, "Stupid SH Tricks"). `width` is the band at which the factor
+/// reaches 0.
 double hann_window(int l, double width);
 double lanczos_window(int l, double width);
 

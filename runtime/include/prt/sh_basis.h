@@ -1,7 +1,7 @@
 #pragma once
 
-// The real spherical-harmonic basis as a template that any number type can run: float, double, or a SIMD vector
-// of floats. Most callers want `evaluate_sh` of prt/sh.h.
+// The real spherical-harmonic basis as a template that any number type can run: float, double, or a SIMD
+// vector of floats. Most callers want `evaluate_sh` of prt/sh.h.
 
 #include <array>
 #include <cstddef>
@@ -67,7 +67,7 @@ struct ScalarOf {
     using type = std::remove_cvref_t<decltype(std::declval<Real>()[0])>;
 };
 template <class Real>
-    requires std::is_floating_point_v<Real>
+requires std::is_floating_point_v<Real>
 struct ScalarOf<Real> {
     using type = Real;
 };
@@ -113,16 +113,26 @@ template <int Order, class Real>
 template <class Body>
 decltype(auto) with_order(int order, Body&& body) {
     switch (order) {
-    case 1: return body.template operator()<1>();
-    case 2: return body.template operator()<2>();
-    case 3: return body.template operator()<3>();
-    case 4: return body.template operator()<4>();
-    case 5: return body.template operator()<5>();
-    case 6: return body.template operator()<6>();
-    case 7: return body.template operator()<7>();
-    case 8: return body.template operator()<8>();
-    case 9: return body.template operator()<9>();
-    default: return body.template operator()<10>();
+    case 1:
+        return body.template operator()<1>();
+    case 2:
+        return body.template operator()<2>();
+    case 3:
+        return body.template operator()<3>();
+    case 4:
+        return body.template operator()<4>();
+    case 5:
+        return body.template operator()<5>();
+    case 6:
+        return body.template operator()<6>();
+    case 7:
+        return body.template operator()<7>();
+    case 8:
+        return body.template operator()<8>();
+    case 9:
+        return body.template operator()<9>();
+    default:
+        return body.template operator()<10>();
     }
 }
 

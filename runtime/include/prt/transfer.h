@@ -29,7 +29,8 @@ struct Transfer {
     }
 };
 
-/// sum_i T[c][i] L_c[i] of one transfer vector [channels][order²]; channel 0 serves all colours when there is one.
+/// sum_i T[c][i] L_c[i] of one transfer vector [channels][order²]; channel 0 serves all colours when there is
+/// one.
 glm::vec3 exit_radiance(std::span<const float> transfer, int channels, const Light& light);
 
 /// Exit radiance of every receiver for albedo 1, [receivers]. Throws `Error` if `light` has fewer bands.

@@ -10,8 +10,8 @@ inline constexpr int kLaneCount = 16;
 using Lanes [[gnu::vector_size(sizeof(float) * kLaneCount)]] = float;
 
 /// The same in memory, at the alignment of float and over an array of float.
-using LanesInMemory [[gnu::vector_size(sizeof(float) * kLaneCount), gnu::aligned(alignof(float)), gnu::may_alias]] =
-    float;
+using LanesInMemory
+    [[gnu::vector_size(sizeof(float) * kLaneCount), gnu::aligned(alignof(float)), gnu::may_alias]] = float;
 
 /// 16 consecutive floats.
 [[gnu::always_inline]] inline const LanesInMemory& lanes_at(const float* values) {
@@ -20,10 +20,10 @@ using LanesInMemory [[gnu::vector_size(sizeof(float) * kLaneCount), gnu::aligned
 
 } // namespace prt
 
-// Functions marked so are compiled for several vector widths and chosen at run time, so that a portable build uses
-// what the processor has. A clone reaches only what is inlined into it: its helpers are [[gnu::always_inline]].
-// Sanitizers cannot instrument the resolver that runs before them.
-#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) &&                           \
+// Functions marked so are compiled for several vector widths and chosen at run time, so that a portable build
+// uses what the processor has. A clone reaches only what is inlined into it: its helpers are
+// [[gnu::always_inline]]. Sanitizers cannot instrument the resolver that runs before them.
+#if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) &&                 \
     !defined(__SANITIZE_ADDRESS__)
 #define PRT_TARGET_CLONES [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
 #else

@@ -11,10 +11,10 @@ enum class GlDevice {
 };
 
 /// An OpenGL 4.5 core context without window or display, through EGL: a hardware device by enumeration
-/// (EGL_EXT_platform_device), else Mesa's surfaceless platform, else a software device. Current on the thread that
-/// made it, until it is destroyed.
+/// (EGL_EXT_platform_device), else Mesa's surfaceless platform, else a software device. Current on the thread
+/// that made it, until it is destroyed.
 class GlContext {
-  public:
+public:
     /// Null when there is no such device; `why` then says what was tried.
     static std::unique_ptr<GlContext> create(GlDevice device, std::string* why = nullptr);
     ~GlContext();
@@ -24,7 +24,7 @@ class GlContext {
     const std::string& renderer() const { return renderer_; } ///< as the driver names it
     bool is_software() const;
 
-  private:
+private:
     GlContext() = default;
     void* display_ = nullptr;
     void* context_ = nullptr;

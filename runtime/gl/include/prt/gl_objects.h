@@ -14,7 +14,7 @@ enum class GlKind { buffer, texture, framebuffer, vertex_array, program };
 
 /// A name of OpenGL and the duty to delete it.
 class GlObject {
-  public:
+public:
     GlObject() = default;
     GlObject(GlKind kind, std::uint32_t name) : kind_(kind), name_(name) {}
     GlObject(GlObject&& other) noexcept : kind_(other.kind_), name_(std::exchange(other.name_, 0)) {}
@@ -27,7 +27,7 @@ class GlObject {
 
     std::uint32_t name() const { return name_; }
 
-  private:
+private:
     GlKind kind_ = GlKind::buffer;
     std::uint32_t name_ = 0;
 };
@@ -39,8 +39,9 @@ GlObject make_buffer(std::span<const T> values) {
     return make_buffer(std::as_bytes(values));
 }
 
-/// A program of two files of shaders/, with lines of `defines` before them. `captured`: an output of the vertex
-/// shader that transform feedback records. Throws `Error` with the compiler's words when the driver refuses it.
+/// A program of two files of shaders/, with lines of `defines` before them. `captured`: an output of the
+/// vertex shader that transform feedback records. Throws `Error` with the compiler's words when the driver
+/// refuses it.
 GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines = "",
                       const char* captured = nullptr);
 

@@ -8,7 +8,7 @@ namespace prt {
 
 /// Compressed transfer on the GPU: the program's view of `shaders/prt_exit_radiance.glsl`.
 class GlTransfer {
-  public:
+public:
     /// Uploads clusters and weights. Throws `Error` above kMostVertexComponents components.
     explicit GlTransfer(const ClusteredTransfer& transfer);
 
@@ -21,15 +21,15 @@ class GlTransfer {
     /// Binds the constants and sets the uniforms of `program`.
     void use(std::uint32_t program) const;
 
-  private:
+private:
     WeightFormat format_;
     int weight_vectors_ = 0, constants_per_cluster_ = 0;
     GlObject clusters_, weights_, constants_;
 };
 
-/// Draws `picture` with OpenGL: linear radiance, [height · samples][width · samples]. Opaque and cut-out surfaces
-/// use the depth buffer; blended primitives are drawn last, far ones first. Throws `Error` when the picture is
-/// larger than the device can draw or memory runs out.
+/// Draws `picture` with OpenGL: linear radiance, [height · samples][width · samples]. Opaque and cut-out
+/// surfaces use the depth buffer; blended primitives are drawn last, far ones first. Throws `Error` when the
+/// picture is larger than the device can draw or memory runs out.
 Image render_gl(const Picture& picture, const GlContext& context);
 
 /// The exit radiance that the vertex shader computes, read back: [receivers].

@@ -18,7 +18,7 @@ struct GltfContents;
 /// A glTF file in memory: its JSON as it stands, all its buffers joined into one. What prtkit does not know
 /// survives unchanged from `load_gltf` to `save_glb`.
 class GltfDocument {
-  public:
+public:
     explicit GltfDocument(std::unique_ptr<GltfContents> contents);
     GltfDocument(GltfDocument&&) noexcept;
     GltfDocument& operator=(GltfDocument&&) noexcept;
@@ -26,16 +26,16 @@ class GltfDocument {
     GltfContents& contents() { return *contents_; }
     const GltfContents& contents() const { return *contents_; }
 
-  private:
+private:
     std::unique_ptr<GltfContents> contents_;
 };
 
 /// Reads .gltf or .glb with its buffers and images. Throws `Error` that names the file and the place in it.
 GltfDocument load_gltf(const std::filesystem::path& path);
 
-/// Flattens the default scene. Every node instance gets vertices of its own; skins and morph targets are taken in
-/// the pose of the file. Throws `Error` for accessors out of bounds, indices beyond the vertices, positions that
-/// are not finite, and a scene without triangles.
+/// Flattens the default scene. Every node instance gets vertices of its own; skins and morph targets are
+/// taken in the pose of the file. Throws `Error` for accessors out of bounds, indices beyond the vertices,
+/// positions that are not finite, and a scene without triangles.
 Scene extract_scene(const GltfDocument& document);
 
 /// How a bake was made; written to the file and shown by `prt info`.
@@ -58,8 +58,8 @@ struct CompressedTransfer {
     BakeRecord record;
 };
 
-/// Writes PRTKIT_transfer into `document`, from which `scene` was extracted: meshes that several nodes share get a
-/// copy per node, and primitives without normals get flat ones. Replaces any transfer that is there.
+/// Writes PRTKIT_transfer into `document`, from which `scene` was extracted: meshes that several nodes share
+/// get a copy per node, and primitives without normals get flat ones. Replaces any transfer that is there.
 void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked);
 
 /// Writes PRTKIT_clustered_pca and takes PRTKIT_transfer out.

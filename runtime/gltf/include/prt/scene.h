@@ -1,6 +1,7 @@
 #pragma once
 
-// A glTF scene, flattened: world-space vertices and triangles of the default scene, ready to bake and to draw.
+// A glTF scene, flattened: world-space vertices and triangles of the default scene, ready to bake and to
+// draw.
 
 #include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
@@ -73,7 +74,8 @@ struct Scene {
 /// A third of the area of the triangles at each receiver, in m². [receivers]
 std::vector<float> receiver_areas(const Scene& scene);
 
-/// Hexadecimal hash of the positions and normals of all receivers: transfers belong together when it is equal.
+/// Hexadecimal hash of the positions and normals of all receivers: transfers belong together when it is
+/// equal.
 std::string receivers_id(const Scene& scene);
 
 /// Corners of the box round all triangles.

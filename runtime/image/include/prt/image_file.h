@@ -25,9 +25,10 @@ struct EnvironmentFile {
     std::size_t repaired_pixels = 0;
 };
 
-/// Reads an environment map from OpenEXR (any channel type and compression, scanline or tiled, RGB, luminance or
-/// luminance-chroma; other primaries are converted) or Radiance HDR. Throws `Error` that names the file for
-/// anything that is damaged or no environment map. Memory grows with what is decoded, not with what a header claims.
+/// Reads an environment map from OpenEXR (any channel type and compression, scanline or tiled, RGB, luminance
+/// or luminance-chroma; other primaries are converted) or Radiance HDR. Throws `Error` that names the file
+/// for anything that is damaged or no environment map. Memory grows with what is decoded, not with what a
+/// header claims.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
 /// 8-bit RGBA pixels as stored, without any conversion of colour.

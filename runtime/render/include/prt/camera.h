@@ -15,12 +15,12 @@ struct Camera {
     float vertical_field_of_view = 0.61f; ///< radians
 };
 
-/// Sees all of `box` from the front, a little from the right and above (glTF models face +Z).
-Camera automatic_camera(const Bounds& box, float aspect, float vertical_field_of_view);
+/// Sees all of `scene` from the front, a little from the right and above (glTF models face +Z).
+Camera automatic_camera(const Scene& scene, float aspect, float vertical_field_of_view);
 
-/// Orthonormal frame of the camera and half the height of the image plane at distance 1. Pixel (x, y) of an image
-/// of w x h, from the top, is seen along
-/// forward + right · half_height · aspect · (2 (x + 0.5) / w - 1) + up · half_height · (1 - 2 (y + 0.5) / h).
+/// Orthonormal frame of the camera and half the height of the image plane at distance 1. Pixel (x, y) of an
+/// image of w x h, from the top, is seen along forward + right · half_height · aspect · (2 (x + 0.5) / w - 1)
+/// + up · half_height · (1 - 2 (y + 0.5) / h).
 struct CameraFrame {
     glm::dvec3 forward, right, up;
     double half_height;

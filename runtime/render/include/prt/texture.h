@@ -12,8 +12,8 @@
 
 namespace prt {
 
-/// sRGB-encoded colour and linear alpha; each level is the average of 2 x 2 texels of the one before, in linear
-/// light. Level 0 is the image; the last is one texel.
+/// sRGB-encoded colour and linear alpha; each level is the average of 2 x 2 texels of the one before, in
+/// linear light. Level 0 is the image; the last is one texel.
 struct Texture {
     std::vector<Image8> levels;
 };
@@ -24,8 +24,8 @@ Texture make_texture(Image8 image);
 /// which is clamped to the levels there are. Returns linear colour and alpha.
 glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2& uv, float lod);
 
-/// The textures that the materials of `scene` use, by image index; others stay empty. Throws `Error` that names
-/// the image when one is damaged.
+/// The textures that the materials of `scene` use, by image index; others stay empty. Throws `Error` that
+/// names the image when one is damaged.
 std::vector<Texture> load_textures(const Scene& scene);
 
 } // namespace prt

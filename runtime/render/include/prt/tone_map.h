@@ -19,14 +19,15 @@ enum class ToneMap {
 float srgb_encode(float linear);
 float srgb_decode(float encoded);
 
-/// Factor on radiance that brings the mean radiance of the lighting to 0.5.
+/// Factor on radiance that brings the mean radiance of the lighting to 0.25.
 float automatic_exposure(const Light& light);
 
 /// Averages blocks of `samples` x `samples` pixels.
 Image downsampled(const Image& image, int samples);
 
-/// 8-bit pixels of a linear image with `samples`² samples per pixel: exposure and tone curve per sample, then the
-/// average, so that edges against bright backgrounds stay smooth. Returns [height / samples][width / samples].
+/// 8-bit pixels of a linear image with `samples`² samples per pixel: exposure and tone curve per sample, then
+/// the average, so that edges against bright backgrounds stay smooth. Returns [height / samples][width /
+/// samples].
 std::vector<glm::u8vec3> tone_mapped(const Image& image, int samples, float exposure, ToneMap tone_map);
 
 } // namespace prt

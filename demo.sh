@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds prtkit, and takes the example scenes down the whole road:
+# glTF -> bake -> compress -> evaluate -> pictures, all in out/.
+set -euo pipefail
+cd "$(dirname "$0")"
+cmake/install_packages.sh
+cmake --preset release >/dev/null
+cmake --build --preset release
+prt=build/release/cli/prt
+mkdir -p out
+build/release/examples/scenes/example_scenes out/scenes
+sky=out/scenes/sky.exr
+
+# name, clusters, components
+road() {
+    local name=$1 clusters=$2 components=$3
+    echo
+    $prt bake "out/scenes/$name.glb" -o "out/$name.baked.glb"
+    $prt compress "out/$name.baked.glb" -o "out/$name.shipped.glb" --clusters "$clusters" --components "$components"
+    $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" --html "out/$name.html" --json "out/$name.json"
+    $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png"
+    $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png"
+}
+road knot 64 8
+road room 128 8
+road terrain 128 12
+$prt render out/knot.shipped.glb --env "$sky" --show clusters -o out/knot.clusters.png
+$prt render out/knot.shipped.glb --env "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png
+echo
+echo "Pictures and reports are in out/: open out/knot.png, out/room.png, out/terrain.png, out/*.html"

@@ -1,0 +1,32 @@
+// Writes the example scenes and a sky into a folder: example_scenes FOLDER
+
+#include "prt/image_file.h"
+#include "sky.h"
+#include "write_scene.h"
+
+#include <glm/geometric.hpp>
+
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        std::fprintf(stderr, "usage: example_scenes FOLDER\n");
+        return 2;
+    }
+    try {
+        const std::filesystem::path folder = argv[1];
+        std::filesystem::create_directories(folder);
+        examples::write_scene(examples::torus_knot_over_plane(), folder / "knot.glb");
+        examples::write_scene(examples::room_with_columns(), folder / "room.glb");
+        examples::write_scene(examples::terrain(), folder / "terrain.glb");
+        const prt::Environment sky =
+            examples::preetham_sky(256, 3, glm::normalize(glm::dvec3(0.9, 0.75, 0.6)));
+        prt::write_exr(folder / "sky.exr", sky.image, prt::EnvironmentLayout::lat_long);
+        std::printf("%s: knot.glb, room.glb, terrain.glb, sky.exr\n", argv[1]);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "example_scenes: error: %s\n", error.what());
+        return 1;
+    }
+}

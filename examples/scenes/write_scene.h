@@ -1,0 +1,12 @@
+#pragma once
+
+#include "mesh.h"
+
+#include <filesystem>
+
+namespace examples {
+
+/// Writes a scene as .glb, one mesh with a primitive and a material per part. Throws std::runtime_error.
+void write_scene(const ExampleScene& scene, const std::filesystem::path& path);
+
+} // namespace examples

@@ -1,0 +1,115 @@
+#include "prt/bake.h"
+
+#include "prt/error.h"
+#include "support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+Scene sphere_over_floor() {
+    return test::SceneBuilder().floor({0, 0, 0}, 2, 10).sphere({0, 0.8f, 0}, 0.5f, 16).build();
+}
+
+double distance(const Transfer& a, const Transfer& b) {
+    double error = 0, norm = 0;
+    for (std::size_t i = 0; i < a.vectors.size(); ++i) {
+        error += std::pow(static_cast<double>(a.vectors[i] - b.vectors[i]), 2);
+        norm += std::pow(static_cast<double>(a.vectors[i]), 2);
+    }
+    return std::sqrt(error / norm);
+}
+
+Transfer bake_with(int rays, std::uint64_t seed, int threads = 0) {
+    BakeOptions options;
+    options.rays = rays;
+    options.seed = seed;
+    options.threads = threads;
+    return bake(sphere_over_floor(), options).baked.transfer;
+}
+
+TEST(Bake, IsTheSameToTheByteForAnyNumberOfThreads) {
+    const Transfer one = bake_with(1500, 3, 1);
+    EXPECT_EQ(one.vectors, bake_with(1500, 3, 2).vectors);
+    EXPECT_EQ(one.vectors, bake_with(1500, 3, 5).vectors);
+}
+
+TEST(Bake, SeedsChangeTheNoiseAndNothingElse) {
+    const Transfer a = bake_with(1024, 1), b = bake_with(1024, 1ull << 40);
+    EXPECT_GT(distance(a, b), 1e-5);
+    EXPECT_LT(distance(a, b), 0.03);
+}
+
+TEST(Bake, ErrorFallsFasterThanRandomSampling) {
+    const Transfer reference = bake_with(1 << 15, 99);
+    const double few = distance(reference, bake_with(256, 1)), many = distance(reference, bake_with(4096, 2));
+    // 16 times the rays: random sampling would gain 4.
+    EXPECT_GT(few / many, 6) << few << " " << many;
+    EXPECT_LT(many, 0.01);
+}
+
+TEST(Bake, NumbersOfRaysThatAreNoPowerOfTwoAreFair) {
+    const Transfer reference = bake_with(1 << 15, 99);
+    for (const int rays : {1, 3, 17, 100, 1000, 1025, 3000})
+        EXPECT_LT(distance(reference, bake_with(rays, 4)), 1.2 / std::sqrt(rays)) << rays;
+}
+
+TEST(Bake, ReportsWhatItDid) {
+    BakeOptions options;
+    options.rays = 64;
+    const Scene scene = sphere_over_floor();
+    const BakeResult result = bake(scene, options);
+    EXPECT_EQ(result.statistics.receivers, scene.receivers());
+    EXPECT_EQ(result.statistics.triangles, scene.triangles());
+    EXPECT_GT(result.statistics.rays_per_second, 0);
+    EXPECT_GT(result.statistics.mean_visibility, 0.5);
+    EXPECT_LT(result.statistics.mean_visibility, 1);
+    EXPECT_EQ(result.baked.record.receivers, receivers_id(scene));
+}
+
+TEST(Bake, RefusesWhatItCannotDo) {
+    BakeOptions options;
+    const Scene scene = sphere_over_floor();
+    for (const int order : {0, 11, -1}) {
+        options.order = order;
+        EXPECT_THROW(bake(scene, options), Error);
+    }
+    options.order = 3;
+    for (const int rays : {0, -5, 1 << 30}) {
+        options.rays = rays;
+        EXPECT_THROW(bake(scene, options), Error);
+    }
+}
+
+TEST(Bake, StopsWhenAsked) {
+    std::stop_source stop;
+    BakeOptions options;
+    options.rays = 1 << 20;
+    std::atomic<int> calls = 0;
+    const Progress progress{[&](double) {
+                                if (++calls == 2)
+                                    stop.request_stop();
+                            },
+                            stop.get_token()};
+    EXPECT_THROW(bake(sphere_over_floor(), options, progress), Cancelled);
+}
+
+TEST(Bake, ProgressRunsFromNothingToAll) {
+    double last = -1;
+    BakeOptions options;
+    options.rays = 4096;
+    bake(sphere_over_floor(), options,
+         {[&](double fraction) {
+              EXPECT_GE(fraction, last);
+              last = fraction;
+          },
+          {}});
+    EXPECT_EQ(last, 1);
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,171 @@
+#include "prt/bake.h"
+#include "prt/embree_tracer.h"
+#include "prt/sh.h"
+#include "support/scene_builder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace prt {
+namespace {
+
+using test::SceneBuilder;
+
+Transfer bake_scene(const Scene& scene, int rays = 256, int order = 4) {
+    BakeOptions options;
+    options.order = order;
+    options.rays = rays;
+    return bake(scene, options).baked.transfer;
+}
+
+void expect_finite(const Transfer& transfer) {
+    for (const float v : transfer.vectors)
+        EXPECT_TRUE(std::isfinite(v));
+}
+
+/// Whether receiver `p` has exactly the lobe of an open one with normal +Y.
+void expect_open(const Transfer& transfer, std::size_t p) {
+    std::array<double, 100> lobe{};
+    clamped_cosine_lobe(transfer.order, {0, 1, 0}, lobe);
+    for (std::size_t i = 0; i < transfer.dimension(); ++i)
+        EXPECT_NEAR(static_cast<double>(transfer.vector(p)[i]), lobe[i], 1e-6) << p << " " << i;
+}
+
+TEST(HardCase, OneTriangleIsOpen) {
+    const Transfer t = bake_scene(SceneBuilder().triangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}).build());
+    for (std::size_t p = 0; p < 3; ++p)
+        expect_open(t, p);
+}
+
+TEST(HardCase, DegenerateDuplicatedAndNeedleTrianglesDoNoHarm) {
+    SceneBuilder builder;
+    builder.floor({0, 0, 0}, 1, 3);
+    builder.floor({0, 0, 0}, 1, 3);                              // duplicated
+    builder.triangle({0, 0, 0}, {0, 0, 0}, {0, 0, 0});           // a point
+    builder.triangle({0, 0, 0}, {0.1f, 0, 0}, {0.2f, 0, 0});     // a line
+    builder.triangle({-1, 0, 0}, {1, 0, 1e-7f}, {1, 0, 0});      // a needle
+    builder.triangle({0, 0, 0}, {1e-30f, 0, 0}, {0, 0, 1e-30f}); // nothing
+    const Transfer t = bake_scene(builder.build());
+    expect_finite(t);
+    for (std::size_t p = 0; p < 2 * 9 * 6; ++p) // both floors lie open, one in the other
+        expect_open(t, p);
+}
+
+class Magnitude : public testing::TestWithParam<std::pair<float, float>> {};
+INSTANTIATE_TEST_SUITE_P(Scales, Magnitude,
+                         testing::Values(std::pair{1e-6f, 0.0f}, std::pair{1e-3f, 0.0f},
+                                         std::pair{1e6f, 0.0f}, std::pair{1e3f, 1e6f},
+                                         std::pair{1.0f, 1e3f}));
+
+TEST_P(Magnitude, ScaledAndMovedScenesHaveTheSameTransfer) {
+    const auto [scale, offset] = GetParam();
+    const auto builder = [] { return SceneBuilder().floor({0, 0, 0}, 3, 4).sphere({0, 1, 0}, 0.5f, 12); };
+    const Transfer t = bake_scene(builder().build(), 512);
+    const Transfer moved = bake_scene(
+        builder()
+            .transform([&](const glm::vec3& p) { return p * scale + glm::vec3(offset, 0, -offset); })
+            .build(),
+        512);
+    // Moved by 1000 sizes the sphere itself is rounded by 1e-4 of its size; rays through that shell may
+    // change.
+    const double tolerance = offset == 0 ? 1e-5 : 5e-3;
+    for (std::size_t i = 0; i < t.vectors.size(); ++i)
+        ASSERT_NEAR(t.vectors[i], moved.vectors[i], tolerance) << i;
+}
+
+TEST(HardCase, OpenFloorsStayOpenAtEveryDistanceFromTheOrigin) {
+    for (const float where : {0.0f, 1.0f, 1e3f, 1e6f, -3e6f})
+        for (const float size : {1e-2f, 1.0f, 1e4f}) {
+            const Scene scene = SceneBuilder().floor({where, where, where}, size, 2).build();
+            const auto areas = receiver_areas(scene);
+            const Transfer t = bake_scene(scene, 128);
+            for (std::size_t p = 0; p < t.receivers(); ++p)
+                if (areas[p] > 0) // at 1e6 a cell of 1e-2 has no area left
+                    expect_open(t, p);
+        }
+}
+
+TEST(HardCase, ALargeCoplanarFloorDoesNotBlockASmallOne) {
+    const Scene scene = SceneBuilder().floor({0, 0, 0}, 1e5f).floor({1e-3f, 0, 2e-3f}, 0.5f, 4).build();
+    const Transfer t = bake_scene(scene);
+    for (std::size_t p = 0; p < t.receivers(); ++p)
+        expect_open(t, p);
+}
+
+TEST(HardCase, BothSidesOfAClosedSheetSeeTheirOwnHalf) {
+    const Scene scene = SceneBuilder()
+                            .quad({-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1})
+                            .quad({-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1})
+                            .build();
+    const Transfer t = bake_scene(scene);
+    for (std::size_t p = 0; p < 6; ++p)
+        expect_open(t, p);
+    std::array<double, 100> below{};
+    clamped_cosine_lobe(4, {0, -1, 0}, below);
+    for (std::size_t p = 6; p < 12; ++p)
+        for (std::size_t i = 0; i < t.dimension(); ++i)
+            EXPECT_NEAR(static_cast<double>(t.vector(p)[i]), below[i], 1e-6);
+}
+
+TEST(HardCase, ReceiversInsideOtherGeometryAreDark) {
+    const Scene scene = SceneBuilder().floor({0, 0, 0}, 0.3f, 2).sphere({0, 0, 0}, 1, 12).build();
+    const Transfer t = bake_scene(scene);
+    for (std::size_t p = 0; p < 4 * 6; ++p)
+        for (const float v : t.vector(p))
+            EXPECT_EQ(v, 0);
+}
+
+TEST(HardCase, ANearlyBlockedReceiverKeepsItsLastLight) {
+    // A slit of 0.01 in a roof: visibility about 0.01 · 2/pi, found within a tenth.
+    const Scene scene = SceneBuilder()
+                            .quad({-50, 1, -50}, {-50, 1, 50}, {-0.005f, 1, 50}, {-0.005f, 1, -50})
+                            .quad({0.005f, 1, -50}, {0.005f, 1, 50}, {50, 1, 50}, {50, 1, -50})
+                            .build();
+    const RayScene rays(scene);
+    EmbreeTracer tracer(rays);
+    const Transfer t =
+        direct_transfer(tracer, {{glm::vec3(0)}, {glm::vec3(0, 1, 0)}, {1.0f}}, {1, 1 << 16, 0});
+    // (1/pi) ∫ cos over the slit = (1/pi) ∫∫ dx dz / (1 + x² + z²)², x in ±0.005, z in ±50: 0.01/pi · pi/2,
+    // and what lies beyond the roof's edge 50 away: about (1/50)².
+    EXPECT_NEAR(t.vectors[0] / 0.28209479, 0.01 / 2 + 4e-4, 5e-4);
+}
+
+TEST(HardCase, ReceiversWithoutSurfaceAreSkipped) {
+    Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
+    scene.vertex_arrays[0].positions.emplace_back(0, 1, 0); // in no triangle
+    scene.vertex_arrays[0].normals.emplace_back(0, 1, 0);
+    scene.vertex_arrays[0].normals[0] = glm::vec3(0);
+    BakeOptions options;
+    options.rays = 64;
+    const BakeResult result = bake(scene, options);
+    EXPECT_EQ(result.statistics.traced, 5u);
+    for (const std::size_t p : {0u, 6u})
+        for (const float v : result.baked.transfer.vector(p))
+            EXPECT_EQ(v, 0);
+}
+
+TEST(HardCase, FlippedNormalsLookTheOtherWay) {
+    Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
+    for (glm::vec3& n : scene.vertex_arrays[0].normals)
+        n = -n;
+    const Transfer t = bake_scene(scene);
+    std::array<double, 100> below{};
+    clamped_cosine_lobe(4, {0, -1, 0}, below);
+    for (std::size_t i = 0; i < t.dimension(); ++i)
+        EXPECT_NEAR(static_cast<double>(t.vector(0)[i]), below[i], 1e-6);
+}
+
+TEST(HardCase, OrdersOneAndTenWork) {
+    const Scene scene = SceneBuilder().floor({0, 0, 0}, 2, 3).sphere({0, 1, 0}, 0.5f, 8).build();
+    const Transfer low = bake_scene(scene, 200, 1), high = bake_scene(scene, 200, 10);
+    expect_finite(high);
+    for (std::size_t p = 0; p < low.receivers(); ++p)
+        EXPECT_NEAR(low.vector(p)[0], high.vector(p)[0], 1e-6f);
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,225 @@
+// Bad input: one line on stderr, exit status 1, no output file.
+
+#include "program.h"
+#include "prt/image_file.h"
+#include "support/glb_file.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt::test {
+namespace {
+
+/// Expects a clean refusal that names `file`, with nothing new in the folder.
+void expect_refused(const Outcome& outcome, const std::string& file) {
+    EXPECT_EQ(outcome.status, 1) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("prt: error: ")) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+}
+
+class BadInput : public testing::Test {
+protected:
+    void refuse_bake(const std::filesystem::path& scene, const std::vector<std::string>& options = {}) {
+        const std::size_t before = folder.files();
+        std::vector<std::string> arguments = {"bake", scene.string(), "-o", out};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        expect_refused(prt(arguments), options.empty() ? scene.string() : "");
+        EXPECT_EQ(folder.files(), before);
+    }
+    std::filesystem::path good() {
+        triangle_file().write(folder / "good.glb");
+        return folder / "good.glb";
+    }
+
+    TemporaryFolder folder;
+    std::string out = (folder / "out.glb").string();
+};
+
+TEST_F(BadInput, MissingFileDirectoryAndEmptyFile) {
+    refuse_bake(folder / "missing.glb");
+    refuse_bake(folder.path());
+    refuse_bake(folder.file("empty.glb", ""));
+}
+
+TEST_F(BadInput, TruncatedGlbAndJsonThatIsNoGltf) {
+    const std::string whole = triangle_file().bytes();
+    refuse_bake(folder.file("cut.glb", whole.substr(0, whole.size() - 10)));
+    refuse_bake(folder.file("no.gltf", "{\"hello\": 1}"));
+    refuse_bake(folder.file("broken.gltf", "{\"asset\": "));
+}
+
+TEST_F(BadInput, BuffersAccessorsAndIndices) {
+    GlbFile gone = triangle_file();
+    gone.json["buffers"] = {{{"uri", "gone.bin"}, {"byteLength", 90}}};
+    gone.write(folder / "gone.glb");
+    refuse_bake(folder / "gone.glb");
+    GlbFile small = triangle_file();
+    small.json["buffers"] = {{{"uri", "small.bin"}, {"byteLength", 90}}};
+    small.write(folder / "short.glb");
+    folder.file("small.bin", "12345678");
+    refuse_bake(folder / "short.glb");
+    GlbFile outside = triangle_file();
+    outside.json["accessors"][0]["count"] = 400;
+    outside.write(folder / "outside.glb");
+    refuse_bake(folder / "outside.glb");
+    GlbFile beyond = triangle_file();
+    beyond.json["meshes"][0]["primitives"][0]["indices"] =
+        beyond.accessor(std::vector<std::uint16_t>{0, 1, 77}, kUnsignedShort, "SCALAR", 1);
+    beyond.write(folder / "beyond.glb");
+    refuse_bake(folder / "beyond.glb");
+}
+
+TEST_F(BadInput, PositionsThatAreNotFiniteAndNoTriangles) {
+    for (const float bad : {std::nanf(""), INFINITY}) {
+        GlbFile file = triangle_file();
+        file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] =
+            file.accessor(std::vector<float>{0, 0, 0, bad, 0, 0, 0, 1, 0}, kFloat, "VEC3", 3);
+        file.write(folder / "bad.glb");
+        refuse_bake(folder / "bad.glb");
+    }
+    GlbFile nothing = triangle_file();
+    nothing.json.erase("meshes");
+    nothing.json["nodes"][0].erase("mesh");
+    nothing.write(folder / "nothing.glb");
+    refuse_bake(folder / "nothing.glb");
+}
+
+TEST_F(BadInput, UnsupportedExtensionIsNamed) {
+    GlbFile file = triangle_file();
+    file.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    file.write(folder / "draco.glb");
+    EXPECT_NE(
+        prt({"bake", (folder / "draco.glb").string(), "-o", out}).err.find("KHR_draco_mesh_compression"),
+        std::string::npos);
+}
+
+TEST_F(BadInput, OrdersAndRaysOutOfRange) {
+    const auto scene = good();
+    refuse_bake(scene, {"--order", "0"});
+    refuse_bake(scene, {"--order", "11"});
+    refuse_bake(scene, {"--rays", "0"});
+    refuse_bake(scene, {"--rays", "-4"});
+}
+
+TEST_F(BadInput, WrongUsageIsStatusTwo) {
+    const std::string scene = good().string();
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{},
+          {"nonsense"},
+          {"bake"},
+          {"bake", scene},
+          {"bake", scene, "-o", out, "--order", "six"},
+          {"bake", scene, "-o", out, "--bounces", "2"},
+          {"bake", scene, "-o", out, "--backend", "gpu"},
+          {"compress", scene, "-o", out, "--clusters", "auto"},
+          {"compress", scene, "-o", out, "--components", "auto"},
+          {"compress", scene, "-o", out, "--weights", "5"},
+          {"compress", scene, "-o", out, "--max-error", "0.1"},
+          {"render", scene, "--env", scene, "-o", "picture.jpg"},
+          {"render", scene, "--env", scene, "-o", "p.png", "--size", "0x5"},
+          {"render", scene, "--env", scene, "-o", "p.png", "--show", "error"},
+          {"render", scene, "--env", scene, "-o", "p.png", "--camera", "1,2"}}) {
+        const Outcome outcome = prt(arguments);
+        EXPECT_EQ(outcome.status, 2) << (arguments.empty() ? "" : arguments[0]) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    }
+}
+
+TEST_F(BadInput, HelpIsNoErrorAndNamesDefaults) {
+    EXPECT_EQ(prt({"--help"}).status, 0);
+    for (const char* command : {"bake", "compress", "evaluate", "project", "render", "info"}) {
+        const Outcome outcome = prt({command, "--help"});
+        EXPECT_EQ(outcome.status, 0);
+        EXPECT_NE(outcome.out.find("--json"), std::string::npos);
+    }
+    EXPECT_NE(prt({"bake", "--help"}).out.find("1024"), std::string::npos);
+}
+
+TEST_F(BadInput, CompressAndEvaluateWantABake) {
+    const std::string scene = good().string();
+    expect_refused(prt({"compress", scene, "-o", out}), scene);
+    const std::string baked = (folder / "baked.glb").string(), shipped = (folder / "shipped.glb").string();
+    ASSERT_EQ(prt({"bake", scene, "-o", baked, "--rays", "4"}).status, 0);
+    ASSERT_EQ(prt({"compress", baked, "-o", shipped, "--clusters", "1", "--components", "1"}).status, 0);
+    expect_refused(prt({"compress", shipped, "-o", out}), "compressed already");
+    expect_refused(prt({"evaluate", scene, shipped}), scene);
+    expect_refused(prt({"evaluate", baked, scene}), scene);
+    expect_refused(prt({"evaluate", shipped, shipped}), shipped);
+
+    GlbFile other = triangle_file();
+    other.json["nodes"][0]["translation"] = {1, 2, 3};
+    other.write(folder / "other.glb");
+    const std::string other_baked = (folder / "other_baked.glb").string();
+    ASSERT_EQ(prt({"bake", (folder / "other.glb").string(), "-o", other_baked, "--rays", "4"}).status, 0);
+    expect_refused(prt({"evaluate", other_baked, shipped}), "does not belong");
+    const std::string low = (folder / "low.glb").string();
+    ASSERT_EQ(prt({"bake", scene, "-o", low, "--rays", "4", "--order", "3"}).status, 0);
+    expect_refused(prt({"evaluate", low, shipped}), "order");
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(BadInput, TooManyComponentsAreRefused) {
+    const std::string baked = (folder / "baked.glb").string();
+    ASSERT_EQ(prt({"bake", good().string(), "-o", baked, "--rays", "4", "--order", "2"}).status, 0);
+    expect_refused(prt({"compress", baked, "-o", out, "--components", "5"}), "0..4");
+    expect_refused(prt({"compress", baked, "-o", out, "--clusters", "0"}), "clusters");
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(BadInput, EnvironmentsThatAreNone) {
+    write_exr(folder / "photo.exr", {3, 4, std::vector<glm::vec3>(12, glm::vec3(1))});
+    write_exr(folder / "nan.exr", {2, 1, {glm::vec3(1), glm::vec3(std::nanf(""))}});
+    const std::string light = (folder / "light.json").string();
+    for (const char* name : {"photo.exr", "nan.exr", "missing.hdr"}) {
+        expect_refused(prt({"project", (folder / name).string(), "-o", light}), name);
+        EXPECT_FALSE(std::filesystem::exists(light));
+    }
+    EXPECT_EQ(prt({"project", (folder / "nan.exr").string(), "-o", light, "--bad-pixels", "zero"}).status, 0);
+    expect_refused(prt({"project", (folder / "photo.exr").string(), "-o", light, "--order", "11"}),
+                   "order 11");
+    folder.file("bad.json", "{\"prtkit_light\": 1, \"order\": 6}");
+    expect_refused(prt({"render", good().string(), "--env", (folder / "bad.json").string(), "-o",
+                        (folder / "p.png").string()}),
+                   "bad.json");
+}
+
+TEST_F(BadInput, PlacesThatCannotBeWritten) {
+    const std::string scene = good().string();
+    for (const std::string& place :
+         {std::string("/no/such/folder/out.glb"), std::string("/dev/null"), folder.path().string()})
+        expect_refused(prt({"bake", scene, "-o", place, "--rays", "4"}), place);
+    if (std::filesystem::exists("/proc/self"))
+        expect_refused(prt({"bake", scene, "-o", "/proc/out.glb", "--rays", "4"}), "/proc/out.glb");
+}
+
+TEST_F(BadInput, TheInputIsNeverTouched) {
+    const auto scene = good();
+    const auto time = std::filesystem::last_write_time(scene);
+    const auto size = std::filesystem::file_size(scene);
+    ASSERT_EQ(prt({"bake", scene.string(), "-o", out, "--rays", "4"}).status, 0);
+    EXPECT_EQ(std::filesystem::last_write_time(scene), time);
+    EXPECT_EQ(std::filesystem::file_size(scene), size);
+    // In place is allowed: the new file takes the old one's name in one step.
+    ASSERT_EQ(prt({"compress", out, "-o", out, "--clusters", "1", "--components", "0"}).status, 0);
+    EXPECT_EQ(prt({"info", out}).status, 0);
+}
+
+TEST_F(BadInput, DamagedExrs) {
+    const auto damaged = shared_file("bad/exr");
+    if (damaged.empty())
+        GTEST_SKIP() << "the damaged files are not here";
+    const std::string light = (folder / "light.json").string();
+    for (const auto& entry : std::filesystem::directory_iterator(damaged)) {
+        const Outcome outcome = prt({"project", entry.path().string(), "-o", light});
+        EXPECT_LE(outcome.status, 1) << entry.path() << outcome.err;
+        if (outcome.status == 1)
+            EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    }
+}
+
+} // namespace
+} // namespace prt::test

@@ -1,0 +1,215 @@
+// The whole road through the program: scene, bake, compress, evaluate, render.
+
+#include "program.h"
+#include "prt/file.h"
+#include "prt/image_file.h"
+#include "support/glb_file.h"
+#include "support/temporary_folder.h"
+
+#include <glm/common.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace prt::test {
+namespace {
+
+nlohmann::json read_json(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return nlohmann::json::parse(file);
+}
+
+/// What Khronos' validator says: number of errors, or -1 where it cannot be run.
+int validator_errors(const std::filesystem::path& file) {
+    if (std::string(PRT_NODE).empty() || !std::filesystem::exists(PRT_VALIDATOR_MODULES))
+        return -1;
+    const Outcome outcome = run(PRT_NODE, {PRT_VALIDATE, PRT_VALIDATOR_MODULES, file.string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+    return outcome.status;
+}
+
+class Road : public testing::Test {
+protected:
+    std::string at(const char* name) const { return (folder / name).string(); }
+    TemporaryFolder folder;
+};
+
+#ifdef PRT_EXAMPLE_SCENES
+class ExampleRoad : public Road, public testing::WithParamInterface<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Scenes, ExampleRoad, testing::Values("knot", "room", "terrain"));
+
+TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    const std::string scene = at((std::string(GetParam()) + ".glb").c_str());
+    const Outcome bake =
+        prt({"bake", scene, "-o", at("b.glb"), "--rays", "32", "--order", "4", "--json", at("b.json")});
+    ASSERT_EQ(bake.status, 0) << bake.err;
+    const auto bake_report = read_json(folder / "b.json");
+    EXPECT_EQ(bake_report["order"], 4);
+    EXPECT_GT(bake_report["rays_per_second"], 0);
+    EXPECT_GT(bake_report["mean_visibility"], 0.05);
+
+    const Outcome compress = prt({"compress", at("b.glb"), "-o", at("c.glb"), "--clusters", "16",
+                                  "--components", "4", "--json", at("c.json")});
+    ASSERT_EQ(compress.status, 0) << compress.err;
+    const auto compress_report = read_json(folder / "c.json");
+    EXPECT_LT(compress_report["relative_l2"], 0.3);
+    EXPECT_EQ(compress_report["bytes_per_vertex"], 5);
+
+    const Outcome evaluate = prt({"evaluate", at("b.glb"), at("c.glb"), "--lights", at("sky.exr"), "--json",
+                                  at("e.json"), "--html", at("e.html")});
+    ASSERT_EQ(evaluate.status, 0) << evaluate.err;
+    const auto report = read_json(folder / "e.json");
+    EXPECT_NEAR(report["relative_l2"].get<double>(), compress_report["relative_l2"].get<double>(), 1e-9);
+    EXPECT_LT(report["lights"][0]["lit_rms"], 0.2);
+    EXPECT_GT(std::filesystem::file_size(folder / "e.html"), 1000u);
+
+    for (const char* backend : {"cpu", "gpu"}) {
+        const Outcome render = prt({"render", at("c.glb"), "--env", at("sky.exr"), "-o",
+                                    at((std::string(backend) + ".exr").c_str()), "--size", "96x64",
+                                    "--samples", "1", "--backend", backend});
+        ASSERT_EQ(render.status, 0) << render.err;
+    }
+    const EnvironmentOptions any{EnvironmentLayout::lat_long, BadPixels::error};
+    const Image cpu = load_environment(folder / "cpu.exr", any).environment.image,
+                gpu = load_environment(folder / "gpu.exr", any).environment.image;
+    std::size_t equal = 0;
+    for (std::size_t i = 0; i < cpu.pixels.size(); ++i)
+        equal +=
+            glm::all(glm::lessThan(glm::abs(cpu.pixels[i] - gpu.pixels[i]), 0.01f + 0.01f * cpu.pixels[i]));
+    EXPECT_GT(static_cast<double>(equal),
+              0.95 * static_cast<double>(cpu.pixels.size())); // the rest are silhouettes
+
+    for (const char* file : {"b.glb", "c.glb"})
+        if (validator_errors(folder / file) < 0)
+            GTEST_SKIP() << "gltf-validator is not installed";
+}
+#endif
+
+/// A file that gives the writer work: instances, missing normals, strips, an image beside it, sparse data.
+GlbFile demanding_file() {
+    GlbFile file = triangle_file();
+    const auto position =
+        file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1}, kFloat, "VEC3", 3);
+    file.json["accessors"][position]["min"] = {0, 0, 0};
+    file.json["accessors"][position]["max"] = {1, 1, 1};
+    const auto uv =
+        file.accessor(std::vector<std::uint8_t>{0, 0, 9, 9, 255, 0, 9, 9, 0, 255, 9, 9, 255, 255, 9, 9},
+                      kUnsignedByte, "VEC2", 4, true, 4);
+    file.json["accessors"][uv]["count"] = 4;
+    file.json["images"] = {{{"uri", "a%20picture.png"}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    file.json["meshes"][0]["primitives"].push_back(
+        {{"attributes", {{"POSITION", position}, {"TEXCOORD_0", uv}}}, {"mode", 5}, {"material", 0}});
+    file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {3, 0, 0}}, {"scale", {1, -1, 1}}}};
+    file.json["scenes"][0]["nodes"] = {0, 1};
+    return file;
+}
+
+TEST_F(Road, FilesWrittenFromDemandingScenesAreValidGltf) {
+    demanding_file().write(folder / "d.glb");
+    write_png(folder / "a picture.png", 2, 2, std::vector<glm::u8vec3>(4, glm::u8vec3(200)));
+    for (const char* weights : {"8", "16", "float"}) {
+        ASSERT_EQ(prt({"bake", at("d.glb"), "-o", at("b.glb"), "--rays", "16"}).status, 0);
+        const Outcome compress = prt({"compress", at("b.glb"), "-o", at("c.glb"), "--clusters", "3",
+                                      "--components", "5", "--weights", weights});
+        ASSERT_EQ(compress.status, 0) << compress.err;
+        std::filesystem::rename(folder / "a picture.png",
+                                folder / "moved.png"); // what is written needs no other file
+        const Outcome render = prt({"render", at("c.glb"), "--env", at("light.json"), "-o", at("p.png")});
+        EXPECT_EQ(render.status, 1);
+        EXPECT_NE(render.err.find("light.json"), std::string::npos) << render.err; // the image was there
+        std::filesystem::rename(folder / "moved.png", folder / "a picture.png");
+        for (const char* file : {"b.glb", "c.glb"})
+            if (validator_errors(folder / file) < 0)
+                GTEST_SKIP() << "gltf-validator is not installed";
+    }
+}
+
+TEST_F(Road, LightFilesServeAsEnvironments) {
+    triangle_file().write(folder / "t.glb");
+    write_exr(folder / "e.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(1, 2, 3))});
+    ASSERT_EQ(
+        prt({"project", at("e.exr"), "-o", at("l.json"), "--order", "6", "--json", at("r.json")}).status, 0);
+    EXPECT_NEAR(read_json(folder / "r.json")["mean_radiance"][2].get<double>(), 3, 1e-5);
+    ASSERT_EQ(prt({"render", at("t.glb"), "--env", at("l.json"), "-o", at("a.exr"), "--size", "32x32",
+                   "--backend", "cpu"})
+                  .status,
+              0);
+    ASSERT_EQ(prt({"render", at("t.glb"), "--env", at("e.exr"), "-o", at("b.exr"), "--size", "32x32",
+                   "--backend", "cpu", "--no-background"})
+                  .status,
+              0);
+    EXPECT_EQ(read_file(folder / "a.exr"), read_file(folder / "b.exr"));
+}
+
+TEST_F(Road, EveryViewIsDrawn) {
+    triangle_file().write(folder / "t.glb");
+    write_exr(folder / "e.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(1))});
+    ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16"}).status, 0);
+    ASSERT_EQ(
+        prt({"compress", at("b.glb"), "-o", at("c.glb"), "--clusters", "1", "--components", "1"}).status, 0);
+    for (const char* backend : {"cpu", "gpu"})
+        for (const char* model : {"t.glb", "b.glb", "c.glb"})
+            for (const std::string show : {"lit", "ao", "clusters", "error"}) {
+                std::vector<std::string> arguments = {"render",    at(model),   "--env",  at("e.exr"),
+                                                      "-o",        at("p.png"), "--size", "48x32",
+                                                      "--backend", backend,     "--show", show};
+                if (show == "error")
+                    arguments.insert(arguments.end(), {"--baked", at("b.glb")});
+                const Outcome outcome = prt(arguments);
+                const bool possible = show != "clusters" || std::string(model) == "c.glb";
+                const bool comparable = show != "error" || std::string(model) != "t.glb";
+                EXPECT_EQ(outcome.status, possible && comparable ? 0 : 1) << model << show << outcome.err;
+            }
+}
+
+TEST_F(Road, SameSeedSameBytesWhateverTheThreads) {
+    triangle_file().write(folder / "t.glb");
+    for (const char* threads : {"1", "2"}) {
+        ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at((std::string("b") + threads).c_str()), "--rays", "100",
+                       "--threads", threads})
+                      .status,
+                  0);
+        ASSERT_EQ(prt({"compress", at("b1"), "-o", at((std::string("c") + threads).c_str()), "--clusters",
+                       "2", "--components", "1", "--threads", threads})
+                      .status,
+                  0);
+    }
+    EXPECT_EQ(read_file(folder / "b1"), read_file(folder / "b2"));
+    EXPECT_EQ(read_file(folder / "c1"), read_file(folder / "c2"));
+}
+
+#ifdef PRT_EXAMPLE_SCENES
+TEST_F(Road, CtrlCEndsALongBakeAndLeavesNothing) {
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    const std::size_t before = folder.files();
+    const std::string scene = at("terrain.glb"), output = at("b.glb");
+    const pid_t child = fork();
+    if (child == 0) {
+        std::freopen("/dev/null", "w", stderr);
+        execl(PRT_PROGRAM, PRT_PROGRAM, "bake", scene.c_str(), "-o", output.c_str(), "--rays", "1000000",
+              nullptr);
+        _exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    kill(child, SIGINT);
+    int status = 0;
+    for (int waited = 0; waitpid(child, &status, WNOHANG) == 0; ++waited) {
+        ASSERT_LT(waited, 500) << "does not end"; // generous: a sanitizer on a busy machine
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
+    EXPECT_EQ(folder.files(), before);
+}
+#endif
+
+} // namespace
+} // namespace prt::test

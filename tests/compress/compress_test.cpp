@@ -1,0 +1,263 @@
+#include "prt/compress.h"
+
+#include "prt/error.h"
+#include "prt/error_measures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <set>
+
+namespace prt {
+namespace {
+
+Transfer random_transfer(std::size_t receivers, int order, int channels, unsigned seed) {
+    Transfer t{order, channels, {}};
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    t.vectors.resize(receivers * t.dimension());
+    for (float& v : t.vectors)
+        v = normal(random);
+    return t;
+}
+
+/// Points on `clusters` affine subspaces of `rank` dimensions, far from each other.
+Transfer synthetic(std::size_t receivers, std::size_t clusters, std::size_t rank,
+                   std::vector<std::size_t>& truth) {
+    const Transfer bases = random_transfer(clusters * (rank + 1), 4, 1, 11);
+    Transfer t{4, 1, std::vector<float>(receivers * bases.dimension())};
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> uniform(-0.3f, 0.3f);
+    for (std::size_t p = 0; p < receivers; ++p) {
+        const std::size_t k = p % clusters;
+        truth.push_back(k);
+        for (std::size_t i = 0; i < t.dimension(); ++i)
+            t.vector(p)[i] = 10 * bases.vector(k * (rank + 1))[i];
+        for (std::size_t j = 0; j < rank; ++j) {
+            const float weight = uniform(random);
+            for (std::size_t i = 0; i < t.dimension(); ++i)
+                t.vector(p)[i] += weight * bases.vector(k * (rank + 1) + 1 + j)[i];
+        }
+    }
+    return t;
+}
+
+CompressResult run(const Transfer& t, int clusters, int components,
+                   WeightFormat format = WeightFormat::float32, int threads = 0) {
+    CompressOptions options;
+    options.clusters = clusters;
+    options.components = components;
+    options.weights = format;
+    options.threads = threads;
+    return compress(t, std::vector<float>(t.receivers(), 1.0f), options);
+}
+
+double error_of(const Transfer& t, const CompressResult& result) {
+    return relative_l2(t, decode(result.transfer), std::vector<float>(t.receivers(), 1.0f));
+}
+
+TEST(Compress, ErrorNeverIncreasesOverIterations) {
+    for (const unsigned seed : {1u, 2u, 3u}) {
+        const auto errors =
+            run(random_transfer(600, 4, seed == 3 ? 3 : 1, seed), 8, 4).statistics.relative_l2_by_iteration;
+        ASSERT_GT(errors.size(), 1u);
+        for (std::size_t i = 1; i < errors.size(); ++i)
+            EXPECT_LE(errors[i], errors[i - 1]);
+    }
+}
+
+TEST(Compress, ReportsTheErrorOfTheDecodedResult) {
+    const Transfer t = random_transfer(500, 4, 1, 4);
+    const CompressResult result = run(t, 8, 4);
+    EXPECT_NEAR(result.statistics.relative_l2_by_iteration.back(), error_of(t, result), 1e-6);
+}
+
+TEST(Compress, RecoversKnownClustersAndTheirRank) {
+    std::vector<std::size_t> truth;
+    const Transfer t = synthetic(900, 6, 3, truth);
+    const CompressResult result = run(t, 6, 3);
+    EXPECT_LT(error_of(t, result), 1e-6);
+    std::set<std::pair<std::size_t, std::uint16_t>> pairs;
+    for (std::size_t p = 0; p < truth.size(); ++p)
+        pairs.insert({truth[p], result.transfer.receivers.clusters[p]});
+    EXPECT_EQ(pairs.size(), 6u); // a bijection
+}
+
+TEST(Compress, ErrorIsZeroWhenComponentsReachTheRank) {
+    const Transfer t = random_transfer(300, 3, 1, 8);
+    EXPECT_LT(error_of(t, run(t, 1, 9)), 1e-6); // as many components as dimensions
+    std::vector<std::size_t> truth;
+    const Transfer low_rank = synthetic(400, 1, 5, truth);
+    const CompressResult result = run(low_rank, 1, 16);
+    EXPECT_LT(error_of(low_rank, result), 1e-6);
+    EXPECT_EQ(result.transfer.bases.max_components(), 5); // and it keeps no more than there are
+}
+
+TEST(Compress, DirectionsAreOrthonormal) {
+    const Transfer t = random_transfer(400, 4, 3, 9);
+    const CompressResult result = run(t, 4, 6);
+    const ClusteredBases& b = result.transfer.bases;
+    const auto first = b.first_rows();
+    for (std::size_t k = 0; k < b.clusters(); ++k)
+        for (int i = 0; i < b.components[k]; ++i)
+            for (int j = 0; j <= i; ++j) {
+                double dot = 0;
+                for (std::size_t d = 0; d < b.dimension(); ++d)
+                    dot += static_cast<double>(
+                               b.rows[(first[k] + 1 + static_cast<std::size_t>(i)) * b.dimension() + d]) *
+                           static_cast<double>(
+                               b.rows[(first[k] + 1 + static_cast<std::size_t>(j)) * b.dimension() + d]);
+                EXPECT_NEAR(dot, i == j ? 1 : 0, 1e-6);
+            }
+}
+
+TEST(Compress, MoreClustersOrComponentsNeverHurtMuchAndQuantisingCostsLittle) {
+    std::vector<std::size_t> truth;
+    Transfer t = synthetic(1500, 20, 6, truth);
+    const Transfer noise = random_transfer(1500, 4, 1, 77);
+    for (std::size_t i = 0; i < t.vectors.size(); ++i)
+        t.vectors[i] += 0.02f * noise.vectors[i];
+    double before = 1;
+    for (const int components : {0, 1, 2, 4, 8, 16}) {
+        const double error = error_of(t, run(t, 16, components));
+        EXPECT_LT(error, before);
+        before = error;
+    }
+    const double exact = error_of(t, run(t, 16, 4)),
+                 bits16 = error_of(t, run(t, 16, 4, WeightFormat::snorm16)),
+                 bits8 = error_of(t, run(t, 16, 4, WeightFormat::snorm8));
+    EXPECT_NEAR(bits16, exact, 1e-4 * exact);
+    EXPECT_LT(bits8, 1.05 * exact);
+}
+
+TEST(Compress, QuantisationErrorIsHalfAStepAtMost) {
+    std::vector<std::size_t> truth;
+    const Transfer t = synthetic(500, 3, 2, truth); // exact but for the weights' rounding
+    const CompressResult result = run(t, 3, 2, WeightFormat::snorm8);
+    const Transfer decoded = decode(result.transfer);
+    const float largest_scale =
+        *std::max_element(result.transfer.bases.scales.begin(), result.transfer.bases.scales.end());
+    for (std::size_t p = 0; p < t.receivers(); ++p) {
+        double squared = 0;
+        for (std::size_t i = 0; i < t.dimension(); ++i)
+            squared += std::pow(static_cast<double>(t.vector(p)[i] - decoded.vector(p)[i]), 2);
+        EXPECT_LT(std::sqrt(squared), std::sqrt(2.0) * 0.5 / 127 * static_cast<double>(largest_scale) + 1e-4);
+    }
+}
+
+TEST(Compress, IsTheSameForAnyNumberOfThreads) {
+    const Transfer t = random_transfer(1000, 5, 1, 21);
+    const CompressResult one = run(t, 12, 5, WeightFormat::snorm8, 1);
+    for (const int threads : {2, 5}) {
+        const CompressResult other = run(t, 12, 5, WeightFormat::snorm8, threads);
+        EXPECT_EQ(one.transfer.bases.rows, other.transfer.bases.rows);
+        EXPECT_EQ(one.transfer.receivers.weights, other.transfer.receivers.weights);
+        EXPECT_EQ(one.transfer.receivers.clusters, other.transfer.receivers.clusters);
+    }
+}
+
+TEST(HardCase, OneReceiver) {
+    const Transfer t = random_transfer(1, 3, 1, 1);
+    const CompressResult result = run(t, 8, 4, WeightFormat::snorm8);
+    EXPECT_EQ(result.transfer.bases.clusters(), 1u);
+    EXPECT_LT(error_of(t, result), 1e-6);
+}
+
+TEST(HardCase, IdenticalReceiversNeedOneClusterAndNoComponents) {
+    Transfer t = random_transfer(1, 3, 1, 1);
+    const std::vector<float> one = t.vectors;
+    for (int i = 0; i < 99; ++i)
+        t.vectors.insert(t.vectors.end(), one.begin(), one.end());
+    const CompressResult result = run(t, 8, 4);
+    EXPECT_EQ(result.transfer.bases.clusters(), 1u);
+    EXPECT_EQ(result.transfer.bases.max_components(), 0);
+    EXPECT_LT(error_of(t, result), 1e-6);
+}
+
+TEST(HardCase, MoreClustersThanReceivers) {
+    const Transfer t = random_transfer(5, 3, 1, 1);
+    const CompressResult result = run(t, 64, 3);
+    EXPECT_LE(result.transfer.bases.clusters(), 5u);
+    EXPECT_LT(error_of(t, result), 1e-6);
+}
+
+TEST(HardCase, FewerMembersThanComponents) {
+    const Transfer t = random_transfer(40, 4, 1, 6);
+    const CompressResult result = run(t, 20, 16);
+    EXPECT_LT(error_of(t, result), 1e-6);
+}
+
+TEST(HardCase, ZeroTransferStaysZero) {
+    const Transfer t{4, 1, std::vector<float>(100 * 16, 0.0f)};
+    const CompressResult result = run(t, 4, 4, WeightFormat::snorm8);
+    EXPECT_EQ(error_of(t, result), 0);
+    for (const float v : decode(result.transfer).vectors)
+        EXPECT_EQ(v, 0);
+}
+
+TEST(HardCase, AHugeOutlierIsKeptAndSpoilsNothing) {
+    std::vector<std::size_t> truth;
+    Transfer t = synthetic(300, 3, 2, truth);
+    for (float& v : t.vector(17))
+        v *= 1e6f;
+    const CompressResult result = run(t, 4, 2);
+    EXPECT_LT(error_of(t, result), 1e-5);
+    const Transfer decoded = decode(result.transfer);
+    for (const std::size_t p : {0u, 1u, 2u, 100u})
+        for (std::size_t i = 0; i < t.dimension(); ++i)
+            EXPECT_NEAR(decoded.vector(p)[i], t.vector(p)[i], 1e-3f);
+}
+
+TEST(HardCase, NearZeroCovarianceIsRoundingAndNotADirection) {
+    Transfer t = random_transfer(1, 3, 1, 2);
+    const std::vector<float> one = t.vectors;
+    for (int i = 0; i < 50; ++i)
+        for (const float v : one)
+            t.vectors.push_back(i % 2 ? v : std::nextafter(v, 2 * v));
+    const CompressResult result = run(t, 1, 4, WeightFormat::snorm8);
+    EXPECT_LT(error_of(t, result), 2e-7);
+}
+
+TEST(HardCase, ReceiversWithoutAreaDoNotCountButAreCoded) {
+    std::vector<std::size_t> truth;
+    Transfer t = synthetic(200, 2, 2, truth);
+    const Transfer noise = random_transfer(200, 4, 1, 3);
+    std::vector<float> areas(200, 1.0f);
+    for (std::size_t p = 0; p < 200; p += 5) {
+        areas[p] = 0;
+        std::copy(noise.vector(p).begin(), noise.vector(p).end(), t.vector(p).begin());
+    }
+    CompressOptions options;
+    options.clusters = 2;
+    options.components = 2;
+    options.weights = WeightFormat::float32;
+    const CompressResult result = compress(t, areas, options);
+    EXPECT_LT(relative_l2(t, decode(result.transfer), areas), 1e-6);
+    EXPECT_EQ(result.transfer.receivers.size(), 200u);
+    const CompressResult nobody = compress(t, std::vector<float>(200, 0.0f), options); // then all count alike
+    EXPECT_EQ(nobody.transfer.receivers.size(), 200u);
+}
+
+TEST(Compress, RefusesWhatItCannotDo) {
+    Transfer t = random_transfer(10, 3, 1, 1);
+    EXPECT_THROW(run(t, 0, 4), Error);
+    EXPECT_THROW(run(t, 70000, 4), Error);
+    EXPECT_THROW(run(t, 4, -1), Error);
+    EXPECT_THROW(run(t, 4, 10), Error); // nine dimensions
+    t.vectors[7] = std::nanf("");
+    EXPECT_THROW(run(t, 4, 4), Error);
+    EXPECT_THROW(run({3, 1, {}}, 4, 4), Error);
+}
+
+TEST(Compress, StopsWhenAsked) {
+    std::stop_source stop;
+    stop.request_stop();
+    CompressOptions options;
+    const Transfer t = random_transfer(100, 3, 1, 1);
+    EXPECT_THROW(compress(t, std::vector<float>(100, 1.0f), options, {{}, stop.get_token()}), Cancelled);
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,52 @@
+#include "prt/texture.h"
+
+#include "prt/tone_map.h"
+
+#include <gtest/gtest.h>
+
+namespace prt {
+namespace {
+
+TEST(Texture, MipsAverageInLinearLight) {
+    const Texture texture = make_texture({2, 1, {{255, 255, 255, 255}, {0, 0, 0, 255}}});
+    ASSERT_EQ(texture.levels.size(), 2u);
+    EXPECT_NEAR(srgb_decode(static_cast<float>(texture.levels[1].pixels[0].r) / 255), 0.5f, 0.005f);
+}
+
+TEST(Texture, OddSizesEndInOneTexel) {
+    Image8 image{7, 3, std::vector<glm::u8vec4>(21, {50, 100, 150, 200})};
+    const Texture texture = make_texture(image);
+    EXPECT_EQ(texture.levels.back().width, 1);
+    EXPECT_EQ(texture.levels.back().height, 1);
+    EXPECT_EQ(texture.levels.back().pixels[0], glm::u8vec4(50, 100, 150, 200));
+}
+
+TEST(Texture, TexelCentresAndWrapModes) {
+    Image8 image{4, 1, {}};
+    for (int i = 0; i < 4; ++i)
+        image.pixels.emplace_back(0, 0, 0, 10 * i);
+    const Texture texture = make_texture(image);
+    TextureUse use;
+    const auto alpha = [&](float u) { return 255 * sample(texture, use, {u, 0.5f}, 0).a; };
+    EXPECT_NEAR(alpha(0.125f), 0, 1e-3f);
+    EXPECT_NEAR(alpha(0.375f), 10, 1e-3f);
+    EXPECT_NEAR(alpha(0.25f), 5, 1e-3f);
+    EXPECT_NEAR(alpha(1.375f), 10, 1e-3f);
+    EXPECT_NEAR(alpha(-0.125f), 30, 1e-3f);
+    use.wrap_u = Wrap::clamp;
+    EXPECT_NEAR(alpha(1.375f), 30, 1e-3f);
+    EXPECT_NEAR(alpha(-5), 0, 1e-3f);
+    use.wrap_u = Wrap::mirror;
+    EXPECT_NEAR(alpha(1.125f), 30, 1e-3f);
+    EXPECT_NEAR(alpha(-0.375f), 10, 1e-3f);
+}
+
+TEST(Texture, LevelOfDetailBlendsLevels) {
+    const Texture texture = make_texture({2, 1, {{0, 0, 0, 255}, {0, 0, 0, 0}}});
+    EXPECT_NEAR(sample(texture, {}, {0.25f, 0.5f}, 0).a, 1, 1e-3f);
+    EXPECT_NEAR(sample(texture, {}, {0.25f, 0.5f}, 9).a, 0.5f, 5e-3f);
+    EXPECT_NEAR(sample(texture, {}, {0.25f, 0.5f}, 0.5f).a, 0.75f, 5e-3f);
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,72 @@
+// The vertex shader against the C++ evaluation, read back from the GPU.
+
+#include "prt/compress.h"
+#include "prt/gl_renderer.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace prt {
+namespace {
+
+struct Kind {
+    int order, channels, clusters, components;
+    WeightFormat format;
+};
+void PrintTo(const Kind& k, std::ostream* out) {
+    *out << "order " << k.order << ", " << k.channels << " channels, " << k.clusters << " x " << k.components;
+}
+
+class VertexShader : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, VertexShader,
+    testing::Values(Kind{6, 1, 16, 8, WeightFormat::float32}, Kind{6, 1, 16, 8, WeightFormat::snorm16},
+                    Kind{6, 1, 16, 8, WeightFormat::snorm8}, Kind{4, 3, 8, 5, WeightFormat::snorm8},
+                    Kind{3, 1, 4, 0, WeightFormat::snorm8}, Kind{10, 1, 2, 48, WeightFormat::float32},
+                    Kind{5, 1, 300, 2, WeightFormat::snorm8}));
+
+TEST_P(VertexShader, AgreesWithCppPerVertex) {
+    const Kind kind = GetParam();
+    std::string why;
+    const auto context = GlContext::create(GlDevice::any, &why);
+    ASSERT_TRUE(context) << why;
+    std::mt19937 random(9);
+    std::normal_distribution<float> normal;
+    Transfer transfer{kind.order, kind.channels, {}};
+    transfer.vectors.resize(2000 * transfer.dimension());
+    for (std::size_t i = 0; i < transfer.vectors.size(); ++i)
+        transfer.vectors[i] = normal(random) + (i % transfer.dimension() == 0 ? 3.0f : 0.0f);
+    CompressOptions options;
+    options.clusters = kind.clusters;
+    options.components = kind.components;
+    options.weights = kind.format;
+    options.max_iterations = 2;
+    const ClusteredTransfer compressed =
+        compress(transfer, std::vector<float>(transfer.receivers(), 1.0f), options).transfer;
+    Light light = constant_light(kind.order, glm::vec3(1));
+    for (glm::vec3& c : light.coefficients)
+        c += 0.3f * glm::vec3(normal(random), normal(random), normal(random));
+
+    const auto expected = exit_radiance(compressed, light);
+    const auto measured = exit_radiance_gl(compressed, light, *context);
+    ASSERT_EQ(measured.size(), expected.size());
+    float largest = 0;
+    for (std::size_t p = 0; p < expected.size(); ++p)
+        largest = std::max(largest, glm::distance(expected[p], measured[p]) /
+                                        std::max(1.0f, glm::length(expected[p])));
+    RecordProperty("largest_relative_difference", std::to_string(largest));
+    EXPECT_LT(largest, 1e-5f);
+}
+
+TEST(GlTransfer, TooManyComponentsAreRefused) {
+    const auto context = GlContext::create(GlDevice::any);
+    ASSERT_TRUE(context);
+    ClusteredTransfer transfer;
+    transfer.bases = {10, 1, {49}, std::vector<float>(50 * 100), std::vector<float>(49)};
+    EXPECT_THROW(GlTransfer{transfer}, std::exception);
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,72 @@
+#include "glb_file.h"
+
+#include <cstdint>
+#include <fstream>
+
+namespace prt::test {
+
+std::size_t GlbFile::view(std::span<const std::byte> bytes, std::size_t stride) {
+    binary.resize((binary.size() + 3) / 4 * 4);
+    nlohmann::ordered_json view = {
+        {"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
+    if (stride > 0)
+        view["byteStride"] = stride;
+    binary.insert(binary.end(), bytes.begin(), bytes.end());
+    json["bufferViews"].push_back(view);
+    return json["bufferViews"].size() - 1;
+}
+
+std::size_t GlbFile::accessor(std::span<const std::byte> bytes, std::size_t count, int component_type,
+                              const char* type, bool normalized, std::size_t stride) {
+    nlohmann::ordered_json accessor = {{"bufferView", view(bytes, stride)},
+                                       {"componentType", component_type},
+                                       {"count", count},
+                                       {"type", type}};
+    if (normalized)
+        accessor["normalized"] = true;
+    json["accessors"].push_back(accessor);
+    return json["accessors"].size() - 1;
+}
+
+std::string GlbFile::bytes() const {
+    nlohmann::ordered_json complete = json;
+    if (!binary.empty() && !complete.contains("buffers"))
+        complete["buffers"] = {{{"byteLength", binary.size()}}};
+    std::string text = complete.dump(), data(reinterpret_cast<const char*>(binary.data()), binary.size());
+    text.append((4 - text.size() % 4) % 4, ' ');
+    data.append((4 - data.size() % 4) % 4, '\0');
+    const auto word = [](std::size_t value) {
+        const auto v = static_cast<std::uint32_t>(value);
+        return std::string(reinterpret_cast<const char*>(&v), 4);
+    };
+    std::string file = "glTF" + word(2) + word(20 + text.size() + (data.empty() ? 0 : 8 + data.size())) +
+                       word(text.size()) + "JSON" + text;
+    if (!data.empty())
+        file += word(data.size()) + std::string("BIN\0", 4) + data;
+    return file;
+}
+
+void GlbFile::write(const std::filesystem::path& path) const {
+    std::ofstream(path, std::ios::binary) << bytes();
+}
+
+GlbFile triangle_file() {
+    GlbFile file;
+    const std::size_t position =
+        file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, kFloat, "VEC3", 3);
+    file.json["accessors"][position]["min"] = {0, 0, 0};
+    file.json["accessors"][position]["max"] = {1, 1, 0};
+    const std::size_t normal =
+        file.accessor(std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1}, kFloat, "VEC3", 3);
+    const std::size_t indices =
+        file.accessor(std::vector<std::uint16_t>{0, 1, 2}, kUnsignedShort, "SCALAR", 1);
+    file.json["meshes"] = {
+        {{"primitives",
+          {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}, {"indices", indices}}}}}};
+    file.json["nodes"] = {{{"mesh", 0}}};
+    file.json["scenes"] = {{{"nodes", {0}}}};
+    file.json["scene"] = 0;
+    return file;
+}
+
+} // namespace prt::test

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "prt/scene.h"
+
+#include <functional>
+
+namespace prt::test {
+
+/// Makes scenes of one vertex array and one primitive without a file.
+class SceneBuilder {
+public:
+    SceneBuilder& triangle(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+    /// Two triangles; the front is where (b - a) x (d - a) points.
+    SceneBuilder& quad(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& d);
+    /// A disc of `segments` triangles, front along unit `axis`.
+    SceneBuilder& disc(const glm::vec3& centre, const glm::vec3& axis, float radius, int segments);
+    /// A sphere of rows x 2 rows quads, front outside.
+    SceneBuilder& sphere(const glm::vec3& centre, float radius, int rows);
+    /// A horizontal square about `centre`, facing up.
+    SceneBuilder& floor(const glm::vec3& centre, float half_size, int cells = 1);
+    /// Applies `change` to all positions so far.
+    SceneBuilder& transform(const std::function<glm::vec3(const glm::vec3&)>& change);
+
+    Scene build() const;
+
+private:
+    std::uint32_t vertex(const glm::vec3& position, const glm::vec3& normal);
+    VertexArray vertices_;
+    std::vector<glm::uvec3> triangles_;
+};
+
+} // namespace prt::test
