@@ -70,17 +70,20 @@ float rounding_floor(const Light& light) {
     return -1e-5f * largest;
 }
 
+/// Diffuses the light just so much over the sphere that it is nowhere negative. Diffusion is the one window
+/// whose effect is monotone: more of it never makes a minimum lower, so bisection finds the least.
 Light deringed(const Light& light) {
     if (least_radiance(light) >= rounding_floor(light))
         return light;
-    // At width 1 only the mean is left; at 4 N the window is all but open.
-    double closed = 1, open = 4.0 * light.order;
-    for (int step = 0; step < 24; ++step) {
-        const double width = 0.5 * (closed + open);
-        const Light candidate = with_band_factors(light, [&](int l) { return hann_window(l, width); });
-        (least_radiance(candidate) >= rounding_floor(light) ? closed : open) = width;
+    const auto diffused = [&](double time) {
+        return with_band_factors(light, [&](int l) { return std::exp(-time * l * (l + 1)); });
+    };
+    double too_little = 0, enough = 16; // after 16 nothing but the mean is left
+    for (int step = 0; step < 32; ++step) {
+        const double time = 0.5 * (too_little + enough);
+        (least_radiance(diffused(time)) >= rounding_floor(light) ? enough : too_little) = time;
     }
-    return with_band_factors(light, [&](int l) { return hann_window(l, closed); });
+    return diffused(enough);
 }
 
 } // namespace

@@ -83,6 +83,12 @@ std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const
     on_gpu.attach(name, 0);
     std::vector<glm::vec3> radiance(transfer.receivers.size());
     const GlObject output = make_buffer(std::span<const glm::vec3>(radiance));
+    GLuint target = 0; // nothing is drawn, but without a window there is no framebuffer unless we make one
+    glCreateFramebuffers(1, &target);
+    const GlObject framebuffer(GlKind::framebuffer, target);
+    glNamedFramebufferParameteri(target, GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+    glNamedFramebufferParameteri(target, GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+    glBindFramebuffer(GL_FRAMEBUFFER, target);
     glUseProgram(program.name());
     on_gpu.use(program.name());
     glBindVertexArray(name);

@@ -83,17 +83,15 @@ ByteRange range_of(const Json& view) {
     return {begin, begin + view.value("byteLength", std::size_t{0})};
 }
 
-/// Cuts the bytes of removed views out of the buffer, save those that a kept view covers too.
+/// Cuts out of the buffer what only removed views, or none, refer to.
 void cut_bytes(GltfContents& contents, const std::set<std::size_t>& removed) {
-    std::vector<bool> drop(contents.binary.size(), false);
+    std::vector<bool> drop(contents.binary.size(), true);
     const Json& views = contents.json["bufferViews"];
-    for (int pass = 0; pass < 2; ++pass) // first mark the removed, then unmark the kept
-        for (std::size_t i = 0; i < views.size(); ++i)
-            if (removed.contains(i) == (pass == 0)) {
-                const ByteRange range = range_of(views[i]);
-                for (std::size_t b = range.begin; b < std::min(range.end, drop.size()); ++b)
-                    drop[b] = pass == 0;
-            }
+    for (std::size_t i = 0; i < views.size(); ++i) {
+        const ByteRange range = range_of(views[i]);
+        for (std::size_t b = range.begin; !removed.contains(i) && b < std::min(range.end, drop.size()); ++b)
+            drop[b] = false;
+    }
     // Whole groups of 8 bytes go, so that every kept view keeps its alignment.
     std::vector<std::byte> kept;
     std::vector<std::size_t> new_offset(contents.binary.size() + 1);

@@ -45,14 +45,39 @@ void check_claimed_size(std::span<const std::byte> file) {
                     " pixels, more than this program reads");
 }
 
+/// Hands a file in memory to stb piece by piece, to see whether it asks for more than there is: it would take zeros
+/// for what is missing and say nothing.
+struct ByteStream {
+    std::span<const std::byte> rest;
+    bool past_end = false;
+
+    static int read(void* user, char* to, int size) {
+        auto& stream = *static_cast<ByteStream*>(user);
+        const std::size_t count = std::min(static_cast<std::size_t>(size), stream.rest.size());
+        std::memcpy(to, stream.rest.data(), count);
+        stream.rest = stream.rest.subspan(count);
+        stream.past_end |= count == 0;
+        return static_cast<int>(count);
+    }
+    static void skip(void* user, int count) {
+        auto& stream = *static_cast<ByteStream*>(user);
+        stream.rest = stream.rest.subspan(std::min(static_cast<std::size_t>(std::max(count, 0)), stream.rest.size()));
+    }
+    static int eof(void* user) { return static_cast<ByteStream*>(user)->rest.empty(); }
+};
+
 Image read_hdr(std::span<const std::byte> file) {
     check_claimed_size(file);
     Image image;
     int channels = 0;
+    const stbi_io_callbacks callbacks{ByteStream::read, ByteStream::skip, ByteStream::eof};
+    ByteStream stream{file};
     const std::unique_ptr<float, StbFree> pixels(
-        stbi_loadf_from_memory(stb_bytes(file), stb_size(file), &image.width, &image.height, &channels, 3));
+        stbi_loadf_from_callbacks(&callbacks, &stream, &image.width, &image.height, &channels, 3));
     if (!pixels)
         throw Error(std::string("is a damaged or unsupported Radiance HDR: ") + stbi_failure_reason());
+    if (stream.past_end)
+        throw Error("is a damaged Radiance HDR: it ends before its last pixel");
     image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::vec3));
     return image;

@@ -73,8 +73,11 @@ TEST_P(Magnitude, ScaledAndMovedScenesHaveTheSameTransfer) {
     // Moved by 1000 sizes the sphere itself is rounded by 1e-4 of its size; rays through that shell may
     // change.
     const double tolerance = offset == 0 ? 1e-5 : 5e-3;
-    for (std::size_t i = 0; i < t.vectors.size(); ++i)
-        ASSERT_NEAR(t.vectors[i], moved.vectors[i], tolerance) << i;
+    const std::vector<float> areas = receiver_areas(builder().build());
+    for (std::size_t p = 0; p < t.receivers(); ++p)
+        for (std::size_t i = 0; areas[p] > 1e-6f && i < t.dimension();
+             ++i) // at the poles some have none but by rounding
+            ASSERT_NEAR(t.vector(p)[i], moved.vector(p)[i], tolerance) << p << " " << i;
 }
 
 TEST(HardCase, OpenFloorsStayOpenAtEveryDistanceFromTheOrigin) {

@@ -129,7 +129,7 @@ INSTANTIATE_TEST_SUITE_P(
             ""},
         Damage{"attributes_of_wrong_type", [](GlbFile& f) { primitive(f)["attributes"] = 3; }, ""},
         Damage{"nodes_of_wrong_type", [](GlbFile& f) { f.json["nodes"] = "x"; }, ""}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& kind) { return kind.param.name; });
 
 TEST_P(DamagedGltf, IsOneClearLineThatNamesTheFile) {
     const test::TemporaryFolder folder;

@@ -125,13 +125,14 @@ TEST(Nodes, ShearedNormalsStayPerpendicular) {
 
 TEST(Accessors, SparseSubstitutionsAreMade) {
     GlbFile file = test::triangle_file();
-    const auto indices = file.view(std::as_bytes(std::span(std::vector<std::uint8_t>{2})));
+    const std::vector<std::uint8_t> index = {2};
+    const auto indices = file.view(std::as_bytes(std::span(index)));
     const std::vector<float> value = {0, 7, 0};
     const auto values = file.view(std::as_bytes(std::span(value)));
-    file.json["accessors"][0]["sparse"] = {
-        {"count", 1},
-        {"indices", {{"bufferView", indices}, {"componentType", test::kUnsignedByte}}},
-        {"values", {{"bufferView", values}}}};
+    auto& sparse = file.json["accessors"][0]["sparse"];
+    sparse["count"] = 1;
+    sparse["indices"] = {{"bufferView", indices}, {"componentType", test::kUnsignedByte}};
+    sparse["values"]["bufferView"] = values;
     EXPECT_EQ(scene_of(file).vertex_arrays[0].positions[2], glm::vec3(0, 7, 0));
     // Without a buffer view the rest is zero.
     file.json["accessors"][0].erase("bufferView");
@@ -151,7 +152,8 @@ TEST(Accessors, QuantisedAndInterleavedAttributesAreRead) {
         file.accessor(std::as_bytes(std::span(n)), 3, test::kByte, "VEC3", true, 4);
     const std::vector<std::uint16_t> uv = {0, 65535, 65535, 0, 32768, 32768};
     primitive(file)["attributes"]["TEXCOORD_0"] = file.accessor(uv, test::kUnsignedShort, "VEC2", 2, true);
-    const VertexArray& v = scene_of(file).vertex_arrays[0];
+    const Scene scene = scene_of(file);
+    const VertexArray& v = scene.vertex_arrays[0];
     EXPECT_EQ(v.positions[1], glm::vec3(300, 0, 0));
     EXPECT_EQ(v.normals[2], glm::vec3(0, 0, 1));
     EXPECT_EQ(v.texcoords[0][0], glm::vec2(0, 1));

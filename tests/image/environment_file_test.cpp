@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(
                     ExrKind{"uint_zip", Imf::UINT, Imf::ZIP_COMPRESSION, false, false},
                     ExrKind{"grey_half", Imf::HALF, Imf::ZIP_COMPRESSION, false, true},
                     ExrKind{"grey_float_tiled", Imf::FLOAT, Imf::ZIP_COMPRESSION, true, true}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& kind) { return kind.param.name; });
 
 TEST_P(Exr, OfAnyChannelTypeAndCompressionIsRead) {
     const ExrKind kind = GetParam();

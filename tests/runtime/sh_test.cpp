@@ -92,12 +92,12 @@ TEST_P(ShOrder, ClampedCosineLobeIsTheIntegralOfTheClampedCosine) {
     Basis lobe{};
     clamped_cosine_lobe(order, normal, lobe);
     for (std::size_t i = 0; i < static_cast<std::size_t>(coefficient_count(order)); ++i) {
-        const double integral = test::integrate_sphere(400, [&](const glm::dvec3& w) {
+        const double integral = test::integrate_sphere(200, [&](const glm::dvec3& w) {
             Basis y{};
             evaluate_sh(order, w, y);
             return std::max(0.0, glm::dot(normal, w)) * y[i] / pi;
         });
-        EXPECT_NEAR(lobe[i], integral, 2e-5) << i; // the midpoint rule's error at the kink
+        EXPECT_NEAR(lobe[i], integral, 2e-4) << i; // the midpoint rule errs by the square of a cell, 0.01
         if (i >= 40)
             break; // the high bands are the same code; one of each parity has been seen
     }
