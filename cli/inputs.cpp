@@ -19,9 +19,10 @@ int Model::order() const {
 Model load_model(const Path& path) {
     GltfDocument document = load_gltf(path);
     Scene scene = extract_scene(document);
-    print_notices(path.string(), scene.notices);
     auto baked = read_transfer(document, scene);
     auto compressed = read_clustered(document, scene);
+    if (!baked && !compressed) // else they were given when it was baked
+        print_notices(path.string(), scene.notices);
     return {std::move(document), std::move(scene), std::move(baked), std::move(compressed)};
 }
 
