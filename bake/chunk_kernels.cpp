@@ -78,6 +78,9 @@ void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint3
     const std::uint32_t* sobol_x = chunk.x.data();
     const std::uint32_t* sobol_y = chunk.y.data();
     const glm::vec3 t = frame.tangent, b = frame.bitangent, n = frame.normal;
+    float* const to_x = directions.x.data(); // plain pointers: through std::array the loop does not vectorise
+    float* const to_y = directions.y.data();
+    float* const to_z = directions.z.data();
     const std::size_t count = chunk.x.size();
     for (std::size_t i = 0; i < count; ++i) {
         const float u = to_signed_unit(reverse_bits(laine_karras(sobol_x[i] ^ offset.x, seed_x)));
@@ -92,10 +95,10 @@ void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint3
             angle * (1 + a2 * (-1.0f / 6 + a2 * (1.0f / 120 + a2 * (-1.0f / 5040 + a2 * (1.0f / 362880)))));
         const float cosine = 1 + a2 * (-0.5f + a2 * (1.0f / 24 + a2 * (-1.0f / 720 + a2 * (1.0f / 40320))));
         const float x = radius * (wide ? cosine : sine), y = radius * (wide ? sine : cosine);
-        const float z = std::sqrt(std::fmax(0.0f, 1 - radius * radius));
-        directions.x[i] = t.x * x + b.x * y + n.x * z;
-        directions.y[i] = t.y * x + b.y * y + n.y * z;
-        directions.z[i] = t.z * x + b.z * y + n.z * z;
+        const float z = std::sqrt(1 - radius * radius); // the radius is at most 1
+        to_x[i] = t.x * x + b.x * y + n.x * z;
+        to_y[i] = t.y * x + b.y * y + n.y * z;
+        to_z[i] = t.z * x + b.z * y + n.z * z;
     }
 }
 
