@@ -92,6 +92,25 @@ TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
 }
 #endif
 
+#ifdef PRT_EXAMPLE_SCENES
+TEST_F(Road, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
+    if (std::string(PRT_NODE).empty())
+        GTEST_SKIP() << "node is not installed";
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    ASSERT_EQ(prt({"bake", at("knot.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "3"}).status, 0);
+    for (const char* weights : {"8", "16", "float"}) {
+        ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("c.glb"), "--clusters", "20", "--components", "5",
+                       "--weights", weights, "--json", at("c.json")})
+                      .status,
+                  0);
+        const Outcome decoder = run(PRT_NODE, {PRT_DECODE, at("b.glb"), at("c.glb")});
+        ASSERT_EQ(decoder.status, 0) << decoder.err;
+        const double expected = read_json(folder / "c.json")["relative_l2"];
+        EXPECT_NEAR(std::stod(decoder.out), expected, 1e-5 * expected); // areas and vectors are floats there
+    }
+}
+#endif
+
 /// A file that gives the writer work: instances, missing normals, strips, an image beside it, sparse data.
 GlbFile demanding_file() {
     GlbFile file = triangle_file();
