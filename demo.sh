@@ -11,19 +11,19 @@ mkdir -p out
 build/release/examples/scenes/example_scenes out/scenes
 sky=out/scenes/sky.exr
 
-# name, clusters, components
+# name, clusters, components, options of the camera
 road() {
     local name=$1 clusters=$2 components=$3
     echo
     $prt bake "out/scenes/$name.glb" -o "out/$name.baked.glb"
     $prt compress "out/$name.baked.glb" -o "out/$name.shipped.glb" --clusters "$clusters" --components "$components"
     $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" --html "out/$name.html" --json "out/$name.json"
-    $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png"
-    $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png"
+    $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png" "${@:4}"
+    $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png" "${@:4}"
 }
 road knot 64 8
-road room 128 8
-road terrain 128 12
+road room 128 8 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
+road terrain 128 12 --camera 1,4.5,11 --look-at 0,2.6,0
 $prt render out/knot.shipped.glb --env "$sky" --show clusters -o out/knot.clusters.png
 $prt render out/knot.shipped.glb --env "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png
 echo

@@ -43,7 +43,7 @@ ExampleScene terrain() {
         const float x = kSize * (u - 0.5f), z = kSize * (0.5f - v);
         return glm::vec3(x, height(x, z), z);
     };
-    return {{"hills", {0.55f, 0.5f, 0.38f}, parametric_surface(150, 150, surface)}};
+    return {{"hills", {0.3f, 0.26f, 0.16f}, parametric_surface(150, 150, surface)}};
 }
 
 } // namespace examples

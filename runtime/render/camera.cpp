@@ -5,11 +5,26 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/vec2.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace prt {
+
+namespace {
+
+/// Calls `visit` with every corner of every triangle.
+template <class Visit>
+void for_each_corner(const Scene& scene, Visit&& visit) {
+    for (const Primitive& primitive : scene.primitives)
+        for (const glm::uvec3& t : primitive.triangles)
+            for (int corner = 0; corner < 3; ++corner)
+                visit(scene.vertex_arrays[primitive.vertices].positions[t[corner]]);
+}
+
+} // namespace
 
 Camera automatic_camera(const Scene& scene, float aspect, float vertical_field_of_view) {
     Camera camera;
@@ -19,21 +34,29 @@ Camera automatic_camera(const Scene& scene, float aspect, float vertical_field_o
     const glm::vec3 from = glm::normalize(glm::vec3(0.45f, 0.35f, 1.0f));
     const glm::vec3 right = glm::normalize(glm::cross(camera.up, from)), up = glm::cross(from, right);
     const float tangent = std::tan(0.5f * camera.vertical_field_of_view);
-    // Far enough that every triangle lies inside the view, and a little more.
-    float distance = 0;
-    for (const Primitive& primitive : scene.primitives) {
-        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
-        for (const glm::uvec3& t : primitive.triangles)
-            for (int corner = 0; corner < 3; ++corner) {
-                const glm::vec3 v = vertices.positions[t[corner]] - camera.target;
-                const float depth = glm::dot(v, from);
-                distance = std::max({distance, depth + std::abs(glm::dot(v, up)) / tangent,
-                                     depth + std::abs(glm::dot(v, right)) / (tangent * aspect)});
-            }
+    for (int round = 0; round < 4;
+         ++round) { // moving to the middle changes the distance, and that the middle
+        // Far enough that every triangle lies inside the view, and a little more.
+        float distance = 0;
+        for_each_corner(scene, [&](const glm::vec3& p) {
+            const glm::vec3 v = p - camera.target;
+            distance = std::max(distance, glm::dot(v, from) +
+                                              std::max(std::abs(glm::dot(v, up)) / tangent,
+                                                       std::abs(glm::dot(v, right)) / (tangent * aspect)));
+        });
+        distance = distance > 0 ? 1.08f * distance : 1; // else all is in one point
+        camera.position = camera.target + from * distance;
+        if (round == 3)
+            break;
+        glm::vec2 low(std::numeric_limits<float>::infinity()), high = -low;
+        for_each_corner(scene, [&](const glm::vec3& p) {
+            const glm::vec3 v = p - camera.position;
+            const glm::vec2 seen = glm::vec2(glm::dot(v, right), glm::dot(v, up)) / -glm::dot(v, from);
+            low = glm::min(low, seen);
+            high = glm::max(high, seen);
+        });
+        camera.target += 0.5f * distance * (right * (low.x + high.x) + up * (low.y + high.y));
     }
-    if (!(distance > 0)) // all in one point
-        distance = 1;
-    camera.position = camera.target + from * (1.08f * distance);
     return camera;
 }
 
