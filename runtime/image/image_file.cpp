@@ -45,8 +45,8 @@ void check_claimed_size(std::span<const std::byte> file) {
                     " pixels, more than this program reads");
 }
 
-/// Hands a file in memory to stb piece by piece, to see whether it asks for more than there is: it would take zeros
-/// for what is missing and say nothing.
+/// Hands a file in memory to stb piece by piece, to see whether it asks for more than there is: it would take
+/// zeros for what is missing and say nothing.
 struct ByteStream {
     std::span<const std::byte> rest;
     bool past_end = false;
@@ -61,7 +61,8 @@ struct ByteStream {
     }
     static void skip(void* user, int count) {
         auto& stream = *static_cast<ByteStream*>(user);
-        stream.rest = stream.rest.subspan(std::min(static_cast<std::size_t>(std::max(count, 0)), stream.rest.size()));
+        stream.rest =
+            stream.rest.subspan(std::min(static_cast<std::size_t>(std::max(count, 0)), stream.rest.size()));
     }
     static int eof(void* user) { return static_cast<ByteStream*>(user)->rest.empty(); }
 };

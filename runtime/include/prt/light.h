@@ -39,9 +39,9 @@ Light truncated(const Light& light, int order);
 /// after a quarter turn.
 Light rotated_about_y(const Light& light, double angle);
 
-/// Scales the bands by a window. Hann and Lanczos use width `order`; `automatic` is the least diffusion over the
-/// sphere, exp(-t l (l+1)), under which the radiance is nowhere negative, which may be none (the aim of Sloan 2017,
-/// "Deringing Spherical Harmonics").
+/// Scales the bands by a window. Hann and Lanczos use width `order`; `automatic` is the least diffusion over
+/// the sphere, exp(-t l (l+1)), under which the radiance is nowhere negative, which may be none (the aim of
+/// Sloan 2017, "Deringing Spherical Harmonics").
 Light windowed(const Light& light, Window window);
 
 } // namespace prt
