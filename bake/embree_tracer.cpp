@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <bitset>
+#include <limits>
 #include <memory>
 
 namespace prt {
@@ -115,7 +116,8 @@ void EmbreeTracer::direct_transfer(const Receivers& receivers, std::span<const s
                                    const DirectOptions& options, std::span<float> vectors) {
     const Plan plan(scene_, options);
     const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
-    parallel_for(indices.size(), 16, threads_, [&](std::size_t begin, std::size_t end) {
+    const auto grain = static_cast<std::size_t>(std::clamp(16384 / options.rays, 1, 16));
+    parallel_for(indices.size(), grain, threads_, [&](std::size_t begin, std::size_t end) {
         const auto directions = std::make_unique<ChunkDirections>();
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t receiver = indices[i];

@@ -150,11 +150,17 @@ private:
         }
     }
 
+    bool has_vertices(const tinygltf::Primitive& file) const {
+        const int position = attribute(file, "POSITION");
+        const auto index = static_cast<std::size_t>(position);
+        return position >= 0 && (index >= model_.accessors.size() || model_.accessors[index].count > 0);
+    }
+
     void add_primitive(const NodeTransform& transform, const std::vector<NodeTransform>& all, int index) {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(transform.node)];
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
         const tinygltf::Primitive& file = mesh.primitives[static_cast<std::size_t>(index)];
-        if (!is_triangle_mode(file.mode) || attribute(file, "POSITION") < 0) {
+        if (!is_triangle_mode(file.mode) || !has_vertices(file)) {
             ++skipped_primitives_;
             return;
         }

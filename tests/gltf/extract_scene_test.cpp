@@ -70,6 +70,17 @@ TEST(Triangles, PointsAndLinesAreLeftAloneWithANotice) {
     EXPECT_NE(scene.notices[0].find("points, lines"), std::string::npos);
 }
 
+TEST(Triangles, EmptyPrimitivesAreLeftAlone) {
+    GlbFile file = test::triangle_file();
+    file.json["meshes"][0]["primitives"].push_back({{"attributes", nlohmann::ordered_json::object()}});
+    file.json["meshes"][0]["primitives"].push_back(primitive(file));
+    const auto nothing = file.accessor(std::vector<float>{}, test::kFloat, "VEC3", 3);
+    file.json["meshes"][0]["primitives"][2]["attributes"] = {{"POSITION", nothing}, {"NORMAL", nothing}};
+    const Scene scene = scene_of(file);
+    EXPECT_EQ(scene.primitives.size(), 1u);
+    EXPECT_EQ(scene.notices.size(), 1u);
+}
+
 TEST(Indices, OfAllTypesAreRead) {
     for (const int type : {test::kUnsignedByte, test::kUnsignedShort, test::kUnsignedInt}) {
         GlbFile file = test::triangle_file();
