@@ -21,7 +21,10 @@ int trace_chunk(RTCScene scene, const glm::vec3& origin, const ChunkDirections& 
                 std::bitset<kChunk>& blocked) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT; // packets are narrow beams, see SobolChunk
+    // Packets are narrow beams (see SobolChunk), yet Embree's traversal for coherent rays is the slower one:
+    // 25 against 28 million rays/s on the bunny. A beam of 1/64 of the hemisphere still fans out over many
+    // small triangles.
+    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     RTCRay16 rays;
     for (int lane = 0; lane < kPacket; ++lane) {
         rays.org_x[lane] = origin.x;
