@@ -165,9 +165,10 @@ private:
             return;
         }
         Primitive primitive{transform.node, node.mesh, index, 0, material_index(file.material), false, {}};
-        const auto key = std::tuple(transform.node, attribute(file, "POSITION"), attribute(file, "NORMAL"),
-                                    attribute(file, "NORMAL") < 0 ? index : -1);
-        const auto [found, is_new] = shared_.try_emplace(key, scene_.vertex_arrays.size());
+        // Flat normals depend on the triangles, so such a primitive shares its vertices with none.
+        const int alone = attribute(file, "NORMAL") < 0 ? index : -1;
+        const auto [found, is_new] = shared_.try_emplace(
+            std::tuple(transform.node, alone, file.attributes, file.targets), scene_.vertex_arrays.size());
         primitive.vertices = found->second;
         if (is_new)
             scene_.vertex_arrays.push_back(read_vertices(transform, all, file, mesh));
@@ -244,7 +245,9 @@ private:
 
     const tinygltf::Model& model_;
     Scene scene_;
-    std::map<std::tuple<int, int, int, int>, std::size_t> shared_;
+    using Attributes = std::map<std::string, int>;
+    /// Vertex arrays by node, primitive (where it matters), attributes and morph targets.
+    std::map<std::tuple<int, int, Attributes, std::vector<Attributes>>, std::size_t> shared_;
     std::size_t flat_primitives_ = 0, skipped_primitives_ = 0;
     bool has_skins_ = false, has_morphs_ = false;
 };
