@@ -23,6 +23,10 @@ const std::map<std::string, WeightFormat> kWeights = {
     {"float", WeightFormat::float32}, {"16", WeightFormat::snorm16}, {"8", WeightFormat::snorm8}};
 const std::map<std::string, Backend> kBackends = {
     {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
+// What the baker can do so far; the names are those of the finished program.
+const std::map<std::string, Backend> kBakeBackends = {{"auto", Backend::automatic}, {"cpu", Backend::cpu}};
+const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace}};
+constexpr int kMostBounces = 0;
 const std::map<std::string, Show> kShows = {
     {"lit", Show::lit}, {"clusters", Show::clusters}, {"error", Show::error}, {"ao", Show::ao}};
 const std::map<std::string, ToneMap> kToneMaps = {{"filmic", ToneMap::filmic}, {"srgb", ToneMap::srgb}};
@@ -90,6 +94,11 @@ void add_bake(CLI::App& app, BakeArguments& a) {
     command->add_option("--order", a.options.order, "SH order N, 1..10: N² coefficients")
         ->capture_default_str();
     command->add_option("--rays", a.options.rays, "rays per receiver")->capture_default_str();
+    command->add_option("--bounces", a.bounces, "bounces of light; 0, direct light, is all there is so far")
+        ->capture_default_str()
+        ->check(CLI::Range(0, kMostBounces));
+    choice(command, "--backend", a.backend, kBakeBackends, "what to bake on; auto is the CPU so far", "auto");
+    choice(command, "--method", a.method, kBakeMethods, "how visibility is found", "trace");
     command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
     add_threads(command, a.options.threads);
     add_json(command, a.json);

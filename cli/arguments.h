@@ -27,9 +27,14 @@ struct LightOptions {
     double rotation_degrees = 0;
 };
 
+enum class BakeMethod { trace };
+
 struct BakeArguments {
     Path scene, output, json;
     BakeOptions options;
+    int bounces = 0;
+    Backend backend = Backend::automatic;
+    BakeMethod method = BakeMethod::trace;
 };
 
 struct CompressArguments {

@@ -115,6 +115,7 @@ TEST_F(BadInput, WrongUsageIsStatusTwo) {
           {"bake", scene, "-o", out, "--order", "six"},
           {"bake", scene, "-o", out, "--bounces", "2"},
           {"bake", scene, "-o", out, "--backend", "gpu"},
+          {"bake", scene, "-o", out, "--method", "raster"},
           {"compress", scene, "-o", out, "--clusters", "auto"},
           {"compress", scene, "-o", out, "--components", "auto"},
           {"compress", scene, "-o", out, "--weights", "5"},

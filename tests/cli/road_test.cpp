@@ -190,6 +190,16 @@ TEST_F(Road, EveryViewIsDrawn) {
             }
 }
 
+TEST_F(Road, EveryOptionOfTheContractThatThereIsIsTaken) {
+    triangle_file().write(folder / "t.glb");
+    const Outcome outcome =
+        prt({"bake",      at("t.glb"), "-o",     at("b.glb"), "--order", "3",         "--rays",
+             "8",         "--bounces", "0",      "--backend", "cpu",     "--method",  "trace",
+             "--threads", "1",         "--seed", "5",         "--json",  at("b.json")});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(read_json(folder / "b.json")["bake"]["seed"], 5);
+}
+
 TEST_F(Road, SameSeedSameBytesWhateverTheThreads) {
     triangle_file().write(folder / "t.glb");
     for (const char* threads : {"1", "2"}) {
