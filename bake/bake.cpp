@@ -3,18 +3,12 @@
 #include "prt/embree_tracer.h"
 #include "prt/error.h"
 #include "prt/sh.h"
+#include "prt/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace prt {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers) {
     std::vector<std::uint32_t> indices;
@@ -77,16 +71,16 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     BakeResult result;
     BakeStatistics& statistics = result.statistics;
 
-    const auto start = Clock::now();
+    const Stopwatch build;
     const RayScene ray_scene(scene, options.threads);
-    statistics.seconds_build = seconds_since(start);
+    statistics.seconds_build = build.seconds();
 
-    const auto trace_start = Clock::now();
+    const Stopwatch trace;
     const Receivers receivers = vertex_receivers(scene);
     EmbreeTracer tracer(ray_scene, options.threads);
     result.baked.transfer =
         direct_transfer(tracer, receivers, {options.order, options.rays, options.seed}, progress);
-    statistics.seconds_trace = seconds_since(trace_start);
+    statistics.seconds_trace = trace.seconds();
 
     statistics.receivers = receivers.size();
     statistics.traced = receivers_on_surfaces(receivers).size();

@@ -37,10 +37,11 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
 
     const auto uncompressed = static_cast<double>(transfer.dimension() * sizeof(float));
     const auto receivers = static_cast<double>(transfer.receivers());
-    const double with_bases = s.bytes_per_receiver + static_cast<double>(s.basis_bytes) / receivers;
+    const double with_bases =
+        static_cast<double>(s.bytes_per_receiver) + static_cast<double>(s.basis_bytes) / receivers;
     fmt::print("{}: {} clusters x {} components, relative L2 {:.3f} %\n", a.output.string(), s.clusters,
                written.compressed->transfer.bases.max_components(), 100 * s.relative_l2);
-    fmt::print("  {:g} bytes per vertex of {:g}, {:.2f} with the bases\n", s.bytes_per_receiver, uncompressed,
+    fmt::print("  {} bytes per vertex of {:g}, {:.2f} with the bases\n", s.bytes_per_receiver, uncompressed,
                with_bases);
     fmt::print("  {:.2f} s, {} rounds\n", s.seconds, s.relative_l2_by_iteration.size());
     write_json({{"output", a.output.string()},

@@ -18,27 +18,14 @@ namespace {
 struct Candidate {
     Transfer transfer; ///< decoded
     std::optional<std::span<const std::uint16_t>> clusters;
-    const BakeRecord* record = nullptr;
 };
 
 Candidate candidate(const Model& model, const Path& path) {
     if (model.compressed)
-        return {decode(model.compressed->transfer), model.compressed->transfer.receivers.clusters,
-                &model.compressed->record};
+        return {decode(model.compressed->transfer), model.compressed->transfer.receivers.clusters};
     if (model.baked)
-        return {model.baked->transfer, std::nullopt, &model.baked->record};
+        return {model.baked->transfer, std::nullopt};
     throw Error(path.string() + ": holds no transfer; run prt bake and prt compress first");
-}
-
-void check_belong_together(const Model& baked, const Candidate& shipped, const EvaluateArguments& a) {
-    const Transfer& reference = baked.baked->transfer;
-    if (baked.baked->record.receivers != shipped.record->receivers ||
-        reference.receivers() != shipped.transfer.receivers())
-        throw Error(a.shipped.string() + ": does not belong to " + a.baked.string() +
-                    ": their receivers differ");
-    if (reference.order != shipped.transfer.order)
-        throw Error(a.shipped.string() + ": has order " + std::to_string(shipped.transfer.order) + ", " +
-                    a.baked.string() + " has order " + std::to_string(reference.order));
 }
 
 /// Exit radiance of the measured file, by the road that a game takes.
@@ -56,7 +43,7 @@ void run(const EvaluateArguments& a, Interrupt& interrupt) {
         throw Error(a.baked.string() + ": holds no raw transfer; the first file is the output of prt bake");
     const Model model = load_model(a.shipped);
     const Candidate shipped = candidate(model, a.shipped);
-    check_belong_together(baked, shipped, a);
+    check_belong_together(baked, a.baked, model, a.shipped);
 
     const Transfer& reference = baked.baked->transfer;
     std::vector<LoadedLight> lights;
@@ -82,12 +69,9 @@ void run(const EvaluateArguments& a, Interrupt& interrupt) {
         {"bytes of the file, shipped", fmt::format("{}", std::filesystem::file_size(a.shipped))}};
     if (model.compressed) {
         const ClusteredTransfer& t = model.compressed->transfer;
-        const std::size_t per_vertex =
-            (t.bases.clusters() > 256 ? 2 : 1) +
-            static_cast<std::size_t>(t.bases.max_components()) * bytes_per_weight(t.receivers.format);
         evaluation.facts.insert(evaluation.facts.end(),
-                                {{"bytes per vertex, shipped", fmt::format("{}", per_vertex)},
-                                 {"bytes of bases", fmt::format("{}", t.bases.rows.size() * sizeof(float))},
+                                {{"bytes per vertex, shipped", fmt::format("{}", bytes_per_receiver(t))},
+                                 {"bytes of bases", fmt::format("{}", basis_bytes(t.bases))},
                                  {"clusters", fmt::format("{}", t.bases.clusters())},
                                  {"components", fmt::format("{}", t.bases.max_components())}});
     }

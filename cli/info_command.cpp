@@ -51,8 +51,7 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
         fmt::print(
             "  clustered PCA: order {}, {} channels, {} clusters x {} to {} components, {}-bit weights\n",
             t.bases.order, t.bases.channels, t.bases.clusters(), *least, *most, bits);
-        fmt::print("  {} bytes of bases, {} shader constants per frame\n",
-                   t.bases.rows.size() * sizeof(float),
+        fmt::print("  {} bytes of bases, {} shader constants per frame\n", basis_bytes(t.bases),
                    t.bases.clusters() * static_cast<std::size_t>(constants_per_cluster(t.bases)));
         describe_record(model.compressed->record);
         report["clustered_pca"] = {{"order", t.bases.order},
@@ -61,7 +60,7 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
                                    {"components_least", *least},
                                    {"components_most", *most},
                                    {"bits_per_weight", bits},
-                                   {"bytes_bases", t.bases.rows.size() * sizeof(float)},
+                                   {"bytes_bases", basis_bytes(t.bases)},
                                    {"bake", bake_record_json(model.compressed->record)}};
     }
     if (!model.baked && !model.compressed)

@@ -8,12 +8,34 @@
 
 #include <fmt/core.h>
 
+#include <utility>
+
 namespace prt::cli {
 
 int Model::order() const {
     if (compressed)
         return compressed->transfer.bases.order;
     return baked ? baked->transfer.order : 0;
+}
+
+const BakeRecord* Model::record() const {
+    if (compressed)
+        return &compressed->record;
+    return baked ? &baked->record : nullptr;
+}
+
+void check_belong_together(const Model& baked, const Path& baked_path, const Model& shipped,
+                           const Path& shipped_path) {
+    for (const auto& [model, path] : {std::pair(&baked, &baked_path), std::pair(&shipped, &shipped_path)})
+        if (!model->record())
+            throw Error(path->string() + ": holds no transfer; run prt bake first");
+    if (baked.record()->receivers != shipped.record()->receivers ||
+        baked.scene.receivers() != shipped.scene.receivers())
+        throw Error(shipped_path.string() + ": does not belong to " + baked_path.string() +
+                    ": their receivers differ");
+    if (baked.order() != shipped.order())
+        throw Error(fmt::format("{}: has order {}, {} has order {}", shipped_path.string(), shipped.order(),
+                                baked_path.string(), baked.order()));
 }
 
 Model load_model(const Path& path) {

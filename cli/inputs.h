@@ -20,8 +20,14 @@ struct Model {
 
     /// Order of the transfer, 0 where there is none.
     int order() const;
+    /// How the transfer was baked; null where there is none.
+    const BakeRecord* record() const;
 };
 Model load_model(const Path& path);
+
+/// Throws `Error` unless both hold transfer of one order for the same receivers.
+void check_belong_together(const Model& baked, const Path& baked_path, const Model& shipped,
+                           const Path& shipped_path);
 
 struct LoadedLight {
     std::string name;

@@ -3,19 +3,18 @@
 #include "inputs.h"
 #include "prt/error.h"
 #include "prt/sh.h"
+#include "prt/stopwatch.h"
 #include "report.h"
 
 #include <fmt/core.h>
-
-#include <chrono>
 
 namespace prt::cli {
 
 void run(const ProjectArguments& a, Interrupt& interrupt) {
     check_order(a.order);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const LoadedLight loaded = load_light(a.environment, a.order, a.light_options, a.threads);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = stopwatch.seconds();
     write_json(light_json(loaded.light), a.output, interrupt);
 
     const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(detail::kLegendre.sectoral[0]);

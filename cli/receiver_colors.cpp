@@ -57,10 +57,6 @@ std::vector<glm::vec3> cluster_colors(const Model& model) {
 }
 
 std::vector<glm::vec3> error_colors(const Model& model, const Model& baked, const Light& light, int threads) {
-    if (!baked.baked)
-        throw Error("--baked holds no raw transfer");
-    if (baked.scene.receivers() != model.scene.receivers() || baked.order() != model.order())
-        throw Error("the file and --baked do not belong together: their receivers or orders differ");
     const std::vector<float> areas = receiver_areas(baked.scene);
     const std::vector<glm::vec3> reference = exit_radiance(baked.baked->transfer, light, threads);
     const std::vector<glm::vec3> approximation = lit_colors(model, light, threads);

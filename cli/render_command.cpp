@@ -4,13 +4,13 @@
 #include "prt/error.h"
 #include "prt/gl_renderer.h"
 #include "prt/ray_renderer.h"
+#include "prt/stopwatch.h"
 #include "receiver_colors.h"
 #include "report.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
 
-#include <chrono>
 #include <cmath>
 
 namespace prt::cli {
@@ -35,8 +35,13 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const Model& mod
         return cluster_colors(model);
     case Show::ao:
         return ao_colors(model, a.threads);
-    case Show::error:
-        return error_colors(model, load_model(a.baked), light, a.threads);
+    case Show::error: {
+        const Model baked = load_model(a.baked);
+        if (!baked.baked)
+            throw Error(a.baked.string() + ": holds no raw transfer; --baked is the output of prt bake");
+        check_belong_together(baked, a.baked, model, a.model);
+        return error_colors(model, baked, light, a.threads);
+    }
     case Show::lit:
         break;
     }
@@ -106,10 +111,10 @@ void run(const RenderArguments& a, Interrupt& interrupt) {
                                        kMostVertexComponents)});
         }
     }
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const Image image = context ? render_gl(picture, *context)
                                 : render_rays(picture, RayScene(model.scene, a.threads), a.threads);
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double seconds = stopwatch.seconds();
     write_picture(a, image, light.light, interrupt);
 
     const std::string renderer = context ? context->renderer() : "CPU ray casting";

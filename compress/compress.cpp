@@ -6,9 +6,9 @@
 #include "prt/error.h"
 #include "prt/parallel.h"
 #include "prt/sh.h"
+#include "prt/stopwatch.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -63,15 +63,21 @@ double exact_error(const PointBlocks& points, std::span<const float> weights, co
     return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
-/// Moves clusters that lost all their points to the points that are coded worst.
-void revive_empty(const PointBlocks& points, std::span<const float> weights, const Assignment& assignment,
-                  ClusterModels& models) {
-    std::vector<bool> used(models.clusters(), false);
-    for (const std::uint32_t k : assignment.clusters)
+/// Which of `count` clusters have points.
+std::vector<bool> clusters_in_use(std::span<const std::uint32_t> clusters, std::size_t count) {
+    std::vector<bool> used(count, false);
+    for (const std::uint32_t k : clusters)
         used[k] = true;
+    return used;
+}
+
+/// Moves clusters that lost all their points to the points that are coded worst. Returns whether any moved.
+bool revive_empty(const PointBlocks& points, std::span<const float> weights, const Assignment& assignment,
+                  ClusterModels& models) {
+    const std::vector<bool> used = clusters_in_use(assignment.clusters, models.clusters());
     const auto empty = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
     if (empty == 0)
-        return;
+        return false;
     std::vector<std::uint32_t> worst(points.count);
     std::iota(worst.begin(), worst.end(), 0u);
     const std::size_t wanted = std::min(empty, points.count);
@@ -85,11 +91,11 @@ void revive_empty(const PointBlocks& points, std::span<const float> weights, con
     for (std::size_t k = 0; k < models.clusters() && next < wanted; ++k) {
         if (used[k] || !(assignment.errors[worst[next]] > 0))
             continue;
-        for (std::size_t i = 0; i < points.dimension; ++i)
-            models.mean(k)[i] = points.coordinate(worst[next], i);
+        points.copy_point(worst[next], models.mean(k));
         models.components[k] = 0;
         ++next;
     }
+    return next > 0;
 }
 
 /// Clustered PCA from vector quantisation: fit every cluster's subspace, give every point the nearest,
@@ -116,11 +122,13 @@ std::vector<double> iterate(const PointBlocks& points, std::span<const float> we
         ClusterModels fitted = models;
         fit_local_pca(points, weights, clusters, growing ? 1 + round / 2 : options.components, fitted,
                       options.threads);
-        const double error = exact_error(points, weights, fitted, clusters, options.threads);
-        if (!growing && error > least)
-            break; // rounding: nothing left to gain
-        models = std::move(fitted);
-        if (!growing) {
+        if (growing) {
+            models = std::move(fitted);
+        } else {
+            const double error = exact_error(points, weights, fitted, clusters, options.threads);
+            if (error > least)
+                break; // rounding: nothing left to gain
+            models = std::move(fitted);
             history.push_back(norm > 0 ? std::sqrt(error / norm) : 0);
             const bool converged = error >= least * (1 - options.tolerance);
             least = error;
@@ -128,8 +136,9 @@ std::vector<double> iterate(const PointBlocks& points, std::span<const float> we
                 break;
         }
         Assignment next = assign(points, models, options.threads);
-        revive_empty(points, weights, next, models);
-        clusters = assign(points, models, options.threads).clusters;
+        if (revive_empty(points, weights, next, models))
+            next = assign(points, models, options.threads);
+        clusters = std::move(next.clusters);
     }
     return history;
 }
@@ -137,9 +146,7 @@ std::vector<double> iterate(const PointBlocks& points, std::span<const float> we
 /// Takes out clusters without points and renumbers the others.
 void drop_empty(ClusterModels& models, std::vector<std::uint32_t>& clusters) {
     std::vector<std::uint32_t> new_index(models.clusters(), 0);
-    std::vector<bool> used(models.clusters(), false);
-    for (const std::uint32_t k : clusters)
-        used[k] = true;
+    const std::vector<bool> used = clusters_in_use(clusters, models.clusters());
     ClusterModels kept(static_cast<std::size_t>(std::count(used.begin(), used.end(), true)), models.dimension,
                        models.max_components);
     std::uint32_t next = 0;
@@ -165,7 +172,7 @@ void drop_empty(ClusterModels& models, std::vector<std::uint32_t>& clusters) {
 CompressResult compress(const Transfer& transfer, std::span<const float> areas,
                         const CompressOptions& options, const Progress& progress) {
     check(transfer, options);
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch stopwatch;
     const Training training(areas);
     const PointBlocks points(transfer, training.receivers);
     std::mt19937_64 random(options.seed);
@@ -190,11 +197,9 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas,
     const ClusteredTransfer& coded = result.transfer;
     CompressStatistics& statistics = result.statistics;
     statistics.clusters = static_cast<int>(coded.bases.clusters());
-    statistics.bytes_per_receiver =
-        (coded.bases.clusters() > 256 ? 2 : 1) + static_cast<double>(coded.bases.max_components()) *
-                                                     static_cast<double>(bytes_per_weight(options.weights));
-    statistics.basis_bytes = (coded.bases.rows.size() + coded.bases.scales.size()) * sizeof(float);
-    statistics.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    statistics.bytes_per_receiver = bytes_per_receiver(coded);
+    statistics.basis_bytes = basis_bytes(coded.bases);
+    statistics.seconds = stopwatch.seconds();
     progress.update(1);
     return result;
 }

@@ -30,11 +30,6 @@ std::size_t draw(std::span<const float> weights, std::span<const float> errors, 
     return last;
 }
 
-void copy_point(const PointBlocks& points, std::size_t point, float* to) {
-    for (std::size_t i = 0; i < points.dimension; ++i)
-        to[i] = points.coordinate(point, i);
-}
-
 ClusterModels seed_centers(const PointBlocks& points, std::span<const float> weights, std::size_t clusters,
                            std::size_t max_components, std::mt19937_64& random, int threads,
                            const Progress& progress) {
@@ -46,7 +41,7 @@ ClusterModels seed_centers(const PointBlocks& points, std::span<const float> wei
         const std::size_t point = draw(weights, errors, random);
         if (point == points.count)
             break;
-        copy_point(points, point, models.mean(found));
+        points.copy_point(point, models.mean(found));
         if (found == 0)
             std::fill(errors.begin(), errors.end(), std::numeric_limits<float>::infinity());
         lower_to_distance(points, models.mean(found), errors, threads);

@@ -25,6 +25,10 @@ struct PointBlocks {
     float coordinate(std::size_t point, std::size_t i) const {
         return values[(point / kLanes * dimension + i) * kLanes + point % kLanes];
     }
+    void copy_point(std::size_t point, float* to) const {
+        for (std::size_t i = 0; i < dimension; ++i)
+            to[i] = coordinate(point, i);
+    }
 };
 
 /// An affine subspace per cluster: a mean and orthonormal directions. No directions: plain vector

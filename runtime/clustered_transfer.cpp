@@ -68,6 +68,16 @@ float ClusteredReceivers::weight(std::size_t receiver, int component) const {
     });
 }
 
+std::size_t bytes_per_receiver(const ClusteredTransfer& transfer) {
+    const std::size_t cluster = transfer.bases.clusters() > 256 ? 2 : 1;
+    return cluster + static_cast<std::size_t>(transfer.bases.max_components()) *
+                         bytes_per_weight(transfer.receivers.format);
+}
+
+std::size_t basis_bytes(const ClusteredBases& bases) {
+    return (bases.rows.size() + bases.scales.size()) * sizeof(float);
+}
+
 int constants_per_cluster(const ClusteredBases& bases) {
     return 1 + bases.max_components();
 }

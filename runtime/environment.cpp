@@ -1,7 +1,6 @@
 #include "prt/environment.h"
 
 #include "prt/error.h"
-#include "prt/parallel.h"
 #include "prt/sh.h"
 
 #include <glm/geometric.hpp>

@@ -39,8 +39,6 @@ struct Quadrature {
                     previous = current;
                     current = next;
                 }
-                if (n == 1)
-                    previous = 1;
                 derivative = n * (t * current - previous) / (t * t - 1);
                 const double step = current / derivative;
                 t -= step;

@@ -41,13 +41,6 @@ constexpr std::array<std::string_view, 21> kSupportedExtensions = {
     "EXT_lights_image_based",
 };
 
-std::string one_line(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' '))
-        text.pop_back();
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
 Json parse_json(std::string_view text) {
     try {
         Json json = Json::parse(text);

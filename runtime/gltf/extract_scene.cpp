@@ -7,6 +7,7 @@
 #include "node_transforms.h"
 #include "prt/error.h"
 #include "skinning.h"
+#include "triangle_normal.h"
 #include "triangles.h"
 
 #include <glm/geometric.hpp>
@@ -88,11 +89,6 @@ void apply_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive
 /// also exists where the inverse does not.
 glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
-}
-
-glm::vec3 unit_or_zero(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0 && std::isfinite(length) ? glm::vec3(v / length) : glm::vec3(0);
 }
 
 void transform(VertexArray& vertices, std::size_t i, const glm::dmat4& matrix) {

@@ -1,6 +1,6 @@
 #include "flat_normals.h"
 
-#include <glm/geometric.hpp>
+#include "triangle_normal.h"
 
 #include <array>
 #include <map>
@@ -9,15 +9,8 @@
 namespace prt {
 namespace {
 
-/// Twice the area times the unit normal, in double so that tiny triangles keep a direction.
-glm::dvec3 area_normal(const VertexArray& vertices, const glm::uvec3& t) {
-    const glm::dvec3 a(vertices.positions[t.x]);
-    return glm::cross(glm::dvec3(vertices.positions[t.y]) - a, glm::dvec3(vertices.positions[t.z]) - a);
-}
-
-glm::vec3 unit_or_zero(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0 ? glm::vec3(v / length) : glm::vec3(0);
+glm::dvec3 area_normal_of(const VertexArray& vertices, const glm::uvec3& t) {
+    return area_normal(vertices.positions[t.x], vertices.positions[t.y], vertices.positions[t.z]);
 }
 
 template <class T>
@@ -38,7 +31,7 @@ void split_for_flat_normals(VertexArray& vertices, std::vector<glm::uvec3>& tria
     std::vector<std::uint32_t> source;
     std::vector<glm::vec3> normals;
     for (glm::uvec3& triangle : triangles) {
-        const glm::vec3 normal = unit_or_zero(area_normal(vertices, triangle));
+        const glm::vec3 normal = unit_or_zero(area_normal_of(vertices, triangle));
         for (int corner = 0; corner < 3; ++corner) {
             const auto key = std::pair(triangle[corner], std::array{normal.x, normal.y, normal.z});
             const auto [found, is_new] = corners.try_emplace(key, static_cast<std::uint32_t>(source.size()));
@@ -70,7 +63,7 @@ std::size_t replace_zero_normals(const Scene& scene, VertexArray& vertices) {
             continue;
         for (const glm::uvec3& t : primitive.triangles)
             for (int corner = 0; corner < 3; ++corner)
-                sums[t[corner]] += area_normal(vertices, t);
+                sums[t[corner]] += area_normal_of(vertices, t);
     }
     std::size_t replaced = 0;
     for (const std::uint32_t i : zero) {

@@ -1,5 +1,7 @@
 #include "prt/scene.h"
 
+#include "triangle_normal.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -28,9 +30,9 @@ std::vector<float> receiver_areas(const Scene& scene) {
     for (const Primitive& primitive : scene.primitives) {
         const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
         for (const glm::uvec3& t : primitive.triangles) {
-            const glm::dvec3 a(vertices.positions[t.x]);
-            const double area = 0.5 * glm::length(glm::cross(glm::dvec3(vertices.positions[t.y]) - a,
-                                                             glm::dvec3(vertices.positions[t.z]) - a));
+            const double area =
+                0.5 * glm::length(area_normal(vertices.positions[t.x], vertices.positions[t.y],
+                                              vertices.positions[t.z]));
             for (int corner = 0; corner < 3; ++corner)
                 areas[vertices.first_receiver + t[corner]] += area / 3;
         }

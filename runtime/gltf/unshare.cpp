@@ -1,6 +1,7 @@
 #include "unshare.h"
 
 #include "accessor.h"
+#include "triangle_normal.h"
 
 #include <glm/geometric.hpp>
 
@@ -91,12 +92,11 @@ std::vector<glm::vec3> flat_normals(const GltfContents& contents, const Json& po
     };
     std::vector<glm::vec3> normals(vertices.size(), glm::vec3(0, 0, 1));
     for (const glm::uvec3& t : primitive.triangles) {
-        const glm::dvec3 normal =
-            glm::cross(at(t.y) - at(t.x), at(t.z) - at(t.x)) * (primitive.mirrored ? -1.0 : 1.0);
-        const double length = glm::length(normal);
-        if (length > 0)
+        const glm::vec3 normal =
+            unit_or_zero(area_normal(at(t.x), at(t.y), at(t.z)) * (primitive.mirrored ? -1.0 : 1.0));
+        if (normal != glm::vec3(0))
             for (int corner = 0; corner < 3; ++corner)
-                normals[t[corner]] = glm::vec3(normal / length);
+                normals[t[corner]] = normal;
     }
     return normals;
 }

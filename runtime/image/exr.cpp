@@ -1,5 +1,6 @@
 #include "exr.h"
 
+#include "image_limits.h"
 #include "prt/error.h"
 #include "prt/file.h"
 #include "prt/image_file.h"
@@ -24,7 +25,6 @@ namespace prt {
 namespace {
 
 constexpr int kLargestSide = 65536;
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 
 /// Rows to decode at once: about four million pixels, so that a header's claim costs no memory until it is
 /// true.
@@ -154,13 +154,11 @@ ExrFile read_exr_unnamed(const std::string& path) {
     return result;
 }
 
-/// OpenEXR's messages can have several lines.
-std::string one_line(std::string text) {
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    return text;
-}
-
 } // namespace
+
+bool is_exr(const std::filesystem::path& path) {
+    return Imf::isOpenExrFile(path.c_str());
+}
 
 ExrFile read_exr(const std::filesystem::path& path) {
     try {

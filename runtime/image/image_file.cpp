@@ -1,6 +1,7 @@
 #include "prt/image_file.h"
 
 #include "exr.h"
+#include "image_limits.h"
 #include "prt/error.h"
 #include "prt/file.h"
 
@@ -15,8 +16,6 @@
 
 namespace prt {
 namespace {
-
-constexpr std::int64_t kMostPixels = std::int64_t{1} << 28;
 
 bool starts_with(std::span<const std::byte> file, std::string_view magic) {
     return file.size() >= magic.size() && std::memcmp(file.data(), magic.data(), magic.size()) == 0;
@@ -106,18 +105,20 @@ EnvironmentLayout layout_of(const Image& image, std::optional<EnvironmentLayout>
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options) {
     EnvironmentFile result;
     std::optional<EnvironmentLayout> layout = options.layout;
-    const std::vector<std::byte> file = read_file(path);
-    if (starts_with(file, "\x76\x2f\x31\x01")) {
+    std::vector<std::byte> hdr;
+    if (is_exr(path)) {
         ExrFile exr = read_exr(path);
         result.environment.image = std::move(exr.image);
         if (!layout)
             layout = exr.layout;
-    } else if (!starts_with(file, "#?")) {
-        throw Error(path.string() + ": is neither an OpenEXR nor a Radiance HDR image");
+    } else {
+        hdr = read_file(path);
+        if (!starts_with(hdr, "#?"))
+            throw Error(path.string() + ": is neither an OpenEXR nor a Radiance HDR image");
     }
     try {
-        if (result.environment.image.pixels.empty())
-            result.environment.image = read_hdr(file);
+        if (!hdr.empty())
+            result.environment.image = read_hdr(hdr);
         result.environment.layout = layout_of(result.environment.image, layout);
         result.repaired_pixels = repair_pixels(result.environment.image, options.bad_pixels);
     } catch (const Error& error) {

@@ -29,8 +29,8 @@ struct CompressStatistics {
     double relative_l2 = 0; ///< of what is returned, quantised weights included
     int clusters = 0;       ///< that hold receivers; empty ones are dropped
     double seconds = 0;
-    double bytes_per_receiver = 0; ///< cluster and weights
-    std::size_t basis_bytes = 0;   ///< means, directions, scales
+    std::size_t bytes_per_receiver = 0; ///< cluster and weights
+    std::size_t basis_bytes = 0;        ///< means, directions, scales
 };
 
 struct CompressResult {

@@ -59,6 +59,12 @@ struct ClusteredTransfer {
     ClusteredReceivers receivers;
 };
 
+/// What a game binds per receiver: its cluster in one byte, two above 256 clusters, and the weights in use.
+std::size_t bytes_per_receiver(const ClusteredTransfer& transfer);
+
+/// Means, directions and scales.
+std::size_t basis_bytes(const ClusteredBases& bases);
+
 /// Rows of constants per cluster: the mean and max_components() directions.
 int constants_per_cluster(const ClusteredBases& bases);
 

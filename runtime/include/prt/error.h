@@ -1,6 +1,7 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace prt {
 
@@ -14,5 +15,8 @@ struct Error : std::runtime_error {
 struct Cancelled : Error {
     Cancelled() : Error("cancelled") {}
 };
+
+/// A library's message as one line: line ends become spaces, those at the end go.
+std::string one_line(std::string message);
 
 } // namespace prt
