@@ -17,8 +17,8 @@ std::vector<glm::vec3> ao_colors(const Model& model, int threads);
 /// A colour per cluster. Throws `Error` when the model is not compressed.
 std::vector<glm::vec3> cluster_colors(const Model& model);
 
-/// Error of exit radiance against `baked` from black over red and yellow to white, which is `kWhiteError` of
-/// the mean radiance. Throws `Error` when the two do not belong together.
+/// Error of exit radiance against `baked`, which holds raw transfer and belongs to `model`: from black over
+/// red and yellow to white, which is `kWhiteError` of the mean radiance.
 inline constexpr double kWhiteError = 0.1;
 std::vector<glm::vec3> error_colors(const Model& model, const Model& baked, const Light& light, int threads);
 
