@@ -1,95 +1,383 @@
 #include "prt/bake.h"
 
+#include "adaptive.h"
+#include "gather.h"
+#include "light_transport.h"
+#include "make_tracer.h"
+#include "mesh_neighbours.h"
 #include "prt/embree_tracer.h"
 #include "prt/error.h"
 #include "prt/sh.h"
 #include "prt/stopwatch.h"
+#include "storage.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
+#include <map>
+#include <numeric>
 
 namespace prt {
 namespace {
 
-std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers) {
-    std::vector<std::uint32_t> indices;
-    for (std::uint32_t i = 0; i < receivers.size(); ++i)
-        if (receivers.areas[i] > 0 && receivers.normals[i] != glm::vec3(0))
-            indices.push_back(i);
-    return indices;
+void check_options(const BakeOptions& options) {
+    check_order(options.order);
+    if (options.rays < 1 || options.rays > kMostRays)
+        throw Error(fmt::format("rays per receiver must lie in 1..{}, not {}", kMostRays, options.rays));
+    if (options.bounces < 0 && options.bounces != kEndlessBounces)
+        throw Error(fmt::format("{} bounces cannot be", options.bounces));
+    if (options.target_error && !(*options.target_error > 0))
+        throw Error("the error to reach must be above 0");
+    if (!(options.metres_per_unit > 0))
+        throw Error("metres per unit must be above 0");
+    if (options.method == BakeMethod::raster) {
+        if (options.backend == Backend::cpu)
+            throw Error("method raster draws on the GPU: it has no CPU backend");
+        if (options.bounces != 0)
+            throw Error("method raster finds direct light only: use method trace for bounces");
+        if (options.target_error)
+            throw Error("method raster takes the same directions everywhere: use method trace for an error to "
+                        "reach");
+        if (options.raster_resolution < 16 || options.raster_resolution > 16384)
+            throw Error("the resolution of depth maps must lie in 16..16384");
+    }
 }
+
+/// A part of the work, as a part of the progress.
+Progress part_of(const Progress& whole, double from, double to) {
+    return {[&whole, from, to](double fraction) { whole.update(from + (to - from) * fraction); }, whole.stop};
+}
+
+/// The media of the scene's materials, in the scene's unit.
+std::vector<std::optional<Medium>> choose_media(const Scene& scene, const BakeOptions& options) {
+    std::vector<std::optional<Medium>> media;
+    for (const Material& material : scene.materials)
+        media.push_back(medium_of(material));
+    for (const MediumChoice& choice : options.subsurface) {
+        bool found = false;
+        for (std::size_t m = 0; m < scene.materials.size(); ++m)
+            if (choice.material.empty() || scene.materials[m].name == choice.material) {
+                media[m] = choice.medium;
+                found = true;
+            }
+        if (!found)
+            throw Error("no material is called '" + choice.material + "'");
+    }
+    for (auto& medium : media)
+        if (medium) {
+            medium->scattering *= options.metres_per_unit;
+            medium->absorption *= options.metres_per_unit;
+        }
+    return media;
+}
+
+class Baker {
+public:
+    Baker(const Scene& scene, const BakeOptions& options, const Progress& progress)
+        : scene_(scene), options_(options), progress_(progress), media_(choose_media(scene, options)),
+          textures_(needs_textures() ? load_textures(scene, options.bad_textures) : std::vector<Texture>()),
+          surfaces_(scene, textures_, solid()) {
+        note_bad_textures();
+    }
+
+    BakeResult run() {
+        const Stopwatch all;
+        receivers_ = transport_receivers(vertex_receivers(scene_), surfaces_);
+        decide_what_is_needed();
+        check_memory();
+        RayScene rays(scene_, options_.threads);
+        tracer_ = make_tracer(scene_, rays, surfaces_, options_);
+        statistics().device = tracer_->device();
+        statistics().seconds_build = all.seconds();
+
+        Transfer transfer = trace(rays);
+        statistics().mean_visibility = mean_visibility(transfer, fronts_areas());
+        const Stopwatch transport;
+        transfer = propagated(std::move(transfer));
+        statistics().seconds_transport = transport.seconds();
+        finish(std::move(transfer));
+        statistics().seconds = all.seconds();
+        statistics().rays_per_second = static_cast<double>(statistics().rays) / statistics().seconds;
+        progress_.update(1);
+        return std::move(result_);
+    }
+
+private:
+    BakeStatistics& statistics() { return result_.statistics; }
+    template <class... Args>
+    void note(fmt::format_string<Args...> format, Args&&... args) {
+        statistics().notices.push_back(fmt::format(format, std::forward<Args>(args)...));
+    }
+
+    /// Textures matter where light bounces off or passes surfaces.
+    bool needs_textures() const {
+        return options_.bounces != 0 ||
+               std::any_of(scene_.primitives.begin(), scene_.primitives.end(), [&](const Primitive& p) {
+                   const Material& m = scene_.materials[p.material];
+                   return m.alpha_mode != AlphaMode::opaque || m.transmission.factor > 0;
+               });
+    }
+
+    std::vector<bool> solid() const {
+        std::vector<bool> result;
+        for (const auto& medium : media_)
+            result.push_back(medium.has_value());
+        return result;
+    }
+
+    void note_bad_textures() {
+        for (std::size_t i = 0; i < textures_.size(); ++i)
+            if (textures_[i].levels.empty() && options_.bad_textures == BadTextures::ignore &&
+                (scene_.images[i].bytes.empty()))
+                note("{} cannot be read: the factors of its materials are used alone", scene_.images[i].name);
+    }
+
+    /// Only what the scene needs: bounces, back sides and colour.
+    void decide_what_is_needed() {
+        bounces_ = options_.bounces;
+        if (bounces_ != 0 && !surfaces_.can_scatter()) {
+            bounces_ = 0;
+            note("no bounces: every surface is black");
+        }
+        if (bounces_ == 0 && !surfaces_.has_transmission() && !receivers_.back.empty()) {
+            Receivers& all = receivers_.receivers;
+            all.positions.resize(receivers_.fronts);
+            all.normals.resize(receivers_.fronts);
+            all.areas.resize(receivers_.fronts);
+            receivers_.back.clear();
+        }
+        make_diffusion();
+        const bool grey_media =
+            std::all_of(diffusion_.begin(), diffusion_.end(), [](const auto& d) { return d.is_grey(); });
+        const bool colored =
+            (surfaces_.has_color() && (bounces_ != 0 || surfaces_.has_transmission())) || !grey_media;
+        channels_ = colored ? 3 : 1;
+        if (bounces_ != 0 && !colored)
+            note("one channel: every surface is grey");
+        statistics().receivers = receivers_.fronts;
+        statistics().back_sides = receivers_.receivers.size() - receivers_.fronts;
+        statistics().triangles = scene_.triangles();
+    }
+
+    /// One operator for each medium of each node.
+    void make_diffusion() {
+        std::map<std::pair<std::size_t, int>, std::vector<std::uint32_t>> bodies;
+        for (const Primitive& primitive : scene_.primitives) {
+            if (!media_[primitive.material])
+                continue;
+            auto& members = bodies[{primitive.material, primitive.node}];
+            const auto first =
+                static_cast<std::uint32_t>(scene_.vertex_arrays[primitive.vertices].first_receiver);
+            for (const glm::uvec3& t : primitive.triangles)
+                for (int corner = 0; corner < 3; ++corner)
+                    members.push_back(first + t[corner]);
+        }
+        for (auto& [key, members] : bodies) {
+            std::sort(members.begin(), members.end());
+            members.erase(std::unique(members.begin(), members.end()), members.end());
+            diffusion_.emplace_back(receivers_.receivers, std::move(members), *media_[key.first]);
+        }
+    }
+
+    void check_memory() const {
+        const double needed =
+            estimate_memory(options_, receivers_.receivers.size(), scene_.triangles(), channels_);
+        const double there = physical_memory();
+        if (there > 0 && needed > there)
+            throw Error(fmt::format("the bake needs about {:.1f} GB of memory ({} receivers, order {}, {} rays{}), "
+                                    "and this machine has {:.1f} GB",
+                                    needed * 1e-9, receivers_.receivers.size(), options_.order, options_.rays,
+                                    bounces_ != 0 ? ", with bounces" : "", there * 1e-9));
+    }
+
+    std::span<const float> fronts_areas() const {
+        return std::span(receivers_.receivers.areas).first(receivers_.fronts);
+    }
+
+    /// Direct transfer, the gather operator where there are bounces, and which receivers are inside.
+    Transfer trace(const RayScene& rays) {
+        const Receivers& receivers = receivers_.receivers;
+        const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
+        statistics().traced = static_cast<std::size_t>(std::lower_bound(indices.begin(), indices.end(),
+                                                                        receivers_.fronts) -
+                                                       indices.begin());
+        TraceOptions options{options_.order, options_.rays, options_.seed, 0};
+        neighbours_.emplace(surfaces_, receivers_.receivers, receivers_.fronts);
+        std::vector<std::uint32_t> rays_of(receivers.size(), static_cast<std::uint32_t>(options_.rays));
+        Transfer transfer{options_.order, 1, {}};
+        const Progress progress = part_of(progress_, 0, bounces_ != 0 ? 0.85 : 0.95);
+        if (options_.target_error) {
+            AdaptiveResult adaptive =
+                adaptive_transfer(*tracer_, receivers, *neighbours_, options, *options_.target_error,
+                                  bounces_ != 0 ? part_of(progress, 0, 0.5) : progress);
+            transfer = std::move(adaptive.transfer);
+            rays_of = std::move(adaptive.rays);
+            statistics().rays += std::accumulate(rays_of.begin(), rays_of.end(), std::size_t{0});
+            statistics().sampling_error = adaptive.error;
+            if (!adaptive.reached)
+                note("the error to reach was not reached with {} rays per receiver", kMostRays);
+        } else {
+            transfer.vectors.resize(receivers.size() * transfer.dimension());
+        }
+        if (bounces_ != 0)
+            trace_gather(options, rays_of, transfer, part_of(progress, options_.target_error ? 0.5 : 0, 1));
+        else if (!options_.target_error) {
+            trace_receivers(*tracer_, receivers, indices, options, transfer, progress);
+            statistics().rays += indices.size() * static_cast<std::size_t>(options_.rays);
+        }
+        mark_inside(rays, transfer);
+        if (!options_.target_error && tracer_->method() == "trace")
+            statistics().sampling_error =
+                sampling_error(*tracer_, receivers, options, transfer, statistics().rays, progress_);
+        statistics().seconds_tracing = tracer_->seconds();
+        mean_rays_ = indices.empty() ? 0
+                                     : static_cast<int>(std::accumulate(rays_of.begin(), rays_of.end(), 0.0) /
+                                                        static_cast<double>(rays_of.size()));
+        return transfer;
+    }
+
+    /// Traces closest hits, so many as each receiver has rays, into rows of the gather operator. The direct
+    /// transfer is taken from the same rays: then light is neither lost nor won between the two.
+    void trace_gather(TraceOptions options, std::span<const std::uint32_t> rays_of, Transfer& transfer,
+                      const Progress& progress) {
+        const Receivers& receivers = receivers_.receivers;
+        gather_ = std::make_unique<GatherOperator>(receivers.size(), channels_);
+        back_share_.assign(receivers.size(), 0);
+        std::map<std::uint32_t, std::vector<std::uint32_t>> by_rays;
+        std::size_t all = 0, done = 0;
+        for (const std::uint32_t p : receivers_on_surfaces(receivers)) {
+            by_rays[rays_of[p]].push_back(p);
+            all += rays_of[p];
+        }
+        for (const auto& [rays, members] : by_rays) {
+            options.rays = static_cast<int>(rays);
+            const std::size_t here = members.size() * rays;
+            trace_receivers(*tracer_, receivers, members, options, transfer,
+                            part_of(progress, static_cast<double>(done) / static_cast<double>(all),
+                                    static_cast<double>(done + here) / static_cast<double>(all)),
+                            [&, count = options.rays](std::uint32_t p, std::span<const Hit> hits) {
+                                gather_->set_row(p, hits, count, surfaces_, receivers_);
+                                back_share_[p] = back_share(hits, count);
+                            });
+            done += here;
+        }
+        statistics().rays += all;
+        statistics().gather_entries = gather_->entries();
+        statistics().gather_bytes = gather_->bytes();
+        if (statistics().gather_entries == 0) {
+            gather_.reset();
+            note("no bounces: no ray from a receiver meets a surface that scatters");
+        }
+    }
+
+    float back_share(std::span<const Hit> hits, int rays) const {
+        float sum = 0;
+        for (const Hit& hit : hits)
+            if (hit.back && !surfaces_.two_sided(hit.triangle))
+                sum += hit.weight;
+        return sum / static_cast<float>(rays);
+    }
+
+    /// Which receivers lie inside geometry. Where hits are not known, a few rays of those that much is blocked
+    /// from find out.
+    void mark_inside(const RayScene& rays, const Transfer& transfer) {
+        const Receivers& receivers = receivers_.receivers;
+        if (back_share_.empty()) {
+            back_share_.assign(receivers.size(), 0);
+            const float y00 = static_cast<float>(detail::kLegendre.sectoral[0]);
+            std::vector<std::uint32_t> blocked;
+            for (const std::uint32_t p : receivers_on_surfaces(receivers))
+                if (transfer.vector(p)[0] < (1 - kInsideShare) * y00)
+                    blocked.push_back(p);
+            constexpr int kProbeRays = 64;
+            EmbreeTracer prober(rays, options_.threads, &surfaces_);
+            Transfer unused{1, 1, std::vector<float>(receivers.size())};
+            trace_receivers(prober, receivers, blocked, {1, kProbeRays, options_.seed, 0}, unused,
+                            {{}, progress_.stop}, [&](std::uint32_t p, std::span<const Hit> hits) {
+                                back_share_[p] = back_share(hits, kProbeRays);
+                            });
+            statistics().rays += blocked.size() * kProbeRays;
+        }
+        std::vector<bool> inside(receivers.size());
+        for (std::size_t p = 0; p < receivers.size(); ++p)
+            inside[p] = back_share_[p] > kInsideShare;
+        statistics().inside = static_cast<std::size_t>(
+            std::count(inside.begin(), inside.begin() + static_cast<std::ptrdiff_t>(receivers_.fronts), true));
+        operators_.refill = Refill(*neighbours_, inside);
+        statistics().refilled = operators_.refill.size();
+        if (statistics().inside > 0)
+            note("{} receivers see more than {:.0f} % back faces, so they lie inside geometry; {} of them take the "
+                 "light of their neighbours",
+                 statistics().inside, 100 * kInsideShare, statistics().refilled);
+    }
+
+    /// Exit transfer of the scene's receivers, all bounces and subsurface scattering in it.
+    Transfer propagated(Transfer direct) {
+        Transfer transfer = std::move(direct);
+        if (channels_ == 3) { // the direct light is white
+            Transfer wide{transfer.order, 3, std::vector<float>(3 * transfer.vectors.size())};
+            for (std::size_t p = 0; p < transfer.receivers(); ++p)
+                for (std::size_t c = 0; c < 3; ++c)
+                    std::copy(transfer.vector(p).begin(), transfer.vector(p).end(),
+                              wide.vector(p).begin() + static_cast<std::ptrdiff_t>(c * transfer.dimension()));
+            transfer = std::move(wide);
+        }
+        operators_.diffusion = std::move(diffusion_);
+        operators_.gather = gather_.get();
+        const BounceResult bounced =
+            propagate(transfer, operators_, bounces_, options_.threads, part_of(progress_, 0.95, 1));
+        result_.baked.record.bounces = bounced.bounces;
+        statistics().remaining_energy = bounced.remaining;
+        if (bounces_ == kEndlessBounces && gather_ && !bounced.converged)
+            note("after {} bounces {:.2g} of the energy remains: hardly any light leaves this scene",
+                 bounced.bounces, bounced.remaining);
+        if (surfaces_.has_transmission())
+            add_transmission(transfer, surfaces_, receivers_);
+        transfer.vectors.resize(receivers_.fronts * transfer.dimension());
+        return transfer;
+    }
+
+    void finish(Transfer transfer) {
+        BakedTransfer& baked = result_.baked;
+        statistics().rounding_error = half_rounding_error(transfer, fronts_areas());
+        const bool small = statistics().rounding_error < 0.1 * statistics().sampling_error;
+        const bool half = options_.storage == Storage::float16 || (options_.storage == Storage::automatic && small);
+        baked.storage = half ? TransferStorage::float16 : TransferStorage::float32;
+        if (half && options_.storage == Storage::automatic)
+            note("stored as float16: its rounding, {:.2g}, is below a tenth of the sampling error, {:.2g}",
+                 statistics().rounding_error, statistics().sampling_error);
+        BakeRecord& record = baked.record;
+        record.rays = mean_rays_;
+        record.seed = options_.seed;
+        record.method = tracer_->method();
+        record.backend = tracer_->backend();
+        record.receivers = receivers_id(scene_);
+        record.sampling_error = statistics().sampling_error;
+        baked.transfer = std::move(transfer);
+    }
+
+    const Scene& scene_;
+    const BakeOptions& options_;
+    const Progress& progress_;
+    std::vector<std::optional<Medium>> media_; ///< [materials]
+    std::vector<Texture> textures_;
+    Surfaces surfaces_;
+    TransportReceivers receivers_;
+    int bounces_ = 0, channels_ = 1, mean_rays_ = 0;
+    std::unique_ptr<Tracer> tracer_;
+    std::optional<MeshNeighbours> neighbours_;
+    std::vector<DiffusionOperator> diffusion_;
+    std::unique_ptr<GatherOperator> gather_;
+    std::vector<float> back_share_; ///< [receivers]
+    TransportOperators operators_;
+    BakeResult result_;
+};
 
 } // namespace
 
-Receivers vertex_receivers(const Scene& scene) {
-    Receivers receivers;
-    for (const VertexArray& vertices : scene.vertex_arrays) {
-        receivers.positions.insert(receivers.positions.end(), vertices.positions.begin(),
-                                   vertices.positions.end());
-        receivers.normals.insert(receivers.normals.end(), vertices.normals.begin(), vertices.normals.end());
-    }
-    receivers.areas = receiver_areas(scene);
-    return receivers;
-}
-
-Transfer direct_transfer(Tracer& tracer, const Receivers& receivers, const DirectOptions& options,
-                         const Progress& progress) {
-    const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
-    Transfer transfer{options.order, 1, {}};
-    transfer.vectors.resize(receivers.size() * transfer.dimension());
-    const std::size_t batch = tracer.batch_size(options);
-    std::vector<float> vectors(batch * transfer.dimension());
-    for (std::size_t begin = 0; begin < indices.size(); begin += batch) {
-        progress.update(static_cast<double>(begin) / static_cast<double>(indices.size()));
-        const auto part = std::span(indices).subspan(begin, std::min(batch, indices.size() - begin));
-        tracer.direct_transfer(receivers, part, options, vectors);
-        for (std::size_t i = 0; i < part.size(); ++i)
-            std::copy_n(&vectors[i * transfer.dimension()], transfer.dimension(),
-                        transfer.vector(part[i]).begin());
-    }
-    progress.update(1);
-    return transfer;
-}
-
-double mean_visibility(const Transfer& transfer, std::span<const float> areas) {
-    double sum = 0, area = 0;
-    const auto stride = static_cast<std::size_t>(coefficient_count(transfer.order));
-    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
-        for (int c = 0; c < transfer.channels; ++c)
-            sum += static_cast<double>(areas[p]) *
-                   static_cast<double>(transfer.vector(p)[static_cast<std::size_t>(c) * stride]) /
-                   transfer.channels;
-        area += static_cast<double>(areas[p]);
-    }
-    const double y00 = detail::kLegendre.sectoral[0];
-    return area > 0 ? sum / (area * y00) : 0;
-}
-
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress) {
-    check_order(options.order);
-    if (options.rays < 1 || options.rays > (1 << 24))
-        throw Error("rays per receiver must lie in 1..16777216, not " + std::to_string(options.rays));
-    BakeResult result;
-    BakeStatistics& statistics = result.statistics;
-
-    const Stopwatch build;
-    const RayScene ray_scene(scene, options.threads);
-    statistics.seconds_build = build.seconds();
-
-    const Stopwatch trace;
-    const Receivers receivers = vertex_receivers(scene);
-    EmbreeTracer tracer(ray_scene, options.threads);
-    result.baked.transfer =
-        direct_transfer(tracer, receivers, {options.order, options.rays, options.seed}, progress);
-    statistics.seconds_trace = trace.seconds();
-
-    statistics.receivers = receivers.size();
-    statistics.traced = receivers_on_surfaces(receivers).size();
-    statistics.triangles = scene.triangles();
-    statistics.rays_per_second = static_cast<double>(statistics.traced) * options.rays /
-                                 (statistics.seconds_build + statistics.seconds_trace);
-    statistics.mean_visibility = mean_visibility(result.baked.transfer, receivers.areas);
-    result.baked.record = {0, options.rays, options.seed, "trace", tracer.backend(), receivers_id(scene)};
-    return result;
+    check_options(options);
+    return Baker(scene, options, progress).run();
 }
 
 } // namespace prt

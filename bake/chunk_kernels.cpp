@@ -41,20 +41,26 @@ template <int Order>
 
 template <int Order>
 [[gnu::always_inline]] inline void add_basis_of_order(const ChunkDirections& directions, int count,
-                                                      double* sums) {
+                                                      const float* weights, double* sums) {
     constexpr int kCoefficients = coefficient_count(Order);
     Lanes total[kCoefficients] = {}, basis[kCoefficients];
     const int whole = count / kPacket * kPacket;
     for (int i = 0; i < whole; i += kPacket) {
         basis_of_packet<Order>(directions, static_cast<std::size_t>(i), basis);
-        for (int k = 0; k < kCoefficients; ++k)
-            total[k] += basis[k];
+        if (weights) {
+            const Lanes weight = lanes_at(weights + i);
+            for (int k = 0; k < kCoefficients; ++k)
+                total[k] += weight * basis[k];
+        } else {
+            for (int k = 0; k < kCoefficients; ++k)
+                total[k] += basis[k];
+        }
     }
     if (whole < count) {
         basis_of_packet<Order>(directions, static_cast<std::size_t>(whole), basis);
         Lanes used = {};
         for (int lane = 0; lane < count - whole; ++lane)
-            used[lane] = 1;
+            used[lane] = weights ? weights[whole + lane] : 1.0f;
         for (int k = 0; k < kCoefficients; ++k)
             total[k] += used * basis[k];
     }
@@ -103,29 +109,30 @@ void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint3
 }
 
 PRT_TARGET_CLONES
-void add_basis(int order, const ChunkDirections& directions, int count, std::span<double> sums) {
+void add_basis(int order, const ChunkDirections& directions, int count, const float* weights,
+               std::span<double> sums) {
     assert(order >= 1 && order <= kMaxOrder && count <= kChunk);
     switch (order) {
     case 1:
-        return add_basis_of_order<1>(directions, count, sums.data());
+        return add_basis_of_order<1>(directions, count, weights, sums.data());
     case 2:
-        return add_basis_of_order<2>(directions, count, sums.data());
+        return add_basis_of_order<2>(directions, count, weights, sums.data());
     case 3:
-        return add_basis_of_order<3>(directions, count, sums.data());
+        return add_basis_of_order<3>(directions, count, weights, sums.data());
     case 4:
-        return add_basis_of_order<4>(directions, count, sums.data());
+        return add_basis_of_order<4>(directions, count, weights, sums.data());
     case 5:
-        return add_basis_of_order<5>(directions, count, sums.data());
+        return add_basis_of_order<5>(directions, count, weights, sums.data());
     case 6:
-        return add_basis_of_order<6>(directions, count, sums.data());
+        return add_basis_of_order<6>(directions, count, weights, sums.data());
     case 7:
-        return add_basis_of_order<7>(directions, count, sums.data());
+        return add_basis_of_order<7>(directions, count, weights, sums.data());
     case 8:
-        return add_basis_of_order<8>(directions, count, sums.data());
+        return add_basis_of_order<8>(directions, count, weights, sums.data());
     case 9:
-        return add_basis_of_order<9>(directions, count, sums.data());
+        return add_basis_of_order<9>(directions, count, weights, sums.data());
     default:
-        return add_basis_of_order<10>(directions, count, sums.data());
+        return add_basis_of_order<10>(directions, count, weights, sums.data());
     }
 }
 

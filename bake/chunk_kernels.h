@@ -29,8 +29,9 @@ TangentFrame tangent_frame(const glm::vec3& normal);
 void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint32_t seed,
                          const TangentFrame& frame, ChunkDirections& directions);
 
-/// Adds the basis in directions[0..count) to `sums` [order²]. `count` is at most kChunk; entries up to the
-/// next multiple of kPacket are read and ignored.
-void add_basis(int order, const ChunkDirections& directions, int count, std::span<double> sums);
+/// Adds the basis in directions[0..count), each times its weight (null: 1), to `sums` [order²]. `count` is at
+/// most kChunk; entries up to the next multiple of kPacket are read and ignored.
+void add_basis(int order, const ChunkDirections& directions, int count, const float* weights,
+               std::span<double> sums);
 
 } // namespace prt

@@ -7,127 +7,250 @@
 #include "chunk_kernels.h"
 #include "prt/parallel.h"
 #include "prt/sh.h"
+#include "prt/stopwatch.h"
+
+#include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <bitset>
+#include <atomic>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 namespace prt {
 namespace {
 
-/// Traces the first `count` directions from `origin`. Bit i of `blocked` is set where ray i hits something.
-int trace_chunk(RTCScene scene, const glm::vec3& origin, const ChunkDirections& directions, int count,
-                std::bitset<kChunk>& blocked) {
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+struct Plan {
+    RTCScene scene;
+    const RayScene& rays;
+    const Surfaces* surfaces;
+    const TraceOptions& options;
+    SobolChunk whole, last; ///< all chunks but the last, and the last
+
+    Plan(const RayScene& ray_scene, const Surfaces* surface_table, const TraceOptions& trace)
+        : scene(ray_scene.handle()), rays(ray_scene), surfaces(surface_table), options(trace), whole(kChunk),
+          last((trace.rays - 1) % kChunk + 1) {}
+
+    int chunks() const { return (options.rays + kChunk - 1) / kChunk; }
+    const SobolChunk& chunk(int i) const { return i + 1 < chunks() ? whole : last; }
+};
+
+/// Everything of a receiver that its rays share, and the space of one thread.
+struct Work {
+    glm::vec3 origin, normal;
+    ChunkDirections directions;
+    alignas(64) float blocked[kChunk]; ///< share of each ray that is blocked, 0..1
+    std::vector<Hit> hits;
+    double seconds_trace = 0, seconds_accumulate = 0;
+};
+
+RTCIntersectContext make_context() {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     // Packets are narrow beams (see SobolChunk), yet Embree's traversal for coherent rays is the slower one:
     // 25 against 28 million rays/s on the bunny. A beam of 1/64 of the hemisphere still fans out over many
     // small triangles.
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    RTCRay16 rays;
+    return context;
+}
+
+void set_origin(RTCRay16& rays, const glm::vec3& origin) {
     for (int lane = 0; lane < kPacket; ++lane) {
         rays.org_x[lane] = origin.x;
         rays.org_y[lane] = origin.y;
         rays.org_z[lane] = origin.z;
-        rays.tnear[lane] = 0;
         rays.time[lane] = 0;
         rays.mask[lane] = ~0u;
         rays.flags[lane] = 0;
     }
+}
+
+void set_directions(RTCRay16& rays, const ChunkDirections& directions, std::size_t begin) {
+    std::copy_n(&directions.x[begin], kPacket, rays.dir_x);
+    std::copy_n(&directions.y[begin], kPacket, rays.dir_y);
+    std::copy_n(&directions.z[begin], kPacket, rays.dir_z);
+    std::fill_n(rays.tnear, kPacket, 0.0f);
+    std::fill_n(rays.tfar, kPacket, kInfinity);
+}
+
+/// Whether anything blocks each of the first `count` rays; every surface is opaque.
+void trace_occlusion(const Plan& plan, int count, Work& work) {
+    RTCIntersectContext context = make_context();
+    RTCRay16 rays;
+    set_origin(rays, work.origin);
     alignas(64) int valid[kPacket];
-    int hits = 0;
     for (int begin = 0; begin < count; begin += kPacket) {
         const auto b = static_cast<std::size_t>(begin);
-        std::copy_n(&directions.x[b], kPacket, rays.dir_x);
-        std::copy_n(&directions.y[b], kPacket, rays.dir_y);
-        std::copy_n(&directions.z[b], kPacket, rays.dir_z);
-        for (int lane = 0; lane < kPacket; ++lane) {
-            rays.tfar[lane] = std::numeric_limits<float>::infinity();
+        set_directions(rays, work.directions, b);
+        for (int lane = 0; lane < kPacket; ++lane)
             valid[lane] = begin + lane < count ? -1 : 0;
-        }
-        rtcOccluded16(valid, scene, &context, &rays);
+        rtcOccluded16(valid, plan.scene, &context, &rays);
+        for (int lane = 0; lane < kPacket; ++lane) // Embree sets -infinity
+            work.blocked[b + static_cast<std::size_t>(lane)] =
+                valid[lane] != 0 && rays.tfar[lane] < 0 ? 1.0f : 0.0f;
+    }
+}
+
+/// A ray with less than this left is taken to end at the surface it meets.
+constexpr float kLeastTransmittance = 1.0f / 1024;
+
+/// Follows each of the first `count` rays through cut-outs and blended surfaces until it ends, and notes what
+/// it met.
+void trace_hits(const Plan& plan, int count, Work& work) {
+    RTCIntersectContext context = make_context();
+    RTCRayHit16 packet;
+    set_origin(packet.ray, work.origin);
+    alignas(64) int valid[kPacket];
+    for (int begin = 0; begin < count; begin += kPacket) {
+        const auto b = static_cast<std::size_t>(begin);
+        set_directions(packet.ray, work.directions, b);
+        float left[kPacket];
+        int active = 0;
         for (int lane = 0; lane < kPacket; ++lane) {
-            const bool hit = valid[lane] != 0 && rays.tfar[lane] < 0; // Embree sets -infinity
-            blocked[b + static_cast<std::size_t>(lane)] = hit;
-            hits += hit;
+            left[lane] = 1;
+            valid[lane] = begin + lane < count ? -1 : 0;
+            active += valid[lane] != 0;
         }
+        while (active > 0) {
+            std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+            std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+            rtcIntersect16(valid, plan.scene, &context, &packet);
+            active = 0;
+            for (int lane = 0; lane < kPacket; ++lane) {
+                if (valid[lane] == 0)
+                    continue;
+                valid[lane] = 0;
+                if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID)
+                    continue;
+                const glm::vec3 direction(packet.ray.dir_x[lane], packet.ray.dir_y[lane],
+                                          packet.ray.dir_z[lane]);
+                const glm::vec3 face(packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]);
+                const float facing = glm::dot(face, direction), distance = packet.ray.tfar[lane];
+                // Directions have density cos/pi: each of n rays stands for a solid angle of pi/(n cos).
+                const float footprint = std::numbers::pi_v<float> * distance * distance * glm::length(face) /
+                                        (static_cast<float>(plan.options.rays) *
+                                         glm::dot(work.normal, direction) * std::abs(facing));
+                Hit hit{packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane], left[lane], footprint,
+                        facing > 0};
+                const float coverage =
+                    plan.surfaces ? plan.surfaces->coverage({hit.triangle, {hit.u, hit.v}, footprint}) : 1.0f;
+                const float passes = left[lane] * (1 - coverage);
+                left[lane] = passes < kLeastTransmittance ? 0.0f : passes;
+                hit.weight -= left[lane];
+                if (hit.weight > 0)
+                    work.hits.push_back(hit);
+                if (left[lane] > 0) {
+                    packet.ray.tnear[lane] = std::nextafter(distance, kInfinity);
+                    packet.ray.tfar[lane] = kInfinity;
+                    valid[lane] = -1;
+                    ++active;
+                }
+            }
+        }
+        for (int lane = 0; lane < kPacket; ++lane)
+            work.blocked[b + static_cast<std::size_t>(lane)] = 1 - left[lane];
     }
-    return hits;
 }
 
-/// Moves the directions whose bit in `blocked` equals `wanted` to the front.
-void keep(ChunkDirections& directions, int count, const std::bitset<kChunk>& blocked, bool wanted) {
+/// Moves the directions of the rays with a share to sum to the front; that share goes to `work.blocked`.
+/// Returns how many there are; `whole` is set where all shares are 1.
+int keep_shares(Work& work, int count, bool of_blocked, bool& whole) {
     std::size_t kept = 0;
+    bool fractions = false;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-        directions.x[kept] = directions.x[i];
-        directions.y[kept] = directions.y[i];
-        directions.z[kept] = directions.z[i];
-        kept += blocked[i] == wanted;
+        const float share = of_blocked ? work.blocked[i] : 1 - work.blocked[i];
+        work.directions.x[kept] = work.directions.x[i];
+        work.directions.y[kept] = work.directions.y[i];
+        work.directions.z[kept] = work.directions.z[i];
+        work.blocked[kept] = share;
+        kept += share > 0;
+        fractions |= share > 0 && share < 1;
     }
+    whole = !fractions;
+    return static_cast<int>(kept);
 }
-
-struct Plan {
-    const RayScene& scene;
-    const DirectOptions& options;
-    SobolChunk whole, last; ///< all chunks but the last, and the last
-
-    Plan(const RayScene& ray_scene, const DirectOptions& direct)
-        : scene(ray_scene), options(direct), whole(kChunk), last((direct.rays - 1) % kChunk + 1) {}
-
-    int chunks() const { return (options.rays + kChunk - 1) / kChunk; }
-    const SobolChunk& chunk(int i) const { return i + 1 < chunks() ? whole : last; }
-};
 
 void trace_receiver(const Plan& plan, const glm::vec3& position, const glm::vec3& normal, std::uint32_t index,
-                    ChunkDirections& directions, std::span<float> vector) {
-    const auto coefficients = static_cast<std::size_t>(coefficient_count(plan.options.order));
+                    bool with_hits, Work& work, std::span<float> vector) {
+    const TraceOptions& options = plan.options;
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
     std::array<double, kMaxOrder * kMaxOrder> lobe{}, open{}, blocked{};
-    clamped_cosine_lobe(plan.options.order, glm::dvec3(normal), lobe);
+    clamped_cosine_lobe(options.order, glm::dvec3(normal), lobe);
     const TangentFrame frame = tangent_frame(normal);
-    const glm::vec3 origin = position + normal * plan.scene.surface_offset(position);
-    const auto low = static_cast<std::uint32_t>(plan.options.seed);
-    const auto high = static_cast<std::uint32_t>(plan.options.seed >> 32);
-    const std::uint32_t seed = pcg_hash(index ^ pcg_hash(low ^ pcg_hash(high)));
+    work.normal = normal;
+    work.origin = position + normal * plan.rays.surface_offset(position);
+    work.hits.clear();
+    const std::uint32_t seed = receiver_seed(index, options.seed);
 
     int control = 0; // rays of the chunks that use the control variate
     for (int c = 0; c < plan.chunks(); ++c) {
         const SobolChunk& chunk = plan.chunk(c);
-        generate_directions(chunk, sobol_chunk_offset(static_cast<std::uint32_t>(c)), seed, frame,
-                            directions);
-        std::bitset<kChunk> hit;
-        const int hits = trace_chunk(plan.scene.handle(), origin, directions, chunk.rays, hit);
+        const Stopwatch trace;
+        generate_directions(chunk, sobol_offset(options.first_ray + static_cast<std::uint32_t>(c * kChunk)),
+                            seed, frame, work.directions);
+        if (with_hits)
+            trace_hits(plan, chunk.rays, work);
+        else
+            trace_occlusion(plan, chunk.rays, work);
+        work.seconds_trace += trace.seconds();
+        const Stopwatch accumulate;
+        double hits = 0;
+        for (int i = 0; i < chunk.rays; ++i)
+            hits += static_cast<double>(work.blocked[i]);
         const bool mostly_open = 2 * hits <= chunk.rays;
-        keep(directions, chunk.rays, hit, mostly_open);
-        add_basis(plan.options.order, directions, mostly_open ? hits : chunk.rays - hits,
+        bool whole = true;
+        const int kept = keep_shares(work, chunk.rays, mostly_open, whole);
+        add_basis(options.order, work.directions, kept, whole ? nullptr : work.blocked,
                   mostly_open ? blocked : open);
         control += mostly_open ? chunk.rays : 0;
+        work.seconds_accumulate += accumulate.seconds();
     }
     for (std::size_t i = 0; i < coefficients; ++i)
-        vector[i] = static_cast<float>((control * lobe[i] - blocked[i] + open[i]) / plan.options.rays);
+        vector[i] = static_cast<float>((control * lobe[i] - blocked[i] + open[i]) / options.rays);
 }
 
 } // namespace
 
-std::size_t EmbreeTracer::batch_size(const DirectOptions& options) const {
+std::string EmbreeTracer::device() const {
+    return "Embree 3, " + std::to_string(thread_count(threads_)) + " threads";
+}
+
+std::size_t EmbreeTracer::batch_size(const TraceOptions& options) const {
     constexpr std::size_t kRaysPerThread = 1'000'000; // about a tenth of a second
     const auto rays = static_cast<std::size_t>(options.rays);
     return std::max<std::size_t>(1, kRaysPerThread / rays) * static_cast<std::size_t>(thread_count(threads_));
 }
 
-void EmbreeTracer::direct_transfer(const Receivers& receivers, std::span<const std::uint32_t> indices,
-                                   const DirectOptions& options, std::span<float> vectors) {
-    const Plan plan(scene_, options);
+void EmbreeTracer::trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
+                         const TraceOptions& options, std::span<float> vectors, const HitSink& sink) {
+    const Plan plan(scene_, surfaces_, options);
+    const bool with_hits = sink || (surfaces_ && surfaces_->has_alpha());
     const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
     const auto grain = static_cast<std::size_t>(std::clamp(16384 / options.rays, 1, 16));
+    const Stopwatch all;
+    std::atomic<double> trace = 0, accumulate = 0;
     parallel_for(indices.size(), grain, threads_, [&](std::size_t begin, std::size_t end) {
-        const auto directions = std::make_unique<ChunkDirections>();
+        const auto work = std::make_unique<Work>();
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t receiver = indices[i];
-            trace_receiver(plan, receivers.positions[receiver], receivers.normals[receiver], receiver,
-                           *directions, vectors.subspan(i * coefficients, coefficients));
+            trace_receiver(plan, receivers.positions[receiver], receivers.normals[receiver], receiver, with_hits,
+                           *work, vectors.subspan(i * coefficients, coefficients));
+            if (sink) {
+                const Stopwatch sinking;
+                sink(i, work->hits);
+                work->seconds_accumulate += sinking.seconds();
+            }
         }
+        trace += work->seconds_trace;
+        accumulate += work->seconds_accumulate;
     });
+    // Threads work side by side: their times, scaled to the wall clock.
+    const double busy = trace + accumulate, wall = all.seconds();
+    seconds_.trace += busy > 0 ? wall * trace / busy : wall;
+    seconds_.accumulate += busy > 0 ? wall * accumulate / busy : 0;
 }
 
 } // namespace prt

@@ -49,8 +49,7 @@ SobolChunk::SobolChunk(int count) : rays(count) {
     }
 }
 
-SobolOffset sobol_chunk_offset(std::uint32_t chunk) {
-    const std::uint32_t first = chunk * static_cast<std::uint32_t>(kChunk);
+SobolOffset sobol_offset(std::uint32_t first) {
     return {first, sobol_y_reversed(first)};
 }
 

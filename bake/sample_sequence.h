@@ -25,17 +25,24 @@ struct SobolChunk {
     explicit SobolChunk(int rays);
 };
 
-/// Sobol points are linear over GF(2): point (chunk · kChunk + j) is point j XOR this.
+/// Sobol points are linear over GF(2): point (first + j) is point j XOR this, where `first` is a multiple of a
+/// power of two above j.
 struct SobolOffset {
     std::uint32_t x, y;
 };
-SobolOffset sobol_chunk_offset(std::uint32_t chunk);
+SobolOffset sobol_offset(std::uint32_t first);
 
 /// A well-mixed 32-bit hash (Jarzynski and Olano 2020, pcg).
 constexpr std::uint32_t pcg_hash(std::uint32_t v) {
     const std::uint32_t state = v * 747796405u + 2891336453u;
     const std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
     return (word >> 22) ^ word;
+}
+
+/// Seed of the samples of a receiver.
+constexpr std::uint32_t receiver_seed(std::uint32_t receiver, std::uint64_t seed) {
+    const auto low = static_cast<std::uint32_t>(seed), high = static_cast<std::uint32_t>(seed >> 32);
+    return pcg_hash(receiver ^ pcg_hash(low ^ pcg_hash(high)));
 }
 
 } // namespace prt

@@ -23,10 +23,12 @@ const std::map<std::string, WeightFormat> kWeights = {
     {"float", WeightFormat::float32}, {"16", WeightFormat::snorm16}, {"8", WeightFormat::snorm8}};
 const std::map<std::string, Backend> kBackends = {
     {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
-// What the baker can do so far; the names are those of the finished program.
-const std::map<std::string, Backend> kBakeBackends = {{"auto", Backend::automatic}, {"cpu", Backend::cpu}};
-const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace}};
-constexpr int kMostBounces = 0;
+const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
+                                                        {"raster", BakeMethod::raster}};
+const std::map<std::string, Storage> kStorages = {
+    {"auto", Storage::automatic}, {"float32", Storage::float32}, {"float16", Storage::float16}};
+const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
+                                                         {"ignore", BadTextures::ignore}};
 const std::map<std::string, Show> kShows = {
     {"lit", Show::lit}, {"clusters", Show::clusters}, {"error", Show::error}, {"ao", Show::ao}};
 const std::map<std::string, ToneMap> kToneMaps = {{"filmic", ToneMap::filmic}, {"srgb", ToneMap::srgb}};
@@ -86,19 +88,94 @@ void add_light_options(CLI::App* command, LightOptions& options) {
            "what to do with negative, infinite and NaN pixels", "error");
 }
 
+int parse_bounces(const std::string& text) {
+    int bounces = 0;
+    if (text == "inf")
+        return kEndlessBounces;
+    if (!CLI::detail::lexical_cast(text, bounces) || bounces < 0)
+        throw CLI::ValidationError("--bounces", "'" + text + "' is neither a number of bounces nor inf");
+    return bounces;
+}
+
+/// [MATERIAL=]MEDIUM, where MEDIUM is a name or six coefficients in 1/mm.
+MediumChoice parse_medium(const std::string& text) {
+    MediumChoice choice;
+    const std::size_t equals = text.rfind('=');
+    if (equals != std::string::npos)
+        choice.material = text.substr(0, equals);
+    const std::string medium = equals == std::string::npos ? text : text.substr(equals + 1);
+    std::string names;
+    for (const NamedMedium& named : measured_media()) {
+        if (named.name == medium) {
+            choice.medium = named.medium;
+            return choice;
+        }
+        names += std::string(named.name) + ", ";
+    }
+    glm::dvec3 &s = choice.medium.scattering, &a = choice.medium.absorption;
+    int used = 0;
+    if (std::sscanf(medium.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &s.x, &s.y, &s.z, &a.x, &a.y, &a.z, &used) != 6 ||
+        static_cast<std::size_t>(used) != medium.size() || !(std::min({s.x, s.y, s.z}) > 0) ||
+        !(std::min({a.x, a.y, a.z}) >= 0))
+        throw CLI::ValidationError("--subsurface", "'" + medium + "' is neither one of " + names +
+                                                       "nor six coefficients sr,sg,sb,ar,ag,ab in 1/mm");
+    s *= 1000.0;
+    a *= 1000.0;
+    return choice;
+}
+
+void add_transport(CLI::App* command, BakeOptions& options) {
+    command
+        ->add_option_function<std::string>(
+            "--bounces", [&options](const std::string& text) { options.bounces = parse_bounces(text); },
+            "bounces of light between surfaces; inf: until less than 1e-5 of the energy remains")
+        ->type_name("N|inf")
+        ->default_str("0");
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--subsurface",
+            [&options](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts)
+                    options.subsurface.push_back(parse_medium(text));
+            },
+            "light spreads under the surface of a material, or of all: marble, skin1, whole-milk and others, or "
+            "reduced scattering and absorption sr,sg,sb,ar,ag,ab in 1/mm")
+        ->type_name("[MATERIAL=]MEDIUM");
+    command
+        ->add_option("--metres-per-unit", options.metres_per_unit,
+                     "size of the scene's unit, where it is not glTF's metre; only media care")
+        ->capture_default_str();
+    choice(command, "--bad-textures", options.bad_textures, kBadTextures,
+           "textures that are missing or damaged: stop, or use the factors of their materials alone", "error");
+}
+
+void add_method(CLI::App* command, BakeOptions& options) {
+    choice(command, "--backend", options.backend, kBackends,
+           "gpu: OpenGL 4.5 of any kind; auto: a hardware GPU, else the CPU", "auto");
+    choice(command, "--method", options.method, kBakeMethods,
+           "trace: rays; raster: depth maps from many directions, direct light only, on the GPU", "trace");
+    command
+        ->add_option("--raster-resolution", options.raster_resolution, "texels along each side of a depth map")
+        ->capture_default_str();
+}
+
 void add_bake(CLI::App& app, BakeArguments& a) {
-    CLI::App* command =
-        app.add_subcommand("bake", "Bake shadowed transfer vectors for every vertex of a glTF scene");
+    CLI::App* command = app.add_subcommand("bake", "Bake transfer vectors for every vertex of a glTF scene");
     command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required();
     command->add_option("-o,--output", a.output, "baked .glb to write")->required()->type_name("FILE");
     command->add_option("--order", a.options.order, "SH order N, 1..10: N² coefficients")
         ->capture_default_str();
-    command->add_option("--rays", a.options.rays, "rays per receiver")->capture_default_str();
-    command->add_option("--bounces", a.bounces, "bounces of light; 0, direct light, is all there is so far")
-        ->capture_default_str()
-        ->check(CLI::Range(0, kMostBounces));
-    choice(command, "--backend", a.backend, kBakeBackends, "what to bake on; auto is the CPU so far", "auto");
-    choice(command, "--method", a.method, kBakeMethods, "how visibility is found", "trace");
+    CLI::Option* rays =
+        command->add_option("--rays", a.options.rays, "rays per receiver; directions where method is raster")
+            ->capture_default_str();
+    command
+        ->add_option("--target-error", a.options.target_error,
+                     "relative L2 error of the direct light to reach, with as many rays as each receiver needs")
+        ->excludes(rays);
+    add_transport(command, a.options);
+    add_method(command, a.options);
+    choice(command, "--storage", a.options.storage, kStorages,
+           "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
     command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
     add_threads(command, a.options.threads);
     add_json(command, a.json);

@@ -17,7 +17,6 @@ namespace prt::cli {
 
 using Path = std::filesystem::path;
 
-enum class Backend { automatic, cpu, gpu };
 enum class Show { lit, clusters, error, ao };
 
 /// How every command reads lighting.
@@ -27,14 +26,9 @@ struct LightOptions {
     double rotation_degrees = 0;
 };
 
-enum class BakeMethod { trace };
-
 struct BakeArguments {
     Path scene, output, json;
     BakeOptions options;
-    int bounces = 0;
-    Backend backend = Backend::automatic;
-    BakeMethod method = BakeMethod::trace;
 };
 
 struct CompressArguments {

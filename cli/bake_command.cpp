@@ -1,5 +1,6 @@
 #include "commands.h"
 
+#include "prt/error.h"
 #include "prt/gltf.h"
 #include "report.h"
 
@@ -9,50 +10,95 @@
 
 namespace prt::cli {
 
+namespace {
+
+Json statistics_json(const BakeStatistics& s) {
+    return {{"receivers", s.receivers},
+            {"receivers_traced", s.traced},
+            {"back_sides", s.back_sides},
+            {"receivers_inside", s.inside},
+            {"receivers_refilled", s.refilled},
+            {"triangles", s.triangles},
+            {"rays", s.rays},
+            {"device", s.device},
+            {"seconds", s.seconds},
+            {"seconds_build", s.seconds_build},
+            {"seconds_trace", s.seconds_tracing.trace},
+            {"seconds_accumulate", s.seconds_tracing.accumulate},
+            {"seconds_transfer", s.seconds_tracing.transfer},
+            {"seconds_transport", s.seconds_transport},
+            {"rays_per_second", s.rays_per_second},
+            {"mean_visibility", s.mean_visibility},
+            {"sampling_error_relative_l2", s.sampling_error},
+            {"float16_error_relative_l2", s.rounding_error},
+            {"remaining_energy", s.remaining_energy},
+            {"gather_entries", s.gather_entries},
+            {"gather_bytes", s.gather_bytes},
+            {"notices", s.notices}};
+}
+
+void print_report(const BakeArguments& a, const BakeResult& result) {
+    const BakeStatistics& s = result.statistics;
+    const Transfer& t = result.baked.transfer;
+    const bool raster = a.options.method == BakeMethod::raster;
+    fmt::print("{}: {} receivers, {} triangles, order {}, {} {}, {} {} each, {} bounces\n", a.output.string(),
+               s.receivers, s.triangles, t.order, t.channels, t.channels == 1 ? "channel" : "channels",
+               result.baked.record.rays, raster ? "directions" : "rays", result.baked.record.bounces);
+    fmt::print("  {} by {} on {}\n", result.baked.record.method, result.baked.record.backend, s.device);
+    if (s.receivers > s.traced)
+        fmt::print("  {} receivers are on no surface and have zero transfer\n", s.receivers - s.traced);
+    for (const std::string& notice : s.notices)
+        fmt::print("  {}\n", notice);
+    fmt::print("  {:.3f} s: build {:.3f}, trace {:.3f}, accumulate {:.3f}, transfer {:.3f}, transport {:.3f}; {:.2f} "
+               "million {}/s\n",
+               s.seconds, s.seconds_build, s.seconds_tracing.trace, s.seconds_tracing.accumulate,
+               s.seconds_tracing.transfer, s.seconds_transport, s.rays_per_second * 1e-6,
+               raster ? "tests" : "rays");
+    if (a.options.target_error)
+        fmt::print("  error of the direct light: {:.3f} % asked for, {:.3f} % estimated\n",
+                   100 * *a.options.target_error, 100 * s.sampling_error);
+    else if (s.sampling_error > 0)
+        fmt::print("  error of the direct light: {:.3f} % estimated\n", 100 * s.sampling_error);
+    if (s.gather_entries > 0)
+        fmt::print("  gather of {} entries, {:.1f} MB; {:.1g} of the energy remains\n", s.gather_entries,
+                   static_cast<double>(s.gather_bytes) * 1e-6, s.remaining_energy);
+    fmt::print("  mean visibility {:.4f}\n", s.mean_visibility);
+}
+
+} // namespace
+
 void run(const BakeArguments& a, Interrupt& interrupt) {
-    GltfDocument document = load_gltf(a.scene);
+    const auto missing =
+        a.options.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
+    GltfDocument document = load_gltf(a.scene, missing);
     const Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
-    std::size_t not_opaque = 0;
-    for (const Primitive& primitive : scene.primitives)
-        not_opaque += scene.materials[primitive.material].alpha_mode != AlphaMode::opaque;
-    if (not_opaque > 0)
-        print_notices(
-            a.scene.string(),
-            {fmt::format("{} primitives with alpha cast shadows as if they were opaque", not_opaque)});
 
     BakeResult result;
-    {
+    try {
         ProgressBar bar("baking", interrupt.token());
         result = bake(scene, a.options, bar.progress());
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        throw Error(a.scene.string() + ": " + error.what());
     }
     write_transfer(document, scene, result.baked);
     {
         const Interrupt::WritingScope writing(interrupt);
         save_glb(document, a.output);
     }
-    const BakeStatistics& s = result.statistics;
-    const std::size_t unused = s.receivers - s.traced;
-    fmt::print("{}: {} receivers, {} triangles, order {}, {} rays each\n", a.output.string(), s.receivers,
-               s.triangles, a.options.order, a.options.rays);
-    if (unused > 0)
-        fmt::print("  {} receivers are on no surface and have zero transfer\n", unused);
-    fmt::print("  {:.3f} s build, {:.3f} s trace, {:.2f} million rays/s\n", s.seconds_build, s.seconds_trace,
-               s.rays_per_second * 1e-6);
-    fmt::print("  mean visibility {:.4f}\n", s.mean_visibility);
-    write_json({{"output", a.output.string()},
-                {"order", a.options.order},
-                {"channels", result.baked.transfer.channels},
-                {"bake", bake_record_json(result.baked.record)},
-                {"receivers", s.receivers},
-                {"receivers_traced", s.traced},
-                {"triangles", s.triangles},
-                {"seconds_build", s.seconds_build},
-                {"seconds_trace", s.seconds_trace},
-                {"rays_per_second", s.rays_per_second},
-                {"mean_visibility", s.mean_visibility},
-                {"bytes_output", std::filesystem::file_size(a.output)}},
-               a.json, interrupt);
+    print_report(a, result);
+    Json report = {{"output", a.output.string()},
+                   {"order", a.options.order},
+                   {"channels", result.baked.transfer.channels},
+                   {"storage", result.baked.storage == TransferStorage::float16 ? "float16" : "float32"},
+                   {"bake", bake_record_json(result.baked.record)}};
+    if (a.options.target_error)
+        report["target_error_relative_l2"] = *a.options.target_error;
+    report.update(statistics_json(result.statistics));
+    report["bytes_output"] = std::filesystem::file_size(a.output);
+    write_json(report, a.json, interrupt);
 }
 
 } // namespace prt::cli

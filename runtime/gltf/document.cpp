@@ -81,7 +81,8 @@ bool keep_encoded(tinygltf::Image* image, const int index, std::string*, std::st
     return true;
 }
 
-void load_model(GltfContents& contents, std::span<const std::byte> file, std::string_view text, bool binary) {
+void load_model(GltfContents& contents, std::span<const std::byte> file, std::string_view text, bool binary,
+                MissingImages missing) {
     if (file.size() > UINT_MAX)
         throw Error("is larger than 4 GB");
     tinygltf::TinyGLTF loader;
@@ -104,7 +105,7 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
             const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, image.bufferView));
             contents.images[i].assign(bytes.begin(), bytes.end());
         }
-        if (contents.images[i].empty())
+        if (contents.images[i].empty() && missing == MissingImages::error)
             throw Error("image " + std::to_string(i) +
                         (image.uri.empty() ? " is empty" : " '" + image.uri + "' cannot be read"));
     }
@@ -137,9 +138,9 @@ void embed_images(GltfContents& contents) {
     for (std::size_t i = 0; i < contents.images.size(); ++i) {
         Json& image = contents.json["images"][i];
         const std::string uri = image.value("uri", "");
-        if (uri.empty() || uri.starts_with("data:"))
-            continue;
         const auto& bytes = contents.images[i];
+        if (uri.empty() || uri.starts_with("data:") || bytes.empty())
+            continue;
         const bool png = bytes.size() > 1 && bytes[0] == std::byte{0x89} && bytes[1] == std::byte{'P'};
         image.erase("uri");
         image["mimeType"] = png ? "image/png" : "image/jpeg";
@@ -156,7 +157,7 @@ GltfDocument::GltfDocument(GltfDocument&&) noexcept = default;
 GltfDocument& GltfDocument::operator=(GltfDocument&&) noexcept = default;
 GltfDocument::~GltfDocument() = default;
 
-GltfDocument load_gltf(const std::filesystem::path& path) {
+GltfDocument load_gltf(const std::filesystem::path& path, MissingImages missing) {
     const std::vector<std::byte> file = read_file(path);
     auto contents = std::make_unique<GltfContents>();
     contents->path = path;
@@ -167,7 +168,7 @@ GltfDocument load_gltf(const std::filesystem::path& path) {
                    : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
         contents->json = parse_json(text);
         check_required_extensions(contents->json);
-        load_model(*contents, file, text, binary);
+        load_model(*contents, file, text, binary, missing);
         join_buffers(*contents);
         embed_images(*contents);
     } catch (const std::exception& error) { // ours, and those of the JSON library on members of a wrong type

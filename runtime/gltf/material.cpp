@@ -55,12 +55,56 @@ TextureUse read_texture_use(const tinygltf::Model& model, const tinygltf::Textur
     return use;
 }
 
+float number_member(const tinygltf::Value& object, const char* name, float otherwise) {
+    return object.Has(name) && object.Get(name).IsNumber()
+               ? static_cast<float>(object.Get(name).GetNumberAsDouble())
+               : otherwise;
+}
+
+glm::vec3 color_member(const tinygltf::Value& object, const char* name) {
+    glm::vec3 color(1);
+    if (object.Has(name) && object.Get(name).ArrayLen() >= 3)
+        for (int c = 0; c < 3; ++c)
+            color[c] = static_cast<float>(object.Get(name).Get(c).GetNumberAsDouble());
+    return color;
+}
+
+/// A texture reference inside an extension.
+TextureUse texture_member(const tinygltf::Model& model, const tinygltf::Value& object, const char* name) {
+    if (!object.Has(name))
+        return {};
+    const tinygltf::Value& value = object.Get(name);
+    tinygltf::TextureInfo info;
+    info.index = value.Has("index") ? value.Get("index").GetNumberAsInt() : -1;
+    info.texCoord = value.Has("texCoord") ? value.Get("texCoord").GetNumberAsInt() : 0;
+    if (value.Has("extensions") && value.Get("extensions").Has("KHR_texture_transform"))
+        info.extensions["KHR_texture_transform"] = value.Get("extensions").Get("KHR_texture_transform");
+    return read_texture_use(model, info);
+}
+
+DiffuseTransmission read_transmission(const tinygltf::Model& model, const tinygltf::Value& extension) {
+    return {number_member(extension, "diffuseTransmissionFactor", 0),
+            texture_member(model, extension, "diffuseTransmissionTexture"),
+            color_member(extension, "diffuseTransmissionColorFactor"),
+            texture_member(model, extension, "diffuseTransmissionColorTexture")};
+}
+
+Volume read_volume(const tinygltf::Value& extension) {
+    Volume volume;
+    volume.thickness = number_member(extension, "thicknessFactor", 0);
+    volume.attenuation_distance =
+        number_member(extension, "attenuationDistance", volume.attenuation_distance);
+    volume.attenuation_color = color_member(extension, "attenuationColor");
+    return volume;
+}
+
 } // namespace
 
 std::vector<Material> read_materials(const tinygltf::Model& model) {
     std::vector<Material> materials;
     for (const tinygltf::Material& file : model.materials) {
         Material material;
+        material.name = file.name;
         const auto& factor = file.pbrMetallicRoughness.baseColorFactor;
         for (std::size_t c = 0; c < 4 && c < factor.size(); ++c)
             material.base_color[static_cast<int>(c)] = static_cast<float>(factor[c]);
@@ -71,6 +115,11 @@ std::vector<Material> read_materials(const tinygltf::Model& model) {
             material.alpha_mode = AlphaMode::blend;
         material.alpha_cutoff = static_cast<float>(file.alphaCutoff);
         material.double_sided = file.doubleSided;
+        const auto& extensions = file.extensions;
+        if (const auto e = extensions.find("KHR_materials_diffuse_transmission"); e != extensions.end())
+            material.transmission = read_transmission(model, e->second);
+        if (const auto e = extensions.find("KHR_materials_volume"); e != extensions.end())
+            material.volume = read_volume(e->second);
         materials.push_back(material);
     }
     materials.emplace_back();

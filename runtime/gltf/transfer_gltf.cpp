@@ -8,6 +8,8 @@
 #include "prt/sh.h"
 #include "unshare.h"
 
+#include <glm/gtc/packing.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -20,7 +22,8 @@ constexpr int kVersion = 1;
 
 Json record_json(const BakeRecord& record) {
     return {{"method", record.method},   {"backend", record.backend}, {"raysPerReceiver", record.rays},
-            {"bounces", record.bounces}, {"seed", record.seed},       {"receivers", record.receivers}};
+            {"bounces", record.bounces}, {"seed", record.seed},       {"receivers", record.receivers},
+            {"samplingError", record.sampling_error}};
 }
 
 BakeRecord read_record(const Json& json) {
@@ -31,6 +34,7 @@ BakeRecord read_record(const Json& json) {
     record.bounces = json.value("bounces", 0);
     record.seed = json.value("seed", std::uint64_t{0});
     record.receivers = json.value("receivers", "");
+    record.sampling_error = json.value("samplingError", 0.0);
     return record;
 }
 
@@ -66,18 +70,33 @@ std::string primitive_name(const Primitive& primitive) {
     return "mesh " + std::to_string(primitive.mesh) + " primitive " + std::to_string(primitive.primitive);
 }
 
-/// Floats of {"bufferView": ..., "componentType": 5126}; throws unless there are `count`, all finite.
+/// GL_HALF_FLOAT. glTF's accessors do not know it, but the views of our extensions are no accessors.
+constexpr int kHalfComponentType = 5131;
+
+bool is_half(const Json& object) {
+    return object.value("componentType", TINYGLTF_COMPONENT_TYPE_FLOAT) == kHalfComponentType;
+}
+
+/// Floats of {"bufferView": ..., "componentType": 5126 or 5131}; throws unless there are `count`, all finite.
 std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,
                                    const std::string& what) {
-    if (object.value("componentType", TINYGLTF_COMPONENT_TYPE_FLOAT) != TINYGLTF_COMPONENT_TYPE_FLOAT)
-        throw Error(what + " are not of component type 5126 (float)");
+    const int type = object.value("componentType", TINYGLTF_COMPONENT_TYPE_FLOAT);
+    if (type != TINYGLTF_COMPONENT_TYPE_FLOAT && type != kHalfComponentType)
+        throw Error(what + " are of component type " + std::to_string(type) +
+                    ", neither 5126 (float32) nor 5131 (float16)");
+    const std::size_t size = is_half(object) ? sizeof(std::uint16_t) : sizeof(float);
     const auto bytes = buffer_view_bytes(contents.model, object.at("bufferView").get<int>());
-    if (bytes.size() < count * sizeof(float))
-        throw Error(what + " need " + std::to_string(count * sizeof(float)) + " bytes, but there are " +
+    if (bytes.size() < count * size)
+        throw Error(what + " need " + std::to_string(count * size) + " bytes, but there are " +
                     std::to_string(bytes.size()));
     std::vector<float> values(count);
-    if (count > 0)
-        std::memcpy(values.data(), bytes.data(), count * sizeof(float));
+    if (is_half(object)) {
+        std::vector<std::uint16_t> halves(count);
+        std::copy_n(bytes.data(), count * size, reinterpret_cast<unsigned char*>(halves.data()));
+        std::transform(halves.begin(), halves.end(), values.begin(), glm::unpackHalf1x16);
+    } else if (count > 0) {
+        std::memcpy(values.data(), bytes.data(), count * size);
+    }
     if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
         throw Error(what + " hold values that are not finite");
     return values;
@@ -86,6 +105,13 @@ std::vector<float> read_float_view(const GltfContents& contents, const Json& obj
 Json write_float_view(GltfContents& contents, std::span<const float> values) {
     return {{"bufferView", contents.add_buffer_view(std::as_bytes(values))},
             {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}};
+}
+
+Json write_half_view(GltfContents& contents, std::span<const float> values) {
+    std::vector<std::uint16_t> halves(values.size());
+    std::transform(values.begin(), values.end(), halves.begin(), glm::packHalf1x16);
+    return {{"bufferView", contents.add_buffer_view(std::as_bytes(std::span(halves)))},
+            {"componentType", kHalfComponentType}};
 }
 
 int weight_component_type(WeightFormat format) {
@@ -214,11 +240,11 @@ void write_transfer(GltfDocument& document, const Scene& scene, const BakedTrans
     contents.remove_transfer();
     const Transfer& transfer = baked.transfer;
     std::vector<Json> views;
+    const auto write = baked.storage == TransferStorage::float16 ? write_half_view : write_float_view;
     for (const VertexArray& vertices : scene.vertex_arrays)
-        views.push_back(
-            write_float_view(contents, std::span(transfer.vectors)
-                                           .subspan(vertices.first_receiver * transfer.dimension(),
-                                                    vertices.size() * transfer.dimension())));
+        views.push_back(write(contents, std::span(transfer.vectors)
+                                            .subspan(vertices.first_receiver * transfer.dimension(),
+                                                     vertices.size() * transfer.dimension())));
     for (std::size_t i = 0; i < primitives.size(); ++i)
         (*primitives[i])["extensions"][kTransferExtension] = {
             {"vectors", views[scene.primitives[i].vertices]}};
@@ -244,8 +270,11 @@ std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const S
             const Json& json = primitive_json(contents, primitive);
             if (!json.contains("extensions") || !json["extensions"].contains(kTransferExtension))
                 throw Error(primitive_name(primitive) + " has no " + kTransferExtension);
+            const Json& view = json["extensions"][kTransferExtension].at("vectors");
+            if (is_half(view))
+                baked.storage = TransferStorage::float16;
             const auto values = read_float_view(
-                contents, json["extensions"][kTransferExtension].at("vectors"),
+                contents, view,
                 vertices.size() * transfer.dimension(), "the vectors of " + primitive_name(primitive));
             std::copy(values.begin(), values.end(),
                       transfer.vectors.begin() +

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 namespace prt {
 namespace {
@@ -94,17 +95,23 @@ glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2&
                     level - static_cast<float>(fine));
 }
 
-std::vector<Texture> load_textures(const Scene& scene) {
+std::vector<Texture> load_textures(const Scene& scene, BadTextures bad) {
     std::vector<Texture> textures(scene.images.size());
+    std::set<int> images;
     for (const Primitive& primitive : scene.primitives) {
-        const int image = scene.materials[primitive.material].base_color_texture.image;
-        if (image < 0 || !textures[static_cast<std::size_t>(image)].levels.empty())
-            continue;
+        const Material& material = scene.materials[primitive.material];
+        for (const TextureUse* use : {&material.base_color_texture, &material.transmission.factor_texture,
+                                      &material.transmission.color_texture})
+            images.insert(use->image);
+    }
+    images.erase(-1);
+    for (const int image : images) {
         const EncodedImage& encoded_image = scene.images[static_cast<std::size_t>(image)];
         try {
             textures[static_cast<std::size_t>(image)] = make_texture(decode_image(encoded_image.bytes));
         } catch (const Error& error) {
-            throw Error(encoded_image.name + " " + error.what());
+            if (bad == BadTextures::error)
+                throw Error(encoded_image.name + " " + error.what());
         }
     }
     return textures;

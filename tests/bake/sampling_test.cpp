@@ -32,7 +32,7 @@ TEST(Sobol, IsANetInBaseTwo) {
     };
     const SobolChunk chunk(1024);
     for (const std::uint32_t index : {0u, 3u}) {
-        const SobolOffset offset = sobol_chunk_offset(index);
+        const SobolOffset offset = sobol_offset(index * kChunk);
         for (int x_bits = 0; x_bits <= 10; ++x_bits) {
             std::set<std::uint32_t> cells;
             for (std::size_t i = 0; i < 1024; ++i)
@@ -49,7 +49,7 @@ TEST(Directions, AreUnitAboveTheSurfaceAndCosineDistributed) {
     for (const glm::vec3& normal :
          {glm::vec3(0, 0, 1), glm::vec3(0, 0, -1), glm::normalize(glm::vec3(1, -2, 0.5f))}) {
         double cosine = 0;
-        generate_directions(chunk, sobol_chunk_offset(2), 99, tangent_frame(normal), d);
+        generate_directions(chunk, sobol_offset(2 * kChunk), 99, tangent_frame(normal), d);
         for (std::size_t i = 0; i < 1024; ++i) {
             const glm::vec3 w(d.x[i], d.y[i], d.z[i]);
             EXPECT_NEAR(glm::length(w), 1, 1e-6f);
@@ -63,7 +63,7 @@ TEST(Directions, AreUnitAboveTheSurfaceAndCosineDistributed) {
 TEST(Directions, OfAPacketStayTogether) {
     const SobolChunk chunk(1024);
     ChunkDirections d;
-    generate_directions(chunk, sobol_chunk_offset(0), 1234567, tangent_frame({0, 0, 1}), d);
+    generate_directions(chunk, sobol_offset(0), 1234567, tangent_frame({0, 0, 1}), d);
     // A cell is 1/64 of the disk. The mean distance of two random points on a unit disk is 0.9; in a cell it
     // is less than its diameter, about 0.4.
     double spread = 0;
@@ -77,8 +77,8 @@ TEST(Directions, OfAPacketStayTogether) {
 TEST(Directions, OfTwoSeedsDiffer) {
     const SobolChunk chunk(64);
     ChunkDirections a, b;
-    generate_directions(chunk, sobol_chunk_offset(0), 1, tangent_frame({0, 0, 1}), a);
-    generate_directions(chunk, sobol_chunk_offset(0), 2, tangent_frame({0, 0, 1}), b);
+    generate_directions(chunk, sobol_offset(0), 1, tangent_frame({0, 0, 1}), a);
+    generate_directions(chunk, sobol_offset(0), 2, tangent_frame({0, 0, 1}), b);
     int equal = 0;
     for (std::size_t i = 0; i < 64; ++i)
         equal += a.x[i] == b.x[i];
@@ -99,12 +99,12 @@ TEST(TangentFrame, IsRightHandedAndOrthonormal) {
 TEST(AddBasis, SumsTheBasisOverAnyNumberOfDirections) {
     const SobolChunk chunk(1024);
     ChunkDirections d;
-    generate_directions(chunk, sobol_chunk_offset(0), 5, tangent_frame(glm::normalize(glm::vec3(1, 2, 3))),
+    generate_directions(chunk, sobol_offset(0), 5, tangent_frame(glm::normalize(glm::vec3(1, 2, 3))),
                         d);
     for (int order = 1; order <= kMaxOrder; ++order)
         for (const int count : {0, 1, 15, 16, 17, 1000, 1024}) {
             std::array<double, 100> sums{}, expected{}, basis{};
-            add_basis(order, d, count, sums);
+            add_basis(order, d, count, nullptr, sums);
             for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
                 evaluate_sh(order, glm::dvec3(d.x[i], d.y[i], d.z[i]), std::span<double>(basis));
                 for (std::size_t k = 0; k < static_cast<std::size_t>(coefficient_count(order)); ++k)

@@ -3,6 +3,14 @@
 // prints the area-weighted relative L2 error of SHIPPED against BAKED.
 const fs = require("fs");
 
+function half(bits) {
+  const sign = bits & 0x8000 ? -1 : 1;
+  const exponent = (bits >> 10) & 31;
+  const fraction = bits & 1023;
+  if (exponent === 31) return fraction ? NaN : sign * Infinity;
+  return sign * (exponent === 0 ? fraction * 2 ** -24 : (1 + fraction / 1024) * 2 ** (exponent - 15));
+}
+
 class Glb {
   constructor(path) {
     const file = fs.readFileSync(path);
@@ -13,8 +21,11 @@ class Glb {
 
   floats(object) {
     const view = this.json.bufferViews[object.bufferView];
+    const start = view.byteOffset ?? 0;
     const values = [];
-    for (let i = 0; i < view.byteLength / 4; ++i) values.push(this.bin.readFloatLE((view.byteOffset ?? 0) + 4 * i));
+    if (object.componentType === 5131)
+      for (let i = 0; i < view.byteLength / 2; ++i) values.push(half(this.bin.readUInt16LE(start + 2 * i)));
+    else for (let i = 0; i < view.byteLength / 4; ++i) values.push(this.bin.readFloatLE(start + 4 * i));
     return values;
   }
 

@@ -4,13 +4,53 @@
 
 #include "prt/gltf.h"
 #include "prt/progress.h"
+#include "prt/subsurface.h"
+#include "prt/texture.h"
 #include "prt/tracer.h"
+
+#include <optional>
 
 namespace prt {
 
+enum class Backend {
+    automatic, ///< a hardware GPU where there is one, else the CPU
+    cpu,
+    gpu, ///< any OpenGL 4.5
+};
+
+enum class BakeMethod {
+    trace,  ///< rays
+    raster, ///< depth maps from many directions (Hill 2004): direct light, GPU only
+};
+
+enum class Storage {
+    automatic, ///< float16 where its rounding is less than a tenth of the sampling error
+    float32,
+    float16,
+};
+
+/// Bounce until nothing is left.
+inline constexpr int kEndlessBounces = -1;
+inline constexpr int kMostRays = 1 << 24; ///< per receiver
+
+/// A medium for the materials of that name; for all materials where the name is empty.
+struct MediumChoice {
+    std::string material;
+    Medium medium;
+};
+
 struct BakeOptions {
     int order = 6;
-    int rays = 1024; ///< per receiver
+    int rays = 1024;                    ///< per receiver; directions where method is raster
+    std::optional<double> target_error; ///< relative L2 to reach, with as many rays as each receiver needs
+    int bounces = 0;                    ///< or kEndlessBounces
+    Backend backend = Backend::automatic;
+    BakeMethod method = BakeMethod::trace;
+    int raster_resolution = 1024; ///< texels along each side of a depth map
+    std::vector<MediumChoice> subsurface;
+    double metres_per_unit = 1; ///< size of the scene's unit, for media
+    BadTextures bad_textures = BadTextures::error;
+    Storage storage = Storage::automatic;
     int threads = 0; ///< 0: all
     std::uint64_t seed = 0;
 };
@@ -18,11 +58,24 @@ struct BakeOptions {
 struct BakeStatistics {
     std::size_t receivers = 0; ///< all
     std::size_t traced = 0;    ///< those on a surface; the others have zero transfer
+    std::size_t back_sides = 0; ///< traced beside them, where surfaces scatter on both sides
     std::size_t triangles = 0;
-    double seconds_build = 0; ///< the bounding volume hierarchy
-    double seconds_trace = 0; ///< everything else
-    double rays_per_second = 0;
-    double mean_visibility = 0; ///< area-weighted T_0 / Y_00
+    std::size_t inside = 0;   ///< receivers inside geometry
+    std::size_t refilled = 0; ///< of those, how many took the values of their neighbours
+    std::size_t rays = 0;     ///< traced in all
+    std::string device;
+    double seconds_build = 0; ///< acceleration structures and textures
+    TraceSeconds seconds_tracing;
+    double seconds_transport = 0; ///< bounces and subsurface scattering
+    double seconds = 0;           ///< all
+    double rays_per_second = 0;   ///< all rays over all time
+    double mean_visibility = 0;   ///< area-weighted T_0 / Y_00 of the direct light
+    /// Estimated relative L2 error of the direct light by sampling, from independent samples.
+    double sampling_error = 0;
+    double rounding_error = 0; ///< relative L2 of storing float16
+    double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
+    std::size_t gather_entries = 0, gather_bytes = 0;
+    std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
 };
 
 struct BakeResult {
@@ -30,13 +83,28 @@ struct BakeResult {
     BakeStatistics statistics;
 };
 
-/// Bakes direct shadowed transfer for every vertex. Deterministic from the seed, whatever the number of
-/// threads. Throws `Error` for options outside their range and `Cancelled`.
+/// Bakes transfer for every vertex. On the CPU deterministic from the seed, whatever the number of threads.
+/// Throws `Error` for options outside their range, for a bake that does not fit into memory, and where a
+/// backend is not there; `Cancelled` when asked to stop.
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
 
+/// Bytes that a bake takes at most at a time, roughly.
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, int channels);
+
+/// Takes the hits of a receiver. Called from several threads.
+using ReceiverSink = std::function<void(std::uint32_t receiver, std::span<const Hit> hits)>;
+
 /// Runs `tracer` over those `receivers` that have an area and a normal; the others get zeros.
-Transfer direct_transfer(Tracer& tracer, const Receivers& receivers, const DirectOptions& options,
-                         const Progress& progress = {});
+Transfer direct_transfer(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,
+                         const Progress& progress = {}, const ReceiverSink& sink = {});
+
+/// The same for `indices` alone, into `transfer`.
+void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
+                     const TraceOptions& options, Transfer& transfer, const Progress& progress = {},
+                     const ReceiverSink& sink = {});
+
+/// Those with an area and a normal.
+std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers);
 
 /// Area-weighted mean of T_0 / Y_00 over all channels.
 double mean_visibility(const Transfer& transfer, std::span<const float> areas);

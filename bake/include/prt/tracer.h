@@ -3,31 +3,59 @@
 #include "prt/receivers.h"
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 
 namespace prt {
 
-struct DirectOptions {
+/// Rays of one call. Rays of a receiver are a sequence that depends on the seed alone: tracing [0, 64) and
+/// then [64, 128) is tracing [0, 128).
+struct TraceOptions {
     int order = 6;
     int rays = 1024; ///< per receiver
     std::uint64_t seed = 0;
+    /// Of the sequence; a multiple of the least power of two that is at least `rays` or kRayChunk.
+    std::uint32_t first_ray = 0;
 };
 
-/// One way to compute direct transfer: a processor, an API, a method. Every tracer takes the same samples, so
-/// that two of them agree but for rays that graze.
+/// A surface that a ray met.
+struct Hit {
+    std::uint32_t triangle; ///< in the order of the scene's primitives and their triangles
+    float u, v;             ///< barycentric coordinates of corners 1 and 2
+    float weight;           ///< share of the ray that ends here, 0..1; the weights of a ray sum to at most 1
+    float footprint;        ///< area of the surface that the ray stands for, m²
+    bool back;              ///< the triangle was met from behind
+};
+
+/// Takes the hits of receivers[indices[i]], all of one call at once. Called from several threads.
+using HitSink = std::function<void(std::size_t i, std::span<const Hit> hits)>;
+
+/// Where the time went, in seconds of wall clock. What a tracer cannot tell apart is in `trace`.
+struct TraceSeconds {
+    double trace = 0;      ///< rays
+    double accumulate = 0; ///< spherical harmonics, and what is done with the hits
+    double transfer = 0;   ///< to and from a device
+};
+
+/// One way to compute visibility: a processor, an API, a method. Every tracer that traces takes the same
+/// samples, so that two of them agree but for rays that graze.
 class Tracer {
 public:
     virtual ~Tracer() = default;
-    /// For reports: "cpu".
-    virtual std::string backend() const = 0;
-    /// How many receivers to give to `direct_transfer` at once so that a batch takes about a tenth of a
-    /// second.
-    virtual std::size_t batch_size(const DirectOptions& options) const = 0;
+    virtual std::string backend() const = 0; ///< for reports: "cpu", "gpu"
+    virtual std::string method() const { return "trace"; }
+    virtual std::string device() const = 0; ///< for reports: what it runs on
+    /// How many receivers to give to `trace` at once so that a batch takes about a tenth of a second.
+    virtual std::size_t batch_size(const TraceOptions& options) const = 0;
     /// Shadowed direct transfer (docs/math.md, eq. 7) of receivers[indices[i]] for each i, to `vectors`
-    /// [indices][order²].
-    virtual void direct_transfer(const Receivers& receivers, std::span<const std::uint32_t> indices,
-                                 const DirectOptions& options, std::span<float> vectors) = 0;
+    /// [indices][order²]; with a `sink`, also what the rays met.
+    virtual void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
+                       const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {}) = 0;
+    TraceSeconds seconds() const { return seconds_; }
+
+protected:
+    TraceSeconds seconds_;
 };
 
 } // namespace prt

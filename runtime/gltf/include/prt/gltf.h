@@ -30,8 +30,11 @@ private:
     std::unique_ptr<GltfContents> contents_;
 };
 
+/// What to do about images whose files are not there.
+enum class MissingImages { error, ignore };
+
 /// Reads .gltf or .glb with its buffers and images. Throws `Error` that names the file and the place in it.
-GltfDocument load_gltf(const std::filesystem::path& path);
+GltfDocument load_gltf(const std::filesystem::path& path, MissingImages missing = MissingImages::error);
 
 /// Flattens the default scene. Every node instance gets vertices of its own; skins and morph targets are
 /// taken in the pose of the file. Throws `Error` for accessors out of bounds, indices beyond the vertices,
@@ -40,17 +43,21 @@ Scene extract_scene(const GltfDocument& document);
 
 /// How a bake was made; written to the file and shown by `prt info`.
 struct BakeRecord {
-    int bounces = 0;
-    int rays = 0; ///< per receiver
+    int bounces = 0; ///< done
+    int rays = 0;    ///< per receiver, the mean where it differs; directions where method is "raster"
     std::uint64_t seed = 0;
-    std::string method;    ///< "trace"
-    std::string backend;   ///< "cpu"
+    std::string method;    ///< "trace", "raster"
+    std::string backend;   ///< "cpu", "gpu"
     std::string receivers; ///< receivers_id of the scene
+    double sampling_error = 0; ///< estimated relative L2 of the direct light
 };
+
+enum class TransferStorage { float32, float16 };
 
 struct BakedTransfer {
     Transfer transfer; ///< receivers in the order of the scene's vertex arrays
     BakeRecord record;
+    TransferStorage storage = TransferStorage::float32; ///< in the file
 };
 
 struct CompressedTransfer {

@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,12 +27,30 @@ struct TextureUse {
     Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
 };
 
+/// Light that a surface lets through diffusely: KHR_materials_diffuse_transmission.
+struct DiffuseTransmission {
+    float factor = 0; ///< share of the diffuse light that passes, 0..1
+    TextureUse factor_texture; ///< in alpha
+    glm::vec3 color{1};        ///< linear Rec. 709
+    TextureUse color_texture;
+};
+
+/// What is under a surface: KHR_materials_volume.
+struct Volume {
+    float thickness = 0;                                                   ///< 0: a thin sheet, nothing inside
+    float attenuation_distance = std::numeric_limits<float>::infinity();   ///< metres
+    glm::vec3 attenuation_color{1};                                        ///< what is left after that distance
+};
+
 struct Material {
+    std::string name;
     glm::vec4 base_color{1}; ///< linear Rec. 709 and alpha
     TextureUse base_color_texture;
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
+    DiffuseTransmission transmission;
+    Volume volume;
 };
 
 /// Vertices of one or several primitives of one node. Each vertex is a receiver.

@@ -24,8 +24,14 @@ Texture make_texture(Image8 image);
 /// which is clamped to the levels there are. Returns linear colour and alpha.
 glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2& uv, float lod);
 
-/// The textures that the materials of `scene` use, by image index; others stay empty. Throws `Error` that
-/// names the image when one is damaged.
-std::vector<Texture> load_textures(const Scene& scene);
+/// What to do about textures that are missing or damaged.
+enum class BadTextures {
+    error,  ///< throw an `Error` that names the image
+    ignore, ///< leave them empty: the material's factors alone count
+};
+
+/// The textures that the materials of `scene` use for colour, coverage and transmission, by image index;
+/// others stay empty.
+std::vector<Texture> load_textures(const Scene& scene, BadTextures bad = BadTextures::error);
 
 } // namespace prt

@@ -1,0 +1,56 @@
+#include "storage.h"
+
+#include "prt/sh_basis.h"
+
+#include <glm/gtc/packing.hpp>
+
+#include <cmath>
+
+#if defined(__unix__) || defined(__APPLE__)
+#include <unistd.h>
+#endif
+
+namespace prt {
+
+double half_rounding_error(const Transfer& transfer, std::span<const float> areas) {
+    double error = 0, norm = 0;
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
+        double point_error = 0, point_norm = 0;
+        for (const float value : transfer.vector(p)) {
+            const auto lost = static_cast<double>(value - glm::unpackHalf1x16(glm::packHalf1x16(value)));
+            point_error += lost * lost;
+            point_norm += static_cast<double>(value * value);
+        }
+        error += static_cast<double>(areas[p]) * point_error;
+        norm += static_cast<double>(areas[p]) * point_norm;
+    }
+    return norm > 0 ? std::sqrt(error / norm) : 0;
+}
+
+double physical_memory() {
+#if defined(_SC_PHYS_PAGES) && defined(_SC_PAGE_SIZE)
+    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+#else
+    return 0;
+#endif
+}
+
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, int channels) {
+    const auto count = static_cast<double>(receivers);
+    const double vector = 4.0 * channels * coefficient_count(options.order);
+    // The transfer itself, once more in the file being written and once more joined to it.
+    double bytes = 3 * count * vector;
+    if (options.target_error)
+        bytes += 3 * count * vector;
+    // Embree's tree of high quality, our tables of triangles, the scene, its neighbours.
+    bytes += 400.0 * static_cast<double>(triangles) + 150 * count;
+    if (options.bounces != 0) {
+        bytes += 2 * count * vector;
+        // Half of the rays meet something, and each has three corners, of which many fall together: measured
+        // 0.5 to 1.2 entries per ray.
+        bytes += count * options.rays * (4.0 + 4 * channels);
+    }
+    return bytes;
+}
+
+} // namespace prt
