@@ -9,7 +9,7 @@
 namespace prt {
 namespace {
 
-constexpr int kFirstRays = 64;             ///< of each of the two scrambles
+constexpr int kFirstRays = 64; ///< of each of the two scrambles
 constexpr std::uint32_t kMostRaysEach = kMostRays / 2;
 constexpr std::uint64_t kSecondScramble = 0x9e3779b97f4a7c15;
 /// The squared error of a scrambled net falls as n^-1.5 where visibility has edges (measured: n^-1.4 to
@@ -35,7 +35,8 @@ public:
     AdaptiveSampler(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
                     const TraceOptions& options)
         : tracer_(tracer), receivers_(receivers), neighbours_(neighbours), options_(options),
-          indices_(receivers_on_surfaces(receivers)), rays_(receivers.size(), 0), error_(receivers.size(), 0) {
+          indices_(receivers_on_surfaces(receivers)), rays_(receivers.size(), 0),
+          error_(receivers.size(), 0) {
         for (Transfer* t : {&first_, &second_, &added_}) {
             *t = {options.order, 1, {}};
             t->vectors.resize(receivers.size() * t->dimension());
@@ -56,9 +57,10 @@ public:
             const std::vector<std::uint32_t> chosen = choose(target);
             if (chosen.empty()) // all have as many rays as can be
                 break;
-            progress.update(start > target ? std::clamp(std::log(start / result.error) / std::log(start / target),
-                                                        0.0, 1.0)
-                                           : 0.0);
+            progress.update(
+                start > target
+                    ? std::clamp(std::log(start / result.error) / std::log(start / target), 0.0, 1.0)
+                    : 0.0);
             stop_ = {{}, progress.stop};
             extend(chosen);
         }
@@ -137,7 +139,8 @@ private:
                 candidates.push_back({mine, mine / rays_[p], p});
         }
         std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-            return a.gain_per_ray != b.gain_per_ray ? a.gain_per_ray > b.gain_per_ray : a.receiver < b.receiver;
+            return a.gain_per_ray != b.gain_per_ray ? a.gain_per_ray > b.gain_per_ray
+                                                    : a.receiver < b.receiver;
         });
         const double wanted = std::max(target * target * norm_, 0.5 * error);
         std::vector<std::uint32_t> chosen;

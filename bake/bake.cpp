@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace prt {
 namespace {
@@ -36,12 +37,18 @@ void check_options(const BakeOptions& options) {
         if (options.bounces != 0)
             throw Error("method raster finds direct light only: use method trace for bounces");
         if (options.target_error)
-            throw Error("method raster takes the same directions everywhere: use method trace for an error to "
-                        "reach");
+            throw Error(
+                "method raster takes the same directions everywhere: use method trace for an error to "
+                "reach");
         if (options.raster_resolution < 16 || options.raster_resolution > 16384)
             throw Error("the resolution of depth maps must lie in 16..16384");
     }
 }
+
+/// One ray of so many is followed for the bounces. Measured on the room with columns, 3 bounces, 1 024 rays:
+/// relative L2 2.32 % in 1.53 s with every ray, 2.56 % in 1.25 s with every third, 2.86 % in 1.04 s with
+/// every fourth (0.74 s without bounces): every third costs least for its error.
+constexpr int kHitStride = 3;
 
 /// A part of the work, as a part of the progress.
 Progress part_of(const Progress& whole, double from, double to) {
@@ -126,10 +133,12 @@ private:
     }
 
     void note_bad_textures() {
-        for (std::size_t i = 0; i < textures_.size(); ++i)
-            if (textures_[i].levels.empty() && options_.bad_textures == BadTextures::ignore &&
-                (scene_.images[i].bytes.empty()))
-                note("{} cannot be read: the factors of its materials are used alone", scene_.images[i].name);
+        std::set<int> used;
+        for (const Primitive& primitive : scene_.primitives)
+            used.insert(scene_.materials[primitive.material].base_color_texture.image);
+        for (const int image : used)
+            if (image >= 0 && !textures_.empty() && textures_[static_cast<std::size_t>(image)].levels.empty())
+                note("image {} is missing or damaged: the factors of its materials are used alone", image);
     }
 
     /// Only what the scene needs: bounces, back sides and colour.
@@ -161,22 +170,17 @@ private:
 
     /// One operator for each medium of each node.
     void make_diffusion() {
-        std::map<std::pair<std::size_t, int>, std::vector<std::uint32_t>> bodies;
+        std::map<std::pair<std::size_t, int>, std::vector<glm::uvec3>> bodies;
         for (const Primitive& primitive : scene_.primitives) {
             if (!media_[primitive.material])
                 continue;
-            auto& members = bodies[{primitive.material, primitive.node}];
-            const auto first =
-                static_cast<std::uint32_t>(scene_.vertex_arrays[primitive.vertices].first_receiver);
+            auto& triangles = bodies[{primitive.material, primitive.node}];
+            const auto first = static_cast<unsigned>(scene_.vertex_arrays[primitive.vertices].first_receiver);
             for (const glm::uvec3& t : primitive.triangles)
-                for (int corner = 0; corner < 3; ++corner)
-                    members.push_back(first + t[corner]);
+                triangles.push_back(t + first);
         }
-        for (auto& [key, members] : bodies) {
-            std::sort(members.begin(), members.end());
-            members.erase(std::unique(members.begin(), members.end()), members.end());
-            diffusion_.emplace_back(receivers_.receivers, std::move(members), *media_[key.first]);
-        }
+        for (auto& [key, triangles] : bodies)
+            diffusion_.emplace_back(receivers_.receivers, std::move(triangles), *media_[key.first]);
     }
 
     void check_memory() const {
@@ -184,10 +188,11 @@ private:
             estimate_memory(options_, receivers_.receivers.size(), scene_.triangles(), channels_);
         const double there = physical_memory();
         if (there > 0 && needed > there)
-            throw Error(fmt::format("the bake needs about {:.1f} GB of memory ({} receivers, order {}, {} rays{}), "
-                                    "and this machine has {:.1f} GB",
-                                    needed * 1e-9, receivers_.receivers.size(), options_.order, options_.rays,
-                                    bounces_ != 0 ? ", with bounces" : "", there * 1e-9));
+            throw Error(
+                fmt::format("the bake needs about {:.1f} GB of memory ({} receivers, order {}, {} rays{}), "
+                            "and this machine has {:.1f} GB",
+                            needed * 1e-9, receivers_.receivers.size(), options_.order, options_.rays,
+                            bounces_ != 0 ? ", with bounces" : "", there * 1e-9));
     }
 
     std::span<const float> fronts_areas() const {
@@ -198,9 +203,8 @@ private:
     Transfer trace(const RayScene& rays) {
         const Receivers& receivers = receivers_.receivers;
         const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
-        statistics().traced = static_cast<std::size_t>(std::lower_bound(indices.begin(), indices.end(),
-                                                                        receivers_.fronts) -
-                                                       indices.begin());
+        statistics().traced = static_cast<std::size_t>(
+            std::lower_bound(indices.begin(), indices.end(), receivers_.fronts) - indices.begin());
         TraceOptions options{options_.order, options_.rays, options_.seed, 0};
         neighbours_.emplace(surfaces_, receivers_.receivers, receivers_.fronts);
         std::vector<std::uint32_t> rays_of(receivers.size(), static_cast<std::uint32_t>(options_.rays));
@@ -241,7 +245,7 @@ private:
     void trace_gather(TraceOptions options, std::span<const std::uint32_t> rays_of, Transfer& transfer,
                       const Progress& progress) {
         const Receivers& receivers = receivers_.receivers;
-        gather_ = std::make_unique<GatherOperator>(receivers.size(), channels_);
+        gather_ = std::make_unique<GatherOperator>(surfaces_, receivers_, channels_);
         back_share_.assign(receivers.size(), 0);
         std::map<std::uint32_t, std::vector<std::uint32_t>> by_rays;
         std::size_t all = 0, done = 0;
@@ -249,6 +253,7 @@ private:
             by_rays[rays_of[p]].push_back(p);
             all += rays_of[p];
         }
+        options.hit_stride = kHitStride;
         for (const auto& [rays, members] : by_rays) {
             options.rays = static_cast<int>(rays);
             const std::size_t here = members.size() * rays;
@@ -256,7 +261,7 @@ private:
                             part_of(progress, static_cast<double>(done) / static_cast<double>(all),
                                     static_cast<double>(done + here) / static_cast<double>(all)),
                             [&, count = options.rays](std::uint32_t p, std::span<const Hit> hits) {
-                                gather_->set_row(p, hits, count, surfaces_, receivers_);
+                                gather_->set_row(p, hits, count);
                                 back_share_[p] = back_share(hits, count);
                             });
             done += here;
@@ -278,8 +283,8 @@ private:
         return sum / static_cast<float>(rays);
     }
 
-    /// Which receivers lie inside geometry. Where hits are not known, a few rays of those that much is blocked
-    /// from find out.
+    /// Which receivers lie inside geometry. Where hits are not known, a few rays of those that much is
+    /// blocked from find out.
     void mark_inside(const RayScene& rays, const Transfer& transfer) {
         const Receivers& receivers = receivers_.receivers;
         if (back_share_.empty()) {
@@ -301,12 +306,13 @@ private:
         std::vector<bool> inside(receivers.size());
         for (std::size_t p = 0; p < receivers.size(); ++p)
             inside[p] = back_share_[p] > kInsideShare;
-        statistics().inside = static_cast<std::size_t>(
-            std::count(inside.begin(), inside.begin() + static_cast<std::ptrdiff_t>(receivers_.fronts), true));
+        statistics().inside = static_cast<std::size_t>(std::count(
+            inside.begin(), inside.begin() + static_cast<std::ptrdiff_t>(receivers_.fronts), true));
         operators_.refill = Refill(*neighbours_, inside);
         statistics().refilled = operators_.refill.size();
         if (statistics().inside > 0)
-            note("{} receivers see more than {:.0f} % back faces, so they lie inside geometry; {} of them take the "
+            note("{} receivers see more than {:.0f} % back faces, so they lie inside geometry; {} of them "
+                 "take the "
                  "light of their neighbours",
                  statistics().inside, 100 * kInsideShare, statistics().refilled);
     }
@@ -341,7 +347,8 @@ private:
         BakedTransfer& baked = result_.baked;
         statistics().rounding_error = half_rounding_error(transfer, fronts_areas());
         const bool small = statistics().rounding_error < 0.1 * statistics().sampling_error;
-        const bool half = options_.storage == Storage::float16 || (options_.storage == Storage::automatic && small);
+        const bool half =
+            options_.storage == Storage::float16 || (options_.storage == Storage::automatic && small);
         baked.storage = half ? TransferStorage::float16 : TransferStorage::float32;
         if (half && options_.storage == Storage::automatic)
             note("stored as float16: its rounding, {:.2g}, is below a tenth of the sampling error, {:.2g}",
@@ -358,7 +365,7 @@ private:
 
     const Scene& scene_;
     const BakeOptions& options_;
-    const Progress& progress_;
+    Progress progress_;
     std::vector<std::optional<Medium>> media_; ///< [materials]
     std::vector<Texture> textures_;
     Surfaces surfaces_;

@@ -11,40 +11,63 @@
 namespace prt {
 namespace {
 
-/// Shares of a receiver below this are left out: a body of a million of them loses less than one in a thousand.
-constexpr double kNegligible = 1e-9;
+/// Share of the light on a plane that comes from farther away than is looked at.
+constexpr double kNegligible = 1e-4;
+
+double reach_of(const Dipole& dipole) {
+    double low = 0, high = dipole.depth();
+    while (dipole.inside(high) < (1 - kNegligible) * dipole.total())
+        high *= 2;
+    for (int i = 0; i < 40; ++i) {
+        const double middle = (low + high) / 2;
+        (dipole.inside(middle) < (1 - kNegligible) * dipole.total() ? low : high) = middle;
+    }
+    return high;
+}
 
 Dipole dipole_of(const Medium& medium, int c) {
     return Dipole(medium.scattering[c], medium.absorption[c], medium.ior);
 }
 
+double doubled_area(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+    return glm::length(glm::cross(b - a, c - a));
+}
+
 } // namespace
 
-DiffusionOperator::DiffusionOperator(const Receivers& receivers, std::vector<std::uint32_t> members,
+DiffusionOperator::DiffusionOperator(const Receivers& receivers, std::vector<glm::uvec3> triangles,
                                      const Medium& medium, double tolerance)
-    : receivers_(receivers), members_(std::move(members)),
-      dipoles_{dipole_of(medium, 0), dipole_of(medium, 1), dipole_of(medium, 2)}, tolerance_(tolerance) {
-    std::erase_if(members_, [&](std::uint32_t m) { return receivers_.areas[m] <= 0; });
-    // A leaf is one receiver, so that the tree alone decides what is seen as one.
-    if (!members_.empty())
-        build(0, static_cast<std::uint32_t>(members_.size()));
+    : receivers_(receivers),
+      triangles_(std::move(triangles)), dipoles_{dipole_of(medium, 0), dipole_of(medium, 1),
+                                                 dipole_of(medium, 2)},
+      tolerance_(tolerance),
+      scale_(std::min({dipoles_[0].depth(), dipoles_[1].depth(), dipoles_[2].depth()})),
+      reach_(std::max({reach_of(dipoles_[0]), reach_of(dipoles_[1]), reach_of(dipoles_[2])})) {
+    std::erase_if(triangles_, [&](const glm::uvec3& t) {
+        return !(doubled_area(position(t.x), position(t.y), position(t.z)) > 0);
+    });
+    const double falloff = std::max({dipoles_[0].falloff(), dipoles_[1].falloff(), dipoles_[2].falloff()});
+    most_extent_ = 10 * tolerance_ / (falloff * falloff);
+    for (const glm::uvec3& t : triangles_)
+        for (int corner = 0; corner < 3; ++corner)
+            members_.push_back(t[corner]);
+    std::sort(members_.begin(), members_.end());
+    members_.erase(std::unique(members_.begin(), members_.end()), members_.end());
+    if (!triangles_.empty())
+        build(0, static_cast<std::uint32_t>(triangles_.size()));
 }
 
 std::uint32_t DiffusionOperator::build(std::uint32_t begin, std::uint32_t end) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
-    Node node{glm::dvec3(std::numeric_limits<double>::infinity()),
-              glm::dvec3(-std::numeric_limits<double>::infinity()),
-              glm::dvec3(0),
-              0,
-              begin,
-              end,
-              0};
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    Node node{glm::dvec3(kInfinity), glm::dvec3(-kInfinity), glm::dvec3(0), 0, begin, end, 0};
     for (std::uint32_t i = begin; i < end; ++i) {
-        const glm::dvec3 position(receivers_.positions[members_[i]]);
-        const auto area = static_cast<double>(receivers_.areas[members_[i]]);
-        node.low = glm::min(node.low, position);
-        node.high = glm::max(node.high, position);
-        node.centre += area * position;
+        const glm::uvec3& t = triangles_[i];
+        const glm::dvec3 a = position(t.x), b = position(t.y), c = position(t.z);
+        const double area = doubled_area(a, b, c) / 2;
+        node.low = glm::min(node.low, glm::min(a, glm::min(b, c)));
+        node.high = glm::max(node.high, glm::max(a, glm::max(b, c)));
+        node.centre += area * (a + b + c) / 3.0;
         node.area += area;
     }
     node.centre /= node.area;
@@ -54,54 +77,114 @@ std::uint32_t DiffusionOperator::build(std::uint32_t begin, std::uint32_t end) {
     const glm::dvec3 size = node.high - node.low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = begin + (end - begin) / 2;
-    std::nth_element(members_.begin() + begin, members_.begin() + middle, members_.begin() + end,
-                     [&](std::uint32_t a, std::uint32_t b) {
-                         const float xa = receivers_.positions[a][axis], xb = receivers_.positions[b][axis];
-                         return xa != xb ? xa < xb : a < b;
-                     });
+    const auto key = [&](const glm::uvec3& t) {
+        return receivers_.positions[t.x][axis] + receivers_.positions[t.y][axis] +
+               receivers_.positions[t.z][axis];
+    };
+    std::nth_element(triangles_.begin() + begin, triangles_.begin() + middle, triangles_.begin() + end,
+                     [&](const glm::uvec3& a, const glm::uvec3& b) { return key(a) < key(b); });
     build(begin, middle);
     nodes_[index].right = build(middle, end);
     return index;
 }
 
-void DiffusionOperator::gather(const glm::dvec3& position, int channels, int coefficients,
-                               std::span<const float> means, std::span<double> sums) const {
-    std::array<std::uint32_t, 64> stack; // the tree is balanced: its depth is at most 32
-    std::size_t height = 0;
-    stack[height++] = 0;
-    while (height > 0) {
-        const std::uint32_t index = stack[--height];
-        const Node& node = nodes_[index];
-        const glm::dvec3 nearest = glm::clamp(position, node.low, node.high);
-        const double least = glm::distance(position, nearest);
-        const bool leaf = node.right == 0;
-        if (least > 0) {
-            double most = 0;
-            for (const Dipole& dipole : dipoles_)
-                most = std::max(most, dipole.reflectance(least) / dipole.total());
-            if (most * node.area < kNegligible * (node.end - node.begin))
-                continue;
-        }
-        const double distance = glm::distance(position, node.centre);
+/// Sums over the tree for one receiver.
+class DiffusionOperator::Gatherer {
+public:
+    Gatherer(const DiffusionOperator& diffusion, int channels, int coefficients,
+             std::span<const float> values, std::span<const float> means)
+        : diffusion_(diffusion), channels_(static_cast<std::size_t>(channels)),
+          coefficients_(static_cast<std::size_t>(coefficients)), values_(values), means_(means),
+          sums_(channels_ * coefficients_) {}
+
+    std::span<const double> gather(const glm::dvec3& at) {
+        std::fill(sums_.begin(), sums_.end(), 0.0);
+        at_ = at;
+        visit(0);
+        return sums_;
+    }
+
+private:
+    double kernel(std::size_t channel, double distance) const {
+        const Dipole& dipole = diffusion_.dipoles_[channel];
+        return dipole.reflectance(distance) / dipole.total();
+    }
+
+    void visit(std::uint32_t index) {
+        const Node& node = diffusion_.nodes_[index];
+        const double least = glm::distance(at_, glm::clamp(at_, node.low, node.high));
+        if (least > diffusion_.reach_)
+            return;
         const glm::dvec3 size = node.high - node.low;
-        // Area and extent: a body's bend makes the second larger.
-        if (!leaf && (least == 0 ||
-                      std::max(node.area, glm::dot(size, size)) > tolerance_ * distance * distance)) {
-            stack[height++] = node.right;
-            stack[height++] = index + 1;
-            continue;
+        const double distance = glm::distance(at_, node.centre);
+        // K varies over the distance, but over no less than the depth of the sources below the surface; far
+        // away it falls exponentially, by e over 1/sigma_tr.
+        if (least > 0 && small(glm::dot(size, size), distance))
+            return add(distance, node.area, &means_[index * channels_ * coefficients_]);
+        if (node.right != 0) {
+            visit(index + 1);
+            return visit(node.right);
         }
-        const float* mean = &means[index * static_cast<std::size_t>(channels * coefficients)];
-        for (int c = 0; c < channels; ++c) {
-            const Dipole& dipole = dipoles_[static_cast<std::size_t>(c)];
-            const double patch = node.area / (node.end - node.begin);
-            const double weight = node.area * dipole.mean_over_patch(distance, patch) / dipole.total();
-            for (int k = 0; k < coefficients; ++k)
-                sums[static_cast<std::size_t>(c * coefficients + k)] +=
-                    weight * static_cast<double>(mean[c * coefficients + k]);
+        const glm::uvec3& t = diffusion_.triangles_[node.begin];
+        CornerWeights weights{};
+        integrate({diffusion_.position(t.x), diffusion_.position(t.y), diffusion_.position(t.z)},
+                  {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}, 0, weights);
+        for (std::size_t c = 0; c < channels_; ++c)
+            for (int corner = 0; corner < 3; ++corner)
+                for (std::size_t k = 0; k < coefficients_; ++k)
+                    sums_[c * coefficients_ + k] +=
+                        weights[c][corner] *
+                        static_cast<double>(values_[(t[corner] * channels_ + c) * coefficients_ + k]);
+    }
+
+    bool small(double squared_extent, double distance) const {
+        const double scale = distance * distance + diffusion_.scale_ * diffusion_.scale_;
+        return squared_extent <= diffusion_.tolerance_ * scale && squared_extent <= diffusion_.most_extent_;
+    }
+
+    void add(double distance, double area, const float* mean) {
+        for (std::size_t c = 0; c < channels_; ++c) {
+            const double weight = area * kernel(c, distance);
+            for (std::size_t k = 0; k < coefficients_; ++k)
+                sums_[c * coefficients_ + k] += weight * static_cast<double>(mean[c * coefficients_ + k]);
         }
     }
-}
+
+    /// Adds the integrals over a part of a triangle, whose corners have these barycentric coordinates; parts
+    /// that are large for K are cut in four.
+    void integrate(const std::array<glm::dvec3, 3>& p, const std::array<glm::dvec3, 3>& barycentrics,
+                   int depth, CornerWeights& weights) const {
+        constexpr int kMostDepth = 16;
+        const double extent =
+            std::max({glm::dot(p[1] - p[0], p[1] - p[0]), glm::dot(p[2] - p[1], p[2] - p[1]),
+                      glm::dot(p[0] - p[2], p[0] - p[2])});
+        const glm::dvec3 centre = (p[0] + p[1] + p[2]) / 3.0;
+        const double distance = glm::distance(at_, centre), area = doubled_area(p[0], p[1], p[2]) / 2;
+        if (distance - std::sqrt(extent) > diffusion_.reach_)
+            return;
+        if (depth == kMostDepth || small(extent, distance)) {
+            const glm::dvec3 middle = (barycentrics[0] + barycentrics[1] + barycentrics[2]) / 3.0;
+            for (std::size_t c = 0; c < channels_; ++c)
+                weights[c] += area * kernel(c, distance) * middle;
+            return;
+        }
+        std::array<glm::dvec3, 3> q, b; // middles of the edges across from each corner
+        for (std::size_t i = 0; i < 3; ++i) {
+            q[i] = (p[(i + 1) % 3] + p[(i + 2) % 3]) / 2.0;
+            b[i] = (barycentrics[(i + 1) % 3] + barycentrics[(i + 2) % 3]) / 2.0;
+        }
+        integrate(q, b, depth + 1, weights);
+        integrate({p[0], q[2], q[1]}, {barycentrics[0], b[2], b[1]}, depth + 1, weights);
+        integrate({q[2], p[1], q[0]}, {b[2], barycentrics[1], b[0]}, depth + 1, weights);
+        integrate({q[1], q[0], p[2]}, {b[1], b[0], barycentrics[2]}, depth + 1, weights);
+    }
+
+    const DiffusionOperator& diffusion_;
+    std::size_t channels_, coefficients_;
+    std::span<const float> values_, means_;
+    std::vector<double> sums_;
+    glm::dvec3 at_{0};
+};
 
 void DiffusionOperator::apply(int channels, int coefficients, std::span<float> values, int threads) const {
     if (nodes_.empty())
@@ -113,25 +196,28 @@ void DiffusionOperator::apply(int channels, int coefficients, std::span<float> v
         const Node& node = nodes_[n];
         float* const mean = &means[n * stride];
         if (node.right == 0) {
-            std::copy_n(&values[members_[node.begin] * stride], stride, mean);
+            const glm::uvec3& t = triangles_[node.begin];
+            for (std::size_t i = 0; i < stride; ++i)
+                mean[i] =
+                    (values[t.x * stride + i] + values[t.y * stride + i] + values[t.z * stride + i]) / 3;
             continue;
         }
         const auto share = static_cast<float>(nodes_[n + 1].area / node.area);
         for (std::size_t i = 0; i < stride; ++i)
             mean[i] = share * means[(n + 1) * stride + i] + (1 - share) * means[node.right * stride + i];
     }
+    const std::vector<float> before(values.begin(), values.end());
     parallel_for(members_.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<double> sums(stride);
+        Gatherer gatherer(*this, channels, coefficients, before, means);
         for (std::size_t i = begin; i < end; ++i) {
-            std::fill(sums.begin(), sums.end(), 0.0);
-            gather(glm::dvec3(receivers_.positions[members_[i]]), channels, coefficients, means, sums);
+            const auto sums = gatherer.gather(position(members_[i]));
             std::copy(sums.begin(), sums.end(), &values[members_[i] * stride]);
         }
     });
 }
 
 bool DiffusionOperator::is_grey() const {
-    for (const double r : {0.0, 1.0 / std::max(dipoles_[0].falloff(), 1.0)})
+    for (const double r : {0.0, scale_, 3 * scale_})
         for (const Dipole& dipole : dipoles_)
             if (dipole.reflectance(r) / dipole.total() != dipoles_[0].reflectance(r) / dipoles_[0].total())
                 return false;

@@ -15,17 +15,18 @@
 
 namespace prt {
 
-/// Receivers round one body of one medium: X'(p) = sum_i area_i K(|p - i|) X(i), where K is the dipole's Rd
-/// over its integral. The body's own reflectance, which is its albedo, is so left out, as everywhere in
-/// transfer.
+/// The surface round one body of one medium: X'(p) = ∫ K(|p - q|) X(q) dA(q), where X is linear over each
+/// triangle and K is the dipole's Rd over its integral. The body's own reflectance, which is its albedo, is
+/// so left out, as everywhere in transfer.
 class DiffusionOperator {
 public:
-    /// `members`: the receivers on the body. `tolerance`: a group of receivers stands as one where the solid
-    /// angle under which it is seen is below this.
-    DiffusionOperator(const Receivers& receivers, std::vector<std::uint32_t> members, const Medium& medium,
+    /// Keeps a reference to `receivers`. `triangles` of the body, of receivers. `tolerance`: triangles stand
+    /// as one where the square of their extent is below this share of the square of their distance.
+    DiffusionOperator(const Receivers& receivers, std::vector<glm::uvec3> triangles, const Medium& medium,
                       double tolerance = 0.1);
 
-    /// Replaces the values of the members; [receivers][channels][order²]. With one channel the red kernel serves.
+    /// Replaces the values of the body's receivers; [receivers][channels][order²]. With one channel the red
+    /// kernel serves.
     void apply(int channels, int coefficients, std::span<float> values, int threads) const;
 
     /// Red, green and blue spread alike.
@@ -33,19 +34,26 @@ public:
 
 private:
     struct Node {
-        glm::dvec3 low, high, centre; ///< box of the positions, and their mean weighted by area
+        glm::dvec3 low, high, centre; ///< box of the corners, and the mean position
         double area = 0;
-        std::uint32_t begin = 0, end = 0; ///< members
-        std::uint32_t right = 0;          ///< the left child follows; 0: a leaf
+        std::uint32_t begin = 0, end = 0; ///< triangles
+        std::uint32_t right = 0;          ///< the left child follows; 0: a leaf, which is one triangle
     };
+    /// Integrals of K times the linear function that is 1 at one corner, [channels][corner].
+    using CornerWeights = std::array<glm::dvec3, 3>;
+    class Gatherer;
+
     std::uint32_t build(std::uint32_t begin, std::uint32_t end);
-    void gather(const glm::dvec3& position, int channels, int coefficients, std::span<const float> means,
-                std::span<double> sums) const;
+    glm::dvec3 position(std::uint32_t receiver) const { return glm::dvec3(receivers_.positions[receiver]); }
 
     const Receivers& receivers_;
-    std::vector<std::uint32_t> members_; ///< in the order of the tree
+    std::vector<glm::uvec3> triangles_; ///< in the order of the tree
+    std::vector<std::uint32_t> members_;
     std::array<Dipole, 3> dipoles_;
     double tolerance_;
+    double scale_;           ///< least depth of a dipole, over which K varies, m
+    double reach_;           ///< beyond this there is nothing worth looking at, m
+    double most_extent_ = 0; ///< squared, of what may stand as one, m²
     std::vector<Node> nodes_;
 };
 

@@ -31,8 +31,8 @@ struct Plan {
     SobolChunk whole, last; ///< all chunks but the last, and the last
 
     Plan(const RayScene& ray_scene, const Surfaces* surface_table, const TraceOptions& trace)
-        : scene(ray_scene.handle()), rays(ray_scene), surfaces(surface_table), options(trace), whole(kChunk),
-          last((trace.rays - 1) % kChunk + 1) {}
+        : scene(ray_scene.handle()), rays(ray_scene), surfaces(surface_table), options(trace),
+          whole(kChunk, trace.hit_stride), last((trace.rays - 1) % kChunk + 1, trace.hit_stride) {}
 
     int chunks() const { return (options.rays + kChunk - 1) / kChunk; }
     const SobolChunk& chunk(int i) const { return i + 1 < chunks() ? whole : last; }
@@ -47,13 +47,13 @@ struct Work {
     double seconds_trace = 0, seconds_accumulate = 0;
 };
 
-RTCIntersectContext make_context() {
+/// Packets are narrow beams (see SobolChunk). For closest hits Embree's traversal for coherent rays is then
+/// the faster one (16 against 8 million rays/s and thread on the bunny); for occlusion it is the slower one
+/// (25 against 28), as a beam of 1/64 of the hemisphere still fans out over many small triangles.
+RTCIntersectContext make_context(RTCIntersectContextFlags flags) {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    // Packets are narrow beams (see SobolChunk), yet Embree's traversal for coherent rays is the slower one:
-    // 25 against 28 million rays/s on the bunny. A beam of 1/64 of the hemisphere still fans out over many
-    // small triangles.
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context.flags = flags;
     return context;
 }
 
@@ -68,52 +68,65 @@ void set_origin(RTCRay16& rays, const glm::vec3& origin) {
     }
 }
 
-void set_directions(RTCRay16& rays, const ChunkDirections& directions, std::size_t begin) {
-    std::copy_n(&directions.x[begin], kPacket, rays.dir_x);
-    std::copy_n(&directions.y[begin], kPacket, rays.dir_y);
-    std::copy_n(&directions.z[begin], kPacket, rays.dir_z);
+void set_directions(RTCRay16& rays, const ChunkDirections& directions, int begin, int lanes) {
+    const auto b = static_cast<std::size_t>(begin);
+    std::copy_n(&directions.x[b], lanes, rays.dir_x);
+    std::copy_n(&directions.y[b], lanes, rays.dir_y);
+    std::copy_n(&directions.z[b], lanes, rays.dir_z);
     std::fill_n(rays.tnear, kPacket, 0.0f);
     std::fill_n(rays.tfar, kPacket, kInfinity);
 }
 
-/// Whether anything blocks each of the first `count` rays; every surface is opaque.
-void trace_occlusion(const Plan& plan, int count, Work& work) {
-    RTCIntersectContext context = make_context();
+/// Whether anything blocks each of the rays [first, end); every surface is opaque.
+void trace_occlusion(const Plan& plan, int first, int end, Work& work) {
+    RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT);
     RTCRay16 rays;
     set_origin(rays, work.origin);
     alignas(64) int valid[kPacket];
-    for (int begin = 0; begin < count; begin += kPacket) {
-        const auto b = static_cast<std::size_t>(begin);
-        set_directions(rays, work.directions, b);
+    for (int begin = first; begin < end; begin += kPacket) {
+        const int lanes = std::min(kPacket, end - begin);
+        set_directions(rays, work.directions, begin, lanes);
         for (int lane = 0; lane < kPacket; ++lane)
-            valid[lane] = begin + lane < count ? -1 : 0;
+            valid[lane] = lane < lanes ? -1 : 0;
         rtcOccluded16(valid, plan.scene, &context, &rays);
-        for (int lane = 0; lane < kPacket; ++lane) // Embree sets -infinity
-            work.blocked[b + static_cast<std::size_t>(lane)] =
-                valid[lane] != 0 && rays.tfar[lane] < 0 ? 1.0f : 0.0f;
+        for (int lane = 0; lane < lanes; ++lane) // Embree sets -infinity
+            work.blocked[begin + lane] = rays.tfar[lane] < 0 ? 1.0f : 0.0f;
     }
+}
+
+Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet, int lane, float weight) {
+    const glm::vec3 direction(packet.ray.dir_x[lane], packet.ray.dir_y[lane], packet.ray.dir_z[lane]);
+    const glm::vec3 face(packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]);
+    const float facing = glm::dot(face, direction), distance = packet.ray.tfar[lane];
+    float footprint = 0;
+    if (plan.surfaces && plan.surfaces->has_textures())
+        // Directions have density cos/pi: each of n rays stands for a solid angle of pi/(n cos).
+        footprint = std::numbers::pi_v<float> * distance * distance * glm::length(face) /
+                    (static_cast<float>(plan.options.rays) * glm::dot(normal, direction) * std::abs(facing));
+    footprint *= static_cast<float>(plan.options.hit_stride);
+    return {packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane], weight, footprint, facing > 0};
 }
 
 /// A ray with less than this left is taken to end at the surface it meets.
 constexpr float kLeastTransmittance = 1.0f / 1024;
 
-/// Follows each of the first `count` rays through cut-outs and blended surfaces until it ends, and notes what
+/// Follows each of the rays [first, end) through cut-outs and blended surfaces until it ends, and notes what
 /// it met.
-void trace_hits(const Plan& plan, int count, Work& work) {
-    RTCIntersectContext context = make_context();
+void trace_hits(const Plan& plan, int first, int end, Work& work) {
+    RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
     RTCRayHit16 packet;
     set_origin(packet.ray, work.origin);
+    const bool alpha = plan.surfaces && plan.surfaces->has_alpha();
     alignas(64) int valid[kPacket];
-    for (int begin = 0; begin < count; begin += kPacket) {
-        const auto b = static_cast<std::size_t>(begin);
-        set_directions(packet.ray, work.directions, b);
+    for (int begin = first; begin < end; begin += kPacket) {
+        const int lanes = std::min(kPacket, end - begin);
+        set_directions(packet.ray, work.directions, begin, lanes);
         float left[kPacket];
-        int active = 0;
         for (int lane = 0; lane < kPacket; ++lane) {
             left[lane] = 1;
-            valid[lane] = begin + lane < count ? -1 : 0;
-            active += valid[lane] != 0;
+            valid[lane] = lane < lanes ? -1 : 0;
         }
+        int active = lanes;
         while (active > 0) {
             std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
             std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
@@ -125,34 +138,41 @@ void trace_hits(const Plan& plan, int count, Work& work) {
                 valid[lane] = 0;
                 if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID)
                     continue;
-                const glm::vec3 direction(packet.ray.dir_x[lane], packet.ray.dir_y[lane],
-                                          packet.ray.dir_z[lane]);
-                const glm::vec3 face(packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]);
-                const float facing = glm::dot(face, direction), distance = packet.ray.tfar[lane];
-                // Directions have density cos/pi: each of n rays stands for a solid angle of pi/(n cos).
-                const float footprint = std::numbers::pi_v<float> * distance * distance * glm::length(face) /
-                                        (static_cast<float>(plan.options.rays) *
-                                         glm::dot(work.normal, direction) * std::abs(facing));
-                Hit hit{packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane], left[lane], footprint,
-                        facing > 0};
+                Hit hit = hit_of(plan, work.normal, packet, lane, left[lane]);
                 const float coverage =
-                    plan.surfaces ? plan.surfaces->coverage({hit.triangle, {hit.u, hit.v}, footprint}) : 1.0f;
+                    alpha ? plan.surfaces->coverage({hit.triangle, {hit.u, hit.v}, hit.footprint}) : 1.0f;
                 const float passes = left[lane] * (1 - coverage);
                 left[lane] = passes < kLeastTransmittance ? 0.0f : passes;
                 hit.weight -= left[lane];
                 if (hit.weight > 0)
                     work.hits.push_back(hit);
                 if (left[lane] > 0) {
-                    packet.ray.tnear[lane] = std::nextafter(distance, kInfinity);
+                    packet.ray.tnear[lane] = std::nextafter(packet.ray.tfar[lane], kInfinity);
                     packet.ray.tfar[lane] = kInfinity;
                     valid[lane] = -1;
                     ++active;
                 }
             }
         }
-        for (int lane = 0; lane < kPacket; ++lane)
-            work.blocked[b + static_cast<std::size_t>(lane)] = 1 - left[lane];
+        for (int lane = 0; lane < lanes; ++lane)
+            work.blocked[begin + lane] = 1 - left[lane];
     }
+}
+
+/// Follows some of the rays to what they meet and asks of the others only whether they are blocked; every
+/// surface is opaque. The hits stand for all that is blocked.
+void trace_some_hits(const Plan& plan, const SobolChunk& chunk, Work& work) {
+    const std::size_t before = work.hits.size();
+    trace_hits(plan, 0, chunk.followed, work);
+    trace_occlusion(plan, chunk.followed, chunk.rays, work);
+    const auto blocked = std::count(work.blocked, work.blocked + chunk.rays, 1.0f);
+    if (blocked > 0 && work.hits.size() == before) { // only rays that were not followed are blocked
+        const auto first =
+            static_cast<int>(std::find(work.blocked, work.blocked + chunk.rays, 1.0f) - work.blocked);
+        trace_hits(plan, first, first + 1, work);
+    }
+    for (std::size_t h = before; h < work.hits.size(); ++h)
+        work.hits[h].weight = static_cast<float>(blocked) / static_cast<float>(work.hits.size() - before);
 }
 
 /// Moves the directions of the rays with a share to sum to the front; that share goes to `work.blocked`.
@@ -191,10 +211,13 @@ void trace_receiver(const Plan& plan, const glm::vec3& position, const glm::vec3
         const Stopwatch trace;
         generate_directions(chunk, sobol_offset(options.first_ray + static_cast<std::uint32_t>(c * kChunk)),
                             seed, frame, work.directions);
-        if (with_hits)
-            trace_hits(plan, chunk.rays, work);
-        else
-            trace_occlusion(plan, chunk.rays, work);
+        if (plan.surfaces && plan.surfaces->has_alpha()) {
+            trace_hits(plan, 0, chunk.rays, work);
+        } else if (with_hits) {
+            trace_some_hits(plan, chunk, work);
+        } else {
+            trace_occlusion(plan, 0, chunk.rays, work);
+        }
         work.seconds_trace += trace.seconds();
         const Stopwatch accumulate;
         double hits = 0;
@@ -227,7 +250,7 @@ std::size_t EmbreeTracer::batch_size(const TraceOptions& options) const {
 void EmbreeTracer::trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                          const TraceOptions& options, std::span<float> vectors, const HitSink& sink) {
     const Plan plan(scene_, surfaces_, options);
-    const bool with_hits = sink || (surfaces_ && surfaces_->has_alpha());
+    const bool with_hits = static_cast<bool>(sink);
     const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
     const auto grain = static_cast<std::size_t>(std::clamp(16384 / options.rays, 1, 16));
     const Stopwatch all;
@@ -236,8 +259,8 @@ void EmbreeTracer::trace(const Receivers& receivers, std::span<const std::uint32
         const auto work = std::make_unique<Work>();
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t receiver = indices[i];
-            trace_receiver(plan, receivers.positions[receiver], receivers.normals[receiver], receiver, with_hits,
-                           *work, vectors.subspan(i * coefficients, coefficients));
+            trace_receiver(plan, receivers.positions[receiver], receivers.normals[receiver], receiver,
+                           with_hits, *work, vectors.subspan(i * coefficients, coefficients));
             if (sink) {
                 const Stopwatch sinking;
                 sink(i, work->hits);

@@ -6,130 +6,137 @@
 
 #include <algorithm>
 #include <bit>
+#include <type_traits>
 
 namespace prt {
 namespace {
 
-/// Sums weights by source: an open hash table that keeps its space between rows. One per thread.
+/// Sums weights by source. Keeps its space between rows; one per thread.
+template <class Weight>
 class RowSums {
 public:
-    void begin(std::size_t most_entries) {
-        const std::size_t size = std::bit_ceil(2 * most_entries + 16);
-        if (slots_.size() < size)
-            slots_.assign(size, {kNoReceiver, 0});
-        mask_ = slots_.size() - 1;
+    void begin(std::size_t receivers) {
+        entry_of_.resize(receivers, kNoEntry);
         sources_.clear();
         weights_.clear();
     }
 
-    void add(std::uint32_t source, const glm::vec3& weight) {
-        if (source == kNoReceiver || weight == glm::vec3(0))
-            return;
-        std::size_t i = (source * 0x9e3779b1u) & mask_;
-        while (slots_[i].source != kNoReceiver && slots_[i].source != source)
-            i = (i + 1) & mask_;
-        if (slots_[i].source == kNoReceiver) {
-            slots_[i] = {source, static_cast<std::uint32_t>(sources_.size())};
-            used_.push_back(i);
+    void add(std::uint32_t source, const Weight& weight) {
+        std::uint32_t& entry = entry_of_[source];
+        if (entry == kNoEntry) {
+            entry = static_cast<std::uint32_t>(sources_.size());
             sources_.push_back(source);
             weights_.push_back(weight);
         } else {
-            weights_[slots_[i].entry] += weight;
+            weights_[entry] += weight;
         }
     }
 
-    GatherOperator::Row finish(int channels) {
-        for (const std::size_t i : used_)
-            slots_[i].source = kNoReceiver;
-        used_.clear();
+    GatherOperator::Row finish(int weights_per_entry) {
+        for (const std::uint32_t source : sources_)
+            entry_of_[source] = kNoEntry;
         GatherOperator::Row row;
+        const auto width = static_cast<std::size_t>(weights_per_entry);
         row.count = static_cast<std::uint32_t>(sources_.size());
         row.sources = std::make_unique_for_overwrite<std::uint32_t[]>(sources_.size());
-        row.weights =
-            std::make_unique_for_overwrite<float[]>(sources_.size() * static_cast<std::size_t>(channels));
+        row.weights = std::make_unique_for_overwrite<float[]>(sources_.size() * width);
         std::copy(sources_.begin(), sources_.end(), row.sources.get());
-        float* to = row.weights.get();
-        for (const glm::vec3& weight : weights_)
-            for (int c = 0; c < channels; ++c)
-                *to++ = weight[c];
+        for (std::size_t e = 0; e < weights_.size(); ++e)
+            std::copy_n(reinterpret_cast<const float*>(&weights_[e]), width, &row.weights[e * width]);
         return row;
     }
 
 private:
-    struct Slot {
-        std::uint32_t source, entry;
-    };
-    std::vector<Slot> slots_;
-    std::size_t mask_ = 0;
-    std::vector<std::size_t> used_;
+    static constexpr std::uint32_t kNoEntry = ~0u;
+    std::vector<std::uint32_t> entry_of_; ///< [receivers]
     std::vector<std::uint32_t> sources_;
-    std::vector<glm::vec3> weights_;
+    std::vector<Weight> weights_;
 };
 
-/// A row times the matrix: sums stay in registers.
-template <int Order, int Channels>
-[[gnu::always_inline]] inline void apply_row(const GatherOperator::Row& row, const float* from, float* to) {
-    constexpr int kCoefficients = coefficient_count(Order), kStride = Channels * kCoefficients;
-    float sums[kStride] = {};
-    for (std::uint32_t e = 0; e < row.count; ++e) {
-        const float* source = from + static_cast<std::size_t>(row.sources[e]) * kStride;
-        for (int c = 0; c < Channels; ++c) {
-            const float weight = row.weights[static_cast<std::size_t>(e) * Channels + static_cast<std::size_t>(c)];
-            for (int k = 0; k < kCoefficients; ++k)
-                sums[c * kCoefficients + k] += weight * source[c * kCoefficients + k];
-        }
+/// sums += weight · values over `Length` values. Whole registers; the last one overlaps the one before, so
+/// that there is no rest.
+template <int Length>
+struct RegisterSums {
+    static constexpr int kRegisters = (Length + kLaneCount - 1) / kLaneCount;
+    Lanes sums[kRegisters] = {};
+
+    static constexpr int offset(int r) { return r + 1 < kRegisters ? r * kLaneCount : Length - kLaneCount; }
+    [[gnu::always_inline]] void add(float weight, const float* values) {
+        for (int r = 0; r < kRegisters; ++r)
+            sums[r] += weight * lanes_at(values + offset(r));
     }
-    std::copy_n(sums, kStride, to);
+    [[gnu::always_inline]] void store(float* to) const {
+        for (int r = 0; r < kRegisters; ++r)
+            *reinterpret_cast<LanesInMemory*>(to + offset(r)) = sums[r];
+    }
+};
+template <int Length>
+requires(Length < kLaneCount) struct RegisterSums<Length> {
+    float sums[Length] = {};
+
+    [[gnu::always_inline]] void add(float weight, const float* values) {
+        for (int k = 0; k < Length; ++k)
+            sums[k] += weight * values[k];
+    }
+    [[gnu::always_inline]] void store(float* to) const { std::copy_n(sums, Length, to); }
+};
+
+/// A row times the matrix: `Groups` runs of `Length` values, one weight each.
+template <int Groups, int Length>
+[[gnu::always_inline]] inline void apply_row(const GatherOperator::Row& row, const float* from, float* to) {
+    RegisterSums<Length> sums[Groups];
+    const float* weight = row.weights.get();
+    const std::uint32_t* source = row.sources.get();
+    for (std::uint32_t e = 0; e < row.count; ++e) {
+        const float* values = from + static_cast<std::size_t>(source[e]) * (Groups * Length);
+        for (int g = 0; g < Groups; ++g)
+            sums[g].add(*weight++, values + g * Length);
+    }
+    for (int g = 0; g < Groups; ++g)
+        sums[g].store(to + g * Length);
 }
 
-template <int Channels>
-[[gnu::always_inline]] inline void apply_rows(int order, const GatherOperator& gather, std::size_t begin,
-                                              std::size_t end, const float* from, float* to) {
-    const auto stride = static_cast<std::size_t>(Channels * coefficient_count(order));
-    for (std::size_t p = begin; p < end; ++p) {
-        const GatherOperator::Row& row = gather.row(p);
-        float* const target = to + p * stride;
-        switch (order) {
-        case 1:
-            apply_row<1, Channels>(row, from, target);
-            break;
-        case 2:
-            apply_row<2, Channels>(row, from, target);
-            break;
-        case 3:
-            apply_row<3, Channels>(row, from, target);
-            break;
-        case 4:
-            apply_row<4, Channels>(row, from, target);
-            break;
-        case 5:
-            apply_row<5, Channels>(row, from, target);
-            break;
-        case 6:
-            apply_row<6, Channels>(row, from, target);
-            break;
-        case 7:
-            apply_row<7, Channels>(row, from, target);
-            break;
-        case 8:
-            apply_row<8, Channels>(row, from, target);
-            break;
-        case 9:
-            apply_row<9, Channels>(row, from, target);
-            break;
-        default:
-            apply_row<10, Channels>(row, from, target);
-        }
+template <int Order>
+[[gnu::always_inline]] inline void apply_rows(int channels, bool one_weight,
+                                              std::span<const GatherOperator::Row> rows, const float* from,
+                                              float* to) {
+    constexpr int kCoefficients = coefficient_count(Order);
+    for (const GatherOperator::Row& row : rows) {
+        if (channels == 1)
+            apply_row<1, kCoefficients>(row, from, to);
+        else if (one_weight)
+            apply_row<1, 3 * kCoefficients>(row, from, to);
+        else
+            apply_row<3, kCoefficients>(row, from, to);
+        to += channels * kCoefficients;
     }
 }
 
 PRT_TARGET_CLONES
-void apply_block(int order, const GatherOperator& gather, std::size_t begin, std::size_t end, const float* from,
-                 float* to) {
-    if (gather.channels() == 1)
-        apply_rows<1>(order, gather, begin, end, from, to);
-    else
-        apply_rows<3>(order, gather, begin, end, from, to);
+void apply_block(int order, int channels, bool one_weight, std::span<const GatherOperator::Row> rows,
+                 const float* from, float* to) {
+    switch (order) {
+    case 1:
+        return apply_rows<1>(channels, one_weight, rows, from, to);
+    case 2:
+        return apply_rows<2>(channels, one_weight, rows, from, to);
+    case 3:
+        return apply_rows<3>(channels, one_weight, rows, from, to);
+    case 4:
+        return apply_rows<4>(channels, one_weight, rows, from, to);
+    case 5:
+        return apply_rows<5>(channels, one_weight, rows, from, to);
+    case 6:
+        return apply_rows<6>(channels, one_weight, rows, from, to);
+    case 7:
+        return apply_rows<7>(channels, one_weight, rows, from, to);
+    case 8:
+        return apply_rows<8>(channels, one_weight, rows, from, to);
+    case 9:
+        return apply_rows<9>(channels, one_weight, rows, from, to);
+    default:
+        return apply_rows<10>(channels, one_weight, rows, from, to);
+    }
 }
 
 } // namespace
@@ -160,26 +167,66 @@ TransportReceivers transport_receivers(Receivers fronts, const Surfaces& surface
     return result;
 }
 
-void GatherOperator::set_row(std::uint32_t receiver, std::span<const Hit> hits, int rays,
-                             const Surfaces& surfaces, const TransportReceivers& receivers) {
-    thread_local RowSums sums;
-    sums.begin(6 * hits.size());
-    for (const Hit& hit : hits) {
-        if (hit.back && !surfaces.two_sided(hit.triangle))
-            continue; // the inside of a solid: it blocks, and no light comes from there
-        const Scattering s = surfaces.scattering({hit.triangle, {hit.u, hit.v}, hit.footprint});
-        const glm::uvec3& corners = surfaces.corners(hit.triangle);
-        const glm::vec3 barycentrics(1 - hit.u - hit.v, hit.u, hit.v);
-        const float share = hit.weight / static_cast<float>(rays);
+std::vector<glm::vec3> shared_reflectance(const Surfaces& surfaces, const TransportReceivers& receivers) {
+    std::vector<glm::vec3> reflectance(receivers.receivers.size(), glm::vec3(-1));
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
+        const std::optional<Scattering> scattering = surfaces.constant_scattering(t);
+        if (!scattering || surfaces.transmits(t))
+            return {};
         for (int corner = 0; corner < 3; ++corner) {
-            const std::uint32_t front = corners[corner];
-            const std::uint32_t back = receivers.back_of(front);
-            const float weight = share * barycentrics[corner];
-            sums.add(hit.back ? back : front, weight * s.reflected);
-            sums.add(hit.back ? front : back, weight * s.transmitted);
+            const std::uint32_t front = surfaces.corners(t)[corner];
+            for (const std::uint32_t side : {front, receivers.back_of(front)}) {
+                if (side == kNoReceiver)
+                    continue;
+                if (reflectance[side].x >= 0 && reflectance[side] != scattering->reflected)
+                    return {};
+                reflectance[side] = scattering->reflected;
+            }
         }
     }
-    rows_[receiver] = sums.finish(channels_);
+    return reflectance;
+}
+
+GatherOperator::GatherOperator(const Surfaces& surfaces, const TransportReceivers& receivers, int channels)
+    : surfaces_(surfaces), receivers_(receivers), channels_(channels),
+      reflectance_(shared_reflectance(surfaces, receivers)), rows_(receivers.receivers.size()) {}
+
+template <bool Colored>
+GatherOperator::Row GatherOperator::make_row(std::span<const Hit> hits, int rays) const {
+    using Weight = std::conditional_t<Colored, glm::vec3, float>;
+    thread_local RowSums<Weight> sums;
+    sums.begin(receivers_.receivers.size());
+    for (const Hit& hit : hits) {
+        if (hit.back && !surfaces_.two_sided(hit.triangle))
+            continue; // the inside of a solid: it blocks, and no light comes from there
+        const glm::uvec3& corners = surfaces_.corners(hit.triangle);
+        const glm::vec3 barycentrics(1 - hit.u - hit.v, hit.u, hit.v);
+        const float share = hit.weight / static_cast<float>(rays);
+        if constexpr (Colored) {
+            const Scattering s = surfaces_.scattering({hit.triangle, {hit.u, hit.v}, hit.footprint});
+            for (int corner = 0; corner < 3; ++corner) {
+                const std::uint32_t front = corners[corner], back = receivers_.back_of(front);
+                const float weight = share * barycentrics[corner];
+                const std::uint32_t near = hit.back ? back : front, far = hit.back ? front : back;
+                if (s.reflected != glm::vec3(0))
+                    sums.add(near, weight * s.reflected);
+                if (far != kNoReceiver && s.transmitted != glm::vec3(0))
+                    sums.add(far, weight * s.transmitted);
+            }
+        } else {
+            for (int corner = 0; corner < 3; ++corner) {
+                const std::uint32_t front = corners[corner];
+                const std::uint32_t side = hit.back ? receivers_.back_of(front) : front;
+                if (reflectance_[side] != glm::vec3(0))
+                    sums.add(side, share * barycentrics[corner]);
+            }
+        }
+    }
+    return sums.finish(Colored ? channels_ : 1);
+}
+
+void GatherOperator::set_row(std::uint32_t receiver, std::span<const Hit> hits, int rays) {
+    rows_[receiver] = reflectance_.empty() ? make_row<true>(hits, rays) : make_row<false>(hits, rays);
 }
 
 std::size_t GatherOperator::entries() const {
@@ -190,12 +237,19 @@ std::size_t GatherOperator::entries() const {
 }
 
 std::size_t GatherOperator::bytes() const {
-    return rows_.size() * sizeof(Row) + entries() * (4 + 4 * static_cast<std::size_t>(channels_));
+    const std::size_t weights = reflectance_.empty() ? static_cast<std::size_t>(channels_) : 1;
+    return rows_.size() * sizeof(Row) + entries() * (4 + 4 * weights);
 }
 
-void GatherOperator::apply(int order, std::span<const float> from, std::span<float> to, int threads) const {
+void GatherOperator::apply(int order, std::span<float> from, std::span<float> to, int threads) const {
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(order));
+    const std::size_t stride = coefficients * static_cast<std::size_t>(channels_);
+    for (std::size_t p = 0; p < reflectance_.size(); ++p)
+        for (std::size_t i = 0; i < stride; ++i)
+            from[p * stride + i] *= reflectance_[p][static_cast<int>(i / coefficients)];
     parallel_for(rows_.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
-        apply_block(order, *this, begin, end, from.data(), to.data());
+        apply_block(order, channels_, !reflectance_.empty(), std::span(rows_).subspan(begin, end - begin),
+                    from.data(), &to[begin * stride]);
     });
 }
 

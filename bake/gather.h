@@ -18,7 +18,8 @@ namespace prt {
 /// both sides.
 struct TransportReceivers {
     Receivers receivers;
-    std::vector<std::uint32_t> back; ///< [scene's receivers]: index of the back side, kNoReceiver where none is
+    std::vector<std::uint32_t>
+        back; ///< [scene's receivers]: index of the back side, kNoReceiver where none is
     std::size_t fronts = 0;
 
     std::uint32_t back_of(std::uint32_t front) const;
@@ -28,32 +29,42 @@ inline constexpr std::uint32_t kNoReceiver = ~0u;
 /// Adds back sides to `fronts` where `surfaces` scatter on both sides.
 TransportReceivers transport_receivers(Receivers fronts, const Surfaces& surfaces);
 
-/// The gather F: (F X)_p,c = sum over entries of weight_c X_source,c. Rows are receivers.
+/// Reflectance of the surface at each receiver, [receivers], where it is the same wherever the receiver is a
+/// corner; empty where some surface varies within a triangle or lets light through.
+std::vector<glm::vec3> shared_reflectance(const Surfaces& surfaces, const TransportReceivers& receivers);
+
+/// The gather F: (F X)_p,c = sum over entries of weight_c X_source,c. Rows are receivers. Where the
+/// reflectance belongs to the source alone, X is scaled by it beforehand and an entry has one weight for all
+/// channels.
 class GatherOperator {
 public:
-    GatherOperator(std::size_t receivers, int channels) : rows_(receivers), channels_(channels) {}
+    /// Keeps references to its arguments.
+    GatherOperator(const Surfaces& surfaces, const TransportReceivers& receivers, int channels);
 
     /// Makes row `receiver` from what `rays` of its rays met. Rows may be made from several threads.
-    void set_row(std::uint32_t receiver, std::span<const Hit> hits, int rays, const Surfaces& surfaces,
-                 const TransportReceivers& receivers);
+    void set_row(std::uint32_t receiver, std::span<const Hit> hits, int rays);
 
-    int channels() const { return channels_; }
     std::size_t entries() const;
     std::size_t bytes() const;
 
-    /// to = F from; both [receivers][channels][order²].
-    void apply(int order, std::span<const float> from, std::span<float> to, int threads) const;
+    /// to = F from; both [receivers][channels][order²]. `from` is used up.
+    void apply(int order, std::span<float> from, std::span<float> to, int threads) const;
 
     struct Row {
         std::uint32_t count = 0;
         std::unique_ptr<std::uint32_t[]> sources; ///< [count]
-        std::unique_ptr<float[]> weights;         ///< [count][channels]
+        std::unique_ptr<float[]> weights;         ///< [count][channels, or 1 where reflectance is shared]
     };
-    const Row& row(std::size_t receiver) const { return rows_[receiver]; }
 
 private:
-    std::vector<Row> rows_;
+    template <bool Colored>
+    Row make_row(std::span<const Hit> hits, int rays) const;
+
+    const Surfaces& surfaces_;
+    const TransportReceivers& receivers_;
     int channels_;
+    std::vector<glm::vec3> reflectance_;
+    std::vector<Row> rows_;
 };
 
 } // namespace prt

@@ -20,8 +20,8 @@ double largest_norm(std::span<const float> vectors, std::size_t coefficients) {
     return std::sqrt(largest);
 }
 
-void exit_from_incident(const TransportOperators& operators, int order, int channels, std::span<float> vectors,
-                        int threads) {
+void exit_from_incident(const TransportOperators& operators, int order, int channels,
+                        std::span<float> vectors, int threads) {
     const int coefficients = coefficient_count(order);
     operators.refill.apply(vectors, static_cast<std::size_t>(channels * coefficients));
     for (const DiffusionOperator& diffusion : operators.diffusion)

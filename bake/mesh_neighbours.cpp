@@ -16,9 +16,8 @@ std::vector<std::uint32_t> places_of(const Receivers& receivers, std::size_t fro
     std::vector<std::uint32_t> order(fronts), place(receivers.size());
     std::iota(order.begin(), order.end(), 0u);
     std::iota(place.begin(), place.end(), 0u);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return key(a) != key(b) ? key(a) < key(b) : a < b;
-    });
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
     for (std::size_t i = 1; i < order.size(); ++i)
         if (key(order[i]) == key(order[i - 1]))
             place[order[i]] = place[order[i - 1]];

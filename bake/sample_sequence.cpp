@@ -30,7 +30,7 @@ std::uint32_t leading_bits(std::uint32_t reversed, int bits) {
 
 } // namespace
 
-SobolChunk::SobolChunk(int count) : rays(count) {
+SobolChunk::SobolChunk(int count, int stride) : rays(count), followed((count + stride - 1) / stride) {
     const auto points = static_cast<std::uint32_t>(count);
     const int cells_log2 = std::max(0, static_cast<int>(std::bit_width(points / kPacket)) - 1);
     const int x_bits = (cells_log2 + 1) / 2, y_bits = cells_log2 / 2;
@@ -42,6 +42,11 @@ SobolChunk::SobolChunk(int count) : rays(count) {
         };
         return cell(a) < cell(b);
     });
+    std::vector<std::uint32_t> first, rest; // both sorted by cell
+    for (std::size_t i = 0; i < order.size(); ++i)
+        (i % static_cast<std::size_t>(stride) == 0 ? first : rest).push_back(order[i]);
+    order = std::move(first);
+    order.insert(order.end(), rest.begin(), rest.end());
     order.resize((points + kPacket - 1) / kPacket * kPacket, order.back());
     for (const std::uint32_t i : order) {
         x.push_back(i); // the first dimension is the radical inverse: reversed, the index itself

@@ -21,12 +21,13 @@ inline constexpr int kPacket = kLaneCount;
 struct SobolChunk {
     std::vector<std::uint32_t> x, y; ///< padded to a multiple of kPacket by repeating the last
     int rays = 0;
+    int followed = 0; ///< the first so many are an even sample of all: every `stride`-th
 
-    explicit SobolChunk(int rays);
+    explicit SobolChunk(int rays, int stride = 1);
 };
 
-/// Sobol points are linear over GF(2): point (first + j) is point j XOR this, where `first` is a multiple of a
-/// power of two above j.
+/// Sobol points are linear over GF(2): point (first + j) is point j XOR this, where `first` is a multiple of
+/// a power of two above j.
 struct SobolOffset {
     std::uint32_t x, y;
 };

@@ -35,7 +35,8 @@ double physical_memory() {
 #endif
 }
 
-double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, int channels) {
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
+                       int channels) {
     const auto count = static_cast<double>(receivers);
     const double vector = 4.0 * channels * coefficient_count(options.order);
     // The transfer itself, once more in the file being written and once more joined to it.

@@ -73,14 +73,6 @@ double Dipole::inside(double radius) const {
     return albedo_ / 2 * (source(real_depth_) + source(virtual_depth_));
 }
 
-double Dipole::mean_over_patch(double distance, double area) const {
-    const double radius = std::sqrt(area / std::numbers::pi);
-    if (distance > 4 * radius)
-        return reflectance(distance);
-    const double outer = distance + radius, inner = std::max(0.0, distance - radius);
-    return (inside(outer) - inside(inner)) / (std::numbers::pi * (outer * outer - inner * inner));
-}
-
 double reduced_albedo(double reflectance, double ior) {
     double low = 0, high = 1; // diffuse_albedo rises from 0 to 1
     for (int i = 0; i < 60; ++i) {

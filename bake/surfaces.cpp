@@ -37,6 +37,7 @@ Surfaces::Surfaces(const Scene& scene, const std::vector<Texture>& textures, con
         const Kind kind = kind_of(primitive, !solid.empty() && solid[primitive.material]);
         kinds_.push_back(kind);
         has_alpha_ |= !kind.opaque;
+        has_textures_ |= !kind.constant || !kind.opaque;
         has_transmission_ |= kind.thin;
         const glm::vec3 base(material.base_color);
         can_scatter_ |= base != glm::vec3(0) || kind.thin;
@@ -44,8 +45,8 @@ Surfaces::Surfaces(const Scene& scene, const std::vector<Texture>& textures, con
                       std::any_of(vertices.colors.begin(), vertices.colors.end(),
                                   [](const glm::vec4& c) { return !prt::is_grey(glm::vec3(c)); });
         if (kind.thin)
-            has_color_ |= !prt::is_grey(material.transmission.color) ||
-                          !is_grey(material.transmission.color_texture);
+            has_color_ |=
+                !prt::is_grey(material.transmission.color) || !is_grey(material.transmission.color_texture);
     }
 }
 
@@ -81,7 +82,8 @@ Surfaces::Kind Surfaces::kind_of(const Primitive& primitive, bool solid) const {
                                        has_texture(vertices, material.transmission.factor_texture)));
     if (!varies) {
         const float through = kind.thin ? material.transmission.factor : 0.0f;
-        kind.constant = {glm::vec3(material.base_color) * (1 - through), material.transmission.color * through};
+        kind.constant = {glm::vec3(material.base_color) * (1 - through),
+                         material.transmission.color * through};
     }
     return kind;
 }
@@ -116,8 +118,8 @@ glm::vec4 Surfaces::base_color(const SurfacePoint& point, bool finest) const {
     const Material& material = scene_.materials[primitive.material];
     glm::vec4 base = material.base_color * texel(point, material.base_color_texture, finest);
     if (!vertices.colors.empty())
-        base *= interpolated(vertices.colors, triangle.corners - static_cast<unsigned>(vertices.first_receiver),
-                             point.uv);
+        base *= interpolated(vertices.colors,
+                             triangle.corners - static_cast<unsigned>(vertices.first_receiver), point.uv);
     return base;
 }
 

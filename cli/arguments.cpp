@@ -114,7 +114,8 @@ MediumChoice parse_medium(const std::string& text) {
     }
     glm::dvec3 &s = choice.medium.scattering, &a = choice.medium.absorption;
     int used = 0;
-    if (std::sscanf(medium.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &s.x, &s.y, &s.z, &a.x, &a.y, &a.z, &used) != 6 ||
+    if (std::sscanf(medium.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &s.x, &s.y, &s.z, &a.x, &a.y, &a.z, &used) !=
+            6 ||
         static_cast<std::size_t>(used) != medium.size() || !(std::min({s.x, s.y, s.z}) > 0) ||
         !(std::min({a.x, a.y, a.z}) >= 0))
         throw CLI::ValidationError("--subsurface", "'" + medium + "' is neither one of " + names +
@@ -138,7 +139,8 @@ void add_transport(CLI::App* command, BakeOptions& options) {
                 for (const std::string& text : texts)
                     options.subsurface.push_back(parse_medium(text));
             },
-            "light spreads under the surface of a material, or of all: marble, skin1, whole-milk and others, or "
+            "light spreads under the surface of a material, or of all: marble, skin1, whole-milk and others, "
+            "or "
             "reduced scattering and absorption sr,sg,sb,ar,ag,ab in 1/mm")
         ->type_name("[MATERIAL=]MEDIUM");
     command
@@ -146,7 +148,8 @@ void add_transport(CLI::App* command, BakeOptions& options) {
                      "size of the scene's unit, where it is not glTF's metre; only media care")
         ->capture_default_str();
     choice(command, "--bad-textures", options.bad_textures, kBadTextures,
-           "textures that are missing or damaged: stop, or use the factors of their materials alone", "error");
+           "textures that are missing or damaged: stop, or use the factors of their materials alone",
+           "error");
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {
@@ -155,7 +158,8 @@ void add_method(CLI::App* command, BakeOptions& options) {
     choice(command, "--method", options.method, kBakeMethods,
            "trace: rays; raster: depth maps from many directions, direct light only, on the GPU", "trace");
     command
-        ->add_option("--raster-resolution", options.raster_resolution, "texels along each side of a depth map")
+        ->add_option("--raster-resolution", options.raster_resolution,
+                     "texels along each side of a depth map")
         ->capture_default_str();
 }
 
@@ -169,8 +173,9 @@ void add_bake(CLI::App& app, BakeArguments& a) {
         command->add_option("--rays", a.options.rays, "rays per receiver; directions where method is raster")
             ->capture_default_str();
     command
-        ->add_option("--target-error", a.options.target_error,
-                     "relative L2 error of the direct light to reach, with as many rays as each receiver needs")
+        ->add_option(
+            "--target-error", a.options.target_error,
+            "relative L2 error of the direct light to reach, with as many rays as each receiver needs")
         ->excludes(rays);
     add_transport(command, a.options);
     add_method(command, a.options);

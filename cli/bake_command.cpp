@@ -49,7 +49,8 @@ void print_report(const BakeArguments& a, const BakeResult& result) {
         fmt::print("  {} receivers are on no surface and have zero transfer\n", s.receivers - s.traced);
     for (const std::string& notice : s.notices)
         fmt::print("  {}\n", notice);
-    fmt::print("  {:.3f} s: build {:.3f}, trace {:.3f}, accumulate {:.3f}, transfer {:.3f}, transport {:.3f}; {:.2f} "
+    fmt::print("  {:.3f} s: build {:.3f}, trace {:.3f}, accumulate {:.3f}, transfer {:.3f}, transport "
+               "{:.3f}; {:.2f} "
                "million {}/s\n",
                s.seconds, s.seconds_build, s.seconds_tracing.trace, s.seconds_tracing.accumulate,
                s.seconds_tracing.transfer, s.seconds_transport, s.rays_per_second * 1e-6,

@@ -19,8 +19,12 @@ void write_json(const Json& json, const std::filesystem::path& path, Interrupt& 
 }
 
 Json bake_record_json(const BakeRecord& record) {
-    return {{"method", record.method},   {"backend", record.backend}, {"rays_per_receiver", record.rays},
-            {"bounces", record.bounces}, {"seed", record.seed},       {"receivers_id", record.receivers},
+    return {{"method", record.method},
+            {"backend", record.backend},
+            {"rays_per_receiver", record.rays},
+            {"bounces", record.bounces},
+            {"seed", record.seed},
+            {"receivers_id", record.receivers},
             {"sampling_error_relative_l2", record.sampling_error}};
 }
 

@@ -21,8 +21,12 @@ namespace {
 constexpr int kVersion = 1;
 
 Json record_json(const BakeRecord& record) {
-    return {{"method", record.method},   {"backend", record.backend}, {"raysPerReceiver", record.rays},
-            {"bounces", record.bounces}, {"seed", record.seed},       {"receivers", record.receivers},
+    return {{"method", record.method},
+            {"backend", record.backend},
+            {"raysPerReceiver", record.rays},
+            {"bounces", record.bounces},
+            {"seed", record.seed},
+            {"receivers", record.receivers},
             {"samplingError", record.sampling_error}};
 }
 
@@ -273,9 +277,8 @@ std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const S
             const Json& view = json["extensions"][kTransferExtension].at("vectors");
             if (is_half(view))
                 baked.storage = TransferStorage::float16;
-            const auto values = read_float_view(
-                contents, view,
-                vertices.size() * transfer.dimension(), "the vectors of " + primitive_name(primitive));
+            const auto values = read_float_view(contents, view, vertices.size() * transfer.dimension(),
+                                                "the vectors of " + primitive_name(primitive));
             std::copy(values.begin(), values.end(),
                       transfer.vectors.begin() +
                           static_cast<std::ptrdiff_t>(vertices.first_receiver * transfer.dimension()));

@@ -96,7 +96,6 @@ glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2&
 }
 
 std::vector<Texture> load_textures(const Scene& scene, BadTextures bad) {
-    std::vector<Texture> textures(scene.images.size());
     std::set<int> images;
     for (const Primitive& primitive : scene.primitives) {
         const Material& material = scene.materials[primitive.material];
@@ -105,9 +104,15 @@ std::vector<Texture> load_textures(const Scene& scene, BadTextures bad) {
             images.insert(use->image);
     }
     images.erase(-1);
+    const std::size_t used = images.empty() ? 0 : static_cast<std::size_t>(*images.rbegin()) + 1;
+    std::vector<Texture> textures(std::max(scene.images.size(), used));
     for (const int image : images) {
-        const EncodedImage& encoded_image = scene.images[static_cast<std::size_t>(image)];
+        EncodedImage nothing{"image " + std::to_string(image), {}};
+        const bool there = static_cast<std::size_t>(image) < scene.images.size();
+        const EncodedImage& encoded_image = there ? scene.images[static_cast<std::size_t>(image)] : nothing;
         try {
+            if (encoded_image.bytes.empty())
+                throw Error("is not there");
             textures[static_cast<std::size_t>(image)] = make_texture(decode_image(encoded_image.bytes));
         } catch (const Error& error) {
             if (bad == BadTextures::error)

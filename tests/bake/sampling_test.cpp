@@ -99,8 +99,7 @@ TEST(TangentFrame, IsRightHandedAndOrthonormal) {
 TEST(AddBasis, SumsTheBasisOverAnyNumberOfDirections) {
     const SobolChunk chunk(1024);
     ChunkDirections d;
-    generate_directions(chunk, sobol_offset(0), 5, tangent_frame(glm::normalize(glm::vec3(1, 2, 3))),
-                        d);
+    generate_directions(chunk, sobol_offset(0), 5, tangent_frame(glm::normalize(glm::vec3(1, 2, 3))), d);
     for (int order = 1; order <= kMaxOrder; ++order)
         for (const int count : {0, 1, 15, 16, 17, 1000, 1024}) {
             std::array<double, 100> sums{}, expected{}, basis{};

@@ -68,6 +68,19 @@ SceneBuilder& SceneBuilder::sphere(const glm::vec3& centre, float radius, int ro
     return *this;
 }
 
+SceneBuilder& SceneBuilder::bowl(const glm::vec3& centre, float radius, int rows, int open_rows) {
+    const std::size_t first_vertex = vertices_.size(), first_triangle = triangles_.size();
+    sphere(centre, radius, rows);
+    for (std::size_t v = first_vertex; v < vertices_.size(); ++v)
+        vertices_.normals[v] = -vertices_.normals[v];
+    const auto open = static_cast<std::ptrdiff_t>(first_triangle) + 4 * rows * open_rows;
+    triangles_.erase(triangles_.begin() + static_cast<std::ptrdiff_t>(first_triangle),
+                     triangles_.begin() + open);
+    for (std::size_t t = first_triangle; t < triangles_.size(); ++t)
+        std::swap(triangles_[t].y, triangles_[t].z);
+    return *this;
+}
+
 SceneBuilder& SceneBuilder::floor(const glm::vec3& centre, float half_size, int cells) {
     const auto at = [&](int i, int j) {
         const auto t = [&](int k) {
@@ -94,6 +107,34 @@ Scene SceneBuilder::build() const {
     Primitive primitive;
     primitive.triangles = triangles_;
     scene.primitives.push_back(primitive);
+    return scene;
+}
+
+Scene join(const std::vector<Scene>& parts) {
+    Scene scene;
+    for (const Scene& part : parts) {
+        const std::size_t vertices = scene.vertex_arrays.size(), materials = scene.materials.size();
+        for (const VertexArray& array : part.vertex_arrays) {
+            scene.vertex_arrays.push_back(array);
+            scene.vertex_arrays.back().first_receiver = scene.receivers() - array.size();
+        }
+        for (Primitive primitive : part.primitives) {
+            primitive.vertices += vertices;
+            primitive.material += materials;
+            primitive.node += static_cast<int>(vertices);
+            scene.primitives.push_back(std::move(primitive));
+        }
+        scene.materials.insert(scene.materials.end(), part.materials.begin(), part.materials.end());
+        scene.images.insert(scene.images.end(), part.images.begin(), part.images.end());
+    }
+    return scene;
+}
+
+Scene painted(Scene scene, const glm::vec3& color, bool double_sided) {
+    for (Material& material : scene.materials) {
+        material.base_color = glm::vec4(color, 1);
+        material.double_sided = double_sided;
+    }
     return scene;
 }
 

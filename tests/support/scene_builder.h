@@ -16,6 +16,8 @@ public:
     SceneBuilder& disc(const glm::vec3& centre, const glm::vec3& axis, float radius, int segments);
     /// A sphere of rows x 2 rows quads, front outside.
     SceneBuilder& sphere(const glm::vec3& centre, float radius, int rows);
+    /// The inside of a sphere, open about +Y over the first `open_rows` of its rows x 2 rows quads.
+    SceneBuilder& bowl(const glm::vec3& centre, float radius, int rows, int open_rows);
     /// A horizontal square about `centre`, facing up.
     SceneBuilder& floor(const glm::vec3& centre, float half_size, int cells = 1);
     /// Applies `change` to all positions so far.
@@ -28,5 +30,11 @@ private:
     VertexArray vertices_;
     std::vector<glm::uvec3> triangles_;
 };
+
+/// One scene with the parts side by side, each with its own materials.
+Scene join(const std::vector<Scene>& parts);
+
+/// `scene` with this base colour on both sides or one.
+Scene painted(Scene scene, const glm::vec3& color, bool double_sided = false);
 
 } // namespace prt::test

@@ -56,8 +56,8 @@ struct BakeOptions {
 };
 
 struct BakeStatistics {
-    std::size_t receivers = 0; ///< all
-    std::size_t traced = 0;    ///< those on a surface; the others have zero transfer
+    std::size_t receivers = 0;  ///< all
+    std::size_t traced = 0;     ///< those on a surface; the others have zero transfer
     std::size_t back_sides = 0; ///< traced beside them, where surfaces scatter on both sides
     std::size_t triangles = 0;
     std::size_t inside = 0;   ///< receivers inside geometry
@@ -72,7 +72,7 @@ struct BakeStatistics {
     double mean_visibility = 0;   ///< area-weighted T_0 / Y_00 of the direct light
     /// Estimated relative L2 error of the direct light by sampling, from independent samples.
     double sampling_error = 0;
-    double rounding_error = 0; ///< relative L2 of storing float16
+    double rounding_error = 0;   ///< relative L2 of storing float16
     double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
     std::size_t gather_entries = 0, gather_bytes = 0;
     std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
@@ -89,7 +89,8 @@ struct BakeResult {
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
 
 /// Bytes that a bake takes at most at a time, roughly.
-double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, int channels);
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
+                       int channels);
 
 /// Takes the hits of a receiver. Called from several threads.
 using ReceiverSink = std::function<void(std::uint32_t receiver, std::span<const Hit> hits)>;

@@ -15,8 +15,8 @@ public:
     std::string backend() const override { return "cpu"; }
     std::string device() const override;
     std::size_t batch_size(const TraceOptions& options) const override;
-    void trace(const Receivers& receivers, std::span<const std::uint32_t> indices, const TraceOptions& options,
-               std::span<float> vectors, const HitSink& sink = {}) override;
+    void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
+               const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {}) override;
 
 private:
     const RayScene& scene_;

@@ -29,9 +29,9 @@ struct NamedMedium {
 };
 std::span<const NamedMedium> measured_media();
 
-/// The medium that glTF gives a material: KHR_materials_volume with a thickness and an attenuation, on a surface
-/// that lets diffuse light in (KHR_materials_diffuse_transmission). The attenuation is sigma_t'; the base
-/// colour is the reflectance of a thick slab, from which the dipole's albedo follows. Nothing where the
+/// The medium that glTF gives a material: KHR_materials_volume with a thickness and an attenuation, on a
+/// surface that lets diffuse light in (KHR_materials_diffuse_transmission). The attenuation is sigma_t'; the
+/// base colour is the reflectance of a thick slab, from which the dipole's albedo follows. Nothing where the
 /// material has no such inside.
 std::optional<Medium> medium_of(const Material& material);
 
@@ -46,11 +46,10 @@ public:
     /// Integral of Rd over the disc of that radius; over the plane for infinity, which is the diffuse albedo.
     double inside(double radius) const;
     double total() const { return total_; }
-    /// Mean of Rd over a patch of `area` m² whose centre is `distance` away, by the ring that it lies in: exact
-    /// at distance 0, and summed over patches that tile a plane.
-    double mean_over_patch(double distance, double area) const;
     /// sigma_tr, 1/m: far away light falls as exp(-sigma_tr r).
     double falloff() const { return falloff_; }
+    /// Of the real source below the surface, a mean free path, in metres: Rd is smooth over this.
+    double depth() const { return real_depth_; }
 
 private:
     double albedo_, falloff_, real_depth_, virtual_depth_, total_;

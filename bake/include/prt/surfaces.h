@@ -42,6 +42,8 @@ public:
 
     /// Some surface lets rays through: cut out or blended.
     bool has_alpha() const { return has_alpha_; }
+    /// Some surface has a texture to filter.
+    bool has_textures() const { return has_textures_; }
     /// Some surface lets diffuse light through.
     bool has_transmission() const { return has_transmission_; }
     /// Some surface reflects or transmits red, green and blue differently.
@@ -58,6 +60,10 @@ public:
     /// blended. Cut-outs are decided at the finest level of the texture, as rays average by themselves.
     float coverage(const SurfacePoint& point) const;
     Scattering scattering(const SurfacePoint& point) const;
+    /// The same for all points of the triangle; nothing where it varies.
+    std::optional<Scattering> constant_scattering(std::uint32_t triangle) const {
+        return kinds_[triangles_[triangle].primitive].constant;
+    }
     glm::vec3 base_color(const SurfacePoint& point) const { return glm::vec3(base_color(point, false)); }
 
 private:
@@ -79,7 +85,8 @@ private:
     const std::vector<Texture>& textures_;
     std::vector<Triangle> triangles_;
     std::vector<Kind> kinds_; ///< [primitives]
-    bool has_alpha_ = false, has_transmission_ = false, has_color_ = false, can_scatter_ = false;
+    bool has_textures_ = false, has_alpha_ = false, has_transmission_ = false, has_color_ = false,
+         can_scatter_ = false;
 };
 
 } // namespace prt

@@ -17,14 +17,17 @@ struct TraceOptions {
     std::uint64_t seed = 0;
     /// Of the sequence; a multiple of the least power of two that is at least `rays` or kRayChunk.
     std::uint32_t first_ray = 0;
+    /// One ray of so many is followed to what it meets, and stands for the others: light that comes from
+    /// surfaces varies less over directions than visibility does. Scenes with alpha follow every ray anyway.
+    int hit_stride = 1;
 };
 
 /// A surface that a ray met.
 struct Hit {
     std::uint32_t triangle; ///< in the order of the scene's primitives and their triangles
     float u, v;             ///< barycentric coordinates of corners 1 and 2
-    float weight;           ///< share of the ray that ends here, 0..1; the weights of a ray sum to at most 1
-    float footprint;        ///< area of the surface that the ray stands for, m²
+    float weight;           ///< rays that end here; the sum over all hits is what is blocked of all rays
+    float footprint;        ///< area of the surface that a ray stands for, m²; 0 where no texture asks
     bool back;              ///< the triangle was met from behind
 };
 

@@ -46,9 +46,9 @@ struct BakeRecord {
     int bounces = 0; ///< done
     int rays = 0;    ///< per receiver, the mean where it differs; directions where method is "raster"
     std::uint64_t seed = 0;
-    std::string method;    ///< "trace", "raster"
-    std::string backend;   ///< "cpu", "gpu"
-    std::string receivers; ///< receivers_id of the scene
+    std::string method;        ///< "trace", "raster"
+    std::string backend;       ///< "cpu", "gpu"
+    std::string receivers;     ///< receivers_id of the scene
     double sampling_error = 0; ///< estimated relative L2 of the direct light
 };
 

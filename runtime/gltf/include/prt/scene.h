@@ -29,7 +29,7 @@ struct TextureUse {
 
 /// Light that a surface lets through diffusely: KHR_materials_diffuse_transmission.
 struct DiffuseTransmission {
-    float factor = 0; ///< share of the diffuse light that passes, 0..1
+    float factor = 0;          ///< share of the diffuse light that passes, 0..1
     TextureUse factor_texture; ///< in alpha
     glm::vec3 color{1};        ///< linear Rec. 709
     TextureUse color_texture;
@@ -37,9 +37,9 @@ struct DiffuseTransmission {
 
 /// What is under a surface: KHR_materials_volume.
 struct Volume {
-    float thickness = 0;                                                   ///< 0: a thin sheet, nothing inside
-    float attenuation_distance = std::numeric_limits<float>::infinity();   ///< metres
-    glm::vec3 attenuation_color{1};                                        ///< what is left after that distance
+    float thickness = 0;                                                 ///< 0: a thin sheet, nothing inside
+    float attenuation_distance = std::numeric_limits<float>::infinity(); ///< metres
+    glm::vec3 attenuation_color{1};                                      ///< what is left after that distance
 };
 
 struct Material {

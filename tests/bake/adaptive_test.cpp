@@ -1,0 +1,111 @@
+#include "prt/bake.h"
+#include "prt/error_measures.h"
+#include "support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/packing.hpp>
+
+#include <cmath>
+
+namespace prt {
+namespace {
+
+Scene balls_over_floor() {
+    return test::SceneBuilder()
+        .floor({0, 0, 0}, 2, 16)
+        .sphere({0, 0.8f, 0}, 0.5f, 20)
+        .sphere({0.9f, 0.4f, 0.2f}, 0.3f, 16)
+        .build();
+}
+
+BakeOptions cpu_options() {
+    BakeOptions options;
+    options.backend = Backend::cpu;
+    return options;
+}
+
+double error_against_reference(const Scene& scene, const Transfer& transfer) {
+    BakeOptions options = cpu_options();
+    options.rays = 1 << 15;
+    options.seed = 1234567;
+    return relative_l2(bake(scene, options).baked.transfer, transfer, receiver_areas(scene));
+}
+
+TEST(TargetError, IsReachedAndSoIsTheEstimate) {
+    const Scene scene = balls_over_floor();
+    for (const double target : {0.03, 0.01}) {
+        BakeOptions options = cpu_options();
+        options.target_error = target;
+        const BakeResult result = bake(scene, options);
+        EXPECT_LE(result.statistics.sampling_error, target);
+        const double error = error_against_reference(scene, result.baked.transfer);
+        // The reference has some error of its own, the estimate some of its.
+        EXPECT_LT(error, 1.25 * target);
+        EXPECT_GT(error, 0.4 * target); // no rays thrown away
+        EXPECT_NEAR(result.statistics.sampling_error, error, 0.35 * error);
+    }
+}
+
+TEST(TargetError, TakesFewerRaysThanTheSameForAll) {
+    const Scene scene = balls_over_floor();
+    BakeOptions options = cpu_options();
+    options.target_error = 0.01;
+    const BakeResult adaptive = bake(scene, options);
+    options.target_error.reset();
+    options.rays = static_cast<int>(adaptive.statistics.rays / adaptive.statistics.traced);
+    const BakeResult uniform = bake(scene, options);
+    EXPECT_LT(error_against_reference(scene, adaptive.baked.transfer),
+              error_against_reference(scene, uniform.baked.transfer));
+}
+
+TEST(TargetError, OfOpenReceiversTakesTheFirstRaysOnly) {
+    BakeOptions options = cpu_options();
+    options.target_error = 1e-6;
+    const BakeResult result = bake(test::SceneBuilder().floor({0, 0, 0}, 1, 4).build(), options);
+    EXPECT_EQ(result.statistics.sampling_error, 0);
+    EXPECT_EQ(result.statistics.rays, 128 * result.statistics.traced);
+}
+
+TEST(TargetError, WorksWithBounces) {
+    BakeOptions options = cpu_options();
+    options.target_error = 0.03;
+    options.bounces = 2;
+    const BakeResult result = bake(balls_over_floor(), options);
+    EXPECT_EQ(result.baked.record.bounces, 2);
+    EXPECT_GT(result.baked.record.rays, 64);
+}
+
+TEST(SamplingError, IsEstimatedForEveryBake) {
+    const Scene scene = balls_over_floor();
+    for (const int rays : {100, 1024}) {
+        BakeOptions options = cpu_options();
+        options.rays = rays;
+        const BakeResult result = bake(scene, options);
+        const double error = error_against_reference(scene, result.baked.transfer);
+        EXPECT_NEAR(result.statistics.sampling_error, error, 0.35 * error) << rays;
+    }
+}
+
+TEST(Storage, IsFloat16WhereSamplingErrsTenTimesAsMuch) {
+    const Scene scene = balls_over_floor();
+    BakeOptions options = cpu_options();
+    options.rays = 256;
+    EXPECT_EQ(bake(scene, options).baked.storage, TransferStorage::float16);
+    options.target_error = 5e-4;
+    EXPECT_EQ(bake(scene, options).baked.storage, TransferStorage::float32);
+    options.target_error.reset();
+    options.storage = Storage::float32;
+    EXPECT_EQ(bake(scene, options).baked.storage, TransferStorage::float32);
+    options.storage = Storage::float16;
+    const BakeResult result = bake(scene, options);
+    EXPECT_EQ(result.baked.storage, TransferStorage::float16);
+    Transfer rounded = result.baked.transfer;
+    for (float& value : rounded.vectors)
+        value = glm::unpackHalf1x16(glm::packHalf1x16(value));
+    EXPECT_NEAR(result.statistics.rounding_error,
+                relative_l2(result.baked.transfer, rounded, receiver_areas(scene)), 1e-9);
+}
+
+} // namespace
+} // namespace prt
