@@ -93,7 +93,7 @@ public:
         decide_what_is_needed();
         check_memory();
         RayScene rays(scene_, options_.threads);
-        tracer_ = make_tracer(scene_, rays, surfaces_, options_);
+        tracer_ = make_tracer(scene_, rays, surfaces_, textures_, options_);
         statistics().device = tracer_->device();
         statistics().seconds_build = all.seconds();
 

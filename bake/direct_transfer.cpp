@@ -26,8 +26,10 @@ Receivers vertex_receivers(const Scene& scene) {
 }
 
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
-                     const TraceOptions& options, Transfer& transfer, const Progress& progress,
+                     const TraceOptions& trace_options, Transfer& transfer, const Progress& progress,
                      const ReceiverSink& sink) {
+    TraceOptions options = trace_options;
+    options.progress = &progress;
     std::vector<float> vectors;
     for (std::size_t begin = 0; begin < indices.size();) {
         progress.update(static_cast<double>(begin) / static_cast<double>(indices.size()));

@@ -13,8 +13,30 @@
 // Storage buffers.
 #define PRT_BINDING_CONSTANTS 0
 
+// The baker's.
+#define PRT_BINDING_NODES 1
+#define PRT_BINDING_CORNERS 2
+#define PRT_BINDING_SAMPLES 3
+#define PRT_BINDING_RECEIVERS 4
+#define PRT_BINDING_SUMS 5
+#define PRT_BINDING_HITS 6
+#define PRT_BINDING_HIT_COUNT 7
+#define PRT_BINDING_BLOCKED 8
+#define PRT_BINDING_ALPHA_TRIANGLES 9
+#define PRT_BINDING_ALPHA_MATERIALS 10
+#define PRT_BINDING_ALPHA_TEXELS 11
+// Uniform blocks.
+#define PRT_BINDING_SH_FACTORS 0
+
+// Rays that are generated and traced together, and the threads that do it.
+#define PRT_CHUNK 1024
+#define PRT_TRACE_THREADS 64
+
 // Texture units.
 #define PRT_UNIT_BASE_COLOR 0
 #define PRT_UNIT_BACKGROUND 1
+#define PRT_UNIT_OPAQUE_DEPTH 2
+#define PRT_UNIT_LAST_DEPTH 3
+#define PRT_UNIT_LAYER_COVERAGE 4
 
 #endif

@@ -26,6 +26,24 @@ GLuint compile(GLenum stage, const std::string& file, const std::string& defines
                 log.substr(0, static_cast<std::size_t>(length)));
 }
 
+void attach(const GlObject& program, GLenum stage, const std::string& file, const std::string& defines) {
+    const GLuint shader = compile(stage, file, defines);
+    glAttachShader(program.name(), shader);
+    glDeleteShader(shader); // lives on while attached
+}
+
+void link(const GlObject& program, const std::string& files) {
+    glLinkProgram(program.name());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
+    if (linked)
+        return;
+    std::string log(4096, '\0');
+    GLsizei length = 0;
+    glGetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), &length, log.data());
+    throw Error("the driver does not link " + files + ": " + log.substr(0, static_cast<std::size_t>(length)));
+}
+
 } // namespace
 
 GlObject::~GlObject() {
@@ -65,30 +83,27 @@ GlObject make_buffer(std::span<const std::byte> bytes) {
 GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines,
                       const char* captured) {
     GlObject program(GlKind::program, glCreateProgram());
-    for (const auto& [stage, file] : {std::pair{GL_VERTEX_SHADER, vertex}, {GL_FRAGMENT_SHADER, fragment}}) {
-        const GLuint shader = compile(static_cast<GLenum>(stage), file, defines);
-        glAttachShader(program.name(), shader);
-        glDeleteShader(shader); // lives on while attached
-    }
+    attach(program, GL_VERTEX_SHADER, vertex, defines);
+    attach(program, GL_FRAGMENT_SHADER, fragment, defines);
     if (captured)
         glTransformFeedbackVaryings(program.name(), 1, &captured, GL_INTERLEAVED_ATTRIBS);
-    glLinkProgram(program.name());
-    GLint linked = GL_FALSE;
-    glGetProgramiv(program.name(), GL_LINK_STATUS, &linked);
-    if (!linked) {
-        std::string log(4096, '\0');
-        GLsizei length = 0;
-        glGetProgramInfoLog(program.name(), static_cast<GLsizei>(log.size()), &length, log.data());
-        throw Error("the driver does not link " + vertex + " and " + fragment + ": " +
-                    log.substr(0, static_cast<std::size_t>(length)));
-    }
+    link(program, vertex + " and " + fragment);
+    return program;
+}
+
+GlObject make_compute_program(const std::string& compute, const std::string& defines) {
+    GlObject program(GlKind::program, glCreateProgram());
+    attach(program, GL_COMPUTE_SHADER, compute, defines);
+    link(program, compute);
     return program;
 }
 
 void check_gl(const char* what) {
     const GLenum error = glGetError();
     if (error == GL_OUT_OF_MEMORY)
-        throw Error(std::string("the GPU has no memory for ") + what);
+        throw GpuOutOfMemory(std::string("the GPU has no memory for ") + what);
+    if (error == GL_CONTEXT_LOST)
+        throw Error(std::string("the GPU was lost at ") + what + ": its driver was reset");
     if (error != GL_NO_ERROR)
         throw Error(std::string("OpenGL error ") + std::to_string(error) + " at " + what);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prt/progress.h"
 #include "prt/receivers.h"
 
 #include <cstdint>
@@ -20,6 +21,8 @@ struct TraceOptions {
     /// One ray of so many is followed to what it meets, and stands for the others: light that comes from
     /// surfaces varies less over directions than visibility does. Scenes with alpha follow every ray anyway.
     int hit_stride = 1;
+    /// Asked, where it is given, by tracers whose calls take long.
+    const Progress* progress = nullptr;
 };
 
 /// A surface that a ray met.

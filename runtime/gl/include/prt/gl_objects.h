@@ -2,6 +2,8 @@
 
 // OpenGL objects that delete themselves, and programs from the shaders of prtkit. A context must be current.
 
+#include "prt/error.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -44,6 +46,14 @@ GlObject make_buffer(std::span<const T> values) {
 /// refuses it.
 GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines = "",
                       const char* captured = nullptr);
+
+/// A compute program of a file of shaders/.
+GlObject make_compute_program(const std::string& compute, const std::string& defines = "");
+
+/// Work that is cut smaller may still fit.
+struct GpuOutOfMemory : Error {
+    using Error::Error;
+};
 
 /// Throws `Error` naming `what` when OpenGL has noted an error, such as memory running out.
 void check_gl(const char* what);

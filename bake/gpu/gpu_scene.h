@@ -1,0 +1,30 @@
+#pragma once
+
+// A scene in the buffers that the bake shaders read.
+
+#include "prt/gl_objects.h"
+#include "prt/surfaces.h"
+
+#include <string>
+
+namespace prt {
+
+class GpuScene {
+public:
+    /// Builds the hierarchy and uploads. A context must be current. Throws `Error` when memory runs out.
+    GpuScene(const Scene& scene, const Surfaces& surfaces, const std::vector<Texture>& textures, int threads);
+
+    bool has_alpha() const { return has_alpha_; }
+    std::size_t triangles() const { return triangles_; }
+    /// Defines for shaders that include bake_bvh.glsl.
+    std::string defines() const;
+    void bind() const;
+
+private:
+    GlObject nodes_, corners_, alpha_triangles_, alpha_materials_, alpha_texels_;
+    int stack_size_ = 0;
+    std::size_t triangles_ = 0;
+    bool has_alpha_ = false;
+};
+
+} // namespace prt

@@ -1,0 +1,74 @@
+// Coverage of surfaces that are cut out or blended, as on the CPU (bake/surfaces.cpp, runtime/render/texture.cpp).
+
+struct AlphaTriangle {
+    vec2 texcoord[3];     // transformed
+    float vertex_alpha[3];
+    uint material;
+    float texel_density;  // texels of level 0 per m²
+    uint unused;
+};
+struct AlphaMaterial {
+    uint mode;            // prt::AlphaMode: 1 mask, 2 blend
+    float cutoff, factor;
+    uint texels;          // where level 0 begins in alpha_texels, in bytes; ~0: no texture
+    int width, height, levels;
+    uint wrap;            // prt::Wrap of u, and of v << 8
+};
+
+layout(std430, binding = PRT_BINDING_ALPHA_TRIANGLES) readonly buffer AlphaTriangles {
+    AlphaTriangle alpha_triangles[];
+};
+layout(std430, binding = PRT_BINDING_ALPHA_MATERIALS) readonly buffer AlphaMaterials {
+    AlphaMaterial alpha_materials[];
+};
+layout(std430, binding = PRT_BINDING_ALPHA_TEXELS) readonly buffer AlphaTexels {
+    uint alpha_texels[]; // four to a word
+};
+
+int wrapped(int i, int size, uint wrap) {
+    if (wrap == 2u)
+        return clamp(i, 0, size - 1);
+    int period = wrap == 1u ? 2 * size : size;
+    int rest = i - period * int(floor(float(i) / float(period)));
+    return rest < size ? rest : 2 * size - 1 - rest;
+}
+
+float alpha_texel(uint first, int x, int y, int width) {
+    uint i = first + uint(y * width + x);
+    return float(bitfieldExtract(alpha_texels[i >> 2], int(i & 3u) * 8, 8)) / 255.0;
+}
+
+float bilinear_alpha(AlphaMaterial m, int level, vec2 uv) {
+    uint first = m.texels;
+    int width = m.width, height = m.height;
+    for (int l = 0; l < level; ++l) {
+        first += uint(width * height);
+        width = max(1, width / 2);
+        height = max(1, height / 2);
+    }
+    vec2 at = uv * vec2(width, height) - 0.5, low = floor(at), f = at - low;
+    uint wrap_u = m.wrap & 255u, wrap_v = m.wrap >> 8;
+    int x0 = wrapped(int(low.x), width, wrap_u), x1 = wrapped(int(low.x) + 1, width, wrap_u);
+    int y0 = wrapped(int(low.y), height, wrap_v), y1 = wrapped(int(low.y) + 1, height, wrap_v);
+    return mix(mix(alpha_texel(first, x0, y0, width), alpha_texel(first, x1, y0, width), f.x),
+               mix(alpha_texel(first, x0, y1, width), alpha_texel(first, x1, y1, width), f.x), f.y);
+}
+
+// `index` counts from 1; 0 is opaque.
+float coverage(uint index, vec2 uv, float footprint) {
+    if (index == 0u)
+        return 1.0;
+    AlphaTriangle t = alpha_triangles[index - 1u];
+    AlphaMaterial m = alpha_materials[t.material];
+    vec3 b = vec3(1.0 - uv.x - uv.y, uv);
+    float alpha = m.factor * (b.x * t.vertex_alpha[0] + b.y * t.vertex_alpha[1] + b.z * t.vertex_alpha[2]);
+    if (m.texels != 0xffffffffu) {
+        vec2 at = b.x * t.texcoord[0] + b.y * t.texcoord[1] + b.z * t.texcoord[2];
+        float lod = 0.0;
+        if (m.mode == 2u && footprint * t.texel_density > 0.0)
+            lod = clamp(0.5 * log2(footprint * t.texel_density), 0.0, float(m.levels - 1));
+        int fine = int(lod), coarse = min(fine + 1, m.levels - 1);
+        alpha *= mix(bilinear_alpha(m, fine, at), bilinear_alpha(m, coarse, at), lod - float(fine));
+    }
+    return m.mode == 1u ? (alpha >= m.cutoff ? 1.0 : 0.0) : clamp(alpha, 0.0, 1.0);
+}

@@ -1,0 +1,94 @@
+// Receivers look up whether light from each direction of a batch of depth maps reaches them, and sum the
+// spherical harmonics of the directions. With PRT_PEEL: what one layer of blended surfaces lets through, for the
+// first direction.
+
+#include "shared_layout.h"
+#include "bake_sh.glsl"
+
+layout(local_size_x = 64) in;
+
+struct Receiver {
+    vec4 origin; // off the surface
+    vec4 normal;
+};
+struct Direction {
+    vec4 towards_light;
+    mat4 map_from_world; // to [0, 1]³
+    float basis[100];
+};
+
+layout(std430, binding = PRT_BINDING_RECEIVERS) readonly buffer Receivers {
+    Receiver receivers[];
+};
+layout(std430, binding = PRT_BINDING_SAMPLES) readonly buffer Directions {
+    Direction directions[];
+};
+layout(std430, binding = PRT_BINDING_SUMS) buffer Sums {
+    float sums[]; // per receiver: all directions [order²], blocked ones [order²], weights of both
+};
+layout(std430, binding = PRT_BINDING_BLOCKED) buffer Passes {
+    float passes[]; // per receiver: what blended layers let through
+};
+layout(binding = PRT_UNIT_OPAQUE_DEPTH) uniform sampler2DArray opaque_depth;
+layout(binding = PRT_UNIT_LAST_DEPTH) uniform sampler2D layer_depth;
+layout(binding = PRT_UNIT_LAYER_COVERAGE) uniform sampler2D layer_coverage;
+
+uniform uint receiver_count, direction_count;
+uniform float texel_depth; // width of a texel in the unit of depth
+
+// Depth that a receiver may lie behind a surface without being shadowed: over one and a half texels the surface
+// itself recedes by that times the tangent of the angle of incidence.
+float bias_of(float cosine) {
+    float tangent = min(sqrt(max(0.0, 1.0 - cosine * cosine)) / cosine, 20.0);
+    return texel_depth * (0.5 + 1.5 * tangent);
+}
+
+// Of the four texels round the place, bilinearly: the share that something in front of `depth` leaves open.
+float open_share(vec3 place, float cosine, int layer) {
+    vec2 size = vec2(textureSize(opaque_depth, 0).xy), at = place.xy * size - 0.5, low = floor(at), f = at - low;
+    float limit = place.z - bias_of(cosine);
+    float shares[4];
+    for (int i = 0; i < 4; ++i) {
+        ivec2 texel = clamp(ivec2(low) + ivec2(i & 1, i >> 1), ivec2(0), ivec2(size) - 1);
+#ifdef PRT_PEEL
+        bool in_front = texelFetch(layer_depth, texel, 0).r < limit;
+        shares[i] = in_front ? 1.0 - texelFetch(layer_coverage, texel, 0).r : 1.0;
+#else
+        shares[i] = texelFetch(opaque_depth, ivec3(texel, layer), 0).r < limit ? 0.0 : 1.0;
+#endif
+    }
+    return mix(mix(shares[0], shares[1], f.x), mix(shares[2], shares[3], f.x), f.y);
+}
+
+void main() {
+    uint receiver = gl_GlobalInvocationID.x;
+    if (receiver >= receiver_count)
+        return;
+    vec4 origin = vec4(receivers[receiver].origin.xyz, 1.0);
+    vec3 normal = receivers[receiver].normal.xyz;
+#ifdef PRT_PEEL
+    float cosine = dot(normal, directions[0].towards_light.xyz);
+    if (cosine > 1e-4)
+        passes[receiver] *= open_share((directions[0].map_from_world * origin).xyz, cosine, 0);
+#else
+    uint first = receiver * uint(2 * PRT_COEFFICIENTS + 2);
+    for (uint d = 0u; d < direction_count; ++d) {
+        float cosine = max(dot(normal, directions[d].towards_light.xyz), 0.0), blocked = 0.0;
+        if (cosine > 1e-4) {
+            float open = open_share((directions[d].map_from_world * origin).xyz, cosine, int(d));
+#ifdef PRT_ALPHA
+            open *= passes[receiver];
+            passes[receiver] = 1.0;
+#endif
+            blocked = cosine * (1.0 - open);
+        }
+        if (cosine > 0.0)
+            for (int k = 0; k < PRT_COEFFICIENTS; ++k) {
+                sums[first + uint(k)] += cosine * directions[d].basis[k];
+                sums[first + uint(PRT_COEFFICIENTS + k)] += blocked * directions[d].basis[k];
+            }
+        sums[first + uint(2 * PRT_COEFFICIENTS)] += cosine;
+        sums[first + uint(2 * PRT_COEFFICIENTS + 1)] += blocked;
+    }
+#endif
+}

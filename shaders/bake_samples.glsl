@@ -1,0 +1,46 @@
+// Directions of a receiver's rays, the same as on the CPU (bake/chunk_kernels.cpp): Owen-scrambled Sobol points
+// by the hash of Laine and Karras (2011) in the form of Vegdahl (2021), through the concentric map of Shirley
+// and Chiu (1997).
+
+layout(std430, binding = PRT_BINDING_SAMPLES) readonly buffer Samples {
+    uvec2 sobol[]; // reversed Sobol points of a whole chunk, then of the last chunk
+};
+
+uint pcg_hash(uint v) {
+    uint state = v * 747796405u + 2891336453u;
+    uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
+    return (word >> 22) ^ word;
+}
+
+uint laine_karras(uint v, uint seed) {
+    v ^= v * 0x3d20adeau;
+    v += seed;
+    v *= (seed >> 16) | 1u;
+    v ^= v * 0x05526c56u;
+    v ^= v * 0x53a22864u;
+    return v;
+}
+
+float to_signed_unit(uint v) {
+    return (float(v >> 8) + 0.5) * (1.0 / 8388608.0) - 1.0;
+}
+
+// Duff et al. 2017.
+mat3 tangent_frame(vec3 n) {
+    float s = (floatBitsToUint(n.z) >> 31) != 0u ? -1.0 : 1.0;
+    float a = -1.0 / (s + n.z), b = n.x * n.y * a;
+    return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
+}
+
+vec3 ray_direction(uvec2 point, uint seed, mat3 frame) {
+    float u = to_signed_unit(bitfieldReverse(laine_karras(point.x, pcg_hash(seed))));
+    float v = to_signed_unit(bitfieldReverse(laine_karras(point.y, pcg_hash(seed ^ 0x9e3779b9u))));
+    bool wide = abs(u) > abs(v);
+    float radius = wide ? u : v;
+    float angle = 0.785398163 * (wide ? v : u) / radius;
+    float a2 = angle * angle;
+    float sine = angle * (1.0 + a2 * (-1.0 / 6.0 + a2 * (1.0 / 120.0 + a2 * (-1.0 / 5040.0 + a2 * (1.0 / 362880.0)))));
+    float cosine = 1.0 + a2 * (-0.5 + a2 * (1.0 / 24.0 + a2 * (-1.0 / 720.0 + a2 * (1.0 / 40320.0))));
+    return frame * vec3(radius * (wide ? cosine : sine), radius * (wide ? sine : cosine),
+                        sqrt(max(0.0, 1.0 - radius * radius)));
+}

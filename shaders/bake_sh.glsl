@@ -1,0 +1,7 @@
+// The spherical-harmonic basis by recurrence (docs/math.md, eq. 3). Define PRT_ORDER before including.
+
+#define PRT_COEFFICIENTS (PRT_ORDER * PRT_ORDER)
+
+layout(std140, binding = PRT_BINDING_SH_FACTORS) uniform ShFactors {
+    vec4 sh_factors[100]; // at 10 l + m: a_lm, b_lm, and where l = m the sectoral factor
+};
