@@ -1,4 +1,4 @@
-#include "make_tracer.h"
+#include "prt/make_tracer.h"
 
 #include "prt/embree_tracer.h"
 #include "prt/error.h"

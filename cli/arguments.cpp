@@ -186,6 +186,34 @@ void add_bake(CLI::App& app, BakeArguments& a) {
     add_json(command, a.json);
 }
 
+void add_bench(CLI::App& app, BenchArguments& a) {
+    CLI::App* command = app.add_subcommand(
+        "bench", "Measure speed against error of the bake, on every backend and by every method");
+    CLI::Option* scene = command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb");
+    command->add_flag("--classic", a.classic, "generated meshes like those of Hill's table of 2004")
+        ->excludes(scene);
+    command->add_option("--order", a.options.order, "SH order N")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMaxOrder));
+    command->add_option("--from", a.options.fewest_rays, "fewest rays per receiver")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMostRays));
+    command->add_option("--to", a.options.most_rays, "most rays per receiver")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMostRays / 64));
+    command
+        ->add_option("--raster-resolution", a.options.raster_resolution,
+                     "texels along each side of a depth map")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 16384));
+    command->add_option("--most-seconds", a.options.most_seconds, "leave runs out that would take longer")
+        ->capture_default_str();
+    command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
+    add_threads(command, a.options.threads);
+    add_json(command, a.json);
+    command->add_option("--html", a.html, "also write a report page to this file")->type_name("FILE");
+}
+
 void add_compress(CLI::App& app, CompressArguments& a) {
     CLI::App* command = app.add_subcommand("compress", "Compress a bake by clustered PCA");
     command->add_option("baked", a.baked, "output of prt bake")->required();
@@ -321,12 +349,14 @@ std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
     app.set_version_flag("--version", "prt " PRTKIT_VERSION);
     app.require_subcommand(1);
     BakeArguments bake;
+    BenchArguments bench;
     CompressArguments compress;
     EvaluateArguments evaluate;
     ProjectArguments project;
     RenderArguments render;
     InfoArguments info;
     add_bake(app, bake);
+    add_bench(app, bench);
     add_compress(app, compress);
     add_evaluate(app, evaluate);
     add_project(app, project);
@@ -336,6 +366,8 @@ std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
         app.parse(argc, argv);
         if (app.got_subcommand("render"))
             check_together(render);
+        if (app.got_subcommand("bench") && bench.scene.empty() && !bench.classic)
+            throw CLI::RequiredError("scene, or --classic");
     } catch (const CLI::Success& nothing_to_do) {
         return app.exit(nothing_to_do);
     } catch (const CLI::ParseError& error) {
@@ -344,6 +376,8 @@ std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
     }
     if (app.got_subcommand("bake"))
         return Arguments(bake);
+    if (app.got_subcommand("bench"))
+        return Arguments(bench);
     if (app.got_subcommand("compress"))
         return Arguments(compress);
     if (app.got_subcommand("evaluate"))

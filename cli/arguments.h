@@ -2,6 +2,7 @@
 
 // What the command line says, as plain structs. Parsing is in arguments.cpp and nowhere else.
 
+#include "bench.h"
 #include "prt/bake.h"
 #include "prt/compress.h"
 #include "prt/image_file.h"
@@ -29,6 +30,12 @@ struct LightOptions {
 struct BakeArguments {
     Path scene, output, json;
     BakeOptions options;
+};
+
+struct BenchArguments {
+    Path scene, json, html;
+    BenchOptions options;
+    bool classic = false;
 };
 
 struct CompressArguments {
@@ -68,8 +75,8 @@ struct InfoArguments {
     Path file, json;
 };
 
-using Arguments = std::variant<BakeArguments, CompressArguments, EvaluateArguments, ProjectArguments,
-                               RenderArguments, InfoArguments>;
+using Arguments = std::variant<BakeArguments, BenchArguments, CompressArguments, EvaluateArguments,
+                               ProjectArguments, RenderArguments, InfoArguments>;
 
 /// What was asked for, or the exit status when there is nothing to do: 0 after --help, 2 for wrong usage (a
 /// line on stderr says what).

@@ -1,39 +1,13 @@
 #include "html_report.h"
 
+#include "html.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
 
 namespace prt::cli {
 namespace {
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += c;
-        }
-    }
-    return result;
-}
-
-constexpr const char* kStyle =
-    "body{font:16px/1.5 sans-serif;max-width:52rem;margin:2rem auto;padding:0 1rem;color:#222}"
-    "table{border-collapse:collapse;margin:1rem 0}td,th{padding:.25rem .9rem;border-bottom:1px solid #ddd;"
-    "text-align:right}td:first-child,th:first-child{text-align:left}svg{max-width:100%}";
 
 /// Horizontal bars of one measure over the lights.
 std::string bars(const Evaluation& evaluation, const char* title, double LitError::*measure) {
@@ -51,7 +25,7 @@ std::string bars(const Evaluation& evaluation, const char* title, double LitErro
         svg += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"end\" font-size=\"14\">{}</text>"
                            "<rect x=\"{}\" y=\"{}\" width=\"{:.1f}\" height=\"16\" fill=\"#3b76b0\"/>"
                            "<text x=\"{:.1f}\" y=\"{}\" font-size=\"14\">{:.3f} %</text>\n",
-                           kLeft - 8, y + 16, escaped(name), kLeft, y + 3, kBar * value / largest,
+                           kLeft - 8, y + 16, html_escaped(name), kLeft, y + 3, kBar * value / largest,
                            kLeft + 8 + kBar * value / largest, y + 16, 100 * value);
         y += kRow;
     }
@@ -61,18 +35,16 @@ std::string bars(const Evaluation& evaluation, const char* title, double LitErro
 } // namespace
 
 std::string html_report(const Evaluation& evaluation) {
-    std::string page = fmt::format("<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
-                                   "<title>prt evaluate: {0}</title><style>{1}</style></head><body>\n"
-                                   "<h1>Compression error</h1>\n<p>{0} against {2}</p>\n"
-                                   "<p>Relative L2 of the transfer vectors: <b>{3:.4f} %</b></p>\n",
-                                   escaped(evaluation.shipped), kStyle, escaped(evaluation.baked),
-                                   100 * evaluation.relative_l2);
+    std::string page = html_begin("prt evaluate: " + evaluation.shipped, "Compression error");
+    page += fmt::format("<p>{} against {}</p>\n<p>Relative L2 of the transfer vectors: <b>{:.4f} %</b></p>\n",
+                        html_escaped(evaluation.shipped), html_escaped(evaluation.baked),
+                        100 * evaluation.relative_l2);
     page += "<table>\n<tr><th>light</th><th>lit_rms</th><th>lit_max</th><th>seam</th><th>mean "
             "radiance</th></tr>\n";
     for (const auto& [name, error] : evaluation.lights)
         page += fmt::format(
             "<tr><td>{}</td><td>{:.4f} %</td><td>{:.3f} %</td><td>{:.3f} %</td><td>{:.4g}</td></tr>\n",
-            escaped(name), 100 * error.rms, 100 * error.max, 100 * error.seam, error.mean);
+            html_escaped(name), 100 * error.rms, 100 * error.max, 100 * error.seam, error.mean);
     page += "</table>\n<p>lit_rms: relative L2 of exit radiance for albedo 1. lit_max: largest error of a "
             "receiver, "
             "seam: largest jump of the error along an edge between two clusters, both over the mean "
@@ -81,8 +53,8 @@ std::string html_report(const Evaluation& evaluation) {
     page += bars(evaluation, "lit_max", &LitError::max);
     page += "<h2>Sizes</h2>\n<table>\n";
     for (const auto& [name, value] : evaluation.facts)
-        page += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", escaped(name), escaped(value));
-    return page + "</table>\n</body></html>\n";
+        page += fmt::format("<tr><td>{}</td><td>{}</td></tr>\n", html_escaped(name), html_escaped(value));
+    return page + "</table>\n" + html_end();
 }
 
 } // namespace prt::cli

@@ -1,0 +1,53 @@
+#pragma once
+
+// Speed against error of the bake, on every backend and by every method.
+
+#include "prt/bake.h"
+#include "prt/scene.h"
+
+#include <string>
+#include <vector>
+
+namespace prt::cli {
+
+struct BenchOptions {
+    int order = 6;
+    int fewest_rays = 64, most_rays = 4096; ///< doubled from one to the other
+    int raster_resolution = 1024;
+    double most_seconds = 60; ///< a run that would take longer is left out
+    int threads = 0;
+    std::uint64_t seed = 0;
+};
+
+/// One run over all receivers.
+struct BenchRun {
+    int rays = 0; ///< per receiver; directions where the method is raster
+    double seconds = 0, seconds_build = 0;
+    TraceSeconds parts;
+    double rays_per_second = 0;
+    double relative_l2 = 0; ///< against the reference, over its receivers
+};
+
+struct BenchSeries {
+    std::string backend, method, device;
+    std::vector<BenchRun> runs;
+    std::string left_out; ///< what is missing, and why; empty: nothing
+};
+
+struct BenchResult {
+    std::string scene;
+    std::size_t receivers = 0, triangles = 0;
+    int order = 0;
+    int reference_rays = 0; ///< 64 times the most rays
+    std::size_t reference_receivers = 0;
+    std::vector<BenchSeries> series;
+};
+
+/// Measures direct light. The error is that of an even sample of the receivers. Throws `Cancelled`.
+BenchResult run_bench(const std::string& name, const Scene& scene, const BenchOptions& options,
+                      const Progress& progress);
+
+/// A page with the table and the curves of error over time and of speed over rays.
+std::string bench_html(const BenchResult& result);
+
+} // namespace prt::cli
