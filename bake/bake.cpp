@@ -206,13 +206,12 @@ private:
         statistics().traced = static_cast<std::size_t>(
             std::lower_bound(indices.begin(), indices.end(), receivers_.fronts) - indices.begin());
         TraceOptions options{options_.order, options_.rays, options_.seed, 0};
-        neighbours_.emplace(surfaces_, receivers_.receivers, receivers_.fronts);
         std::vector<std::uint32_t> rays_of(receivers.size(), static_cast<std::uint32_t>(options_.rays));
         Transfer transfer{options_.order, 1, {}};
         const Progress progress = part_of(progress_, 0, bounces_ != 0 ? 0.85 : 0.95);
         if (options_.target_error) {
             AdaptiveResult adaptive =
-                adaptive_transfer(*tracer_, receivers, *neighbours_, options, *options_.target_error,
+                adaptive_transfer(*tracer_, receivers, neighbours(), options, *options_.target_error,
                                   bounces_ != 0 ? part_of(progress, 0, 0.5) : progress);
             transfer = std::move(adaptive.transfer);
             rays_of = std::move(adaptive.rays);
@@ -283,6 +282,12 @@ private:
         return sum / static_cast<float>(rays);
     }
 
+    const MeshNeighbours& neighbours() {
+        if (!neighbours_)
+            neighbours_.emplace(surfaces_, receivers_.receivers, receivers_.fronts);
+        return *neighbours_;
+    }
+
     /// Which receivers lie inside geometry. Where hits are not known, a few rays of those that much is
     /// blocked from find out.
     void mark_inside(const RayScene& rays, const Transfer& transfer) {
@@ -294,27 +299,31 @@ private:
             for (const std::uint32_t p : receivers_on_surfaces(receivers))
                 if (transfer.vector(p)[0] < (1 - kInsideShare) * y00)
                     blocked.push_back(p);
-            constexpr int kProbeRays = 64;
+            // Few rays for all of them, more for those that see a back face at all.
             EmbreeTracer prober(rays, options_.threads, &surfaces_);
-            Transfer unused{1, 1, std::vector<float>(receivers.size())};
-            trace_receivers(prober, receivers, blocked, {1, kProbeRays, options_.seed, 0}, unused,
-                            {{}, progress_.stop}, [&](std::uint32_t p, std::span<const Hit> hits) {
-                                back_share_[p] = back_share(hits, kProbeRays);
-                            });
-            statistics().rays += blocked.size() * kProbeRays;
+            for (const int probes : {16, 64}) {
+                Transfer unused{1, 1, std::vector<float>(receivers.size())};
+                trace_receivers(prober, receivers, blocked, {1, probes, options_.seed, 0}, unused,
+                                {{}, progress_.stop}, [&](std::uint32_t p, std::span<const Hit> hits) {
+                                    back_share_[p] = back_share(hits, probes);
+                                });
+                statistics().rays += blocked.size() * static_cast<std::size_t>(probes);
+                std::erase_if(blocked, [&](std::uint32_t p) { return back_share_[p] == 0; });
+            }
         }
         std::vector<bool> inside(receivers.size());
         for (std::size_t p = 0; p < receivers.size(); ++p)
             inside[p] = back_share_[p] > kInsideShare;
         statistics().inside = static_cast<std::size_t>(std::count(
             inside.begin(), inside.begin() + static_cast<std::ptrdiff_t>(receivers_.fronts), true));
-        operators_.refill = Refill(*neighbours_, inside);
+        if (statistics().inside == 0)
+            return;
+        operators_.refill = Refill(neighbours(), inside);
         statistics().refilled = operators_.refill.size();
-        if (statistics().inside > 0)
-            note("{} receivers see more than {:.0f} % back faces, so they lie inside geometry; {} of them "
-                 "take the "
-                 "light of their neighbours",
-                 statistics().inside, 100 * kInsideShare, statistics().refilled);
+        note("{} receivers see more than {:.0f} % back faces, so they lie inside geometry; {} of them "
+             "take the "
+             "light of their neighbours",
+             statistics().inside, 100 * kInsideShare, statistics().refilled);
     }
 
     /// Exit transfer of the scene's receivers, all bounces and subsurface scattering in it.

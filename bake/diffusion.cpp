@@ -1,6 +1,8 @@
 #include "diffusion.h"
 
 #include "prt/parallel.h"
+#include "prt/sh_basis.h"
+#include "sparse_rows.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -48,6 +50,7 @@ DiffusionOperator::DiffusionOperator(const Receivers& receivers, std::vector<glm
     });
     const double falloff = std::max({dipoles_[0].falloff(), dipoles_[1].falloff(), dipoles_[2].falloff()});
     most_extent_ = 10 * tolerance_ / (falloff * falloff);
+    tabulate_kernel();
     for (const glm::uvec3& t : triangles_)
         for (int corner = 0; corner < 3; ++corner)
             members_.push_back(t[corner]);
@@ -55,6 +58,27 @@ DiffusionOperator::DiffusionOperator(const Receivers& receivers, std::vector<glm
     members_.erase(std::unique(members_.begin(), members_.end()), members_.end());
     if (!triangles_.empty())
         build(0, static_cast<std::uint32_t>(triangles_.size()));
+}
+
+void DiffusionOperator::tabulate_kernel() {
+    constexpr int kSteps = 4096; // linear between them: below 1e-5 of K
+    const double last = std::log1p(reach_ * reach_ * 4 / (scale_ * scale_));
+    kernel_steps_ = kSteps / last;
+    for (int i = 0; i <= kSteps + 1; ++i) {
+        const double r = scale_ * std::sqrt(std::expm1(i / kernel_steps_));
+        glm::vec3 k;
+        for (std::size_t c = 0; c < 3; ++c)
+            k[static_cast<int>(c)] = static_cast<float>(dipoles_[c].reflectance(r) / dipoles_[c].total());
+        kernel_.push_back(k);
+    }
+}
+
+glm::vec3 DiffusionOperator::kernel(double squared_distance) const {
+    const double at = std::log1p(squared_distance / (scale_ * scale_)) * kernel_steps_;
+    const auto i = static_cast<std::size_t>(at);
+    if (i + 1 >= kernel_.size())
+        return glm::vec3(0); // beyond twice the reach
+    return glm::mix(kernel_[i], kernel_[i + 1], static_cast<float>(at - static_cast<double>(i)));
 }
 
 std::uint32_t DiffusionOperator::build(std::uint32_t begin, std::uint32_t end) {
@@ -88,28 +112,20 @@ std::uint32_t DiffusionOperator::build(std::uint32_t begin, std::uint32_t end) {
     return index;
 }
 
-/// Sums over the tree for one receiver.
+/// The row of one receiver: sources are receivers, then the means of the nodes.
 class DiffusionOperator::Gatherer {
 public:
-    Gatherer(const DiffusionOperator& diffusion, int channels, int coefficients,
-             std::span<const float> values, std::span<const float> means)
-        : diffusion_(diffusion), channels_(static_cast<std::size_t>(channels)),
-          coefficients_(static_cast<std::size_t>(coefficients)), values_(values), means_(means),
-          sums_(channels_ * coefficients_) {}
+    Gatherer(const DiffusionOperator& diffusion, int channels) : diffusion_(diffusion), channels_(channels) {}
 
-    std::span<const double> gather(const glm::dvec3& at) {
-        std::fill(sums_.begin(), sums_.end(), 0.0);
+    SparseRow gather(const glm::dvec3& at) {
+        sources_.clear();
+        weights_.clear();
         at_ = at;
         visit(0);
-        return sums_;
+        return {static_cast<std::uint32_t>(sources_.size()), sources_.data(), weights_.data()};
     }
 
 private:
-    double kernel(std::size_t channel, double distance) const {
-        const Dipole& dipole = diffusion_.dipoles_[channel];
-        return dipole.reflectance(distance) / dipole.total();
-    }
-
     void visit(std::uint32_t index) {
         const Node& node = diffusion_.nodes_[index];
         const double least = glm::distance(at_, glm::clamp(at_, node.low, node.high));
@@ -120,7 +136,8 @@ private:
         // K varies over the distance, but over no less than the depth of the sources below the surface; far
         // away it falls exponentially, by e over 1/sigma_tr.
         if (least > 0 && small(glm::dot(size, size), distance))
-            return add(distance, node.area, &means_[index * channels_ * coefficients_]);
+            return add(static_cast<std::uint32_t>(diffusion_.receivers_.size()) + index,
+                       static_cast<float>(node.area) * diffusion_.kernel(distance * distance));
         if (node.right != 0) {
             visit(index + 1);
             return visit(node.right);
@@ -129,25 +146,19 @@ private:
         CornerWeights weights{};
         integrate({diffusion_.position(t.x), diffusion_.position(t.y), diffusion_.position(t.z)},
                   {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)}, 0, weights);
-        for (std::size_t c = 0; c < channels_; ++c)
-            for (int corner = 0; corner < 3; ++corner)
-                for (std::size_t k = 0; k < coefficients_; ++k)
-                    sums_[c * coefficients_ + k] +=
-                        weights[c][corner] *
-                        static_cast<double>(values_[(t[corner] * channels_ + c) * coefficients_ + k]);
+        for (int corner = 0; corner < 3; ++corner)
+            add(t[corner], glm::vec3(weights[0][corner], weights[1][corner], weights[2][corner]));
+    }
+
+    void add(std::uint32_t source, const glm::vec3& weight) {
+        sources_.push_back(source);
+        for (int c = 0; c < channels_; ++c)
+            weights_.push_back(weight[c]);
     }
 
     bool small(double squared_extent, double distance) const {
         const double scale = distance * distance + diffusion_.scale_ * diffusion_.scale_;
         return squared_extent <= diffusion_.tolerance_ * scale && squared_extent <= diffusion_.most_extent_;
-    }
-
-    void add(double distance, double area, const float* mean) {
-        for (std::size_t c = 0; c < channels_; ++c) {
-            const double weight = area * kernel(c, distance);
-            for (std::size_t k = 0; k < coefficients_; ++k)
-                sums_[c * coefficients_ + k] += weight * static_cast<double>(mean[c * coefficients_ + k]);
-        }
     }
 
     /// Adds the integrals over a part of a triangle, whose corners have these barycentric coordinates; parts
@@ -164,8 +175,9 @@ private:
             return;
         if (depth == kMostDepth || small(extent, distance)) {
             const glm::dvec3 middle = (barycentrics[0] + barycentrics[1] + barycentrics[2]) / 3.0;
-            for (std::size_t c = 0; c < channels_; ++c)
-                weights[c] += area * kernel(c, distance) * middle;
+            const glm::vec3 k = diffusion_.kernel(distance * distance);
+            for (std::size_t c = 0; c < 3; ++c)
+                weights[c] += area * static_cast<double>(k[static_cast<int>(c)]) * middle;
             return;
         }
         std::array<glm::dvec3, 3> q, b; // middles of the edges across from each corner
@@ -180,21 +192,23 @@ private:
     }
 
     const DiffusionOperator& diffusion_;
-    std::size_t channels_, coefficients_;
-    std::span<const float> values_, means_;
-    std::vector<double> sums_;
+    int channels_;
+    std::vector<std::uint32_t> sources_;
+    std::vector<float> weights_;
     glm::dvec3 at_{0};
 };
 
-void DiffusionOperator::apply(int channels, int coefficients, std::span<float> values, int threads) const {
+void DiffusionOperator::apply(int channels, int order, std::span<float> values, int threads) const {
     if (nodes_.empty())
         return;
-    const auto stride = static_cast<std::size_t>(channels * coefficients);
-    // Means of the nodes, children before parents.
-    std::vector<float> means(nodes_.size() * stride);
+    const auto stride = static_cast<std::size_t>(channels * coefficient_count(order));
+    // The values as they are, then the means of the nodes, children before parents.
+    std::vector<float> from((receivers_.size() + nodes_.size()) * stride);
+    std::copy_n(values.begin(), receivers_.size() * stride, from.begin());
+    float* const means = &from[receivers_.size() * stride];
     for (std::size_t n = nodes_.size(); n-- > 0;) {
         const Node& node = nodes_[n];
-        float* const mean = &means[n * stride];
+        float* const mean = means + n * stride;
         if (node.right == 0) {
             const glm::uvec3& t = triangles_[node.begin];
             for (std::size_t i = 0; i < stride; ++i)
@@ -206,12 +220,12 @@ void DiffusionOperator::apply(int channels, int coefficients, std::span<float> v
         for (std::size_t i = 0; i < stride; ++i)
             mean[i] = share * means[(n + 1) * stride + i] + (1 - share) * means[node.right * stride + i];
     }
-    const std::vector<float> before(values.begin(), values.end());
     parallel_for(members_.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
-        Gatherer gatherer(*this, channels, coefficients, before, means);
+        Gatherer gatherer(*this, channels);
         for (std::size_t i = begin; i < end; ++i) {
-            const auto sums = gatherer.gather(position(members_[i]));
-            std::copy(sums.begin(), sums.end(), &values[members_[i] * stride]);
+            const SparseRow row = gatherer.gather(position(members_[i]));
+            apply_rows(order, channels, channels == 1, std::span(&row, 1), from.data(),
+                       &values[members_[i] * stride]);
         }
     });
 }

@@ -23,11 +23,11 @@ public:
     /// Keeps a reference to `receivers`. `triangles` of the body, of receivers. `tolerance`: triangles stand
     /// as one where the square of their extent is below this share of the square of their distance.
     DiffusionOperator(const Receivers& receivers, std::vector<glm::uvec3> triangles, const Medium& medium,
-                      double tolerance = 0.1);
+                      double tolerance = 0.2);
 
     /// Replaces the values of the body's receivers; [receivers][channels][order²]. With one channel the red
     /// kernel serves.
-    void apply(int channels, int coefficients, std::span<float> values, int threads) const;
+    void apply(int channels, int order, std::span<float> values, int threads) const;
 
     /// Red, green and blue spread alike.
     bool is_grey() const;
@@ -43,6 +43,10 @@ private:
     using CornerWeights = std::array<glm::dvec3, 3>;
     class Gatherer;
 
+    void tabulate_kernel();
+    /// K of red, green and blue.
+    glm::vec3 kernel(double squared_distance) const;
+
     std::uint32_t build(std::uint32_t begin, std::uint32_t end);
     glm::dvec3 position(std::uint32_t receiver) const { return glm::dvec3(receivers_.positions[receiver]); }
 
@@ -54,6 +58,9 @@ private:
     double scale_;           ///< least depth of a dipole, over which K varies, m
     double reach_;           ///< beyond this there is nothing worth looking at, m
     double most_extent_ = 0; ///< squared, of what may stand as one, m²
+    /// K at evenly spaced logarithms of 1 + r²/scale², which is finest where K bends; exponentials are slow.
+    std::vector<glm::vec3> kernel_;
+    double kernel_steps_ = 0; ///< per unit of the logarithm
     std::vector<Node> nodes_;
 };
 

@@ -2,7 +2,7 @@
 
 #include "prt/parallel.h"
 #include "prt/sh_basis.h"
-#include "prt/vector_lanes.h"
+#include "sparse_rows.h"
 
 #include <algorithm>
 #include <bit>
@@ -52,92 +52,6 @@ private:
     std::vector<std::uint32_t> sources_;
     std::vector<Weight> weights_;
 };
-
-/// sums += weight · values over `Length` values. Whole registers; the last one overlaps the one before, so
-/// that there is no rest.
-template <int Length>
-struct RegisterSums {
-    static constexpr int kRegisters = (Length + kLaneCount - 1) / kLaneCount;
-    Lanes sums[kRegisters] = {};
-
-    static constexpr int offset(int r) { return r + 1 < kRegisters ? r * kLaneCount : Length - kLaneCount; }
-    [[gnu::always_inline]] void add(float weight, const float* values) {
-        for (int r = 0; r < kRegisters; ++r)
-            sums[r] += weight * lanes_at(values + offset(r));
-    }
-    [[gnu::always_inline]] void store(float* to) const {
-        for (int r = 0; r < kRegisters; ++r)
-            *reinterpret_cast<LanesInMemory*>(to + offset(r)) = sums[r];
-    }
-};
-template <int Length>
-requires(Length < kLaneCount) struct RegisterSums<Length> {
-    float sums[Length] = {};
-
-    [[gnu::always_inline]] void add(float weight, const float* values) {
-        for (int k = 0; k < Length; ++k)
-            sums[k] += weight * values[k];
-    }
-    [[gnu::always_inline]] void store(float* to) const { std::copy_n(sums, Length, to); }
-};
-
-/// A row times the matrix: `Groups` runs of `Length` values, one weight each.
-template <int Groups, int Length>
-[[gnu::always_inline]] inline void apply_row(const GatherOperator::Row& row, const float* from, float* to) {
-    RegisterSums<Length> sums[Groups];
-    const float* weight = row.weights.get();
-    const std::uint32_t* source = row.sources.get();
-    for (std::uint32_t e = 0; e < row.count; ++e) {
-        const float* values = from + static_cast<std::size_t>(source[e]) * (Groups * Length);
-        for (int g = 0; g < Groups; ++g)
-            sums[g].add(*weight++, values + g * Length);
-    }
-    for (int g = 0; g < Groups; ++g)
-        sums[g].store(to + g * Length);
-}
-
-template <int Order>
-[[gnu::always_inline]] inline void apply_rows(int channels, bool one_weight,
-                                              std::span<const GatherOperator::Row> rows, const float* from,
-                                              float* to) {
-    constexpr int kCoefficients = coefficient_count(Order);
-    for (const GatherOperator::Row& row : rows) {
-        if (channels == 1)
-            apply_row<1, kCoefficients>(row, from, to);
-        else if (one_weight)
-            apply_row<1, 3 * kCoefficients>(row, from, to);
-        else
-            apply_row<3, kCoefficients>(row, from, to);
-        to += channels * kCoefficients;
-    }
-}
-
-PRT_TARGET_CLONES
-void apply_block(int order, int channels, bool one_weight, std::span<const GatherOperator::Row> rows,
-                 const float* from, float* to) {
-    switch (order) {
-    case 1:
-        return apply_rows<1>(channels, one_weight, rows, from, to);
-    case 2:
-        return apply_rows<2>(channels, one_weight, rows, from, to);
-    case 3:
-        return apply_rows<3>(channels, one_weight, rows, from, to);
-    case 4:
-        return apply_rows<4>(channels, one_weight, rows, from, to);
-    case 5:
-        return apply_rows<5>(channels, one_weight, rows, from, to);
-    case 6:
-        return apply_rows<6>(channels, one_weight, rows, from, to);
-    case 7:
-        return apply_rows<7>(channels, one_weight, rows, from, to);
-    case 8:
-        return apply_rows<8>(channels, one_weight, rows, from, to);
-    case 9:
-        return apply_rows<9>(channels, one_weight, rows, from, to);
-    default:
-        return apply_rows<10>(channels, one_weight, rows, from, to);
-    }
-}
 
 } // namespace
 
@@ -248,8 +162,10 @@ void GatherOperator::apply(int order, std::span<float> from, std::span<float> to
         for (std::size_t i = 0; i < stride; ++i)
             from[p * stride + i] *= reflectance_[p][static_cast<int>(i / coefficients)];
     parallel_for(rows_.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
-        apply_block(order, channels_, !reflectance_.empty(), std::span(rows_).subspan(begin, end - begin),
-                    from.data(), &to[begin * stride]);
+        std::vector<SparseRow> rows;
+        for (std::size_t p = begin; p < end; ++p)
+            rows.push_back({rows_[p].count, rows_[p].sources.get(), rows_[p].weights.get()});
+        apply_rows(order, channels_, !reflectance_.empty(), rows, from.data(), &to[begin * stride]);
     });
 }
 

@@ -25,7 +25,7 @@ void exit_from_incident(const TransportOperators& operators, int order, int chan
     const int coefficients = coefficient_count(order);
     operators.refill.apply(vectors, static_cast<std::size_t>(channels * coefficients));
     for (const DiffusionOperator& diffusion : operators.diffusion)
-        diffusion.apply(channels, coefficients, vectors, threads);
+        diffusion.apply(channels, order, vectors, threads);
 }
 
 } // namespace

@@ -45,6 +45,16 @@ tinygltf::Material make_material(const Part& part) {
     material.name = part.name;
     material.pbrMetallicRoughness.baseColorFactor = {part.color.r, part.color.g, part.color.b, 1};
     material.pbrMetallicRoughness.metallicFactor = 0;
+    if (part.transmission > 0) {
+        material.doubleSided = true;
+        const auto number = [](float value) { return tinygltf::Value(static_cast<double>(value)); };
+        const glm::vec3& c = part.transmission_color;
+        tinygltf::Value::Object extension;
+        extension["diffuseTransmissionFactor"] = number(part.transmission);
+        extension["diffuseTransmissionColorFactor"] =
+            tinygltf::Value(tinygltf::Value::Array{number(c.r), number(c.g), number(c.b)});
+        material.extensions["KHR_materials_diffuse_transmission"] = tinygltf::Value(extension);
+    }
     return material;
 }
 
@@ -69,6 +79,8 @@ void write_scene(const ExampleScene& scene, const std::filesystem::path& path) {
                                          TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
         primitive.material = static_cast<int>(model.materials.size());
         model.materials.push_back(make_material(part));
+        if (part.transmission > 0)
+            model.extensionsUsed = {"KHR_materials_diffuse_transmission"};
         mesh.primitives.push_back(primitive);
     }
     model.meshes.push_back(mesh);

@@ -1,121 +1,40 @@
 #include "prt/gl_context.h"
 
-#include <epoxy/egl.h>
+#include "gl_platform.h"
+
 #include <epoxy/gl.h>
 
-#include <array>
-#include <string_view>
-#include <vector>
-
 namespace prt {
-namespace {
 
-bool has_extension(const char* list, std::string_view name) {
-    if (!list)
-        return false;
-    std::string padded = " " + std::string(list) + " ";
-    return padded.find(" " + std::string(name) + " ") != std::string::npos;
-}
-
-bool is_software_renderer(std::string_view renderer) {
+bool is_software_renderer(const std::string& renderer) {
     for (const char* name : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SWR"})
-        if (renderer.find(name) != std::string_view::npos)
+        if (renderer.find(name) != std::string::npos)
             return true;
     return false;
 }
 
-std::vector<EGLDeviceEXT> enumerate_devices() {
-    const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (!has_extension(client, "EGL_EXT_platform_device") ||
-        !has_extension(client, "EGL_EXT_device_enumeration"))
-        return {};
-    EGLint count = 0;
-    if (!eglQueryDevicesEXT(0, nullptr, &count) || count <= 0)
-        return {};
-    std::vector<EGLDeviceEXT> devices(static_cast<std::size_t>(count));
-    eglQueryDevicesEXT(count, devices.data(), &count);
-    devices.resize(static_cast<std::size_t>(count));
-    return devices;
-}
-
-} // namespace
-
-/// Makes contexts on one platform display after the other.
-struct GlContextMaker {
+std::unique_ptr<GlContext> GlContext::create(GlDevice device, std::string* why) {
     std::string tried;
-
-    std::unique_ptr<GlContext> on_display(EGLenum platform, void* native, const char* name) {
-        const EGLDisplay display = eglGetPlatformDisplayEXT(platform, native, nullptr);
-        std::unique_ptr<GlContext> result;
-        if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
-            tried += std::string(tried.empty() ? "" : ", ") + name + ": cannot be opened";
-            return nullptr;
-        }
-        constexpr std::array<EGLint, 7> kAttributes = {EGL_CONTEXT_MAJOR_VERSION,
-                                                       4,
-                                                       EGL_CONTEXT_MINOR_VERSION,
-                                                       5,
-                                                       EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                                       EGL_NONE};
-        EGLConfig config = nullptr;
-        EGLint configs = 0;
-        constexpr std::array<EGLint, 5> kConfig = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
-                                                   EGL_OPENGL_BIT, EGL_NONE};
-        const bool has_api = eglBindAPI(EGL_OPENGL_API);
-        eglChooseConfig(display, kConfig.data(), &config, 1, &configs);
-        const EGLContext context = has_api
-                                       ? eglCreateContext(display, configs > 0 ? config : EGL_NO_CONFIG_KHR,
-                                                          EGL_NO_CONTEXT, kAttributes.data())
-                                       : EGL_NO_CONTEXT;
-        if (context == EGL_NO_CONTEXT || !eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
-            tried += std::string(tried.empty() ? "" : ", ") + name + ": no OpenGL 4.5";
-            if (context != EGL_NO_CONTEXT)
-                eglDestroyContext(display, context);
-            eglTerminate(display);
-            return nullptr;
-        }
-        result.reset(new GlContext);
-        result->display_ = display;
-        result->context_ = context;
-        result->renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-        return result;
-    }
-
-    std::unique_ptr<GlContext> make(GlDevice device) {
-        const std::vector<EGLDeviceEXT> devices = enumerate_devices();
-        for (EGLDeviceEXT candidate : devices) {
-            if (has_extension(eglQueryDeviceStringEXT(candidate, EGL_EXTENSIONS), "EGL_MESA_device_software"))
-                continue;
-            auto context = on_display(EGL_PLATFORM_DEVICE_EXT, candidate, "a GPU");
-            if (context && !context->is_software())
-                return context;
-        }
-        if (device == GlDevice::hardware)
-            return nullptr;
-        if (has_extension(eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS), "EGL_MESA_platform_surfaceless"))
-            if (auto context = on_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, "surfaceless"))
-                return context;
-        for (EGLDeviceEXT candidate : devices)
-            if (auto context = on_display(EGL_PLATFORM_DEVICE_EXT, candidate, "a software device"))
-                return context;
+    std::unique_ptr<GlPlatform> platform;
+#ifdef PRT_HAS_EGL
+    platform = make_egl_platform(device, tried);
+#endif
+#ifdef PRT_HAS_GLFW
+    if (!platform)
+        platform = make_glfw_platform(device, tried);
+#endif
+    if (!platform) {
+        if (why)
+            *why = tried.empty() ? "built without EGL and without GLFW" : tried;
         return nullptr;
     }
-};
-
-std::unique_ptr<GlContext> GlContext::create(GlDevice device, std::string* why) {
-    GlContextMaker maker;
-    auto context = maker.make(device);
-    if (!context && why)
-        *why = maker.tried.empty() ? "EGL offers no device" : maker.tried;
+    std::unique_ptr<GlContext> context(new GlContext);
+    context->platform_ = std::move(platform);
+    context->renderer_ = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     return context;
 }
 
-GlContext::~GlContext() {
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    eglDestroyContext(display_, context_);
-    eglTerminate(display_);
-}
+GlContext::~GlContext() = default;
 
 bool GlContext::is_software() const {
     return is_software_renderer(renderer_);

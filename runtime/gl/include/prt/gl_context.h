@@ -11,8 +11,8 @@ enum class GlDevice {
 };
 
 /// An OpenGL 4.5 core context without window or display, through EGL: a hardware device by enumeration
-/// (EGL_EXT_platform_device), else Mesa's surfaceless platform, else a software device. Current on the thread
-/// that made it, until it is destroyed.
+/// (EGL_EXT_platform_device), else Mesa's surfaceless platform, else a software device; where EGL has none, a
+/// hidden window of GLFW. Current on the thread that made it, until it is destroyed.
 class GlContext {
 public:
     /// Null when there is no such device; `why` then says what was tried.
@@ -26,10 +26,8 @@ public:
 
 private:
     GlContext() = default;
-    void* display_ = nullptr;
-    void* context_ = nullptr;
+    std::unique_ptr<class GlPlatform> platform_;
     std::string renderer_;
-    friend struct GlContextMaker;
 };
 
 } // namespace prt
