@@ -105,6 +105,45 @@ TEST_F(BadInput, OrdersAndRaysOutOfRange) {
     refuse_bake(scene, {"--rays", "-4"});
 }
 
+TEST_F(BadInput, NoOpenGlIsSaidUnlessTheBackendIsAutomatic) {
+    const auto without_opengl = [&](const char* backend) {
+        return run("env",
+                   {"-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", "__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null",
+                    "ASAN_OPTIONS=detect_leaks=0", PRT_PROGRAM, "bake", good().string(), "-o", out, "--rays",
+                    "4", "--backend", backend});
+    };
+    expect_refused(without_opengl("gpu"), "OpenGL 4.5");
+    EXPECT_EQ(without_opengl("auto").status, 0);
+}
+
+TEST_F(BadInput, RasterWithBouncesOrOnTheCpu) {
+    const auto scene = good();
+    refuse_bake(scene, {"--method", "raster", "--bounces", "1"});
+    refuse_bake(scene, {"--method", "raster", "--backend", "cpu"});
+    refuse_bake(scene, {"--method", "raster", "--target-error", "0.1"});
+}
+
+TEST_F(BadInput, MediaForMaterialsThatAreNotThere) {
+    refuse_bake(good(), {"--subsurface", "porcelain=marble"});
+    refuse_bake(good(), {"--subsurface", "marble", "--metres-per-unit", "0"});
+    refuse_bake(good(), {"--target-error", "0"});
+}
+
+TEST_F(BadInput, MissingTexturesAreNamedAndMayBeIgnored) {
+    GlbFile file = triangle_file();
+    file.json["images"] = {{{"uri", "gone.png"}}};
+    file.json["textures"] = {{{"source", 0}}};
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.write(folder / "untextured.glb");
+    const std::string scene = (folder / "untextured.glb").string();
+    expect_refused(prt({"bake", scene, "-o", out}), "gone.png");
+    const Outcome ignored =
+        prt({"bake", scene, "-o", out, "--bad-textures", "ignore", "--rays", "4", "--bounces", "1"});
+    EXPECT_EQ(ignored.status, 0) << ignored.err;
+    EXPECT_NE(ignored.out.find("missing"), std::string::npos) << ignored.out;
+}
+
 TEST_F(BadInput, WrongUsageIsStatusTwo) {
     const std::string scene = good().string();
     for (const std::vector<std::string>& arguments :
@@ -120,6 +159,8 @@ TEST_F(BadInput, WrongUsageIsStatusTwo) {
           {"bake", scene, "-o", out, "--subsurface", "custard"},
           {"bake", scene, "-o", out, "--subsurface", "1,2,3,4,5"},
           {"bake", scene, "-o", out, "--rays", "64", "--target-error", "0.01"},
+          {"bench"},
+          {"bench", scene, "--classic"},
           {"compress", scene, "-o", out, "--clusters", "auto"},
           {"compress", scene, "-o", out, "--components", "auto"},
           {"compress", scene, "-o", out, "--weights", "5"},
@@ -136,7 +177,7 @@ TEST_F(BadInput, WrongUsageIsStatusTwo) {
 
 TEST_F(BadInput, HelpIsNoErrorAndNamesDefaults) {
     EXPECT_EQ(prt({"--help"}).status, 0);
-    for (const char* command : {"bake", "compress", "evaluate", "project", "render", "info"}) {
+    for (const char* command : {"bake", "bench", "compress", "evaluate", "project", "render", "info"}) {
         const Outcome outcome = prt({command, "--help"});
         EXPECT_EQ(outcome.status, 0);
         EXPECT_NE(outcome.out.find("--json"), std::string::npos);

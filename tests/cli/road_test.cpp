@@ -42,7 +42,7 @@ protected:
 
 #ifdef PRT_EXAMPLE_SCENES
 class ExampleRoad : public Road, public testing::WithParamInterface<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Scenes, ExampleRoad, testing::Values("knot", "room", "terrain"));
+INSTANTIATE_TEST_SUITE_P(Scenes, ExampleRoad, testing::Values("knot", "room", "terrain", "tree"));
 
 TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
     ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
@@ -217,15 +217,30 @@ TEST_F(Road, SameSeedSameBytesWhateverTheThreads) {
 }
 
 #ifdef PRT_EXAMPLE_SCENES
-TEST_F(Road, CtrlCEndsALongBakeAndLeavesNothing) {
+/// A bake, or another command, that takes minutes.
+class LongWork : public Road, public testing::WithParamInterface<std::vector<const char*>> {};
+INSTANTIATE_TEST_SUITE_P(Phases, LongWork,
+                         testing::Values(std::vector<const char*>{"--rays", "1000000"},
+                                         std::vector<const char*>{"--rays", "1000000", "--bounces", "1"},
+                                         std::vector<const char*>{"--target-error", "0.00001"},
+                                         std::vector<const char*>{"--rays", "1000000", "--backend", "gpu"},
+                                         std::vector<const char*>{"--rays", "1000000", "--backend", "gpu",
+                                                                  "--method", "raster"},
+                                         std::vector<const char*>{"--rays", "1", "--subsurface",
+                                                                  "1,1,1,0,0,0", "--bounces", "inf"}));
+
+TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
     ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
     const std::size_t before = folder.files();
-    const std::string scene = at("terrain.glb"), output = at("b.glb");
+    const std::string scene = at("room.glb"), output = at("b.glb");
     const pid_t child = fork();
     if (child == 0) {
         std::freopen("/dev/null", "w", stderr);
-        execl(PRT_PROGRAM, PRT_PROGRAM, "bake", scene.c_str(), "-o", output.c_str(), "--rays", "1000000",
-              nullptr);
+        setenv("ASAN_OPTIONS", "detect_leaks=0", 1); // what is cut short has not cleaned up
+        std::vector<const char*> arguments = {PRT_PROGRAM, "bake", scene.c_str(), "-o", output.c_str()};
+        arguments.insert(arguments.end(), GetParam().begin(), GetParam().end());
+        arguments.push_back(nullptr);
+        execv(PRT_PROGRAM, const_cast<char**>(arguments.data()));
         _exit(127);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
@@ -238,7 +253,56 @@ TEST_F(Road, CtrlCEndsALongBakeAndLeavesNothing) {
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1);
     EXPECT_EQ(folder.files(), before);
 }
+
+TEST_F(Road, BouncesOnTheGpuLandInTheFileAndItsReport) {
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    const Outcome bake = prt({"bake", at("tree.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "2",
+                              "--bounces", "2", "--backend", "gpu", "--json", at("b.json")});
+    ASSERT_EQ(bake.status, 0) << bake.err;
+    const auto report = read_json(folder / "b.json");
+    EXPECT_EQ(report["channels"], 3);
+    EXPECT_EQ(report["bake"]["backend"], "gpu");
+    EXPECT_EQ(report["bake"]["bounces"], 2);
+    EXPECT_EQ(report["storage"], "float16");
+    EXPECT_GT(report["back_sides"], 1000);
+    EXPECT_GT(report["gather_entries"], 1000);
+    const Outcome info = prt({"info", at("b.glb")});
+    EXPECT_NE(info.out.find("2 bounces"), std::string::npos) << info.out;
+    if (validator_errors(folder / "b.glb") < 0)
+        GTEST_SKIP() << "gltf-validator is not installed";
+}
+
+TEST_F(Road, TooLargeABakeIsRefusedWithItsSize) {
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    const Outcome bake =
+        prt({"bake", at("room.glb"), "-o", at("b.glb"), "--rays", "16777216", "--bounces", "1"});
+    EXPECT_EQ(bake.status, 1);
+    EXPECT_NE(bake.err.find(" GB of memory"), std::string::npos) << bake.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.glb"));
+}
 #endif
+
+TEST_F(Road, BenchMeasuresEveryBackendAndMethod) {
+    triangle_file().write(folder / "scene.glb");
+    const Outcome bench = prt({"bench", at("scene.glb"), "--from", "16", "--to", "64", "--order", "3",
+                               "--json", at("bench.json"), "--html", at("bench.html")});
+    ASSERT_EQ(bench.status, 0) << bench.err;
+    const auto report = read_json(folder / "bench.json");
+    EXPECT_EQ(report["reference_rays"], 64 * 64);
+    ASSERT_EQ(report["series"].size(), 3u);
+    for (const auto& series : report["series"]) {
+        ASSERT_EQ(series["runs"].size(), 3u) << series;
+        for (const auto& run : series["runs"]) {
+            EXPECT_LT(run["relative_l2"], 1e-5); // a lone triangle is open: no sampling error at all
+            EXPECT_GT(run["seconds"], 0);
+        }
+    }
+    const std::vector<std::byte> page = read_file(folder / "bench.html");
+    const std::string text(reinterpret_cast<const char*>(page.data()), page.size());
+    EXPECT_NE(text.find("<svg"), std::string::npos);
+    EXPECT_EQ(text.find("<script"), std::string::npos);
+    EXPECT_EQ(text.find("href"), std::string::npos); // stands alone
+}
 
 } // namespace
 } // namespace prt::test
