@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <queue>
 
 namespace prt {
 namespace {
 
-constexpr int kFirstRays = 64; ///< of each of the two scrambles
-constexpr std::uint32_t kMostRaysEach = kMostRays / 2;
+constexpr std::uint32_t kFirstRays = 32;       ///< of each of the two scrambles that start
+constexpr std::size_t kCheckedReceivers = 128; ///< sampled again to see what came out
 constexpr std::uint64_t kSecondScramble = 0x9e3779b97f4a7c15;
-/// The squared error of a scrambled net falls as n^-1.5 where visibility has edges (measured: n^-1.4 to
-/// n^-1.6 on the knot and the bunny); doubling leaves this share.
-const double kAfterDoubling = std::pow(2.0, -1.5);
+/// The squared error of a scrambled net falls as n^-1.5 where visibility has edges: measured n^-1.52 on the
+/// knot between 1 024 and 2 048 rays.
+constexpr double kExponent = 1.5;
 
 double squared_distance(std::span<const float> a, std::span<const float> b) {
     double sum = 0;
@@ -33,146 +34,175 @@ double squared_norm(std::span<const float> a) {
 class AdaptiveSampler {
 public:
     AdaptiveSampler(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
-                    const TraceOptions& options)
-        : tracer_(tracer), receivers_(receivers), neighbours_(neighbours), options_(options),
+                    const TraceOptions& options, const Progress& progress)
+        : tracer_(tracer), receivers_(receivers), options_(options), progress_{{}, progress.stop},
           indices_(receivers_on_surfaces(receivers)), rays_(receivers.size(), 0),
-          error_(receivers.size(), 0) {
-        for (Transfer* t : {&first_, &second_, &added_}) {
-            *t = {options.order, 1, {}};
-            t->vectors.resize(receivers.size() * t->dimension());
-        }
+          planned_(receivers.size(), 0), error_(receivers.size(), 0), transfer_(empty_transfer()) {
+        estimate_errors(neighbours);
     }
 
     AdaptiveResult run(double target, const Progress& progress) {
-        extend(indices_);
         AdaptiveResult result;
-        double start = 0;
-        for (;;) {
-            result.error = estimate();
+        double correction = 1; // of the squared errors that the first rays predict, by what came out
+        for (double share = 0;; share = 0.5 * (1 + share)) {
+            const bool enough = plan(target * target * norm_ / correction);
+            progress.update(share);
+            extend();
+            correction = check(result.rays_checked);
+            result.error = norm_ > 0 ? std::sqrt(correction * predicted_ / norm_) : 0;
             result.reached = result.error <= target;
-            if (start == 0)
-                start = result.error;
-            if (result.reached)
+            if (result.reached || !enough)
                 break;
-            const std::vector<std::uint32_t> chosen = choose(target);
-            if (chosen.empty()) // all have as many rays as can be
-                break;
-            progress.update(
-                start > target
-                    ? std::clamp(std::log(start / result.error) / std::log(start / target), 0.0, 1.0)
-                    : 0.0);
-            stop_ = {{}, progress.stop};
-            extend(chosen);
         }
-        result.transfer = first_;
-        for (std::size_t i = 0; i < first_.vectors.size(); ++i)
-            result.transfer.vectors[i] = 0.5f * (first_.vectors[i] + second_.vectors[i]);
-        for (const std::uint32_t n : rays_)
-            result.rays.push_back(2 * n);
+        result.transfer = std::move(transfer_);
+        result.rays = rays_;
+        result.rays_checked += kFirstRays * indices_.size(); // of the second scramble
         progress.update(1);
         return result;
     }
 
 private:
-    /// Doubles the rays of `chosen` (from none: kFirstRays).
-    void extend(std::span<const std::uint32_t> chosen) {
-        std::map<std::uint32_t, std::vector<std::uint32_t>> by_rays;
-        for (const std::uint32_t p : chosen)
-            by_rays[rays_[p]].push_back(p);
-        for (const auto& [rays, members] : by_rays) {
-            TraceOptions options = options_;
-            options.first_ray = rays;
-            options.rays = rays == 0 ? kFirstRays : static_cast<int>(rays);
-            for (Transfer* scramble : {&first_, &second_}) {
-                options.seed = options_.seed + (scramble == &second_ ? kSecondScramble : 0);
-                trace_receivers(tracer_, receivers_, members, options, added_, stop_);
-                const float kept = rays == 0 ? 0.0f : 0.5f;
-                for (const std::uint32_t p : members)
-                    for (std::size_t k = 0; k < added_.dimension(); ++k) {
-                        float& value = scramble->vector(p)[k];
-                        value = kept * value + (1 - kept) * added_.vector(p)[k];
-                    }
-            }
-            for (const std::uint32_t p : members) {
-                rays_[p] = rays == 0 ? kFirstRays : 2 * rays;
-                error_[p] = 0.25 * squared_distance(first_.vector(p), second_.vector(p));
-            }
-        }
-    }
-
-    double estimate() {
-        double error = 0;
-        norm_ = 0;
-        for (const std::uint32_t p : indices_) {
-            error += area(p) * error_[p];
-            norm_ += area(p) * squared_norm(first_.vector(p));
-        }
-        return norm_ > 0 ? std::sqrt(error / norm_) : 0;
-    }
-
-    /// Squared error of a receiver: the mean over it and its neighbours, scaled to its number of rays. Of
-    /// itself alone, receivers whose two samples happen to agree would be left with too few rays.
-    double smoothed_error(std::uint32_t p) const {
-        double sum = error_[p];
-        int count = 1;
-        for (const std::uint32_t q : neighbours_.of(p))
-            if (rays_[q] > 0) {
-                sum += error_[q] * std::pow(static_cast<double>(rays_[q]) / rays_[p], 1.5);
-                ++count;
-            }
-        return sum / count;
-    }
-
-    /// Receivers to double: those with the most error per ray, until what is expected to remain is below the
-    /// target. At most half of the error is taken on at a time, as estimates get better with rays.
-    std::vector<std::uint32_t> choose(double target) const {
-        struct Candidate {
-            double error, gain_per_ray;
-            std::uint32_t receiver;
-        };
-        std::vector<Candidate> candidates;
-        double error = 0;
-        for (const std::uint32_t p : indices_) {
-            const double mine = area(p) * smoothed_error(p);
-            error += mine;
-            if (mine > 0 && rays_[p] < kMostRaysEach)
-                candidates.push_back({mine, mine / rays_[p], p});
-        }
-        std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-            return a.gain_per_ray != b.gain_per_ray ? a.gain_per_ray > b.gain_per_ray
-                                                    : a.receiver < b.receiver;
-        });
-        const double wanted = std::max(target * target * norm_, 0.5 * error);
-        std::vector<std::uint32_t> chosen;
-        for (const Candidate& candidate : candidates) {
-            if (error <= wanted && !chosen.empty())
-                break;
-            error -= (1 - kAfterDoubling) * candidate.error;
-            chosen.push_back(candidate.receiver);
-        }
-        std::sort(chosen.begin(), chosen.end());
-        return chosen;
+    Transfer empty_transfer() const {
+        Transfer transfer{options_.order, 1, {}};
+        transfer.vectors.resize(receivers_.size() * transfer.dimension());
+        return transfer;
     }
 
     double area(std::uint32_t p) const { return static_cast<double>(receivers_.areas[p]); }
 
+    /// Contribution of a receiver to the squared error with `rays`, by what the first rays predict.
+    double predicted(std::uint32_t p, std::uint32_t rays) const {
+        return area(p) * error_[p] * std::pow(static_cast<double>(rays) / kFirstRays, -kExponent);
+    }
+
+    /// Two independent scrambles of a few rays each tell how much a receiver errs: the mean over it and its
+    /// neighbours, as of itself alone some would agree by chance and be left with too few rays.
+    void estimate_errors(const MeshNeighbours& neighbours) {
+        TraceOptions options = options_;
+        options.rays = static_cast<int>(kFirstRays);
+        trace_receivers(tracer_, receivers_, indices_, options, transfer_, progress_);
+        options.seed += kSecondScramble;
+        Transfer second = empty_transfer();
+        trace_receivers(tracer_, receivers_, indices_, options, second, progress_);
+        std::vector<double> own(receivers_.size(), 0);
+        for (const std::uint32_t p : indices_) {
+            rays_[p] = planned_[p] = kFirstRays;
+            own[p] = 0.5 * squared_distance(transfer_.vector(p), second.vector(p));
+            norm_ += area(p) * squared_norm(transfer_.vector(p));
+        }
+        for (const std::uint32_t p : indices_) {
+            double sum = own[p];
+            int count = 1;
+            for (const std::uint32_t q : neighbours.of(p))
+                if (rays_[q] > 0) {
+                    sum += own[q];
+                    ++count;
+                }
+            error_[p] = sum / count;
+        }
+    }
+
+    /// Doubles planned rays, those first that lower the error most per ray, until the predicted squared error
+    /// is at most `wanted`. Only powers of two: between them nets are uneven and err more. False where all
+    /// have as many rays as can be.
+    bool plan(double wanted) {
+        struct Candidate {
+            double gain_per_ray;
+            std::uint32_t receiver;
+            bool operator<(const Candidate& other) const {
+                return gain_per_ray != other.gain_per_ray ? gain_per_ray < other.gain_per_ray
+                                                          : receiver > other.receiver;
+            }
+        };
+        const auto candidate = [&](std::uint32_t p) {
+            return Candidate{(predicted(p, planned_[p]) - predicted(p, 2 * planned_[p])) / planned_[p], p};
+        };
+        predicted_ = 0;
+        std::priority_queue<Candidate> queue;
+        for (const std::uint32_t p : indices_) {
+            predicted_ += predicted(p, planned_[p]);
+            if (error_[p] > 0 && planned_[p] < static_cast<std::uint32_t>(kMostRays))
+                queue.push(candidate(p));
+        }
+        while (predicted_ > wanted && !queue.empty()) {
+            const Candidate best = queue.top();
+            queue.pop();
+            const std::uint32_t p = best.receiver;
+            predicted_ -= best.gain_per_ray * planned_[p];
+            planned_[p] *= 2;
+            if (planned_[p] < static_cast<std::uint32_t>(kMostRays))
+                queue.push(candidate(p));
+        }
+        return predicted_ <= wanted;
+    }
+
+    /// Traces the rest of the sequences up to what is planned.
+    void extend() {
+        Transfer added = empty_transfer();
+        for (std::uint32_t rays = kFirstRays; rays < static_cast<std::uint32_t>(kMostRays); rays *= 2) {
+            std::vector<std::uint32_t> members;
+            for (const std::uint32_t p : indices_)
+                if (rays_[p] == rays && planned_[p] > rays)
+                    members.push_back(p);
+            TraceOptions options = options_;
+            options.first_ray = rays;
+            options.rays = static_cast<int>(rays);
+            trace_receivers(tracer_, receivers_, members, options, added, progress_);
+            for (const std::uint32_t p : members) {
+                for (std::size_t k = 0; k < added.dimension(); ++k)
+                    transfer_.vector(p)[k] = 0.5f * (transfer_.vector(p)[k] + added.vector(p)[k]);
+                rays_[p] = 2 * rays;
+            }
+        }
+    }
+
+    /// Samples some receivers again with a scramble of their own, chosen by what they are predicted to
+    /// contribute to the error. Returns the mean of squared error over prediction.
+    double check(std::size_t& rays_checked) {
+        std::map<std::uint32_t, std::vector<std::uint32_t>> by_rays;
+        const double step = predicted_ / kCheckedReceivers;
+        double sum = 0, next = 0.5 * step;
+        for (const std::uint32_t p : indices_) {
+            sum += predicted(p, rays_[p]);
+            if (sum <= next || step <= 0)
+                continue;
+            by_rays[rays_[p]].push_back(p);
+            while (next < sum)
+                next += step;
+        }
+        Transfer again = empty_transfer();
+        double ratios = 0;
+        std::size_t count = 0;
+        for (const auto& [rays, members] : by_rays) {
+            TraceOptions options = options_;
+            options.rays = static_cast<int>(rays);
+            options.seed += 2 * kSecondScramble;
+            trace_receivers(tracer_, receivers_, members, options, again, progress_);
+            rays_checked += rays * members.size();
+            for (const std::uint32_t p : members)
+                ratios += 0.5 * area(p) * squared_distance(transfer_.vector(p), again.vector(p)) /
+                          predicted(p, rays);
+            count += members.size();
+        }
+        return count > 0 ? ratios / static_cast<double>(count) : 1;
+    }
+
     Tracer& tracer_;
     const Receivers& receivers_;
-    const MeshNeighbours& neighbours_;
     TraceOptions options_;
+    Progress progress_; ///< to stop in the middle of a round
     std::vector<std::uint32_t> indices_;
-    Transfer first_, second_, added_;
-    std::vector<std::uint32_t> rays_; ///< of each scramble
-    std::vector<double> error_;       ///< squared, of the mean of both
-    double norm_ = 0;
-    Progress stop_; ///< to stop in the middle of a round
+    std::vector<std::uint32_t> rays_, planned_; ///< [receivers]
+    std::vector<double> error_;                 ///< squared, predicted for kFirstRays, [receivers]
+    double norm_ = 0, predicted_ = 0;           ///< squared, weighted by area
+    Transfer transfer_;
 };
 
 } // namespace
 
 AdaptiveResult adaptive_transfer(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
                                  const TraceOptions& options, double target, const Progress& progress) {
-    return AdaptiveSampler(tracer, receivers, neighbours, options).run(target, progress);
+    return AdaptiveSampler(tracer, receivers, neighbours, options, progress).run(target, progress);
 }
 
 double sampling_error(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,

@@ -10,13 +10,15 @@ namespace prt {
 struct AdaptiveResult {
     Transfer transfer;               ///< of the receivers on surfaces
     std::vector<std::uint32_t> rays; ///< [receivers]
+    std::size_t rays_checked = 0;    ///< traced beside them, to estimate errors
     double error = 0;                ///< estimated relative L2 of the transfer
     bool reached = false;            ///< the target
 };
 
-/// Direct transfer with a relative L2 error of `target`. Every receiver is sampled with two independent
-/// scrambles, whose difference estimates its error; the sequences of those that contribute most error per ray
-/// are doubled until the sum is below the target (docs/math.md, section 5).
+/// Direct transfer with a relative L2 error of `target`. Two independent scrambles of a few rays estimate the
+/// error of every receiver; from that the number of rays of each is planned, so that together they cost
+/// least; a sample of the receivers, traced again, tells what came out, and if it is not enough the plan is
+/// extended (docs/math.md, section 9).
 AdaptiveResult adaptive_transfer(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
                                  const TraceOptions& options, double target, const Progress& progress);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Interreflection as a sparse linear operator (docs/math.md, section 6).
+// Interreflection as a sparse linear operator (docs/math.md, section 7).
 
 #include "prt/surfaces.h"
 #include "prt/tracer.h"

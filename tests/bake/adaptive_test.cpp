@@ -64,7 +64,7 @@ TEST(TargetError, OfOpenReceiversTakesTheFirstRaysOnly) {
     options.target_error = 1e-6;
     const BakeResult result = bake(test::SceneBuilder().floor({0, 0, 0}, 1, 4).build(), options);
     EXPECT_EQ(result.statistics.sampling_error, 0);
-    EXPECT_EQ(result.statistics.rays, 128 * result.statistics.traced);
+    EXPECT_EQ(result.statistics.rays, 64 * result.statistics.traced);
 }
 
 TEST(TargetError, WorksWithBounces) {
