@@ -153,6 +153,7 @@ private:
             all.positions.resize(receivers_.fronts);
             all.normals.resize(receivers_.fronts);
             all.areas.resize(receivers_.fronts);
+            all.inward.resize(receivers_.fronts);
             receivers_.back.clear();
         }
         make_diffusion();

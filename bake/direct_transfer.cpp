@@ -2,6 +2,8 @@
 
 #include "prt/sh_basis.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
 
 namespace prt {
@@ -14,6 +16,40 @@ std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers) {
     return indices;
 }
 
+namespace {
+
+/// Unit mean of the directions from each vertex to the middles of its triangles; zero where they go all
+/// round.
+std::vector<glm::vec3> inward_directions(const Scene& scene) {
+    std::vector<glm::dvec3> sums(scene.receivers(), glm::dvec3(0));
+    std::vector<int> counts(scene.receivers(), 0);
+    for (const Primitive& primitive : scene.primitives) {
+        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+        for (const glm::uvec3& t : primitive.triangles) {
+            const glm::dvec3 a(vertices.positions[t.x]), b(vertices.positions[t.y]),
+                c(vertices.positions[t.z]);
+            const glm::dvec3 middle = (a + b + c) / 3.0;
+            for (int corner = 0; corner < 3; ++corner) {
+                const glm::dvec3 to_middle = middle - glm::dvec3(vertices.positions[t[corner]]);
+                const double length = glm::length(to_middle);
+                if (!(length > 0))
+                    continue;
+                sums[vertices.first_receiver + t[corner]] += to_middle / length;
+                ++counts[vertices.first_receiver + t[corner]];
+            }
+        }
+    }
+    // On a straight edge of an even mesh the mean is 0.6 to 0.9 long, inside it is near zero.
+    constexpr double kLeastMean = 0.25;
+    std::vector<glm::vec3> inward(sums.size(), glm::vec3(0));
+    for (std::size_t i = 0; i < sums.size(); ++i)
+        if (counts[i] > 0 && glm::length(sums[i]) > kLeastMean * counts[i])
+            inward[i] = glm::vec3(glm::normalize(sums[i]));
+    return inward;
+}
+
+} // namespace
+
 Receivers vertex_receivers(const Scene& scene) {
     Receivers receivers;
     for (const VertexArray& vertices : scene.vertex_arrays) {
@@ -22,6 +58,7 @@ Receivers vertex_receivers(const Scene& scene) {
         receivers.normals.insert(receivers.normals.end(), vertices.normals.begin(), vertices.normals.end());
     }
     receivers.areas = receiver_areas(scene);
+    receivers.inward = inward_directions(scene);
     return receivers;
 }
 

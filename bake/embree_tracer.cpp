@@ -193,15 +193,15 @@ int keep_shares(Work& work, int count, bool of_blocked, bool& whole) {
     return static_cast<int>(kept);
 }
 
-void trace_receiver(const Plan& plan, const glm::vec3& position, const glm::vec3& normal, std::uint32_t index,
-                    bool with_hits, Work& work, std::span<float> vector) {
+void trace_receiver(const Plan& plan, const Receivers& receivers, std::uint32_t index, bool with_hits,
+                    Work& work, std::span<float> vector) {
     const TraceOptions& options = plan.options;
     const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
     std::array<double, kMaxOrder * kMaxOrder> lobe{}, open{}, blocked{};
-    clamped_cosine_lobe(options.order, glm::dvec3(normal), lobe);
-    const TangentFrame frame = tangent_frame(normal);
-    work.normal = normal;
-    work.origin = position + normal * plan.rays.surface_offset(position);
+    work.normal = receivers.normals[index];
+    work.origin = plan.rays.ray_origin(receivers, index);
+    clamped_cosine_lobe(options.order, glm::dvec3(work.normal), lobe);
+    const TangentFrame frame = tangent_frame(work.normal);
     work.hits.clear();
     const std::uint32_t seed = receiver_seed(index, options.seed);
 
@@ -258,9 +258,8 @@ void EmbreeTracer::trace(const Receivers& receivers, std::span<const std::uint32
     parallel_for(indices.size(), grain, threads_, [&](std::size_t begin, std::size_t end) {
         const auto work = std::make_unique<Work>();
         for (std::size_t i = begin; i < end; ++i) {
-            const std::uint32_t receiver = indices[i];
-            trace_receiver(plan, receivers.positions[receiver], receivers.normals[receiver], receiver,
-                           with_hits, *work, vectors.subspan(i * coefficients, coefficients));
+            trace_receiver(plan, receivers, indices[i], with_hits, *work,
+                           vectors.subspan(i * coefficients, coefficients));
             if (sink) {
                 const Stopwatch sinking;
                 sink(i, work->hits);

@@ -76,6 +76,8 @@ TransportReceivers transport_receivers(Receivers fronts, const Surfaces& surface
             all.positions.push_back(all.positions[front]);
             all.normals.push_back(-all.normals[front]);
             all.areas.push_back(all.areas[front]);
+            if (!all.inward.empty())
+                all.inward.push_back(all.inward[front]);
         }
     }
     return result;

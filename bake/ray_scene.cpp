@@ -78,4 +78,12 @@ float RayScene::surface_offset(const glm::vec3& position) const {
     return 32 * std::numeric_limits<float>::epsilon() / 2 * search.largest;
 }
 
+glm::vec3 RayScene::ray_origin(const Receivers& receivers, std::uint32_t index) const {
+    const glm::vec3& position = receivers.positions[index];
+    glm::vec3 away = receivers.normals[index];
+    if (!receivers.inward.empty())
+        away += receivers.inward[index];
+    return position + away * surface_offset(position);
+}
+
 } // namespace prt

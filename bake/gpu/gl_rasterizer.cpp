@@ -202,10 +202,8 @@ private:
         std::vector<GpuReceiver> batch(indices.size());
         parallel_for(indices.size(), 256, threads_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const glm::vec3 &position = receivers.positions[indices[i]],
-                                &normal = receivers.normals[indices[i]];
-                batch[i] = {glm::vec4(position + normal * rays_.surface_offset(position), 1),
-                            glm::vec4(normal, 0)};
+                batch[i] = {glm::vec4(rays_.ray_origin(receivers, indices[i]), 1),
+                            glm::vec4(receivers.normals[indices[i]], 0)};
             }
         });
         return make_buffer(std::span<const GpuReceiver>(batch));

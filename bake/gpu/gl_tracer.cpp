@@ -125,11 +125,9 @@ private:
         parallel_for(indices.size(), 256, threads_, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const std::uint32_t p = indices[i];
-                const glm::vec3& position = receivers.positions[p];
-                const glm::vec3& normal = receivers.normals[p];
-                batch[i] = {glm::vec4(position + normal * rays_.surface_offset(position),
+                batch[i] = {glm::vec4(rays_.ray_origin(receivers, p),
                                       std::bit_cast<float>(receiver_seed(p, options.seed))),
-                            glm::vec4(normal, 0)};
+                            glm::vec4(receivers.normals[p], 0)};
             }
         });
         return make_buffer(std::span<const GpuReceiver>(batch));

@@ -124,5 +124,30 @@ TEST(Uniform, LightOfRadianceOneGivesVisibility) {
                 1e-4); // the wall of height 1 at distance 1 leaves the cone of 45 degrees
 }
 
+TEST(FootOfAWall, SeesHalfTheSkyWhateverTheSidesOfTheWall) {
+    // Vertices of the floor lie in the plane of the wall, exactly or but for rounding.
+    for (const bool double_sided : {false, true})
+        for (const float shift : {0.0f, 0.1f, 1000.3f}) {
+            const glm::vec3 at(shift, 0, 0.7f * shift);
+            Scene scene = test::SceneBuilder()
+                              .quad(at + glm::vec3(0, 0, 100), at + glm::vec3(200, 0, 100),
+                                    at + glm::vec3(200, 0, -100), at + glm::vec3(0, 0, -100))
+                              .quad(at + glm::vec3(0, 0, 9999), at + glm::vec3(0, 0, -9999),
+                                    at + glm::vec3(0, 9999, -9999), at + glm::vec3(0, 9999, 9999))
+                              .build();
+            scene.materials[0].double_sided = double_sided;
+            BakeOptions options;
+            options.backend = Backend::cpu;
+            options.order = 1;
+            const BakeResult result = bake(scene, options);
+            EXPECT_EQ(result.statistics.inside, 0u);
+            for (const std::size_t foot : {0u, 3u, 5u}) { // the vertices of the floor at the wall
+                const auto seen =
+                    static_cast<double>(result.baked.transfer.vector(foot)[0]) * std::sqrt(4 * pi);
+                EXPECT_NEAR(seen, 0.5, 0.01) << shift << " " << foot;
+            }
+        }
+}
+
 } // namespace
 } // namespace prt

@@ -2,6 +2,7 @@
 
 // Ray queries against the triangles of a scene on the CPU, by Embree.
 
+#include "prt/receivers.h"
 #include "prt/scene.h"
 
 #include <embree3/rtcore.h>
@@ -25,6 +26,10 @@ public:
     /// the largest coordinate of any triangle that `position` lies on, times 32 units of float rounding.
     /// Rounding of the origin, and of the vertices seen from it, moves either by at most a few such units.
     float surface_offset(const glm::vec3& position) const;
+
+    /// Where the rays of receivers[index] start: off the surface along its normal, and by as much towards the
+    /// surface that it stands for.
+    glm::vec3 ray_origin(const Receivers& receivers, std::uint32_t index) const;
 
     struct Triangle {
         std::uint32_t primitive, triangle; ///< indices into Scene::primitives and its triangles
