@@ -39,12 +39,18 @@ std::vector<glm::vec3> inward_directions(const Scene& scene) {
             }
         }
     }
-    // On a straight edge of an even mesh the mean is 0.6 to 0.9 long, inside it is near zero.
+    // Along the surface only: on a bent one the middles lie below the vertex. On a straight edge of an even
+    // mesh the mean is 0.6 to 0.9 long, inside it is near zero.
     constexpr double kLeastMean = 0.25;
     std::vector<glm::vec3> inward(sums.size(), glm::vec3(0));
-    for (std::size_t i = 0; i < sums.size(); ++i)
-        if (counts[i] > 0 && glm::length(sums[i]) > kLeastMean * counts[i])
-            inward[i] = glm::vec3(glm::normalize(sums[i]));
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            const std::size_t i = vertices.first_receiver + v;
+            const glm::dvec3 normal(vertices.normals[v]);
+            const glm::dvec3 along = sums[i] - normal * glm::dot(normal, sums[i]);
+            if (counts[i] > 0 && glm::length(along) > kLeastMean * counts[i])
+                inward[i] = glm::vec3(glm::normalize(along));
+        }
     return inward;
 }
 
