@@ -162,8 +162,8 @@ private:
         const bool colored =
             (surfaces_.has_color() && (bounces_ != 0 || surfaces_.has_transmission())) || !grey_media;
         channels_ = colored ? 3 : 1;
-        if (bounces_ != 0 && !colored)
-            note("one channel: every surface is grey");
+        if (!colored)
+            note("one channel: {}", bounces_ != 0 ? "every surface is grey" : "direct light is white");
         statistics().receivers = receivers_.fronts;
         statistics().back_sides = receivers_.receivers.size() - receivers_.fronts;
         statistics().triangles = scene_.triangles();

@@ -142,6 +142,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "light spreads under the surface of a material, or of all: marble, skin1, whole-milk and others, "
             "or "
             "reduced scattering and absorption sr,sg,sb,ar,ag,ab in 1/mm")
+        ->allow_extra_args(false) // one each time, so that the scene may follow
         ->type_name("[MATERIAL=]MEDIUM");
     command
         ->add_option("--metres-per-unit", options.metres_per_unit,

@@ -36,12 +36,14 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
                    {"high_metres", {box.high.x, box.high.y, box.high.z}}};
     if (model.baked) {
         const Transfer& t = model.baked->transfer;
-        fmt::print("  raw transfer: order {}, {} channels, {} bytes per vertex\n", t.order, t.channels,
-                   t.dimension() * sizeof(float));
+        const bool half = model.baked->storage == TransferStorage::float16;
+        const std::size_t bytes = t.dimension() * (half ? sizeof(std::uint16_t) : sizeof(float));
+        fmt::print("  raw transfer: order {}, {} channels, {} bytes per vertex as {}\n", t.order, t.channels, bytes,
+                   half ? "float16" : "float32");
         describe_record(model.baked->record);
         report["transfer"] = {{"order", t.order},
                               {"channels", t.channels},
-                              {"bytes_per_vertex", t.dimension() * sizeof(float)},
+                              {"bytes_per_vertex", bytes},
                               {"bake", bake_record_json(model.baked->record)}};
     }
     if (model.compressed) {
