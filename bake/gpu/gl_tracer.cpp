@@ -207,8 +207,11 @@ private:
         std::size_t capacity = 0;
         const std::vector<float> no_blocked(receivers * (end - begin));
         if (hits) {
-            capacity = std::min(kMostHitBytes / sizeof(HitRecord),
-                                receivers * (end - begin) * kChunk * (scene_.has_alpha() ? 2 : 1));
+            // Through blended surfaces a ray has no bound on what it meets: as much as there may be, and
+            // fewer receivers at a time where that is not enough.
+            capacity = kMostHitBytes / sizeof(HitRecord);
+            if (!scene_.has_alpha())
+                capacity = std::min(capacity, receivers * (end - begin) * kChunk);
             records = make_buffer_of(capacity * sizeof(HitRecord));
             const std::uint32_t zero = 0;
             count = make_buffer(std::span(&zero, 1));

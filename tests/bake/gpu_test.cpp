@@ -216,6 +216,25 @@ TEST(GpuBake, OfEveryTransportIsTheCpus) {
     EXPECT_LT(difference(options), 3e-3);
 }
 
+TEST(GpuBake, MeetsEveryOneOfManyBlendedSheets) {
+    std::vector<Scene> sheets = {SceneBuilder().floor({0, 0, 0}, 1, 3).build()};
+    for (int i = 1; i <= 12; ++i) {
+        Scene sheet = SceneBuilder().floor({0, 0.05f * static_cast<float>(i), 0}, 2).build();
+        sheet.materials[0].alpha_mode = AlphaMode::blend;
+        sheet.materials[0].base_color.a = 0.05f;
+        sheet.materials[0].double_sided = true;
+        sheets.push_back(sheet);
+    }
+    const Scene scene = test::join(sheets);
+    BakeOptions options;
+    options.order = 2;
+    options.rays = 128;
+    options.bounces = 1;
+    const BakeResult cpu = bake_on(Backend::cpu, scene, options), gpu = bake_on(Backend::gpu, scene, options);
+    EXPECT_GT(gpu.statistics.gather_entries, 1000u);
+    EXPECT_LT(relative_l2(cpu.baked.transfer, gpu.baked.transfer, receiver_areas(scene)), 3e-3);
+}
+
 TEST(GpuRaster, ConvergesToTraceWithResolutionAndDirections) {
     Pair pair(balls_over_floor());
     const Transfer reference = pair.on_cpu({4, 1 << 15, 99, 0});
