@@ -38,8 +38,8 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
         const Transfer& t = model.baked->transfer;
         const bool half = model.baked->storage == TransferStorage::float16;
         const std::size_t bytes = t.dimension() * (half ? sizeof(std::uint16_t) : sizeof(float));
-        fmt::print("  raw transfer: order {}, {} channels, {} bytes per vertex as {}\n", t.order, t.channels, bytes,
-                   half ? "float16" : "float32");
+        fmt::print("  raw transfer: order {}, {} channels, {} bytes per vertex as {}\n", t.order, t.channels,
+                   bytes, half ? "float16" : "float32");
         describe_record(model.baked->record);
         report["transfer"] = {{"order", t.order},
                               {"channels", t.channels},
