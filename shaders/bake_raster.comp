@@ -8,7 +8,7 @@
 layout(local_size_x = 64) in;
 
 struct Receiver {
-    vec4 origin; // off the surface
+    vec4 origin; // off the surface; w: seed, not used here
     vec4 normal;
 };
 struct Direction {

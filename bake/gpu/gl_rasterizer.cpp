@@ -1,8 +1,8 @@
+#include "gpu/gpu_receivers.h"
 #include "gpu/gpu_scene.h"
 #include "prt/error.h"
 #include "prt/gl_objects.h"
 #include "prt/gl_tracer.h"
-#include "prt/parallel.h"
 #include "prt/sh.h"
 #include "prt/stopwatch.h"
 #include "shared_layout.h"
@@ -24,9 +24,6 @@ namespace prt {
 namespace {
 
 // As in shaders/bake_raster.comp.
-struct GpuReceiver {
-    glm::vec4 origin, normal;
-};
 struct GpuDirection {
     glm::vec4 towards_light;
     glm::mat4 map_from_world;
@@ -119,7 +116,7 @@ public:
                const TraceOptions& options, std::span<float> vectors, TraceSeconds& seconds) {
         const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
         Stopwatch transfer;
-        const GlObject gpu_receivers = upload_receivers(receivers, indices);
+        const GlObject gpu_receivers = upload_receivers(rays_, receivers, indices, options.seed, threads_);
         std::vector<float> sums(indices.size() * (2 * coefficients + 2));
         const GlObject gpu_sums = make_buffer(std::span<const float>(sums));
         const std::vector<float> ones(blends_ ? indices.size() : 1, 1.0f);
@@ -196,17 +193,6 @@ private:
                                                                    "\n" + (peel ? "#define PRT_PEEL\n" : "") +
                                                                    (blends_ ? "#define PRT_ALPHA\n" : ""));
         return program;
-    }
-
-    GlObject upload_receivers(const Receivers& receivers, std::span<const std::uint32_t> indices) const {
-        std::vector<GpuReceiver> batch(indices.size());
-        parallel_for(indices.size(), 256, threads_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                batch[i] = {glm::vec4(rays_.ray_origin(receivers, indices[i]), 1),
-                            glm::vec4(receivers.normals[indices[i]], 0)};
-            }
-        });
-        return make_buffer(std::span<const GpuReceiver>(batch));
     }
 
     /// World to the map of light that comes from `direction`: [-1, 1]³, nearer to the light first.

@@ -1,5 +1,6 @@
 #include "prt/gl_tracer.h"
 
+#include "gpu/gpu_receivers.h"
 #include "gpu/gpu_scene.h"
 #include "prt/error.h"
 #include "prt/gl_objects.h"
@@ -13,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <map>
 #include <utility>
 
@@ -23,9 +23,6 @@ namespace {
 static_assert(PRT_CHUNK == kChunk);
 
 // As in shaders/bake_trace.comp.
-struct GpuReceiver {
-    glm::vec4 origin, normal;
-};
 struct HitRecord {
     std::uint32_t receiver, chunk, triangle;
     float u, v, weight, footprint;
@@ -119,20 +116,6 @@ private:
         return program;
     }
 
-    GlObject upload_receivers(const Receivers& receivers, std::span<const std::uint32_t> indices,
-                              const TraceOptions& options) const {
-        std::vector<GpuReceiver> batch(indices.size());
-        parallel_for(indices.size(), 256, threads_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const std::uint32_t p = indices[i];
-                batch[i] = {glm::vec4(rays_.ray_origin(receivers, p),
-                                      std::bit_cast<float>(receiver_seed(p, options.seed))),
-                            glm::vec4(receivers.normals[p], 0)};
-            }
-        });
-        return make_buffer(std::span<const GpuReceiver>(batch));
-    }
-
     /// False where the hits do not fit.
     bool try_trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                    const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
@@ -145,7 +128,7 @@ private:
 
         Stopwatch transfer;
         const GlObject samples = sample_table(whole, last);
-        const GlObject gpu_receivers = upload_receivers(receivers, indices, options);
+        const GlObject gpu_receivers = upload_receivers(rays_, receivers, indices, options.seed, threads_);
         std::vector<float> sums(indices.size() * (coefficients + 1));
         const GlObject gpu_sums = make_buffer(std::span<const float>(sums));
         glFinish();

@@ -41,14 +41,7 @@ struct AlphaTables {
     std::vector<std::uint8_t> texels;
 };
 
-bool has_texture(const VertexArray& vertices, const TextureUse& use, const std::vector<Texture>& textures) {
-    return use.image >= 0 && !textures.empty() &&
-           !textures[static_cast<std::size_t>(use.image)].levels.empty() &&
-           static_cast<std::size_t>(use.texcoord) < vertices.texcoords.size() &&
-           !vertices.texcoords[static_cast<std::size_t>(use.texcoord)].empty();
-}
-
-AlphaMaterial alpha_material(const Scene& scene, const Primitive& primitive,
+AlphaMaterial alpha_material(const Scene& scene, const Surfaces& surfaces, const Primitive& primitive,
                              const std::vector<Texture>& textures, std::vector<std::uint8_t>& texels) {
     const Material& m = scene.materials[primitive.material];
     const TextureUse& use = m.base_color_texture;
@@ -61,7 +54,7 @@ AlphaMaterial alpha_material(const Scene& scene, const Primitive& primitive,
                          1,
                          static_cast<std::uint32_t>(use.wrap_u) | static_cast<std::uint32_t>(use.wrap_v)
                                                                       << 8};
-    if (!has_texture(scene.vertex_arrays[primitive.vertices], use, textures))
+    if (!surfaces.has_texture(scene.vertex_arrays[primitive.vertices], use))
         return result;
     const Texture& texture = textures[static_cast<std::size_t>(use.image)];
     result.texels = static_cast<std::uint32_t>(texels.size());
@@ -88,7 +81,7 @@ AlphaTables make_alpha_tables(const Scene& scene, const Surfaces& surfaces,
         std::uint32_t& material = material_of[surfaces.primitive(t)];
         if (material == kNoTexels) {
             material = static_cast<std::uint32_t>(tables.materials.size());
-            tables.materials.push_back(alpha_material(scene, primitive, textures, tables.texels));
+            tables.materials.push_back(alpha_material(scene, surfaces, primitive, textures, tables.texels));
         }
         const AlphaMaterial& m = tables.materials[material];
         const glm::uvec3 local = surfaces.corners(t) - static_cast<unsigned>(vertices.first_receiver);

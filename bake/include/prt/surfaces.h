@@ -51,6 +51,8 @@ public:
     /// Some surface reflects or transmits at all.
     bool can_scatter() const { return can_scatter_; }
 
+    /// The texture is loaded and `vertices` have coordinates for it.
+    bool has_texture(const VertexArray& vertices, const TextureUse& use) const;
     bool opaque(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].opaque; }
     /// Both sides of the surface scatter light.
     bool two_sided(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].two_sided; }
@@ -79,7 +81,6 @@ private:
     glm::vec4 texel(const SurfacePoint& point, const TextureUse& use, bool finest) const;
     glm::vec4 base_color(const SurfacePoint& point, bool finest) const;
     bool is_grey(const TextureUse& use) const;
-    bool has_texture(const VertexArray& vertices, const TextureUse& use) const;
 
     const Scene& scene_;
     const std::vector<Texture>& textures_;
