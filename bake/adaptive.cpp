@@ -62,11 +62,7 @@ public:
     }
 
 private:
-    Transfer empty_transfer() const {
-        Transfer transfer{options_.order, 1, {}};
-        transfer.vectors.resize(receivers_.size() * transfer.dimension());
-        return transfer;
-    }
+    Transfer empty_transfer() const { return zero_transfer(options_.order, 1, receivers_.size()); }
 
     double area(std::uint32_t p) const { return static_cast<double>(receivers_.areas[p]); }
 
@@ -215,8 +211,7 @@ double sampling_error(Tracer& tracer, const Receivers& receivers, const TraceOpt
         some.push_back(all[i]);
     TraceOptions other = options;
     other.seed += kSecondScramble;
-    Transfer again{options.order, 1, {}};
-    again.vectors.resize(transfer.vectors.size());
+    Transfer again = zero_transfer(options.order, 1, receivers.size());
     trace_receivers(tracer, receivers, some, other, again, {{}, progress.stop});
     rays += some.size() * static_cast<std::size_t>(options.rays);
     double error = 0, norm = 0;

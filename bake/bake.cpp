@@ -303,7 +303,7 @@ private:
             // Few rays for all of them, more for those that see a back face at all.
             EmbreeTracer prober(rays, options_.threads, &surfaces_);
             for (const int probes : {16, 64}) {
-                Transfer unused{1, 1, std::vector<float>(receivers.size())};
+                Transfer unused = zero_transfer(1, 1, receivers.size());
                 trace_receivers(prober, receivers, blocked, {1, probes, options_.seed, 0}, unused,
                                 {{}, progress_.stop}, [&](std::uint32_t p, std::span<const Hit> hits) {
                                     back_share_[p] = back_share(hits, probes);

@@ -93,8 +93,7 @@ void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const
 
 Transfer direct_transfer(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,
                          const Progress& progress, const ReceiverSink& sink) {
-    Transfer transfer{options.order, 1, {}};
-    transfer.vectors.resize(receivers.size() * transfer.dimension());
+    Transfer transfer = zero_transfer(options.order, 1, receivers.size());
     trace_receivers(tracer, receivers, receivers_on_surfaces(receivers), options, transfer, progress, sink);
     return transfer;
 }

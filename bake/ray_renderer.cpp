@@ -1,5 +1,7 @@
 #include "prt/ray_renderer.h"
 
+#include "interpolated.h"
+
 #include "prt/parallel.h"
 
 #include <glm/common.hpp>
@@ -28,11 +30,6 @@ glm::vec2 plane_barycentrics(const Corners& t, const glm::vec3& origin, const gl
     const double determinant = glm::dot(ab, p);
     return {static_cast<float>(glm::dot(s, p) / determinant),
             static_cast<float>(glm::dot(d, q) / determinant)};
-}
-
-template <class T>
-T interpolated(const std::vector<T>& values, const glm::uvec3& t, const glm::vec2& uv) {
-    return values[t.x] * (1 - uv.x - uv.y) + values[t.y] * uv.x + values[t.z] * uv.y;
 }
 
 class RayRenderer {

@@ -1,5 +1,7 @@
 #include "prt/surfaces.h"
 
+#include "interpolated.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -8,11 +10,6 @@
 
 namespace prt {
 namespace {
-
-template <class T>
-T interpolated(const std::vector<T>& values, const glm::uvec3& t, const glm::vec2& uv) {
-    return values[t.x] * (1 - uv.x - uv.y) + values[t.y] * uv.x + values[t.z] * uv.y;
-}
 
 bool is_grey(const glm::vec3& color) {
     return color.r == color.g && color.g == color.b;

@@ -123,11 +123,7 @@ private:
         return run;
     }
 
-    Transfer empty_transfer() const {
-        Transfer transfer{options_.order, 1, {}};
-        transfer.vectors.resize(receivers_.size() * transfer.dimension());
-        return transfer;
-    }
+    Transfer empty_transfer() const { return zero_transfer(options_.order, 1, receivers_.size()); }
 
     /// The reference and each series take a quarter of the progress bar; `from` within the quarter.
     Progress part(double from) const {

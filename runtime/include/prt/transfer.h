@@ -29,6 +29,12 @@ struct Transfer {
     }
 };
 
+inline Transfer zero_transfer(int order, int channels, std::size_t receivers) {
+    Transfer transfer{order, channels, {}};
+    transfer.vectors.resize(receivers * transfer.dimension());
+    return transfer;
+}
+
 /// sum_i T[c][i] L_c[i] of one transfer vector [channels][order²]; channel 0 serves all colours when there is
 /// one.
 glm::vec3 exit_radiance(std::span<const float> transfer, int channels, const Light& light);
