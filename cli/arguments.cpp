@@ -20,7 +20,12 @@ const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", Environm
 const std::map<std::string, BadPixels> kBadPixels = {
     {"error", BadPixels::error}, {"zero", BadPixels::zero}, {"clamp", BadPixels::clamp}};
 const std::map<std::string, WeightFormat> kWeights = {
-    {"float", WeightFormat::float32}, {"16", WeightFormat::snorm16}, {"8", WeightFormat::snorm8}};
+    {"packed", WeightFormat::packed},
+    {"float", WeightFormat::float32},
+    {"16", WeightFormat::snorm16},
+    {"8", WeightFormat::snorm8}};
+const std::map<std::string, MetricChoice> kMetrics = {{"natural", MetricChoice::natural},
+                                                      {"plain", MetricChoice::plain}};
 const std::map<std::string, Backend> kBackends = {
     {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
 const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
@@ -215,26 +220,110 @@ void add_bench(CLI::App& app, BenchArguments& a) {
     command->add_option("--html", a.html, "also write a report page to this file")->type_name("FILE");
 }
 
+/// A number, or auto: the search chooses.
+void count_or_auto(CLI::App* command, const std::string& name, int& target, bool& choose, const std::string& text) {
+    command
+        ->add_option_function<std::string>(
+            name,
+            [name, &target, &choose](const std::string& value) {
+                choose = value == "auto";
+                if (!choose && !CLI::detail::lexical_cast(value, target))
+                    throw CLI::ValidationError(name, "'" + value + "' is neither a number nor auto");
+            },
+            text)
+        ->type_name("N|auto");
+}
+
+void add_sizes(CLI::App* command, SearchOptions& o) {
+    command
+        ->add_option_function<std::string>(
+            "--preset",
+            [&o](const std::string& name) {
+                if (name != "custom")
+                    o.compress = name == "u32" ? preset_u32() : preset_u64();
+            },
+            "u32: all of a vertex in one 32-bit word; u64: in two; custom: as the following options say")
+        ->check(CLI::IsMember({"u32", "u64", "custom"}))
+        ->type_name("u32|u64|custom")
+        ->default_str("u32, custom with other sizes")
+        ->trigger_on_parse();
+    count_or_auto(command, "--clusters", o.compress.clusters, o.choose_clusters, "number of clusters, 1..65536");
+    count_or_auto(command, "--components", o.compress.components, o.choose_components,
+                  "most PCA components of a cluster");
+    command->add_option("--bits", o.compress.bits, "bits of a vertex's weights together, where they are packed");
+    choice(command, "--weights", o.compress.weights, kWeights,
+           "packed: bits by variance; or 8 or 16 bits each, or float", "packed");
+    command->add_option("--max-error", o.budget.max_error,
+                        "the cheapest whose expected lit_rms under the metric is at most this");
+    command->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
+                        "the best of at most this size, bases counted in");
+    command->add_option("--shader-ops", o.budget.shader_ops,
+                        "components that the vertex shader adds, on average over the vertices, at most");
+}
+
 void add_compress(CLI::App& app, CompressArguments& a) {
     CLI::App* command = app.add_subcommand("compress", "Compress a bake by clustered PCA");
     command->add_option("baked", a.baked, "output of prt bake")->required();
     command->add_option("-o,--output", a.output, "compressed .glb to write")->required()->type_name("FILE");
-    command->add_option("--clusters", a.options.clusters, "number of clusters, 1..65536")
+    add_sizes(command, a.options);
+    command->add_flag("--best-effort", a.best_effort, "write the nearest where nothing keeps the budget");
+    CLI::Option* metric = choice(command, "--metric", a.metric, kMetrics,
+                                 "what an error costs: natural lighting from any side, or all coefficients alike",
+                                 "natural");
+    command
+        ->add_option("--lights", a.lights,
+                     "compress for these environments (.exr, .hdr) or lights (.json), turned about +Y")
+        ->excludes(metric)
+        ->type_name("FILE");
+    add_light_options(command, a.light_options);
+    command
+        ->add_option("--seam-weight", a.options.compress.seam_weight,
+                     "what jumps of the error along mesh edges cost, 0: nothing")
         ->capture_default_str();
-    command->add_option("--components", a.options.components, "PCA components per cluster")
+    command
+        ->add_option("--potts-weight", a.options.compress.potts_weight,
+                     "price of a neighbour in another cluster, in mean squared errors")
         ->capture_default_str();
-    choice(command, "--weights", a.options.weights, kWeights, "bits per weight, or float", "8");
-    command->add_option("--seed", a.options.seed, "seed of the clustering")->capture_default_str();
-    add_threads(command, a.options.threads);
+    command->add_flag("--reorder", a.reorder, "put the vertices of a cluster side by side");
+    command->add_flag("--meshopt", a.meshopt, "write vertex data through EXT_meshopt_compression");
+    command->add_option("--seed", a.options.compress.seed, "seed of the clustering")->capture_default_str();
+    add_threads(command, a.options.compress.threads);
     add_json(command, a.json);
+}
+
+/// What the options of prt compress mean together: u32 where no size is given, a search where a budget is.
+void resolve(const CLI::App& command, CompressArguments& a) {
+    SearchOptions& o = a.options;
+    const auto given = [&](const char* name) { return command.count(name) > 0; };
+    const bool sizes = given("--clusters") || given("--components") || given("--bits") || given("--weights");
+    const bool preset = given("--preset") && command.get_option("--preset")->as<std::string>() != "custom";
+    if (preset && (sizes || o.budget.any()))
+        throw CLI::ValidationError("--preset", "u32 and u64 fix what other sizes and budgets would choose");
+    if (o.budget.any()) {
+        if (given("--bits"))
+            throw CLI::ValidationError("--bits", "is what a budget chooses");
+        o.choose_clusters = o.choose_clusters || !given("--clusters");
+        o.choose_components = o.choose_components || !given("--components");
+        return;
+    }
+    if ((given("--clusters") && o.choose_clusters) || (given("--components") && o.choose_components))
+        throw CLI::ValidationError("auto", "needs --max-error, --bytes-per-vertex or --shader-ops");
+    if (!preset && !sizes && !given("--preset")) {
+        const CompressOptions word = preset_u32();
+        o.compress.clusters = word.clusters;
+        o.compress.cluster_bits = word.cluster_bits;
+        o.compress.fixed_bits = word.fixed_bits;
+        o.compress.components = word.components;
+    } else if (!preset && o.compress.weights != WeightFormat::packed && !given("--components")) {
+        o.compress.components = 8;
+    }
 }
 
 void add_evaluate(CLI::App& app, EvaluateArguments& a) {
     CLI::App* command =
         app.add_subcommand("evaluate", "Measure the error of a compressed file against its bake");
     command->add_option("baked", a.baked, "output of prt bake, the reference")->required();
-    command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")
-        ->required();
+    command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene");
     command
         ->add_option(
             "--lights", a.lights,
@@ -242,6 +331,11 @@ void add_evaluate(CLI::App& app, EvaluateArguments& a) {
             "a sun")
         ->type_name("FILE");
     add_light_options(command, a.light_options);
+    command->add_option("--rotations", a.rotations, "turn each light about +Y by this many equal angles")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 64));
+    command->add_flag("--sweep", a.sweep,
+                      "error against size and shader cost of this compressor and of those it came from; minutes");
     add_threads(command, a.threads);
     add_json(command, a.json);
     command->add_option("--html", a.html, "also write a report page to this file")->type_name("FILE");
@@ -367,6 +461,10 @@ std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
         app.parse(argc, argv);
         if (app.got_subcommand("render"))
             check_together(render);
+        if (app.got_subcommand("evaluate") && evaluate.shipped.empty() && !evaluate.sweep)
+            throw CLI::RequiredError("shipped, or --sweep");
+        if (app.got_subcommand("compress"))
+            resolve(*app.get_subcommand("compress"), compress);
         if (app.got_subcommand("bench") && bench.scene.empty() && !bench.classic)
             throw CLI::RequiredError("scene, or --classic");
     } catch (const CLI::Success& nothing_to_do) {

@@ -4,7 +4,7 @@
 
 #include "bench.h"
 #include "prt/bake.h"
-#include "prt/compress.h"
+#include "prt/search.h"
 #include "prt/image_file.h"
 #include "prt/light.h"
 #include "prt/tone_map.h"
@@ -38,15 +38,24 @@ struct BenchArguments {
     bool classic = false;
 };
 
+enum class MetricChoice { natural, plain };
+
 struct CompressArguments {
     Path baked, output, json;
-    CompressOptions options;
+    SearchOptions options; ///< without a budget `options.compress` says it all
+    MetricChoice metric = MetricChoice::natural;
+    std::vector<Path> lights; ///< to compress for, instead of `metric`
+    LightOptions light_options;
+    bool best_effort = false;
+    bool meshopt = false, reorder = false;
 };
 
 struct EvaluateArguments {
     Path baked, shipped, json, html;
     std::vector<Path> lights;
     LightOptions light_options;
+    int rotations = 1; ///< of each light about +Y
+    bool sweep = false;
     int threads = 0;
 };
 

@@ -1,9 +1,9 @@
 #include "commands.h"
 
 #include "inputs.h"
-#include "prt/compress.h"
 #include "prt/error.h"
 #include "prt/error_measures.h"
+#include "prt/search.h"
 #include "report.h"
 
 #include <fmt/core.h>
@@ -11,6 +11,58 @@
 #include <filesystem>
 
 namespace prt::cli {
+namespace {
+
+LightMetric chosen_metric(const CompressArguments& a, const Transfer& transfer) {
+    if (a.lights.empty())
+        return a.metric == MetricChoice::plain ? plain_metric(transfer.order, transfer.channels)
+                                               : natural_metric(transfer.order, transfer.channels);
+    std::vector<Light> lights;
+    for (const Path& path : a.lights)
+        lights.push_back(load_light(path, transfer.order, a.light_options, a.options.compress.threads).light);
+    return metric_of_lights(lights, transfer.order, transfer.channels);
+}
+
+/// "error 0.012, 5.1 bytes per vertex, 6.2 shader operations"
+std::string in_words(const CompressStatistics& s, std::size_t receivers) {
+    return fmt::format("lit_rms {:.4g}, {:.2f} bytes per vertex, {:.2f} shader operations", s.lit_rms,
+                       s.bytes_with_bases(receivers), s.mean_components);
+}
+
+struct Outcome {
+    CompressResult result;
+    std::vector<SearchTrial> trials;
+};
+
+Outcome run_compressor(const CompressArguments& a, const Model& model, const SearchOptions& options,
+                       Interrupt& interrupt) {
+    const Transfer& transfer = model.baked->transfer;
+    const std::vector<float> areas = receiver_areas(model.scene);
+    const CompressOptions& o = options.compress;
+    const std::vector<Edge> edges =
+        o.seam_weight > 0 || o.potts_weight > 0 ? mesh_edges(model.scene) : std::vector<Edge>{};
+    ProgressBar bar("compressing", interrupt.token());
+    if (!options.budget.any())
+        return {compress(transfer, areas, edges, o, bar.progress()), {}};
+    SearchResult found = compress_within(transfer, areas, edges, options, bar.progress());
+    if (!found.kept && !a.best_effort)
+        throw Error(a.baked.string() + ": nothing keeps the budget; the nearest has " +
+                    in_words(found.result.statistics, transfer.receivers()) + " (--best-effort writes it)");
+    return {std::move(found.result), std::move(found.trials)};
+}
+
+Json trials_json(const std::vector<SearchTrial>& trials) {
+    Json list = Json::array();
+    for (const SearchTrial& t : trials)
+        list.push_back({{"clusters", t.clusters},
+                        {"payload_bytes", t.payload_bytes},
+                        {"lit_rms", t.lit_rms},
+                        {"bytes_per_vertex_with_bases", t.bytes_per_vertex},
+                        {"shader_operations", t.mean_components}});
+    return list;
+}
+
+} // namespace
 
 void run(const CompressArguments& a, Interrupt& interrupt) {
     Model model = load_model(a.baked);
@@ -19,44 +71,54 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
                                             ? ": is compressed already; compress the bake it came from"
                                             : ": holds no transfer; run prt bake first"));
     const Transfer& transfer = model.baked->transfer;
-    const std::vector<float> areas = receiver_areas(model.scene);
-    CompressResult result;
-    {
-        ProgressBar bar("compressing", interrupt.token());
-        result = compress(transfer, areas, a.options, bar.progress());
-    }
-    write_clustered(model.document, model.scene, {result.transfer, model.baked->record});
+    SearchOptions options = a.options;
+    options.compress.metric = chosen_metric(a, transfer);
+    options.compress.components =
+        std::min(options.compress.components, static_cast<int>(transfer.dimension()));
+    const Outcome outcome = run_compressor(a, model, options, interrupt);
+    write_clustered(model.document, model.scene, {outcome.result.transfer, model.baked->record});
     {
         const Interrupt::WritingScope writing(interrupt);
         save_glb(model.document, a.output);
     }
-    // The figure is that of the file, not of what was meant to be written.
+    // The figures are those of the file, not of what was meant to be written.
     const Model written = load_model(a.output);
-    CompressStatistics& s = result.statistics;
-    s.relative_l2 = relative_l2(transfer, decode(written.compressed->transfer), areas);
+    const ClusteredTransfer& coded = written.compressed->transfer;
+    const Transfer decoded = decode(coded, options.compress.threads);
+    const std::vector<float> areas = receiver_areas(model.scene);
+    CompressStatistics s = outcome.result.statistics;
+    s.lit_rms = expected_lit_rms(transfer, decoded, areas, *options.compress.metric, options.compress.threads);
+    const double l2 = relative_l2(transfer, decoded, areas);
 
-    const auto uncompressed = static_cast<double>(transfer.dimension() * sizeof(float));
-    const auto receivers = static_cast<double>(transfer.receivers());
-    const double with_bases =
-        static_cast<double>(s.bytes_per_receiver) + static_cast<double>(s.basis_bytes) / receivers;
-    fmt::print("{}: {} clusters x {} components, relative L2 {:.3f} %\n", a.output.string(), s.clusters,
-               written.compressed->transfer.bases.max_components(), 100 * s.relative_l2);
-    fmt::print("  {} bytes per vertex of {:g}, {:.2f} with the bases\n", s.bytes_per_receiver, uncompressed,
-               with_bases);
-    fmt::print("  {:.2f} s, {} rounds\n", s.seconds, s.relative_l2_by_iteration.size());
+    const std::size_t receivers = transfer.receivers();
+    const std::size_t uncompressed = transfer.dimension() * sizeof(float);
+    const std::size_t constants = constant_rows(coded.bases) * sizeof(glm::vec4);
+    fmt::print("{}: {} clusters x {:.2f} components, lit_rms {:.3f} %, relative L2 {:.3f} %\n", a.output.string(),
+               s.clusters, s.mean_components, 100 * s.lit_rms, 100 * l2);
+    fmt::print("  {} bytes per vertex of {}, {:.2f} with the bases\n", s.bytes_per_receiver, uncompressed,
+               s.bytes_with_bases(receivers));
+    fmt::print("  GPU: {} bytes of attributes, {} of bases, {} of constants per lighting; uncompressed {}\n",
+               s.bytes_per_receiver * receivers, s.basis_bytes, constants, uncompressed * receivers);
+    fmt::print("  {:.2f} s\n", s.seconds);
     write_json({{"output", a.output.string()},
                 {"order", transfer.order},
                 {"channels", transfer.channels},
-                {"receivers", transfer.receivers()},
+                {"receivers", receivers},
                 {"clusters", s.clusters},
-                {"components", written.compressed->transfer.bases.max_components()},
-                {"relative_l2", s.relative_l2},
-                {"relative_l2_by_iteration", s.relative_l2_by_iteration},
+                {"components_most", coded.bases.max_components()},
+                {"components_mean", s.mean_components},
+                {"lit_rms", s.lit_rms},
+                {"relative_l2", l2},
+                {"lit_rms_by_iteration", s.lit_rms_by_iteration},
                 {"bytes_per_vertex", s.bytes_per_receiver},
-                {"bytes_per_vertex_with_bases", with_bases},
+                {"bytes_per_vertex_with_bases", s.bytes_with_bases(receivers)},
                 {"bytes_per_vertex_uncompressed", uncompressed},
+                {"bytes_attributes", s.bytes_per_receiver * receivers},
                 {"bytes_bases", s.basis_bytes},
+                {"bytes_constants", constants},
+                {"bytes_uncompressed", uncompressed * receivers},
                 {"bytes_output", std::filesystem::file_size(a.output)},
+                {"trials", trials_json(outcome.trials)},
                 {"seconds", s.seconds}},
                a.json, interrupt);
 }

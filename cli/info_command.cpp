@@ -49,19 +49,23 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
     if (model.compressed) {
         const ClusteredTransfer& t = model.compressed->transfer;
         const auto [least, most] = std::minmax_element(t.bases.components.begin(), t.bases.components.end());
-        const std::size_t bits = 8 * bytes_per_weight(t.receivers.format);
+        const bool packed = t.receivers.format == WeightFormat::packed;
+        const std::size_t bits = packed ? 0 : 8 * bytes_per_weight(t.receivers.format);
         fmt::print(
-            "  clustered PCA: order {}, {} channels, {} clusters x {} to {} components, {}-bit weights\n",
-            t.bases.order, t.bases.channels, t.bases.clusters(), *least, *most, bits);
+            "  clustered PCA: order {}, {} channels, {} clusters x {} to {} components, {}\n",
+            t.bases.order, t.bases.channels, t.bases.clusters(), *least, *most,
+            packed ? fmt::format("{} packed bytes per vertex", bytes_per_receiver(t))
+                   : fmt::format("{}-bit weights", bits));
         fmt::print("  {} bytes of bases, {} shader constants per frame\n", basis_bytes(t.bases),
-                   t.bases.clusters() * static_cast<std::size_t>(constants_per_cluster(t.bases)));
+                   constant_rows(t.bases));
         describe_record(model.compressed->record);
         report["clustered_pca"] = {{"order", t.bases.order},
                                    {"channels", t.bases.channels},
                                    {"clusters", t.bases.clusters()},
                                    {"components_least", *least},
                                    {"components_most", *most},
-                                   {"bits_per_weight", bits},
+                                   {"weights", packed ? "packed" : std::to_string(bits)},
+                                   {"bytes_per_vertex", bytes_per_receiver(t)},
                                    {"bytes_bases", basis_bytes(t.bases)},
                                    {"bake", bake_record_json(model.compressed->record)}};
     }

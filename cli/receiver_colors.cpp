@@ -60,7 +60,7 @@ std::vector<glm::vec3> error_colors(const Model& model, const Model& baked, cons
     const std::vector<float> areas = receiver_areas(baked.scene);
     const std::vector<glm::vec3> reference = exit_radiance(baked.baked->transfer, light, threads);
     const std::vector<glm::vec3> approximation = lit_colors(model, light, threads);
-    const double mean = lit_error(reference, approximation, areas, baked.scene, std::nullopt).mean;
+    const double mean = lit_error(reference, approximation, areas, {}, std::nullopt).mean;
     std::vector<glm::vec3> colors;
     for (std::size_t p = 0; p < reference.size(); ++p) {
         const glm::vec3 d = glm::abs(reference[p] - approximation[p]);

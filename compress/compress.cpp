@@ -1,204 +1,293 @@
 #include "prt/compress.h"
 
+#include "clustering.h"
 #include "encode.h"
-#include "kmeans.h"
-#include "local_pca.h"
 #include "prt/error.h"
-#include "prt/parallel.h"
 #include "prt/sh.h"
 #include "prt/stopwatch.h"
+#include "receiver_weights.h"
+#include "seams.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <string>
 
 namespace prt {
 namespace {
 
-void check(const Transfer& transfer, const CompressOptions& options) {
+constexpr int kMostPackedBits = 240; // eight words, less the cluster
+
+[[noreturn]] void out_of_range(const std::string& what, double value) {
+    std::string number = std::to_string(value);
+    number.erase(number.find_last_not_of('0') + 1);
+    if (number.back() == '.')
+        number.pop_back();
+    throw Error(what + ", not " + number);
+}
+
+void check(const Transfer& transfer, std::span<const float> areas, const CompressOptions& o) {
     check_order(transfer.order);
-    if (options.clusters < 1 || options.clusters > 65536)
-        throw Error("clusters must lie in 1..65536, not " + std::to_string(options.clusters));
-    if (options.components < 0 || static_cast<std::size_t>(options.components) > transfer.dimension())
-        throw Error("components must lie in 0.." + std::to_string(transfer.dimension()) +
-                    ", the dimension of the transfer vectors, not " + std::to_string(options.components));
+    if (o.clusters < 1 || o.clusters > 65536)
+        out_of_range("clusters must lie in 1..65536", o.clusters);
+    if (o.components < 0 || static_cast<std::size_t>(o.components) > transfer.dimension())
+        out_of_range("components must lie in 0.." + std::to_string(transfer.dimension()) +
+                         ", the dimension of the transfer vectors",
+                     o.components);
+    if (!(o.mean_components >= 0))
+        out_of_range("components per vertex must not be negative", o.mean_components);
+    if (o.weights == WeightFormat::packed) {
+        if (o.components > kMostPackedComponents)
+            out_of_range("packed weights have at most " + std::to_string(kMostPackedComponents) + " components",
+                         o.components);
+        if (o.fixed_bits.empty() && (o.bits < 0 || o.bits > kMostPackedBits))
+            out_of_range("bits of a vertex's weights must lie in 0.." + std::to_string(kMostPackedBits), o.bits);
+        for (const int bits : o.fixed_bits)
+            if (bits < 1 || bits > kMostBits)
+                out_of_range("bits of a weight must lie in 1.." + std::to_string(kMostBits), bits);
+        if (o.cluster_bits < 0 || o.cluster_bits > 16 || (o.cluster_bits > 0 && o.clusters > 1 << o.cluster_bits))
+            throw Error(std::to_string(o.clusters) + " clusters do not fit " + std::to_string(o.cluster_bits) +
+                        " bits");
+    }
+    if (!(o.seam_weight >= 0) || !(o.potts_weight >= 0))
+        out_of_range("seam weights must not be negative", std::min(o.seam_weight, o.potts_weight));
+    if (!(o.basis_share >= 0 && o.basis_share < 1))
+        out_of_range("the share of the bases must lie in 0..1", o.basis_share);
+    if (o.metric && (o.metric->order != transfer.order || o.metric->channels != transfer.channels))
+        throw Error("the metric has another order or other channels than the transfer");
     if (transfer.receivers() == 0)
         throw Error("there are no receivers to compress");
-    if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(),
-                     [](float v) { return std::isfinite(v); }))
+    if (areas.size() != transfer.receivers())
+        throw Error("there are areas for " + std::to_string(areas.size()) + " receivers of " +
+                    std::to_string(transfer.receivers()));
+    if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(), [](float v) { return std::isfinite(v); }))
         throw Error("the transfer holds values that are not finite");
 }
 
-/// Receivers that count, and their weights. Where no receiver has an area all count alike.
-struct Training {
-    std::vector<std::uint32_t> receivers;
-    std::vector<float> weights;
+Spending spending_of(const CompressOptions& o) {
+    Spending spending;
+    spending.most_components = o.components;
+    if (o.weights != WeightFormat::packed)
+        return spending;
+    spending.bits = o.bits;
+    spending.fixed_bits = o.fixed_bits;
+    if (!o.fixed_bits.empty())
+        spending.most_components = std::min(o.components, static_cast<int>(o.fixed_bits.size()));
+    else if (o.bits == 0)
+        spending.most_components = 0;
+    return spending;
+}
 
-    explicit Training(std::span<const float> areas) {
-        for (std::uint32_t p = 0; p < areas.size(); ++p)
-            if (areas[p] > 0) {
-                receivers.push_back(p);
-                weights.push_back(areas[p]);
-            }
-        if (receivers.empty()) {
-            receivers.resize(areas.size());
-            std::iota(receivers.begin(), receivers.end(), 0u);
-            weights.assign(areas.size(), 1.0f);
-        }
+float half_of(WeightFormat format) {
+    switch (format) {
+    case WeightFormat::snorm8:
+        return 127;
+    case WeightFormat::snorm16:
+        return 32767;
+    case WeightFormat::float32:
+    case WeightFormat::packed:
+        break;
     }
+    return 0; // free, or by the bits of each cluster
+}
+
+/// Points in a frame, and the clusters found there.
+struct Clustered {
+    Frame frame;
+    PointBlocks points;
+    Clustering clustering;
 };
 
-/// Weighted squared distance of all points to their clusters, in double, summed in a fixed order.
-double exact_error(const PointBlocks& points, std::span<const float> weights, const ClusterModels& models,
-                   std::span<const std::uint32_t> clusters, int threads) {
-    constexpr std::size_t kGrain = 1024;
-    std::vector<double> sums((points.count + kGrain - 1) / kGrain, 0);
-    parallel_for(points.count, kGrain, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<double> w(models.max_components);
-        for (std::size_t p = begin; p < end; ++p)
-            sums[begin / kGrain] +=
-                static_cast<double>(weights[p]) * project_point(points, p, models, clusters[p], w);
-    });
-    return std::accumulate(sums.begin(), sums.end(), 0.0);
-}
-
-/// Which of `count` clusters have points.
-std::vector<bool> clusters_in_use(std::span<const std::uint32_t> clusters, std::size_t count) {
-    std::vector<bool> used(count, false);
-    for (const std::uint32_t k : clusters)
-        used[k] = true;
-    return used;
-}
-
-/// Moves clusters that lost all their points to the points that are coded worst. Returns whether any moved.
-bool revive_empty(const PointBlocks& points, std::span<const float> weights, const Assignment& assignment,
-                  ClusterModels& models) {
-    const std::vector<bool> used = clusters_in_use(assignment.clusters, models.clusters());
-    const auto empty = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
-    if (empty == 0)
-        return false;
-    std::vector<std::uint32_t> worst(points.count);
-    std::iota(worst.begin(), worst.end(), 0u);
-    const std::size_t wanted = std::min(empty, points.count);
-    std::partial_sort(worst.begin(), worst.begin() + static_cast<std::ptrdiff_t>(wanted), worst.end(),
-                      [&](std::uint32_t a, std::uint32_t b) {
-                          const float ea = weights[a] * assignment.errors[a],
-                                      eb = weights[b] * assignment.errors[b];
-                          return ea != eb ? ea > eb : a < b;
-                      });
-    std::size_t next = 0;
-    for (std::size_t k = 0; k < models.clusters() && next < wanted; ++k) {
-        if (used[k] || !(assignment.errors[worst[next]] > 0))
-            continue;
-        points.copy_point(worst[next], models.mean(k));
-        models.components[k] = 0;
-        ++next;
+/// Axes that carry less than a hundredth of the error that will be left are left out. That is known only
+/// afterwards: a frame that turns out too coarse is made anew.
+Clustered cluster(const Transfer& transfer, std::span<const float> weights, const LightMetric& metric,
+                  const CompressOptions& options, const Progress& progress) {
+    ClusteringOptions how;
+    how.clusters = static_cast<std::size_t>(options.clusters);
+    how.spending = spending_of(options);
+    how.mean_components = options.mean_components;
+    how.rows_cost = options.weights == WeightFormat::packed && options.basis_share > 0;
+    how.threads = options.threads;
+    double most_dropped = options.weights == WeightFormat::float32 || !(options.basis_share > 0) ? 0 : 1e-7;
+    for (;;) {
+        Frame frame = fit_frame(transfer, weights, metric, most_dropped, options.threads);
+        PointBlocks points(transfer, frame, options.threads);
+        std::mt19937_64 random(options.seed);
+        Clustering found = cluster_points(points, weights, how, random, progress);
+        if (!(frame.dropped > 0.04 * found.cost) || most_dropped == 0)
+            return {std::move(frame), std::move(points), std::move(found)};
+        most_dropped = std::max(0.01 * found.cost, 1e-13);
+        if (found.cost < 1e-11)
+            most_dropped = 0;
     }
-    return next > 0;
 }
 
-/// Clustered PCA from vector quantisation: fit every cluster's subspace, give every point the nearest,
-/// repeat. Directions come one at a time, two rounds each, which finds better optima than starting with all
-/// of them; then rounds at the full number until nothing is gained. Returns relative L2 errors of the latter
-/// rounds.
-std::vector<double> iterate(const PointBlocks& points, std::span<const float> weights,
-                            const CompressOptions& options, ClusterModels& models,
-                            std::vector<std::uint32_t>& clusters, const Progress& progress) {
-    double norm = 0;
-    for (std::size_t p = 0; p < points.count; ++p)
-        for (std::size_t i = 0; i < points.dimension; ++i)
-            norm += static_cast<double>(weights[p]) * static_cast<double>(points.coordinate(p, i)) *
-                    static_cast<double>(points.coordinate(p, i));
-    clusters = assign(points, models, options.threads).clusters;
-    const int growing_rounds = 2 * std::max(0, options.components - 1);
-    const int expected_rounds = growing_rounds + 40;
+/// The step of the bases at which rounding adds `share` of the squared error `error`: a receiver's code is the sum
+/// of its mean and of m rows times weights of mean square about 0.2, which are rounded to twice the step.
+double basis_step(const QuantisedModels& models, double error, double share) {
+    double rows = 0, largest = 0;
+    for (const int m : models.components)
+        rows += 1 + 0.8 * m;
+    for (const float v : models.means)
+        largest = std::max(largest, static_cast<double>(std::abs(v)));
+    for (const float v : models.rows)
+        largest = std::max(largest, static_cast<double>(std::abs(v)) / 2);
+    const double noise = static_cast<double>(models.dimension) * rows / static_cast<double>(models.clusters()) / 12;
+    const double most = static_cast<double>(1 << (kMostRowBits - 1)) - 1;
+    return std::max({noise > 0 ? std::sqrt(share * error / noise) : 0.0, largest / most, 1e-30});
+}
 
-    std::vector<double> history;
-    double least = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < growing_rounds + options.max_iterations; ++round) {
-        progress.update(std::min(0.99, static_cast<double>(round) / expected_rounds));
-        const bool growing = round < growing_rounds;
-        ClusterModels fitted = models;
-        fit_local_pca(points, weights, clusters, growing ? 1 + round / 2 : options.components, fitted,
-                      options.threads);
-        if (growing) {
-            models = std::move(fitted);
-        } else {
-            const double error = exact_error(points, weights, fitted, clusters, options.threads);
-            if (error > least)
-                break; // rounding: nothing left to gain
-            models = std::move(fitted);
-            history.push_back(norm > 0 ? std::sqrt(error / norm) : 0);
-            const bool converged = error >= least * (1 - options.tolerance);
-            least = error;
-            if (error == 0 || converged || round + 1 == growing_rounds + options.max_iterations)
-                break;
-        }
-        Assignment next = assign(points, models, options.threads);
-        if (revive_empty(points, weights, next, models))
-            next = assign(points, models, options.threads);
-        clusters = std::move(next.clusters);
+/// The same clusters over fewer axes.
+QuantisedModels truncated(const QuantisedModels& models, std::size_t dimension) {
+    QuantisedModels result = models;
+    result.dimension = dimension;
+    const auto keep = [&](std::vector<float>& rows) {
+        std::vector<float> kept;
+        for (std::size_t first = 0; first < rows.size(); first += models.dimension)
+            kept.insert(kept.end(), rows.begin() + static_cast<std::ptrdiff_t>(first),
+                        rows.begin() + static_cast<std::ptrdiff_t>(first + dimension));
+        rows = std::move(kept);
+    };
+    if (models.dimension > 0) {
+        keep(result.means);
+        keep(result.rows);
     }
-    return history;
+    return result;
 }
 
-/// Takes out clusters without points and renumbers the others.
-void drop_empty(ClusterModels& models, std::vector<std::uint32_t>& clusters) {
+/// Axes without which the squared error grows by at most `most`.
+std::size_t axes_needed(const Frame& frame, double most) {
+    std::size_t axes = frame.dimension;
+    double dropped = frame.dropped;
+    while (axes > 0 && dropped + frame.variances[axes - 1] <= most)
+        dropped += frame.variances[--axes];
+    return axes;
+}
+
+/// Clusters without receivers take no place in the file.
+void drop_empty(QuantisedModels& models, Codes& codes) {
     std::vector<std::uint32_t> new_index(models.clusters(), 0);
-    const std::vector<bool> used = clusters_in_use(clusters, models.clusters());
-    ClusterModels kept(static_cast<std::size_t>(std::count(used.begin(), used.end(), true)), models.dimension,
-                       models.max_components);
-    std::uint32_t next = 0;
+    for (const std::uint32_t k : codes.clusters)
+        new_index[k] = 1;
+    std::uint32_t kept = 0;
     for (std::size_t k = 0; k < models.clusters(); ++k) {
-        if (!used[k])
+        if (!new_index[k])
             continue;
-        std::copy_n(models.mean(k), models.dimension, kept.mean(next));
-        std::copy_n(models.directions.begin() +
-                        static_cast<std::ptrdiff_t>(k * models.max_components * models.dimension),
-                    models.max_components * models.dimension,
-                    kept.directions.begin() +
-                        static_cast<std::ptrdiff_t>(next * models.max_components * models.dimension));
-        kept.components[next] = models.components[k];
-        new_index[k] = next++;
+        std::copy_n(models.mean(k), models.dimension, models.mean(kept));
+        if (models.max_components > 0) {
+            std::copy_n(models.row(k, 0), models.max_components * models.dimension, models.row(kept, 0));
+            std::copy_n(&models.halves[k * models.max_components], models.max_components,
+                        &models.halves[kept * models.max_components]);
+        }
+        models.components[kept] = models.components[k];
+        new_index[k] = kept++;
     }
-    for (std::uint32_t& k : clusters)
+    models.components.resize(kept);
+    for (std::uint32_t& k : codes.clusters)
         k = new_index[k];
-    models = std::move(kept);
+}
+
+struct Quantised {
+    QuantisedModels models;
+    Codes codes;
+    double step = 0;
+};
+
+/// Alternates codes, given the clusters, and clusters, given the codes; from the third round on with the bases
+/// rounded as they will be written.
+void alternate(const PointBlocks& points, std::span<const float> weights, const CompressOptions& options,
+               const Progress& progress, Quantised& q) {
+    constexpr int kRounds = 6, kRoundedFrom = 2;
+    constexpr std::size_t kNeighbours = 16;
+    // Where the mean number of components is promised receivers stay where they are.
+    const std::size_t near = options.mean_components > 0 ? 1 : kNeighbours;
+    if (options.weights == WeightFormat::float32)
+        return;
+    for (int round = 0; round < kRounds; ++round) {
+        progress.update(0.7 + 0.04 * round);
+        refit(points, weights, q.codes, q.models, options.threads);
+        if (round >= kRoundedFrom && options.basis_share > 0) {
+            q.step = basis_step(q.models, total_error(weights, q.codes.errors), options.basis_share);
+            round_rows(q.models, q.step);
+        }
+        encode_points(points, q.models, neighbour_clusters(q.models, near, options.threads), q.codes,
+                      options.threads);
+    }
+}
+
+double mean_components(const ClusteredTransfer& transfer) {
+    double sum = 0;
+    for (const std::uint16_t k : transfer.receivers.clusters)
+        sum += transfer.bases.components[k];
+    return sum / static_cast<double>(transfer.receivers.size());
 }
 
 } // namespace
 
-CompressResult compress(const Transfer& transfer, std::span<const float> areas,
+CompressOptions preset_u32() {
+    CompressOptions options;
+    options.clusters = 256;
+    options.cluster_bits = 8;
+    options.fixed_bits = {7, 6, 6, 5};
+    options.components = 4;
+    return options;
+}
+
+CompressOptions preset_u64() {
+    CompressOptions options = preset_u32();
+    options.fixed_bits = {9, 8, 7, 7, 6, 6, 5, 4, 4};
+    options.components = 9;
+    return options;
+}
+
+CompressResult compress(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
                         const CompressOptions& options, const Progress& progress) {
-    check(transfer, options);
+    check(transfer, areas, options);
     const Stopwatch stopwatch;
-    const Training training(areas);
-    const PointBlocks points(transfer, training.receivers);
-    std::mt19937_64 random(options.seed);
-    ClusterModels models =
-        vector_quantise(points, training.weights, static_cast<std::size_t>(options.clusters),
-                        static_cast<std::size_t>(options.components), random, options.threads, progress);
+    const std::vector<float> weights = receiver_weights(areas);
+    const LightMetric metric =
+        options.metric ? *options.metric : natural_metric(transfer.order, transfer.channels);
+
+    auto found = std::make_unique<Clustered>(cluster(transfer, weights, metric, options, progress));
     CompressResult result;
-    std::vector<std::uint32_t> clusters;
-    result.statistics.relative_l2_by_iteration =
-        iterate(points, training.weights, options, models, clusters, progress);
-    drop_empty(models, clusters);
+    for (const double error : found->clustering.history)
+        result.statistics.lit_rms_by_iteration.push_back(std::sqrt(error + found->frame.dropped));
+    Quantised q;
+    q.models = quantised_models(found->points, weights, found->clustering,
+                                options.weights == WeightFormat::float32, half_of(options.weights), options.threads);
+    q.codes.clusters = found->clustering.clusters;
+    encode_points(found->points, q.models, neighbour_clusters(q.models, options.mean_components > 0 ? 1 : 16, options.threads),
+                  q.codes, options.threads);
 
-    // Receivers that do not count still need some code.
-    std::vector<std::uint32_t> everyone(transfer.receivers());
-    std::iota(everyone.begin(), everyone.end(), 0u);
-    const PointBlocks all(transfer, everyone);
-    std::vector<std::uint32_t> all_clusters = assign(all, models, options.threads).clusters;
-    for (std::size_t i = 0; i < clusters.size(); ++i)
-        all_clusters[training.receivers[i]] = clusters[i];
-    result.transfer = encode(all, models, all_clusters, transfer, options.weights);
+    Frame frame = std::move(found->frame);
+    CodedBases coded_frame;
+    const bool coded = options.weights != WeightFormat::float32 && options.basis_share > 0;
+    if (coded) {
+        const double error = total_error(weights, q.codes.errors);
+        truncate(frame, axes_needed(frame, 0.01 * error));
+        coded_frame = code_frame(frame, metric, 0.02 * error);
+        q.models = truncated(q.models, frame.dimension);
+    }
+    const PointBlocks points = coded ? PointBlocks(transfer, frame, options.threads) : std::move(found->points);
+    found.reset();
+    if (coded)
+        encode_points(points, q.models, neighbour_clusters(q.models, 1, options.threads), q.codes, options.threads);
+    alternate(points, weights, options, progress, q);
+    if ((options.seam_weight > 0 || options.potts_weight > 0) && !edges.empty())
+        smooth_seams(points, weights, edges, q.models, {options.seam_weight, options.potts_weight, options.threads},
+                     q.codes);
+    drop_empty(q.models, q.codes);
+    progress.update(0.95);
+    result.transfer = encode(frame, coded_frame, q.models, q.codes, {options.weights, options.cluster_bits, q.step});
 
-    const ClusteredTransfer& coded = result.transfer;
     CompressStatistics& statistics = result.statistics;
-    statistics.clusters = static_cast<int>(coded.bases.clusters());
-    statistics.bytes_per_receiver = bytes_per_receiver(coded);
-    statistics.basis_bytes = basis_bytes(coded.bases);
+    statistics.clusters = static_cast<int>(result.transfer.bases.clusters());
+    statistics.mean_components = mean_components(result.transfer);
+    statistics.bytes_per_receiver = bytes_per_receiver(result.transfer);
+    statistics.basis_bytes = basis_bytes(result.transfer.bases);
+    statistics.lit_rms = expected_lit_rms(transfer, decode(result.transfer, options.threads), areas, metric, options.threads);
     statistics.seconds = stopwatch.seconds();
     progress.update(1);
     return result;

@@ -1,13 +1,25 @@
 #pragma once
 
-#include "points.h"
+#include "frame.h"
 #include "prt/clustered_transfer.h"
+#include "quantised_models.h"
 
 namespace prt {
 
-/// Weights of every point in its cluster, stored as `format`; `shape` gives order and channels. Integers use
-/// the largest weight of a cluster's direction as its scale.
-ClusteredTransfer encode(const PointBlocks& points, const ClusterModels& models,
-                         std::span<const std::uint32_t> clusters, const Transfer& shape, WeightFormat format);
+/// How the finished clusters are written.
+struct Encoding {
+    WeightFormat format = WeightFormat::packed;
+    int cluster_bits = 0; ///< 0: as few as do
+    double step = 0;      ///< models were rounded to it and are written in code; 0: as float32
+};
+
+/// The frame as a file holds it: its axes are rounded so that this adds a squared error of about `most_error`, were
+/// it not made good by the coordinates. `frame` then holds the rounded axes, and the analysis that belongs to them.
+CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error);
+
+/// The transfer that `models` and `codes` stand for in the space of `frame`. `coded_frame` is what code_frame
+/// made of it, where there is a step.
+ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedModels& models,
+                         const Codes& codes, const Encoding& encoding);
 
 } // namespace prt

@@ -47,6 +47,7 @@ ClusterModels seed_centers(const PointBlocks& points, std::span<const float> wei
         lower_to_distance(points, models.mean(found), errors, threads);
     }
     models.components.resize(found);
+    models.penalties.resize(found);
     models.means.resize(found * points.dimension);
     models.directions.resize(found * max_components * points.dimension);
     return models;

@@ -3,6 +3,8 @@
 #include "prt/parallel.h"
 #include "prt/vector_lanes.h"
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -54,7 +56,8 @@ void nearest_of_block(const float* block, const ClusterModels& models, std::uint
         const Lanes distance =
             squared_distance(block, models.dimension, &models.means[k * models.dimension],
                              models.directions.data() + k * models.max_components * models.dimension,
-                             static_cast<std::size_t>(models.components[k]));
+                             static_cast<std::size_t>(models.components[k])) +
+            models.penalties[k];
         for (std::size_t lane = 0; lane < kLanes; ++lane) {
             const bool nearer = distance[lane] < errors[lane];
             errors[lane] = nearer ? distance[lane] : errors[lane];
@@ -72,15 +75,26 @@ void distances_of_block(const float* block, std::size_t dimension, const float* 
 
 } // namespace
 
-PointBlocks::PointBlocks(const Transfer& transfer, std::span<const std::uint32_t> receivers)
-    : count(receivers.size()), dimension(transfer.dimension()) {
+PointBlocks::PointBlocks(const Transfer& transfer, const Frame& frame, int threads)
+    : count(transfer.receivers()), dimension(frame.dimension) {
     values.resize(blocks() * dimension * kLanes);
-    for (std::size_t p = 0; p < blocks() * kLanes; ++p) {
-        const std::size_t source = p < count ? p : p / kLanes * kLanes;
-        const std::span<const float> vector = transfer.vector(receivers[source]);
-        for (std::size_t i = 0; i < dimension; ++i)
-            values[(p / kLanes * dimension + i) * kLanes + p % kLanes] = vector[i];
-    }
+    parallel_for(blocks(), 64, threads, [&](std::size_t begin, std::size_t end) {
+        const auto full = static_cast<Eigen::Index>(frame.full()),
+                   kept = static_cast<Eigen::Index>(dimension);
+        const Eigen::Map<const Eigen::MatrixXd> analysis(frame.analysis.data(), full, kept);
+        const Eigen::Map<const Eigen::VectorXd> origin(frame.origin.data(), full);
+        Eigen::MatrixXd vectors(full, static_cast<Eigen::Index>(kLanes));
+        for (std::size_t b = begin; b < end; ++b) {
+            for (std::size_t lane = 0; lane < kLanes; ++lane) {
+                const std::size_t p = b * kLanes + lane < count ? b * kLanes + lane : b * kLanes;
+                const Eigen::Map<const Eigen::VectorXf> vector(transfer.vector(p).data(), full);
+                vectors.col(static_cast<Eigen::Index>(lane)) = vector.cast<double>() - origin;
+            }
+            Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+                &values[b * dimension * kLanes], kept, static_cast<Eigen::Index>(kLanes)) =
+                (analysis.transpose() * vectors).cast<float>();
+        }
+    });
 }
 
 Assignment assign(const PointBlocks& points, const ClusterModels& models, int threads) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "frame.h"
 #include "prt/transfer.h"
 #include "prt/vector_lanes.h"
 
@@ -12,13 +13,13 @@ namespace prt {
 /// Points that are worked on together: one per vector lane.
 inline constexpr std::size_t kLanes = kLaneCount;
 
-/// Transfer vectors as points of a Euclidean space, laid out for vector units: blocks of kLanes points, in
+/// Transfer vectors as points of the space of a frame, laid out for vector units: blocks of kLanes points, in
 /// each block coordinate by coordinate. The last block is filled up with copies of its first point.
 struct PointBlocks {
     std::size_t count = 0, dimension = 0;
     std::vector<float> values; ///< [blocks][dimension][kLanes]
 
-    PointBlocks(const Transfer& transfer, std::span<const std::uint32_t> receivers);
+    PointBlocks(const Transfer& transfer, const Frame& frame, int threads);
 
     std::size_t blocks() const { return (count + kLanes - 1) / kLanes; }
     const float* block(std::size_t b) const { return &values[b * dimension * kLanes]; }
@@ -38,10 +39,12 @@ struct ClusterModels {
     std::vector<float> means;      ///< [clusters][dimension]
     std::vector<float> directions; ///< [clusters][max_components][dimension]
     std::vector<int> components;   ///< [clusters] directions in use
+    std::vector<float> penalties;  ///< [clusters] added to the squared distance of a point
 
     ClusterModels(std::size_t clusters, std::size_t dimensions, std::size_t components_at_most)
         : dimension(dimensions), max_components(components_at_most), means(clusters * dimensions),
-          directions(clusters * components_at_most * dimensions), components(clusters, 0) {}
+          directions(clusters * components_at_most * dimensions), components(clusters, 0),
+          penalties(clusters, 0.0f) {}
 
     std::size_t clusters() const { return components.size(); }
     float* mean(std::size_t k) { return &means[k * dimension]; }
@@ -56,10 +59,10 @@ struct ClusterModels {
 
 struct Assignment {
     std::vector<std::uint32_t> clusters; ///< [points]
-    std::vector<float> errors;           ///< [points] squared distance to the cluster's subspace
+    std::vector<float> errors;           ///< [points] squared distance to the cluster's subspace, and its penalty
 };
 
-/// Gives each point the cluster whose subspace is nearest; of equals the first.
+/// Gives each point the cluster whose subspace is nearest, penalties added; of equals the first.
 Assignment assign(const PointBlocks& points, const ClusterModels& models, int threads);
 
 /// Lowers `errors` [points] to the squared distance to `center` [dimension] where that is less.

@@ -12,8 +12,9 @@
 
 // Storage buffers.
 #define PRT_BINDING_CONSTANTS 0
+#define PRT_BINDING_CLUSTERS 1
 
-// The baker's.
+// The baker's; its programs are others.
 #define PRT_BINDING_NODES 1
 #define PRT_BINDING_CORNERS 2
 #define PRT_BINDING_SAMPLES 3

@@ -95,7 +95,7 @@ public:
     explicit GlRenderer(const Picture& picture) : picture_(picture), target_(picture) {
         if (picture.transfer) {
             transfer_.emplace(*picture.transfer);
-            transfer_->set_light(picture.transfer->bases,
+            transfer_->set_light(*picture.transfer,
                                  truncated(*picture.light, picture.transfer->bases.order));
         }
         program_ = make_program("scene.vert", "scene.frag", transfer_ ? transfer_->defines() : "");
@@ -196,7 +196,7 @@ private:
         glVertexAttrib4f(PRT_LOCATION_COLOR, 1, 1, 1, 1); // where there is no array
         glVertexAttrib2f(PRT_LOCATION_TEXCOORD, 0, 0);
         if (transfer_)
-            transfer_->use(program_.name());
+            transfer_->use();
     }
 
     bool is_blended(const Primitive& primitive) const {

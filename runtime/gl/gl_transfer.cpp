@@ -5,13 +5,18 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <string>
 
 namespace prt {
 namespace {
 
+constexpr int kMostPackedWords = 8; ///< two attributes of four words
+
 GLenum component_type(WeightFormat format) {
     switch (format) {
+    case WeightFormat::packed:
+        return GL_UNSIGNED_INT;
     case WeightFormat::snorm8:
         return GL_BYTE;
     case WeightFormat::snorm16:
@@ -26,56 +31,72 @@ GLenum component_type(WeightFormat format) {
 
 GlTransfer::GlTransfer(const ClusteredTransfer& transfer)
     : format_(transfer.receivers.format), weight_vectors_(transfer.receivers.components / 4),
-      constants_per_cluster_(constants_per_cluster(transfer.bases)) {
-    if (transfer.bases.max_components() > kMostVertexComponents)
+      words_(transfer.receivers.words), cluster_bits_(transfer.receivers.cluster_bits) {
+    if (format_ != WeightFormat::packed && transfer.bases.max_components() > kMostVertexComponents)
         throw Error(std::to_string(transfer.bases.max_components()) + " components do not fit the " +
                     std::to_string(kMostVertexComponents) + " of the vertex attributes");
+    if (words_ > kMostPackedWords)
+        throw Error(std::to_string(words_) + " words of packed weights do not fit the " +
+                    std::to_string(kMostPackedWords) + " of the vertex attributes");
     clusters_ = make_buffer(std::span<const std::uint16_t>(transfer.receivers.clusters));
     weights_ = make_buffer(std::span<const std::byte>(transfer.receivers.weights));
+    const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
+    layouts_ = make_buffer(std::span<const ClusterLayout>(layouts));
 }
 
 std::string GlTransfer::defines() const {
-    return "#define PRT_COMPRESSED\n#define PRT_WEIGHT_VECTORS " + std::to_string(weight_vectors_) + "\n";
+    std::string text = "#define PRT_COMPRESSED\n";
+    if (words_ > 0)
+        return text + "#define PRT_PACKED_WORDS " + std::to_string(words_) + "\n#define PRT_CLUSTER_BITS " +
+               std::to_string(cluster_bits_) + "u\n";
+    return text + "#define PRT_WEIGHT_VECTORS " + std::to_string(weight_vectors_) + "\n";
 }
 
-void GlTransfer::set_light(const ClusteredBases& bases, const Light& light) {
-    std::vector<glm::vec4> constants(bases.clusters() * static_cast<std::size_t>(constants_per_cluster_));
-    form_constants(bases, light, constants);
+void GlTransfer::set_light(const ClusteredTransfer& transfer, const Light& light) {
+    std::vector<glm::vec4> constants(constant_rows(transfer.bases));
+    form_constants(transfer, light, constants);
     constants_ = make_buffer(std::span<const glm::vec4>(constants));
 }
 
 void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {
     constexpr GLuint kClusterBinding = 8, kWeightBinding = 9;
-    glVertexArrayVertexBuffer(vertex_array, kClusterBinding, clusters_.name(),
-                              static_cast<GLintptr>(first * sizeof(std::uint16_t)), sizeof(std::uint16_t));
-    glEnableVertexArrayAttrib(vertex_array, PRT_LOCATION_CLUSTER);
-    glVertexArrayAttribIFormat(vertex_array, PRT_LOCATION_CLUSTER, 1, GL_UNSIGNED_SHORT, 0);
-    glVertexArrayAttribBinding(vertex_array, PRT_LOCATION_CLUSTER, kClusterBinding);
-    if (weight_vectors_ == 0)
+    if (words_ == 0) {
+        glVertexArrayVertexBuffer(vertex_array, kClusterBinding, clusters_.name(),
+                                  static_cast<GLintptr>(first * sizeof(std::uint16_t)), sizeof(std::uint16_t));
+        glEnableVertexArrayAttrib(vertex_array, PRT_LOCATION_CLUSTER);
+        glVertexArrayAttribIFormat(vertex_array, PRT_LOCATION_CLUSTER, 1, GL_UNSIGNED_SHORT, 0);
+        glVertexArrayAttribBinding(vertex_array, PRT_LOCATION_CLUSTER, kClusterBinding);
+    }
+    const int attributes = words_ > 0 ? (words_ + 3) / 4 : weight_vectors_;
+    if (attributes == 0)
         return;
-    const std::size_t size = 4 * bytes_per_weight(format_),
-                      stride = size * static_cast<std::size_t>(weight_vectors_);
+    const std::size_t size = words_ > 0 ? 16 : 4 * bytes_per_weight(format_),
+                      stride = words_ > 0 ? 4 * static_cast<std::size_t>(words_)
+                                          : size * static_cast<std::size_t>(weight_vectors_);
     glVertexArrayVertexBuffer(vertex_array, kWeightBinding, weights_.name(),
                               static_cast<GLintptr>(first * stride), static_cast<GLsizei>(stride));
-    for (int v = 0; v < weight_vectors_; ++v) {
+    for (int v = 0; v < attributes; ++v) {
         const auto location = static_cast<GLuint>(PRT_LOCATION_WEIGHTS + v);
+        const auto offset = static_cast<GLuint>(static_cast<std::size_t>(v) * size);
         glEnableVertexArrayAttrib(vertex_array, location);
-        glVertexArrayAttribFormat(vertex_array, location, 4, component_type(format_), GL_TRUE,
-                                  static_cast<GLuint>(static_cast<std::size_t>(v) * size));
+        if (words_ > 0)
+            glVertexArrayAttribIFormat(vertex_array, location, std::min(4, words_ - 4 * v), component_type(format_),
+                                       offset);
+        else
+            glVertexArrayAttribFormat(vertex_array, location, 4, component_type(format_), GL_TRUE, offset);
         glVertexArrayAttribBinding(vertex_array, location, kWeightBinding);
     }
 }
 
-void GlTransfer::use(std::uint32_t program) const {
+void GlTransfer::use() const {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CONSTANTS, constants_.name());
-    glProgramUniform1i(program, glGetUniformLocation(program, "prt_constants_per_cluster"),
-                       constants_per_cluster_);
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CLUSTERS, layouts_.name());
 }
 
 std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Light& light,
                                         const GlContext&) {
     GlTransfer on_gpu(transfer);
-    on_gpu.set_light(transfer.bases, truncated(light, transfer.bases.order));
+    on_gpu.set_light(transfer, truncated(light, transfer.bases.order));
     const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");
     GLuint name = 0;
     glCreateVertexArrays(1, &name);
@@ -90,7 +111,7 @@ std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const
     glNamedFramebufferParameteri(target, GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
     glBindFramebuffer(GL_FRAMEBUFFER, target);
     glUseProgram(program.name());
-    on_gpu.use(program.name());
+    on_gpu.use();
     glBindVertexArray(name);
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, output.name());
     glEnable(GL_RASTERIZER_DISCARD);

@@ -140,9 +140,7 @@ Image8 decode_image(std::span<const std::byte> file) {
     return image;
 }
 
-void write_png(const std::filesystem::path& path, int width, int height,
-               std::span<const glm::u8vec3> pixels) {
-    OutputFile output(path);
+std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec3> pixels) {
     const auto append = [](void* context, void* data, int size) {
         auto& bytes = *static_cast<std::vector<std::byte>*>(context);
         const auto* begin = static_cast<const std::byte*>(data);
@@ -150,8 +148,14 @@ void write_png(const std::filesystem::path& path, int width, int height,
     };
     std::vector<std::byte> file;
     if (!stbi_write_png_to_func(append, &file, width, height, 3, pixels.data(), 3 * width))
-        throw Error(path.string() + ": the image could not be encoded");
-    output.write(file);
+        throw Error("the image could not be encoded");
+    return file;
+}
+
+void write_png(const std::filesystem::path& path, int width, int height,
+               std::span<const glm::u8vec3> pixels) {
+    OutputFile output(path);
+    output.write(encode_png(width, height, pixels));
     output.commit();
 }
 

@@ -1,36 +1,71 @@
 #pragma once
 
 // The compressor: clustered PCA of transfer vectors (Sloan, Hall, Hart and Snyder 2003, "Clustered Principal
-// Components for Precomputed Radiance Transfer").
+// Components for Precomputed Radiance Transfer"), for the least error of exit radiance rather than of
+// coefficients; docs/math.md, section 4.
+//
+//     CompressOptions options = preset_u32();              // or the members one by one
+//     CompressResult r = compress(transfer, areas, edges, options);
+//
+// `prt/search.h` chooses options for a budget.
 
 #include "prt/clustered_transfer.h"
+#include "prt/light_metric.h"
+#include "prt/mesh_edges.h"
 #include "prt/progress.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace prt {
 
 struct CompressOptions {
-    int clusters = 64;
-    int components = 8; ///< per cluster, at most the dimension of the transfer vectors
-    WeightFormat weights = WeightFormat::snorm8;
+    int clusters = 256;
+    /// Most components of a cluster, at most the dimension of the transfer vectors; 16 for packed weights.
+    int components = 16;
+    /// Components per receiver on average, where clusters may differ: what the vertex shader pays. 0: no limit.
+    double mean_components = 0;
+    WeightFormat weights = WeightFormat::packed;
+    /// Packed: bits of a receiver's weights together, at most 240. Every cluster divides them by variance.
+    int bits = 24;
+    /// Packed: bits of each component, 1..16, the same in all clusters, instead of `bits`.
+    std::vector<int> fixed_bits;
+    /// Packed: bits of the cluster's number; 0: as few as do.
+    int cluster_bits = 0;
+    /// Squared error that rounding the bases may add, as a share of what there is. 0: bases are float32.
+    double basis_share = 0.1;
+    /// What an error costs; nothing: `natural_metric`.
+    std::optional<LightMetric> metric;
+    /// mu of docs/math.md, eq. 32: what a jump of the error along a mesh edge costs, in units of the error itself.
+    double seam_weight = 0;
+    /// Price of a neighbour in another cluster, in units of the mean squared error (eq. 31).
+    double potts_weight = 0;
     std::uint64_t seed = 0;
     int threads = 0; ///< 0: all
-    int max_iterations = 200;
-    /// Iteration ends when the squared error falls by less than this share of itself in one round.
-    double tolerance = 1e-4;
 };
 
+/// One 32-bit word per vertex: 8 bits of cluster, four weights of 7, 6, 6 and 5 bits.
+CompressOptions preset_u32();
+/// Two of them: 8 bits of cluster, nine weights of 9, 8, 7, 7, 6, 6, 5, 4 and 4 bits.
+CompressOptions preset_u64();
+
 struct CompressStatistics {
-    /// Relative L2 error after each round of clustered PCA, before weights are quantised; never increases.
-    std::vector<double> relative_l2_by_iteration;
-    double relative_l2 = 0; ///< of what is returned, quantised weights included
-    int clusters = 0;       ///< that hold receivers; empty ones are dropped
+    /// Expected lit_rms under the metric after each round of clustered PCA at the full number of components,
+    /// before weights are quantised.
+    std::vector<double> lit_rms_by_iteration;
+    double lit_rms = 0;         ///< expected under the metric, of what is returned
+    int clusters = 0;           ///< that hold receivers; empty ones are dropped
+    double mean_components = 0; ///< of all receivers
     double seconds = 0;
     std::size_t bytes_per_receiver = 0; ///< cluster and weights
-    std::size_t basis_bytes = 0;        ///< means, directions, scales
+    std::size_t basis_bytes = 0;        ///< all bases, and the layout of packed weights
+
+    double bytes_with_bases(std::size_t receivers) const {
+        return static_cast<double>(bytes_per_receiver) +
+               static_cast<double>(basis_bytes) / static_cast<double>(receivers);
+    }
 };
 
 struct CompressResult {
@@ -39,9 +74,10 @@ struct CompressResult {
 };
 
 /// Compresses `transfer`; `areas` [receivers] weight the error. Receivers of area 0 are coded but do not
-/// count. Deterministic from the seed, whatever the number of threads. Thread-safe. Throws `Error` for
-/// options outside their range and transfer that is not finite, and `Cancelled`.
-CompressResult compress(const Transfer& transfer, std::span<const float> areas,
+/// count. `edges` are needed where seams have a weight. Deterministic from the seed, whatever the number of
+/// threads. Thread-safe. Throws `Error` for options outside their range and transfer that is not finite, and
+/// `Cancelled`. Memory: about twice the input; time: proportional to receivers × clusters × components.
+CompressResult compress(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
                         const CompressOptions& options, const Progress& progress = {});
 
 } // namespace prt

@@ -3,11 +3,12 @@
 // The error measures of docs/math.md, section 6.
 
 #include "prt/light.h"
-#include "prt/scene.h"
+#include "prt/mesh_edges.h"
 #include "prt/transfer.h"
 
 #include <optional>
 #include <span>
+#include <vector>
 
 namespace prt {
 
@@ -15,17 +16,34 @@ namespace prt {
 /// coloured one as three equal channels. Throws `Error` when receivers or orders differ.
 double relative_l2(const Transfer& reference, const Transfer& approximation, std::span<const float> areas);
 
-struct LitError {
-    double rms = 0;  ///< lit_rms: relative L2 of exit radiance, albedo 1, three channels
-    double max = 0;  ///< lit_max: largest |R - R'| of a receiver with area, over the mean R
-    double seam = 0; ///< largest jump of R - R' along an edge between two clusters, over the mean R
-    double mean = 0; ///< mean R, area-weighted, over the channels
+/// Relative L2 of exit radiance, albedo 1, three channels, both [receivers].
+double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
+               std::span<const float> areas);
+
+/// Jumps of the error of exit radiance along edges, each the largest of three channels, over the mean R.
+struct EdgeJumps {
+    std::size_t edges = 0;
+    double rms = 0;
+    double percentile_99 = 0;
+    double max = 0;
+    Edge worst{0, 0}; ///< where the largest is
 };
 
-/// Errors of exit radiance `approximation` against `reference`, both [receivers].
-/// `clusters` [receivers]: where given, `seam` is measured along the edges of `scene`.
+struct LitError {
+    double rms = 0;  ///< lit_rms
+    double mean = 0; ///< mean R, area-weighted, over the channels
+    double max = 0;  ///< lit_max: largest |R - R'| of a receiver with area, over the mean R
+    double percentile_999 = 0; ///< the same, 99.9 % of receivers with area are below
+    /// sqrt of the mean squared error over the mean squared R, of the half of the area where R is least.
+    double darker_half_rms = 0;
+    EdgeJumps crossing; ///< edges between two clusters; their largest is `seam`
+    EdgeJumps inner;    ///< all others
+};
+
+/// Errors of exit radiance `approximation` against `reference`, both [receivers]. `clusters` [receivers]: where
+/// given, jumps are measured along `edges`.
 LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
-                   std::span<const float> areas, const Scene& scene,
+                   std::span<const float> areas, std::span<const Edge> edges,
                    std::optional<std::span<const std::uint16_t>> clusters);
 
 } // namespace prt

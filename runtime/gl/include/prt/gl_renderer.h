@@ -9,22 +9,22 @@ namespace prt {
 /// Compressed transfer on the GPU: the program's view of `shaders/prt_exit_radiance.glsl`.
 class GlTransfer {
 public:
-    /// Uploads clusters and weights. Throws `Error` above kMostVertexComponents components.
+    /// Uploads clusters and weights. Throws `Error` where they do not fit the attributes of a vertex.
     explicit GlTransfer(const ClusteredTransfer& transfer);
 
     /// Defines for shaders that include prt_exit_radiance.glsl.
     std::string defines() const;
     /// Forms the constants for `light` and uploads them.
-    void set_light(const ClusteredBases& bases, const Light& light);
+    void set_light(const ClusteredTransfer& transfer, const Light& light);
     /// Points the attributes of `vertex_array` at the receivers from `first` on.
     void attach(std::uint32_t vertex_array, std::size_t first) const;
-    /// Binds the constants and sets the uniforms of `program`.
-    void use(std::uint32_t program) const;
+    /// Binds the constants and the table of clusters.
+    void use() const;
 
 private:
     WeightFormat format_;
-    int weight_vectors_ = 0, constants_per_cluster_ = 0;
-    GlObject clusters_, weights_, constants_;
+    int weight_vectors_ = 0, words_ = 0, cluster_bits_ = 0;
+    GlObject clusters_, weights_, layouts_, constants_;
 };
 
 /// Draws `picture` with OpenGL: linear radiance, [height · samples][width · samples]. Opaque and cut-out

@@ -40,6 +40,9 @@ struct Image8 {
 /// Decodes a PNG or JPEG file in memory. Throws `Error` when it is damaged or something else.
 Image8 decode_image(std::span<const std::byte> file);
 
+/// An 8-bit RGB PNG in memory. `pixels` is [height][width].
+std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec3> pixels);
+
 /// Writes an 8-bit RGB PNG. `pixels` is [height][width].
 void write_png(const std::filesystem::path& path, int width, int height, std::span<const glm::u8vec3> pixels);
 

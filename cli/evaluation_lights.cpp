@@ -1,0 +1,44 @@
+#include "evaluation_lights.h"
+
+#include <fmt/core.h>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+#include <random>
+
+namespace prt::cli {
+
+std::vector<LoadedLight> rotations(LoadedLight light, int count) {
+    std::vector<LoadedLight> result;
+    for (int r = 1; r < count; ++r) {
+        const double degrees = 360.0 * r / count;
+        result.push_back({fmt::format("{} +{:g}°", light.name, degrees),
+                          rotated_about_y(light.light, glm::radians(degrees)),
+                          {}});
+    }
+    result.insert(result.begin(), std::move(light));
+    return result;
+}
+
+DirectionalLights directional_lights(int order) {
+    constexpr int kCount = 64;
+    DirectionalLights result;
+    for (int i = 0; i < kCount; ++i) { // a spherical Fibonacci lattice
+        const double y = 1 - (2 * i + 1.0) / kCount, radius = std::sqrt(1 - y * y);
+        const double angle = 2 * M_PI * 0.61803398875 * i;
+        result.directions.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+        result.lights.push_back(directional_light(order, result.directions.back(), glm::vec3(1)));
+    }
+    return result;
+}
+
+Light random_white_light(int order) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    Light light{order, {}};
+    for (int i = 0; i < coefficient_count(order); ++i)
+        light.coefficients.emplace_back(normal(random));
+    return light;
+}
+
+} // namespace prt::cli

@@ -1,0 +1,46 @@
+#pragma once
+
+// Options for a budget: how many clusters and bits reach an error, or what error a number of bytes reaches.
+
+#include "prt/compress.h"
+
+#include <optional>
+#include <vector>
+
+namespace prt {
+
+/// What the result must keep. At least one is given.
+struct Budget {
+    std::optional<double> max_error;        ///< expected lit_rms under the metric
+    std::optional<double> bytes_per_vertex; ///< payload and bases together
+    std::optional<double> shader_ops;       ///< components per receiver on average
+
+    bool any() const { return max_error || bytes_per_vertex || shader_ops; }
+};
+
+struct SearchOptions {
+    CompressOptions compress;      ///< what the search does not choose: metric, seams, seed, threads, format
+    bool choose_clusters = true;   ///< else compress.clusters holds
+    bool choose_components = true; ///< else compress.components holds as the most, packed or not
+    Budget budget;
+};
+
+/// One try of the search.
+struct SearchTrial {
+    int clusters = 0, payload_bytes = 0;
+    double lit_rms = 0, bytes_per_vertex = 0, mean_components = 0;
+};
+
+struct SearchResult {
+    CompressResult result; ///< the cheapest that keeps all of the budget, else the nearest to it
+    bool kept = false;
+    std::vector<SearchTrial> trials;
+};
+
+/// Compresses with the numbers of clusters, components and bits that are cheapest in bytes under `max_error`, or
+/// best in error under `bytes_per_vertex` alone. Takes five to twenty times as long as `compress`. Throws as
+/// `compress` does, and for budgets that are not positive.
+SearchResult compress_within(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
+                             const SearchOptions& options, const Progress& progress = {});
+
+} // namespace prt

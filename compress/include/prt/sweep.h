@@ -1,0 +1,47 @@
+#pragma once
+
+// Rate against distortion of this compressor and of what it is measured against.
+
+#include "prt/compress.h"
+
+#include <string>
+#include <vector>
+
+namespace prt {
+
+struct SweepPoint {
+    std::string method, setting;
+    double payload_bytes = 0; ///< per receiver
+    double table_bytes = 0;   ///< bases and all else, per receiver
+    double shader_ops = 0;    ///< multiply-adds of a colour per receiver, on average
+    double lit_rms = 0;       ///< root of the mean square over the lights of the sweep
+    double relative_l2 = 0;
+    double seconds = 0;
+
+    double bytes() const { return payload_bytes + table_bytes; }
+};
+
+struct Sweep {
+    std::vector<SweepPoint> by_bytes; ///< every method at sizes that suit it
+    std::vector<SweepPoint> by_ops;   ///< clustered methods with `kSweepClusters` clusters
+};
+
+inline constexpr int kSweepClusters = 256; ///< in one byte
+/// Budgets of the sweep, bytes per receiver with bases.
+inline constexpr double kSweepBytes[] = {4, 5, 7, 9, 13, 17};
+/// Components per receiver.
+inline constexpr int kSweepOps[] = {1, 2, 3, 4, 6, 8, 12};
+
+/// Measures all methods under `lights`, which should be others than those that `options` compresses for. Minutes.
+Sweep sweep(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
+            std::span<const Light> lights, const CompressOptions& options, const Progress& progress = {});
+
+/// The best point of `method` with at most `bytes` per receiver; nothing where it has none.
+const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, double bytes);
+/// The best point of `method` with at most `ops`.
+const SweepPoint* best_by_ops(const Sweep& sweep, const std::string& method, double ops);
+
+inline constexpr const char* kOurs = "prtkit";
+inline constexpr const char* kClassic = "classic CPCA";
+
+} // namespace prt
