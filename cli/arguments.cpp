@@ -19,11 +19,10 @@ const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", Environm
                                                            {"cube", EnvironmentLayout::cube}};
 const std::map<std::string, BadPixels> kBadPixels = {
     {"error", BadPixels::error}, {"zero", BadPixels::zero}, {"clamp", BadPixels::clamp}};
-const std::map<std::string, WeightFormat> kWeights = {
-    {"packed", WeightFormat::packed},
-    {"float", WeightFormat::float32},
-    {"16", WeightFormat::snorm16},
-    {"8", WeightFormat::snorm8}};
+const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::packed},
+                                                      {"float", WeightFormat::float32},
+                                                      {"16", WeightFormat::snorm16},
+                                                      {"8", WeightFormat::snorm8}};
 const std::map<std::string, MetricChoice> kMetrics = {{"natural", MetricChoice::natural},
                                                       {"plain", MetricChoice::plain}};
 const std::map<std::string, Backend> kBackends = {
@@ -221,7 +220,8 @@ void add_bench(CLI::App& app, BenchArguments& a) {
 }
 
 /// A number, or auto: the search chooses.
-void count_or_auto(CLI::App* command, const std::string& name, int& target, bool& choose, const std::string& text) {
+void count_or_auto(CLI::App* command, const std::string& name, int& target, bool& choose,
+                   const std::string& text) {
     command
         ->add_option_function<std::string>(
             name,
@@ -247,10 +247,12 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
         ->type_name("u32|u64|custom")
         ->default_str("u32, custom with other sizes")
         ->trigger_on_parse();
-    count_or_auto(command, "--clusters", o.compress.clusters, o.choose_clusters, "number of clusters, 1..65536");
+    count_or_auto(command, "--clusters", o.compress.clusters, o.choose_clusters,
+                  "number of clusters, 1..65536");
     count_or_auto(command, "--components", o.compress.components, o.choose_components,
                   "most PCA components of a cluster");
-    command->add_option("--bits", o.compress.bits, "bits of a vertex's weights together, where they are packed");
+    command->add_option("--bits", o.compress.bits,
+                        "bits of a vertex's weights together, where they are packed");
     choice(command, "--weights", o.compress.weights, kWeights,
            "packed: bits by variance; or 8 or 16 bits each, or float", "packed");
     command->add_option("--max-error", o.budget.max_error,
@@ -267,9 +269,9 @@ void add_compress(CLI::App& app, CompressArguments& a) {
     command->add_option("-o,--output", a.output, "compressed .glb to write")->required()->type_name("FILE");
     add_sizes(command, a.options);
     command->add_flag("--best-effort", a.best_effort, "write the nearest where nothing keeps the budget");
-    CLI::Option* metric = choice(command, "--metric", a.metric, kMetrics,
-                                 "what an error costs: natural lighting from any side, or all coefficients alike",
-                                 "natural");
+    CLI::Option* metric =
+        choice(command, "--metric", a.metric, kMetrics,
+               "what an error costs: natural lighting from any side, or all coefficients alike", "natural");
     command
         ->add_option("--lights", a.lights,
                      "compress for these environments (.exr, .hdr) or lights (.json), turned about +Y")
@@ -299,6 +301,7 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     const bool preset = given("--preset") && command.get_option("--preset")->as<std::string>() != "custom";
     if (preset && (sizes || o.budget.any()))
         throw CLI::ValidationError("--preset", "u32 and u64 fix what other sizes and budgets would choose");
+    a.components_given = given("--components");
     if (o.budget.any()) {
         if (given("--bits"))
             throw CLI::ValidationError("--bits", "is what a budget chooses");
@@ -334,8 +337,9 @@ void add_evaluate(CLI::App& app, EvaluateArguments& a) {
     command->add_option("--rotations", a.rotations, "turn each light about +Y by this many equal angles")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
-    command->add_flag("--sweep", a.sweep,
-                      "error against size and shader cost of this compressor and of those it came from; minutes");
+    command->add_flag(
+        "--sweep", a.sweep,
+        "error against size and shader cost of this compressor and of those it came from; minutes");
     add_threads(command, a.threads);
     add_json(command, a.json);
     command->add_option("--html", a.html, "also write a report page to this file")->type_name("FILE");

@@ -4,9 +4,9 @@
 
 #include "bench.h"
 #include "prt/bake.h"
-#include "prt/search.h"
 #include "prt/image_file.h"
 #include "prt/light.h"
+#include "prt/search.h"
 #include "prt/tone_map.h"
 
 #include <filesystem>
@@ -46,6 +46,7 @@ struct CompressArguments {
     MetricChoice metric = MetricChoice::natural;
     std::vector<Path> lights; ///< to compress for, instead of `metric`
     LightOptions light_options;
+    bool components_given = false;
     bool best_effort = false;
     bool meshopt = false, reorder = false;
 };

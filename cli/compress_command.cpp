@@ -73,8 +73,9 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
     options.compress.metric = chosen_metric(a, transfer);
-    options.compress.components =
-        std::min(options.compress.components, static_cast<int>(transfer.dimension()));
+    if (a.components_given && options.compress.components > static_cast<int>(transfer.dimension()))
+        throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
+                                transfer.dimension(), options.compress.components));
     const Outcome outcome = run_compressor(a, model, options, interrupt);
     write_clustered(model.document, model.scene, {outcome.result.transfer, model.baked->record});
     {
@@ -87,14 +88,15 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
     const Transfer decoded = decode(coded, options.compress.threads);
     const std::vector<float> areas = receiver_areas(model.scene);
     CompressStatistics s = outcome.result.statistics;
-    s.lit_rms = expected_lit_rms(transfer, decoded, areas, *options.compress.metric, options.compress.threads);
+    s.lit_rms =
+        expected_lit_rms(transfer, decoded, areas, *options.compress.metric, options.compress.threads);
     const double l2 = relative_l2(transfer, decoded, areas);
 
     const std::size_t receivers = transfer.receivers();
     const std::size_t uncompressed = transfer.dimension() * sizeof(float);
     const std::size_t constants = constant_rows(coded.bases) * sizeof(glm::vec4);
-    fmt::print("{}: {} clusters x {:.2f} components, lit_rms {:.3f} %, relative L2 {:.3f} %\n", a.output.string(),
-               s.clusters, s.mean_components, 100 * s.lit_rms, 100 * l2);
+    fmt::print("{}: {} clusters x {:.2f} components, lit_rms {:.3f} %, relative L2 {:.3f} %\n",
+               a.output.string(), s.clusters, s.mean_components, 100 * s.lit_rms, 100 * l2);
     fmt::print("  {} bytes per vertex of {}, {:.2f} with the bases\n", s.bytes_per_receiver, uncompressed,
                s.bytes_with_bases(receivers));
     fmt::print("  GPU: {} bytes of attributes, {} of bases, {} of constants per lighting; uncompressed {}\n",

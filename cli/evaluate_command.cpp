@@ -86,12 +86,12 @@ private:
 };
 
 void print_lights(const Evaluation& evaluation) {
-    fmt::print("  {:<28} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "light", "lit_rms", "lit_max", "99.9 %",
-               "darker", "seam", "seam99", "inner99");
+    fmt::print("  {:<28} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "light", "lit_rms", "lit_max",
+               "99.9 %", "darker", "seam", "seam99", "inner99");
     for (const auto& [name, e] : evaluation.lights)
-        fmt::print("  {:<28} {:>7.4f} % {:>7.3f} % {:>7.3f} % {:>7.3f} % {:>7.3f} % {:>7.3f} % {:>7.3f} %\n", name,
-                   100 * e.rms, 100 * e.max, 100 * e.percentile_999, 100 * e.darker_half_rms, 100 * e.crossing.max,
-                   100 * e.crossing.percentile_99, 100 * e.inner.percentile_99);
+        fmt::print("  {:<28} {:>7.4f} % {:>7.3f} % {:>7.3f} % {:>7.3f} % {:>7.3f} % {:>7.3f} % {:>7.3f} %\n",
+                   name, 100 * e.rms, 100 * e.max, 100 * e.percentile_999, 100 * e.darker_half_rms,
+                   100 * e.crossing.max, 100 * e.crossing.percentile_99, 100 * e.inner.percentile_99);
 }
 
 Json jumps_json(const EdgeJumps& jumps, const Scene& scene) {
@@ -167,7 +167,8 @@ void measure(const EvaluateArguments& a, const Model& baked, const std::vector<L
 
     ClusterShares shares(model.compressed ? model.compressed->transfer.bases.clusters() : 0);
     const auto error_under = [&](const Light& light, bool shared) {
-        const auto wanted = exit_radiance(reference, light, a.threads), lit = shipped.radiance(light, a.threads);
+        const auto wanted = exit_radiance(reference, light, a.threads),
+                   lit = shipped.radiance(light, a.threads);
         if (shared && shipped.clusters)
             shares.add(*shipped.clusters, areas, wanted, lit);
         return lit_error(wanted, lit, areas, edges, shipped.clusters);
@@ -190,16 +191,18 @@ void measure(const EvaluateArguments& a, const Model& baked, const std::vector<L
     if (model.compressed) {
         const ClusteredTransfer& t = model.compressed->transfer;
         evaluation.clusters = shares.finish(t, areas);
-        evaluation.facts.insert(evaluation.facts.end(),
-                                {{"bytes of the file, shipped", fmt::format("{}", std::filesystem::file_size(a.shipped))},
-                                 {"bytes per vertex, shipped", fmt::format("{}", bytes_per_receiver(t))},
-                                 {"bytes of bases", fmt::format("{}", basis_bytes(t.bases))},
-                                 {"clusters", fmt::format("{}", t.bases.clusters())},
-                                 {"components, at most", fmt::format("{}", t.bases.max_components())}});
+        evaluation.facts.insert(
+            evaluation.facts.end(),
+            {{"bytes of the file, shipped", fmt::format("{}", std::filesystem::file_size(a.shipped))},
+             {"bytes per vertex, shipped", fmt::format("{}", bytes_per_receiver(t))},
+             {"bytes of bases", fmt::format("{}", basis_bytes(t.bases))},
+             {"clusters", fmt::format("{}", t.bases.clusters())},
+             {"components, at most", fmt::format("{}", t.bases.max_components())}});
     }
     if (!a.html.empty()) {
         if (model.compressed)
-            evaluation.pictures.emplace_back("Clusters", picture_png(model, cluster_colors(model), a.threads));
+            evaluation.pictures.emplace_back("Clusters",
+                                             picture_png(model, cluster_colors(model), a.threads));
         evaluation.pictures.emplace_back(
             fmt::format("Error under {} (white: 10 % of the mean radiance)", lights.front().name),
             picture_png(model, error_colors(model, baked, lights.front().light, a.threads), a.threads));
@@ -227,7 +230,8 @@ void run(const EvaluateArguments& a, Interrupt& interrupt) {
     const Transfer& reference = baked.baked->transfer;
     std::vector<LoadedLight> lights;
     for (const Path& path : a.lights)
-        for (LoadedLight& light : rotations(load_light(path, reference.order, a.light_options, a.threads), a.rotations))
+        for (LoadedLight& light :
+             rotations(load_light(path, reference.order, a.light_options, a.threads), a.rotations))
             lights.push_back(std::move(light));
     if (lights.empty())
         lights = default_lights(reference.order);
@@ -235,12 +239,11 @@ void run(const EvaluateArguments& a, Interrupt& interrupt) {
     Evaluation evaluation;
     evaluation.baked = a.baked.string();
     evaluation.shipped = a.shipped.string();
-    evaluation.facts = {
-        {"receivers", fmt::format("{}", reference.receivers())},
-        {"order", fmt::format("{}", reference.order)},
-        {"channels", fmt::format("{}", reference.channels)},
-        {"bytes per vertex, bake", fmt::format("{}", reference.dimension() * sizeof(float))},
-        {"bytes of the file, bake", fmt::format("{}", std::filesystem::file_size(a.baked))}};
+    evaluation.facts = {{"receivers", fmt::format("{}", reference.receivers())},
+                        {"order", fmt::format("{}", reference.order)},
+                        {"channels", fmt::format("{}", reference.channels)},
+                        {"bytes per vertex, bake", fmt::format("{}", reference.dimension() * sizeof(float))},
+                        {"bytes of the file, bake", fmt::format("{}", std::filesystem::file_size(a.baked))}};
     if (!a.shipped.empty()) {
         measure(a, baked, lights, evaluation);
         fmt::print("{} against {}: relative L2 {:.4f} %\n", evaluation.shipped, evaluation.baked,

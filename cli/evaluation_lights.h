@@ -16,8 +16,8 @@ struct DirectionalLights {
 };
 DirectionalLights directional_lights(int order);
 
-/// White light whose coefficients are independent and normally distributed, of one fixed seed: every error of a
-/// coefficient counts alike.
+/// White light whose coefficients are independent and normally distributed, of one fixed seed: every error of
+/// a coefficient counts alike.
 Light random_white_light(int order);
 
 } // namespace prt::cli

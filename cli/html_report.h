@@ -24,8 +24,8 @@ struct Evaluation {
     std::string baked, shipped;
     double relative_l2 = 0;
     std::vector<std::pair<std::string, LitError>> lights;
-    std::string worst_light;             ///< of the directional lights
-    std::vector<ClusterShare> clusters;  ///< the worst first
+    std::string worst_light;            ///< of the directional lights
+    std::vector<ClusterShare> clusters; ///< the worst first
     std::vector<std::pair<std::string, std::string>> facts;
     std::vector<std::pair<std::string, std::vector<std::byte>>> pictures; ///< title and PNG
     std::optional<Sweep> sweep;

@@ -51,11 +51,10 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
         const auto [least, most] = std::minmax_element(t.bases.components.begin(), t.bases.components.end());
         const bool packed = t.receivers.format == WeightFormat::packed;
         const std::size_t bits = packed ? 0 : 8 * bytes_per_weight(t.receivers.format);
-        fmt::print(
-            "  clustered PCA: order {}, {} channels, {} clusters x {} to {} components, {}\n",
-            t.bases.order, t.bases.channels, t.bases.clusters(), *least, *most,
-            packed ? fmt::format("{} packed bytes per vertex", bytes_per_receiver(t))
-                   : fmt::format("{}-bit weights", bits));
+        fmt::print("  clustered PCA: order {}, {} channels, {} clusters x {} to {} components, {}\n",
+                   t.bases.order, t.bases.channels, t.bases.clusters(), *least, *most,
+                   packed ? fmt::format("{} packed bytes per vertex", bytes_per_receiver(t))
+                          : fmt::format("{}-bit weights", bits));
         fmt::print("  {} bytes of bases, {} shader constants per frame\n", basis_bytes(t.bases),
                    constant_rows(t.bases));
         describe_record(model.compressed->record);

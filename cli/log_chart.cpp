@@ -11,7 +11,8 @@
 namespace prt::cli {
 namespace {
 
-constexpr std::array kColors = {"#1f6fb4", "#d1611c", "#3a923a", "#8a5ab0", "#b0352f", "#7a6a55", "#c2529f", "#5d6d7e"};
+constexpr std::array kColors = {"#1f6fb4", "#d1611c", "#3a923a", "#8a5ab0",
+                                "#b0352f", "#7a6a55", "#c2529f", "#5d6d7e"};
 constexpr int kWidth = 800, kHeight = 420, kLeft = 80, kRight = 190, kTop = 28, kBottom = 46;
 
 /// Values of one axis, from the least to the largest with a margin.
@@ -25,7 +26,8 @@ public:
     /// 1, 2 and 5 times the powers of ten.
     std::vector<double> ticks() const {
         std::vector<double> result;
-        for (double decade = std::pow(10, std::floor(std::log10(low_))); decade <= high_ * 1.001; decade *= 10)
+        for (double decade = std::pow(10, std::floor(std::log10(low_))); decade <= high_ * 1.001;
+             decade *= 10)
             for (const double t : {decade, 2 * decade, 5 * decade})
                 if (t >= low_ && t <= high_)
                     result.push_back(t);
@@ -39,7 +41,9 @@ private:
 struct Axes {
     Axis x, y;
     double place_x(double value) const { return kLeft + x.share(value) * (kWidth - kLeft - kRight); }
-    double place_y(double value) const { return kHeight - kBottom - y.share(value) * (kHeight - kTop - kBottom); }
+    double place_y(double value) const {
+        return kHeight - kBottom - y.share(value) * (kHeight - kTop - kBottom);
+    }
 };
 
 bool shown(const ChartPoint& point) {
@@ -67,8 +71,9 @@ std::string curve(const ChartSeries& series, const Axes& axes, std::size_t row) 
             continue;
         const double x = axes.place_x(point.x), y = axes.place_y(point.y);
         points += fmt::format("{:.1f},{:.1f} ", x, y);
-        dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"><title>{}</title></circle>\n", x,
-                            y, color, html_escaped(point.label));
+        dots += fmt::format(
+            "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"><title>{}</title></circle>\n", x, y,
+            color, html_escaped(point.label));
     }
     return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n{}"
                        "<text x=\"{}\" y=\"{}\" fill=\"{}\">{}</text>\n",
@@ -87,9 +92,10 @@ std::string log_chart(const std::vector<ChartSeries>& series, const std::string&
                 axes.x.extend(point.x);
                 axes.y.extend(point.y);
             }
-    std::string out = fmt::format("<svg viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\" aria-label=\"{} over {}\" "
-                                  "font-size=\"13\">\n",
-                                  kWidth, kHeight, kWidth, html_escaped(y_title), html_escaped(x_title));
+    std::string out =
+        fmt::format("<svg viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\" aria-label=\"{} over {}\" "
+                    "font-size=\"13\">\n",
+                    kWidth, kHeight, kWidth, html_escaped(y_title), html_escaped(x_title));
     out += grid(axes);
     out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
                        (kLeft + kWidth - kRight) / 2, kHeight - 6, html_escaped(x_title));

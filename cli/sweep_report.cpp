@@ -20,11 +20,13 @@ std::vector<std::string> methods_of(const std::vector<SweepPoint>& points) {
 
 /// The points of a method than which none is cheaper and better, from the cheapest on.
 template <class Cost>
-std::vector<SweepPoint> frontier(const std::vector<SweepPoint>& points, const std::string& method, Cost&& cost) {
+std::vector<SweepPoint> frontier(const std::vector<SweepPoint>& points, const std::string& method,
+                                 Cost&& cost) {
     std::vector<SweepPoint> own;
     std::copy_if(points.begin(), points.end(), std::back_inserter(own),
                  [&](const SweepPoint& p) { return p.method == method; });
-    std::stable_sort(own.begin(), own.end(), [&](const SweepPoint& a, const SweepPoint& b) { return cost(a) < cost(b); });
+    std::stable_sort(own.begin(), own.end(),
+                     [&](const SweepPoint& a, const SweepPoint& b) { return cost(a) < cost(b); });
     std::vector<SweepPoint> result;
     for (const SweepPoint& point : own)
         if (result.empty() || point.lit_rms < result.back().lit_rms)
@@ -38,10 +40,9 @@ std::string chart(const std::vector<SweepPoint>& points, const char* x_title, Co
     for (const std::string& method : methods_of(points)) {
         ChartSeries curve{method, {}, method == kOurs};
         for (const SweepPoint& p : frontier(points, method, cost))
-            curve.points.push_back(
-                {cost(p), 100 * p.lit_rms,
-                 fmt::format("{}: {:.2f} bytes, {:.2f} operations, {:.3f} %", p.setting, p.bytes(), p.shader_ops,
-                             100 * p.lit_rms)});
+            curve.points.push_back({cost(p), 100 * p.lit_rms,
+                                    fmt::format("{}: {:.2f} bytes, {:.2f} operations, {:.3f} %", p.setting,
+                                                p.bytes(), p.shader_ops, 100 * p.lit_rms)});
         series.push_back(std::move(curve));
     }
     return log_chart(series, x_title, "lit_rms, %");
@@ -51,8 +52,8 @@ using Best = const SweepPoint* (*)(const Sweep&, const std::string&, double);
 
 /// The best of every method for each limit.
 template <class Limits>
-std::string table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits, const char* unit,
-                  Best best) {
+std::string table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits,
+                  const char* unit, Best best) {
     std::string html = "<table>\n<tr><th>lit_rms at most</th>";
     for (const auto limit : limits)
         html += fmt::format("<th>{:g} {}</th>", static_cast<double>(limit), unit);
@@ -61,8 +62,9 @@ std::string table(const Sweep& sweep, const std::vector<SweepPoint>& points, con
         html += fmt::format("<tr><td>{}</td>", html_escaped(method));
         for (const auto limit : limits) {
             const SweepPoint* p = best(sweep, method, static_cast<double>(limit));
-            html += p ? fmt::format("<td title=\"{}\">{:.3f} %</td>", html_escaped(p->setting), 100 * p->lit_rms)
-                      : std::string("<td></td>");
+            html +=
+                p ? fmt::format("<td title=\"{}\">{:.3f} %</td>", html_escaped(p->setting), 100 * p->lit_rms)
+                  : std::string("<td></td>");
         }
         html += "</tr>\n";
     }
@@ -92,8 +94,8 @@ Json points_json(const std::vector<SweepPoint>& points) {
 }
 
 template <class Limits>
-void print_table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits, const char* unit,
-                 Best best) {
+void print_table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits,
+                 const char* unit, Best best) {
     fmt::print("  {:<22}", fmt::format("lit_rms at most, {}", unit));
     for (const auto limit : limits)
         fmt::print(" {:>9g}", static_cast<double>(limit));
@@ -111,18 +113,21 @@ void print_table(const Sweep& sweep, const std::vector<SweepPoint>& points, cons
 } // namespace
 
 std::string sweep_html(const Sweep& sweep) {
-    return "<h2>Error at equal bytes</h2>\n<p>Bytes per vertex: payload, and all tables over the vertices.</p>\n" +
+    return "<h2>Error at equal bytes</h2>\n<p>Bytes per vertex: payload, and all tables over the "
+           "vertices.</p>\n" +
            chart(sweep.by_bytes, "bytes per vertex, bases counted in", bytes_of) +
            table(sweep, sweep.by_bytes, kSweepBytes, "bytes", best_by_bytes) +
-           fmt::format("<h2>Error at equal shader operations</h2>\n<p>Multiply-adds of a colour per vertex, on "
-                       "average; clustered methods with {} clusters.</p>\n",
-                       kSweepClusters) +
+           fmt::format(
+               "<h2>Error at equal shader operations</h2>\n<p>Multiply-adds of a colour per vertex, on "
+               "average; clustered methods with {} clusters.</p>\n",
+               kSweepClusters) +
            chart(sweep.by_ops, "multiply-adds per vertex", ops_of) +
            table(sweep, sweep.by_ops, kSweepOps, "operations", best_by_ops);
 }
 
 Json sweep_json(const Sweep& sweep) {
-    return {{"equal_bytes", points_json(sweep.by_bytes)}, {"equal_shader_operations", points_json(sweep.by_ops)}};
+    return {{"equal_bytes", points_json(sweep.by_bytes)},
+            {"equal_shader_operations", points_json(sweep.by_ops)}};
 }
 
 void print_sweep(const Sweep& sweep) {

@@ -67,8 +67,8 @@ BaselineResult truncated_sh(const Transfer& transfer, int bands) {
     return result;
 }
 
-BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> areas, const ClassicOptions& options,
-                            const Progress& progress) {
+BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> areas,
+                            const ClassicOptions& options, const Progress& progress) {
     const std::vector<float> weights = receiver_weights(areas);
     const Frame frame =
         fit_frame(transfer, weights, plain_metric(transfer.order, transfer.channels), 0, options.threads);
@@ -115,7 +115,9 @@ BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> are
                 to[i] += w * rows[k][j + 1][i];
         }
     }
-    result.payload_bytes = (found.fits.size() > 256 ? 2.0 : found.fits.size() > 1 ? 1.0 : 0.0) +
+    result.payload_bytes = (found.fits.size() > 256 ? 2.0
+                            : found.fits.size() > 1 ? 1.0
+                                                    : 0.0) +
                            static_cast<double>(most);
     result.table_bytes = static_cast<double>(row_count * transfer.dimension() * 2 +
                                              (row_count - found.fits.size()) * sizeof(float));

@@ -82,13 +82,14 @@ ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spen
     for (Eigen::Index i = 0; i < d; ++i)
         for (Eigen::Index j = 0; j <= i; ++j)
             covariance(i, j) = *product++ / fit.weight - mean[i] * mean[j];
-    std::transform(mean.begin(), mean.end(), fit.mean.begin(), [](double v) { return static_cast<float>(v); });
+    std::transform(mean.begin(), mean.end(), fit.mean.begin(),
+                   [](double v) { return static_cast<float>(v); });
     if (d == 0)
         return fit;
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
     std::vector<double> variances(moments.dimension);
-    // Variance that float rounding of the points alone can make along one direction: (2^-24)² of their squared
-    // size, and a margin of 4.
+    // Variance that float rounding of the points alone can make along one direction: (2^-24)² of their
+    // squared size, and a margin of 4.
     const double floor = 4 * 0x1p-48 * (mean.squaredNorm() + covariance.trace());
     for (Eigen::Index i = 0; i < d; ++i) { // eigenvalues ascend
         const double variance = solver.eigenvalues()[d - 1 - i];

@@ -107,16 +107,16 @@ private:
     const ClusteringOptions& options_;
 };
 
-void ClusterSearch::converge(State& state, const Spending& spending, int most_rounds, const Progress& progress,
-                             std::vector<double>* history) const {
+void ClusterSearch::converge(State& state, const Spending& spending, int most_rounds,
+                             const Progress& progress, std::vector<double>* history) const {
     State best = state;
     best.cost = std::numeric_limits<double>::infinity();
     for (int r = 0; r < most_rounds; ++r) {
         progress.update(0.5);
         refit(state, spending);
-        if (history)
-            history->push_back(squared_error(state));
         const bool better = state.cost < best.cost;
+        if (history && better)
+            history->push_back(squared_error(state));
         const bool converged = !(state.cost < best.cost * (1 - options_.tolerance));
         if (better)
             best = state;
@@ -149,7 +149,8 @@ std::vector<ClusterSearch::Split> ClusterSearch::possible_splits(const State& st
                 points_.copy_point(p, point.data());
                 double along = 0;
                 for (std::size_t i = 0; i < points_.dimension; ++i)
-                    along += static_cast<double>(fit.directions[i]) * static_cast<double>(point[i] - fit.mean[i]);
+                    along +=
+                        static_cast<double>(fit.directions[i]) * static_cast<double>(point[i] - fit.mean[i]);
                 ClusterMoments::add(point.data(), static_cast<double>(weights_[p]), along > 0 ? high : low);
                 if (along > 0)
                     splits[k].leaving.push_back(p);
@@ -220,8 +221,8 @@ bool ClusterSearch::move(State& state, const Spending& spending, const Progress&
         while (split < order.size() &&
                (touched[order[split]] || order[split] == merge.into || order[split] == merge.from))
             ++split;
-        // In the rounds that follow neighbours adapt: a split gains more, a merger loses less than is known here.
-        // Measured on four scenes, 0.7 finds what there is to find; the sum has the last word.
+        // In the rounds that follow neighbours adapt: a split gains more, a merger loses less than is known
+        // here. Measured on four scenes, 0.7 finds what there is to find; the sum has the last word.
         if (split == order.size() || !(splits[order[split]].gain > 0.7 * std::max(merge.loss, 0.0)))
             break;
         touched[merge.into] = touched[merge.from] = touched[order[split]] = true;
@@ -247,9 +248,9 @@ bool ClusterSearch::move(State& state, const Spending& spending, const Progress&
     return true;
 }
 
-/// What one more direction in a cluster costs in a file whose bases count. A direction takes about 64 bits there,
-/// measured on five scenes. A bit more for the weights of each of V receivers takes away 1.4/m of the error (m
-/// components share it, and each bit quarters the squared error), so a bit is worth 1.4/m/V of it.
+/// What one more direction in a cluster costs in a file whose bases count. A direction takes about 64 bits
+/// there, measured on five scenes. A bit more for the weights of each of V receivers takes away 1.4/m of the
+/// error (m components share it, and each bit quarters the squared error), so a bit is worth 1.4/m/V of it.
 double row_price(const State& state, std::size_t points) {
     double rows = 0;
     for (const ClusterFit& fit : state.fits)
@@ -258,8 +259,8 @@ double row_price(const State& state, std::size_t points) {
     return 64 * 1.4 / mean * state.cost / static_cast<double>(points);
 }
 
-/// The least operation price at which receivers have at most `most` components on average, by bisection over the
-/// plans that the spectra of the clusters allow.
+/// The least operation price at which receivers have at most `most` components on average, by bisection over
+/// the plans that the spectra of the clusters allow.
 double operation_price(const State& state, std::span<const float> weights, Spending spending, double most) {
     std::vector<double> members(state.fits.size(), 0);
     for (std::size_t p = 0; p < weights.size(); ++p)
@@ -268,8 +269,9 @@ double operation_price(const State& state, std::span<const float> weights, Spend
         spending.operation_price = price;
         double sum = 0;
         for (std::size_t k = 0; k < state.fits.size(); ++k)
-            sum += members[k] * static_cast<double>(plan_components(state.fits[k].variances, state.fits[k].weight,
-                                                                    spending).bits.size());
+            sum += members[k] *
+                   static_cast<double>(
+                       plan_components(state.fits[k].variances, state.fits[k].weight, spending).bits.size());
         return sum / static_cast<double>(weights.size());
     };
     double low = 0, high = 1;
@@ -285,10 +287,11 @@ double operation_price(const State& state, std::span<const float> weights, Spend
 } // namespace
 
 Clustering cluster_points(const PointBlocks& points, std::span<const float> weights,
-                          const ClusteringOptions& options, std::mt19937_64& random, const Progress& progress) {
+                          const ClusteringOptions& options, std::mt19937_64& random,
+                          const Progress& progress) {
     const ClusterSearch search(points, weights, options);
-    State state =
-        search.start(vector_quantise(points, weights, options.clusters, 0, random, options.threads, progress));
+    State state = search.start(
+        vector_quantise(points, weights, options.clusters, 0, random, options.threads, progress));
     Spending spending = options.spending;
     for (int most = 1; options.grow && most < options.spending.most_components; ++most) {
         spending.most_components = most;
@@ -312,6 +315,9 @@ Clustering cluster_points(const PointBlocks& points, std::span<const float> weig
     for (int m = 0; m < options.most_moves && search.move(state, spending, progress); ++m) {
     }
     search.converge(state, spending, options.most_rounds, progress, nullptr);
+    // Of what came and went rounding is left in the moments, of an outlier more than others have.
+    state.moments.build(points, weights, state.clusters, options.threads);
+    search.refit(state, spending);
     if (options.mean_components > 0) { // what was promised holds for the clusters as they are now
         spending.operation_price = operation_price(state, weights, spending, options.mean_components);
         search.refit(state, spending);

@@ -28,11 +28,12 @@ struct ClusteringOptions {
     int threads = 0;
 };
 
-/// Clustered PCA (Sloan et al. 2003) from vector quantisation. Components come one at a time, which finds better
-/// optima than starting with all of them; every cluster takes as many as pay under `spending`, and points choose
-/// between clusters knowing what each will lose by quantisation. Then the clusters that gain most by being split
-/// are, in the place of pairs that lose least by being merged, as long as the sum falls.
+/// Clustered PCA (Sloan et al. 2003) from vector quantisation. Components come one at a time, which finds
+/// better optima than starting with all of them; every cluster takes as many as pay under `spending`, and
+/// points choose between clusters knowing what each will lose by quantisation. Then the clusters that gain
+/// most by being split are, in the place of pairs that lose least by being merged, as long as the sum falls.
 Clustering cluster_points(const PointBlocks& points, std::span<const float> weights,
-                          const ClusteringOptions& options, std::mt19937_64& random, const Progress& progress);
+                          const ClusteringOptions& options, std::mt19937_64& random,
+                          const Progress& progress);
 
 } // namespace prt

@@ -6,8 +6,8 @@
 namespace prt {
 namespace {
 
-/// What is left of a Gaussian variance after the best uniform quantiser of b bits (Max 1960, table II, to 5 bits;
-/// beyond, each bit takes another 3.6 to 4 times).
+/// What is left of a Gaussian variance after the best uniform quantiser of b bits (Max 1960, table II, to 5
+/// bits; beyond, each bit takes another 3.6 to 4 times).
 double left_after(int bits) {
     static constexpr std::array<double, kMostBits + 1> kLeft = {
         1,       0.3634,  0.1188,  0.03744, 0.01154, 0.003495, 0.001041, 3.04e-4, 8.77e-5,
@@ -50,7 +50,8 @@ std::vector<std::uint8_t> divide_bits(std::span<const double> variances, std::si
 
 ComponentPlan plan_components(std::span<const double> variances, double weight, const Spending& spending) {
     const auto rank = static_cast<std::size_t>(
-        std::find_if(variances.begin(), variances.end(), [](double v) { return !(v > 0); }) - variances.begin());
+        std::find_if(variances.begin(), variances.end(), [](double v) { return !(v > 0); }) -
+        variances.begin());
     const std::size_t most = std::min(rank, static_cast<std::size_t>(spending.most_components));
     ComponentPlan best{{}, 0, tail(variances, 0)};
     double best_cost = best.error;

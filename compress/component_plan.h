@@ -6,8 +6,8 @@
 
 namespace prt {
 
-/// What the clusters may spend on weights, and what a component costs. Prices are in squared error, in which all
-/// receivers together weigh 1.
+/// What the clusters may spend on weights, and what a component costs. Prices are in squared error, in which
+/// all receivers together weigh 1.
 struct Spending {
     int most_components = 8;
     int bits = 0; ///< a receiver's weights together; 0: weights are floats and cost nothing
@@ -27,8 +27,8 @@ struct ComponentPlan {
 /// Most bits of a weight.
 inline constexpr int kMostBits = 16;
 
-/// The cheapest plan for a cluster of weight `weight` whose variances along its principal axes are `variances`,
-/// descending: bits go one by one to where they take away most.
+/// The cheapest plan for a cluster of weight `weight` whose variances along its principal axes are
+/// `variances`, descending: bits go one by one to where they take away most.
 ComponentPlan plan_components(std::span<const double> variances, double weight, const Spending& spending);
 
 } // namespace prt

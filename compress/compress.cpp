@@ -32,29 +32,26 @@ void check(const Transfer& transfer, std::span<const float> areas, const Compres
     check_order(transfer.order);
     if (o.clusters < 1 || o.clusters > 65536)
         out_of_range("clusters must lie in 1..65536", o.clusters);
-    if (o.components < 0 || static_cast<std::size_t>(o.components) > transfer.dimension())
-        out_of_range("components must lie in 0.." + std::to_string(transfer.dimension()) +
-                         ", the dimension of the transfer vectors",
-                     o.components);
+    if (o.components < 0)
+        out_of_range("components must not be negative", o.components);
     if (!(o.mean_components >= 0))
         out_of_range("components per vertex must not be negative", o.mean_components);
     if (o.weights == WeightFormat::packed) {
-        if (o.components > kMostPackedComponents)
-            out_of_range("packed weights have at most " + std::to_string(kMostPackedComponents) + " components",
-                         o.components);
         if (o.fixed_bits.empty() && (o.bits < 0 || o.bits > kMostPackedBits))
-            out_of_range("bits of a vertex's weights must lie in 0.." + std::to_string(kMostPackedBits), o.bits);
+            out_of_range("bits of a vertex's weights must lie in 0.." + std::to_string(kMostPackedBits),
+                         o.bits);
         for (const int bits : o.fixed_bits)
             if (bits < 1 || bits > kMostBits)
                 out_of_range("bits of a weight must lie in 1.." + std::to_string(kMostBits), bits);
-        if (o.cluster_bits < 0 || o.cluster_bits > 16 || (o.cluster_bits > 0 && o.clusters > 1 << o.cluster_bits))
-            throw Error(std::to_string(o.clusters) + " clusters do not fit " + std::to_string(o.cluster_bits) +
-                        " bits");
+        if (o.cluster_bits < 0 || o.cluster_bits > 16 ||
+            (o.cluster_bits > 0 && o.clusters > 1 << o.cluster_bits))
+            throw Error(std::to_string(o.clusters) + " clusters do not fit " +
+                        std::to_string(o.cluster_bits) + " bits");
     }
     if (!(o.seam_weight >= 0) || !(o.potts_weight >= 0))
         out_of_range("seam weights must not be negative", std::min(o.seam_weight, o.potts_weight));
-    if (!(o.basis_share >= 0 && o.basis_share < 1))
-        out_of_range("the share of the bases must lie in 0..1", o.basis_share);
+    if (o.basis_share && !(*o.basis_share >= 0 && *o.basis_share < 1))
+        out_of_range("the share of the bases must lie in 0..1", *o.basis_share);
     if (o.metric && (o.metric->order != transfer.order || o.metric->channels != transfer.channels))
         throw Error("the metric has another order or other channels than the transfer");
     if (transfer.receivers() == 0)
@@ -62,19 +59,37 @@ void check(const Transfer& transfer, std::span<const float> areas, const Compres
     if (areas.size() != transfer.receivers())
         throw Error("there are areas for " + std::to_string(areas.size()) + " receivers of " +
                     std::to_string(transfer.receivers()));
-    if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(), [](float v) { return std::isfinite(v); }))
+    if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(),
+                     [](float v) { return std::isfinite(v); }))
         throw Error("the transfer holds values that are not finite");
 }
 
-Spending spending_of(const CompressOptions& o) {
+double basis_share(const CompressOptions& o) {
+    if (o.basis_share)
+        return *o.basis_share;
+    switch (o.weights) {
+    case WeightFormat::packed:
+        return 0.1;
+    case WeightFormat::snorm8:
+        return 0.05;
+    case WeightFormat::snorm16:
+        return 0.0001;
+    case WeightFormat::float32:
+        break;
+    }
+    return 0;
+}
+
+Spending spending_of(const CompressOptions& o, std::size_t dimension) {
     Spending spending;
-    spending.most_components = o.components;
+    spending.most_components = std::min(o.components, static_cast<int>(dimension));
     if (o.weights != WeightFormat::packed)
         return spending;
+    spending.most_components = std::min(spending.most_components, kMostPackedComponents);
     spending.bits = o.bits;
     spending.fixed_bits = o.fixed_bits;
     if (!o.fixed_bits.empty())
-        spending.most_components = std::min(o.components, static_cast<int>(o.fixed_bits.size()));
+        spending.most_components = std::min(spending.most_components, static_cast<int>(o.fixed_bits.size()));
     else if (o.bits == 0)
         spending.most_components = 0;
     return spending;
@@ -106,11 +121,11 @@ Clustered cluster(const Transfer& transfer, std::span<const float> weights, cons
                   const CompressOptions& options, const Progress& progress) {
     ClusteringOptions how;
     how.clusters = static_cast<std::size_t>(options.clusters);
-    how.spending = spending_of(options);
+    how.spending = spending_of(options, transfer.dimension());
     how.mean_components = options.mean_components;
-    how.rows_cost = options.weights == WeightFormat::packed && options.basis_share > 0;
+    how.rows_cost = options.weights == WeightFormat::packed && basis_share(options) > 0;
     how.threads = options.threads;
-    double most_dropped = options.weights == WeightFormat::float32 || !(options.basis_share > 0) ? 0 : 1e-7;
+    double most_dropped = options.weights == WeightFormat::float32 || !(basis_share(options) > 0) ? 0 : 1e-7;
     for (;;) {
         Frame frame = fit_frame(transfer, weights, metric, most_dropped, options.threads);
         PointBlocks points(transfer, frame, options.threads);
@@ -124,8 +139,9 @@ Clustered cluster(const Transfer& transfer, std::span<const float> weights, cons
     }
 }
 
-/// The step of the bases at which rounding adds `share` of the squared error `error`: a receiver's code is the sum
-/// of its mean and of m rows times weights of mean square about 0.2, which are rounded to twice the step.
+/// The step of the bases at which rounding adds `share` of the squared error `error`: a receiver's code is
+/// the sum of its mean and of m rows times weights of mean square about 0.2, which are rounded to twice the
+/// step.
 double basis_step(const QuantisedModels& models, double error, double share) {
     double rows = 0, largest = 0;
     for (const int m : models.components)
@@ -134,7 +150,8 @@ double basis_step(const QuantisedModels& models, double error, double share) {
         largest = std::max(largest, static_cast<double>(std::abs(v)));
     for (const float v : models.rows)
         largest = std::max(largest, static_cast<double>(std::abs(v)) / 2);
-    const double noise = static_cast<double>(models.dimension) * rows / static_cast<double>(models.clusters()) / 12;
+    const double noise =
+        static_cast<double>(models.dimension) * rows / static_cast<double>(models.clusters()) / 12;
     const double most = static_cast<double>(1 << (kMostRowBits - 1)) - 1;
     return std::max({noise > 0 ? std::sqrt(share * error / noise) : 0.0, largest / most, 1e-30});
 }
@@ -195,8 +212,8 @@ struct Quantised {
     double step = 0;
 };
 
-/// Alternates codes, given the clusters, and clusters, given the codes; from the third round on with the bases
-/// rounded as they will be written.
+/// Alternates codes, given the clusters, and clusters, given the codes; from the third round on with the
+/// bases rounded as they will be written.
 void alternate(const PointBlocks& points, std::span<const float> weights, const CompressOptions& options,
                const Progress& progress, Quantised& q) {
     constexpr int kRounds = 6, kRoundedFrom = 2;
@@ -208,8 +225,8 @@ void alternate(const PointBlocks& points, std::span<const float> weights, const 
     for (int round = 0; round < kRounds; ++round) {
         progress.update(0.7 + 0.04 * round);
         refit(points, weights, q.codes, q.models, options.threads);
-        if (round >= kRoundedFrom && options.basis_share > 0) {
-            q.step = basis_step(q.models, total_error(weights, q.codes.errors), options.basis_share);
+        if (round >= kRoundedFrom && basis_share(options) > 0) {
+            q.step = basis_step(q.models, total_error(weights, q.codes.errors), basis_share(options));
             round_rows(q.models, q.step);
         }
         encode_points(points, q.models, neighbour_clusters(q.models, near, options.threads), q.codes,
@@ -255,39 +272,45 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas, 
     for (const double error : found->clustering.history)
         result.statistics.lit_rms_by_iteration.push_back(std::sqrt(error + found->frame.dropped));
     Quantised q;
-    q.models = quantised_models(found->points, weights, found->clustering,
-                                options.weights == WeightFormat::float32, half_of(options.weights), options.threads);
+    q.models =
+        quantised_models(found->points, weights, found->clustering, options.weights == WeightFormat::float32,
+                         half_of(options.weights), options.threads);
     q.codes.clusters = found->clustering.clusters;
-    encode_points(found->points, q.models, neighbour_clusters(q.models, options.mean_components > 0 ? 1 : 16, options.threads),
+    encode_points(found->points, q.models,
+                  neighbour_clusters(q.models, options.mean_components > 0 ? 1 : 16, options.threads),
                   q.codes, options.threads);
 
     Frame frame = std::move(found->frame);
     CodedBases coded_frame;
-    const bool coded = options.weights != WeightFormat::float32 && options.basis_share > 0;
+    const bool coded = options.weights != WeightFormat::float32 && basis_share(options) > 0;
     if (coded) {
         const double error = total_error(weights, q.codes.errors);
         truncate(frame, axes_needed(frame, 0.01 * error));
         coded_frame = code_frame(frame, metric, 0.02 * error);
         q.models = truncated(q.models, frame.dimension);
     }
-    const PointBlocks points = coded ? PointBlocks(transfer, frame, options.threads) : std::move(found->points);
+    const PointBlocks points =
+        coded ? PointBlocks(transfer, frame, options.threads) : std::move(found->points);
     found.reset();
     if (coded)
-        encode_points(points, q.models, neighbour_clusters(q.models, 1, options.threads), q.codes, options.threads);
+        encode_points(points, q.models, neighbour_clusters(q.models, 1, options.threads), q.codes,
+                      options.threads);
     alternate(points, weights, options, progress, q);
     if ((options.seam_weight > 0 || options.potts_weight > 0) && !edges.empty())
-        smooth_seams(points, weights, edges, q.models, {options.seam_weight, options.potts_weight, options.threads},
-                     q.codes);
+        smooth_seams(points, weights, edges, q.models,
+                     {options.seam_weight, options.potts_weight, options.threads}, q.codes);
     drop_empty(q.models, q.codes);
     progress.update(0.95);
-    result.transfer = encode(frame, coded_frame, q.models, q.codes, {options.weights, options.cluster_bits, q.step});
+    result.transfer =
+        encode(frame, coded_frame, q.models, q.codes, {options.weights, options.cluster_bits, q.step});
 
     CompressStatistics& statistics = result.statistics;
     statistics.clusters = static_cast<int>(result.transfer.bases.clusters());
     statistics.mean_components = mean_components(result.transfer);
     statistics.bytes_per_receiver = bytes_per_receiver(result.transfer);
     statistics.basis_bytes = basis_bytes(result.transfer.bases);
-    statistics.lit_rms = expected_lit_rms(transfer, decode(result.transfer, options.threads), areas, metric, options.threads);
+    statistics.lit_rms =
+        expected_lit_rms(transfer, decode(result.transfer, options.threads), areas, metric, options.threads);
     statistics.seconds = stopwatch.seconds();
     progress.update(1);
     return result;

@@ -71,12 +71,12 @@ ClusteredBases make_bases(const Frame& frame, const QuantisedModels& models, con
         bases.rows = decode_bases(bases.coded, bases.components);
         return bases;
     }
-    const auto full = static_cast<Eigen::Index>(frame.full()), kept = static_cast<Eigen::Index>(frame.dimension);
+    const auto full = static_cast<Eigen::Index>(frame.full()),
+               kept = static_cast<Eigen::Index>(frame.dimension);
     const Eigen::Map<const Eigen::MatrixXd> synthesis(frame.synthesis.data(), full, kept);
     const Eigen::Map<const Eigen::VectorXd> origin(frame.origin.data(), full);
     const auto put = [&](const float* row, bool mean) {
-        Eigen::VectorXd vector =
-            synthesis * Eigen::Map<const Eigen::VectorXf>(row, kept).cast<double>();
+        Eigen::VectorXd vector = synthesis * Eigen::Map<const Eigen::VectorXf>(row, kept).cast<double>();
         if (mean)
             vector += origin;
         for (const double v : vector)
@@ -90,7 +90,8 @@ ClusteredBases make_bases(const Frame& frame, const QuantisedModels& models, con
     return bases;
 }
 
-void pack(const QuantisedModels& models, const Codes& codes, const Encoding& encoding, ClusteredTransfer& result) {
+void pack(const QuantisedModels& models, const Codes& codes, const Encoding& encoding,
+          ClusteredTransfer& result) {
     ClusteredBases& bases = result.bases;
     ClusteredReceivers& receivers = result.receivers;
     receivers.cluster_bits = encoding.cluster_bits > 0
@@ -109,7 +110,8 @@ void pack(const QuantisedModels& models, const Codes& codes, const Encoding& enc
     receivers.words = std::max(1, (most + 31) / 32);
     receivers.weights.resize(codes.clusters.size() * receivers.stride());
     const std::vector<ClusterLayout> layouts = cluster_layouts(bases);
-    std::vector<std::uint32_t> words(static_cast<std::size_t>(receivers.words)), values(models.max_components);
+    std::vector<std::uint32_t> words(static_cast<std::size_t>(receivers.words)),
+        values(models.max_components);
     for (std::size_t p = 0; p < codes.clusters.size(); ++p) {
         const std::uint32_t k = codes.clusters[p];
         for (std::size_t j = 0; j < layouts[k].components; ++j)
@@ -135,7 +137,8 @@ void store_weight(std::byte* to, float weight, WeightFormat format) {
 } // namespace
 
 CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error) {
-    const auto full = static_cast<Eigen::Index>(frame.full()), kept = static_cast<Eigen::Index>(frame.dimension);
+    const auto full = static_cast<Eigen::Index>(frame.full()),
+               kept = static_cast<Eigen::Index>(frame.dimension);
     const auto count = static_cast<Eigen::Index>(metric.order * metric.order);
     Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(full, full);
     for (int c = 0; c < metric.channels; ++c)
@@ -144,11 +147,13 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
     moments *= frame.scale * frame.scale;
 
     // Rounding every value of every axis to `unit` adds axes · trace · unit² / 12.
-    double unit = std::sqrt(12 * most_error / (static_cast<double>(std::max<Eigen::Index>(kept, 1)) * moments.trace()));
+    double unit =
+        std::sqrt(12 * most_error / (static_cast<double>(std::max<Eigen::Index>(kept, 1)) * moments.trace()));
     double largest = 0;
     for (std::size_t i = 0; i < frame.dimension; ++i)
         for (std::size_t a = 0; a < frame.full(); ++a)
-            largest = std::max(largest, std::sqrt(frame.variances[i]) * std::abs(frame.synthesis[i * frame.full() + a]));
+            largest = std::max(largest, std::sqrt(frame.variances[i]) *
+                                            std::abs(frame.synthesis[i * frame.full() + a]));
     unit = std::max(unit, largest / kLargestValue);
 
     CodedBases coded;

@@ -13,8 +13,9 @@ struct Encoding {
     double step = 0;      ///< models were rounded to it and are written in code; 0: as float32
 };
 
-/// The frame as a file holds it: its axes are rounded so that this adds a squared error of about `most_error`, were
-/// it not made good by the coordinates. `frame` then holds the rounded axes, and the analysis that belongs to them.
+/// The frame as a file holds it: its axes are rounded so that this adds a squared error of about
+/// `most_error`, were it not made good by the coordinates. `frame` then holds the rounded axes, and the
+/// analysis that belongs to them.
 CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error);
 
 /// The transfer that `models` and `codes` stand for in the space of `frame`. `coded_frame` is what code_frame

@@ -56,7 +56,8 @@ double largest_of(const glm::dvec3& v) {
 double percentile(std::vector<double>& values, double share) {
     if (values.empty())
         return 0;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
 }
@@ -66,7 +67,8 @@ double darker_half(std::span<const glm::vec3> reference, std::span<const glm::dv
     std::vector<std::uint32_t> order(reference.size());
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return reference[a].x + reference[a].y + reference[a].z < reference[b].x + reference[b].y + reference[b].z;
+        return reference[a].x + reference[a].y + reference[a].z <
+               reference[b].x + reference[b].y + reference[b].z;
     });
     double error = 0, norm = 0, seen = 0;
     for (const std::uint32_t p : order) {

@@ -52,6 +52,31 @@ Moments weighted_moments(const Transfer& transfer, std::span<const float> weight
     return total;
 }
 
+/// The weights, scaled to the sum 1 again, without receivers whose vector is more than a hundred times as
+/// long as the median: near one such, float has no digits left for the others.
+std::vector<float> without_outliers(const Transfer& transfer, std::span<const float> weights) {
+    std::vector<float> lengths;
+    for (std::size_t p = 0; p < weights.size(); ++p)
+        lengths.push_back(Eigen::Map<const Eigen::VectorXf>(transfer.vector(p).data(),
+                                                            static_cast<Eigen::Index>(transfer.dimension()))
+                              .stableNorm());
+    std::vector<float> sorted = lengths;
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::nth_element(sorted.begin(), middle, sorted.end());
+    std::vector<float> usual(weights.begin(), weights.end());
+    double total = 0;
+    for (std::size_t p = 0; p < usual.size(); ++p) {
+        if (lengths[p] > 100 * *middle)
+            usual[p] = 0;
+        total += static_cast<double>(usual[p]);
+    }
+    if (!(total > 0))
+        return {weights.begin(), weights.end()};
+    for (float& weight : usual)
+        weight = static_cast<float>(static_cast<double>(weight) / total);
+    return usual;
+}
+
 /// The symmetric square root of the metric, block by block, and its inverse.
 void square_roots(const LightMetric& metric, Matrix& root, Matrix& inverse) {
     const auto count = static_cast<Eigen::Index>(metric.order * metric.order);
@@ -73,23 +98,28 @@ Frame fit_frame(const Transfer& transfer, std::span<const float> weights, const 
     const auto n = static_cast<Eigen::Index>(transfer.dimension());
     Matrix root, inverse;
     square_roots(metric, root, inverse);
-    const Vector mean = weighted_moments(transfer, weights, Vector::Zero(n), threads).sum;
-    const Moments moments = weighted_moments(transfer, weights, mean, threads);
+    const std::vector<float> usual = without_outliers(transfer, weights);
+    const Vector origin = weighted_moments(transfer, usual, Vector::Zero(n), threads).sum;
+    const Moments moments = weighted_moments(transfer, weights, origin, threads);
     const Matrix covariance = root * (moments.outer - moments.sum * moments.sum.transpose()) * root;
     const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance);
-    const double energy = (root * mean).squaredNorm() + std::max(covariance.trace(), 0.0);
+    const double energy = (root * (origin + moments.sum)).squaredNorm() + std::max(covariance.trace(), 0.0);
     const double scale = energy > 0 ? 1 / std::sqrt(energy) : 1;
 
     Frame frame{transfer.order, transfer.channels, 0, {}, {}, {}, {}, 0, scale};
-    frame.origin.assign(mean.begin(), mean.end());
+    frame.origin.assign(origin.begin(), origin.end());
     frame.variances.resize(static_cast<std::size_t>(n));
     for (Eigen::Index i = 0; i < n; ++i) // eigenvalues ascend
         frame.variances[static_cast<std::size_t>(i)] =
             std::max(0.0, solver.eigenvalues()[n - 1 - i]) * scale * scale;
-    // Float rounding of the vectors alone makes (2^-24)² of the energy along every axis; 4 is a margin.
-    const double rounding = 4 * 0x1p-48;
+    // Float rounding of usual vectors alone makes (2^-24)² of their energy along every axis; 4 is a margin.
+    const double rounding = 4 * 0x1p-48 * scale * scale * (root * origin).squaredNorm();
     frame.dimension = static_cast<std::size_t>(n);
-    while (frame.dimension > 0) {
+    // Beside an outlier's the variances of all others are too inexact to tell which axes matter.
+    bool outliers = false;
+    for (std::size_t p = 0; p < usual.size(); ++p)
+        outliers = outliers || (usual[p] == 0 && weights[p] > 0);
+    while (frame.dimension > 0 && !outliers) {
         const double variance = frame.variances[frame.dimension - 1];
         if (frame.dropped + variance > most_dropped && variance > rounding)
             break;
@@ -104,7 +134,8 @@ Frame fit_frame(const Transfer& transfer, std::span<const float> weights, const 
         if (axes(largest, i) < 0)
             axes.col(i) *= -1;
     }
-    const Matrix analysis = scale * root * axes, synthesis = inverse * axes / scale; // [full][kept], column-major
+    const Matrix analysis = scale * root * axes,
+                 synthesis = inverse * axes / scale; // [full][kept], column-major
     frame.analysis.assign(analysis.data(), analysis.data() + analysis.size());
     frame.synthesis.assign(synthesis.data(), synthesis.data() + synthesis.size());
     return frame;

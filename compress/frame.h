@@ -9,13 +9,13 @@
 namespace prt {
 
 /// A space in which Euclidean distance is error of exit radiance: y = analysis (T - origin), T = origin +
-/// synthesis^T y, with axes in descending order of variance. Units are such that the weighted mean of |dT|² in
-/// this space is the squared `expected_lit_rms`. Axes that carry next to nothing are left out, so that coloured
-/// transfer, whose channels are nearly dependent, costs little more than grey.
+/// synthesis^T y, with axes in descending order of variance. Units are such that the weighted mean of |dT|²
+/// in this space is the squared `expected_lit_rms`. Axes that carry next to nothing are left out, so that
+/// coloured transfer, whose channels are nearly dependent, costs little more than grey.
 struct Frame {
     int order = 0, channels = 1;
     std::size_t dimension = 0;     ///< axes that are kept
-    std::vector<double> origin;    ///< [full]: the mean of all receivers
+    std::vector<double> origin;    ///< [full]: the mean of all receivers but outliers
     std::vector<double> analysis;  ///< [dimension][full]
     std::vector<double> synthesis; ///< [dimension][full]
     std::vector<double> variances; ///< [full] along all axes, also those left out

@@ -20,16 +20,18 @@ template <class Power>
 LightMetric banded_metric(int order, int channels, Power&& power) {
     check_order(order);
     const auto count = static_cast<std::size_t>(coefficient_count(order));
-    LightMetric metric{order, channels, std::vector<double>(static_cast<std::size_t>(channels) * count * count)};
+    LightMetric metric{order, channels,
+                       std::vector<double>(static_cast<std::size_t>(channels) * count * count)};
     for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
         for (int l = 0; l < order; ++l)
-            for (auto i = static_cast<std::size_t>(l * l); i < static_cast<std::size_t>((l + 1) * (l + 1)); ++i)
+            for (auto i = static_cast<std::size_t>(l * l); i < static_cast<std::size_t>((l + 1) * (l + 1));
+                 ++i)
                 metric.moments[(c * count + i) * count + i] = power(l);
     return metric;
 }
 
-/// Turning by 2N - 1 equal angles integrates the products of two coefficients exactly: their frequencies about
-/// the axis are below N each.
+/// Turning by 2N - 1 equal angles integrates the products of two coefficients exactly: their frequencies
+/// about the axis are below N each.
 int exact_rotations(int order) {
     return 2 * order - 1;
 }
@@ -85,8 +87,8 @@ LightMetric metric_of_lights(std::span<const Light> lights, int order, int chann
         if (!(light_energy > 0))
             continue;
         for (int r = 0; r < rotations; ++r)
-            add_outer_product(rotated_about_y(light, 2 * M_PI * r / rotations), 1 / (light_energy * rotations),
-                              channels, metric.moments);
+            add_outer_product(rotated_about_y(light, 2 * M_PI * r / rotations),
+                              1 / (light_energy * rotations), channels, metric.moments);
     }
     const double given = trace(metric);
     if (!(given > 0))
@@ -98,8 +100,8 @@ LightMetric metric_of_lights(std::span<const Light> lights, int order, int chann
     return metric;
 }
 
-double expected_lit_rms(const Transfer& reference, const Transfer& approximation, std::span<const float> areas,
-                        const LightMetric& metric, int threads) {
+double expected_lit_rms(const Transfer& reference, const Transfer& approximation,
+                        std::span<const float> areas, const LightMetric& metric, int threads) {
     if (reference.order != approximation.order || reference.channels != approximation.channels ||
         reference.receivers() != approximation.receivers() || metric.order != reference.order ||
         metric.channels != reference.channels)
@@ -112,8 +114,8 @@ double expected_lit_rms(const Transfer& reference, const Transfer& approximation
         Eigen::VectorXd t(count), d(count);
         for (std::size_t p = begin; p < end; ++p)
             for (int c = 0; c < reference.channels; ++c) {
-                const Eigen::Map<const Eigen::MatrixXd> moments(&metric.moments[static_cast<std::size_t>(c * count * count)],
-                                                                count, count);
+                const Eigen::Map<const Eigen::MatrixXd> moments(
+                    &metric.moments[static_cast<std::size_t>(c * count * count)], count, count);
                 for (Eigen::Index i = 0; i < count; ++i) {
                     const auto at = static_cast<std::size_t>(c * count + i);
                     t[i] = static_cast<double>(reference.vector(p)[at]);

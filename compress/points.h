@@ -59,7 +59,7 @@ struct ClusterModels {
 
 struct Assignment {
     std::vector<std::uint32_t> clusters; ///< [points]
-    std::vector<float> errors;           ///< [points] squared distance to the cluster's subspace, and its penalty
+    std::vector<float> errors; ///< [points] squared distance to the cluster's subspace, and its penalty
 };
 
 /// Gives each point the cluster whose subspace is nearest, penalties added; of equals the first.

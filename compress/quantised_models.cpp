@@ -32,8 +32,8 @@ struct ClusterRows {
 
 /// Squared distance of a block's points to what their codes in this cluster stand for; the weights go to
 /// `weights` [components][kLanes] unless it is null.
-[[gnu::always_inline]] inline Lanes code_block(const float* block, std::size_t dimension, const ClusterRows& k,
-                                               float* weights) {
+[[gnu::always_inline]] inline Lanes code_block(const float* block, std::size_t dimension,
+                                               const ClusterRows& k, float* weights) {
     Lanes d[kMostDimensions];
     for (std::size_t i = 0; i < dimension; ++i)
         d[i] = lanes_at(block + i * kLanes) - k.mean[i];
@@ -86,7 +86,8 @@ std::vector<float> inverse_norms(const QuantisedModels& models) {
         for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[k]); ++j) {
             double squared = 0;
             for (std::size_t i = 0; i < models.dimension; ++i)
-                squared += static_cast<double>(models.row(k, j)[i]) * static_cast<double>(models.row(k, j)[i]);
+                squared +=
+                    static_cast<double>(models.row(k, j)[i]) * static_cast<double>(models.row(k, j)[i]);
             // A row that rounding has emptied codes nothing.
             result[k * models.max_components + j] = squared > 1e-30 ? static_cast<float>(1 / squared) : 0.0f;
         }
@@ -97,9 +98,9 @@ std::vector<ClusterRows> cluster_rows(const QuantisedModels& models, std::span<c
     std::vector<ClusterRows> result;
     for (std::size_t k = 0; k < models.clusters(); ++k) {
         const std::size_t first = k * models.max_components;
-        result.push_back({models.means.data() + k * models.dimension, models.rows.data() + first * models.dimension,
-                          models.halves.data() + first, norms.data() + first,
-                          static_cast<std::size_t>(models.components[k])});
+        result.push_back({models.means.data() + k * models.dimension,
+                          models.rows.data() + first * models.dimension, models.halves.data() + first,
+                          norms.data() + first, static_cast<std::size_t>(models.components[k])});
     }
     return result;
 }
@@ -126,7 +127,8 @@ double best_length(std::span<const double> along, std::span<const double> weight
     return best;
 }
 
-std::vector<std::vector<std::uint32_t>> members_of(std::span<const std::uint32_t> clusters, std::size_t count) {
+std::vector<std::vector<std::uint32_t>> members_of(std::span<const std::uint32_t> clusters,
+                                                   std::size_t count) {
     std::vector<std::vector<std::uint32_t>> members(count);
     for (std::uint32_t p = 0; p < clusters.size(); ++p)
         members[clusters[p]].push_back(p);
@@ -264,15 +266,16 @@ std::vector<std::vector<std::uint32_t>> neighbour_clusters(const QuantisedModels
     return result;
 }
 
-void refit(const PointBlocks& points, std::span<const float> weights, const Codes& codes, QuantisedModels& models,
-           int threads) {
+void refit(const PointBlocks& points, std::span<const float> weights, const Codes& codes,
+           QuantisedModels& models, int threads) {
     const auto members = members_of(codes.clusters, models.clusters());
     const auto d = static_cast<Eigen::Index>(models.dimension);
     parallel_for(models.clusters(), 1, threads, [&](std::size_t begin, std::size_t end) {
         std::vector<float> point(models.dimension);
         for (std::size_t k = begin; k < end; ++k) {
             const auto m = static_cast<Eigen::Index>(models.components[k]);
-            Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m + 1, m + 1), right = Eigen::MatrixXd::Zero(m + 1, d);
+            Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(m + 1, m + 1),
+                            right = Eigen::MatrixXd::Zero(m + 1, d);
             Eigen::VectorXd z(m + 1), residual(d);
             z[0] = 1;
             for (const std::uint32_t p : members[k]) {
@@ -286,7 +289,8 @@ void refit(const PointBlocks& points, std::span<const float> weights, const Code
                 for (Eigen::Index j = 0; j < m; ++j) {
                     z[1 + j] = static_cast<double>(w[static_cast<std::size_t>(j)]);
                     residual -= z[1 + j] * Eigen::Map<const Eigen::VectorXf>(
-                                               models.row(k, static_cast<std::size_t>(j)), d).cast<double>();
+                                               models.row(k, static_cast<std::size_t>(j)), d)
+                                               .cast<double>();
                 }
                 normal.selfadjointView<Eigen::Lower>().rankUpdate(z, static_cast<double>(weights[p]));
                 right += static_cast<double>(weights[p]) * z * residual.transpose();

@@ -18,7 +18,9 @@ struct QuantisedModels {
     float* mean(std::size_t k) { return &means[k * dimension]; }
     const float* mean(std::size_t k) const { return &means[k * dimension]; }
     float* row(std::size_t k, std::size_t j) { return &rows[(k * max_components + j) * dimension]; }
-    const float* row(std::size_t k, std::size_t j) const { return &rows[(k * max_components + j) * dimension]; }
+    const float* row(std::size_t k, std::size_t j) const {
+        return &rows[(k * max_components + j) * dimension];
+    }
 };
 
 /// What every point is coded as.
@@ -26,7 +28,7 @@ struct Codes {
     std::size_t max_components = 0;
     std::vector<std::uint32_t> clusters; ///< [points]
     std::vector<float> weights;          ///< [points][max_components], on the grid
-    std::vector<float> errors;           ///< [points] squared distance of the point to what its code stands for
+    std::vector<float> errors; ///< [points] squared distance of the point to what its code stands for
 
     std::span<const float> of(std::size_t point) const {
         return std::span(weights).subspan(point * max_components, max_components);
@@ -41,23 +43,25 @@ inline float half_of_bits(int bits) {
 /// The nearest weight on the grid of `half`.
 float round_weight(float weight, float half);
 
-/// Rows from the principal axes of `clustering`, each as long as loses least when the weights of its points are
-/// rounded. `half` of all weights, or 0: by the bits of each cluster's plan.
+/// Rows from the principal axes of `clustering`, each as long as loses least when the weights of its points
+/// are rounded. `half` of all weights, or 0: by the bits of each cluster's plan.
 QuantisedModels quantised_models(const PointBlocks& points, std::span<const float> weights,
                                  const Clustering& clustering, bool free_weights, float half, int threads);
 
 /// Codes every point in the cluster where it loses least among the `candidates` of its present one
-/// [clusters][..]; empty: among all. Weights are rounded one after the other, each to what the former left over.
+/// [clusters][..]; empty: among all. Weights are rounded one after the other, each to what the former left
+/// over.
 void encode_points(const PointBlocks& points, const QuantisedModels& models,
                    std::span<const std::vector<std::uint32_t>> candidates, Codes& codes, int threads);
 
-/// Clusters that are near each other: for each the `most` whose subspaces are nearest to its mean, itself first.
+/// Clusters that are near each other: for each the `most` whose subspaces are nearest to its mean, itself
+/// first.
 std::vector<std::vector<std::uint32_t>> neighbour_clusters(const QuantisedModels& models, std::size_t most,
                                                            int threads);
 
 /// Means and rows that fit the codes best, by weighted least squares.
-void refit(const PointBlocks& points, std::span<const float> weights, const Codes& codes, QuantisedModels& models,
-           int threads);
+void refit(const PointBlocks& points, std::span<const float> weights, const Codes& codes,
+           QuantisedModels& models, int threads);
 
 /// Rounds means to multiples of `step` and rows to multiples of 2 `step`.
 void round_rows(QuantisedModels& models, double step);

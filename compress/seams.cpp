@@ -18,8 +18,8 @@ public:
         double weight;
     };
 
-    /// The weight of an edge is the mean of what its ends have per edge, so that all edges together weigh about as
-    /// much as all receivers.
+    /// The weight of an edge is the mean of what its ends have per edge, so that all edges together weigh
+    /// about as much as all receivers.
     Neighbours(std::span<const Edge> edges, std::span<const float> weights) : first_(weights.size() + 1, 0) {
         std::vector<std::uint32_t> degree(weights.size(), 0);
         for (const Edge& e : edges) {
@@ -113,7 +113,8 @@ ErrorMatrix SeamSmoother::combined(const std::vector<double>& all_weights) const
         for (std::size_t p = begin; p < end; ++p)
             for (std::size_t j = 0; j < components(p); ++j)
                 result.col(static_cast<Eigen::Index>(p)) +=
-                    static_cast<float>(all_weights[p * models_.max_components + j]) * row(codes_.clusters[p], j);
+                    static_cast<float>(all_weights[p * models_.max_components + j]) *
+                    row(codes_.clusters[p], j);
     });
     return result;
 }
@@ -123,8 +124,9 @@ std::vector<double> SeamSmoother::gradient(const ErrorMatrix& errors) const {
     parallel_for(points_.count, 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
         Vector g(dimension_);
         for (std::size_t p = begin; p < end; ++p) {
-            const auto own = errors.col(static_cast<Eigen::Index>(p)).cast<double>();
-            g = static_cast<double>(weights_[p]) * own;
+            const Vector own = errors.col(static_cast<Eigen::Index>(p)).cast<double>();
+            g.setZero();
+            g += static_cast<double>(weights_[p]) * own;
             for (const Neighbours::Link& link : neighbours_.of(p))
                 g += options_.seam_weight * link.weight *
                      (own - errors.col(static_cast<Eigen::Index>(link.other)).cast<double>());
@@ -135,8 +137,8 @@ std::vector<double> SeamSmoother::gradient(const ErrorMatrix& errors) const {
     return result;
 }
 
-/// Conjugate gradients, preconditioned by the diagonal, on the change of all weights. The matrix is never formed:
-/// with 1.5 million receivers and 8 components it would have 10^9 entries.
+/// Conjugate gradients, preconditioned by the diagonal, on the change of all weights. The matrix is never
+/// formed: with 1.5 million receivers and 8 components it would have 10^9 entries.
 void SeamSmoother::solve_weights() {
     const std::size_t count = points_.count * models_.max_components;
     std::vector<double> diagonal(count, 1.0), change(count, 0.0);
@@ -183,12 +185,14 @@ void SeamSmoother::solve_weights() {
     for (std::size_t p = 0; p < points_.count; ++p)
         for (std::size_t j = 0; j < components(p); ++j) {
             float& w = codes_.weights[p * models_.max_components + j];
-            w = round_weight(static_cast<float>(static_cast<double>(w) + change[p * models_.max_components + j]),
-                             models_.halves[codes_.clusters[p] * models_.max_components + j]);
+            w = round_weight(
+                static_cast<float>(static_cast<double>(w) + change[p * models_.max_components + j]),
+                models_.halves[codes_.clusters[p] * models_.max_components + j]);
         }
 }
 
-Eigen::VectorXf SeamSmoother::code_in(std::uint32_t k, const Eigen::VectorXf& target, std::span<float> code) const {
+Eigen::VectorXf SeamSmoother::code_in(std::uint32_t k, const Eigen::VectorXf& target,
+                                      std::span<float> code) const {
     Eigen::VectorXf left = target - Eigen::Map<const Eigen::VectorXf>(models_.mean(k), dimension_);
     for (std::size_t j = 0; j < static_cast<std::size_t>(models_.components[k]); ++j) {
         const auto direction = row(k, j);
@@ -252,7 +256,8 @@ void SeamSmoother::reassign() {
                 continue;
             codes_.clusters[p] = best;
             std::fill_n(&codes_.weights[p * models_.max_components], models_.max_components, 0.0f);
-            std::copy_n(best_code.begin(), models_.components[best], &codes_.weights[p * models_.max_components]);
+            std::copy_n(best_code.begin(), models_.components[best],
+                        &codes_.weights[p * models_.max_components]);
             error.col(static_cast<Eigen::Index>(p)) = best_error;
             ++changed;
         }

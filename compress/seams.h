@@ -12,8 +12,9 @@ struct SeamOptions {
 };
 
 /// Trades error of receivers for smoothness of the error over the mesh. First all weights together, as real
-/// numbers, by conjugate gradients on the normal equations of eq. 32; then receiver by receiver the cluster, of its
-/// own and its neighbours', and the rounded weights that are best while the neighbours stay, until few change.
+/// numbers, by conjugate gradients on the normal equations of eq. 32; then receiver by receiver the cluster,
+/// of its own and its neighbours', and the rounded weights that are best while the neighbours stay, until few
+/// change.
 void smooth_seams(const PointBlocks& points, std::span<const float> weights, std::span<const Edge> edges,
                   const QuantisedModels& models, const SeamOptions& options, Codes& codes);
 

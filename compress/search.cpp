@@ -14,9 +14,9 @@ namespace {
 constexpr int kMostPayloadBytes = 30;
 
 void check(const SearchOptions& o) {
-    for (const auto& [value, name] : {std::pair(o.budget.max_error, "error"),
-                                      std::pair(o.budget.bytes_per_vertex, "bytes per vertex"),
-                                      std::pair(o.budget.shader_ops, "shader operations")})
+    for (const auto& [value, name] :
+         {std::pair(o.budget.max_error, "error"), std::pair(o.budget.bytes_per_vertex, "bytes per vertex"),
+          std::pair(o.budget.shader_ops, "shader operations")})
         if (value && !(*value > 0 && std::isfinite(*value)))
             throw Error("a budget of " + std::to_string(*value) + " " + name + " makes no sense");
     if (!o.budget.any())
@@ -117,8 +117,7 @@ SearchTrial Search::attempt(int clusters, int payload) {
     const CompressStatistics& s = result.statistics;
     const SearchTrial trial{clusters, payload, s.lit_rms, s.bytes_with_bases(transfer_.receivers()),
                             s.mean_components};
-    bytes_per_cluster_ =
-        std::max(4.0, static_cast<double>(s.basis_bytes) / static_cast<double>(s.clusters));
+    bytes_per_cluster_ = std::max(4.0, static_cast<double>(s.basis_bytes) / static_cast<double>(s.clusters));
     tried_[key] = trial;
     result_.trials.push_back(trial);
     keep_if_better(std::move(result), trial);
@@ -204,10 +203,13 @@ SearchResult Search::run() {
             attempt(1, 1);
             return std::move(result_);
         }
-        start = std::max(1, static_cast<int>(std::floor(0.85 * *budget.bytes_per_vertex)));
+        // Of nine bytes six or so are best in the payload, on meshes of 10 000 to 40 000 vertices; on larger
+        // ones more.
+        start = std::max(1, static_cast<int>(std::lround(0.62 * *budget.bytes_per_vertex)));
     }
     if (!budget.max_error && !budget.bytes_per_vertex)
-        start = least = most = std::min(kMostPayloadBytes, 1 + static_cast<int>(std::ceil(1.5 * *budget.shader_ops)));
+        start = least = most =
+            std::min(kMostPayloadBytes, 1 + static_cast<int>(std::ceil(1.5 * *budget.shader_ops)));
     start = std::clamp(start, least, most);
     // From the start in the direction that gets better, until it gets worse.
     best_at(start);
@@ -226,8 +228,9 @@ SearchResult Search::run() {
 
 } // namespace
 
-SearchResult compress_within(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-                             const SearchOptions& options, const Progress& progress) {
+SearchResult compress_within(const Transfer& transfer, std::span<const float> areas,
+                             std::span<const Edge> edges, const SearchOptions& options,
+                             const Progress& progress) {
     check(options);
     return Search(transfer, areas, edges, options, progress).run();
 }

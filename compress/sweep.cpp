@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace prt {
 namespace {
@@ -31,7 +32,8 @@ public:
     }
 
 private:
-    SweepPoint measured(const std::string& method, const std::string& setting, const Transfer& decoded) const {
+    SweepPoint measured(const std::string& method, const std::string& setting,
+                        const Transfer& decoded) const {
         SweepPoint point{method, setting};
         double sum = 0;
         for (std::size_t l = 0; l < lights_.size(); ++l) {
@@ -99,29 +101,37 @@ private:
         }
     }
 
-    /// What K clusters of m components take as the literature stores them.
-    double classic_bytes(int clusters, int components) const {
-        const auto floats = static_cast<double>(clusters) * (1 + components) * static_cast<double>(transfer_.dimension());
-        return (clusters > 256 ? 2 : 1) + components + 2 * floats / static_cast<double>(transfer_.receivers());
+    /// The most components that K clusters can have in `bytes` as the literature stores them; -1: not even
+    /// none.
+    int classic_components(int clusters, double bytes) const {
+        const auto row = static_cast<double>(clusters) * static_cast<double>(2 * transfer_.dimension()) /
+                         static_cast<double>(transfer_.receivers());
+        const double scale = 4.0 * clusters / static_cast<double>(transfer_.receivers());
+        const double most = std::floor((bytes - (clusters > 256 ? 2 : 1) - row) / (1 + row + scale));
+        return static_cast<int>(std::clamp(most, -1.0, static_cast<double>(transfer_.dimension())));
     }
 
     void clustered() {
-        const double most_bytes = *std::max_element(std::begin(kSweepBytes), std::end(kSweepBytes));
         const int most_clusters = static_cast<int>(std::min<std::size_t>(1024, transfer_.receivers()));
         double done = 0.03;
-        for (int clusters = 4; clusters <= most_clusters; clusters *= 2)
-            for (int m = 0; m <= 16 && static_cast<std::size_t>(m) <= transfer_.dimension(); ++m) {
-                if (classic_bytes(clusters, m) > most_bytes)
-                    break;
-                done += 0.4 * (0.5 - done) * 0.02;
-                if (m == 0) {
+        for (int clusters = 4; clusters <= most_clusters; clusters *= 2) {
+            std::set<int> components; // fewer than fit are never better
+            for (const double bytes : kSweepBytes)
+                components.insert(classic_components(clusters, bytes));
+            for (const int m : components) {
+                done += 0.02 * (0.5 - done);
+                if (m == 0)
                     sweep_.by_bytes.push_back(
                         classic("vector quantisation", clusters, 0, false, part(done, done)));
+                if (m < 1)
                     continue;
-                }
                 sweep_.by_bytes.push_back(classic("static CPCA", clusters, m, false, part(done, done)));
                 sweep_.by_bytes.push_back(classic(kClassic, clusters, m, true, part(done, done)));
             }
+            if (!components.contains(0) && *components.rbegin() >= 0)
+                sweep_.by_bytes.push_back(
+                    classic("vector quantisation", clusters, 0, false, part(done, done)));
+        }
         const int clusters = std::min(kSweepClusters, most_clusters);
         sweep_.by_ops.push_back(classic("vector quantisation", clusters, 0, false, part(0.5, 0.5)));
         for (const int m : kSweepOps) {
@@ -171,7 +181,8 @@ private:
 };
 
 template <class Cost>
-const SweepPoint* best(const std::vector<SweepPoint>& points, const std::string& method, double most, Cost&& cost) {
+const SweepPoint* best(const std::vector<SweepPoint>& points, const std::string& method, double most,
+                       Cost&& cost) {
     const SweepPoint* found = nullptr;
     for (const SweepPoint& point : points)
         if (point.method == method && cost(point) <= most && (!found || point.lit_rms < found->lit_rms))

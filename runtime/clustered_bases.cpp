@@ -60,7 +60,8 @@ std::vector<ClusterLayout> cluster_layouts(const ClusteredBases& bases) {
             continue;
         assert(bases.components[k] <= kMostPackedComponents);
         for (std::size_t j = 0; j < layout.components; ++j)
-            layout.widths[j / 8] |= static_cast<std::uint32_t>(bases.bits[first[k] - k + j] - 1) << (4 * (j % 8));
+            layout.widths[j / 8] |= static_cast<std::uint32_t>(bases.bits[first[k] - k + j] - 1)
+                                    << (4 * (j % 8));
     }
     return layouts;
 }

@@ -83,8 +83,8 @@ std::size_t ClusteredReceivers::stride() const {
                                           : static_cast<std::size_t>(components) * bytes_per_weight(format);
 }
 
-void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLayout> layouts, std::size_t receiver,
-                    std::span<float> weights) {
+void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLayout> layouts,
+                    std::size_t receiver, std::span<float> weights) {
     const ClusterLayout& layout = layouts[transfer.receivers.clusters[receiver]];
     for_each_stored(transfer.receivers, layout, receiver,
                     [&](std::size_t j, float stored) { weights[j] = stored; });
@@ -171,7 +171,8 @@ void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> cons
             const ClusterLayout& layout = layouts[receivers.clusters[p]];
             const glm::vec4* row = &constants[layout.first_row];
             glm::vec4 sum = row[0];
-            for_each_stored(receivers, layout, p, [&](std::size_t j, float stored) { sum += stored * row[1 + j]; });
+            for_each_stored(receivers, layout, p,
+                            [&](std::size_t j, float stored) { sum += stored * row[1 + j]; });
             radiance[p] = glm::vec3(sum);
         }
     });

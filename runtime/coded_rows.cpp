@@ -64,7 +64,8 @@ private:
     std::vector<std::uint8_t> widths_;
 };
 
-/// Drops that make the code short: column by column, each to its best while the others stay, until none moves.
+/// Drops that make the code short: column by column, each to its best while the others stay, until none
+/// moves.
 std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) {
     std::vector<std::uint8_t> drops(columns, 0);
     std::size_t least = widths.total(drops);
@@ -99,7 +100,8 @@ RowCode encode_rows(std::span<const std::int32_t> values, std::size_t columns) {
         assert(level <= kMostRowBits);
         writer.write(static_cast<std::uint32_t>(level), kLevelBits);
         for (std::size_t i = 0; i < columns; ++i)
-            writer.write(static_cast<std::uint32_t>(values[r * columns + i]), std::max(0, level - code.drops[i]));
+            writer.write(static_cast<std::uint32_t>(values[r * columns + i]),
+                         std::max(0, level - code.drops[i]));
     }
     code.bits = writer.take();
     return code;
@@ -111,8 +113,10 @@ std::size_t coded_bits(std::span<const std::int32_t> values, std::size_t columns
 }
 
 std::vector<std::int32_t> decode_rows(const RowCode& code, std::size_t rows) {
-    BitReader reader(code.bits);
     std::vector<std::int32_t> values;
+    if (code.drops.empty()) // rows of no values take no bits
+        return values;
+    BitReader reader(code.bits);
     const auto need = [&](int width) {
         if (!reader.has(width))
             throw Error("the coded rows end too early");

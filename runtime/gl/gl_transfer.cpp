@@ -62,7 +62,8 @@ void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {
     constexpr GLuint kClusterBinding = 8, kWeightBinding = 9;
     if (words_ == 0) {
         glVertexArrayVertexBuffer(vertex_array, kClusterBinding, clusters_.name(),
-                                  static_cast<GLintptr>(first * sizeof(std::uint16_t)), sizeof(std::uint16_t));
+                                  static_cast<GLintptr>(first * sizeof(std::uint16_t)),
+                                  sizeof(std::uint16_t));
         glEnableVertexArrayAttrib(vertex_array, PRT_LOCATION_CLUSTER);
         glVertexArrayAttribIFormat(vertex_array, PRT_LOCATION_CLUSTER, 1, GL_UNSIGNED_SHORT, 0);
         glVertexArrayAttribBinding(vertex_array, PRT_LOCATION_CLUSTER, kClusterBinding);
@@ -80,8 +81,8 @@ void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {
         const auto offset = static_cast<GLuint>(static_cast<std::size_t>(v) * size);
         glEnableVertexArrayAttrib(vertex_array, location);
         if (words_ > 0)
-            glVertexArrayAttribIFormat(vertex_array, location, std::min(4, words_ - 4 * v), component_type(format_),
-                                       offset);
+            glVertexArrayAttribIFormat(vertex_array, location, std::min(4, words_ - 4 * v),
+                                       component_type(format_), offset);
         else
             glVertexArrayAttribFormat(vertex_array, location, 4, component_type(format_), GL_TRUE, offset);
         glVertexArrayAttribBinding(vertex_array, location, kWeightBinding);

@@ -115,14 +115,15 @@ void read_weights(const GltfContents& contents, const Json& attributes, std::siz
 }
 
 /// The clusters of receivers [first, first + count), out of their words.
-void unpack_clusters(std::size_t first, std::size_t count, std::size_t clusters, ClusteredReceivers& receivers) {
+void unpack_clusters(std::size_t first, std::size_t count, std::size_t clusters,
+                     ClusteredReceivers& receivers) {
     for (std::size_t p = first; p < first + count; ++p) {
         std::uint32_t word = 0;
         std::memcpy(&word, &receivers.weights[p * receivers.stride()], sizeof word);
         const std::uint32_t k = word & ((1u << receivers.cluster_bits) - 1);
         if (k >= clusters)
-            throw Error("vertex " + std::to_string(p - first) + " is in cluster " + std::to_string(k) + " of " +
-                        std::to_string(clusters));
+            throw Error("vertex " + std::to_string(p - first) + " is in cluster " + std::to_string(k) +
+                        " of " + std::to_string(clusters));
         receivers.clusters[p] = static_cast<std::uint16_t>(k);
     }
 }
@@ -169,7 +170,8 @@ Json write_packing(GltfContents& contents, const ClusteredTransfer& transfer) {
     BitWriter writer;
     for (const std::uint8_t bits : transfer.bases.bits)
         writer.write(bits - 1u, 4);
-    return {{"clusterBits", transfer.receivers.cluster_bits}, {"bufferView", contents.add_buffer_view(writer.take())}};
+    return {{"clusterBits", transfer.receivers.cluster_bits},
+            {"bufferView", contents.add_buffer_view(writer.take())}};
 }
 
 void read_packing(const GltfContents& contents, const Json& json, ClusteredTransfer& transfer) {
@@ -195,7 +197,7 @@ void read_packing(const GltfContents& contents, const Json& json, ClusteredTrans
         }
         most = std::max(most, total);
     }
-    receivers.words = static_cast<int>((most + 31) / 32);
+    receivers.words = std::max(1, static_cast<int>((most + 31) / 32));
 }
 
 ClusteredBases read_clusters_of(const Json& extension) {

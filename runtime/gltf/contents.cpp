@@ -122,6 +122,9 @@ Json& member(Json& object, const char* key, Json::value_t type) {
 
 std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std::size_t stride,
                                           bool vertices) {
+    static constexpr std::byte kNothing[4] = {}; // glTF knows no empty views
+    if (bytes.empty())
+        bytes = kNothing;
     pad_to(binary, 8);
     Json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
     if (stride > 0)

@@ -164,7 +164,12 @@ TEST_F(BadInput, WrongUsageIsStatusTwo) {
           {"compress", scene, "-o", out, "--clusters", "auto"},
           {"compress", scene, "-o", out, "--components", "auto"},
           {"compress", scene, "-o", out, "--weights", "5"},
-          {"compress", scene, "-o", out, "--max-error", "0.1"},
+          {"compress", scene, "-o", out, "--preset", "u32", "--clusters", "4"},
+          {"compress", scene, "-o", out, "--preset", "u16"},
+          {"compress", scene, "-o", out, "--max-error", "0.1", "--bits", "24"},
+          {"compress", scene, "-o", out, "--max-error", "small"},
+          {"compress", scene, "-o", out, "--metric", "plain", "--lights", scene},
+          {"evaluate", scene},
           {"render", scene, "--env", scene, "-o", "picture.jpg"},
           {"render", scene, "--env", scene, "-o", "p.png", "--size", "0x5"},
           {"render", scene, "--env", scene, "-o", "p.png", "--show", "error"},
@@ -213,6 +218,15 @@ TEST_F(BadInput, TooManyComponentsAreRefused) {
     ASSERT_EQ(prt({"bake", good().string(), "-o", baked, "--rays", "4", "--order", "2"}).status, 0);
     expect_refused(prt({"compress", baked, "-o", out, "--components", "5"}), "0..4");
     expect_refused(prt({"compress", baked, "-o", out, "--clusters", "0"}), "clusters");
+    expect_refused(prt({"compress", baked, "-o", out, "--clusters", "-3"}), "clusters");
+    expect_refused(prt({"compress", baked, "-o", out, "--bits", "1000"}), "0..240");
+    expect_refused(prt({"compress", baked, "-o", out, "--seam-weight", "-1"}), "seam");
+    for (const char* budget : {"--max-error", "--bytes-per-vertex", "--shader-ops"})
+        for (const char* value : {"0", "-0.5", "inf"})
+            expect_refused(prt({"compress", baked, "-o", out, budget, value}), "makes no sense");
+    // Four coefficients in less than a byte, exactly: budgets that contradict each other.
+    expect_refused(prt({"compress", baked, "-o", out, "--max-error", "1e-9", "--bytes-per-vertex", "0.5"}),
+                   "nothing keeps the budget");
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 

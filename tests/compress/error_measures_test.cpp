@@ -37,14 +37,19 @@ TEST(LitError, HasTheDefinedMeasures) {
         approximation = {glm::vec3(2), glm::vec3(2.1f, 2, 2), glm::vec3(2),
                          glm::vec3(2), glm::vec3(1.7f),       glm::vec3(2)};
     std::vector<std::uint16_t> clusters = {0, 0, 0, 1, 1, 1};
-    LitError error = lit_error(reference, approximation, areas, scene, clusters);
+    LitError error = lit_error(reference, approximation, areas, mesh_edges(scene), clusters);
     EXPECT_NEAR(error.rms, std::sqrt((0.01 + 3 * 0.09) / (6 * 12)), 1e-6);
     EXPECT_NEAR(error.max, 0.3 / 2, 1e-6);
     EXPECT_NEAR(error.mean, 2, 1e-9);
-    EXPECT_EQ(error.seam, 0);
+    EXPECT_EQ(error.crossing.edges, 0u);
+    EXPECT_EQ(error.inner.edges, 6u);
     clusters[5] = 0; // now the edges 4-5 and 5-3 cross
-    error = lit_error(reference, approximation, areas, scene, clusters);
-    EXPECT_NEAR(error.seam, 0.3 / 2, 1e-6);
+    error = lit_error(reference, approximation, areas, mesh_edges(scene), clusters);
+    EXPECT_EQ(error.crossing.edges, 2u);
+    EXPECT_NEAR(error.crossing.max, 0.3 / 2, 1e-6);
+    EXPECT_NEAR(error.crossing.rms, std::sqrt(0.09 / 2) / 2, 1e-6);
+    EXPECT_EQ(error.crossing.worst, (Edge{4, 5}));
+    EXPECT_NEAR(error.inner.max, 0.3 / 2, 1e-6); // 3-4
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cstring>
 #include <fstream>
 #include <functional>
@@ -37,6 +38,24 @@ BakedTransfer random_bake(const Scene& scene, int order, int channels) {
     return baked;
 }
 
+/// Random code of as many rows as `bases` has, over four axes, and the rows that it stands for.
+void code_bases(ClusteredBases& bases, std::mt19937& random) {
+    CodedBases& coded = bases.coded;
+    const std::size_t axes = 4;
+    const auto integers = [&](std::size_t count) {
+        std::vector<std::int32_t> values(count);
+        for (std::int32_t& v : values)
+            v = static_cast<std::int32_t>(random() % 200) - 100;
+        return values;
+    };
+    coded.origin.assign(bases.dimension(), 0.5f);
+    coded.scales = {1, 0.5f, 0.25f, 0.125f};
+    coded.step = 0.01f;
+    coded.axes = encode_rows(integers(axes * bases.dimension()), bases.dimension());
+    coded.values = encode_rows(integers(bases.first_rows().back() * axes), axes);
+    bases.rows = decode_bases(coded, bases.components);
+}
+
 CompressedTransfer random_compressed(const Scene& scene, int clusters, WeightFormat format) {
     CompressedTransfer c;
     c.record = random_bake(scene, 3, 1).record;
@@ -50,12 +69,29 @@ CompressedTransfer random_compressed(const Scene& scene, int clusters, WeightFor
         rows += static_cast<std::size_t>(1 + k % 6);
     }
     b.rows.resize(rows * b.dimension());
-    b.scales.resize(rows - static_cast<std::size_t>(clusters));
-    for (auto* values : {&b.rows, &b.scales})
-        for (float& v : *values)
-            v = static_cast<float>(random() % 1000) / 100;
+    for (float& v : b.rows)
+        v = static_cast<float>(random() % 1000) / 100;
     ClusteredReceivers& r = c.transfer.receivers;
     r.format = format;
+    if (format == WeightFormat::packed) {
+        code_bases(b, random);
+        r.cluster_bits = std::bit_width(static_cast<unsigned>(clusters - 1));
+        r.words = std::max(1, (r.cluster_bits + 10 * b.max_components() + 31) / 32);
+        for (std::size_t i = 0; i < rows - static_cast<std::size_t>(clusters); ++i)
+            b.bits.push_back(10);
+        const std::vector<ClusterLayout> layouts = cluster_layouts(b);
+        for (std::size_t p = 0; p < scene.receivers(); ++p) {
+            const auto k = static_cast<std::uint32_t>(random() % static_cast<unsigned>(clusters));
+            r.clusters.push_back(static_cast<std::uint16_t>(k));
+            std::vector<std::uint32_t> words(static_cast<std::size_t>(r.words)), values(6);
+            for (std::uint32_t& v : values)
+                v = static_cast<std::uint32_t>(random() % 1024);
+            pack_words(k, r.cluster_bits, layouts[k], values, words);
+            const auto bytes = std::as_bytes(std::span(words));
+            r.weights.insert(r.weights.end(), bytes.begin(), bytes.end());
+        }
+        return c;
+    }
     r.components = (b.max_components() + 3) / 4 * 4;
     for (std::size_t p = 0; p < scene.receivers(); ++p)
         r.clusters.push_back(static_cast<std::uint16_t>(random() % static_cast<unsigned>(clusters)));
@@ -157,11 +193,11 @@ TEST(TransferInGltf, WhatIsUnknownSurvives) {
 }
 
 class Weights : public testing::TestWithParam<std::pair<WeightFormat, int>> {};
-INSTANTIATE_TEST_SUITE_P(Formats, Weights,
-                         testing::Values(std::pair{WeightFormat::float32, 3},
-                                         std::pair{WeightFormat::snorm16, 256},
-                                         std::pair{WeightFormat::snorm8, 257},
-                                         std::pair{WeightFormat::snorm8, 1}));
+INSTANTIATE_TEST_SUITE_P(
+    Formats, Weights,
+    testing::Values(std::pair{WeightFormat::float32, 3}, std::pair{WeightFormat::snorm16, 256},
+                    std::pair{WeightFormat::snorm8, 257}, std::pair{WeightFormat::snorm8, 1},
+                    std::pair{WeightFormat::packed, 1}, std::pair{WeightFormat::packed, 300}));
 
 TEST_P(Weights, CompressedTransferComesBackExactly) {
     const auto [format, clusters] = GetParam();
@@ -176,7 +212,11 @@ TEST_P(Weights, CompressedTransferComesBackExactly) {
     ASSERT_TRUE(read);
     EXPECT_EQ(read->transfer.bases.components, c.transfer.bases.components);
     EXPECT_EQ(read->transfer.bases.rows, c.transfer.bases.rows);
-    EXPECT_EQ(read->transfer.bases.scales, c.transfer.bases.scales);
+    EXPECT_EQ(read->transfer.bases.bits, c.transfer.bases.bits);
+    if (c.transfer.bases.max_components() > 0 || format == WeightFormat::packed) {
+        EXPECT_EQ(read->transfer.receivers.format, format); // without weights there is no format
+    }
+    EXPECT_EQ(read->transfer.receivers.words, c.transfer.receivers.words);
     EXPECT_EQ(read->transfer.receivers.clusters, c.transfer.receivers.clusters);
     EXPECT_EQ(read->transfer.receivers.weights, c.transfer.receivers.weights);
     EXPECT_EQ(read->record.receivers, c.record.receivers);
@@ -220,30 +260,60 @@ TEST(TransferInGltf, WritingTwiceIsWritingOnce) {
               std::filesystem::file_size(files.folder / "size2"));
 }
 
-TEST(TransferInGltf, DamagedTransferIsRefused) {
-    const OnDisk files(test::triangle_file());
-    GltfDocument document = load_gltf(files.source);
-    const Scene scene = extract_scene(document);
-    write_clustered(document, scene, random_compressed(scene, 2, WeightFormat::snorm8));
-    save_glb(document, files.written);
-    const auto good = json_of(files.written);
-    std::ifstream file(files.written, std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-    const auto read_changed = [&](const std::function<void(nlohmann::ordered_json&)>& change) {
+/// A file with compressed transfer whose JSON can be changed before it is read again.
+class Damage {
+public:
+    explicit Damage(WeightFormat format) : files_(test::triangle_file()) {
+        GltfDocument document = load_gltf(files_.source);
+        const Scene scene = extract_scene(document);
+        write_clustered(document, scene, random_compressed(scene, 2, format));
+        save_glb(document, files_.written);
+        good_ = json_of(files_.written);
+        std::ifstream file(files_.written, std::ios::binary);
+        bytes_.assign((std::istreambuf_iterator<char>(file)), {});
+    }
+    void operator()(const std::function<void(nlohmann::ordered_json&)>& change) const {
         GlbFile changed;
-        changed.json = good;
+        changed.json = good_;
         change(changed.json);
         std::uint32_t length = 0;
-        std::memcpy(&length, bytes.data() + 12, 4);
-        const auto* data = reinterpret_cast<const std::byte*>(bytes.data());
-        changed.binary.assign(data + 28 + length, data + bytes.size());
-        changed.write(files.folder / "changed.glb");
-        const GltfDocument d = load_gltf(files.folder / "changed.glb");
+        std::memcpy(&length, bytes_.data() + 12, 4);
+        const auto* data = reinterpret_cast<const std::byte*>(bytes_.data());
+        changed.binary.assign(data + 28 + length, data + bytes_.size());
+        changed.write(files_.folder / "changed.glb");
+        const GltfDocument d = load_gltf(files_.folder / "changed.glb");
         read_clustered(d, extract_scene(d));
-    };
-    const auto extension = [](nlohmann::ordered_json & json) -> auto& {
-        return json["extensions"]["PRTKIT_clustered_pca"];
-    };
+    }
+
+private:
+    OnDisk files_;
+    nlohmann::ordered_json good_;
+    std::string bytes_;
+};
+
+nlohmann::ordered_json& extension(nlohmann::ordered_json& json) {
+    return json["extensions"]["PRTKIT_clustered_pca"];
+}
+
+TEST(TransferInGltf, DamagedPackedTransferIsRefused) {
+    const Damage read_changed(WeightFormat::packed);
+    EXPECT_NO_THROW(read_changed([](auto&) {}));
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j).erase("packing"); }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["packing"]["clusterBits"] = 17; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = {9, 17}; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) {
+                     extension(j)["components"] = {0, 5};
+                 }),
+                 Error); // rows are missing
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["values"]["drops"].push_back(1); }),
+                 Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["axes"]["drops"].erase(0); }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"].erase("step"); }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["scales"]["bufferView"] = 99; }), Error);
+}
+
+TEST(TransferInGltf, DamagedTransferIsRefused) {
+    const Damage read_changed(WeightFormat::snorm8);
     EXPECT_NO_THROW(read_changed([](auto&) {}));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["version"] = 99; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["order"] = 11; }), Error);
@@ -253,7 +323,7 @@ TEST(TransferInGltf, DamagedTransferIsRefused) {
                  Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = {9, 9, 9}; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["bufferView"] = 77; }), Error);
-    EXPECT_THROW(read_changed([&](auto& j) { extension(j).erase("scales"); }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j).erase("bases"); }), Error);
     EXPECT_THROW(
         read_changed([&](auto& j) { j["meshes"][0]["primitives"][0]["attributes"].erase("_PRT_CLUSTER"); }),
         Error);

@@ -14,6 +14,7 @@ namespace {
 struct Kind {
     int order, channels, clusters, components;
     WeightFormat format;
+    int bits = 0;
 };
 void PrintTo(const Kind& k, std::ostream* out) {
     *out << "order " << k.order << ", " << k.channels << " channels, " << k.clusters << " x " << k.components;
@@ -25,7 +26,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Kind{6, 1, 16, 8, WeightFormat::float32}, Kind{6, 1, 16, 8, WeightFormat::snorm16},
                     Kind{6, 1, 16, 8, WeightFormat::snorm8}, Kind{4, 3, 8, 5, WeightFormat::snorm8},
                     Kind{3, 1, 4, 0, WeightFormat::snorm8}, Kind{10, 1, 2, 48, WeightFormat::float32},
-                    Kind{5, 1, 300, 2, WeightFormat::snorm8}));
+                    Kind{5, 1, 300, 2, WeightFormat::snorm8}, Kind{6, 1, 16, 16, WeightFormat::packed, 24},
+                    Kind{4, 3, 300, 16, WeightFormat::packed, 200}, Kind{3, 1, 1, 4, WeightFormat::packed, 9},
+                    Kind{3, 1, 7, 4, WeightFormat::packed, 0}));
 
 TEST_P(VertexShader, AgreesWithCppPerVertex) {
     const Kind kind = GetParam();
@@ -42,9 +45,9 @@ TEST_P(VertexShader, AgreesWithCppPerVertex) {
     options.clusters = kind.clusters;
     options.components = kind.components;
     options.weights = kind.format;
-    options.max_iterations = 2;
+    options.bits = kind.bits;
     const ClusteredTransfer compressed =
-        compress(transfer, std::vector<float>(transfer.receivers(), 1.0f), options).transfer;
+        compress(transfer, std::vector<float>(transfer.receivers(), 1.0f), {}, options).transfer;
     Light light = constant_light(kind.order, glm::vec3(1));
     for (glm::vec3& c : light.coefficients)
         c += 0.3f * glm::vec3(normal(random), normal(random), normal(random));
@@ -64,8 +67,14 @@ TEST(GlTransfer, TooManyComponentsAreRefused) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
     ClusteredTransfer transfer;
-    transfer.bases = {10, 1, {49}, std::vector<float>(50 * 100), std::vector<float>(49)};
-    EXPECT_THROW(GlTransfer{transfer}, std::exception);
+    transfer.bases.order = 10;
+    transfer.bases.components = {49};
+    transfer.bases.rows.resize(50 * 100);
+    EXPECT_THROW(GlTransfer{transfer}, Error);
+    transfer.bases.components = {16};
+    transfer.receivers.format = WeightFormat::packed;
+    transfer.receivers.words = 9;
+    EXPECT_THROW(GlTransfer{transfer}, Error);
 }
 
 } // namespace

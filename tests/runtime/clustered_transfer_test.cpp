@@ -26,9 +26,25 @@ ClusteredTransfer random_transfer(const Shape& shape, std::mt19937& random) {
     t.bases.rows.resize((4 + 9) * t.bases.dimension());
     for (float& v : t.bases.rows)
         v = normal(random);
-    for (int i = 0; i < 9; ++i)
-        t.bases.scales.push_back(shape.format == WeightFormat::float32 ? 1.0f : 0.1f + static_cast<float>(i));
     t.receivers.format = shape.format;
+    if (shape.format == WeightFormat::packed) {
+        t.bases.bits = {7, 16, 5, 1, 9, 13, 16, 11, 3}; // some lie across two words
+        t.receivers.cluster_bits = 2;
+        t.receivers.words = 2;
+        const std::vector<ClusterLayout> layouts = cluster_layouts(t.bases);
+        for (std::size_t p = 0; p < 101; ++p) {
+            const auto k = static_cast<std::uint32_t>(random() % 4);
+            t.receivers.clusters.push_back(static_cast<std::uint16_t>(k));
+            std::vector<std::uint32_t> values, words(2);
+            const std::size_t first = t.bases.first_rows()[k] - k;
+            for (std::size_t j = 0; j < layouts[k].components; ++j)
+                values.push_back(static_cast<std::uint32_t>(random() % (1u << t.bases.bits[first + j])));
+            pack_words(k, 2, layouts[k], values, words);
+            const auto* bytes = reinterpret_cast<const std::byte*>(words.data());
+            t.receivers.weights.insert(t.receivers.weights.end(), bytes, bytes + 8);
+        }
+        return t;
+    }
     t.receivers.components = 8;
     for (std::size_t p = 0; p < 101; ++p) {
         const auto cluster = static_cast<std::uint16_t>(random() % 4);
@@ -49,6 +65,8 @@ ClusteredTransfer random_transfer(const Shape& shape, std::mt19937& random) {
             case WeightFormat::snorm8:
                 push(static_cast<std::int8_t>(used ? random() : 0));
                 break;
+            case WeightFormat::packed:
+                break;
             }
         }
     }
@@ -56,12 +74,12 @@ ClusteredTransfer random_transfer(const Shape& shape, std::mt19937& random) {
 }
 
 class Clustered : public testing::TestWithParam<Shape> {};
-INSTANTIATE_TEST_SUITE_P(Shapes, Clustered,
-                         testing::Values(Shape{1, 1, WeightFormat::float32},
-                                         Shape{3, 1, WeightFormat::snorm8},
-                                         Shape{6, 3, WeightFormat::snorm16},
-                                         Shape{10, 3, WeightFormat::snorm8},
-                                         Shape{4, 3, WeightFormat::float32}));
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, Clustered,
+    testing::Values(Shape{1, 1, WeightFormat::float32}, Shape{3, 1, WeightFormat::snorm8},
+                    Shape{6, 3, WeightFormat::snorm16}, Shape{10, 3, WeightFormat::snorm8},
+                    Shape{4, 3, WeightFormat::float32}, Shape{6, 1, WeightFormat::packed},
+                    Shape{3, 3, WeightFormat::packed}));
 
 TEST_P(Clustered, RadianceThroughConstantsEqualsDecodedTransferTimesLight) {
     std::mt19937 random(5);
@@ -78,15 +96,41 @@ TEST_P(Clustered, RadianceThroughConstantsEqualsDecodedTransferTimesLight) {
 }
 
 TEST(ClusteredTransfer, IntegersDecodeAsInOpenGl) {
-    ClusteredReceivers receivers;
+    ClusteredTransfer transfer;
+    transfer.bases.order = 1;
+    transfer.bases.components = {4};
+    ClusteredReceivers& receivers = transfer.receivers;
     receivers.format = WeightFormat::snorm8;
     receivers.components = 4;
     receivers.clusters = {0};
     receivers.weights = {std::byte{127}, std::byte{0x81}, std::byte{0x80}, std::byte{0}};
-    EXPECT_EQ(receivers.weight(0, 0), 1);
-    EXPECT_EQ(receivers.weight(0, 1), -1); // -127
-    EXPECT_EQ(receivers.weight(0, 2), -1); // -128
-    EXPECT_EQ(receivers.weight(0, 3), 0);
+    std::vector<float> weights(4);
+    decode_weights(transfer, cluster_layouts(transfer.bases), 0, weights);
+    EXPECT_EQ(weights, (std::vector<float>{1, -1, -1, 0})); // 127, -127, -128, 0
+}
+
+TEST(ClusteredTransfer, PackedWeightsLieWhereTheFormatSays) {
+    ClusteredTransfer transfer;
+    transfer.bases.order = 1;
+    transfer.bases.components = {0, 4};
+    transfer.bases.bits = {7, 6, 6, 5};
+    transfer.receivers.format = WeightFormat::packed;
+    transfer.receivers.cluster_bits = 8;
+    transfer.receivers.words = 1;
+    transfer.receivers.clusters = {1};
+    const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
+    std::vector<std::uint32_t> words(1);
+    pack_words(1, 8, layouts[1], std::vector<std::uint32_t>{127, 0, 21, 31}, words);
+    EXPECT_EQ(words[0], 1u | 127u << 8 | 21u << 21 | 31u << 27);
+    transfer.receivers.weights.resize(4);
+    std::memcpy(transfer.receivers.weights.data(), words.data(), 4);
+    std::vector<float> weights(4);
+    decode_weights(transfer, layouts, 0, weights);
+    EXPECT_EQ(weights[0], 1);
+    EXPECT_EQ(weights[1], -1);
+    EXPECT_FLOAT_EQ(weights[2], (2 * 21 - 63) / 63.0f);
+    EXPECT_EQ(weights[3], 1);
+    EXPECT_EQ(bytes_per_receiver(transfer), 4u);
 }
 
 TEST(ClusteredTransfer, ALightOfHigherOrderIsCutAndALowerOneRefused) {

@@ -1,6 +1,6 @@
 // A decoder of prtkit files in another language, written from docs/format.md alone:
 //   node decode.cjs BAKED SHIPPED
-// prints the area-weighted relative L2 error of SHIPPED against BAKED.
+// prints the area-weighted relative L2 error of SHIPPED against BAKED, and its expected lit_rms under natural light.
 const fs = require("fs");
 
 function half(bits) {
@@ -68,25 +68,96 @@ function rawVectors(glb, primitive) {
   return Array.from({ length: values.length / dimension }, (_, p) => values.slice(p * dimension, (p + 1) * dimension));
 }
 
-function decodedVectors(glb, primitive) {
-  const extension = glb.json.extensions.PRTKIT_clustered_pca;
-  const dimension = extension.channels * extension.order * extension.order;
-  const bases = glb.floats(extension.bases);
-  const scales = glb.floats(extension.scales);
-  const firstScale = [0];
-  for (const m of extension.components) firstScale.push(firstScale.at(-1) + m);
-  const row = (r) => bases.slice(r * dimension, (r + 1) * dimension);
-  const clusters = glb.accessor(primitive.attributes._PRT_CLUSTER).flat();
+/// Bits of a buffer view, lowest first.
+class Bits {
+  constructor(glb, view) {
+    const { byteOffset = 0, byteLength } = glb.json.bufferViews[view];
+    this.bytes = glb.bin.subarray(byteOffset, byteOffset + byteLength);
+    this.position = 0;
+  }
+  read(width) {
+    let value = 0;
+    for (let b = 0; b < width; ++b, ++this.position)
+      value += ((this.bytes[this.position >> 3] >> (this.position & 7)) & 1) * 2 ** b;
+    return value;
+  }
+  signed(width) {
+    const value = this.read(width);
+    return width > 0 && value >= 2 ** (width - 1) ? value - 2 ** width : value;
+  }
+}
+
+function codedRows(glb, code, rows) {
+  const bits = new Bits(glb, code.bufferView);
+  return Array.from({ length: rows }, () => {
+    const level = bits.read(4);
+    return code.drops.map((drop) => bits.signed(Math.max(0, level - drop)));
+  });
+}
+
+/// Per cluster its mean and its directions.
+function clusterRows(glb, extension) {
+  const dimension = extension.channels * extension.order ** 2;
+  const count = extension.components.reduce((sum, m) => sum + 1 + m, 0);
+  let rows;
+  if ("values" in extension.bases) {
+    const { origin, scales, step, axes, values } = extension.bases;
+    const start = glb.floats(origin);
+    const scale = glb.floats(scales);
+    const axis = codedRows(glb, axes, scale.length);
+    const isMean = extension.components.flatMap((m) => [true, ...Array(m).fill(false)]);
+    rows = codedRows(glb, values, count).map((value, r) => {
+      const row = isMean[r] ? [...start] : Array(dimension).fill(0);
+      value.forEach((v, i) => {
+        for (let a = 0; a < dimension; ++a) row[a] += (isMean[r] ? 1 : 2) * step * scale[i] * v * axis[i][a];
+      });
+      return row;
+    });
+  } else {
+    const floats = glb.floats(extension.bases);
+    rows = Array.from({ length: count }, (_, r) => floats.slice(r * dimension, (r + 1) * dimension));
+  }
+  let next = 0;
+  return extension.components.map((m) => rows.slice(next, (next += 1 + m)));
+}
+
+/// Cluster and weights of every vertex of a primitive.
+function vertexCodes(glb, extension, primitive) {
   const groups = [];
   while (`_PRT_WEIGHTS_${groups.length}` in primitive.attributes)
     groups.push(glb.accessor(primitive.attributes[`_PRT_WEIGHTS_${groups.length}`]));
-  return clusters.map((k, p) => {
-    const first = k + firstScale[k];
-    const vector = row(first);
-    for (let j = 0; j < extension.components[k]; ++j) {
-      const weight = scales[firstScale[k] + j] * groups[j >> 2][p][j & 3];
-      row(first + 1 + j).forEach((b, i) => (vector[i] += weight * b));
-    }
+  if (!("packing" in extension)) {
+    const clusters = glb.accessor(primitive.attributes._PRT_CLUSTER).flat();
+    return clusters.map((k, p) => ({
+      cluster: k,
+      weights: Array.from({ length: extension.components[k] }, (_, j) => groups[j >> 2][p][j & 3]),
+    }));
+  }
+  const widths = new Bits(glb, extension.packing.bufferView);
+  const bits = extension.components.map((m) => Array.from({ length: m }, () => widths.read(4) + 1));
+  return groups[0].map((_, p) => {
+    const bytes = groups.flatMap((group) => group[p]);
+    let position = 0;
+    const take = (width) => {
+      let value = 0;
+      for (let b = 0; b < width; ++b, ++position)
+        value += ((bytes[position >> 3] >> (position & 7)) & 1) * 2 ** b;
+      return value;
+    };
+    const cluster = take(extension.packing.clusterBits);
+    return {
+      cluster,
+      weights: bits[cluster].map((width) => (2 * take(width) - (2 ** width - 1)) / (2 ** width - 1)),
+    };
+  });
+}
+
+function decodedVectors(glb, primitive) {
+  const extension = glb.json.extensions.PRTKIT_clustered_pca;
+  const rows = clusterRows(glb, extension);
+  return vertexCodes(glb, extension, primitive).map(({ cluster, weights }) => {
+    const vector = [...rows[cluster][0]];
+    weights.forEach((w, j) => rows[cluster][1 + j].forEach((b, i) => (vector[i] += w * b)));
     return vector;
   });
 }
@@ -108,16 +179,25 @@ function areas(glb, primitive) {
 
 const baked = new Glb(process.argv[2]);
 const shipped = new Glb(process.argv[3]);
-let error = 0;
-let norm = 0;
+const { order } = baked.json.extensions.PRTKIT_transfer;
+/// Power of a coefficient of natural light: docs/math.md, section 4.
+const power = (k) => {
+  const band = Math.floor(Math.sqrt(k % (order * order)));
+  return band === 0 ? 1 : 1 / (4 * band);
+};
+const sums = { error: 0, norm: 0, litError: 0, litNorm: 0 };
 baked.primitives().forEach((primitive, i) => {
   const weights = areas(baked, primitive);
   const decoded = decodedVectors(shipped, shipped.primitives()[i]);
   rawVectors(baked, primitive).forEach((vector, p) =>
     vector.forEach((value, k) => {
-      error += weights[p] * (value - decoded[p][k]) ** 2;
-      norm += weights[p] * value ** 2;
+      const error = weights[p] * (value - decoded[p][k]) ** 2;
+      const norm = weights[p] * value ** 2;
+      sums.error += error;
+      sums.norm += norm;
+      sums.litError += power(k) * error;
+      sums.litNorm += power(k) * norm;
     }),
   );
 });
-console.log(Math.sqrt(error / norm));
+console.log(Math.sqrt(sums.error / sums.norm), Math.sqrt(sums.litError / sums.litNorm));

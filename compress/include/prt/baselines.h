@@ -25,8 +25,8 @@ BaselineResult truncated_sh(const Transfer& transfer, int bands);
 struct ClassicOptions {
     int clusters = 1; ///< 1 with 24 components was the default of D3DX
     int components = 0;
-    /// Local PCA and reassignment in turn (Sloan et al. 2003, section 4.2), else PCA once in the clusters of vector
-    /// quantisation. No components: vector quantisation alone.
+    /// Local PCA and reassignment in turn (Sloan et al. 2003, section 4.2), else PCA once in the clusters of
+    /// vector quantisation. No components: vector quantisation alone.
     bool iterate = true;
     std::uint64_t seed = 0;
     int threads = 0;
@@ -34,7 +34,7 @@ struct ClassicOptions {
 
 /// Clustered PCA as published: least squared error of coefficients, the same number of components everywhere,
 /// weights of 8 bits over each direction's largest, means and directions as float16.
-BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> areas, const ClassicOptions& options,
-                            const Progress& progress = {});
+BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> areas,
+                            const ClassicOptions& options, const Progress& progress = {});
 
 } // namespace prt

@@ -23,9 +23,11 @@ namespace prt {
 
 struct CompressOptions {
     int clusters = 256;
-    /// Most components of a cluster, at most the dimension of the transfer vectors; 16 for packed weights.
+    /// Most components of a cluster; beyond the dimension of the transfer vectors, or 16 for packed weights,
+    /// there are none.
     int components = 16;
-    /// Components per receiver on average, where clusters may differ: what the vertex shader pays. 0: no limit.
+    /// Components per receiver on average, where clusters may differ: what the vertex shader pays. 0: no
+    /// limit.
     double mean_components = 0;
     WeightFormat weights = WeightFormat::packed;
     /// Packed: bits of a receiver's weights together, at most 240. Every cluster divides them by variance.
@@ -34,11 +36,13 @@ struct CompressOptions {
     std::vector<int> fixed_bits;
     /// Packed: bits of the cluster's number; 0: as few as do.
     int cluster_bits = 0;
-    /// Squared error that rounding the bases may add, as a share of what there is. 0: bases are float32.
-    double basis_share = 0.1;
+    /// Squared error that rounding the bases may add, as a share of what there is; 0: bases are float32.
+    /// Unset: 0.1 for packed weights, 0.05 for 8 bits, 0.0001 for 16, 0 for floats.
+    std::optional<double> basis_share;
     /// What an error costs; nothing: `natural_metric`.
     std::optional<LightMetric> metric;
-    /// mu of docs/math.md, eq. 32: what a jump of the error along a mesh edge costs, in units of the error itself.
+    /// mu of docs/math.md, eq. 32: what a jump of the error along a mesh edge costs, in units of the error
+    /// itself.
     double seam_weight = 0;
     /// Price of a neighbour in another cluster, in units of the mean squared error (eq. 31).
     double potts_weight = 0;

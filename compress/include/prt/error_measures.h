@@ -30,9 +30,9 @@ struct EdgeJumps {
 };
 
 struct LitError {
-    double rms = 0;  ///< lit_rms
-    double mean = 0; ///< mean R, area-weighted, over the channels
-    double max = 0;  ///< lit_max: largest |R - R'| of a receiver with area, over the mean R
+    double rms = 0;            ///< lit_rms
+    double mean = 0;           ///< mean R, area-weighted, over the channels
+    double max = 0;            ///< lit_max: largest |R - R'| of a receiver with area, over the mean R
     double percentile_999 = 0; ///< the same, 99.9 % of receivers with area are below
     /// sqrt of the mean squared error over the mean squared R, of the half of the area where R is least.
     double darker_half_rms = 0;
@@ -40,8 +40,8 @@ struct LitError {
     EdgeJumps inner;    ///< all others
 };
 
-/// Errors of exit radiance `approximation` against `reference`, both [receivers]. `clusters` [receivers]: where
-/// given, jumps are measured along `edges`.
+/// Errors of exit radiance `approximation` against `reference`, both [receivers]. `clusters` [receivers]:
+/// where given, jumps are measured along `edges`.
 LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                    std::span<const float> areas, std::span<const Edge> edges,
                    std::optional<std::span<const std::uint16_t>> clusters);

@@ -37,10 +37,11 @@ struct SearchResult {
     std::vector<SearchTrial> trials;
 };
 
-/// Compresses with the numbers of clusters, components and bits that are cheapest in bytes under `max_error`, or
-/// best in error under `bytes_per_vertex` alone. Takes five to twenty times as long as `compress`. Throws as
-/// `compress` does, and for budgets that are not positive.
-SearchResult compress_within(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-                             const SearchOptions& options, const Progress& progress = {});
+/// Compresses with the numbers of clusters, components and bits that are cheapest in bytes under `max_error`,
+/// or best in error under `bytes_per_vertex` alone. Takes five to twenty times as long as `compress`. Throws
+/// as `compress` does, and for budgets that are not positive.
+SearchResult compress_within(const Transfer& transfer, std::span<const float> areas,
+                             std::span<const Edge> edges, const SearchOptions& options,
+                             const Progress& progress = {});
 
 } // namespace prt

@@ -32,7 +32,8 @@ inline constexpr double kSweepBytes[] = {4, 5, 7, 9, 13, 17};
 /// Components per receiver.
 inline constexpr int kSweepOps[] = {1, 2, 3, 4, 6, 8, 12};
 
-/// Measures all methods under `lights`, which should be others than those that `options` compresses for. Minutes.
+/// Measures all methods under `lights`, which should be others than those that `options` compresses for.
+/// Minutes.
 Sweep sweep(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
             std::span<const Light> lights, const CompressOptions& options, const Progress& progress = {});
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// The clusters of compressed transfer: means, directions, how their weights are stored, and the code of a file.
+// The clusters of compressed transfer: means, directions, how their weights are stored, and the code of a
+// file.
 
 #include "prt/coded_rows.h"
 #include "prt/sh_basis.h"
@@ -43,15 +44,18 @@ struct ClusteredBases {
     std::size_t dimension() const { return static_cast<std::size_t>(channels * coefficient_count(order)); }
     bool is_coded() const { return !coded.origin.empty(); }
     int max_components() const;
-    /// Index of the first row of cluster `cluster` in `rows`; its bits start at first_row(k) - k. [clusters + 1]
+    /// Index of the first row of cluster `cluster` in `rows`; its bits start at first_row(k) - k. [clusters +
+    /// 1]
     std::vector<std::size_t> first_rows() const;
 };
 
-/// Where the vertex shader finds a cluster: `uvec4` of its table. Components 8 and up have their widths in `w`.
+/// Where the vertex shader finds a cluster: `uvec4` of its table. Components 8 and up have their widths in
+/// `w`.
 struct ClusterLayout {
     std::uint32_t first_row = 0;  ///< of its constants
     std::uint32_t components = 0; ///< m_k
-    std::uint32_t widths[2] = {}; ///< of packed weights: bits - 1 of component j in four bits from 4 (j mod 8) on
+    std::uint32_t widths[2] =
+        {}; ///< of packed weights: bits - 1 of component j in four bits from 4 (j mod 8) on
 };
 
 inline constexpr int kMostPackedComponents = 16;

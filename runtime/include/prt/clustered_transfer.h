@@ -35,8 +35,10 @@ struct ClusteredReceivers {
     int components = 0;   ///< not packed: weights stored per receiver, max m_k rounded up to a multiple of 4
     int cluster_bits = 0; ///< packed: the lowest bits of the first word, which hold the cluster
     int words = 0;        ///< packed: 32-bit words per receiver
-    std::vector<std::uint16_t> clusters; ///< [receivers]; packed: the same as in the words, for use on the CPU
-    std::vector<std::byte> weights; ///< [receivers][components] of `format`, unused ones 0; or [receivers][words]
+    std::vector<std::uint16_t>
+        clusters; ///< [receivers]; packed: the same as in the words, for use on the CPU
+    std::vector<std::byte>
+        weights; ///< [receivers][components] of `format`, unused ones 0; or [receivers][words]
 
     std::size_t size() const { return clusters.size(); }
     /// Bytes of `weights` that one receiver has.
@@ -49,8 +51,8 @@ struct ClusteredTransfer {
 };
 
 /// Writes the weights of a receiver, each in [-1, 1] unless the format is float, to `weights` [m_k].
-void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLayout> layouts, std::size_t receiver,
-                    std::span<float> weights);
+void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLayout> layouts,
+                    std::size_t receiver, std::span<float> weights);
 
 /// Packs a cluster and the integers q of its weights, in the bits that `layout` gives them, into `words`.
 void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& layout,
@@ -63,9 +65,9 @@ std::size_t bytes_per_receiver(const ClusteredTransfer& transfer);
 /// Rows of constants: a mean and m_k directions for each cluster.
 std::size_t constant_rows(const ClusteredBases& bases);
 
-/// Writes for every cluster M_k·L and B_kj·L to `constants` [constant_rows] as (r, g, b, 0). For packed weights
-/// what turns q into w is worked in, so that the shader multiplies q itself. Allocates nothing when `light` has
-/// the order of the bases. Throws `Error` if `light` has fewer bands.
+/// Writes for every cluster M_k·L and B_kj·L to `constants` [constant_rows] as (r, g, b, 0). For packed
+/// weights what turns q into w is worked in, so that the shader multiplies q itself. Allocates nothing when
+/// `light` has the order of the bases. Throws `Error` if `light` has fewer bands.
 void form_constants(const ClusteredTransfer& transfer, const Light& light, std::span<glm::vec4> constants);
 
 /// Exit radiance for albedo 1 of every receiver, `radiance` [receivers], from formed constants: what the

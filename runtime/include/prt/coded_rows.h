@@ -9,8 +9,9 @@
 
 namespace prt {
 
-/// Integers in rows of a few widths. Row r stores its level t in four bits, then value i in max(0, t - drop[i])
-/// bits, two's complement; no bits: 0. Columns that are small everywhere so cost little in every row.
+/// Integers in rows of a few widths. Row r stores its level t in four bits, then value i in max(0, t -
+/// drop[i]) bits, two's complement; no bits: 0. Columns that are small everywhere so cost little in every
+/// row.
 struct RowCode {
     std::vector<std::uint8_t> drops; ///< [columns]
     std::vector<std::byte> bits;     ///< all rows one after the other, lowest bit first, filled up with zeros
