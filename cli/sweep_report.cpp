@@ -119,7 +119,8 @@ std::string sweep_html(const Sweep& sweep) {
            table(sweep, sweep.by_bytes, kSweepBytes, "bytes", best_by_bytes) +
            fmt::format(
                "<h2>Error at equal shader operations</h2>\n<p>Multiply-adds of a colour per vertex, on "
-               "average; clustered methods with {} clusters.</p>\n",
+               "average. Clustered methods of the literature have {} clusters; prtkit has as many as take no "
+                       "more bytes than classic CPCA at the same operations.</p>\n",
                kSweepClusters) +
            chart(sweep.by_ops, "multiply-adds per vertex", ops_of) +
            table(sweep, sweep.by_ops, kSweepOps, "operations", best_by_ops);

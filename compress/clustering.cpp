@@ -36,10 +36,16 @@ public:
     /// Refits all clusters, then gives every point the best one. Empty clusters stay empty.
     void round(State& state, const Spending& spending) const {
         refit(state, spending);
+        reassign(state);
+    }
+
+    void reassign(State& state) const {
         Assignment next = assign(points_, models(state.fits), options_.threads);
         state.moments.update(points_, weights_, state.clusters, next.clusters, options_.threads);
         state.clusters = std::move(next.clusters);
     }
+
+    std::span<const float> weights() const { return weights_; }
 
     void refit(State& state, const Spending& spending) const {
         parallel_for(state.fits.size(), 1, options_.threads, [&](std::size_t begin, std::size_t end) {
@@ -122,9 +128,7 @@ void ClusterSearch::converge(State& state, const Spending& spending, int most_ro
             best = state;
         if (converged)
             break;
-        Assignment next = assign(points_, models(state.fits), options_.threads);
-        state.moments.update(points_, weights_, state.clusters, next.clusters, options_.threads);
-        state.clusters = std::move(next.clusters);
+        reassign(state);
     }
     state = std::move(best);
 }
@@ -284,44 +288,76 @@ double operation_price(const State& state, std::span<const float> weights, Spend
     return high;
 }
 
+/// Lets clusters have different numbers of components, at most `options.mean_components` on average: the price that
+/// does that is found anew in each round, since prices move the points, and points the prices. Leaves the best round
+/// in `state` and its price in `spending`.
+void spend_operations(const ClusterSearch& search, const ClusteringOptions& options, Spending& spending,
+                      const Progress& progress, State& state) {
+    constexpr int kRounds = 12;
+    State best = state;
+    double least = std::numeric_limits<double>::infinity(), best_price = 0;
+    for (int r = 0; r < kRounds; ++r) {
+        progress.update(0.6);
+        spending.operation_price = 0;
+        search.refit(state, spending); // for the spectra
+        spending.operation_price = operation_price(state, search.weights(), spending, options.mean_components);
+        search.refit(state, spending);
+        double paid = 0;
+        for (const ClusterFit& fit : state.fits)
+            paid += fit.weight * spending.operation_price * static_cast<double>(fit.plan.bits.size());
+        if (state.cost - paid < least) {
+            least = state.cost - paid;
+            best = state;
+            best_price = spending.operation_price;
+        }
+        search.reassign(state);
+    }
+    state = std::move(best);
+    spending.operation_price = best_price;
+}
+
 } // namespace
 
 Clustering cluster_points(const PointBlocks& points, std::span<const float> weights,
-                          const ClusteringOptions& options, std::mt19937_64& random,
-                          const Progress& progress) {
+                          const ClusteringOptions& options, std::mt19937_64& random, const Progress& progress) {
     const ClusterSearch search(points, weights, options);
-    State state = search.start(
-        vector_quantise(points, weights, options.clusters, 0, random, options.threads, progress));
+    State state =
+        search.start(vector_quantise(points, weights, options.clusters, 0, random, options.threads, progress));
     Spending spending = options.spending;
-    for (int most = 1; options.grow && most < options.spending.most_components; ++most) {
+    // Where the mean is limited clusters differ only at the end: earlier those with many components would swallow
+    // the others' points.
+    if (options.mean_components > 0)
+        spending.most_components =
+            std::min(spending.most_components, std::max(1, static_cast<int>(options.mean_components)));
+    const int full = spending.most_components;
+    for (int most = 1; options.grow && most < full; ++most) {
         spending.most_components = most;
         for (int r = 0; r < 2; ++r) {
-            progress.update(0.1 + 0.4 * most / options.spending.most_components);
+            progress.update(0.1 + 0.4 * most / full);
             search.round(state, spending);
         }
     }
-    spending.most_components = options.spending.most_components;
-    Clustering result;
+    spending.most_components = full;
     search.refit(state, spending);
     if (options.rows_cost)
         spending.row_price = row_price(state, points.count);
-    // Prices move the clusters, and the clusters the prices.
-    for (int r = 0; options.mean_components > 0 && r < 6; ++r) {
-        progress.update(0.5);
-        spending.operation_price = operation_price(state, weights, spending, options.mean_components);
-        search.round(state, spending);
-    }
+    Clustering result;
     search.converge(state, spending, options.most_rounds, progress, &result.history);
     for (int m = 0; m < options.most_moves && search.move(state, spending, progress); ++m) {
     }
     search.converge(state, spending, options.most_rounds, progress, nullptr);
+    if (options.mean_components > 0) {
+        spending.most_components = options.spending.most_components;
+        spend_operations(search, options, spending, progress, state);
+    }
     // Of what came and went rounding is left in the moments, of an outlier more than others have.
     state.moments.build(points, weights, state.clusters, options.threads);
-    search.refit(state, spending);
     if (options.mean_components > 0) { // what was promised holds for the clusters as they are now
-        spending.operation_price = operation_price(state, weights, spending, options.mean_components);
+        spending.operation_price = 0;
         search.refit(state, spending);
+        spending.operation_price = operation_price(state, weights, spending, options.mean_components);
     }
+    search.refit(state, spending);
     result.clusters = std::move(state.clusters);
     result.fits = std::move(state.fits);
     result.cost = state.cost;

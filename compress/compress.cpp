@@ -123,7 +123,7 @@ Clustered cluster(const Transfer& transfer, std::span<const float> weights, cons
     how.clusters = static_cast<std::size_t>(options.clusters);
     how.spending = spending_of(options, transfer.dimension());
     how.mean_components = options.mean_components;
-    how.rows_cost = options.weights == WeightFormat::packed && basis_share(options) > 0;
+    how.rows_cost = options.weights == WeightFormat::packed && options.bases_count;
     how.threads = options.threads;
     double most_dropped = options.weights == WeightFormat::float32 || !(basis_share(options) > 0) ? 0 : 1e-7;
     for (;;) {
@@ -212,14 +212,21 @@ struct Quantised {
     double step = 0;
 };
 
-/// Alternates codes, given the clusters, and clusters, given the codes; from the third round on with the
-/// bases rounded as they will be written.
+/// Codes all points; where the mean number of components is promised they stay in their clusters.
+void encode_all(const PointBlocks& points, const CompressOptions& options, Quantised& q) {
+    constexpr std::size_t kNeighbours = 16;
+    if (options.mean_components > 0)
+        encode_in_place(points, q.models, q.codes, options.threads);
+    else
+        encode_points(points, q.models, neighbour_clusters(q.models, kNeighbours, options.threads), q.codes,
+                      options.threads);
+}
+
+/// Alternates codes, given the clusters, and clusters, given the codes; from the third round on with the bases
+/// rounded as they will be written.
 void alternate(const PointBlocks& points, std::span<const float> weights, const CompressOptions& options,
                const Progress& progress, Quantised& q) {
     constexpr int kRounds = 6, kRoundedFrom = 2;
-    constexpr std::size_t kNeighbours = 16;
-    // Where the mean number of components is promised receivers stay where they are.
-    const std::size_t near = options.mean_components > 0 ? 1 : kNeighbours;
     if (options.weights == WeightFormat::float32)
         return;
     for (int round = 0; round < kRounds; ++round) {
@@ -229,8 +236,7 @@ void alternate(const PointBlocks& points, std::span<const float> weights, const 
             q.step = basis_step(q.models, total_error(weights, q.codes.errors), basis_share(options));
             round_rows(q.models, q.step);
         }
-        encode_points(points, q.models, neighbour_clusters(q.models, near, options.threads), q.codes,
-                      options.threads);
+        encode_all(points, options, q);
     }
 }
 
@@ -276,9 +282,7 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas, 
         quantised_models(found->points, weights, found->clustering, options.weights == WeightFormat::float32,
                          half_of(options.weights), options.threads);
     q.codes.clusters = found->clustering.clusters;
-    encode_points(found->points, q.models,
-                  neighbour_clusters(q.models, options.mean_components > 0 ? 1 : 16, options.threads),
-                  q.codes, options.threads);
+    encode_all(found->points, options, q);
 
     Frame frame = std::move(found->frame);
     CodedBases coded_frame;
@@ -293,8 +297,7 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas, 
         coded ? PointBlocks(transfer, frame, options.threads) : std::move(found->points);
     found.reset();
     if (coded)
-        encode_points(points, q.models, neighbour_clusters(q.models, 1, options.threads), q.codes,
-                      options.threads);
+        encode_in_place(points, q.models, q.codes, options.threads);
     alternate(points, weights, options, progress, q);
     if ((options.seam_weight > 0 || options.potts_weight > 0) && !edges.empty())
         smooth_seams(points, weights, edges, q.models,

@@ -76,8 +76,11 @@ void best_of_block(const float* block, std::size_t dimension, std::span<const Cl
 }
 
 PRT_TARGET_CLONES
-void weights_of_block(const float* block, std::size_t dimension, const ClusterRows& cluster, float* weights) {
-    code_block(block, dimension, cluster, weights);
+void weights_of_block(const float* block, std::size_t dimension, const ClusterRows& cluster, float* weights,
+                      float* errors) {
+    const Lanes distance = code_block(block, dimension, cluster, weights);
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+        errors[lane] = distance[lane];
 }
 
 std::vector<float> inverse_norms(const QuantisedModels& models) {
@@ -183,50 +186,70 @@ QuantisedModels quantised_models(const PointBlocks& points, std::span<const floa
     return models;
 }
 
+namespace {
+
+/// Weights and errors of the points of block `b` in the clusters that they have.
+void code_in_clusters(const PointBlocks& points, std::size_t b, std::span<const ClusterRows> clusters, Codes& codes,
+                      std::span<float> weights) {
+    const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
+    const std::span<const std::uint32_t> own = std::span(codes.clusters).subspan(first, n);
+    alignas(64) std::array<float, kLanes> errors{};
+    for (std::size_t lane = 0; lane < n; ++lane) {
+        if (std::find(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(lane), own[lane]) !=
+            own.begin() + static_cast<std::ptrdiff_t>(lane))
+            continue; // done with an earlier lane
+        const ClusterRows& cluster = clusters[own[lane]];
+        weights_of_block(points.block(b), points.dimension, cluster, weights.data(), errors.data());
+        for (std::size_t other = lane; other < n; ++other) {
+            if (own[other] != own[lane])
+                continue;
+            codes.errors[first + other] = errors[other];
+            float* to = codes.weights.data() + (first + other) * codes.max_components;
+            for (std::size_t j = 0; j < codes.max_components; ++j)
+                to[j] = j < cluster.components ? weights[j * kLanes + other] : 0.0f;
+        }
+    }
+}
+
+} // namespace
+
+void encode_in_place(const PointBlocks& points, const QuantisedModels& models, Codes& codes, int threads) {
+    const std::vector<float> norms = inverse_norms(models);
+    const std::vector<ClusterRows> clusters = cluster_rows(models, norms);
+    codes.max_components = models.max_components;
+    codes.errors.resize(points.count);
+    codes.weights.resize(points.count * models.max_components);
+    parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> weights(models.max_components * kLanes);
+        for (std::size_t b = begin; b < end; ++b)
+            code_in_clusters(points, b, clusters, codes, weights);
+    });
+}
+
 void encode_points(const PointBlocks& points, const QuantisedModels& models,
                    std::span<const std::vector<std::uint32_t>> candidates, Codes& codes, int threads) {
     const std::vector<float> norms = inverse_norms(models);
     const std::vector<ClusterRows> clusters = cluster_rows(models, norms);
-    std::vector<std::uint32_t> all(models.clusters());
-    for (std::uint32_t k = 0; k < all.size(); ++k)
-        all[k] = k;
     codes.max_components = models.max_components;
-    codes.clusters.resize(points.count);
     codes.errors.resize(points.count);
-    codes.weights.assign(points.count * models.max_components, 0.0f);
+    codes.weights.resize(points.count * models.max_components);
     parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
         alignas(64) std::array<std::uint32_t, kLanes> best{};
         alignas(64) std::array<float, kLanes> errors{};
         std::vector<float> weights(models.max_components * kLanes);
-        std::vector<std::uint32_t> some;
+        std::vector<std::uint32_t> tried;
         for (std::size_t b = begin; b < end; ++b) {
             const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
-            std::span<const std::uint32_t> tried = all;
-            if (!candidates.empty()) {
-                some.clear();
-                for (std::size_t p = first; p < first + n; ++p) {
-                    const auto& near = candidates[codes.clusters[p]];
-                    some.insert(some.end(), near.begin(), near.end());
-                }
-                std::sort(some.begin(), some.end());
-                some.erase(std::unique(some.begin(), some.end()), some.end());
-                tried = some;
+            tried.clear();
+            for (std::size_t p = first; p < first + n; ++p) {
+                const auto& near = candidates[codes.clusters[p]];
+                tried.insert(tried.end(), near.begin(), near.end());
             }
+            std::sort(tried.begin(), tried.end());
+            tried.erase(std::unique(tried.begin(), tried.end()), tried.end());
             best_of_block(points.block(b), points.dimension, clusters, tried, best.data(), errors.data());
             std::copy_n(best.begin(), n, &codes.clusters[first]);
-            std::copy_n(errors.begin(), n, &codes.errors[first]);
-            for (std::size_t lane = 0; lane < n; ++lane) {
-                if (std::find(best.begin(), best.begin() + static_cast<std::ptrdiff_t>(lane), best[lane]) !=
-                    best.begin() + static_cast<std::ptrdiff_t>(lane))
-                    continue; // done with an earlier lane
-                const ClusterRows& cluster = clusters[best[lane]];
-                weights_of_block(points.block(b), points.dimension, cluster, weights.data());
-                for (std::size_t other = lane; other < n; ++other)
-                    if (best[other] == best[lane])
-                        for (std::size_t j = 0; j < cluster.components; ++j)
-                            codes.weights[(first + other) * models.max_components + j] =
-                                weights[j * kLanes + other];
-            }
+            code_in_clusters(points, b, clusters, codes, weights);
         }
     });
 }

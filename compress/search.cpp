@@ -12,6 +12,7 @@ namespace prt {
 namespace {
 
 constexpr int kMostPayloadBytes = 30;
+constexpr int kMostOperationBytes = 24; ///< sixteen components of 11 or 12 bits
 
 void check(const SearchOptions& o) {
     for (const auto& [value, name] :
@@ -104,6 +105,7 @@ SearchTrial Search::attempt(int clusters, int payload) {
     const int cluster_bits = static_cast<int>(std::bit_width(static_cast<unsigned>(clusters - 1)));
     if (packed()) {
         o.cluster_bits = cluster_bits;
+        o.bases_count = options_.budget.max_error || options_.budget.bytes_per_vertex;
         o.fixed_bits.clear();
         o.bits = std::max(0, 8 * payload - cluster_bits);
         if (options_.choose_components)
@@ -208,8 +210,7 @@ SearchResult Search::run() {
         start = std::max(1, static_cast<int>(std::lround(0.62 * *budget.bytes_per_vertex)));
     }
     if (!budget.max_error && !budget.bytes_per_vertex)
-        start = least = most =
-            std::min(kMostPayloadBytes, 1 + static_cast<int>(std::ceil(1.5 * *budget.shader_ops)));
+        start = least = most = kMostOperationBytes; // bytes are not asked about
     start = std::clamp(start, least, most);
     // From the start in the direction that gets better, until it gets worse.
     best_at(start);

@@ -154,19 +154,19 @@ private:
                 sweep_.by_bytes.push_back(
                     measured(std::to_string(found.result.statistics.clusters) + " clusters", found.result));
         }
-        for (const int m : kSweepOps) {
-            if (static_cast<std::size_t>(m) > transfer_.dimension() || m > 10)
-                break; // 16 components at most share what 10 on average want
-            CompressOptions o = options_;
-            o.clusters = static_cast<int>(std::min<std::size_t>(kSweepClusters, transfer_.receivers()));
-            o.mean_components = m;
-            o.components = std::min(kMostPackedComponents, static_cast<int>(transfer_.dimension()));
-            o.bits = std::min(12 * m + 12, 200);
-            o.fixed_bits.clear();
-            o.cluster_bits = 0;
-            sweep_.by_ops.push_back(
-                measured(std::to_string(o.clusters) + " clusters, mean " + std::to_string(m),
-                         compress(transfer_, areas_, edges_, o, part(done, done))));
+        // The operations of the classic way, in no more bytes than it takes.
+        for (const SweepPoint& reference : std::vector<SweepPoint>(sweep_.by_ops)) {
+            if (reference.method != kClassic)
+                continue;
+            SearchOptions o;
+            o.compress = options_;
+            o.budget.bytes_per_vertex = reference.bytes();
+            o.budget.shader_ops = reference.shader_ops;
+            const SearchResult found = compress_within(transfer_, areas_, edges_, o, part(done, done + 0.01));
+            done += 0.01;
+            if (found.kept)
+                sweep_.by_ops.push_back(
+                    measured(std::to_string(found.result.statistics.clusters) + " clusters", found.result));
         }
     }
 

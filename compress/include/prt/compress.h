@@ -39,11 +39,13 @@ struct CompressOptions {
     /// Squared error that rounding the bases may add, as a share of what there is; 0: bases are float32.
     /// Unset: 0.1 for packed weights, 0.05 for 8 bits, 0.0001 for 16, 0 for floats.
     std::optional<double> basis_share;
+    /// Packed: bases count in the size, so that clusters leave out directions which take more than they give.
+    bool bases_count = false;
     /// What an error costs; nothing: `natural_metric`.
     std::optional<LightMetric> metric;
     /// mu of docs/math.md, eq. 32: what a jump of the error along a mesh edge costs, in units of the error
     /// itself.
-    double seam_weight = 0;
+    double seam_weight = 1;
     /// Price of a neighbour in another cluster, in units of the mean squared error (eq. 31).
     double potts_weight = 0;
     std::uint64_t seed = 0;

@@ -23,7 +23,9 @@ struct SweepPoint {
 
 struct Sweep {
     std::vector<SweepPoint> by_bytes; ///< every method at sizes that suit it
-    std::vector<SweepPoint> by_ops;   ///< clustered methods with `kSweepClusters` clusters
+    /// The literature's clustered methods with `kSweepClusters` clusters, and ours with as many as take no more
+    /// bytes than classic CPCA does with as many operations.
+    std::vector<SweepPoint> by_ops;
 };
 
 inline constexpr int kSweepClusters = 256; ///< in one byte
