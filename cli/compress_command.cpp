@@ -3,6 +3,7 @@
 #include "inputs.h"
 #include "prt/error.h"
 #include "prt/error_measures.h"
+#include "prt/reorder.h"
 #include "prt/search.h"
 #include "report.h"
 
@@ -76,17 +77,26 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
     if (a.components_given && options.compress.components > static_cast<int>(transfer.dimension()))
         throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
                                 transfer.dimension(), options.compress.components));
-    const Outcome outcome = run_compressor(a, model, options, interrupt);
-    write_clustered(model.document, model.scene, {outcome.result.transfer, model.baked->record});
+    Outcome outcome = run_compressor(a, model, options, interrupt);
+    ClusteredTransfer& result = outcome.result.transfer;
+    const VertexReuse reuse_before = vertex_reuse(model.scene);
+    if (a.reorder) {
+        const std::vector<std::uint32_t> order = order_by_cluster(model.scene, result.receivers);
+        reorder_vertices(model.document, model.scene, order);
+        result.receivers = reordered(result.receivers, order);
+    }
+    write_clustered(model.document, model.scene, {result, model.baked->record});
     {
         const Interrupt::WritingScope writing(interrupt);
-        save_glb(model.document, a.output);
+        save_glb(model.document, a.output, a.meshopt ? BufferCompression::meshopt : BufferCompression::none);
     }
     // The figures are those of the file, not of what was meant to be written.
     const Model written = load_model(a.output);
+    put_in_order_of(written.scene, model);
+    const VertexReuse reuse = vertex_reuse(written.scene);
     const ClusteredTransfer& coded = written.compressed->transfer;
     const Transfer decoded = decode(coded, options.compress.threads);
-    const std::vector<float> areas = receiver_areas(model.scene);
+    const std::vector<float> areas = receiver_areas(written.scene);
     CompressStatistics s = outcome.result.statistics;
     s.lit_rms =
         expected_lit_rms(transfer, decoded, areas, *options.compress.metric, options.compress.threads);
@@ -101,7 +111,11 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
                s.bytes_with_bases(receivers));
     fmt::print("  GPU: {} bytes of attributes, {} of bases, {} of constants per lighting; uncompressed {}\n",
                s.bytes_per_receiver * receivers, s.basis_bytes, constants, uncompressed * receivers);
-    fmt::print("  {:.2f} s\n", s.seconds);
+    if (a.reorder)
+        fmt::print("  vertices transformed per triangle {:.3f}, before {:.3f}; fetched {:.2f} times, before {:.2f}\n",
+                   reuse.transforms_per_triangle, reuse_before.transforms_per_triangle, reuse.overfetch,
+                   reuse_before.overfetch);
+    fmt::print("  {} bytes on disk; {:.2f} s\n", std::filesystem::file_size(a.output), s.seconds);
     write_json({{"output", a.output.string()},
                 {"order", transfer.order},
                 {"channels", transfer.channels},
@@ -119,6 +133,10 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
                 {"bytes_bases", s.basis_bytes},
                 {"bytes_constants", constants},
                 {"bytes_uncompressed", uncompressed * receivers},
+                {"vertices_transformed_per_triangle", reuse.transforms_per_triangle},
+                {"vertices_transformed_per_triangle_before", reuse_before.transforms_per_triangle},
+                {"vertex_overfetch", reuse.overfetch},
+                {"vertex_overfetch_before", reuse_before.overfetch},
                 {"bytes_output", std::filesystem::file_size(a.output)},
                 {"trials", trials_json(outcome.trials)},
                 {"seconds", s.seconds}},

@@ -155,11 +155,12 @@ std::vector<std::byte> picture_png(const Model& model, std::span<const glm::vec3
 }
 
 /// Measures the shipped file under all lights.
-void measure(const EvaluateArguments& a, const Model& baked, const std::vector<LoadedLight>& lights,
+void measure(const EvaluateArguments& a, Model& baked, const std::vector<LoadedLight>& lights,
              Evaluation& evaluation) {
     const Model model = load_model(a.shipped);
     const Candidate shipped = candidate(model, a.shipped);
     check_belong_together(baked, a.baked, model, a.shipped);
+    put_in_order_of(model.scene, baked);
     const Transfer& reference = baked.baked->transfer;
     const std::vector<float> areas = receiver_areas(baked.scene);
     const std::vector<Edge> edges = mesh_edges(baked.scene);
@@ -224,7 +225,7 @@ Sweep run_sweep(const EvaluateArguments& a, const Model& baked, const std::vecto
 } // namespace
 
 void run(const EvaluateArguments& a, Interrupt& interrupt) {
-    const Model baked = load_model(a.baked);
+    Model baked = load_model(a.baked);
     if (!baked.baked)
         throw Error(a.baked.string() + ": holds no raw transfer; the first file is the output of prt bake");
     const Transfer& reference = baked.baked->transfer;

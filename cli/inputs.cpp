@@ -1,6 +1,7 @@
 #include "inputs.h"
 
 #include "prt/error.h"
+#include "prt/reorder.h"
 #include "report.h"
 
 #include <glm/geometric.hpp>
@@ -8,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace prt::cli {
@@ -36,6 +38,16 @@ void check_belong_together(const Model& baked, const Path& baked_path, const Mod
     if (baked.order() != shipped.order())
         throw Error(fmt::format("{}: has order {}, {} has order {}", shipped_path.string(), shipped.order(),
                                 baked_path.string(), baked.order()));
+}
+
+void put_in_order_of(const Scene& scene, Model& baked) {
+    const std::vector<std::uint32_t> match = matching_receivers(scene, baked.scene);
+    Transfer& transfer = baked.baked->transfer;
+    Transfer ordered = zero_transfer(transfer.order, transfer.channels, transfer.receivers());
+    for (std::size_t p = 0; p < match.size(); ++p)
+        std::copy_n(transfer.vector(match[p]).begin(), transfer.dimension(), ordered.vector(p).begin());
+    transfer = std::move(ordered);
+    baked.scene = scene;
 }
 
 Model load_model(const Path& path) {

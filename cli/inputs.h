@@ -25,6 +25,10 @@ struct Model {
 };
 Model load_model(const Path& path);
 
+/// Puts the receivers of a bake in the order that they have in another file of the same scene, whose vertices prt
+/// compress --reorder may have moved.
+void put_in_order_of(const Scene& scene, Model& baked);
+
 /// Throws `Error` unless both hold transfer of one order for the same receivers.
 void check_belong_together(const Model& baked, const Path& baked_path, const Model& shipped,
                            const Path& shipped_path);

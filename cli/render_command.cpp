@@ -36,10 +36,11 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const Model& mod
     case Show::ao:
         return ao_colors(model, a.threads);
     case Show::error: {
-        const Model baked = load_model(a.baked);
+        Model baked = load_model(a.baked);
         if (!baked.baked)
             throw Error(a.baked.string() + ": holds no raw transfer; --baked is the output of prt bake");
         check_belong_together(baked, a.baked, model, a.model);
+        put_in_order_of(model.scene, baked);
         return error_colors(model, baked, light, a.threads);
     }
     case Show::lit:

@@ -50,4 +50,7 @@ void with_component_type(int component_type, Body&& body) {
 std::size_t component_bytes(int component_type);
 int component_count(int type);
 
+/// "SCALAR", "VEC2" ... as tinygltf numbers them. Throws `Error` for another name.
+int tinygltf_type(const std::string& name);
+
 } // namespace prt

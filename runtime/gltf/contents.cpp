@@ -43,17 +43,17 @@ void renumber(Json& value, const std::vector<std::size_t>& new_index) {
         value = new_index[value.get<std::size_t>()];
 }
 
-/// Everything in core glTF that refers to an accessor by index.
-void renumber_accessors(Json& json, const std::vector<std::size_t>& new_index) {
+/// Calls `visit` with everything in core glTF that refers to an accessor by index.
+void for_each_accessor_reference(Json& json, const std::function<void(Json&)>& visit) {
     const auto all_of = [&](Json& attributes) {
         for (Json& accessor : attributes)
-            renumber(accessor, new_index);
+            visit(accessor);
     };
     for (Json& mesh : member(json, "meshes", Json::value_t::array)) {
         for (Json& primitive : mesh["primitives"]) {
             all_of(primitive["attributes"]);
             if (primitive.contains("indices"))
-                renumber(primitive["indices"], new_index);
+                visit(primitive["indices"]);
             if (primitive.contains("targets"))
                 for (Json& target : primitive["targets"])
                     all_of(target);
@@ -62,12 +62,12 @@ void renumber_accessors(Json& json, const std::vector<std::size_t>& new_index) {
     if (json.contains("skins"))
         for (Json& skin : json["skins"])
             if (skin.contains("inverseBindMatrices"))
-                renumber(skin["inverseBindMatrices"], new_index);
+                visit(skin["inverseBindMatrices"]);
     if (json.contains("animations"))
         for (Json& animation : json["animations"])
             for (Json& sampler : animation["samplers"])
                 for (const char* key : {"input", "output"})
-                    renumber(sampler[key], new_index);
+                    visit(sampler[key]);
     if (json.contains("nodes"))
         for (Json& node : json["nodes"])
             if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing"))
@@ -110,6 +110,26 @@ void cut_bytes(GltfContents& contents, const std::set<std::size_t>& removed) {
     for (Json& view : contents.json["bufferViews"])
         view["byteOffset"] = new_offset[std::min(range_of(view).begin, contents.binary.size())];
     contents.binary = std::move(kept);
+}
+
+void erase_accessors(GltfContents& contents, const std::set<std::size_t>& accessors) {
+    Json& json = contents.json;
+    if (accessors.empty() || !json.contains("accessors"))
+        return;
+    const auto new_index = remove_elements(json, "accessors", accessors);
+    for_each_accessor_reference(json, [&](Json& accessor) { renumber(accessor, new_index); });
+}
+
+void erase_views(GltfContents& contents, const std::set<std::size_t>& views) {
+    Json& json = contents.json;
+    if (views.empty() || !json.contains("bufferViews"))
+        return;
+    cut_bytes(contents, views);
+    const auto new_index = remove_elements(json, "bufferViews", views);
+    for_each_object(json, [&](Json& object) {
+        if (object.contains("bufferView"))
+            renumber(object["bufferView"], new_index);
+    });
 }
 
 } // namespace
@@ -186,16 +206,8 @@ void GltfContents::remove_transfer() {
         if (json.contains("accessors") && accessor < json["accessors"].size())
             take_view(json["accessors"][accessor]);
 
-    if (!accessors.empty() && json.contains("accessors"))
-        renumber_accessors(json, remove_elements(json, "accessors", accessors));
-    if (!views.empty() && json.contains("bufferViews")) {
-        cut_bytes(*this, views);
-        const auto new_index = remove_elements(json, "bufferViews", views);
-        for_each_object(json, [&](Json& object) {
-            if (object.contains("bufferView"))
-                renumber(object["bufferView"], new_index);
-        });
-    }
+    erase_accessors(*this, accessors);
+    erase_views(*this, views);
     if (json.contains("extensionsUsed")) {
         Json kept = Json::array();
         for (const Json& name : json["extensionsUsed"])
@@ -206,6 +218,26 @@ void GltfContents::remove_transfer() {
         else
             json["extensionsUsed"] = std::move(kept);
     }
+}
+
+void GltfContents::remove_replaced(std::set<std::size_t> accessors) {
+    for_each_accessor_reference(json, [&](Json& accessor) {
+        if (accessor.is_number_unsigned())
+            accessors.erase(accessor.get<std::size_t>());
+    });
+    std::set<std::size_t> views;
+    for (const std::size_t a : accessors)
+        if (a < json["accessors"].size())
+            for_each_object(json["accessors"][a], [&](Json& object) {
+                if (object.contains("bufferView"))
+                    views.insert(object["bufferView"].get<std::size_t>());
+            });
+    erase_accessors(*this, accessors);
+    for_each_object(json, [&](Json& object) {
+        if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
+            views.erase(object["bufferView"].get<std::size_t>());
+    });
+    erase_views(*this, views);
 }
 
 } // namespace prt

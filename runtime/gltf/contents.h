@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,6 +33,8 @@ struct GltfContents {
     void use_extension(const std::string& name);
     /// Takes the extensions of prtkit out, with their attributes, accessors and data.
     void remove_transfer();
+    /// Takes those of `accessors` out that nothing refers to any more, with their data.
+    void remove_replaced(std::set<std::size_t> accessors);
 };
 
 inline constexpr const char* kTransferExtension = "PRTKIT_transfer";

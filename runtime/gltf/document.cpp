@@ -3,6 +3,7 @@
 #include "accessor.h"
 #include "contents.h"
 #include "glb.h"
+#include "meshopt_views.h"
 #include "prt/error.h"
 #include "prt/file.h"
 
@@ -17,9 +18,10 @@ namespace {
 
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
 /// base colour is used.
-constexpr std::array<std::string_view, 21> kSupportedExtensions = {
+constexpr std::array<std::string_view, 22> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
+    kMeshoptExtension,
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "KHR_lights_punctual",
@@ -168,7 +170,15 @@ GltfDocument load_gltf(const std::filesystem::path& path, MissingImages missing)
                    : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
         contents->json = parse_json(text);
         check_required_extensions(contents->json);
-        load_model(*contents, file, text, binary, missing);
+        if (has_meshopt_views(contents->json)) {
+            const std::string plain = without_meshopt(contents->json).dump();
+            const std::vector<std::byte> rebuilt =
+                binary ? make_glb(plain, glb_binary(file)) : std::vector<std::byte>{};
+            load_model(*contents, rebuilt, plain, binary, missing);
+            decompress_views(*contents);
+        } else {
+            load_model(*contents, file, text, binary, missing);
+        }
         join_buffers(*contents);
         embed_images(*contents);
     } catch (const std::exception& error) { // ours, and those of the JSON library on members of a wrong type
@@ -177,15 +187,16 @@ GltfDocument load_gltf(const std::filesystem::path& path, MissingImages missing)
     return GltfDocument(std::move(contents));
 }
 
-void save_glb(const GltfDocument& document, const std::filesystem::path& path) {
+void save_glb(const GltfDocument& document, const std::filesystem::path& path, BufferCompression compression) {
     const GltfContents& contents = document.contents();
-    Json json = contents.json;
-    if (!contents.binary.empty())
-        json["buffers"] = Json::array({Json{{"byteLength", contents.binary.size()}}});
+    CompressedGlb glb = compression == BufferCompression::meshopt ? compress_views(contents)
+                                                                  : CompressedGlb{contents.json, contents.binary};
+    if (!glb.binary.empty() && !glb.json.contains("buffers"))
+        glb.json["buffers"] = Json::array({Json{{"byteLength", glb.binary.size()}}});
     OutputFile output(path);
     std::vector<std::byte> file;
     try {
-        file = make_glb(json.dump(-1, ' ', false, Json::error_handler_t::replace), contents.binary);
+        file = make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), glb.binary);
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
     }

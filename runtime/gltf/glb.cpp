@@ -46,6 +46,16 @@ std::string_view glb_json(std::span<const std::byte> file) {
     return {reinterpret_cast<const char*>(file.data()) + kHeader + kChunkHeader, length};
 }
 
+std::span<const std::byte> glb_binary(std::span<const std::byte> file) {
+    const std::size_t begin = kHeader + kChunkHeader + glb_json(file).size();
+    if (file.size() < begin + kChunkHeader)
+        return {};
+    const std::size_t length = word(file, begin);
+    if (word(file, begin + 4) != kBin || length > file.size() - begin - kChunkHeader)
+        throw Error("is truncated: its binary chunk passes the end of the file");
+    return file.subspan(begin + kChunkHeader, length);
+}
+
 std::vector<std::byte> make_glb(std::string json, std::span<const std::byte> binary) {
     json.append((4 - json.size() % 4) % 4, ' ');
     const std::size_t padding = (4 - binary.size() % 4) % 4;

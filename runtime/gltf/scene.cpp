@@ -41,18 +41,23 @@ std::vector<float> receiver_areas(const Scene& scene) {
 }
 
 std::string receivers_id(const Scene& scene) {
-    std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a, 64 bits, a word at a time
-    const auto add = [&](float value) {
-        hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001b3;
-    };
+    std::uint64_t sum = 0; // so that the order of the vertices does not matter
     for (const VertexArray& vertices : scene.vertex_arrays)
-        for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            std::uint64_t hash = 0xcbf29ce484222325; // FNV-1a, 64 bits, a word at a time
+            const auto add = [&](float value) {
+                hash = (hash ^ std::bit_cast<std::uint32_t>(value)) * 0x100000001b3;
+            };
             for (int axis = 0; axis < 3; ++axis) {
                 add(vertices.positions[i][axis]);
                 add(vertices.normals[i][axis]);
             }
+            // Low bits of a product depend on low bits alone; without this, sums of close hashes are alike.
+            hash = (hash ^ hash >> 32) * 0xd6e8feb86659fd93;
+            sum += hash ^ hash >> 32;
+        }
     char text[17];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(sum));
     return text;
 }
 
