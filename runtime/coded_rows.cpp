@@ -64,8 +64,16 @@ private:
     std::vector<std::uint8_t> widths_;
 };
 
-/// Drops that make the code short: column by column, each to its best while the others stay, until none
-/// moves.
+/// All columns from `first` on, each by as many bits narrower.
+std::vector<std::uint8_t> shifted(std::span<const std::uint8_t> drops, std::size_t first, int by) {
+    std::vector<std::uint8_t> result(drops.begin(), drops.end());
+    for (std::size_t i = first; i < result.size(); ++i)
+        result[i] = static_cast<std::uint8_t>(std::clamp(result[i] + by, 0, kMostRowBits));
+    return result;
+}
+
+/// Drops that make the code short: column by column, each to its best while the others stay, then all from some
+/// column on together, until none moves.
 std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) {
     std::vector<std::uint8_t> drops(columns, 0);
     std::size_t least = widths.total(drops);
@@ -85,6 +93,16 @@ std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) 
             }
             drops[i] = best;
         }
+        for (std::size_t i = 1; i < columns; ++i)
+            for (const int by : {1, -1}) {
+                std::vector<std::uint8_t> tried = shifted(drops, i, by);
+                const std::size_t bits = widths.total(tried);
+                if (bits < least) {
+                    least = bits;
+                    drops = std::move(tried);
+                    moved = true;
+                }
+            }
     }
     return drops;
 }

@@ -1,0 +1,49 @@
+#include "prt/baselines.h"
+
+#include "prt/error_measures.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace prt {
+namespace {
+
+Transfer random_transfer(std::size_t receivers) {
+    Transfer t = zero_transfer(3, 1, receivers);
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    for (float& v : t.vectors)
+        v = normal(random);
+    return t;
+}
+
+TEST(Baselines, TruncationKeepsItsBandsToAByte) {
+    const Transfer t = random_transfer(100);
+    const BaselineResult r = truncated_sh(t, 2);
+    EXPECT_EQ(r.payload_bytes, 4);
+    for (std::size_t p = 0; p < 100; ++p)
+        for (std::size_t i = 0; i < 9; ++i)
+            EXPECT_NEAR(r.decoded.vector(p)[i], i < 4 ? t.vector(p)[i] : 0.0f, 4.0f / 127);
+}
+
+TEST(Baselines, AllComponentsLoseOnlyWhatEightBitsLose) {
+    const Transfer t = random_transfer(300);
+    const std::vector<float> areas(300, 1.0f);
+    const BaselineResult r = classic_cpca(t, areas, {1, 9});
+    EXPECT_LT(relative_l2(t, r.decoded, areas), 0.01); // a step of 3.5 sigma / 127 along each of nine axes: 0.8 %
+    EXPECT_GT(relative_l2(t, r.decoded, areas), 0.001);
+    EXPECT_EQ(r.payload_bytes, 9);
+    EXPECT_EQ(r.table_bytes, 10 * 9 * 2 + 9 * 4);
+}
+
+TEST(Baselines, IteratingIsNoWorseThanPcaOnce) {
+    const Transfer t = random_transfer(500);
+    const std::vector<float> areas(500, 1.0f);
+    for (const int components : {1, 3, 5})
+        EXPECT_LE(relative_l2(t, classic_cpca(t, areas, {8, components, true}).decoded, areas),
+                  relative_l2(t, classic_cpca(t, areas, {8, components, false}).decoded, areas));
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,97 @@
+#include "prt/compress.h"
+#include "prt/error_measures.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace prt {
+namespace {
+
+/// A grid whose transfer turns smoothly: clusters are patches, and every patch has borders.
+struct Grid {
+    static constexpr std::uint32_t kSize = 60;
+    Transfer transfer = zero_transfer(3, 1, kSize * kSize);
+    std::vector<float> areas = std::vector<float>(kSize * kSize, 1.0f);
+    std::vector<Edge> edges;
+
+    Grid() {
+        for (std::uint32_t y = 0; y < kSize; ++y)
+            for (std::uint32_t x = 0; x < kSize; ++x) {
+                const std::uint32_t p = y * kSize + x;
+                for (std::uint32_t i = 0; i < 9; ++i)
+                    transfer.vector(p)[i] =
+                        (i == 0 ? 2.0f : 0.0f) + std::sin(0.05f * static_cast<float>((1 + i % 3) * x + (1 + i / 3) * y) +
+                                                          static_cast<float>(i * i));
+                if (x + 1 < kSize)
+                    edges.push_back({p, p + 1});
+                if (y + 1 < kSize)
+                    edges.push_back({p, p + kSize});
+            }
+    }
+
+    /// Jumps of the error of a coefficient along edges, squared, crossing and all.
+    struct Jumps {
+        double squared = 0;
+        std::size_t crossing = 0;
+        double lit_rms = 0;
+    };
+    Jumps compressed(double seam_weight, double potts_weight, WeightFormat format) const {
+        CompressOptions options;
+        options.clusters = 30;
+        options.components = 2;
+        options.bits = 12;
+        options.weights = format;
+        options.seam_weight = seam_weight;
+        options.potts_weight = potts_weight;
+        const CompressResult result = compress(transfer, areas, edges, options);
+        const Transfer decoded = decode(result.transfer);
+        Jumps jumps;
+        for (const Edge& e : edges) {
+            for (std::size_t i = 0; i < 9; ++i)
+                jumps.squared += std::pow(static_cast<double>((decoded.vector(e.first)[i] - transfer.vector(e.first)[i]) -
+                                                              (decoded.vector(e.second)[i] - transfer.vector(e.second)[i])),
+                                          2) *
+                                 (i == 0 ? 1.0 : 0.25 / std::floor(std::sqrt(static_cast<double>(i))));
+            jumps.crossing += result.transfer.receivers.clusters[e.first] !=
+                              result.transfer.receivers.clusters[e.second];
+        }
+        jumps.lit_rms = result.statistics.lit_rms;
+        return jumps;
+    }
+};
+
+class Seams : public testing::TestWithParam<WeightFormat> {};
+INSTANTIATE_TEST_SUITE_P(Formats, Seams,
+                         testing::Values(WeightFormat::packed, WeightFormat::snorm8, WeightFormat::float32));
+
+TEST_P(Seams, SmoothingLowersTheJumpsAndRaisesTheErrorALittle) {
+    const Grid grid;
+    const Grid::Jumps without = grid.compressed(0, 0, GetParam()), with = grid.compressed(2, 0, GetParam());
+    EXPECT_LT(with.squared, 0.9 * without.squared);
+    EXPECT_LT(with.lit_rms, 1.2 * without.lit_rms);
+    EXPECT_GE(with.lit_rms, without.lit_rms);
+}
+
+TEST_P(Seams, APriceOfBordersShortensThem) {
+    const Grid grid;
+    const Grid::Jumps without = grid.compressed(0, 0, GetParam()), with = grid.compressed(0, 2, GetParam());
+    EXPECT_LT(with.crossing, without.crossing);
+}
+
+TEST(Seams, MeshEdgesAreThoseOfTheTrianglesOnce) {
+    Scene scene;
+    scene.vertex_arrays.resize(2);
+    scene.vertex_arrays[0].positions.resize(4);
+    scene.vertex_arrays[1].positions.resize(3);
+    scene.vertex_arrays[1].first_receiver = 4;
+    scene.primitives.resize(2);
+    scene.primitives[0].triangles = {{0, 1, 2}, {2, 1, 3}};
+    scene.primitives[1].vertices = 1;
+    scene.primitives[1].triangles = {{0, 1, 2}, {1, 1, 2}};
+    EXPECT_EQ(mesh_edges(scene),
+              (std::vector<Edge>{{0, 1}, {0, 2}, {1, 2}, {1, 3}, {2, 3}, {4, 5}, {4, 6}, {5, 6}}));
+}
+
+} // namespace
+} // namespace prt
