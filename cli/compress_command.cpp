@@ -77,6 +77,7 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
     if (a.components_given && options.compress.components > static_cast<int>(transfer.dimension()))
         throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
                                 transfer.dimension(), options.compress.components));
+    discard_transfer(model.document); // it is in `transfer`, and would be in memory twice
     Outcome outcome = run_compressor(a, model, options, interrupt);
     ClusteredTransfer& result = outcome.result.transfer;
     const VertexReuse reuse_before = vertex_reuse(model.scene);
@@ -112,7 +113,8 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
     fmt::print("  GPU: {} bytes of attributes, {} of bases, {} of constants per lighting; uncompressed {}\n",
                s.bytes_per_receiver * receivers, s.basis_bytes, constants, uncompressed * receivers);
     if (a.reorder)
-        fmt::print("  vertices transformed per triangle {:.3f}, before {:.3f}; fetched {:.2f} times, before {:.2f}\n",
+        fmt::print("  vertices transformed per triangle {:.3f}, before {:.3f}; fetched {:.2f} times, before "
+                   "{:.2f}\n",
                    reuse.transforms_per_triangle, reuse_before.transforms_per_triangle, reuse.overfetch,
                    reuse_before.overfetch);
     fmt::print("  {} bytes on disk; {:.2f} s\n", std::filesystem::file_size(a.output), s.seconds);

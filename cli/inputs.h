@@ -25,8 +25,8 @@ struct Model {
 };
 Model load_model(const Path& path);
 
-/// Puts the receivers of a bake in the order that they have in another file of the same scene, whose vertices prt
-/// compress --reorder may have moved.
+/// Puts the receivers of a bake in the order that they have in another file of the same scene, whose vertices
+/// prt compress --reorder may have moved.
 void put_in_order_of(const Scene& scene, Model& baked);
 
 /// Throws `Error` unless both hold transfer of one order for the same receivers.

@@ -120,7 +120,7 @@ std::string sweep_html(const Sweep& sweep) {
            fmt::format(
                "<h2>Error at equal shader operations</h2>\n<p>Multiply-adds of a colour per vertex, on "
                "average. Clustered methods of the literature have {} clusters; prtkit has as many as take no "
-                       "more bytes than classic CPCA at the same operations.</p>\n",
+               "more bytes than classic CPCA at the same operations.</p>\n",
                kSweepClusters) +
            chart(sweep.by_ops, "multiply-adds per vertex", ops_of) +
            table(sweep, sweep.by_ops, kSweepOps, "operations", best_by_ops);

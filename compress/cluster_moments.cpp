@@ -68,35 +68,53 @@ void ClusterMoments::update(const PointBlocks& points, std::span<const float> we
     });
 }
 
-ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending) {
+namespace {
+
+// Of points that came and went rounding stays behind: nothing below a millionth of a millionth counts.
+constexpr double kLeastWeight = 1e-14;
+
+struct Covariance {
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd matrix; ///< lower triangle
+};
+
+Covariance covariance_of(const ClusterMoments::View& moments) {
     const auto d = static_cast<Eigen::Index>(moments.dimension);
-    ClusterFit fit{std::vector<float>(moments.dimension, 0.0f), {}, {}, {}, 0};
-    // Of points that came and went rounding stays behind: nothing below a millionth of a millionth counts.
-    if (!(moments.weight() > 1e-14))
-        return fit;
-    fit.weight = moments.weight();
-    const Eigen::Map<const Eigen::VectorXd> sums(&moments.values[1], d);
-    const Eigen::VectorXd mean = sums / fit.weight;
-    Eigen::MatrixXd covariance(d, d);
+    Covariance result{Eigen::Map<const Eigen::VectorXd>(&moments.values[1], d) / moments.weight(),
+                      Eigen::MatrixXd::Zero(d, d)};
     const double* product = moments.values.data() + 1 + d;
     for (Eigen::Index i = 0; i < d; ++i)
         for (Eigen::Index j = 0; j <= i; ++j)
-            covariance(i, j) = *product++ / fit.weight - mean[i] * mean[j];
-    std::transform(mean.begin(), mean.end(), fit.mean.begin(),
-                   [](double v) { return static_cast<float>(v); });
+            result.matrix(i, j) = *product++ / moments.weight() - result.mean[i] * result.mean[j];
+    return result;
+}
+
+/// Descending; what float rounding of the points alone can make along one direction, (2^-24)² of their
+/// squared size with a margin of 4, is 0.
+std::vector<double> variances_of(const Eigen::VectorXd& ascending, const Covariance& covariance) {
+    const double floor = 4 * 0x1p-48 * (covariance.mean.squaredNorm() + covariance.matrix.trace());
+    std::vector<double> variances;
+    for (Eigen::Index i = ascending.size() - 1; i >= 0; --i)
+        variances.push_back(ascending[i] > floor ? ascending[i] : 0);
+    return variances;
+}
+
+} // namespace
+
+ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending) {
+    const auto d = static_cast<Eigen::Index>(moments.dimension);
+    ClusterFit fit{std::vector<float>(moments.dimension, 0.0f), {}, {}, {}, 0};
+    if (!(moments.weight() > kLeastWeight))
+        return fit;
+    fit.weight = moments.weight();
     if (d == 0)
         return fit;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance);
-    std::vector<double> variances(moments.dimension);
-    // Variance that float rounding of the points alone can make along one direction: (2^-24)² of their
-    // squared size, and a margin of 4.
-    const double floor = 4 * 0x1p-48 * (mean.squaredNorm() + covariance.trace());
-    for (Eigen::Index i = 0; i < d; ++i) { // eigenvalues ascend
-        const double variance = solver.eigenvalues()[d - 1 - i];
-        variances[static_cast<std::size_t>(i)] = variance > floor ? variance : 0;
-    }
-    fit.plan = plan_components(variances, fit.weight, spending);
-    fit.variances = std::move(variances);
+    const Covariance covariance = covariance_of(moments);
+    std::transform(covariance.mean.begin(), covariance.mean.end(), fit.mean.begin(),
+                   [](double v) { return static_cast<float>(v); });
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance.matrix);
+    fit.variances = variances_of(solver.eigenvalues(), covariance);
+    fit.plan = plan_components(fit.variances, fit.weight, spending);
     for (std::size_t j = 0; j < fit.plan.bits.size(); ++j) {
         Eigen::VectorXd direction = solver.eigenvectors().col(d - 1 - static_cast<Eigen::Index>(j));
         Eigen::Index largest = 0; // the sign of an eigenvector is arbitrary; fix it
@@ -107,6 +125,16 @@ ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spen
             fit.directions.push_back(static_cast<float>(v));
     }
     return fit;
+}
+
+double cluster_cost(const ClusterMoments::View& moments, const Spending& spending) {
+    if (!(moments.weight() > kLeastWeight) || moments.dimension == 0)
+        return 0;
+    const Covariance covariance = covariance_of(moments);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance.matrix, Eigen::EigenvaluesOnly);
+    return cost_of(
+        plan_components(variances_of(solver.eigenvalues(), covariance), moments.weight(), spending),
+        moments.weight(), spending);
 }
 
 } // namespace prt

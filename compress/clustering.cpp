@@ -40,7 +40,10 @@ public:
     }
 
     void reassign(State& state) const {
-        Assignment next = assign(points_, models(state.fits), options_.threads);
+        Assignment next = state.fits.size() <= 2 * kNeighbours
+                              ? assign(points_, models(state.fits), options_.threads)
+                              : assign(points_, models(state.fits), neighbours(state.fits), state.clusters,
+                                       options_.threads);
         state.moments.update(points_, weights_, state.clusters, next.clusters, options_.threads);
         state.clusters = std::move(next.clusters);
     }
@@ -72,12 +75,16 @@ public:
             free.fixed_bits.clear();
             free.most_components = static_cast<int>(state.fits[k].plan.bits.size());
             free.row_price = free.operation_price = 0;
-            error += fit_cluster(state.moments.view(k), free).cost(free);
+            error += cluster_cost(state.moments.view(k), free);
         }
         return error;
     }
 
 private:
+    /// Where there are many clusters a point looks among so many that are near its own.
+    static constexpr std::size_t kNeighbours = 32;
+    std::vector<std::vector<std::uint32_t>> neighbours(const std::vector<ClusterFit>& fits) const;
+
     ClusterModels models(const std::vector<ClusterFit>& fits) const {
         std::size_t most = 0;
         for (const ClusterFit& fit : fits)
@@ -112,6 +119,52 @@ private:
     std::span<const float> weights_;
     const ClusteringOptions& options_;
 };
+
+/// Clusters by the distance of one's mean to the other's points: to its mean, less what its directions reach
+/// with weights of up to three deviations.
+std::vector<std::vector<std::uint32_t>> ClusterSearch::neighbours(const std::vector<ClusterFit>& fits) const {
+    std::vector<std::vector<std::uint32_t>> result(fits.size());
+    parallel_for(fits.size(), 8, options_.threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::pair<float, std::uint32_t>> near(fits.size());
+        std::vector<float> d(points_.dimension);
+        const auto nearest = [&](std::size_t count) {
+            const auto last = near.begin() + static_cast<std::ptrdiff_t>(std::min(count, near.size()));
+            std::partial_sort(near.begin(), last, near.end());
+            near.erase(last, near.end());
+        };
+        for (std::size_t k = begin; k < end; ++k) {
+            near.clear();
+            for (std::uint32_t other = 0; other < fits.size(); ++other) {
+                float squared = 0;
+                for (std::size_t i = 0; i < d.size(); ++i) {
+                    const float along = fits[k].mean[i] - fits[other].mean[i];
+                    squared += along * along;
+                }
+                near.emplace_back(other == k ? -1.0f : squared, other);
+            }
+            nearest(4 * kNeighbours); // others are too far for any direction to reach
+            for (auto& [distance, other] : near) {
+                const ClusterFit& fit = fits[other];
+                for (std::size_t i = 0; i < d.size(); ++i)
+                    d[i] = fits[k].mean[i] - fit.mean[i];
+                for (std::size_t j = 0; j < fit.plan.bits.size(); ++j) {
+                    const float* direction = &fit.directions[j * d.size()];
+                    const float along = std::inner_product(d.begin(), d.end(), direction, 0.0f);
+                    const auto reach = 3 * static_cast<float>(std::sqrt(fit.variances[j]));
+                    const float w = std::clamp(along, -reach, reach);
+                    for (std::size_t i = 0; i < d.size(); ++i)
+                        d[i] -= w * direction[i];
+                }
+                if (other != k)
+                    distance = std::inner_product(d.begin(), d.end(), d.begin(), 0.0f);
+            }
+            nearest(kNeighbours);
+            for (const auto& [distance, other] : near)
+                result[k].push_back(other);
+        }
+    });
+    return result;
+}
 
 void ClusterSearch::converge(State& state, const Spending& spending, int most_rounds,
                              const Progress& progress, std::vector<double>* history) const {
@@ -159,9 +212,8 @@ std::vector<ClusterSearch::Split> ClusterSearch::possible_splits(const State& st
                 if (along > 0)
                     splits[k].leaving.push_back(p);
             }
-            splits[k].gain = fit.cost(spending) -
-                             fit_cluster({points_.dimension, low}, spending).cost(spending) -
-                             fit_cluster({points_.dimension, high}, spending).cost(spending);
+            splits[k].gain = fit.cost(spending) - cluster_cost({points_.dimension, low}, spending) -
+                             cluster_cost({points_.dimension, high}, spending);
         }
     });
     return splits;
@@ -192,7 +244,7 @@ std::vector<ClusterSearch::Merge> ClusterSearch::possible_merges(const State& st
                 std::vector<double> sum(a.values.begin(), a.values.end());
                 for (std::size_t i = 0; i < sum.size(); ++i)
                     sum[i] += b.values[i];
-                const double loss = fit_cluster({points_.dimension, sum}, spending).cost(spending) -
+                const double loss = cluster_cost({points_.dimension, sum}, spending) -
                                     state.fits[k].cost(spending) - state.fits[other].cost(spending);
                 found[k].push_back({loss, std::min(k, other), std::max(k, other)});
             }
@@ -288,9 +340,9 @@ double operation_price(const State& state, std::span<const float> weights, Spend
     return high;
 }
 
-/// Lets clusters have different numbers of components, at most `options.mean_components` on average: the price that
-/// does that is found anew in each round, since prices move the points, and points the prices. Leaves the best round
-/// in `state` and its price in `spending`.
+/// Lets clusters have different numbers of components, at most `options.mean_components` on average: the
+/// price that does that is found anew in each round, since prices move the points, and points the prices.
+/// Leaves the best round in `state` and its price in `spending`.
 void spend_operations(const ClusterSearch& search, const ClusteringOptions& options, Spending& spending,
                       const Progress& progress, State& state) {
     constexpr int kRounds = 12;
@@ -300,7 +352,8 @@ void spend_operations(const ClusterSearch& search, const ClusteringOptions& opti
         progress.update(0.6);
         spending.operation_price = 0;
         search.refit(state, spending); // for the spectra
-        spending.operation_price = operation_price(state, search.weights(), spending, options.mean_components);
+        spending.operation_price =
+            operation_price(state, search.weights(), spending, options.mean_components);
         search.refit(state, spending);
         double paid = 0;
         for (const ClusterFit& fit : state.fits)
@@ -319,13 +372,14 @@ void spend_operations(const ClusterSearch& search, const ClusteringOptions& opti
 } // namespace
 
 Clustering cluster_points(const PointBlocks& points, std::span<const float> weights,
-                          const ClusteringOptions& options, std::mt19937_64& random, const Progress& progress) {
+                          const ClusteringOptions& options, std::mt19937_64& random,
+                          const Progress& progress) {
     const ClusterSearch search(points, weights, options);
-    State state =
-        search.start(vector_quantise(points, weights, options.clusters, 0, random, options.threads, progress));
+    State state = search.start(
+        vector_quantise(points, weights, options.clusters, 0, random, options.threads, progress));
     Spending spending = options.spending;
-    // Where the mean is limited clusters differ only at the end: earlier those with many components would swallow
-    // the others' points.
+    // Where the mean is limited clusters differ only at the end: earlier those with many components would
+    // swallow the others' points.
     if (options.mean_components > 0)
         spending.most_components =
             std::min(spending.most_components, std::max(1, static_cast<int>(options.mean_components)));

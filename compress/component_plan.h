@@ -31,4 +31,9 @@ inline constexpr int kMostBits = 16;
 /// `variances`, descending: bits go one by one to where they take away most.
 ComponentPlan plan_components(std::span<const double> variances, double weight, const Spending& spending);
 
+/// Of a cluster of weight `weight`, prices included.
+inline double cost_of(const ComponentPlan& plan, double weight, const Spending& spending) {
+    return weight * plan.error + spending.row_price * static_cast<double>(plan.bits.size());
+}
+
 } // namespace prt

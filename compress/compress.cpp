@@ -125,7 +125,9 @@ Clustered cluster(const Transfer& transfer, std::span<const float> weights, cons
     how.mean_components = options.mean_components;
     how.rows_cost = options.weights == WeightFormat::packed && options.bases_count;
     how.threads = options.threads;
-    double most_dropped = options.weights == WeightFormat::float32 || !(basis_share(options) > 0) ? 0 : 1e-7;
+    double most_dropped = options.weights == WeightFormat::float32 || !(basis_share(options) > 0) ? 0
+                          : options.bits > 48                                                     ? 1e-7
+                                                                                                  : 1e-6;
     for (;;) {
         Frame frame = fit_frame(transfer, weights, metric, most_dropped, options.threads);
         PointBlocks points(transfer, frame, options.threads);
@@ -222,8 +224,8 @@ void encode_all(const PointBlocks& points, const CompressOptions& options, Quant
                       options.threads);
 }
 
-/// Alternates codes, given the clusters, and clusters, given the codes; from the third round on with the bases
-/// rounded as they will be written.
+/// Alternates codes, given the clusters, and clusters, given the codes; from the third round on with the
+/// bases rounded as they will be written.
 void alternate(const PointBlocks& points, std::span<const float> weights, const CompressOptions& options,
                const Progress& progress, Quantised& q) {
     constexpr int kRounds = 6, kRoundedFrom = 2;
@@ -293,15 +295,19 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas, 
         coded_frame = code_frame(frame, metric, 0.02 * error);
         q.models = truncated(q.models, frame.dimension);
     }
-    const PointBlocks points =
-        coded ? PointBlocks(transfer, frame, options.threads) : std::move(found->points);
-    found.reset();
+    std::optional<PointBlocks> points;
+    if (!coded)
+        points = std::move(found->points);
+    found.reset(); // the points of the one frame make room for those of the other
     if (coded)
-        encode_in_place(points, q.models, q.codes, options.threads);
-    alternate(points, weights, options, progress, q);
+        points.emplace(transfer, frame, options.threads);
+    if (coded)
+        encode_in_place(*points, q.models, q.codes, options.threads);
+    alternate(*points, weights, options, progress, q);
     if ((options.seam_weight > 0 || options.potts_weight > 0) && !edges.empty())
-        smooth_seams(points, weights, edges, q.models,
+        smooth_seams(*points, weights, edges, q.models,
                      {options.seam_weight, options.potts_weight, options.threads}, q.codes);
+    points.reset();
     drop_empty(q.models, q.codes);
     progress.update(0.95);
     result.transfer =

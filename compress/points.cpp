@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <numeric>
 
 namespace prt {
 namespace {
@@ -48,11 +49,11 @@ constexpr std::size_t kMostDimensions = 3 * kMaxOrder * kMaxOrder;
 }
 
 PRT_TARGET_CLONES
-void nearest_of_block(const float* block, const ClusterModels& models, std::uint32_t* clusters,
-                      float* errors) {
+void nearest_of_block(const float* block, const ClusterModels& models,
+                      std::span<const std::uint32_t> candidates, std::uint32_t* clusters, float* errors) {
     for (std::size_t lane = 0; lane < kLanes; ++lane)
         errors[lane] = std::numeric_limits<float>::infinity();
-    for (std::size_t k = 0; k < models.clusters(); ++k) {
+    for (const std::size_t k : candidates) {
         const Lanes distance =
             squared_distance(block, models.dimension, &models.means[k * models.dimension],
                              models.directions.data() + k * models.max_components * models.dimension,
@@ -97,13 +98,20 @@ PointBlocks::PointBlocks(const Transfer& transfer, const Frame& frame, int threa
     });
 }
 
-Assignment assign(const PointBlocks& points, const ClusterModels& models, int threads) {
+namespace {
+
+/// Assigns all points; `candidates_of(b, list)` says which clusters the points of a block may have.
+template <class CandidatesOf>
+Assignment assign_among(const PointBlocks& points, const ClusterModels& models, int threads,
+                        CandidatesOf&& candidates_of) {
     Assignment result{std::vector<std::uint32_t>(points.count), std::vector<float>(points.count)};
     parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
         alignas(64) std::array<std::uint32_t, kLanes> clusters{};
         alignas(64) std::array<float, kLanes> errors{};
+        std::vector<std::uint32_t> candidates;
         for (std::size_t b = begin; b < end; ++b) {
-            nearest_of_block(points.block(b), models, clusters.data(), errors.data());
+            candidates_of(b, candidates);
+            nearest_of_block(points.block(b), models, candidates, clusters.data(), errors.data());
             const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
             std::copy_n(clusters.begin(), n, &result.clusters[first]);
             std::transform(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(n),
@@ -111,6 +119,38 @@ Assignment assign(const PointBlocks& points, const ClusterModels& models, int th
         }
     });
     return result;
+}
+
+} // namespace
+
+Assignment assign(const PointBlocks& points, const ClusterModels& models, int threads) {
+    std::vector<std::uint32_t> all(models.clusters());
+    std::iota(all.begin(), all.end(), 0u);
+    return assign_among(points, models, threads, [&](std::size_t, std::vector<std::uint32_t>& to) {
+        if (to.empty())
+            to = all;
+    });
+}
+
+Assignment assign(const PointBlocks& points, const ClusterModels& models,
+                  std::span<const std::vector<std::uint32_t>> candidates, std::span<const std::uint32_t> now,
+                  int threads) {
+    return assign_among(points, models, threads, [&](std::size_t b, std::vector<std::uint32_t>& to) {
+        candidates_of_block(candidates, now, b, to);
+    });
+}
+
+void candidates_of_block(std::span<const std::vector<std::uint32_t>> candidates,
+                         std::span<const std::uint32_t> now, std::size_t b, std::vector<std::uint32_t>& to) {
+    to.clear();
+    for (std::size_t p = b * kLanes; p < std::min((b + 1) * kLanes, now.size()); ++p) {
+        if (p > b * kLanes && now[p] == now[p - 1])
+            continue;
+        const auto& near = candidates[now[p]];
+        to.insert(to.end(), near.begin(), near.end());
+    }
+    std::sort(to.begin(), to.end());
+    to.erase(std::unique(to.begin(), to.end()), to.end());
 }
 
 void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads) {

@@ -65,6 +65,16 @@ struct Assignment {
 /// Gives each point the cluster whose subspace is nearest, penalties added; of equals the first.
 Assignment assign(const PointBlocks& points, const ClusterModels& models, int threads);
 
+/// The same among the `candidates` [clusters][..] of the cluster that a point has now, and of those of the
+/// points beside it in memory.
+Assignment assign(const PointBlocks& points, const ClusterModels& models,
+                  std::span<const std::vector<std::uint32_t>> candidates, std::span<const std::uint32_t> now,
+                  int threads);
+
+/// All candidates of the points of block `b`, each once, ascending.
+void candidates_of_block(std::span<const std::vector<std::uint32_t>> candidates,
+                         std::span<const std::uint32_t> now, std::size_t b, std::vector<std::uint32_t>& to);
+
 /// Lowers `errors` [points] to the squared distance to `center` [dimension] where that is less.
 void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads);
 

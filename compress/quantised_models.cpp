@@ -189,8 +189,8 @@ QuantisedModels quantised_models(const PointBlocks& points, std::span<const floa
 namespace {
 
 /// Weights and errors of the points of block `b` in the clusters that they have.
-void code_in_clusters(const PointBlocks& points, std::size_t b, std::span<const ClusterRows> clusters, Codes& codes,
-                      std::span<float> weights) {
+void code_in_clusters(const PointBlocks& points, std::size_t b, std::span<const ClusterRows> clusters,
+                      Codes& codes, std::span<float> weights) {
     const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
     const std::span<const std::uint32_t> own = std::span(codes.clusters).subspan(first, n);
     alignas(64) std::array<float, kLanes> errors{};
@@ -240,13 +240,7 @@ void encode_points(const PointBlocks& points, const QuantisedModels& models,
         std::vector<std::uint32_t> tried;
         for (std::size_t b = begin; b < end; ++b) {
             const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
-            tried.clear();
-            for (std::size_t p = first; p < first + n; ++p) {
-                const auto& near = candidates[codes.clusters[p]];
-                tried.insert(tried.end(), near.begin(), near.end());
-            }
-            std::sort(tried.begin(), tried.end());
-            tried.erase(std::unique(tried.begin(), tried.end()), tried.end());
+            candidates_of_block(candidates, codes.clusters, b, tried);
             best_of_block(points.block(b), points.dimension, clusters, tried, best.data(), errors.data());
             std::copy_n(best.begin(), n, &codes.clusters[first]);
             code_in_clusters(points, b, clusters, codes, weights);

@@ -48,11 +48,12 @@ float round_weight(float weight, float half);
 QuantisedModels quantised_models(const PointBlocks& points, std::span<const float> weights,
                                  const Clustering& clustering, bool free_weights, float half, int threads);
 
-/// Codes every point in its cluster. Weights are rounded one after the other, each to what the former left over.
+/// Codes every point in its cluster. Weights are rounded one after the other, each to what the former left
+/// over.
 void encode_in_place(const PointBlocks& points, const QuantisedModels& models, Codes& codes, int threads);
 
-/// Codes every point in the cluster where it loses least, of the `candidates` [clusters][..] of its present one
-/// and of those of the points beside it in memory.
+/// Codes every point in the cluster where it loses least, of the `candidates` [clusters][..] of its present
+/// one and of those of the points beside it in memory.
 void encode_points(const PointBlocks& points, const QuantisedModels& models,
                    std::span<const std::vector<std::uint32_t>> candidates, Codes& codes, int threads);
 

@@ -46,40 +46,49 @@ private:
     std::vector<Link> links_;
 };
 
-using Vector = Eigen::VectorXd;
-using ErrorMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic>; // [dimension][points]
+using Vector = Eigen::VectorXf;
 
+/// Nothing is kept per receiver but its weights: vectors in the space of the frame are formed where they are
+/// needed, for a receiver and its neighbours, since all of them together would take as much memory as the
+/// points.
 class SeamSmoother {
 public:
     SeamSmoother(const PointBlocks& points, std::span<const float> weights, std::span<const Edge> edges,
                  const QuantisedModels& models, const SeamOptions& options, Codes& codes)
         : points_(points), weights_(weights), models_(models), options_(options), codes_(codes),
-          neighbours_(edges, weights), dimension_(static_cast<Eigen::Index>(points.dimension)) {
-        double total = 0;
-        for (std::size_t p = 0; p < points.count; ++p)
-            total += static_cast<double>(weights[p]) * static_cast<double>(codes.errors[p]);
-        mean_error_ = total;
-    }
+          neighbours_(edges, weights), dimension_(static_cast<Eigen::Index>(points.dimension)),
+          mean_error_(total_error(weights, codes.errors)) {}
 
     void solve_weights();
     void reassign();
 
 private:
-    Eigen::Map<const Eigen::VectorXf> row(std::uint32_t k, std::size_t j) const {
+    Eigen::Map<const Vector> row(std::uint32_t k, std::size_t j) const {
         return {models_.row(k, j), dimension_};
     }
     std::size_t components(std::size_t p) const {
         return static_cast<std::size_t>(models_.components[codes_.clusters[p]]);
     }
+    /// sum_j w_j row_j in the cluster of receiver p.
+    void add_combination(std::size_t p, std::span<const float> w, Vector& to) const {
+        for (std::size_t j = 0; j < components(p); ++j)
+            to += w[j] * row(codes_.clusters[p], j);
+    }
+    /// Code minus point.
+    void error_of(std::size_t p, Vector& error) const {
+        points_.copy_point(p, error.data());
+        error = Eigen::Map<const Vector>(models_.mean(codes_.clusters[p]), dimension_) - error;
+        add_combination(p, codes_.of(p), error);
+    }
 
-    /// Error vectors of all receivers, code minus point.
-    ErrorMatrix errors() const;
-    /// sum_j w_pj row_j for all receivers.
-    ErrorMatrix combined(const std::vector<double>& all_weights) const;
-    /// Its transpose, applied to the gradient of the quadratic form at `errors`.
-    std::vector<double> gradient(const ErrorMatrix& errors) const;
+    /// What a change of the weights of each receiver changes: the quadratic form of eq. 32 applied to the
+    /// vectors that `vector_of(p, to)` gives, and then the rows. [points][max_components]
+    template <class VectorOf>
+    std::vector<float> gradient(VectorOf&& vector_of) const;
+    std::vector<float> inverse_diagonal() const;
+    double dot(std::span<const float> a, std::span<const float> b) const;
     /// The code nearest to `target` in cluster k; returns its error vector.
-    Eigen::VectorXf code_in(std::uint32_t k, const Eigen::VectorXf& target, std::span<float> code) const;
+    Vector code_in(std::uint32_t k, const Vector& target, std::span<float> code) const;
 
     const PointBlocks& points_;
     std::span<const float> weights_;
@@ -88,112 +97,93 @@ private:
     Codes& codes_;
     Neighbours neighbours_;
     Eigen::Index dimension_;
-    double mean_error_ = 0;
+    double mean_error_;
 };
 
-ErrorMatrix SeamSmoother::errors() const {
-    ErrorMatrix result(dimension_, static_cast<Eigen::Index>(points_.count));
+template <class VectorOf>
+std::vector<float> SeamSmoother::gradient(VectorOf&& vector_of) const {
+    std::vector<float> result(points_.count * models_.max_components, 0.0f);
     parallel_for(points_.count, 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
-        Eigen::VectorXf point(dimension_);
+        Vector g(dimension_), own(dimension_), other(dimension_);
         for (std::size_t p = begin; p < end; ++p) {
-            const std::uint32_t k = codes_.clusters[p];
-            points_.copy_point(p, point.data());
-            Eigen::VectorXf e = Eigen::Map<const Eigen::VectorXf>(models_.mean(k), dimension_) - point;
-            for (std::size_t j = 0; j < components(p); ++j)
-                e += codes_.of(p)[j] * row(k, j);
-            result.col(static_cast<Eigen::Index>(p)) = e;
-        }
-    });
-    return result;
-}
-
-ErrorMatrix SeamSmoother::combined(const std::vector<double>& all_weights) const {
-    ErrorMatrix result = ErrorMatrix::Zero(dimension_, static_cast<Eigen::Index>(points_.count));
-    parallel_for(points_.count, 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p)
-            for (std::size_t j = 0; j < components(p); ++j)
-                result.col(static_cast<Eigen::Index>(p)) +=
-                    static_cast<float>(all_weights[p * models_.max_components + j]) *
-                    row(codes_.clusters[p], j);
-    });
-    return result;
-}
-
-std::vector<double> SeamSmoother::gradient(const ErrorMatrix& errors) const {
-    std::vector<double> result(points_.count * models_.max_components, 0);
-    parallel_for(points_.count, 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
-        Vector g(dimension_);
-        for (std::size_t p = begin; p < end; ++p) {
-            const Vector own = errors.col(static_cast<Eigen::Index>(p)).cast<double>();
+            vector_of(p, own);
             g.setZero();
-            g += static_cast<double>(weights_[p]) * own;
-            for (const Neighbours::Link& link : neighbours_.of(p))
-                g += options_.seam_weight * link.weight *
-                     (own - errors.col(static_cast<Eigen::Index>(link.other)).cast<double>());
+            g += weights_[p] * own;
+            for (const Neighbours::Link& link : neighbours_.of(p)) {
+                vector_of(link.other, other);
+                g += static_cast<float>(options_.seam_weight * link.weight) * (own - other);
+            }
             for (std::size_t j = 0; j < components(p); ++j)
-                result[p * models_.max_components + j] = g.dot(row(codes_.clusters[p], j).cast<double>());
+                result[p * models_.max_components + j] = g.dot(row(codes_.clusters[p], j));
         }
     });
     return result;
+}
+
+std::vector<float> SeamSmoother::inverse_diagonal() const {
+    std::vector<float> result(points_.count * models_.max_components, 1.0f);
+    for (std::size_t p = 0; p < points_.count; ++p) {
+        auto weight = static_cast<double>(weights_[p]);
+        for (const Neighbours::Link& link : neighbours_.of(p))
+            weight += options_.seam_weight * link.weight;
+        for (std::size_t j = 0; j < components(p); ++j) {
+            const double d = weight * static_cast<double>(row(codes_.clusters[p], j).squaredNorm());
+            result[p * models_.max_components + j] = d > 1e-30 ? static_cast<float>(1 / d) : 1.0f;
+        }
+    }
+    return result;
+}
+
+double SeamSmoother::dot(std::span<const float> a, std::span<const float> b) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
+    return sum;
 }
 
 /// Conjugate gradients, preconditioned by the diagonal, on the change of all weights. The matrix is never
 /// formed: with 1.5 million receivers and 8 components it would have 10^9 entries.
 void SeamSmoother::solve_weights() {
-    const std::size_t count = points_.count * models_.max_components;
-    std::vector<double> diagonal(count, 1.0), change(count, 0.0);
-    for (std::size_t p = 0; p < points_.count; ++p) {
-        double weight = static_cast<double>(weights_[p]);
-        for (const Neighbours::Link& link : neighbours_.of(p))
-            weight += options_.seam_weight * link.weight;
-        for (std::size_t j = 0; j < components(p); ++j) {
-            const double d = weight * static_cast<double>(row(codes_.clusters[p], j).squaredNorm());
-            diagonal[p * models_.max_components + j] = d > 0 ? d : 1.0;
-        }
-    }
-    const auto dot = [count](const std::vector<double>& a, const std::vector<double>& b) {
-        double sum = 0;
-        for (std::size_t i = 0; i < count; ++i)
-            sum += a[i] * b[i];
-        return sum;
-    };
-    std::vector<double> residual = gradient(errors());
-    for (double& r : residual)
+    const std::size_t most = models_.max_components;
+    const std::vector<float> inverse = inverse_diagonal();
+    std::vector<float> residual = gradient([&](std::size_t p, Vector& to) { error_of(p, to); });
+    std::vector<float> change(residual.size(), 0.0f), direction(residual.size(), 0.0f);
+    for (float& r : residual)
         r = -r;
-    std::vector<double> scaled(count), direction(count, 0.0);
     double before = 0, start = 0;
     constexpr int kMostSteps = 30;
     for (int step = 0; step < kMostSteps; ++step) {
-        for (std::size_t i = 0; i < count; ++i)
-            scaled[i] = residual[i] / diagonal[i];
-        const double norm = dot(residual, scaled);
+        double norm = 0;
+        for (std::size_t i = 0; i < residual.size(); ++i)
+            norm += static_cast<double>(residual[i]) * static_cast<double>(residual[i]) *
+                    static_cast<double>(inverse[i]);
         if (step == 0)
             start = norm;
         if (!(norm > 1e-6 * start)) // weights are rounded afterwards, to steps far larger
             break;
-        const double beta = step == 0 ? 0 : norm / before;
+        const auto beta = static_cast<float>(step == 0 ? 0 : norm / before);
         before = norm;
-        for (std::size_t i = 0; i < count; ++i)
-            direction[i] = scaled[i] + beta * direction[i];
-        const std::vector<double> product = gradient(combined(direction));
-        const double alpha = norm / dot(direction, product);
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = 0; i < residual.size(); ++i)
+            direction[i] = residual[i] * inverse[i] + beta * direction[i];
+        const std::vector<float> product = gradient([&](std::size_t p, Vector& to) {
+            to.setZero();
+            add_combination(p, std::span<const float>(direction).subspan(p * most, most), to);
+        });
+        const auto alpha = static_cast<float>(norm / dot(direction, product));
+        for (std::size_t i = 0; i < residual.size(); ++i) {
             change[i] += alpha * direction[i];
             residual[i] -= alpha * product[i];
         }
     }
     for (std::size_t p = 0; p < points_.count; ++p)
         for (std::size_t j = 0; j < components(p); ++j) {
-            float& w = codes_.weights[p * models_.max_components + j];
-            w = round_weight(
-                static_cast<float>(static_cast<double>(w) + change[p * models_.max_components + j]),
-                models_.halves[codes_.clusters[p] * models_.max_components + j]);
+            float& w = codes_.weights[p * most + j];
+            w = round_weight(w + change[p * most + j], models_.halves[codes_.clusters[p] * most + j]);
         }
 }
 
-Eigen::VectorXf SeamSmoother::code_in(std::uint32_t k, const Eigen::VectorXf& target,
-                                      std::span<float> code) const {
-    Eigen::VectorXf left = target - Eigen::Map<const Eigen::VectorXf>(models_.mean(k), dimension_);
+Vector SeamSmoother::code_in(std::uint32_t k, const Vector& target, std::span<float> code) const {
+    Vector left = target - Eigen::Map<const Vector>(models_.mean(k), dimension_);
     for (std::size_t j = 0; j < static_cast<std::size_t>(models_.components[k]); ++j) {
         const auto direction = row(k, j);
         const float norm = direction.squaredNorm();
@@ -205,9 +195,9 @@ Eigen::VectorXf SeamSmoother::code_in(std::uint32_t k, const Eigen::VectorXf& ta
 }
 
 void SeamSmoother::reassign() {
-    ErrorMatrix error = errors();
     std::vector<float> code(models_.max_components), best_code(models_.max_components);
     std::vector<std::uint32_t> candidates;
+    Vector point(dimension_), pull(dimension_), error(dimension_);
     constexpr int kMostSweeps = 10;
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
         std::size_t changed = 0;
@@ -215,12 +205,12 @@ void SeamSmoother::reassign() {
         for (std::size_t p = 0; p < points_.count; ++p) {
             const auto links = neighbours_.of(p);
             double total = static_cast<double>(weights_[p]);
-            Vector pull = Vector::Zero(dimension_);
+            pull.setZero();
             candidates.assign(1, codes_.clusters[p]);
             for (const Neighbours::Link& link : links) {
                 total += options_.seam_weight * link.weight;
-                pull += options_.seam_weight * link.weight *
-                        error.col(static_cast<Eigen::Index>(link.other)).cast<double>();
+                error_of(link.other, error);
+                pull += static_cast<float>(options_.seam_weight * link.weight) * error;
                 if (std::find(candidates.begin(), candidates.end(), codes_.clusters[link.other]) ==
                     candidates.end())
                     candidates.push_back(codes_.clusters[link.other]);
@@ -228,28 +218,25 @@ void SeamSmoother::reassign() {
             if (links.empty() || !(total > 0))
                 continue;
             // The sum over the edges is total |e - pull|² and what does not depend on e.
-            pull /= total;
-            const auto price = [&](std::uint32_t k, const Eigen::VectorXf& e) {
-                double cost = total * (e.cast<double>() - pull).squaredNorm();
+            pull /= static_cast<float>(total);
+            const auto price = [&](std::uint32_t k, const Vector& e) {
+                double cost = total * static_cast<double>((e - pull).squaredNorm());
                 for (const Neighbours::Link& link : links)
                     if (codes_.clusters[link.other] != k)
                         cost += options_.potts_weight * mean_error_ * link.weight;
                 return cost;
             };
-            Eigen::VectorXf point(dimension_);
             points_.copy_point(p, point.data());
-            const Eigen::VectorXf target = point + pull.cast<float>();
-            double least = price(codes_.clusters[p], error.col(static_cast<Eigen::Index>(p)));
+            error_of(p, error);
+            double least = price(codes_.clusters[p], error);
             std::uint32_t best = ~0u;
-            Eigen::VectorXf best_error;
             for (const std::uint32_t k : candidates) {
-                const Eigen::VectorXf e = code_in(k, target, code) + pull.cast<float>();
+                const Vector e = code_in(k, point + pull, code) + pull;
                 const double cost = price(k, e);
                 if (cost < least * (1 - 1e-6)) {
                     least = cost;
                     best = k;
                     best_code = code;
-                    best_error = e;
                 }
             }
             if (best == ~0u)
@@ -258,14 +245,15 @@ void SeamSmoother::reassign() {
             std::fill_n(&codes_.weights[p * models_.max_components], models_.max_components, 0.0f);
             std::copy_n(best_code.begin(), models_.components[best],
                         &codes_.weights[p * models_.max_components]);
-            error.col(static_cast<Eigen::Index>(p)) = best_error;
             ++changed;
         }
         if (changed * 200 < points_.count)
             break;
     }
-    for (std::size_t p = 0; p < points_.count; ++p)
-        codes_.errors[p] = error.col(static_cast<Eigen::Index>(p)).squaredNorm();
+    for (std::size_t p = 0; p < points_.count; ++p) {
+        error_of(p, error);
+        codes_.errors[p] = error.squaredNorm();
+    }
 }
 
 } // namespace

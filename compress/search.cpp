@@ -140,13 +140,13 @@ void Search::fill_bytes(int payload) {
     const double room = (*options_.budget.bytes_per_vertex - payload) * receivers_;
     double low = 0, high = static_cast<double>(most_clusters_) + 1; // known to fit, known not to
     double next = room / bytes_per_cluster_;
-    for (int i = 0; i < 6; ++i) {
+    for (int i = 0; i < 5; ++i) {
         const int clusters = clamped(std::clamp(next, low + 1, high - 1));
         const SearchTrial trial = attempt(clusters, payload);
         const bool fits = trial.bytes_per_vertex <= *options_.budget.bytes_per_vertex;
         (fits ? low : high) = clusters;
         best_[payload] = std::min(best_.contains(payload) ? best_[payload] : 1e30, cost(trial));
-        if (low + 1 >= high || (fits && trial.bytes_per_vertex > 0.985 * *options_.budget.bytes_per_vertex))
+        if (low + 1 >= high || (fits && trial.bytes_per_vertex > 0.975 * *options_.budget.bytes_per_vertex))
             break;
         next = 0.997 * room / bytes_per_cluster_;
         if (std::round(next) <= low)
@@ -205,9 +205,10 @@ SearchResult Search::run() {
             attempt(1, 1);
             return std::move(result_);
         }
-        // Of nine bytes six or so are best in the payload, on meshes of 10 000 to 40 000 vertices; on larger
-        // ones more.
-        start = std::max(1, static_cast<int>(std::lround(0.62 * *budget.bytes_per_vertex)));
+        // What is best in the payload on meshes of 10 000 to 40 000 vertices; larger ones want more. Few
+        // operations leave little to spend there.
+        start = std::max(
+            1, static_cast<int>(std::lround((budget.shader_ops ? 0.4 : 0.6) * *budget.bytes_per_vertex)));
     }
     if (!budget.max_error && !budget.bytes_per_vertex)
         start = least = most = kMostOperationBytes; // bytes are not asked about

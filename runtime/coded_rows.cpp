@@ -72,36 +72,44 @@ std::vector<std::uint8_t> shifted(std::span<const std::uint8_t> drops, std::size
     return result;
 }
 
-/// Drops that make the code short: column by column, each to its best while the others stay, then all from some
-/// column on together, until none moves.
+/// What columns are narrower than the widest on average.
+std::vector<std::uint8_t> mean_drops(const Widths& widths, std::size_t columns) {
+    std::vector<double> means(columns, 0);
+    for (std::size_t r = 0; r < widths.rows(); ++r)
+        for (std::size_t i = 0; i < columns; ++i)
+            means[i] += widths.row(r)[i] / static_cast<double>(widths.rows());
+    const double widest = columns > 0 ? *std::max_element(means.begin(), means.end()) : 0;
+    std::vector<std::uint8_t> drops;
+    for (const double mean : means)
+        drops.push_back(static_cast<std::uint8_t>(std::clamp(widest - mean, 0.0, double{kMostRowBits})));
+    return drops;
+}
+
+/// Drops that make the code short: from the mean ones, or from none where those leave a row too wide, column
+/// by column a bit more or less, and all columns from some one on together, until nothing helps.
 std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) {
-    std::vector<std::uint8_t> drops(columns, 0);
+    std::vector<std::uint8_t> drops = mean_drops(widths, columns);
     std::size_t least = widths.total(drops);
+    if (least == ~std::size_t{0}) {
+        drops.assign(columns, 0);
+        least = widths.total(drops);
+    }
+    const auto better = [&](std::vector<std::uint8_t> tried) {
+        const std::size_t bits = tried == drops ? least : widths.total(tried);
+        if (bits >= least)
+            return false;
+        least = bits;
+        drops = std::move(tried);
+        return true;
+    };
     for (bool moved = true; moved;) {
         moved = false;
-        for (std::size_t i = 0; i < columns; ++i) {
-            const std::uint8_t before = drops[i];
-            std::uint8_t best = before;
-            for (std::uint8_t drop = 0; drop <= kMostRowBits; ++drop) {
-                drops[i] = drop;
-                const std::size_t bits = widths.total(drops);
-                if (bits < least) {
-                    least = bits;
-                    best = drop;
-                    moved = true;
-                }
-            }
-            drops[i] = best;
-        }
-        for (std::size_t i = 1; i < columns; ++i)
+        for (std::size_t i = 0; i < columns; ++i)
             for (const int by : {1, -1}) {
-                std::vector<std::uint8_t> tried = shifted(drops, i, by);
-                const std::size_t bits = widths.total(tried);
-                if (bits < least) {
-                    least = bits;
-                    drops = std::move(tried);
-                    moved = true;
-                }
+                std::vector<std::uint8_t> one = drops;
+                one[i] = static_cast<std::uint8_t>(std::clamp(one[i] + by, 0, kMostRowBits));
+                moved = better(std::move(one)) || moved;
+                moved = better(shifted(drops, i, by)) || moved;
             }
     }
     return drops;

@@ -175,9 +175,10 @@ std::vector<std::uint32_t> read_unsigned(const tinygltf::Model& model, int index
 int tinygltf_type(const std::string& name) {
     if (name == "SCALAR")
         return TINYGLTF_TYPE_SCALAR;
-    for (const auto& [text, type] : {std::pair("VEC2", TINYGLTF_TYPE_VEC2), std::pair("VEC3", TINYGLTF_TYPE_VEC3),
-                                     std::pair("VEC4", TINYGLTF_TYPE_VEC4), std::pair("MAT2", TINYGLTF_TYPE_MAT2),
-                                     std::pair("MAT3", TINYGLTF_TYPE_MAT3), std::pair("MAT4", TINYGLTF_TYPE_MAT4)})
+    for (const auto& [text, type] :
+         {std::pair("VEC2", TINYGLTF_TYPE_VEC2), std::pair("VEC3", TINYGLTF_TYPE_VEC3),
+          std::pair("VEC4", TINYGLTF_TYPE_VEC4), std::pair("MAT2", TINYGLTF_TYPE_MAT2),
+          std::pair("MAT3", TINYGLTF_TYPE_MAT3), std::pair("MAT4", TINYGLTF_TYPE_MAT4)})
         if (name == text)
             return type;
     throw Error("unknown accessor type '" + name + "'");

@@ -8,7 +8,7 @@
 namespace prt {
 namespace {
 
-void pad_to(std::vector<std::byte>& bytes, std::size_t alignment) {
+void pad_to(std::vector<unsigned char>& bytes, std::size_t alignment) {
     bytes.resize((bytes.size() + alignment - 1) / alignment * alignment);
 }
 
@@ -83,33 +83,69 @@ ByteRange range_of(const Json& view) {
     return {begin, begin + view.value("byteLength", std::size_t{0})};
 }
 
-/// Cuts out of the buffer what only removed views, or none, refer to.
-void cut_bytes(GltfContents& contents, const std::set<std::size_t>& removed) {
-    std::vector<bool> drop(contents.binary.size(), true);
-    const Json& views = contents.json["bufferViews"];
-    for (std::size_t i = 0; i < views.size(); ++i) {
-        const ByteRange range = range_of(views[i]);
-        for (std::size_t b = range.begin; !removed.contains(i) && b < std::min(range.end, drop.size()); ++b)
-            drop[b] = false;
-    }
-    // Whole groups of 8 bytes go, so that every kept view keeps its alignment.
-    std::vector<std::byte> kept;
-    std::vector<std::size_t> new_offset(contents.binary.size() + 1);
-    for (std::size_t b = 0; b < contents.binary.size(); b += 8) {
-        const std::size_t end = std::min(b + 8, contents.binary.size());
-        const bool whole =
-            std::all_of(drop.begin() + static_cast<std::ptrdiff_t>(b),
-                        drop.begin() + static_cast<std::ptrdiff_t>(end), [](bool d) { return d; });
-        for (std::size_t i = b; i < end; ++i) {
-            new_offset[i] = kept.size();
-            if (!whole)
-                kept.push_back(contents.binary[i]);
+/// Parts of the buffer that stay, in order and apart, and where they go.
+class KeptRanges {
+public:
+    void add(ByteRange range) { ranges_.push_back(range); }
+    /// To whole groups of 8 bytes, so that every kept view keeps its alignment.
+    void finish(std::size_t size) {
+        for (ByteRange& range : ranges_)
+            range = {range.begin / 8 * 8, std::min((range.end + 7) / 8 * 8, size)};
+        std::sort(ranges_.begin(), ranges_.end(), [](ByteRange a, ByteRange b) { return a.begin < b.begin; });
+        std::vector<ByteRange> merged;
+        for (const ByteRange& range : ranges_) {
+            if (!merged.empty() && range.begin <= merged.back().end)
+                merged.back().end = std::max(merged.back().end, range.end);
+            else if (range.begin < range.end)
+                merged.push_back(range);
+        }
+        ranges_ = std::move(merged);
+        std::size_t to = 0;
+        for (const ByteRange& range : ranges_) {
+            places_.push_back(to);
+            to += range.end - range.begin;
         }
     }
-    new_offset.back() = kept.size();
-    for (Json& view : contents.json["bufferViews"])
-        view["byteOffset"] = new_offset[std::min(range_of(view).begin, contents.binary.size())];
-    contents.binary = std::move(kept);
+    /// New place of a byte that stays; of others anywhere.
+    std::size_t place(std::size_t offset) const {
+        const auto after =
+            std::upper_bound(ranges_.begin(), ranges_.end(), offset,
+                             [](std::size_t o, const ByteRange& range) { return o < range.begin; });
+        if (after == ranges_.begin())
+            return 0;
+        const auto at = static_cast<std::size_t>(after - ranges_.begin()) - 1;
+        return places_[at] + std::min(offset, ranges_[at].end) - ranges_[at].begin;
+    }
+    void move_bytes(std::vector<unsigned char>& bytes) const {
+        std::size_t size = 0;
+        for (std::size_t r = 0; r < ranges_.size(); ++r) { // always towards the front
+            std::copy(bytes.begin() + static_cast<std::ptrdiff_t>(ranges_[r].begin),
+                      bytes.begin() + static_cast<std::ptrdiff_t>(ranges_[r].end),
+                      bytes.begin() + static_cast<std::ptrdiff_t>(places_[r]));
+            size = places_[r] + ranges_[r].end - ranges_[r].begin;
+        }
+        bytes.resize(size);
+        bytes.shrink_to_fit();
+    }
+
+private:
+    std::vector<ByteRange> ranges_;
+    std::vector<std::size_t> places_;
+};
+
+/// Cuts out of the buffer what only removed views, or none, refer to.
+void cut_bytes(GltfContents& contents, const std::set<std::size_t>& removed) {
+    KeptRanges kept;
+    Json& views = contents.json["bufferViews"];
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (!removed.contains(i))
+            kept.add(range_of(views[i]));
+    kept.finish(contents.binary().size());
+    for (Json& view : views)
+        view["byteOffset"] = kept.place(range_of(view).begin);
+    for (tinygltf::BufferView& view : contents.model.bufferViews)
+        view.byteOffset = kept.place(view.byteOffset);
+    kept.move_bytes(contents.binary());
 }
 
 void erase_accessors(GltfContents& contents, const std::set<std::size_t>& accessors) {
@@ -145,14 +181,16 @@ std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std:
     static constexpr std::byte kNothing[4] = {}; // glTF knows no empty views
     if (bytes.empty())
         bytes = kNothing;
-    pad_to(binary, 8);
-    Json view = {{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
+    std::vector<unsigned char>& buffer = binary();
+    pad_to(buffer, 8);
+    Json view = {{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}};
     if (stride > 0)
         view["byteStride"] = stride;
     if (vertices)
         view["target"] = TINYGLTF_TARGET_ARRAY_BUFFER;
-    binary.insert(binary.end(), bytes.begin(), bytes.end());
-    pad_to(binary, 8);
+    const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
+    buffer.insert(buffer.end(), begin, begin + bytes.size());
+    pad_to(buffer, 8);
     Json& views = member(json, "bufferViews", Json::value_t::array);
     views.push_back(std::move(view));
     return views.size() - 1;

@@ -19,10 +19,13 @@ using Json = nlohmann::ordered_json;
 
 struct GltfContents {
     std::filesystem::path path;
-    tinygltf::Model model; ///< as read; edits of `json` do not reach it
+    tinygltf::Model model; ///< as read; edits of `json` do not reach it, but its views follow the bytes
     Json json;
-    std::vector<std::byte> binary;              ///< buffer 0 of `json`
     std::vector<std::vector<std::byte>> images; ///< encoded, by image index
+
+    /// The one buffer that all views of `json`, and of `model`, point into.
+    std::vector<unsigned char>& binary() { return model.buffers.front().data; }
+    std::span<const std::byte> binary() const { return std::as_bytes(std::span(model.buffers.front().data)); }
 
     /// Appends bytes, aligned to 4, and a buffer view on them. `stride` 0: none. Returns the view's index.
     std::size_t add_buffer_view(std::span<const std::byte> bytes, std::size_t stride = 0,

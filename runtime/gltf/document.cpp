@@ -113,25 +113,32 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
     }
 }
 
-/// Joins all buffers into one and lets the buffer views point there.
+/// Joins all buffers into the first and lets the buffer views point there.
 void join_buffers(GltfContents& contents) {
-    std::vector<std::size_t> begin;
-    for (const tinygltf::Buffer& buffer : contents.model.buffers) {
-        contents.binary.resize((contents.binary.size() + 7) / 8 * 8);
-        begin.push_back(contents.binary.size());
-        const auto bytes = std::as_bytes(std::span(buffer.data));
-        contents.binary.insert(contents.binary.end(), bytes.begin(), bytes.end());
+    std::vector<tinygltf::Buffer>& buffers = contents.model.buffers;
+    if (buffers.empty())
+        buffers.emplace_back();
+    std::vector<std::size_t> begin(1, 0);
+    std::vector<unsigned char>& all = buffers.front().data;
+    for (std::size_t b = 1; b < buffers.size(); ++b) {
+        all.resize((all.size() + 7) / 8 * 8);
+        begin.push_back(all.size());
+        all.insert(all.end(), buffers[b].data.begin(), buffers[b].data.end());
     }
-    const auto move = [&](Json& view) {
-        const std::size_t buffer = view.value("buffer", std::size_t{0});
-        if (buffer >= begin.size())
-            throw Error("a buffer view names buffer " + std::to_string(buffer) + ", which is not there");
-        view["buffer"] = 0;
-        view["byteOffset"] = view.value("byteOffset", std::size_t{0}) + begin[buffer];
-    };
+    for (tinygltf::BufferView& view : contents.model.bufferViews) {
+        const auto buffer = static_cast<std::size_t>(view.buffer);
+        if (view.buffer < 0 || buffer >= begin.size())
+            throw Error("a buffer view names buffer " + std::to_string(view.buffer) + ", which is not there");
+        view.byteOffset += begin[buffer];
+        view.buffer = 0;
+    }
     if (contents.json.contains("bufferViews"))
-        for (Json& view : contents.json["bufferViews"])
-            move(view);
+        for (Json& view : contents.json["bufferViews"]) {
+            view["byteOffset"] =
+                view.value("byteOffset", std::size_t{0}) + begin.at(view.value("buffer", std::size_t{0}));
+            view["buffer"] = 0;
+        }
+    buffers.resize(1);
     contents.json.erase("buffers");
 }
 
@@ -187,21 +194,32 @@ GltfDocument load_gltf(const std::filesystem::path& path, MissingImages missing)
     return GltfDocument(std::move(contents));
 }
 
-void save_glb(const GltfDocument& document, const std::filesystem::path& path, BufferCompression compression) {
+void save_glb(const GltfDocument& document, const std::filesystem::path& path,
+              BufferCompression compression) {
     const GltfContents& contents = document.contents();
-    CompressedGlb glb = compression == BufferCompression::meshopt ? compress_views(contents)
-                                                                  : CompressedGlb{contents.json, contents.binary};
-    if (!glb.binary.empty() && !glb.json.contains("buffers"))
-        glb.json["buffers"] = Json::array({Json{{"byteLength", glb.binary.size()}}});
+    CompressedGlb glb;
+    std::span<const std::byte> binary = contents.binary();
+    if (compression == BufferCompression::meshopt) {
+        glb = compress_views(contents);
+        binary = glb.binary;
+    } else {
+        glb.json = contents.json;
+    }
+    if (!binary.empty() && !glb.json.contains("buffers"))
+        glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
     OutputFile output(path);
     std::vector<std::byte> file;
     try {
-        file = make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), glb.binary);
+        file = make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
     }
     output.write(file);
     output.commit();
+}
+
+void discard_transfer(GltfDocument& document) {
+    document.contents().remove_transfer();
 }
 
 } // namespace prt

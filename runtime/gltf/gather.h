@@ -7,8 +7,8 @@
 
 namespace prt {
 
-/// A new accessor whose element i is element source[i] of accessor `reference`, laid out for vertex attributes.
-/// Returns its index.
+/// A new accessor whose element i is element source[i] of accessor `reference`, laid out for vertex
+/// attributes. Returns its index.
 std::size_t gather(GltfContents& contents, const Json& reference, const std::vector<std::uint32_t>& source);
 
 } // namespace prt

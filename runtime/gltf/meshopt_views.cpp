@@ -53,12 +53,14 @@ std::vector<unsigned char> decompressed(const Json& extension, std::span<const u
         throw Error("holds " + std::to_string(count) + " indices of triangles");
     // Every 16 elements of a byte each take at least a bit or two: a count far beyond is no data.
     if (count > source.size() * 1024)
-        throw Error("claims " + std::to_string(count) + " elements in " + std::to_string(source.size()) + " bytes");
+        throw Error("claims " + std::to_string(count) + " elements in " + std::to_string(source.size()) +
+                    " bytes");
     std::vector<unsigned char> result(count * stride);
     const int status =
-        attributes            ? meshopt_decodeVertexBuffer(result.data(), count, stride, source.data(), source.size())
-        : mode == "TRIANGLES" ? meshopt_decodeIndexBuffer(result.data(), count, stride, source.data(), source.size())
-                              : meshopt_decodeIndexSequence(result.data(), count, stride, source.data(), source.size());
+        attributes ? meshopt_decodeVertexBuffer(result.data(), count, stride, source.data(), source.size())
+        : mode == "TRIANGLES"
+            ? meshopt_decodeIndexBuffer(result.data(), count, stride, source.data(), source.size())
+            : meshopt_decodeIndexSequence(result.data(), count, stride, source.data(), source.size());
     if (status != 0)
         throw Error("is damaged");
     if (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8))
@@ -106,8 +108,9 @@ std::vector<ViewUse> view_uses(const Json& json) {
         if (!accessor.contains("bufferView"))
             continue;
         ViewUse& use = uses.at(accessor["bufferView"].get<std::size_t>());
-        const std::size_t element = component_bytes(accessor.at("componentType").get<int>()) *
-                                    static_cast<std::size_t>(component_count(tinygltf_type(accessor.at("type"))));
+        const std::size_t element =
+            component_bytes(accessor.at("componentType").get<int>()) *
+            static_cast<std::size_t>(component_count(tinygltf_type(accessor.at("type"))));
         use.other = use.other || (!by_accessor[a].vertices && !by_accessor[a].indices) ||
                     (use.element != 0 && use.element != element &&
                      !json["bufferViews"][accessor["bufferView"].get<std::size_t>()].contains("byteStride"));
@@ -125,7 +128,8 @@ struct CompressedView {
     Json extension;
 };
 
-std::optional<CompressedView> compressed(const Json& view, const ViewUse& use, std::span<const std::byte> bytes) {
+std::optional<CompressedView> compressed(const Json& view, const ViewUse& use,
+                                         std::span<const std::byte> bytes) {
     if (use.other || use.vertices == use.indices)
         return std::nullopt;
     const std::size_t stride = use.vertices ? view.value("byteStride", use.element) : use.element;
@@ -139,8 +143,8 @@ std::optional<CompressedView> compressed(const Json& view, const ViewUse& use, s
             return std::nullopt;
         result.bytes.resize(meshopt_encodeVertexBufferBound(count, stride));
         meshopt_encodeVertexVersion(0); // what the extension asks for
-        result.bytes.resize(
-            meshopt_encodeVertexBuffer(result.bytes.data(), result.bytes.size(), bytes.data(), count, stride));
+        result.bytes.resize(meshopt_encodeVertexBuffer(result.bytes.data(), result.bytes.size(), bytes.data(),
+                                                       count, stride));
     } else {
         if (stride != 2 && stride != 4)
             return std::nullopt;
@@ -155,13 +159,15 @@ std::optional<CompressedView> compressed(const Json& view, const ViewUse& use, s
         meshopt_encodeIndexVersion(1); // what the extension asks for
         result.bytes.resize(triangles ? meshopt_encodeIndexBufferBound(count, most + std::size_t{1})
                                       : meshopt_encodeIndexSequenceBound(count, most + std::size_t{1}));
-        result.bytes.resize(
-            triangles ? meshopt_encodeIndexBuffer(result.bytes.data(), result.bytes.size(), indices.data(), count)
-                      : meshopt_encodeIndexSequence(result.bytes.data(), result.bytes.size(), indices.data(), count));
+        result.bytes.resize(triangles ? meshopt_encodeIndexBuffer(result.bytes.data(), result.bytes.size(),
+                                                                  indices.data(), count)
+                                      : meshopt_encodeIndexSequence(result.bytes.data(), result.bytes.size(),
+                                                                    indices.data(), count));
     }
     if (result.bytes.size() >= bytes.size())
         return std::nullopt;
-    result.extension = {{"buffer", 0}, {"byteLength", result.bytes.size()}, {"byteStride", stride}, {"count", count}};
+    result.extension = {
+        {"buffer", 0}, {"byteLength", result.bytes.size()}, {"byteStride", stride}, {"count", count}};
     result.extension["mode"] = mode;
     return result;
 }
@@ -191,7 +197,8 @@ Json without_meshopt(Json json) {
     if (json.contains("buffers"))
         for (std::size_t b = 0; b < json["buffers"].size(); ++b) {
             Json& buffer = json["buffers"][b];
-            if (const Json* extension = extension_of(buffer); extension && extension->value("fallback", false))
+            if (const Json* extension = extension_of(buffer);
+                extension && extension->value("fallback", false))
                 buffer = {{"byteLength", 3}, {"uri", kFallback}};
         }
     erase_name(json, "extensionsRequired");
@@ -237,16 +244,18 @@ void decompress_views(GltfContents& contents) {
 }
 
 CompressedGlb compress_views(const GltfContents& contents) {
+    const auto uncompressed = [&] {
+        return CompressedGlb{contents.json, {contents.binary().begin(), contents.binary().end()}};
+    };
     CompressedGlb result{contents.json, {}};
     if (!contents.json.contains("bufferViews"))
-        return {contents.json, contents.binary};
+        return uncompressed();
     const std::vector<ViewUse> uses = view_uses(contents.json);
     std::size_t fallback = 0;
     for (std::size_t v = 0; v < uses.size(); ++v) {
         Json& view = result.json["bufferViews"][v];
-        const auto bytes = std::span<const std::byte>(contents.binary)
-                               .subspan(view.value("byteOffset", std::size_t{0}),
-                                        view.at("byteLength").get<std::size_t>());
+        const auto bytes = contents.binary().subspan(view.value("byteOffset", std::size_t{0}),
+                                                     view.at("byteLength").get<std::size_t>());
         auto packed = compressed(view, uses[v], bytes);
         if (!packed) {
             view["byteOffset"] = append(result.binary, bytes);
@@ -259,7 +268,7 @@ CompressedGlb compress_views(const GltfContents& contents) {
         fallback += (bytes.size() + 7) / 8 * 8;
     }
     if (fallback == 0)
-        return {contents.json, contents.binary};
+        return uncompressed();
     Json stand_in = {{"byteLength", fallback}};
     stand_in["extensions"][kMeshoptExtension] = {{"fallback", true}};
     result.json["buffers"] = Json::array({Json{{"byteLength", result.binary.size()}}, stand_in});

@@ -48,7 +48,8 @@ std::vector<Key> keys_of(const Scene& scene) {
 std::vector<std::uint32_t> sorted(const std::vector<Key>& keys) {
     std::vector<std::uint32_t> order(keys.size());
     std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
     return order;
 }
 
@@ -59,8 +60,9 @@ std::vector<std::uint32_t> order_by_cluster(const Scene& scene, const ClusteredR
     std::iota(order.begin(), order.end(), 0u);
     for (const VertexArray& vertices : scene.vertex_arrays) {
         const auto begin = order.begin() + static_cast<std::ptrdiff_t>(vertices.first_receiver);
-        std::stable_sort(begin, begin + static_cast<std::ptrdiff_t>(vertices.size()),
-                         [&](std::uint32_t a, std::uint32_t b) { return receivers.clusters[a] < receivers.clusters[b]; });
+        std::stable_sort(
+            begin, begin + static_cast<std::ptrdiff_t>(vertices.size()),
+            [&](std::uint32_t a, std::uint32_t b) { return receivers.clusters[a] < receivers.clusters[b]; });
     }
     return order;
 }
@@ -80,14 +82,16 @@ void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<cons
     GltfContents& contents = document.contents();
     const std::vector<Json*> primitives = unshare(contents, scene);
     std::set<std::size_t> replaced;
-    std::map<std::pair<std::size_t, std::size_t>, std::size_t> moved; // accessor and vertex array: its new accessor
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t>
+        moved; // accessor and vertex array: its new accessor
     for (std::size_t i = 0; i < primitives.size(); ++i) {
         Json& primitive = *primitives[i];
         const std::size_t array = scene.primitives[i].vertices;
         const VertexArray& vertices = scene.vertex_arrays[array];
         std::vector<std::uint32_t> source(vertices.size()), place(vertices.size());
         for (std::uint32_t v = 0; v < source.size(); ++v) {
-            source[v] = order[vertices.first_receiver + v] - static_cast<std::uint32_t>(vertices.first_receiver);
+            source[v] =
+                order[vertices.first_receiver + v] - static_cast<std::uint32_t>(vertices.first_receiver);
             place[source[v]] = v;
         }
         const auto move_all = [&](Json& attributes) {
@@ -140,7 +144,8 @@ VertexReuse vertex_reuse(const Scene& scene) {
             indices.insert(indices.end(), {first + t.x, first + t.y, first + t.z});
     }
     constexpr unsigned kCache = 16;
-    const auto cache = meshopt_analyzeVertexCache(indices.data(), indices.size(), scene.receivers(), kCache, 0, 0);
+    const auto cache =
+        meshopt_analyzeVertexCache(indices.data(), indices.size(), scene.receivers(), kCache, 0, 0);
     const auto fetch =
         meshopt_analyzeVertexFetch(indices.data(), indices.size(), scene.receivers(), sizeof(glm::vec3));
     return {static_cast<double>(cache.acmr), static_cast<double>(fetch.overfetch)};

@@ -53,11 +53,11 @@ std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const S
             const Json& view = json["extensions"][kTransferExtension].at("vectors");
             if (is_half(view))
                 baked.storage = TransferStorage::float16;
-            const auto values = read_float_view(contents, view, vertices.size() * transfer.dimension(),
-                                                "the vectors of " + primitive_name(primitive));
-            std::copy(values.begin(), values.end(),
-                      transfer.vectors.begin() +
-                          static_cast<std::ptrdiff_t>(vertices.first_receiver * transfer.dimension()));
+            read_float_view(contents, view,
+                            std::span(transfer.vectors)
+                                .subspan(vertices.first_receiver * transfer.dimension(),
+                                         vertices.size() * transfer.dimension()),
+                            "the vectors of " + primitive_name(primitive));
         }
         return baked;
     });

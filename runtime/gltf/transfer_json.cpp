@@ -73,27 +73,34 @@ bool is_half(const Json& object) {
     return object.value("componentType", TINYGLTF_COMPONENT_TYPE_FLOAT) == kHalfComponentType;
 }
 
-std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,
-                                   const std::string& what) {
+void read_float_view(const GltfContents& contents, const Json& object, std::span<float> to,
+                     const std::string& what) {
     const int type = object.value("componentType", TINYGLTF_COMPONENT_TYPE_FLOAT);
     if (type != TINYGLTF_COMPONENT_TYPE_FLOAT && type != kHalfComponentType)
         throw Error(what + " are of component type " + std::to_string(type) +
                     ", neither 5126 (float32) nor 5131 (float16)");
     const std::size_t size = is_half(object) ? sizeof(std::uint16_t) : sizeof(float);
     const auto bytes = buffer_view_bytes(contents.model, object.at("bufferView").get<int>());
-    if (bytes.size() < count * size)
-        throw Error(what + " need " + std::to_string(count * size) + " bytes, but there are " +
+    if (bytes.size() < to.size() * size)
+        throw Error(what + " need " + std::to_string(to.size() * size) + " bytes, but there are " +
                     std::to_string(bytes.size()));
-    std::vector<float> values(count);
     if (is_half(object)) {
-        std::vector<std::uint16_t> halves(count);
-        std::copy_n(bytes.data(), count * size, reinterpret_cast<unsigned char*>(halves.data()));
-        std::transform(halves.begin(), halves.end(), values.begin(), glm::unpackHalf1x16);
-    } else if (count > 0) {
-        std::memcpy(values.data(), bytes.data(), count * size);
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            std::uint16_t half = 0;
+            std::memcpy(&half, &bytes[i * sizeof half], sizeof half);
+            to[i] = glm::unpackHalf1x16(half);
+        }
+    } else if (!to.empty()) {
+        std::memcpy(to.data(), bytes.data(), to.size_bytes());
     }
-    if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); }))
+    if (!std::all_of(to.begin(), to.end(), [](float v) { return std::isfinite(v); }))
         throw Error(what + " hold values that are not finite");
+}
+
+std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,
+                                   const std::string& what) {
+    std::vector<float> values(count);
+    read_float_view(contents, object, values, what);
     return values;
 }
 

@@ -28,7 +28,10 @@ std::string primitive_name(const Primitive& primitive);
 /// Whether {"bufferView": ..., "componentType": ...} holds float16.
 bool is_half(const Json& object);
 
-/// Floats of {"bufferView": ..., "componentType": 5126 or 5131}; throws unless there are `count`, all finite.
+/// Reads floats of {"bufferView": ..., "componentType": 5126 or 5131} into `to`; throws unless there are as
+/// many, all finite.
+void read_float_view(const GltfContents& contents, const Json& object, std::span<float> to,
+                     const std::string& what);
 std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,
                                    const std::string& what);
 Json write_float_view(GltfContents& contents, std::span<const float> values);

@@ -31,7 +31,8 @@ TEST(Baselines, AllComponentsLoseOnlyWhatEightBitsLose) {
     const Transfer t = random_transfer(300);
     const std::vector<float> areas(300, 1.0f);
     const BaselineResult r = classic_cpca(t, areas, {1, 9});
-    EXPECT_LT(relative_l2(t, r.decoded, areas), 0.01); // a step of 3.5 sigma / 127 along each of nine axes: 0.8 %
+    EXPECT_LT(relative_l2(t, r.decoded, areas),
+              0.01); // a step of 3.5 sigma / 127 along each of nine axes: 0.8 %
     EXPECT_GT(relative_l2(t, r.decoded, areas), 0.001);
     EXPECT_EQ(r.payload_bytes, 9);
     EXPECT_EQ(r.table_bytes, 10 * 9 * 2 + 9 * 4);

@@ -33,7 +33,8 @@ class Metric : public testing::TestWithParam<int> {}; // channels
 INSTANTIATE_TEST_SUITE_P(Channels, Metric, testing::Values(1, 3));
 
 TEST_P(Metric, OfLightsIsTheMeanOfWhatEachTurnOfEachCosts) {
-    // Against brute force: 360 turns of two lights, each weighed by its energy, and a hundredth of natural light.
+    // Against brute force: 360 turns of two lights, each weighed by its energy, and a hundredth of natural
+    // light.
     const int channels = GetParam(), order = 4;
     std::mt19937 random(7);
     const std::vector<Light> lights = {random_light(order, random), random_light(order + 1, random)};

@@ -11,7 +11,7 @@ namespace {
 /// A grid whose transfer turns smoothly: clusters are patches, and every patch has borders.
 struct Grid {
     static constexpr std::uint32_t kSize = 60;
-    Transfer transfer = zero_transfer(3, 1, kSize * kSize);
+    Transfer transfer = zero_transfer(3, 1, kSize* kSize);
     std::vector<float> areas = std::vector<float>(kSize * kSize, 1.0f);
     std::vector<Edge> edges;
 
@@ -21,8 +21,9 @@ struct Grid {
                 const std::uint32_t p = y * kSize + x;
                 for (std::uint32_t i = 0; i < 9; ++i)
                     transfer.vector(p)[i] =
-                        (i == 0 ? 2.0f : 0.0f) + std::sin(0.05f * static_cast<float>((1 + i % 3) * x + (1 + i / 3) * y) +
-                                                          static_cast<float>(i * i));
+                        (i == 0 ? 2.0f : 0.0f) +
+                        std::sin(0.05f * static_cast<float>((1 + i % 3) * x + (1 + i / 3) * y) +
+                                 static_cast<float>(i * i));
                 if (x + 1 < kSize)
                     edges.push_back({p, p + 1});
                 if (y + 1 < kSize)
@@ -49,12 +50,13 @@ struct Grid {
         Jumps jumps;
         for (const Edge& e : edges) {
             for (std::size_t i = 0; i < 9; ++i)
-                jumps.squared += std::pow(static_cast<double>((decoded.vector(e.first)[i] - transfer.vector(e.first)[i]) -
-                                                              (decoded.vector(e.second)[i] - transfer.vector(e.second)[i])),
+                jumps.squared += std::pow(static_cast<double>(
+                                              (decoded.vector(e.first)[i] - transfer.vector(e.first)[i]) -
+                                              (decoded.vector(e.second)[i] - transfer.vector(e.second)[i])),
                                           2) *
                                  (i == 0 ? 1.0 : 0.25 / std::floor(std::sqrt(static_cast<double>(i))));
-            jumps.crossing += result.transfer.receivers.clusters[e.first] !=
-                              result.transfer.receivers.clusters[e.second];
+            jumps.crossing +=
+                result.transfer.receivers.clusters[e.first] != result.transfer.receivers.clusters[e.second];
         }
         jumps.lit_rms = result.statistics.lit_rms;
         return jumps;

@@ -22,10 +22,11 @@ Transfer smooth_transfer(std::size_t receivers, int channels, unsigned seed) {
     for (std::size_t p = 0; p < receivers; ++p) {
         const float u = uniform(random), v = uniform(random);
         for (std::size_t i = 0; i < t.dimension(); ++i)
-            t.vector(p)[i] = (i == 0 ? 1.0f : 0.3f) *
-                                 std::sin(frequencies[3 * i] * u + frequencies[3 * i + 1] * v + frequencies[3 * i + 2]) *
-                                 (u > 0.2f ? 1.0f : 0.4f) +
-                             0.002f * uniform(random);
+            t.vector(p)[i] =
+                (i == 0 ? 1.0f : 0.3f) *
+                    std::sin(frequencies[3 * i] * u + frequencies[3 * i + 1] * v + frequencies[3 * i + 2]) *
+                    (u > 0.2f ? 1.0f : 0.4f) +
+                0.002f * uniform(random);
     }
     return t;
 }
@@ -43,7 +44,8 @@ struct Tried {
         return compress_within(transfer, areas, {}, options);
     }
     double lit_rms(const CompressResult& result) const {
-        return expected_lit_rms(transfer, decode(result.transfer), areas, natural_metric(4, transfer.channels));
+        return expected_lit_rms(transfer, decode(result.transfer), areas,
+                                natural_metric(4, transfer.channels));
     }
 };
 

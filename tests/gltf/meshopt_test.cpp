@@ -25,14 +25,17 @@ GlbFile grid_file(std::uint32_t size) {
     std::vector<std::uint16_t> texcoords, indices;
     for (std::uint32_t y = 0; y <= size; ++y)
         for (std::uint32_t x = 0; x <= size; ++x) {
-            const float u = static_cast<float>(x) / static_cast<float>(size), v = static_cast<float>(y) / static_cast<float>(size);
+            const float u = static_cast<float>(x) / static_cast<float>(size),
+                        v = static_cast<float>(y) / static_cast<float>(size);
             positions.insert(positions.end(), {u, std::sin(3 * u) * v, v});
             normals.insert(normals.end(), {0, 1, 0});
-            texcoords.insert(texcoords.end(), {static_cast<std::uint16_t>(65535 * u), static_cast<std::uint16_t>(65535 * v)});
+            texcoords.insert(texcoords.end(),
+                             {static_cast<std::uint16_t>(65535 * u), static_cast<std::uint16_t>(65535 * v)});
         }
     for (std::uint32_t y = 0; y < size; ++y)
         for (std::uint32_t x = 0; x < size; ++x) {
-            const auto a = static_cast<std::uint16_t>(y * (size + 1) + x), b = static_cast<std::uint16_t>(a + size + 1);
+            const auto a = static_cast<std::uint16_t>(y * (size + 1) + x),
+                       b = static_cast<std::uint16_t>(a + size + 1);
             const auto a1 = static_cast<std::uint16_t>(a + 1), b1 = static_cast<std::uint16_t>(b + 1);
             indices.insert(indices.end(), {a, b, a1, a1, b, b1});
         }
@@ -50,7 +53,8 @@ GlbFile grid_file(std::uint32_t size) {
 
 struct Files {
     test::TemporaryFolder folder;
-    std::filesystem::path source = folder / "source.glb", plain = folder / "plain.glb", packed = folder / "packed.glb";
+    std::filesystem::path source = folder / "source.glb", plain = folder / "plain.glb",
+                          packed = folder / "packed.glb";
 
     Files() {
         grid_file(40).write(source);
@@ -99,7 +103,8 @@ TEST(Meshopt, ReadAndSavedAgainIsPlain) {
     const auto json = json_of(bytes_of(files.folder / "again.glb"));
     EXPECT_FALSE(json.contains("extensionsRequired"));
     EXPECT_EQ(json["buffers"].size(), 1u);
-    const Scene a = extract_scene(load_gltf(files.source)), b = extract_scene(load_gltf(files.folder / "again.glb"));
+    const Scene a = extract_scene(load_gltf(files.source)),
+                b = extract_scene(load_gltf(files.folder / "again.glb"));
     EXPECT_EQ(receivers_id(a), receivers_id(b));
 }
 
@@ -108,16 +113,18 @@ TEST(Meshopt, DamagedDataIsRefused) {
     const std::string good = bytes_of(files.packed);
     std::uint32_t length = 0;
     std::memcpy(&length, good.data() + 12, 4);
-    const auto expect_refused = [&](const std::function<void(nlohmann::ordered_json&, std::vector<std::byte>&)>& change) {
-        GlbFile file;
-        file.json = json_of(good);
-        const auto* data = reinterpret_cast<const std::byte*>(good.data());
-        file.binary.assign(data + 28 + length, data + good.size());
-        change(file.json, file.binary);
-        const auto fallback = file.json["buffers"].size() > 1 ? file.json["buffers"][1] : nlohmann::ordered_json();
-        file.write(files.folder / "bad.glb");
-        EXPECT_THROW(load_gltf(files.folder / "bad.glb"), Error);
-    };
+    const auto expect_refused =
+        [&](const std::function<void(nlohmann::ordered_json&, std::vector<std::byte>&)>& change) {
+            GlbFile file;
+            file.json = json_of(good);
+            const auto* data = reinterpret_cast<const std::byte*>(good.data());
+            file.binary.assign(data + 28 + length, data + good.size());
+            change(file.json, file.binary);
+            const auto fallback =
+                file.json["buffers"].size() > 1 ? file.json["buffers"][1] : nlohmann::ordered_json();
+            file.write(files.folder / "bad.glb");
+            EXPECT_THROW(load_gltf(files.folder / "bad.glb"), Error);
+        };
     const auto view = [](nlohmann::ordered_json& json) -> nlohmann::ordered_json& {
         for (auto& v : json["bufferViews"])
             if (v.contains("extensions"))
@@ -130,7 +137,9 @@ TEST(Meshopt, DamagedDataIsRefused) {
     expect_refused([&](auto& json, auto&) { view(json)["filter"] = "MAGIC"; });
     expect_refused([&](auto& json, auto&) { view(json)["byteLength"] = 1u << 30; });
     expect_refused([&](auto& json, auto&) { view(json).erase("buffer"); });
-    expect_refused([&](auto& json, auto& binary) { binary[view(json)["byteOffset"].template get<std::size_t>()] = std::byte{7}; });
+    expect_refused([&](auto& json, auto& binary) {
+        binary[view(json)["byteOffset"].template get<std::size_t>()] = std::byte{7};
+    });
 }
 
 } // namespace

@@ -14,14 +14,18 @@ namespace {
 
 using test::GlbFile;
 
-/// Two nodes share a mesh whose two primitives share vertices, with colours and a morph target; and an animation.
+/// Two nodes share a mesh whose two primitives share vertices, with colours and a morph target; and an
+/// animation.
 GlbFile instanced_file() {
     GlbFile file = test::triangle_file();
-    const auto position = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1, 2, 0, 1}, test::kFloat, "VEC3", 3);
+    const auto position = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 1, 2, 0, 1},
+                                        test::kFloat, "VEC3", 3);
     file.json["accessors"][position]["min"] = {0, 0, 0};
     file.json["accessors"][position]["max"] = {2, 1, 1};
-    const auto normal = file.accessor(std::vector<float>{0, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, -1, 0, -1, 0}, test::kFloat, "VEC3", 3);
-    const auto target = file.accessor(std::vector<float>{0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4}, test::kFloat, "VEC3", 3);
+    const auto normal = file.accessor(std::vector<float>{0, 0, 1, 0, 1, 0, 1, 0, 0, 0, 0, -1, 0, -1, 0},
+                                      test::kFloat, "VEC3", 3);
+    const auto target = file.accessor(std::vector<float>{0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4},
+                                      test::kFloat, "VEC3", 3);
     const auto time = file.accessor(std::vector<float>{0, 1}, test::kFloat, "SCALAR", 1);
     const auto moves = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0}, test::kFloat, "VEC3", 3);
     const nlohmann::ordered_json attributes = {{"POSITION", position}, {"NORMAL", normal}};
@@ -33,11 +37,13 @@ GlbFile instanced_file() {
                                       {"indices", file.accessor(indices, test::kUnsignedByte, "SCALAR", 1)}};
     };
     file.json["meshes"][0]["weights"] = {0.5};
-    file.json["meshes"][0]["primitives"] = nlohmann::ordered_json::array({primitive({0, 1, 2}, 4), primitive({1, 3, 2, 4}, 5)});
+    file.json["meshes"][0]["primitives"] =
+        nlohmann::ordered_json::array({primitive({0, 1, 2}, 4), primitive({1, 3, 2, 4}, 5)});
     file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}, {"translation", {5, 0, 0}}}};
     file.json["scenes"][0]["nodes"] = {0, 1};
-    file.json["animations"] = {{{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
-                                {"samplers", {{{"input", time}, {"output", moves}}}}}};
+    file.json["animations"] = {
+        {{"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}}},
+         {"samplers", {{{"input", time}, {"output", moves}}}}}};
     return file;
 }
 

@@ -16,7 +16,8 @@ TEST(Bits, ComeBackInTheirOrder) {
     BitWriter writer;
     for (int i = 0; i < 500; ++i) {
         const int width = static_cast<int>(random() % 33);
-        const auto value = static_cast<std::uint32_t>(random()) & static_cast<std::uint32_t>((1ull << width) - 1);
+        const auto value =
+            static_cast<std::uint32_t>(random()) & static_cast<std::uint32_t>((1ull << width) - 1);
         numbers.emplace_back(value, width);
         writer.write(value, width);
     }
@@ -47,14 +48,15 @@ TEST(CodedRows, ComeBackExactly) {
 }
 
 TEST(CodedRows, SmallColumnsCostLittle) {
-    // Rows whose values fall by half from column to column, at sizes that differ from row to row: about as many
-    // bits as the values have, and the level.
+    // Rows whose values fall by half from column to column, at sizes that differ from row to row: about as
+    // many bits as the values have, and the level.
     std::mt19937 random(4);
     std::vector<std::int32_t> values;
     for (int r = 0; r < 200; ++r)
         for (int i = 0; i < 12; ++i) {
             const int most = (1 << (4 + r % 8)) >> i;
-            values.push_back(most == 0 ? 0 : static_cast<std::int32_t>(random() % static_cast<unsigned>(2 * most)) - most);
+            values.push_back(
+                most == 0 ? 0 : static_cast<std::int32_t>(random() % static_cast<unsigned>(2 * most)) - most);
         }
     std::size_t plain = 0;
     for (int r = 0; r < 200; ++r)

@@ -23,16 +23,16 @@ struct SweepPoint {
 
 struct Sweep {
     std::vector<SweepPoint> by_bytes; ///< every method at sizes that suit it
-    /// The literature's clustered methods with `kSweepClusters` clusters, and ours with as many as take no more
-    /// bytes than classic CPCA does with as many operations.
+    /// The literature's clustered methods with `kSweepClusters` clusters, and ours with as many as take no
+    /// more bytes than classic CPCA does with as many operations.
     std::vector<SweepPoint> by_ops;
 };
 
 inline constexpr int kSweepClusters = 256; ///< in one byte
 /// Budgets of the sweep, bytes per receiver with bases.
-inline constexpr double kSweepBytes[] = {4, 5, 7, 9, 13, 17};
+inline constexpr double kSweepBytes[] = {4, 5, 7, 9, 13};
 /// Components per receiver.
-inline constexpr int kSweepOps[] = {1, 2, 3, 4, 6, 8, 12};
+inline constexpr int kSweepOps[] = {1, 2, 4, 8};
 
 /// Measures all methods under `lights`, which should be others than those that `options` compresses for.
 /// Minutes.

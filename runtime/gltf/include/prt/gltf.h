@@ -76,8 +76,11 @@ void write_clustered(GltfDocument& document, const Scene& scene, const Compresse
 std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene);
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);
 
-/// What is done with vertex and index data on disk. meshopt: EXT_meshopt_compression, without loss; a reader has to
-/// know it.
+/// Takes all transfer out of the document, and its memory with it.
+void discard_transfer(GltfDocument& document);
+
+/// What is done with vertex and index data on disk. meshopt: EXT_meshopt_compression, without loss; a reader
+/// has to know it.
 enum class BufferCompression { none, meshopt };
 
 /// Writes a .glb with everything inside. Throws `Error` when it cannot, or when it would pass 4 GB.

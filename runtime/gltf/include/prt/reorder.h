@@ -10,21 +10,23 @@
 
 namespace prt {
 
-/// For every place in memory the receiver that goes there: within each vertex array by cluster, else as before.
+/// For every place in memory the receiver that goes there: within each vertex array by cluster, else as
+/// before.
 std::vector<std::uint32_t> order_by_cluster(const Scene& scene, const ClusteredReceivers& receivers);
 
 /// `receivers` with receiver order[i] at place i.
 ClusteredReceivers reordered(const ClusteredReceivers& receivers, std::span<const std::uint32_t> order);
 
-/// Moves the vertices of `document`, from which `scene` was extracted and which holds it one to one, as prt bake
-/// writes it: attributes, morph targets and indices follow. Draws what it drew.
+/// Moves the vertices of `document`, from which `scene` was extracted and which holds it one to one, as prt
+/// bake writes it: attributes, morph targets and indices follow. Draws what it drew.
 void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<const std::uint32_t> order);
 
-/// For every receiver of `scene` the one of `other` that has the same position and normal; the first comes first where
-/// several do. Throws `Error` where the two do not hold the same receivers.
+/// For every receiver of `scene` the one of `other` that has the same position and normal; the first comes
+/// first where several do. Throws `Error` where the two do not hold the same receivers.
 std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& other);
 
-/// How well a GPU reuses and fetches the vertices of all triangles in their order, by meshoptimizer's analysis.
+/// How well a GPU reuses and fetches the vertices of all triangles in their order, by meshoptimizer's
+/// analysis.
 struct VertexReuse {
     double transforms_per_triangle = 0; ///< with a cache of 16 vertices
     double overfetch = 0;               ///< bytes fetched over bytes of positions, lines of 64 bytes

@@ -93,8 +93,8 @@ struct Scene {
 /// A third of the area of the triangles at each receiver, in m². [receivers]
 std::vector<float> receiver_areas(const Scene& scene);
 
-/// Hexadecimal hash of the positions and normals of all receivers, in any order: transfers belong together when it
-/// is equal.
+/// Hexadecimal hash of the positions and normals of all receivers, in any order: transfers belong together
+/// when it is equal.
 std::string receivers_id(const Scene& scene);
 
 /// Corners of the box round all triangles.
