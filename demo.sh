@@ -11,20 +11,20 @@ mkdir -p out
 build/release/examples/scenes/example_scenes out/scenes
 sky=out/scenes/sky.exr
 
-# name, bounces, clusters, components, options of the camera
+# name, bounces, preset of the compressor, options of the camera
 road() {
-    local name=$1 bounces=$2 clusters=$3 components=$4
+    local name=$1 bounces=$2 preset=$3
     echo
     $prt bake "out/scenes/$name.glb" -o "out/$name.baked.glb" --bounces "$bounces"
-    $prt compress "out/$name.baked.glb" -o "out/$name.shipped.glb" --clusters "$clusters" --components "$components"
+    $prt compress "out/$name.baked.glb" -o "out/$name.shipped.glb" --preset "$preset"
     $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" --html "out/$name.html" --json "out/$name.json"
-    $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png" "${@:5}"
-    $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png" "${@:5}"
+    $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png" "${@:4}"
+    $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png" "${@:4}"
 }
-road knot 0 64 8
-road room 3 128 8 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
-road tree 3 64 8 --camera 1.5,1.7,5.5 --look-at 0,1.9,0
-road terrain 0 128 12 --camera 1,4.5,11 --look-at 0,2.6,0
+road knot 0 u32
+road room 3 u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
+road tree 3 u64 --camera 1.5,1.7,5.5 --look-at 0,1.9,0
+road terrain 0 u64 --camera 1,4.5,11 --look-at 0,2.6,0
 $prt render out/knot.shipped.glb --env "$sky" --show clusters -o out/knot.clusters.png
 $prt render out/knot.shipped.glb --env "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png
 echo

@@ -221,7 +221,7 @@ std::vector<ClusterSearch::Split> ClusterSearch::possible_splits(const State& st
 
 std::vector<ClusterSearch::Merge> ClusterSearch::possible_merges(const State& state,
                                                                  const Spending& spending) const {
-    constexpr std::size_t kNeighbours = 4;
+    constexpr std::size_t kPartners = 4;
     std::vector<std::vector<Merge>> found(state.fits.size());
     parallel_for(state.fits.size(), 1, options_.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
@@ -236,7 +236,7 @@ std::vector<ClusterSearch::Merge> ClusterSearch::possible_merges(const State& st
                 }
                 near.emplace_back(state.fits[other].weight > 0 ? squared : 0, other);
             }
-            const std::size_t count = std::min(kNeighbours, near.size());
+            const std::size_t count = std::min(kPartners, near.size());
             std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
             for (std::size_t n = 0; n < count; ++n) {
                 const std::size_t other = near[n].second;

@@ -81,7 +81,7 @@ private:
         add_combination(p, codes_.of(p), error);
     }
 
-    /// What a change of the weights of each receiver changes: the quadratic form of eq. 32 applied to the
+    /// What a change of the weights of each receiver changes: the quadratic form of eq. 31 applied to the
     /// vectors that `vector_of(p, to)` gives, and then the rows. [points][max_components]
     template <class VectorOf>
     std::vector<float> gradient(VectorOf&& vector_of) const;

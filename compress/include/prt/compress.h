@@ -43,7 +43,7 @@ struct CompressOptions {
     bool bases_count = false;
     /// What an error costs; nothing: `natural_metric`.
     std::optional<LightMetric> metric;
-    /// mu of docs/math.md, eq. 32: what a jump of the error along a mesh edge costs, in units of the error
+    /// mu of docs/math.md, eq. 31: what a jump of the error along a mesh edge costs, in units of the error
     /// itself.
     double seam_weight = 1;
     /// Price of a neighbour in another cluster, in units of the mean squared error (eq. 31).
