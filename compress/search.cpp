@@ -31,7 +31,10 @@ public:
            const SearchOptions& options, const Progress& progress)
         : transfer_(transfer), areas_(areas), edges_(edges), options_(options), progress_(progress),
           receivers_(static_cast<double>(transfer.receivers())) {
-        most_clusters_ = static_cast<int>(std::clamp<std::size_t>(transfer.receivers(), 1, 65536));
+        // Fewer than a dozen receivers a cluster, and tables outweigh weights.
+        const std::size_t enough = std::max<std::size_t>(64, transfer.receivers() / 12);
+        most_clusters_ =
+            static_cast<int>(std::clamp<std::size_t>(std::min(enough, transfer.receivers()), 1, 65536));
         if (!options.choose_clusters)
             most_clusters_ = options.compress.clusters;
     }
@@ -170,10 +173,15 @@ void Search::reach_error(int payload) {
         (reached ? high : low) = clusters;
         if (reached && trial.lit_rms > 0.985 * wanted)
             break;
-        // More clusters only cost more where the bytes already pass the best of another payload.
-        if (!reached && result_.kept && trial.bytes_per_vertex > best_trial_.bytes_per_vertex)
+        // More clusters only cost more where the bytes already pass what is allowed, or the best so far.
+        const double most_bytes =
+            result_.kept ? best_trial_.bytes_per_vertex : options_.budget.bytes_per_vertex.value_or(1e30);
+        if (!reached && trial.bytes_per_vertex > most_bytes)
             break;
-        next = clusters * std::pow(trial.lit_rms / (0.993 * wanted), 1 / 0.4);
+        const double factor = std::pow(trial.lit_rms / (0.993 * wanted), 1 / 0.4);
+        next = clusters * std::clamp(factor, 1.0 / 64, 4.0);
+        if (factor > 64) // so far off, a larger payload is the way
+            break;
         if (low > 0 && high <= most_clusters_ && (next <= low || next >= high))
             next = std::sqrt(low * high);
     }
@@ -198,6 +206,8 @@ double Search::best_at(int payload) {
 SearchResult Search::run() {
     const Budget& budget = options_.budget;
     int least = 1, most = kMostPayloadBytes, start = 4;
+    if (budget.max_error) // four bytes or so for a hundredth, and one more for every half of it
+        start = static_cast<int>(std::lround(4 + 1.1 * std::log2(0.01 / *budget.max_error)));
     if (budget.bytes_per_vertex) {
         most = std::min(most, static_cast<int>(std::floor(*budget.bytes_per_vertex)));
         if (most < 1) {
