@@ -50,8 +50,8 @@ struct Tried {
 };
 
 TEST(Search, KeepsTheErrorThatWasAskedFor) {
-    const Tried scene(3000, 1, 1);
-    for (const double error : {0.1, 0.02, 0.003}) {
+    const Tried scene(700, 1, 1);
+    for (const double error : {0.1, 0.01}) {
         const SearchResult found = scene.within({error, {}, {}});
         EXPECT_TRUE(found.kept);
         EXPECT_LE(scene.lit_rms(found.result), error);
@@ -60,18 +60,18 @@ TEST(Search, KeepsTheErrorThatWasAskedFor) {
 }
 
 TEST(Search, KeepsTheBytesThatWereAskedFor) {
-    const Tried scene(3000, 3, 2);
-    for (const double bytes : {3.0, 6.0, 12.5}) {
+    const Tried scene(700, 3, 2);
+    for (const double bytes : {6.0, 12.5}) {
         const SearchResult found = scene.within({{}, bytes, {}});
         EXPECT_TRUE(found.kept);
-        EXPECT_LE(found.result.statistics.bytes_with_bases(3000), bytes);
-        EXPECT_GT(found.result.statistics.bytes_with_bases(3000), 0.85 * bytes);
+        EXPECT_LE(found.result.statistics.bytes_with_bases(700), bytes);
+        EXPECT_GT(found.result.statistics.bytes_with_bases(700), 0.85 * bytes);
     }
 }
 
 TEST(Search, KeepsTheOperationsThatWereAskedFor) {
-    const Tried scene(2000, 1, 3);
-    for (const double ops : {0.5, 2.0, 5.0}) {
+    const Tried scene(600, 1, 3);
+    for (const double ops : {0.5, 3.0}) {
         const SearchResult found = scene.within({{}, {}, ops});
         EXPECT_TRUE(found.kept);
         EXPECT_LE(found.result.statistics.mean_components, ops);
@@ -80,11 +80,11 @@ TEST(Search, KeepsTheOperationsThatWereAskedFor) {
 }
 
 TEST(Search, KeepsThreePromisesAtOnceOrSaysThatItCannot) {
-    const Tried scene(2000, 1, 4);
+    const Tried scene(600, 1, 4);
     const SearchResult loose = scene.within({0.05, 12.0, 8.0});
     EXPECT_TRUE(loose.kept);
     EXPECT_LE(loose.result.statistics.lit_rms, 0.05);
-    EXPECT_LE(loose.result.statistics.bytes_with_bases(2000), 12);
+    EXPECT_LE(loose.result.statistics.bytes_with_bases(600), 12);
     EXPECT_LE(loose.result.statistics.mean_components, 8);
     const SearchResult tight = scene.within({1e-4, 1.5, {}});
     EXPECT_FALSE(tight.kept);
@@ -92,7 +92,7 @@ TEST(Search, KeepsThreePromisesAtOnceOrSaysThatItCannot) {
 }
 
 TEST(Search, OtherFormatsKeepPromisesToo) {
-    const Tried scene(1500, 1, 5);
+    const Tried scene(500, 1, 5);
     const SearchResult found = scene.within({0.03, {}, {}}, WeightFormat::snorm8);
     EXPECT_TRUE(found.kept);
     EXPECT_EQ(found.result.transfer.receivers.format, WeightFormat::snorm8);
@@ -100,21 +100,21 @@ TEST(Search, OtherFormatsKeepPromisesToo) {
 }
 
 TEST(Search, IsMonotoneInEveryBudget) {
-    const Tried scene(2500, 1, 6);
+    const Tried scene(600, 1, 6);
     double before = 1e9;
-    for (const double bytes : {2.0, 4.0, 6.0, 9.0, 14.0}) {
+    for (const double bytes : {3.0, 6.0, 12.0}) {
         const double error = scene.within({{}, bytes, {}}).result.statistics.lit_rms;
         EXPECT_LT(error, before);
         before = error;
     }
     before = 0;
-    for (const double error : {0.1, 0.03, 0.01, 0.003}) {
-        const double bytes = scene.within({error, {}, {}}).result.statistics.bytes_with_bases(2500);
+    for (const double error : {0.1, 0.01}) {
+        const double bytes = scene.within({error, {}, {}}).result.statistics.bytes_with_bases(600);
         EXPECT_GT(bytes, before);
         before = bytes;
     }
     before = 1e9;
-    for (const double ops : {1.0, 2.0, 4.0, 8.0}) {
+    for (const double ops : {1.0, 4.0}) {
         const double error = scene.within({{}, {}, ops}).result.statistics.lit_rms;
         EXPECT_LT(error, before);
         before = error;
@@ -122,14 +122,14 @@ TEST(Search, IsMonotoneInEveryBudget) {
 }
 
 TEST(Search, IsNeverWorseThanTheMethodsItComesFromAtTheirSize) {
-    for (const unsigned seed : {11u, 12u, 13u}) {
+    for (const unsigned seed : {11u, 13u}) {
         const int channels = seed == 13 ? 3 : 1;
-        const Tried scene(2000, channels, seed);
+        const Tried scene(600, channels, seed);
         const LightMetric metric = natural_metric(4, channels);
         for (const auto& [clusters, components] :
-             {std::pair(1, 4), std::pair(1, 12), std::pair(64, 0), std::pair(16, 2), std::pair(32, 4)}) {
+             {std::pair(1, 6), std::pair(64, 0), std::pair(16, 2)}) {
             const BaselineResult other = classic_cpca(scene.transfer, scene.areas, {clusters, components});
-            const double bytes = other.payload_bytes + other.table_bytes / 2000;
+            const double bytes = other.payload_bytes + other.table_bytes / 600;
             const double error = expected_lit_rms(scene.transfer, other.decoded, scene.areas, metric);
             const SearchResult ours = scene.within({{}, bytes, {}});
             EXPECT_TRUE(ours.kept);
