@@ -76,7 +76,9 @@ ClusteredBases make_bases(const Frame& frame, const QuantisedModels& models, con
     const Eigen::Map<const Eigen::MatrixXd> synthesis(frame.synthesis.data(), full, kept);
     const Eigen::Map<const Eigen::VectorXd> origin(frame.origin.data(), full);
     const auto put = [&](const float* row, bool mean) {
-        Eigen::VectorXd vector = synthesis * Eigen::Map<const Eigen::VectorXf>(row, kept).cast<double>();
+        Eigen::VectorXd vector = Eigen::VectorXd::Zero(full);
+        if (kept > 0)
+            vector = synthesis * Eigen::Map<const Eigen::VectorXf>(row, kept).cast<double>();
         if (mean)
             vector += origin;
         for (const double v : vector)
@@ -169,6 +171,8 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
             frame.synthesis[i * frame.full() + a] =
                 static_cast<double>(coded.scales[i]) * values[i * frame.full() + a];
     }
+    if (kept == 0) // all receivers alike
+        return coded;
     // Coordinates over the rounded axes are those that come nearest in the metric.
     const Eigen::Map<const Eigen::MatrixXd> axes(frame.synthesis.data(), full, kept);
     Eigen::Map<Eigen::MatrixXd>(frame.analysis.data(), full, kept) =

@@ -55,7 +55,7 @@ void nearest_of_block(const float* block, const ClusterModels& models,
         errors[lane] = std::numeric_limits<float>::infinity();
     for (const std::size_t k : candidates) {
         const Lanes distance =
-            squared_distance(block, models.dimension, &models.means[k * models.dimension],
+            squared_distance(block, models.dimension, models.means.data() + k * models.dimension,
                              models.directions.data() + k * models.max_components * models.dimension,
                              static_cast<std::size_t>(models.components[k])) +
             models.penalties[k];
@@ -78,6 +78,8 @@ void distances_of_block(const float* block, std::size_t dimension, const float* 
 
 PointBlocks::PointBlocks(const Transfer& transfer, const Frame& frame, int threads)
     : count(transfer.receivers()), dimension(frame.dimension) {
+    if (dimension == 0) // all receivers alike
+        return;
     values.resize(blocks() * dimension * kLanes);
     parallel_for(blocks(), 64, threads, [&](std::size_t begin, std::size_t end) {
         const auto full = static_cast<Eigen::Index>(frame.full()),
@@ -92,7 +94,7 @@ PointBlocks::PointBlocks(const Transfer& transfer, const Frame& frame, int threa
                 vectors.col(static_cast<Eigen::Index>(lane)) = vector.cast<double>() - origin;
             }
             Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-                &values[b * dimension * kLanes], kept, static_cast<Eigen::Index>(kLanes)) =
+                values.data() + b * dimension * kLanes, kept, static_cast<Eigen::Index>(kLanes)) =
                 (analysis.transpose() * vectors).cast<float>();
         }
     });

@@ -22,7 +22,7 @@ struct PointBlocks {
     PointBlocks(const Transfer& transfer, const Frame& frame, int threads);
 
     std::size_t blocks() const { return (count + kLanes - 1) / kLanes; }
-    const float* block(std::size_t b) const { return &values[b * dimension * kLanes]; }
+    const float* block(std::size_t b) const { return values.data() + b * dimension * kLanes; }
     float coordinate(std::size_t point, std::size_t i) const {
         return values[(point / kLanes * dimension + i) * kLanes + point % kLanes];
     }
@@ -47,13 +47,13 @@ struct ClusterModels {
           penalties(clusters, 0.0f) {}
 
     std::size_t clusters() const { return components.size(); }
-    float* mean(std::size_t k) { return &means[k * dimension]; }
-    const float* mean(std::size_t k) const { return &means[k * dimension]; }
+    float* mean(std::size_t k) { return means.data() + k * dimension; }
+    const float* mean(std::size_t k) const { return means.data() + k * dimension; }
     float* direction(std::size_t k, std::size_t j) {
-        return &directions[(k * max_components + j) * dimension];
+        return directions.data() + (k * max_components + j) * dimension;
     }
     const float* direction(std::size_t k, std::size_t j) const {
-        return &directions[(k * max_components + j) * dimension];
+        return directions.data() + (k * max_components + j) * dimension;
     }
 };
 

@@ -285,6 +285,8 @@ std::vector<std::vector<std::uint32_t>> neighbour_clusters(const QuantisedModels
 
 void refit(const PointBlocks& points, std::span<const float> weights, const Codes& codes,
            QuantisedModels& models, int threads) {
+    if (points.dimension == 0)
+        return;
     const auto members = members_of(codes.clusters, models.clusters());
     const auto d = static_cast<Eigen::Index>(models.dimension);
     parallel_for(models.clusters(), 1, threads, [&](std::size_t begin, std::size_t end) {

@@ -15,11 +15,11 @@ struct QuantisedModels {
     std::vector<int> components; ///< [clusters]
 
     std::size_t clusters() const { return components.size(); }
-    float* mean(std::size_t k) { return &means[k * dimension]; }
-    const float* mean(std::size_t k) const { return &means[k * dimension]; }
-    float* row(std::size_t k, std::size_t j) { return &rows[(k * max_components + j) * dimension]; }
+    float* mean(std::size_t k) { return means.data() + k * dimension; }
+    const float* mean(std::size_t k) const { return means.data() + k * dimension; }
+    float* row(std::size_t k, std::size_t j) { return rows.data() + (k * max_components + j) * dimension; }
     const float* row(std::size_t k, std::size_t j) const {
-        return &rows[(k * max_components + j) * dimension];
+        return rows.data() + (k * max_components + j) * dimension;
     }
 };
 

@@ -242,9 +242,9 @@ void SeamSmoother::reassign() {
             if (best == ~0u)
                 continue;
             codes_.clusters[p] = best;
-            std::fill_n(&codes_.weights[p * models_.max_components], models_.max_components, 0.0f);
+            std::fill_n(codes_.weights.data() + p * models_.max_components, models_.max_components, 0.0f);
             std::copy_n(best_code.begin(), models_.components[best],
-                        &codes_.weights[p * models_.max_components]);
+                        codes_.weights.data() + p * models_.max_components);
             ++changed;
         }
         if (changed * 200 < points_.count)

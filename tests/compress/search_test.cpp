@@ -126,8 +126,7 @@ TEST(Search, IsNeverWorseThanTheMethodsItComesFromAtTheirSize) {
         const int channels = seed == 13 ? 3 : 1;
         const Tried scene(600, channels, seed);
         const LightMetric metric = natural_metric(4, channels);
-        for (const auto& [clusters, components] :
-             {std::pair(1, 6), std::pair(64, 0), std::pair(16, 2)}) {
+        for (const auto& [clusters, components] : {std::pair(1, 6), std::pair(64, 0), std::pair(16, 2)}) {
             const BaselineResult other = classic_cpca(scene.transfer, scene.areas, {clusters, components});
             const double bytes = other.payload_bytes + other.table_bytes / 600;
             const double error = expected_lit_rms(scene.transfer, other.decoded, scene.areas, metric);
