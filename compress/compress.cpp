@@ -9,10 +9,8 @@
 #include "seams.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <string>
 
 namespace prt {
@@ -299,10 +297,10 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas, 
     if (!coded)
         points = std::move(found->points);
     found.reset(); // the points of the one frame make room for those of the other
-    if (coded)
+    if (coded) {
         points.emplace(transfer, frame, options.threads);
-    if (coded)
         encode_in_place(*points, q.models, q.codes, options.threads);
+    }
     alternate(*points, weights, options, progress, q);
     if ((options.seam_weight > 0 || options.potts_weight > 0) && !edges.empty())
         smooth_seams(*points, weights, edges, q.models,

@@ -53,13 +53,6 @@ ClusterModels seed_centers(const PointBlocks& points, std::span<const float> wei
     return models;
 }
 
-double total_error(std::span<const float> weights, std::span<const float> errors) {
-    double total = 0;
-    for (std::size_t i = 0; i < weights.size(); ++i)
-        total += static_cast<double>(weights[i]) * static_cast<double>(errors[i]);
-    return total;
-}
-
 void move_to_means(const PointBlocks& points, std::span<const float> weights,
                    std::span<const std::uint32_t> clusters, ClusterModels& models) {
     std::vector<double> sums(models.means.size(), 0), totals(models.clusters(), 0);

@@ -155,6 +155,13 @@ void candidates_of_block(std::span<const std::vector<std::uint32_t>> candidates,
     to.erase(std::unique(to.begin(), to.end()), to.end());
 }
 
+double total_error(std::span<const float> weights, std::span<const float> errors) {
+    double total = 0;
+    for (std::size_t p = 0; p < errors.size(); ++p)
+        total += static_cast<double>(weights[p]) * static_cast<double>(errors[p]);
+    return total;
+}
+
 void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads) {
     parallel_for(points.blocks(), 256, threads, [&](std::size_t begin, std::size_t end) {
         alignas(64) std::array<float, kLanes> distances{};

@@ -75,6 +75,9 @@ Assignment assign(const PointBlocks& points, const ClusterModels& models,
 void candidates_of_block(std::span<const std::vector<std::uint32_t>> candidates,
                          std::span<const std::uint32_t> now, std::size_t b, std::vector<std::uint32_t>& to);
 
+/// sum_p weights[p] errors[p], in a fixed order.
+double total_error(std::span<const float> weights, std::span<const float> errors);
+
 /// Lowers `errors` [points] to the squared distance to `center` [dimension] where that is less.
 void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads);
 

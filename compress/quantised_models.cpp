@@ -188,6 +188,21 @@ QuantisedModels quantised_models(const PointBlocks& points, std::span<const floa
 
 namespace {
 
+/// All clusters as the kernel reads them, and what they point to.
+struct KernelRows {
+    std::vector<float> norms;
+    std::vector<ClusterRows> clusters;
+
+    explicit KernelRows(const QuantisedModels& models)
+        : norms(inverse_norms(models)), clusters(cluster_rows(models, norms)) {}
+};
+
+void make_room(const PointBlocks& points, const QuantisedModels& models, Codes& codes) {
+    codes.max_components = models.max_components;
+    codes.errors.resize(points.count);
+    codes.weights.resize(points.count * models.max_components);
+}
+
 /// Weights and errors of the points of block `b` in the clusters that they have.
 void code_in_clusters(const PointBlocks& points, std::size_t b, std::span<const ClusterRows> clusters,
                       Codes& codes, std::span<float> weights) {
@@ -214,25 +229,19 @@ void code_in_clusters(const PointBlocks& points, std::size_t b, std::span<const 
 } // namespace
 
 void encode_in_place(const PointBlocks& points, const QuantisedModels& models, Codes& codes, int threads) {
-    const std::vector<float> norms = inverse_norms(models);
-    const std::vector<ClusterRows> clusters = cluster_rows(models, norms);
-    codes.max_components = models.max_components;
-    codes.errors.resize(points.count);
-    codes.weights.resize(points.count * models.max_components);
+    const KernelRows kernel(models);
+    make_room(points, models, codes);
     parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
         std::vector<float> weights(models.max_components * kLanes);
         for (std::size_t b = begin; b < end; ++b)
-            code_in_clusters(points, b, clusters, codes, weights);
+            code_in_clusters(points, b, kernel.clusters, codes, weights);
     });
 }
 
 void encode_points(const PointBlocks& points, const QuantisedModels& models,
                    std::span<const std::vector<std::uint32_t>> candidates, Codes& codes, int threads) {
-    const std::vector<float> norms = inverse_norms(models);
-    const std::vector<ClusterRows> clusters = cluster_rows(models, norms);
-    codes.max_components = models.max_components;
-    codes.errors.resize(points.count);
-    codes.weights.resize(points.count * models.max_components);
+    const KernelRows kernel(models);
+    make_room(points, models, codes);
     parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
         alignas(64) std::array<std::uint32_t, kLanes> best{};
         alignas(64) std::array<float, kLanes> errors{};
@@ -241,9 +250,10 @@ void encode_points(const PointBlocks& points, const QuantisedModels& models,
         for (std::size_t b = begin; b < end; ++b) {
             const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
             candidates_of_block(candidates, codes.clusters, b, tried);
-            best_of_block(points.block(b), points.dimension, clusters, tried, best.data(), errors.data());
+            best_of_block(points.block(b), points.dimension, kernel.clusters, tried, best.data(),
+                          errors.data());
             std::copy_n(best.begin(), n, &codes.clusters[first]);
-            code_in_clusters(points, b, clusters, codes, weights);
+            code_in_clusters(points, b, kernel.clusters, codes, weights);
         }
     });
 }
@@ -336,13 +346,6 @@ void round_rows(QuantisedModels& models, double step) {
         v = to_grid(v, step);
     for (float& v : models.rows)
         v = to_grid(v, 2 * step);
-}
-
-double total_error(std::span<const float> weights, std::span<const float> errors) {
-    double total = 0;
-    for (std::size_t p = 0; p < errors.size(); ++p)
-        total += static_cast<double>(weights[p]) * static_cast<double>(errors[p]);
-    return total;
 }
 
 } // namespace prt

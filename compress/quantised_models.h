@@ -69,7 +69,4 @@ void refit(const PointBlocks& points, std::span<const float> weights, const Code
 /// Rounds means to multiples of `step` and rows to multiples of 2 `step`.
 void round_rows(QuantisedModels& models, double step);
 
-/// sum_p weights[p] errors[p], in a fixed order.
-double total_error(std::span<const float> weights, std::span<const float> errors);
-
 } // namespace prt

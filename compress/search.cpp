@@ -148,7 +148,7 @@ void Search::fill_bytes(int payload) {
         const SearchTrial trial = attempt(clusters, payload);
         const bool fits = trial.bytes_per_vertex <= *options_.budget.bytes_per_vertex;
         (fits ? low : high) = clusters;
-        best_[payload] = std::min(best_.contains(payload) ? best_[payload] : 1e30, cost(trial));
+        best_[payload] = std::min(best_[payload], cost(trial));
         if (low + 1 >= high || (fits && trial.bytes_per_vertex > 0.975 * *options_.budget.bytes_per_vertex))
             break;
         next = 0.997 * room / bytes_per_cluster_;
@@ -166,7 +166,7 @@ void Search::reach_error(int payload) {
     for (int i = 0; i < 8 && low + 1 < high; ++i) {
         const int clusters = clamped(std::clamp(next, low + 1, high - 1));
         const SearchTrial trial = attempt(clusters, payload);
-        best_[payload] = std::min(best_.contains(payload) ? best_[payload] : 1e30, cost(trial));
+        best_[payload] = std::min(best_[payload], cost(trial));
         const bool reached = trial.lit_rms <= wanted;
         if (reached)
             clusters_guess_ = clusters;

@@ -120,15 +120,12 @@ private:
                 components.insert(classic_components(clusters, bytes));
             for (const int m : components) {
                 done += 0.02 * (0.5 - done);
-                if (m == 0)
-                    sweep_.by_bytes.push_back(
-                        classic("vector quantisation", clusters, 0, false, part(done, done)));
                 if (m < 1)
                     continue;
                 sweep_.by_bytes.push_back(classic("static CPCA", clusters, m, false, part(done, done)));
                 sweep_.by_bytes.push_back(classic(kClassic, clusters, m, true, part(done, done)));
             }
-            if (!components.contains(0) && *components.rbegin() >= 0)
+            if (*components.rbegin() >= 0)
                 sweep_.by_bytes.push_back(
                     classic("vector quantisation", clusters, 0, false, part(done, done)));
         }
