@@ -234,19 +234,26 @@ void count_or_auto(CLI::App* command, const std::string& name, int& target, bool
         ->type_name("N|auto");
 }
 
+/// What a preset fixes; the rest of the options stays.
+void take_sizes(const CompressOptions& preset, CompressOptions& to) {
+    to.clusters = preset.clusters;
+    to.cluster_bits = preset.cluster_bits;
+    to.fixed_bits = preset.fixed_bits;
+    to.components = preset.components;
+}
+
 void add_sizes(CLI::App* command, SearchOptions& o) {
     command
         ->add_option_function<std::string>(
             "--preset",
             [&o](const std::string& name) {
                 if (name != "custom")
-                    o.compress = name == "u32" ? preset_u32() : preset_u64();
+                    take_sizes(name == "u32" ? preset_u32() : preset_u64(), o.compress);
             },
             "u32: all of a vertex in one 32-bit word; u64: in two; custom: as the following options say")
         ->check(CLI::IsMember({"u32", "u64", "custom"}))
         ->type_name("u32|u64|custom")
-        ->default_str("u32, custom with other sizes")
-        ->trigger_on_parse();
+        ->default_str("u32, custom with other sizes");
     count_or_auto(command, "--clusters", o.compress.clusters, o.choose_clusters,
                   "number of clusters, 1..65536");
     count_or_auto(command, "--components", o.compress.components, o.choose_components,
@@ -312,11 +319,7 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     if ((given("--clusters") && o.choose_clusters) || (given("--components") && o.choose_components))
         throw CLI::ValidationError("auto", "needs --max-error, --bytes-per-vertex or --shader-ops");
     if (!preset && !sizes && !given("--preset")) {
-        const CompressOptions word = preset_u32();
-        o.compress.clusters = word.clusters;
-        o.compress.cluster_bits = word.cluster_bits;
-        o.compress.fixed_bits = word.fixed_bits;
-        o.compress.components = word.components;
+        take_sizes(preset_u32(), o.compress);
     } else if (!preset && o.compress.weights != WeightFormat::packed && !given("--components")) {
         o.compress.components = 8;
     }
