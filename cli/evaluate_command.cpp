@@ -9,6 +9,7 @@
 #include "prt/ray_renderer.h"
 #include "receiver_colors.h"
 #include "report.h"
+#include "residual_vq.h"
 #include "sweep_report.h"
 
 #include <fmt/core.h>
@@ -218,8 +219,9 @@ Sweep run_sweep(const EvaluateArguments& a, const Model& baked, const std::vecto
     CompressOptions options;
     options.threads = a.threads;
     ProgressBar bar("sweeping", interrupt.token());
-    return sweep(baked.baked->transfer, receiver_areas(baked.scene), mesh_edges(baked.scene), all, options,
-                 bar.progress());
+    const Transfer& transfer = baked.baked->transfer;
+    return sweep(transfer, receiver_areas(baked.scene), mesh_edges(baked.scene), all, options,
+                 residual_vq_candidates(transfer, options.seed), bar.progress());
 }
 
 } // namespace

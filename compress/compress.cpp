@@ -304,7 +304,8 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas, 
     alternate(*points, weights, options, progress, q);
     if ((options.seam_weight > 0 || options.potts_weight > 0) && !edges.empty())
         smooth_seams(*points, weights, edges, q.models,
-                     {options.seam_weight, options.potts_weight, options.threads}, q.codes);
+                     {options.seam_weight, options.potts_weight, options.mean_components, options.threads},
+                     q.codes);
     points.reset();
     drop_empty(q.models, q.codes);
     progress.update(0.95);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace prt {
 namespace {
@@ -61,6 +62,8 @@ public:
 
     void solve_weights();
     void reassign();
+    /// How many components more receivers may have in all.
+    std::ptrdiff_t spare_components() const;
 
 private:
     Eigen::Map<const Vector> row(std::uint32_t k, std::size_t j) const {
@@ -194,11 +197,21 @@ Vector SeamSmoother::code_in(std::uint32_t k, const Vector& target, std::span<fl
     return -left;
 }
 
+std::ptrdiff_t SeamSmoother::spare_components() const {
+    if (!(options_.mean_components > 0))
+        return std::numeric_limits<std::ptrdiff_t>::max() / 2; // more than can be used up
+    auto spare = static_cast<std::ptrdiff_t>(options_.mean_components * static_cast<double>(points_.count));
+    for (std::size_t p = 0; p < points_.count; ++p)
+        spare -= static_cast<std::ptrdiff_t>(components(p));
+    return spare;
+}
+
 void SeamSmoother::reassign() {
     std::vector<float> code(models_.max_components), best_code(models_.max_components);
     std::vector<std::uint32_t> candidates;
     Vector point(dimension_), pull(dimension_), error(dimension_);
     constexpr int kMostSweeps = 10;
+    std::ptrdiff_t spare = spare_components();
     for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
         std::size_t changed = 0;
         // One after the other, so that each sees what its neighbours have become.
@@ -230,7 +243,10 @@ void SeamSmoother::reassign() {
             error_of(p, error);
             double least = price(codes_.clusters[p], error);
             std::uint32_t best = ~0u;
+            const int own = models_.components[codes_.clusters[p]];
             for (const std::uint32_t k : candidates) {
+                if (models_.components[k] - own > spare)
+                    continue;
                 const Vector e = code_in(k, point + pull, code) + pull;
                 const double cost = price(k, e);
                 if (cost < least * (1 - 1e-6)) {
@@ -241,6 +257,7 @@ void SeamSmoother::reassign() {
             }
             if (best == ~0u)
                 continue;
+            spare -= models_.components[best] - own;
             codes_.clusters[p] = best;
             std::fill_n(codes_.weights.data() + p * models_.max_components, models_.max_components, 0.0f);
             std::copy_n(best_code.begin(), models_.components[best],

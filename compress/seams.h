@@ -6,8 +6,9 @@
 namespace prt {
 
 struct SeamOptions {
-    double seam_weight = 0;  ///< mu of docs/math.md, eq. 31
-    double potts_weight = 0; ///< beta of eq. 31, times the mean squared error
+    double seam_weight = 0;     ///< mu of docs/math.md, eq. 31
+    double potts_weight = 0;    ///< beta of eq. 31, times the mean squared error
+    double mean_components = 0; ///< receivers have at most so many on average; 0: any
     int threads = 0;
 };
 

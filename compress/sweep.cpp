@@ -22,8 +22,16 @@ public:
             references_.push_back(exit_radiance(transfer, light, options.threads));
     }
 
-    Sweep run() {
+    Sweep run(std::span<const SweepCandidate> others) {
         truncations();
+        for (const SweepCandidate& other : others) {
+            progress_.update(0.01);
+            const Stopwatch stopwatch;
+            const BaselineResult r = other.run();
+            const SweepPoint point = measured(other.method, other.setting, r, stopwatch.seconds());
+            sweep_.by_bytes.push_back(point);
+            sweep_.by_ops.push_back(point);
+        }
         plain_pca();
         clustered();
         ours();
@@ -190,8 +198,9 @@ const SweepPoint* best(const std::vector<SweepPoint>& points, const std::string&
 } // namespace
 
 Sweep sweep(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-            std::span<const Light> lights, const CompressOptions& options, const Progress& progress) {
-    return Sweeper(transfer, areas, edges, lights, options, progress).run();
+            std::span<const Light> lights, const CompressOptions& options,
+            std::span<const SweepCandidate> others, const Progress& progress) {
+    return Sweeper(transfer, areas, edges, lights, options, progress).run(others);
 }
 
 const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, double bytes) {

@@ -107,7 +107,7 @@ TEST_F(Road, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
         {"--preset", "u64"},
         {"--clusters", "50", "--bits", "40"},
         {"--clusters", "1", "--bits", "0"},
-        {"--bytes-per-vertex", "7"}};
+        {"--clusters", "300", "--bits", "23"}};
     for (const std::vector<std::string>& way : ways) {
         std::vector<std::string> arguments = {"compress",  at("b.glb"), "-o",
                                               at("c.glb"), "--json",    at("c.json")};
@@ -125,6 +125,21 @@ TEST_F(Road, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
     }
 }
 #endif
+
+TEST_F(Road, ASweepIsAPageThatStandsAlone) {
+    triangle_file().write(folder / "t.glb");
+    ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "2"}).status, 0);
+    const Outcome evaluate =
+        prt({"evaluate", at("b.glb"), "--sweep", "--json", at("e.json"), "--html", at("e.html")});
+    ASSERT_EQ(evaluate.status, 0) << evaluate.err;
+    const auto sweep = read_json(folder / "e.json")["sweep"];
+    EXPECT_GT(sweep["equal_bytes"].size(), 3u);
+    EXPECT_GT(sweep["equal_shader_operations"].size(), 3u);
+    std::ifstream file(folder / "e.html");
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_NE(page.find("<svg"), std::string::npos);
+    EXPECT_EQ(page.find("src=\"http"), std::string::npos);
+}
 
 /// A file that gives the writer work: instances, missing normals, strips, an image beside it, sparse data.
 GlbFile demanding_file() {

@@ -81,6 +81,20 @@ TEST_P(Seams, APriceOfBordersShortensThem) {
     EXPECT_LT(with.crossing, without.crossing);
 }
 
+TEST_P(Seams, SmoothingKeepsTheMeanNumberOfComponents) {
+    const Grid grid;
+    CompressOptions options;
+    options.clusters = 30;
+    options.components = 6;
+    options.mean_components = 1.5; // some have one, others two or more: reassignment would like the latter
+    options.bits = 48;
+    options.weights = GetParam();
+    options.seam_weight = 4;
+    const CompressResult result = compress(grid.transfer, grid.areas, grid.edges, options);
+    EXPECT_LE(result.statistics.mean_components, 1.5);
+    EXPECT_GT(result.statistics.mean_components, 1.2);
+}
+
 TEST(Seams, MeshEdgesAreThoseOfTheTrianglesOnce) {
     Scene scene;
     scene.vertex_arrays.resize(2);

@@ -2,8 +2,10 @@
 
 // Rate against distortion of this compressor and of what it is measured against.
 
+#include "prt/baselines.h"
 #include "prt/compress.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,10 +36,17 @@ inline constexpr double kSweepBytes[] = {4, 5, 7, 9, 13};
 /// Components per receiver.
 inline constexpr int kSweepOps[] = {1, 2, 4, 8};
 
-/// Measures all methods under `lights`, which should be others than those that `options` compresses for.
-/// Minutes.
+/// A method that the caller brings, at one setting.
+struct SweepCandidate {
+    std::string method, setting;
+    std::function<BaselineResult()> run;
+};
+
+/// Measures all methods and `others` under `lights`, which should be others than those that `options`
+/// compresses for. Minutes.
 Sweep sweep(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-            std::span<const Light> lights, const CompressOptions& options, const Progress& progress = {});
+            std::span<const Light> lights, const CompressOptions& options,
+            std::span<const SweepCandidate> others = {}, const Progress& progress = {});
 
 /// The best point of `method` with at most `bytes` per receiver; nothing where it has none.
 const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, double bytes);

@@ -1,0 +1,60 @@
+#include "residual_vq.h"
+
+#ifdef PRTKIT_WITH_FAISS
+#include <faiss/impl/ResidualQuantizer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#endif
+
+namespace prt {
+
+#ifdef PRTKIT_WITH_FAISS
+namespace {
+
+constexpr std::size_t kRows = 256;
+constexpr std::size_t kBytesOfValue = 2; // rows as float16, as for classic CPCA
+
+BaselineResult residual_vq(const Transfer& transfer, std::size_t codebooks, std::uint64_t seed) {
+    const std::size_t dimension = transfer.dimension(), receivers = transfer.receivers();
+    faiss::ResidualQuantizer quantizer(dimension, codebooks, 8);
+    quantizer.cp.seed = static_cast<int>(seed);
+    quantizer.cp.min_points_per_centroid = 1; // small meshes are what they are: no warning
+    quantizer.train(receivers, transfer.vectors.data());
+    std::vector<std::uint8_t> codes(receivers * quantizer.code_size);
+    quantizer.compute_codes(transfer.vectors.data(), codes.data(), receivers);
+
+    BaselineResult result;
+    result.decoded = transfer;
+    quantizer.decode(codes.data(), result.decoded.vectors.data(), receivers);
+    result.payload_bytes = static_cast<double>(codebooks);
+    result.table_bytes = static_cast<double>(codebooks * kRows * dimension * kBytesOfValue);
+    result.shader_ops = static_cast<double>(codebooks);
+    return result;
+}
+
+} // namespace
+
+std::vector<SweepCandidate> residual_vq_candidates(const Transfer& transfer, std::uint64_t seed) {
+    std::vector<SweepCandidate> candidates;
+    if (transfer.receivers() < kRows)
+        return candidates;
+    const double bytes_of_codebook = 1 + static_cast<double>(kRows * transfer.dimension() * kBytesOfValue) /
+                                             static_cast<double>(transfer.receivers());
+    std::set<std::size_t> sizes;
+    for (const double bytes : kSweepBytes)
+        sizes.insert(static_cast<std::size_t>(std::max(1.0, std::floor(bytes / bytes_of_codebook))));
+    for (const std::size_t codebooks : sizes)
+        candidates.push_back(
+            {"residual VQ", std::to_string(codebooks) + " x 256",
+             [&transfer, codebooks, seed] { return residual_vq(transfer, codebooks, seed); }});
+    return candidates;
+}
+#else
+std::vector<SweepCandidate> residual_vq_candidates(const Transfer&, std::uint64_t) {
+    return {};
+}
+#endif
+
+} // namespace prt

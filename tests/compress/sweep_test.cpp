@@ -1,0 +1,64 @@
+#include "prt/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace prt {
+namespace {
+
+/// Transfer that turns over a strip of 500 receivers: two dimensions of it are smooth, the rest small.
+Transfer strip() {
+    Transfer t = zero_transfer(2, 1, 500);
+    for (std::size_t p = 0; p < t.receivers(); ++p) {
+        const float u = static_cast<float>(p) / 500;
+        t.vector(p)[0] = 1 + 0.4f * std::sin(9 * u);
+        t.vector(p)[1] = std::cos(7 * u);
+        t.vector(p)[2] = 0.3f * std::sin(40 * u);
+        t.vector(p)[3] = 0.1f * std::cos(90 * u);
+    }
+    return t;
+}
+
+TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
+    const Transfer transfer = strip();
+    const std::vector<float> areas(transfer.receivers(), 1.0f);
+    const std::vector<Light> lights = {constant_light(2, {1, 1, 1}),
+                                       directional_light(2, {0, 1, 0}, {2, 1, 1})};
+    const std::vector<SweepCandidate> others = {{"half", "as is", [&] {
+                                                     BaselineResult r;
+                                                     r.decoded = transfer;
+                                                     for (float& v : r.decoded.vectors)
+                                                         v *= 0.5f;
+                                                     r.payload_bytes = 3;
+                                                     r.shader_ops = 2;
+                                                     return r;
+                                                 }}};
+    const Sweep result = sweep(transfer, areas, {}, lights, {}, others);
+
+    const SweepPoint* half = best_by_bytes(result, "half", 3);
+    ASSERT_NE(half, nullptr);
+    EXPECT_NEAR(half->relative_l2, 0.5, 1e-6); // half of everything is missing
+    EXPECT_NEAR(half->lit_rms, 0.5, 1e-6);
+    EXPECT_EQ(best_by_bytes(result, "half", 2.9), nullptr);
+    EXPECT_NE(best_by_ops(result, "half", 2), nullptr);
+
+    for (const char* method : {"truncated SH", "plain PCA", "static CPCA", "vector quantisation", kClassic})
+        EXPECT_NE(best_by_bytes(result, method, 100), nullptr) << method;
+    for (const double bytes : kSweepBytes) {
+        const SweepPoint* ours = best_by_bytes(result, kOurs, bytes);
+        ASSERT_NE(ours, nullptr) << bytes;
+        EXPECT_LE(ours->bytes(), bytes);
+        const SweepPoint* classic = best_by_bytes(result, kClassic, bytes);
+        EXPECT_TRUE(!classic || ours->lit_rms <= classic->lit_rms) << bytes;
+    }
+    for (const SweepPoint& point : result.by_ops)
+        if (point.method == kOurs) {
+            const SweepPoint* classic = best_by_ops(result, kClassic, std::ceil(point.shader_ops));
+            ASSERT_NE(classic, nullptr);
+            EXPECT_LE(point.bytes(), classic->bytes());
+        }
+}
+
+} // namespace
+} // namespace prt
