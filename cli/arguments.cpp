@@ -16,7 +16,9 @@ const std::map<std::string, Window> kWindows = {{"none", Window::none},
                                                 {"lanczos", Window::lanczos},
                                                 {"auto", Window::automatic}};
 const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", EnvironmentLayout::lat_long},
-                                                           {"cube", EnvironmentLayout::cube}};
+                                                           {"cube", EnvironmentLayout::cube},
+                                                           {"cube-faces", EnvironmentLayout::cube_faces},
+                                                           {"angular", EnvironmentLayout::angular}};
 const std::map<std::string, BadPixels> kBadPixels = {
     {"error", BadPixels::error}, {"zero", BadPixels::zero}, {"clamp", BadPixels::clamp}};
 const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::packed},
@@ -350,7 +352,11 @@ void add_evaluate(CLI::App& app, EvaluateArguments& a) {
 
 void add_project(CLI::App& app, ProjectArguments& a) {
     CLI::App* command = app.add_subcommand("project", "Project an environment map into SH lighting");
-    command->add_option("environment", a.environment, "environment map, .exr or .hdr")->required();
+    command
+        ->add_option(
+            "environment", a.environment,
+            "environment map, .exr or .hdr; with {face} in its name six files px, nx, py, ny, pz, nz")
+        ->required();
     command->add_option("-o,--output", a.output, "light to write, .json")->required()->type_name("FILE");
     command->add_option("--order", a.order, "SH order N, 1..10")->capture_default_str();
     add_light_options(command, a.light_options);

@@ -9,6 +9,23 @@
 #include <fmt/core.h>
 
 namespace prt::cli {
+namespace {
+
+const char* layout_name(EnvironmentLayout layout) {
+    switch (layout) {
+    case EnvironmentLayout::cube:
+        return "cube";
+    case EnvironmentLayout::cube_faces:
+        return "cube-faces";
+    case EnvironmentLayout::angular:
+        return "angular";
+    case EnvironmentLayout::lat_long:
+        break;
+    }
+    return "lat-long";
+}
+
+} // namespace
 
 void run(const ProjectArguments& a, Interrupt& interrupt) {
     check_order(a.order);
@@ -26,10 +43,10 @@ void run(const ProjectArguments& a, Interrupt& interrupt) {
                    {"seconds", seconds}};
     if (loaded.environment) {
         const Environment& environment = *loaded.environment;
-        const bool cube = environment.layout == EnvironmentLayout::cube;
-        fmt::print("  from a {} image of {} x {}\n", cube ? "cube" : "lat-long", environment.image.width,
+        const char* layout = layout_name(environment.layout);
+        fmt::print("  from a {} image of {} x {}\n", layout, environment.image.width,
                    environment.image.height);
-        report["layout"] = cube ? "cube" : "lat-long";
+        report["layout"] = layout;
         report["width_pixels"] = environment.image.width;
         report["height_pixels"] = environment.image.height;
     }

@@ -1,65 +1,34 @@
 #include "prt/clustered_transfer.h"
 
-#include "prt/error.h"
+#include "prt/constant_former.h"
 #include "prt/parallel.h"
+#include "prt/vector_lanes.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cstring>
-#include <string>
 
 namespace prt {
 namespace {
 
 template <class Stored>
-Stored load(const std::byte* from) {
+[[gnu::always_inline]] inline Stored load(const std::byte* from) {
     Stored value;
     std::memcpy(&value, from, sizeof value);
     return value;
 }
 
-int width_of(const ClusterLayout& layout, std::size_t component) {
+[[gnu::always_inline]] inline int width_of(const ClusterLayout& layout, std::size_t component) {
     return 1 + static_cast<int>(layout.widths[component / 8] >> (4 * (component % 8)) & 15u);
 }
 
 /// `width` bits of `words` from bit `position` on, width <= 16.
-std::uint32_t bits_at(const std::byte* words, std::size_t position, int width) {
+[[gnu::always_inline]] inline std::uint32_t bits_at(const std::byte* words, std::size_t position, int width) {
     const std::size_t word = position / 32, shift = position % 32;
     std::uint64_t bits = load<std::uint32_t>(words + word * 4);
     if (shift + static_cast<std::size_t>(width) > 32)
         bits |= static_cast<std::uint64_t>(load<std::uint32_t>(words + word * 4 + 4)) << 32;
     return static_cast<std::uint32_t>(bits >> shift) & ((1u << width) - 1);
-}
-
-/// Calls `weight(j, stored)` for the components of a receiver: as the shader reads them, q where packed.
-template <class Weight>
-void for_each_stored(const ClusteredReceivers& receivers, const ClusterLayout& layout, std::size_t receiver,
-                     Weight&& weight) {
-    const std::byte* from = receivers.weights.data() + receiver * receivers.stride();
-    const std::size_t count = layout.components;
-    switch (receivers.format) {
-    case WeightFormat::float32:
-        for (std::size_t j = 0; j < count; ++j)
-            weight(j, load<float>(from + 4 * j));
-        break;
-    case WeightFormat::snorm16:
-        for (std::size_t j = 0; j < count; ++j)
-            weight(j, std::max(static_cast<float>(load<std::int16_t>(from + 2 * j)) / 32767.0f, -1.0f));
-        break;
-    case WeightFormat::snorm8:
-        for (std::size_t j = 0; j < count; ++j)
-            weight(j, std::max(static_cast<float>(load<std::int8_t>(from + j)) / 127.0f, -1.0f));
-        break;
-    case WeightFormat::packed:
-        auto position = static_cast<std::size_t>(receivers.cluster_bits);
-        for (std::size_t j = 0; j < count; ++j) {
-            const int width = width_of(layout, j);
-            weight(j, static_cast<float>(bits_at(from, position, width)));
-            position += static_cast<std::size_t>(width);
-        }
-        break;
-    }
 }
 
 } // namespace
@@ -85,14 +54,30 @@ std::size_t ClusteredReceivers::stride() const {
 
 void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLayout> layouts,
                     std::size_t receiver, std::span<float> weights) {
-    const ClusterLayout& layout = layouts[transfer.receivers.clusters[receiver]];
-    for_each_stored(transfer.receivers, layout, receiver,
-                    [&](std::size_t j, float stored) { weights[j] = stored; });
-    if (transfer.receivers.format == WeightFormat::packed)
-        for (std::size_t j = 0; j < layout.components; ++j) {
-            const auto largest = static_cast<float>((1u << width_of(layout, j)) - 1);
-            weights[j] = (2 * weights[j] - largest) / largest;
+    const ClusteredReceivers& receivers = transfer.receivers;
+    const ClusterLayout& layout = layouts[receivers.clusters[receiver]];
+    const std::byte* from = receivers.weights.data() + receiver * receivers.stride();
+    auto position = static_cast<std::size_t>(receivers.cluster_bits);
+    for (std::size_t j = 0; j < layout.components; ++j) {
+        switch (receivers.format) {
+        case WeightFormat::float32:
+            weights[j] = load<float>(from + 4 * j);
+            break;
+        case WeightFormat::snorm16:
+            weights[j] = std::max(static_cast<float>(load<std::int16_t>(from + 2 * j)) / 32767.0f, -1.0f);
+            break;
+        case WeightFormat::snorm8:
+            weights[j] = std::max(static_cast<float>(load<std::int8_t>(from + j)) / 127.0f, -1.0f);
+            break;
+        case WeightFormat::packed: {
+            const int width = width_of(layout, j);
+            const auto largest = static_cast<float>((1u << width) - 1);
+            weights[j] = (2 * static_cast<float>(bits_at(from, position, width)) - largest) / largest;
+            position += static_cast<std::size_t>(width);
+            break;
         }
+        }
+    }
 }
 
 void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& layout,
@@ -132,34 +117,106 @@ std::size_t constant_rows(const ClusteredBases& bases) {
 }
 
 void form_constants(const ClusteredTransfer& transfer, const Light& light, std::span<glm::vec4> constants) {
-    const ClusteredBases& bases = transfer.bases;
-    if (light.order > bases.order)
-        return form_constants(transfer, truncated(light, bases.order), constants);
-    if (light.order < bases.order)
-        throw Error("the lighting has order " + std::to_string(light.order) + ", the transfer order " +
-                    std::to_string(bases.order));
-    const bool packed = transfer.receivers.format == WeightFormat::packed;
-    const float* row = bases.rows.data();
-    const std::uint8_t* bits = bases.bits.data();
-    glm::vec4* to = constants.data();
-    const auto next = [&] {
-        const glm::vec4 value(exit_radiance({row, bases.dimension()}, bases.channels, light), 0);
-        row += bases.dimension();
-        return value;
-    };
-    for (const int components : bases.components) {
-        glm::vec4& mean = *to++ = next();
-        for (int j = 0; j < components; ++j) {
-            glm::vec4 value = next();
-            if (packed) { // w = 2 q / largest - 1
-                mean -= value;
-                value *= 2 / static_cast<float>((1u << *bits++) - 1);
-            }
-            *to++ = value;
-        }
-    }
-    assert(to <= constants.data() + constants.size());
+    ConstantFormer(transfer).form(light.coefficients, constants);
 }
+
+namespace {
+
+using Colour [[gnu::vector_size(16)]] = float;
+using ColourInMemory [[gnu::vector_size(16), gnu::aligned(4), gnu::may_alias]] = float;
+
+[[gnu::always_inline]] inline Colour colour_at(const glm::vec4* row) {
+    return *reinterpret_cast<const ColourInMemory*>(row);
+}
+
+using FourColours [[gnu::vector_size(64)]] = float;
+using FourColoursInMemory [[gnu::vector_size(64), gnu::aligned(4), gnu::may_alias]] = float;
+
+/// sum_j stored_j row_j for normalised integers, eight at a time; `Limit` is what stands for 1.
+template <class Stored, int Limit>
+[[gnu::always_inline]] inline Colour sum_of_integers(const std::byte* from, std::size_t count,
+                                                     const glm::vec4* rows) {
+    using Eight [[gnu::vector_size(8 * sizeof(Stored))]] = Stored;
+    using EightInts [[gnu::vector_size(32)]] = std::int32_t;
+    using EightFloats [[gnu::vector_size(32)]] = float;
+    FourColours four = {};
+    std::size_t j = 0;
+    for (; j + 8 <= count; j += 8) {
+        Eight stored;
+        std::memcpy(&stored, from + j * sizeof(Stored), sizeof stored);
+        EightInts wide = __builtin_convertvector(stored, EightInts);
+        wide = wide < -Limit ? EightInts{} - Limit : wide;
+        const EightFloats w = __builtin_convertvector(wide, EightFloats);
+        const auto* row = reinterpret_cast<const FourColoursInMemory*>(rows + j);
+        four += __builtin_shufflevector(w, w, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3) * row[0];
+        four += __builtin_shufflevector(w, w, 4, 4, 4, 4, 5, 5, 5, 5, 6, 6, 6, 6, 7, 7, 7, 7) * row[1];
+    }
+    const EightFloats two = __builtin_shufflevector(four, four, 0, 1, 2, 3, 4, 5, 6, 7) +
+                            __builtin_shufflevector(four, four, 8, 9, 10, 11, 12, 13, 14, 15);
+    Colour sum =
+        __builtin_shufflevector(two, two, 0, 1, 2, 3) + __builtin_shufflevector(two, two, 4, 5, 6, 7);
+    for (; j < count; ++j)
+        sum += static_cast<float>(std::max<int>(load<Stored>(from + j * sizeof(Stored)), -Limit)) *
+               colour_at(rows + j);
+    return sum * (1.0f / static_cast<float>(Limit));
+}
+
+template <WeightFormat Format>
+[[gnu::always_inline]] inline Colour sum_of_weights(const ClusteredReceivers& receivers,
+                                                    const ClusterLayout& layout, const std::byte* from,
+                                                    const glm::vec4* rows) {
+    if constexpr (Format == WeightFormat::snorm8)
+        return sum_of_integers<std::int8_t, 127>(from, layout.components, rows);
+    if constexpr (Format == WeightFormat::snorm16)
+        return sum_of_integers<std::int16_t, 32767>(from, layout.components, rows);
+    Colour sum = {};
+    auto position = static_cast<std::size_t>(receivers.cluster_bits);
+    for (std::size_t j = 0; j < layout.components; ++j) {
+        float stored;
+        if constexpr (Format == WeightFormat::packed) {
+            const int width = width_of(layout, j);
+            stored = static_cast<float>(bits_at(from, position, width));
+            position += static_cast<std::size_t>(width);
+        } else {
+            stored = load<float>(from + 4 * j);
+        }
+        sum += stored * colour_at(rows + j);
+    }
+    return sum;
+}
+
+template <WeightFormat Format>
+[[gnu::always_inline]] inline void evaluate_format(const ClusteredReceivers& receivers,
+                                                   const ClusterLayout* layouts, const glm::vec4* constants,
+                                                   std::size_t begin, std::size_t end, glm::vec3* radiance) {
+    const std::size_t stride = receivers.stride();
+    const std::uint16_t* clusters = receivers.clusters.data();
+    const std::byte* weights = receivers.weights.data();
+    for (std::size_t p = begin; p < end; ++p) {
+        const ClusterLayout& layout = layouts[clusters[p]];
+        const glm::vec4* row = constants + layout.first_row;
+        const Colour sum =
+            colour_at(row) + sum_of_weights<Format>(receivers, layout, weights + p * stride, row + 1);
+        radiance[p] = {sum[0], sum[1], sum[2]};
+    }
+}
+
+PRT_TARGET_CLONES
+void evaluate_range(const ClusteredReceivers& receivers, const ClusterLayout* layouts,
+                    const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
+    switch (receivers.format) {
+    case WeightFormat::snorm8:
+        return evaluate_format<WeightFormat::snorm8>(receivers, layouts, constants, begin, end, radiance);
+    case WeightFormat::snorm16:
+        return evaluate_format<WeightFormat::snorm16>(receivers, layouts, constants, begin, end, radiance);
+    case WeightFormat::float32:
+        return evaluate_format<WeightFormat::float32>(receivers, layouts, constants, begin, end, radiance);
+    case WeightFormat::packed:
+        return evaluate_format<WeightFormat::packed>(receivers, layouts, constants, begin, end, radiance);
+    }
+}
+
+} // namespace
 
 void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> constants,
               std::span<glm::vec3> radiance, int threads) {
@@ -167,14 +224,7 @@ void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> cons
     const ClusteredReceivers& receivers = transfer.receivers;
     assert(radiance.size() >= receivers.size());
     parallel_for(receivers.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p) {
-            const ClusterLayout& layout = layouts[receivers.clusters[p]];
-            const glm::vec4* row = &constants[layout.first_row];
-            glm::vec4 sum = row[0];
-            for_each_stored(receivers, layout, p,
-                            [&](std::size_t j, float stored) { sum += stored * row[1 + j]; });
-            radiance[p] = glm::vec3(sum);
-        }
+        evaluate_range(receivers, layouts.data(), constants.data(), begin, end, radiance.data());
     });
 }
 

@@ -28,7 +28,7 @@ struct CubeFace {
     glm::dvec3 outward, right, down;
 };
 
-constexpr std::array<CubeFace, 6> kCubeFaces = {{
+constexpr std::array<CubeFace, 6> kExrFaces = {{
     {{1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
     {{-1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
     {{0, 1, 0}, {1, 0, 0}, {0, 0, -1}},
@@ -37,28 +37,61 @@ constexpr std::array<CubeFace, 6> kCubeFaces = {{
     {{0, 0, -1}, {1, 0, 0}, {0, -1, 0}},
 }};
 
+constexpr std::array<CubeFace, 6> kApiFaces = {{
+    {{1, 0, 0}, {0, 0, -1}, {0, -1, 0}},
+    {{-1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+    {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
+    {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
+    {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},
+    {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}},
+}};
+
 /// Four bilinear taps and their weights.
 glm::vec3 bilinear(const Image& image, int x0, int x1, int y0, int y1, float u, float v) {
     return (image.at(x0, y0) * (1 - u) + image.at(x1, y0) * u) * (1 - v) +
            (image.at(x0, y1) * (1 - u) + image.at(x1, y1) * u) * v;
 }
 
-glm::vec3 sample_cube(const Image& image, const glm::vec3& direction) {
-    const glm::dvec3 d(direction);
-    int face = 0;
-    for (int f = 1; f < 6; ++f)
-        if (glm::dot(d, kCubeFaces[static_cast<std::size_t>(f)].outward) >
-            glm::dot(d, kCubeFaces[static_cast<std::size_t>(face)].outward))
-            face = f;
-    const CubeFace& f = kCubeFaces[static_cast<std::size_t>(face)];
-    const double depth = glm::dot(d, f.outward);
-    const int last = image.width - 1;
-    const double x = std::clamp((glm::dot(d, f.right) / depth + 1) * 0.5 * last, 0.0, double(last));
-    const double y = std::clamp((glm::dot(d, f.down) / depth + 1) * 0.5 * last, 0.0, double(last));
+/// Bilinear within the square of `size` texels whose first row is `top`, at the position (x, y) in units of
+/// texels whose centres are integers; beyond the border the border goes on.
+glm::vec3 sample_square(const Image& image, int top, int size, double x, double y) {
+    const int last = size - 1;
+    x = std::clamp(x, 0.0, double(last));
+    y = std::clamp(y, 0.0, double(last));
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
-    const int top = face * image.width;
     return bilinear(image, x0, std::min(x0 + 1, last), top + y0, top + std::min(y0 + 1, last),
                     static_cast<float>(x - x0), static_cast<float>(y - y0));
+}
+
+glm::vec3 sample_cube(const Image& image, EnvironmentLayout layout, const glm::vec3& direction) {
+    const auto& faces = layout == EnvironmentLayout::cube ? kExrFaces : kApiFaces;
+    const glm::dvec3 d(direction);
+    std::size_t face = 0;
+    for (std::size_t f = 1; f < 6; ++f)
+        if (glm::dot(d, faces[f].outward) > glm::dot(d, faces[face].outward))
+            face = f;
+    const CubeFace& f = faces[face];
+    const double depth = glm::dot(d, f.outward);
+    const auto position = [&](const glm::dvec3& axis) {
+        const double share = (glm::dot(d, axis) / depth + 1) * 0.5;
+        return layout == EnvironmentLayout::cube ? share * (image.width - 1) : share * image.width - 0.5;
+    };
+    return sample_square(image, static_cast<int>(face) * image.width, image.width, position(f.right),
+                         position(f.down));
+}
+
+glm::vec3 sample_angular(const Image& image, const glm::vec3& direction) {
+    const double angle = std::acos(std::clamp(-static_cast<double>(direction.z), -1.0, 1.0));
+    const double off_axis = std::hypot(direction.x, direction.y);
+    const double factor = off_axis > 0 ? angle / kPi / off_axis : 0;
+    const double u = factor * static_cast<double>(direction.x),
+                 v = -factor * static_cast<double>(direction.y);
+    return sample_square(image, 0, image.width, (u + 1) * 0.5 * image.width - 0.5,
+                         (v + 1) * 0.5 * image.height - 0.5);
+}
+
+glm::dvec3 direction_on(const CubeFace& f, double u, double v) {
+    return glm::normalize(f.outward + u * f.right + v * f.down);
 }
 
 } // namespace
@@ -108,8 +141,17 @@ glm::dvec2 lat_long_position(int width, int height, const glm::dvec3& direction)
 }
 
 glm::dvec3 cube_direction(int face, double u, double v) {
-    const CubeFace& f = kCubeFaces[static_cast<std::size_t>(face)];
-    return glm::normalize(f.outward + u * f.right + v * f.down);
+    return direction_on(kExrFaces[static_cast<std::size_t>(face)], u, v);
+}
+
+glm::dvec3 cube_face_direction(int face, double u, double v) {
+    return direction_on(kApiFaces[static_cast<std::size_t>(face)], u, v);
+}
+
+glm::dvec3 angular_direction(double u, double v) {
+    const double distance = std::hypot(u, v), angle = kPi * distance;
+    const double factor = distance > 0 ? std::sin(angle) / distance : kPi;
+    return {factor * u, -factor * v, -std::cos(angle)};
 }
 
 glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction) {
@@ -123,15 +165,25 @@ glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction) {
 }
 
 glm::vec3 sample(const Environment& environment, const glm::vec3& direction) {
-    return environment.layout == EnvironmentLayout::cube ? sample_cube(environment.image, direction)
-                                                         : sample_lat_long(environment.image, direction);
+    switch (environment.layout) {
+    case EnvironmentLayout::cube:
+    case EnvironmentLayout::cube_faces:
+        return sample_cube(environment.image, environment.layout, direction);
+    case EnvironmentLayout::angular:
+        return sample_angular(environment.image, direction);
+    case EnvironmentLayout::lat_long:
+        break;
+    }
+    return sample_lat_long(environment.image, direction);
 }
 
 Image resampled_lat_long(const Environment& environment) {
     if (environment.layout == EnvironmentLayout::lat_long)
         return environment.image;
-    const int height =
-        2 * environment.image.width; // a face spans a quarter turn, the image's height half a turn
+    // A face of a cube spans a quarter turn, an angular map a whole one, the result's height half of one.
+    const int height = environment.layout == EnvironmentLayout::angular
+                           ? std::max(1, environment.image.width / 2)
+                           : 2 * environment.image.width;
     Image result{2 * height, height, {}};
     result.pixels.resize(static_cast<std::size_t>(2 * height) * static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y)

@@ -2,6 +2,7 @@
 
 #include "prt/error.h"
 #include "prt/sh.h"
+#include "prt/sh_rotation.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -23,9 +24,12 @@ namespace {
 Light zonal_light(int order, const glm::vec3& axis, const glm::vec3& scale,
                   const std::function<double(int)>& zonal) {
     check_order(order);
+    const double length = glm::length(glm::dvec3(axis));
+    if (!(length > 0 && std::isfinite(length)))
+        throw Error("a light needs a direction, not a vector of length " + std::to_string(length));
     Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)))};
     std::array<double, kMaxOrder * kMaxOrder> basis{};
-    evaluate_sh(order, glm::normalize(glm::dvec3(axis)), std::span<double>(basis));
+    evaluate_sh(order, glm::dvec3(axis) / length, std::span<double>(basis));
     for (int l = 0; l < order; ++l) {
         const double factor = zonal(l);
         for (int m = -l; m <= l; ++m) {
@@ -111,15 +115,69 @@ Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm:
     });
 }
 
+Light hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom) {
+    return sum(constant_light(order, 0.5f * (top + bottom)),
+               zonal_light(order, up, 0.5f * (top - bottom), [](int l) { return l == 1 ? 4 * kPi / 3 : 0; }));
+}
+
+Light sphere_light(int order, const glm::vec3& centre, double radius, const glm::vec3& radiance) {
+    const double distance = glm::length(glm::dvec3(centre));
+    if (!(radius > 0))
+        throw Error("the radius of a spherical light must be positive");
+    if (!(distance > radius))
+        throw Error("the receiver is inside the spherical light: distance " + std::to_string(distance) +
+                    ", radius " + std::to_string(radius));
+    return cone_light(order, centre, std::asin(radius / distance), radiance);
+}
+
 Light overcast_sky(int order, const glm::vec3& zenith) {
     // (1 + 2 t) / 3 on the upper hemisphere: a third of the half-sphere cone and two thirds of the clamped
     // cosine.
-    const Light dome = cone_light(order, {0, 1, 0}, kPi / 2, zenith / 3.0f);
-    Light sky = zonal_light(order, {0, 1, 0}, zenith * (2.0f / 3.0f),
-                            [](int l) { return kPi * clamped_cosine_factor(l); });
-    for (std::size_t i = 0; i < sky.coefficients.size(); ++i)
-        sky.coefficients[i] += dome.coefficients[i];
-    return sky;
+    return sum(cone_light(order, {0, 1, 0}, kPi / 2, zenith / 3.0f),
+               zonal_light(order, {0, 1, 0}, zenith * (2.0f / 3.0f),
+                           [](int l) { return kPi * clamped_cosine_factor(l); }));
+}
+
+Light scaled_to_exit_radiance(const Light& light, const glm::vec3& normal, const glm::vec3& exit_radiance) {
+    std::array<double, kMaxOrder * kMaxOrder> lobe{};
+    clamped_cosine_lobe(light.order, glm::dvec3(normal), std::span<double>(lobe));
+    glm::dvec3 now(0);
+    for (std::size_t i = 0; i < light.coefficients.size(); ++i)
+        now += lobe[i] * glm::dvec3(light.coefficients[i]);
+    Light result = light;
+    for (int c = 0; c < 3; ++c) {
+        if (!(now[c] > 0))
+            throw Error("the light does not reach a receiver of that normal: it cannot be scaled");
+        for (glm::vec3& v : result.coefficients)
+            v[c] *= static_cast<float>(static_cast<double>(exit_radiance[c]) / now[c]);
+    }
+    return result;
+}
+
+namespace {
+
+void check_same_order(const Light& a, const Light& b) {
+    if (a.order != b.order)
+        throw Error("lightings of orders " + std::to_string(a.order) + " and " + std::to_string(b.order) +
+                    " do not go together");
+}
+
+} // namespace
+
+Light sum(const Light& a, const Light& b) {
+    check_same_order(a, b);
+    Light result = a;
+    for (std::size_t i = 0; i < result.coefficients.size(); ++i)
+        result.coefficients[i] += b.coefficients[i];
+    return result;
+}
+
+Light blended(const Light& a, const Light& b, float share) {
+    check_same_order(a, b);
+    Light result = a;
+    for (std::size_t i = 0; i < result.coefficients.size(); ++i)
+        result.coefficients[i] += share * (b.coefficients[i] - a.coefficients[i]);
+    return result;
 }
 
 glm::vec3 radiance(const Light& light, const glm::vec3& direction) {
@@ -141,8 +199,7 @@ Light truncated(const Light& light, int order) {
 
 Light rotated_about_y(const Light& light, double angle) {
     Light result = light;
-    const glm::dmat3 turn(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)));
-    ShRotation(light.order, turn).apply(result.coefficients);
+    ShRotation::about_y(light.order, angle).apply(result.coefficients);
     return result;
 }
 

@@ -5,10 +5,12 @@
 // 2N-1 instead of N² multiply-adds per pixel and channel. The image's pole is +Y and the basis's is +Z, hence
 // one exact rotation at the end.
 
+#include "gauss_legendre.h"
 #include "prt/environment.h"
 #include "prt/error.h"
 #include "prt/parallel.h"
 #include "prt/sh.h"
+#include "prt/sh_rotation.h"
 
 #include <glm/geometric.hpp>
 
@@ -23,33 +25,6 @@ using detail::kPi;
 namespace {
 
 using Coefficients = std::array<glm::dvec3, kMaxOrder * kMaxOrder>;
-
-/// Nodes and weights of Gauss-Legendre quadrature on [-1, 1], by Newton's method on P_n.
-struct Quadrature {
-    std::vector<double> nodes, weights;
-
-    explicit Quadrature(int n) {
-        for (int i = 0; i < n; ++i) {
-            double t = std::cos(kPi * (i + 0.75) / (n + 0.5));
-            double derivative = 0;
-            for (int iteration = 0; iteration < 100; ++iteration) {
-                double previous = 1, current = t;
-                for (int l = 2; l <= n; ++l) {
-                    const double next = ((2 * l - 1) * t * current - (l - 1) * previous) / l;
-                    previous = current;
-                    current = next;
-                }
-                derivative = n * (t * current - previous) / (t * t - 1);
-                const double step = current / derivative;
-                t -= step;
-                if (std::abs(step) < 1e-16)
-                    break;
-            }
-            nodes.push_back(t);
-            weights.push_back(2 / ((1 - t * t) * derivative * derivative));
-        }
-    }
-};
 
 /// How many quadrature points a texel that spans `angle` radians needs: over half a sphere 24 points
 /// integrate order 10 to rounding, over small texels 3 leave an error of order angle^7.
@@ -105,7 +80,7 @@ RowFourier row_fourier(const Image& image, int y, int order, const ColumnTables&
 /// ∫ over the row of Q_l^m(cos theta) sin^m(theta) sin(theta) dtheta, at [sh_index(l, m)], m >= 0: the basis
 /// at azimuth 0 holds the Legendre part.
 std::array<double, kMaxOrder * kMaxOrder> row_legendre(int order, double theta0, double theta1,
-                                                       const Quadrature& quadrature) {
+                                                       const GaussLegendre& quadrature) {
     std::array<double, kMaxOrder * kMaxOrder> sum{}, basis{};
     for (std::size_t q = 0; q < quadrature.nodes.size(); ++q) {
         const double theta = 0.5 * (theta0 + theta1) + 0.5 * (theta1 - theta0) * quadrature.nodes[q];
@@ -119,7 +94,7 @@ std::array<double, kMaxOrder * kMaxOrder> row_legendre(int order, double theta0,
 
 Coefficients project_lat_long(const Image& image, int order, int threads) {
     const ColumnTables tables(order, image.width);
-    const Quadrature quadrature(points_for(kPi / image.height));
+    const GaussLegendre quadrature(points_for(kPi / image.height));
     const auto height = static_cast<std::size_t>(image.height);
     std::vector<Coefficients> rows(height);
     parallel_for(height, 8, threads, [&](std::size_t begin, std::size_t end) {
@@ -159,56 +134,116 @@ Coefficients project_lat_long(const Image& image, int order, int threads) {
     return result;
 }
 
-/// The part of a cube texel's cell that lies on the face, along one axis, in face coordinates [-1, 1].
+/// A stretch along one axis, in coordinates [-1, 1] of a face or an image.
 struct Cell {
     double begin, end;
+
+    double at(double node) const { return 0.5 * (begin + end + (end - begin) * node); }
+    double half() const { return 0.5 * (end - begin); }
 };
 
-Cell cube_cell(int size, int i) {
+Cell even_cell(int size, int i) {
+    return {2.0 * i / size - 1, 2.0 * (i + 1) / size - 1};
+}
+
+/// The part of a texel's cell that lies on the face, where border texels are centred on the border.
+Cell centred_cell(int size, int i) {
     if (size == 1)
         return {-1, 1};
     const double half = 1.0 / (size - 1), centre = 2.0 * i / (size - 1) - 1;
     return {std::max(-1.0, centre - half), std::min(1.0, centre + half)};
 }
 
-Coefficients project_cube(const Image& image, int order, int threads) {
-    const int size = image.width;
-    const Quadrature quadrature(points_for(2.0 / size));
+/// Sum over the texels of an image of their colour times the basis integrated over them, which
+/// `integrate(x, row, texel)` adds to `texel` [order²].
+template <class Integrate>
+Coefficients project_texels(const Image& image, int order, int threads, Integrate&& integrate) {
     const auto height = static_cast<std::size_t>(image.height);
     const auto count = static_cast<std::size_t>(coefficient_count(order));
     std::vector<Coefficients> rows(height);
     parallel_for(height, 4, threads, [&](std::size_t begin, std::size_t end) {
-        std::array<double, kMaxOrder * kMaxOrder> basis{}, texel{};
-        for (std::size_t row = begin; row < end; ++row) {
-            const int face = static_cast<int>(row) / size;
-            const Cell v = cube_cell(size, static_cast<int>(row) % size);
-            for (int x = 0; x < size; ++x) {
-                const Cell u = cube_cell(size, x);
+        std::array<double, kMaxOrder * kMaxOrder> texel{};
+        for (std::size_t row = begin; row < end; ++row)
+            for (int x = 0; x < image.width; ++x) {
                 texel.fill(0);
-                for (std::size_t i = 0; i < quadrature.nodes.size(); ++i) {
-                    for (std::size_t j = 0; j < quadrature.nodes.size(); ++j) {
-                        const double s = 0.5 * (u.begin + u.end + (u.end - u.begin) * quadrature.nodes[i]);
-                        const double t = 0.5 * (v.begin + v.end + (v.end - v.begin) * quadrature.nodes[j]);
-                        const double area = 0.25 * (u.end - u.begin) * (v.end - v.begin) *
-                                            quadrature.weights[i] * quadrature.weights[j];
-                        // Solid angle of a patch of the face at distance sqrt(1 + s² + t²).
-                        const double weight = area / std::pow(1 + s * s + t * t, 1.5);
-                        evaluate_sh(order, cube_direction(face, s, t), std::span<double>(basis));
-                        for (std::size_t k = 0; k < count; ++k)
-                            texel[k] += weight * basis[k];
-                    }
-                }
+                integrate(x, static_cast<int>(row), texel);
                 const glm::dvec3 pixel(image.at(x, static_cast<int>(row)));
                 for (std::size_t k = 0; k < count; ++k)
                     rows[row][k] += pixel * texel[k];
             }
-        }
     });
     Coefficients result{};
     for (const Coefficients& row : rows)
         for (std::size_t i = 0; i < result.size(); ++i)
             result[i] += row[i];
     return result;
+}
+
+using Texel = std::array<double, kMaxOrder * kMaxOrder>;
+
+void add_point(int order, const glm::dvec3& direction, double weight, Texel& texel) {
+    std::array<double, kMaxOrder * kMaxOrder> basis{};
+    evaluate_sh(order, direction, std::span<double>(basis));
+    for (std::size_t k = 0; k < static_cast<std::size_t>(coefficient_count(order)); ++k)
+        texel[k] += weight * basis[k];
+}
+
+Coefficients project_cube(const Environment& environment, int order, int threads) {
+    const Image& image = environment.image;
+    const int size = image.width;
+    const bool exr = environment.layout == EnvironmentLayout::cube;
+    const GaussLegendre quadrature(points_for(2.0 / size));
+    return project_texels(image, order, threads, [&](int x, int row, Texel& texel) {
+        const int face = row / size;
+        const Cell u = exr ? centred_cell(size, x) : even_cell(size, x),
+                   v = exr ? centred_cell(size, row % size) : even_cell(size, row % size);
+        for (std::size_t i = 0; i < quadrature.nodes.size(); ++i)
+            for (std::size_t j = 0; j < quadrature.nodes.size(); ++j) {
+                const double s = u.at(quadrature.nodes[i]), t = v.at(quadrature.nodes[j]);
+                const double area = u.half() * v.half() * quadrature.weights[i] * quadrature.weights[j];
+                // Solid angle of a patch of the face at distance sqrt(1 + s² + t²).
+                add_point(order, exr ? cube_direction(face, s, t) : cube_face_direction(face, s, t),
+                          area / std::pow(1 + s * s + t * t, 1.5), texel);
+            }
+    });
+}
+
+/// Texels on the rim count as far as they lie inside it: of each of their rows the stretch within the circle.
+Coefficients project_angular(const Image& image, int order, int threads) {
+    const int size = image.width;
+    const GaussLegendre inner(points_for(2 * kPi / size)), rim(24);
+    return project_texels(image, order, threads, [&](int x, int row, Texel& texel) {
+        const Cell u = even_cell(size, x), v = even_cell(size, row);
+        const double far_u = std::max(std::abs(u.begin), std::abs(u.end)),
+                     far_v = std::max(std::abs(v.begin), std::abs(v.end));
+        const GaussLegendre& quadrature = far_u * far_u + far_v * far_v <= 1 ? inner : rim;
+        for (std::size_t j = 0; j < quadrature.nodes.size(); ++j) {
+            const double t = v.at(quadrature.nodes[j]), reach = std::sqrt(std::max(0.0, 1 - t * t));
+            const Cell chord{std::max(u.begin, -reach), std::min(u.end, reach)};
+            if (!(chord.begin < chord.end))
+                continue;
+            for (std::size_t i = 0; i < quadrature.nodes.size(); ++i) {
+                const double s = chord.at(quadrature.nodes[i]), r = std::hypot(s, t);
+                const double area = chord.half() * v.half() * quadrature.weights[i] * quadrature.weights[j];
+                // Solid angle: sin(pi r) pi dr dalpha, over r dr dalpha of the image.
+                add_point(order, angular_direction(s, t), area * kPi * (r > 0 ? std::sin(kPi * r) / r : kPi),
+                          texel);
+            }
+        }
+    });
+}
+
+Coefficients project_layout(const Environment& environment, int order, int threads) {
+    switch (environment.layout) {
+    case EnvironmentLayout::cube:
+    case EnvironmentLayout::cube_faces:
+        return project_cube(environment, order, threads);
+    case EnvironmentLayout::angular:
+        return project_angular(environment.image, order, threads);
+    case EnvironmentLayout::lat_long:
+        break;
+    }
+    return project_lat_long(environment.image, order, threads);
 }
 
 } // namespace
@@ -218,9 +253,7 @@ Light project(const Environment& environment, int order, int threads) {
     const Image& image = environment.image;
     if (image.width < 1 || image.height < 1)
         throw Error("the environment has no pixels");
-    const Coefficients coefficients = environment.layout == EnvironmentLayout::cube
-                                          ? project_cube(image, order, threads)
-                                          : project_lat_long(image, order, threads);
+    const Coefficients coefficients = project_layout(environment, order, threads);
     Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)))};
     for (std::size_t i = 0; i < light.coefficients.size(); ++i)
         light.coefficients[i] = glm::vec3(coefficients[i]);

@@ -1,6 +1,7 @@
 #include "prt/sh.h"
 
 #include "prt/error.h"
+#include "prt/vector_lanes.h"
 
 #include <cassert>
 #include <cmath>
@@ -18,20 +19,64 @@ void check_order(int order) {
 namespace {
 
 template <class Vector, class Real>
-void evaluate(int order, const Vector& direction, std::span<Real> basis) {
+[[gnu::always_inline]] inline void evaluate(int order, const Vector& direction, std::span<Real> basis) {
     assert(basis.size() >= static_cast<std::size_t>(coefficient_count(order)));
-    with_order(order,
-               [&]<int Order>() { sh_basis<Order>(direction.x, direction.y, direction.z, basis.data()); });
+    with_order(
+        order, [&]<int Order>() __attribute__((always_inline)) {
+            sh_basis<Order>(direction.x, direction.y, direction.z, basis.data());
+        });
 }
 
 } // namespace
 
+PRT_TARGET_CLONES
 void evaluate_sh(int order, const glm::vec3& direction, std::span<float> basis) {
     evaluate(order, direction, basis);
 }
 
 void evaluate_sh(int order, const glm::dvec3& direction, std::span<double> basis) {
     evaluate(order, direction, basis);
+}
+
+namespace {
+
+/// Up to kLaneCount directions from `first` on; the values of each coefficient go `stride` apart.
+template <int Order>
+[[gnu::always_inline]] inline void evaluate_lanes(const glm::vec3* directions, std::size_t count,
+                                                  float* basis, std::size_t stride) {
+    Lanes x{}, y{}, z{}, values[coefficient_count(Order)];
+    for (std::size_t lane = 0; lane < count; ++lane) {
+        x[lane] = directions[lane].x;
+        y[lane] = directions[lane].y;
+        z[lane] = directions[lane].z;
+    }
+    sh_basis<Order>(x, y, z, values);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(coefficient_count(Order)); ++i) {
+        if (count == kLaneCount)
+            *reinterpret_cast<LanesInMemory*>(basis + i * stride) = values[i];
+        else
+            for (std::size_t lane = 0; lane < count; ++lane)
+                basis[i * stride + lane] = values[i][lane];
+    }
+}
+
+PRT_TARGET_CLONES
+void evaluate_many(int order, const glm::vec3* directions, std::size_t count, float* basis) {
+    with_order(
+        order, [&]<int Order>() __attribute__((always_inline)) {
+            std::size_t first = 0;
+            for (; first + kLaneCount <= count; first += kLaneCount)
+                evaluate_lanes<Order>(directions + first, kLaneCount, basis + first, count);
+            if (first < count)
+                evaluate_lanes<Order>(directions + first, count - first, basis + first, count);
+        });
+}
+
+} // namespace
+
+void evaluate_sh(int order, std::span<const glm::vec3> directions, std::span<float> basis) {
+    assert(basis.size() >= directions.size() * static_cast<std::size_t>(coefficient_count(order)));
+    evaluate_many(order, directions.data(), directions.size(), basis.data());
 }
 
 double clamped_cosine_factor(int l) {

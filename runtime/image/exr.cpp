@@ -176,7 +176,7 @@ void write_exr(const std::filesystem::path& path, const Image& image,
     try {
         Imf::Header header(image.width, image.height);
         header.compression() = Imf::ZIP_COMPRESSION;
-        if (layout)
+        if (layout == EnvironmentLayout::cube || layout == EnvironmentLayout::lat_long)
             Imf::addEnvmap(header,
                            *layout == EnvironmentLayout::cube ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
         for (const char* name : {"R", "G", "B"})

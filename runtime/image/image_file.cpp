@@ -83,11 +83,17 @@ Image read_hdr(std::span<const std::byte> file) {
     return image;
 }
 
+[[noreturn]] void wrong_shape(const Image& image, const std::string& what) {
+    throw Error("is " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels, but " +
+                what);
+}
+
 EnvironmentLayout layout_of(const Image& image, std::optional<EnvironmentLayout> stated) {
     const bool cube_shaped = image.height == 6 * image.width;
-    if (stated == EnvironmentLayout::cube && !cube_shaped)
-        throw Error("is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
-                    " pixels, but a cube map has six square faces in a column");
+    if ((stated == EnvironmentLayout::cube || stated == EnvironmentLayout::cube_faces) && !cube_shaped)
+        wrong_shape(image, "a cube map has six square faces in a column");
+    if (stated == EnvironmentLayout::angular && image.width != image.height)
+        wrong_shape(image, "an angular map is square");
     if (stated)
         return *stated;
     if (image.width == 2 * image.height)
@@ -100,25 +106,54 @@ EnvironmentLayout layout_of(const Image& image, std::optional<EnvironmentLayout>
         "square faces in a column; --env-layout says what it is)");
 }
 
+/// An image, and what it says about its layout.
+ExrFile read_any(const std::filesystem::path& path) {
+    if (is_exr(path))
+        return read_exr(path);
+    const std::vector<std::byte> hdr = read_file(path);
+    if (!starts_with(hdr, "#?"))
+        throw Error(path.string() + ": is neither an OpenEXR nor a Radiance HDR image");
+    try {
+        return {read_hdr(hdr), {}};
+    } catch (const Error& error) {
+        throw Error(path.string() + ": " + error.what());
+    }
+}
+
+constexpr std::string_view kFaceMark = "{face}";
+
+/// The six faces of a cube map, of one size, in a column.
+Image read_faces(const std::string& pattern) {
+    Image column;
+    for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"}) {
+        std::string path = pattern;
+        path.replace(path.find(kFaceMark), kFaceMark.size(), face);
+        const Image image = read_any(path).image;
+        if (image.width != image.height || (column.width != 0 && image.width != column.width))
+            throw Error(path + ": is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                        " pixels, but the faces of a cube map are squares of one size");
+        column.width = image.width;
+        column.height += image.height;
+        column.pixels.insert(column.pixels.end(), image.pixels.begin(), image.pixels.end());
+    }
+    return column;
+}
+
 } // namespace
 
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options) {
     EnvironmentFile result;
     std::optional<EnvironmentLayout> layout = options.layout;
-    std::vector<std::byte> hdr;
-    if (is_exr(path)) {
-        ExrFile exr = read_exr(path);
-        result.environment.image = std::move(exr.image);
-        if (!layout)
-            layout = exr.layout;
+    if (path.string().find(kFaceMark) != std::string::npos) {
+        result.environment.image = read_faces(path.string());
+        layout = layout.value_or(EnvironmentLayout::cube_faces);
     } else {
-        hdr = read_file(path);
-        if (!starts_with(hdr, "#?"))
-            throw Error(path.string() + ": is neither an OpenEXR nor a Radiance HDR image");
+        ExrFile file = read_any(path);
+        result.environment.image = std::move(file.image);
+        if (!layout)
+            layout = file.layout;
     }
     try {
-        if (!hdr.empty())
-            result.environment.image = read_hdr(hdr);
         result.environment.layout = layout_of(result.environment.image, layout);
         result.repaired_pixels = repair_pixels(result.environment.image, options.bad_pixels);
     } catch (const Error& error) {

@@ -1,6 +1,7 @@
 #include "prt/sh.h"
 
 #include "prt/error.h"
+#include "prt/sh_rotation.h"
 #include "support/quadrature.h"
 
 #include <glm/geometric.hpp>

@@ -66,8 +66,8 @@ std::size_t bytes_per_receiver(const ClusteredTransfer& transfer);
 std::size_t constant_rows(const ClusteredBases& bases);
 
 /// Writes for every cluster M_k·L and B_kj·L to `constants` [constant_rows] as (r, g, b, 0). For packed
-/// weights what turns q into w is worked in, so that the shader multiplies q itself. Allocates nothing when
-/// `light` has the order of the bases. Throws `Error` if `light` has fewer bands.
+/// weights what turns q into w is worked in, so that the shader multiplies q itself. Throws `Error` if
+/// `light` has fewer bands. Each frame: prt/constant_former.h, which prepares the bases once.
 void form_constants(const ClusteredTransfer& transfer, const Light& light, std::span<glm::vec4> constants);
 
 /// Exit radiance for albedo 1 of every receiver, `radiance` [receivers], from formed constants: what the

@@ -26,6 +26,13 @@ struct Image {
 enum class EnvironmentLayout {
     lat_long, ///< any size; top row +Y, centre column +Z, +X a quarter of the width left of the centre
     cube,     ///< OpenEXR's: faces +X -X +Y -Y +Z -Z in a column, border texels centred on the cube's edges
+    /// OpenGL's, Vulkan's and Direct3D's: the same order in a column, each face turned and mirrored as they
+    /// do, texels cells of equal size.
+    cube_faces,
+    /// Square, all directions in a circle: the centre looks at -Z, +X is right, +Y up, the angle to -Z grows
+    /// with the distance from the centre up to pi on the rim (Debevec's light probes). Corners count for
+    /// nothing.
+    angular,
 };
 
 struct Environment {
@@ -54,12 +61,17 @@ glm::dvec2 lat_long_position(int width, int height, const glm::dvec3& direction)
 /// Texel i of n along an axis is centred at 2 i / (n - 1) - 1.
 glm::dvec3 cube_direction(int face, double u, double v);
 
+/// The same for the layout `cube_faces`, where texel i of n along an axis is centred at (2 i + 1) / n - 1.
+glm::dvec3 cube_face_direction(int face, double u, double v);
+
+/// Unit direction at (u, v) of an angular map, u right and v down in [-1, 1], u² + v² <= 1.
+glm::dvec3 angular_direction(double u, double v);
+
 /// Bilinearly filtered radiance in unit direction `direction`.
 glm::vec3 sample(const Environment& environment, const glm::vec3& direction);
 glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction);
 
-/// The environment as a lat-long image: a lat-long as it is, a cube by `sample` at the resolution of its
-/// faces.
+/// The environment as a lat-long image: a lat-long as it is, others by `sample` at about their resolution.
 Image resampled_lat_long(const Environment& environment);
 
 /// Projects the environment, piecewise constant over its texels, into SH: the basis is integrated over each

@@ -26,8 +26,33 @@ Light directional_light(int order, const glm::vec3& towards, const glm::vec3& ir
 /// zero outside. Closed form: docs/math.md, eq. 9.
 Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& radiance);
 
+/// Radiance that goes over from `bottom` to `top` with the cosine to the unit direction `up`: their mean on
+/// the horizon (D3DXSHEvalHemisphereLight).
+Light hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom);
+
+/// A sphere of radiance `radiance` about `centre`, seen from the origin: the cone that it fills, of half
+/// angle asin(radius / distance) (D3DXSHEvalSphericalLight). Throws `Error` where the origin is inside it.
+Light sphere_light(int order, const glm::vec3& centre, double radius, const glm::vec3& radiance);
+
+/// A disc about `centre` that shines to the side of its unit normal `normal`, seen from the origin; nothing
+/// from behind or edge on. By Green's theorem an integral along its rim, whose error falls exponentially with
+/// the number of nodes: to rounding, in any order (docs/math.md, eq. 10). Throws `Error` for a radius that is
+/// not positive.
+Light disc_light(int order, const glm::vec3& centre, const glm::vec3& normal, double radius,
+                 const glm::vec3& radiance);
+
 /// The CIE overcast sky about +Y over black ground: radiance `zenith` (1 + 2 y) / 3 for y >= 0.
 Light overcast_sky(int order, const glm::vec3& zenith);
+
+/// `light` scaled so that an open receiver of albedo 1 with unit normal `normal` has exit radiance
+/// `exit_radiance`: D3DX scales directional lights and cones so, for the receiver that faces them. Throws
+/// `Error` where `light` leaves a channel of that receiver black.
+Light scaled_to_exit_radiance(const Light& light, const glm::vec3& normal, const glm::vec3& exit_radiance);
+
+/// a + b, of one order. Throws `Error` for two.
+Light sum(const Light& a, const Light& b);
+/// a + share (b - a): from one lighting to another over many frames. Throws `Error` for two orders.
+Light blended(const Light& a, const Light& b, float share);
 
 /// The radiance of the SH expansion in unit direction `direction`.
 glm::vec3 radiance(const Light& light, const glm::vec3& direction);

@@ -38,6 +38,10 @@ constexpr double square_root(double value) {
 struct LegendreRecurrence {
     std::array<double, kMaxOrder> sectoral{};
     std::array<std::array<double, kMaxOrder>, kMaxOrder> a{}, b{};
+    /// The same for l = m+1, m+2, m+3 as polynomials: linear z, quadratic[0] z² - quadratic[1],
+    /// z (cubic[0] z² - cubic[1]).
+    std::array<double, kMaxOrder> linear{};
+    std::array<std::array<double, 2>, kMaxOrder> quadratic{}, cubic{};
 
     constexpr LegendreRecurrence() {
         double product = 1;
@@ -56,6 +60,14 @@ struct LegendreRecurrence {
                 a[static_cast<std::size_t>(l)][static_cast<std::size_t>(m)] = factor;
                 b[static_cast<std::size_t>(l)][static_cast<std::size_t>(m)] = factor * inverse;
             }
+        }
+        for (std::size_t m = 0; m + 1 < kMaxOrder; ++m) {
+            linear[m] = a[m + 1][m] * sectoral[m];
+            if (m + 2 < kMaxOrder)
+                quadratic[m] = {a[m + 2][m] * linear[m], b[m + 2][m] * sectoral[m]};
+            if (m + 3 < kMaxOrder)
+                cubic[m] = {a[m + 3][m] * quadratic[m][0],
+                            a[m + 3][m] * quadratic[m][1] + b[m + 3][m] * linear[m]};
         }
     }
 };
@@ -80,22 +92,40 @@ template <int Order, class Real>
 [[gnu::always_inline]] inline void sh_basis(const Real& x, const Real& y, const Real& z, Real* basis) {
     using Scalar = typename detail::ScalarOf<Real>::type;
     constexpr auto& k = detail::kLegendre;
-    Real cosine = Real{} + Scalar(1); // sin^m cos(m phi)
-    Real sine = Real{};               // sin^m sin(m phi)
+    const Real z2 = z * z;
+    Real cosine = x, sine = y; // sin^m cos(m phi), sin^m sin(m phi)
 #pragma GCC unroll 10
     for (int m = 0; m < Order; ++m) {
         const auto mi = static_cast<std::size_t>(m);
-        Real before = Real{};
-        Real legendre = Real{} + static_cast<Scalar>(k.sectoral[mi]);
+        if (m > 1) {
+            const Real rotated = x * cosine - y * sine;
+            sine = x * sine + y * cosine;
+            cosine = rotated;
+        }
+        Real before = Real{}, legendre = Real{};
 #pragma GCC unroll 10
         for (int l = m; l < Order; ++l) {
             const auto li = static_cast<std::size_t>(l);
-            if (l > m) {
-                const Real next = static_cast<Scalar>(k.a[li][mi]) * (z * legendre) -
-                                  static_cast<Scalar>(k.b[li][mi]) * before;
-                before = legendre;
-                legendre = next;
+            Real next;
+            switch (l - m) { // the first of them as polynomials in z
+            case 0:
+                next = Real{} + static_cast<Scalar>(k.sectoral[mi]);
+                break;
+            case 1:
+                next = static_cast<Scalar>(k.linear[mi]) * z;
+                break;
+            case 2:
+                next = static_cast<Scalar>(k.quadratic[mi][0]) * z2 - static_cast<Scalar>(k.quadratic[mi][1]);
+                break;
+            case 3:
+                next = z * (static_cast<Scalar>(k.cubic[mi][0]) * z2 - static_cast<Scalar>(k.cubic[mi][1]));
+                break;
+            default:
+                next = static_cast<Scalar>(k.a[li][mi]) * (z * legendre) -
+                       static_cast<Scalar>(k.b[li][mi]) * before;
             }
+            before = legendre;
+            legendre = next;
             if (m == 0) {
                 basis[sh_index(l, 0)] = legendre;
             } else {
@@ -103,15 +133,12 @@ template <int Order, class Real>
                 basis[sh_index(l, -m)] = legendre * sine;
             }
         }
-        const Real rotated = x * cosine - y * sine;
-        sine = x * sine + y * cosine;
-        cosine = rotated;
     }
 }
 
 /// Calls `body.operator()<N>()` for the N that equals `order`, 1 <= order <= kMaxOrder.
 template <class Body>
-decltype(auto) with_order(int order, Body&& body) {
+[[gnu::always_inline]] inline decltype(auto) with_order(int order, Body&& body) {
     switch (order) {
     case 1:
         return body.template operator()<1>();

@@ -26,9 +26,10 @@ struct EnvironmentFile {
 };
 
 /// Reads an environment map from OpenEXR (any channel type and compression, scanline or tiled, RGB, luminance
-/// or luminance-chroma; other primaries are converted) or Radiance HDR. Throws `Error` that names the file
-/// for anything that is damaged or no environment map. Memory grows with what is decoded, not with what a
-/// header claims.
+/// or luminance-chroma; other primaries are converted) or Radiance HDR. A path that holds "{face}" stands for
+/// six files, with px, nx, py, ny, pz and nz in its place, laid out as `EnvironmentLayout::cube_faces`.
+/// Throws `Error` that names the file for anything that is damaged or no environment map. Memory grows with
+/// what is decoded, not with what a header claims.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
 /// 8-bit RGBA pixels as stored, without any conversion of colour.
@@ -46,7 +47,7 @@ std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8
 /// Writes an 8-bit RGB PNG. `pixels` is [height][width].
 void write_png(const std::filesystem::path& path, int width, int height, std::span<const glm::u8vec3> pixels);
 
-/// Writes 32-bit float RGB, ZIP-compressed, marked as an environment map when `layout` is given.
+/// Writes 32-bit float RGB, ZIP-compressed, marked as an environment map when `layout` is one of OpenEXR's two.
 void write_exr(const std::filesystem::path& path, const Image& image,
                std::optional<EnvironmentLayout> layout = std::nullopt);
 

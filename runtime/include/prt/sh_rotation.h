@@ -1,0 +1,59 @@
+#pragma once
+
+// Rotation of spherical harmonics.
+
+#include "prt/sh_basis.h"
+
+#include <glm/ext/matrix_double3x3.hpp>
+#include <glm/ext/quaternion_double.hpp>
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <span>
+
+namespace prt {
+
+/// Rotates SH vectors: for a function f with coefficients c, the result holds f'(w) = f(R^-1 w). R is taken
+/// apart into R_z R_y R_z, and R_y into quarter turns about x and another R_z (docs/math.md, eq. 4): turns
+/// about z are products with cosines and sines, the quarter turns are constant and three quarters of them
+/// zero. All arithmetic is in double, so that ten thousand steps lose nothing to speak of. Small, allocates
+/// nothing, thread-safe; serves every order up to the one it was made for.
+class ShRotation {
+public:
+    /// Throws `Error` for an order outside 1..kMaxOrder and for matrices that are not rotations within 1e-4
+    /// per element of R^T R: scaled, sheared or mirrored ones.
+    ShRotation(int order, const glm::dmat3& rotation);
+    /// Throws `Error` unless the length of `rotation` is 1 within 1e-4.
+    ShRotation(int order, const glm::dquat& rotation);
+    /// Turns by `angle` radians, counter-clockwise seen from the tip of the axis.
+    static ShRotation about_x(int order, double angle);
+    static ShRotation about_y(int order, double angle);
+    static ShRotation about_z(int order, double angle); ///< the cheapest
+
+    int order() const { return order_; }
+    /// `in` and `out` are [order²] and may be the same.
+    void apply(std::span<const float> in, std::span<float> out) const;
+    void apply(std::span<const double> in, std::span<double> out) const;
+    /// RGB coefficients [order²] in place: three functions at little more than the price of one.
+    void apply(std::span<glm::vec3> coefficients) const;
+    /// The same from `in` to `out`, which may be the same.
+    void apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) const;
+
+    /// cos(m a) and sin(m a) of a turn about z.
+    struct Turn {
+        std::array<double, kMaxOrder> cosine, sine; ///< [m < order]
+        Turn(int order, double cosine_of_angle, double sine_of_angle);
+    };
+    /// z first, then tilt about y, then z again.
+    struct Turns {
+        Turn first, tilt, last;
+        bool tilted = false; ///< else `first` is all there is
+    };
+
+private:
+    ShRotation(int order, const Turns& turns) : order_(order), turns_(turns) {}
+    int order_;
+    Turns turns_;
+};
+
+} // namespace prt

@@ -1,0 +1,65 @@
+#pragma once
+
+// Functions on the sphere as vectors of SH coefficients [order²]: sums, dot products, convolution, products.
+// For float and double. Everything is thread-safe and allocates nothing. Nothing is checked but by assert.
+
+#include "prt/sh_basis.h"
+
+#include <glm/vec3.hpp>
+
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <type_traits>
+
+namespace prt {
+
+/// out = a + b; `out` may be either.
+template <class Real>
+void sh_add(std::span<const Real> a, std::type_identity_t<std::span<const Real>> b, std::span<Real> out) {
+    assert(a.size() == b.size() && a.size() == out.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        out[i] = a[i] + b[i];
+}
+
+/// out = factor a; `out` may be `a`.
+template <class Real>
+void sh_scale(std::span<const Real> a, std::type_identity_t<Real> factor, std::span<Real> out) {
+    assert(a.size() == out.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        out[i] = factor * a[i];
+}
+
+/// ∫ a(w) b(w) dw, the basis being orthonormal.
+template <class Real>
+Real sh_dot(std::span<const Real> a, std::type_identity_t<std::span<const Real>> b) {
+    assert(a.size() == b.size());
+    Real sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+/// The function's value in unit direction `direction`.
+float sh_value(int order, std::span<const float> function, const glm::vec3& direction);
+double sh_value(int order, std::span<const double> function, const glm::dvec3& direction);
+
+/// Convolution with a function that is symmetric about +z, of which `kernel` [order] holds the coefficients
+/// of m = 0: (k * f)_lm = sqrt(4 pi / (2l+1)) k_l f_lm (docs/math.md, eq. 8). `out` may be `function`.
+void sh_convolve(int order, std::span<const float> function, std::span<const float> kernel,
+                 std::span<float> out);
+void sh_convolve(int order, std::span<const double> function, std::span<const double> kernel,
+                 std::span<double> out);
+
+/// The first `order` bands of the product of two functions of `order` bands, exact up to rounding: shadow
+/// times light, or light times what an object lets through. Both are evaluated at the nodes of a quadrature
+/// that is exact for three times their degree (docs/math.md, eq. 32), which takes far fewer operations than
+/// the table of triple products. `out` may be either. D3DXSHMultiply2 to 6 are this.
+void sh_product(int order, std::span<const float> a, std::span<const float> b, std::span<float> out);
+void sh_product(int order, std::span<const double> a, std::span<const double> b, std::span<double> out);
+
+/// The matrix [order²][order²] of multiplying by `function`: row i, column j hold ∫ f Y_i Y_j. For many
+/// products with one function, or to transform transfer by it (self-transfer). Symmetric.
+void sh_product_matrix(int order, std::span<const double> function, std::span<double> matrix);
+
+} // namespace prt

@@ -1,0 +1,40 @@
+#pragma once
+
+// An analytic clear sky: A. J. Preetham, P. Shirley and B. Smits, "A Practical Analytic Model for Daylight",
+// SIGGRAPH 1999.
+
+#include "prt/light.h"
+
+#include <array>
+
+namespace prt {
+
+/// The light of the sky without its sun, about +Y. Radiance is linear Rec. 709 in kcd/m² (the model's unit):
+/// scale it as exposure wants. Immutable, thread-safe.
+class PreethamSky {
+public:
+    /// `turbidity` 2 (clear) to 10 (haze), for which the model was fitted; `sun` is the unit direction to the
+    /// sun, not below the horizon. Throws `Error` otherwise.
+    PreethamSky(double turbidity, const glm::dvec3& sun);
+
+    /// In unit direction `direction`; black below the horizon.
+    glm::dvec3 radiance(const glm::dvec3& direction) const;
+    /// Of the zenith.
+    double zenith_luminance() const { return zenith_luminance_; }
+
+private:
+    /// The five parameters of the distribution of Perez et al. (1993), as the paper's appendix A.2 fits them.
+    using Perez = std::array<double, 5>;
+    double relative(const Perez& p, double cos_zenith, double gamma) const;
+
+    glm::dvec3 sun_;
+    double theta_sun_;
+    Perez luminance_, x_, y_;
+    double zenith_luminance_, zenith_x_, zenith_y_; ///< kcd/m² and CIE chromaticity
+};
+
+/// The sky as SH coefficients, by quadrature over the upper hemisphere: the model has no closed form. Add
+/// `directional_light` or `cone_light` for the sun, and a light from below for the ground.
+Light sky_light(int order, const PreethamSky& sky);
+
+} // namespace prt

@@ -1,0 +1,173 @@
+// How fast the runtime library is: runtime_benchmark [--benchmark_filter=REGEX]. One thread unless said otherwise.
+
+#include "prt/constant_former.h"
+#include "prt/environment.h"
+#include "prt/sh.h"
+#include "prt/sh_rotation.h"
+#include "prt/sh_vector.h"
+
+#include <benchmark/benchmark.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <cstring>
+#include <random>
+
+namespace prt {
+namespace {
+
+using benchmark::State;
+
+constexpr int kOrder = 6;
+constexpr std::size_t kCount = static_cast<std::size_t>(coefficient_count(kOrder));
+
+std::vector<glm::vec3> random_directions(std::size_t count) {
+    std::mt19937 random(1);
+    std::normal_distribution<float> normal;
+    std::vector<glm::vec3> directions(count);
+    for (glm::vec3& d : directions)
+        d = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+    return directions;
+}
+
+std::vector<float> random_values(std::size_t count) {
+    std::mt19937 random(2);
+    std::normal_distribution<float> normal;
+    std::vector<float> values(count);
+    for (float& v : values)
+        v = normal(random);
+    return values;
+}
+
+std::vector<glm::vec3> random_light() {
+    return random_directions(kCount);
+}
+
+void basis_one_by_one(State& state) {
+    const auto directions = random_directions(1024);
+    std::vector<float> basis(kCount);
+    for (auto _ : state)
+        for (const glm::vec3& d : directions) {
+            evaluate_sh(kOrder, d, std::span<float>(basis));
+            benchmark::DoNotOptimize(basis.data());
+            benchmark::ClobberMemory();
+        }
+    state.SetItemsProcessed(state.iterations() * 1024);
+}
+BENCHMARK(basis_one_by_one);
+
+void basis_in_batches(State& state) {
+    const auto directions = random_directions(64);
+    std::vector<float> basis(kCount * directions.size());
+    for (auto _ : state) {
+        evaluate_sh(kOrder, directions, basis);
+        benchmark::ClobberMemory();
+    }
+    state.SetItemsProcessed(state.iterations() * 64);
+}
+BENCHMARK(basis_in_batches);
+
+/// From a matrix to rotated RGB coefficients.
+void rotate_rgb(State& state) {
+    const glm::dmat3 rotation = glm::mat3_cast(glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3))));
+    auto light = random_light();
+    for (auto _ : state) {
+        ShRotation(kOrder, rotation).apply(std::span<glm::vec3>(light));
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(rotate_rgb);
+
+void rotate_rgb_prepared(State& state) {
+    const ShRotation rotation(kOrder, glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3))));
+    auto light = random_light();
+    for (auto _ : state) {
+        rotation.apply(std::span<glm::vec3>(light));
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(rotate_rgb_prepared);
+
+void product(State& state) {
+    const auto a = random_values(kCount), b = random_values(kCount);
+    std::vector<float> out(kCount);
+    for (auto _ : state) {
+        sh_product(kOrder, a, b, out);
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(product);
+
+ClusteredTransfer clustered(int clusters, int components, int channels, std::size_t receivers) {
+    ClusteredTransfer t;
+    t.bases.order = kOrder;
+    t.bases.channels = channels;
+    t.bases.components.assign(static_cast<std::size_t>(clusters), components);
+    t.bases.rows = random_values(static_cast<std::size_t>(clusters * (1 + components)) * t.bases.dimension());
+    t.receivers.format = WeightFormat::snorm8;
+    t.receivers.components = components;
+    std::mt19937 random(3);
+    for (std::size_t p = 0; p < receivers; ++p) // neighbours in the mesh are mostly of one cluster
+        t.receivers.clusters.push_back(
+            static_cast<std::uint16_t>(p * static_cast<std::size_t>(clusters) / receivers));
+    t.receivers.weights.resize(receivers * t.receivers.stride());
+    for (std::byte& b : t.receivers.weights)
+        b = static_cast<std::byte>(random());
+    return t;
+}
+
+void constants(State& state) {
+    const ConstantFormer former(clustered(256, 8, static_cast<int>(state.range(0)), 256));
+    const auto light = random_light();
+    std::vector<glm::vec4> out(former.rows());
+    for (auto _ : state) {
+        former.form(light, out);
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(constants)->ArgName("channels")->Arg(1)->Arg(3);
+
+constexpr std::size_t kVertices = 1'000'000;
+
+void evaluate_vertices(State& state) {
+    const ClusteredTransfer transfer = clustered(256, 8, 1, kVertices);
+    const ConstantFormer former(transfer);
+    const auto light = random_light();
+    std::vector<glm::vec4> out(former.rows());
+    former.form(light, out);
+    std::vector<glm::vec3> radiance(kVertices);
+    for (auto _ : state) {
+        evaluate(transfer, out, radiance, 1);
+        benchmark::ClobberMemory();
+    }
+    // Cluster and weights in, radiance out.
+    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(kVertices * (2 + 8 + 12)));
+}
+BENCHMARK(evaluate_vertices);
+
+/// What memory can do: a copy that no cache holds, bytes read and written.
+void plain_copy(State& state) {
+    constexpr std::size_t kBytes = 512u << 20;
+    std::vector<std::byte> from(kBytes), to(kBytes);
+    for (auto _ : state) {
+        std::memcpy(to.data(), from.data(), from.size());
+        benchmark::ClobberMemory();
+    }
+    state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(2 * from.size()));
+}
+BENCHMARK(plain_copy);
+
+void project_lat_long(State& state) {
+    Environment environment;
+    environment.image = {2048, 1024, {}};
+    for (std::size_t i = 0; i < 2048 * 1024; ++i)
+        environment.image.pixels.emplace_back(static_cast<float>(i % 97), 1, static_cast<float>(i % 13));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(project(environment, kOrder, static_cast<int>(state.range(0))));
+}
+BENCHMARK(project_lat_long)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+} // namespace
+} // namespace prt
+
+BENCHMARK_MAIN();
