@@ -6,7 +6,7 @@ foreach(file ${FILES})
     string(APPEND entries "    {\"${name}\", R\"glsl(${text})glsl\"},\n")
 endforeach()
 file(WRITE ${OUTPUT} "// Made from shaders/ by cmake/embed_files.cmake.
-#include \"embedded_shaders.h\"
+#include \"embedded_files.h\"
 
 namespace prt {
 const std::map<std::string, std::string>& embedded_files() {

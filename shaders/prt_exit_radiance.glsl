@@ -1,38 +1,93 @@
-// Exit radiance of a vertex from compressed transfer (docs/math.md, eq. 14), for a receiver of albedo 1.
+// Exit radiance of a vertex from compressed transfer (docs/math.md, eq. 14), for a receiver of albedo 1. For GLSL
+// 4.5 and 3.3, GLSL ES 3.0 and Vulkan; HLSL is made from the last (docs/integration.md).
 //
-// Define before including
+// Define before including (prt::relight_defines writes the lines for a model)
 //     PRT_PACKED_WORDS n     packed weights: n 32-bit words per vertex, 1..8, and PRT_CLUSTER_BITS b, or
-//     PRT_WEIGHT_VECTORS n   others: the number of VEC4 weight attributes (0: clusters only).
-// The buffers hold what prt::cluster_layouts and prt::form_constants write.
+//     PRT_WEIGHT_VECTORS n   others: the number of VEC4 weight attributes, 0..12 (0: clusters only),
+// and where the constants are:
+//     PRT_CONSTANTS_BUFFER   storage buffers (the default; OpenGL 4.3, Vulkan, Direct3D 11),
+//     PRT_CONSTANTS_BLOCK    uniform blocks, with PRT_MOST_ROWS and PRT_MOST_CLUSTERS, or
+//     PRT_CONSTANTS_TEXTURE  textures of PRT_TEXTURE_WIDTH texels a row, RGBA32F and RGBA32UI.
+// They hold what prt::ConstantFormer and prt::cluster_layouts write.
 
 #include "shared_layout.h"
 
-layout(std430, binding = PRT_BINDING_CONSTANTS) readonly buffer PrtConstants {
-    vec4 prt_constants[];
-};
-layout(std430, binding = PRT_BINDING_CLUSTERS) readonly buffer PrtClusters {
-    uvec4 prt_clusters[]; // first row, components, widths of weights 0 to 7, 8 to 15
-};
+// The program binds blocks and samplers by name where the language cannot say it here.
+#if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
+#define PRT_BINDING(number) , binding = number
+#else
+#define PRT_BINDING(number)
+#endif
+
+#if defined(PRT_CONSTANTS_BLOCK)
+layout(std140 PRT_BINDING(PRT_BINDING_CONSTANTS)) uniform PrtConstants { vec4 prt_constants[PRT_MOST_ROWS]; };
+layout(std140 PRT_BINDING(PRT_BINDING_CLUSTERS)) uniform PrtClusters { uvec4 prt_clusters[PRT_MOST_CLUSTERS]; };
+#elif defined(PRT_CONSTANTS_TEXTURE)
+#if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
+layout(binding = PRT_BINDING_CONSTANTS)
+#endif
+uniform highp sampler2D prt_constants;
+#if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
+layout(binding = PRT_BINDING_CLUSTERS)
+#endif
+uniform highp usampler2D prt_clusters;
+#else
+layout(std430 PRT_BINDING(PRT_BINDING_CONSTANTS)) readonly buffer PrtConstants { vec4 prt_constants[]; };
+layout(std430 PRT_BINDING(PRT_BINDING_CLUSTERS)) readonly buffer PrtClusters { uvec4 prt_clusters[]; };
+#endif
+
+// Row `row` of the constants of all clusters.
+vec3 prt_constant(uint row) {
+#ifdef PRT_CONSTANTS_TEXTURE
+    return texelFetch(prt_constants, ivec2(row % uint(PRT_TEXTURE_WIDTH), row / uint(PRT_TEXTURE_WIDTH)), 0).rgb;
+#else
+    return prt_constants[row].rgb;
+#endif
+}
+
+// First row, components, widths of weights 0 to 7, 8 to 15.
+uvec4 prt_layout_of(uint cluster) {
+#ifdef PRT_CONSTANTS_TEXTURE
+    return texelFetch(prt_clusters, ivec2(cluster % uint(PRT_TEXTURE_WIDTH), cluster / uint(PRT_TEXTURE_WIDTH)), 0);
+#else
+    return prt_clusters[cluster];
+#endif
+}
 
 #ifdef PRT_PACKED_WORDS
-layout(location = PRT_LOCATION_WEIGHTS) in uvec4 prt_words[(PRT_PACKED_WORDS + 3) / 4];
+layout(location = PRT_LOCATION_WEIGHTS) in uvec4 prt_words_0;
+#if PRT_PACKED_WORDS > 4
+layout(location = PRT_LOCATION_WEIGHTS + 1) in uvec4 prt_words_1;
+#endif
+
+uint prt_word(uint index) {
+#if PRT_PACKED_WORDS > 4
+    return index < 4u ? prt_words_0[index] : prt_words_1[index - 4u];
+#elif PRT_PACKED_WORDS > 1
+    return prt_words_0[index];
+#else
+    return prt_words_0.x;
+#endif
+}
 
 // `width` bits from bit `position` on, width <= 16. A weight may lie across two words.
 uint prt_bits(uint position, uint width) {
     uint word = position >> 5, shift = position & 31u;
-    uint bits = prt_words[word >> 2][word & 3u] >> shift;
+    uint bits = prt_word(word) >> shift;
+#if PRT_PACKED_WORDS > 1
     if (shift + width > 32u)
-        bits |= prt_words[(word + 1u) >> 2][(word + 1u) & 3u] << (32u - shift);
+        bits |= prt_word(word + 1u) << (32u - shift);
+#endif
     return bits & ((1u << width) - 1u);
 }
 
 vec3 prt_exit_radiance() {
-    uvec4 cluster = prt_clusters[prt_bits(0u, PRT_CLUSTER_BITS)];
-    vec3 radiance = prt_constants[cluster.x].rgb;
-    uint position = PRT_CLUSTER_BITS;
+    uvec4 cluster = prt_layout_of(prt_bits(0u, uint(PRT_CLUSTER_BITS)));
+    vec3 radiance = prt_constant(cluster.x);
+    uint position = uint(PRT_CLUSTER_BITS);
     for (uint j = 0u; j < cluster.y; ++j) {
-        uint width = 1u + (cluster[2u + (j >> 3)] >> (4u * (j & 7u)) & 15u);
-        radiance += float(prt_bits(position, width)) * prt_constants[cluster.x + 1u + j].rgb;
+        uint width = 1u + ((j < 8u ? cluster.z : cluster.w) >> (4u * (j & 7u)) & 15u);
+        radiance += float(prt_bits(position, width)) * prt_constant(cluster.x + 1u + j);
         position += width;
     }
     return radiance;
@@ -40,15 +95,84 @@ vec3 prt_exit_radiance() {
 #else
 layout(location = PRT_LOCATION_CLUSTER) in uint prt_cluster;
 #if PRT_WEIGHT_VECTORS > 0
-layout(location = PRT_LOCATION_WEIGHTS) in vec4 prt_weights[PRT_WEIGHT_VECTORS];
+layout(location = PRT_LOCATION_WEIGHTS) in vec4 prt_weights_0;
+#endif
+#if PRT_WEIGHT_VECTORS > 1
+layout(location = PRT_LOCATION_WEIGHTS + 1) in vec4 prt_weights_1;
+#endif
+#if PRT_WEIGHT_VECTORS > 2
+layout(location = PRT_LOCATION_WEIGHTS + 2) in vec4 prt_weights_2;
+#endif
+#if PRT_WEIGHT_VECTORS > 3
+layout(location = PRT_LOCATION_WEIGHTS + 3) in vec4 prt_weights_3;
+#endif
+#if PRT_WEIGHT_VECTORS > 4
+layout(location = PRT_LOCATION_WEIGHTS + 4) in vec4 prt_weights_4;
+#endif
+#if PRT_WEIGHT_VECTORS > 5
+layout(location = PRT_LOCATION_WEIGHTS + 5) in vec4 prt_weights_5;
+#endif
+#if PRT_WEIGHT_VECTORS > 6
+layout(location = PRT_LOCATION_WEIGHTS + 6) in vec4 prt_weights_6;
+#endif
+#if PRT_WEIGHT_VECTORS > 7
+layout(location = PRT_LOCATION_WEIGHTS + 7) in vec4 prt_weights_7;
+#endif
+#if PRT_WEIGHT_VECTORS > 8
+layout(location = PRT_LOCATION_WEIGHTS + 8) in vec4 prt_weights_8;
+#endif
+#if PRT_WEIGHT_VECTORS > 9
+layout(location = PRT_LOCATION_WEIGHTS + 9) in vec4 prt_weights_9;
+#endif
+#if PRT_WEIGHT_VECTORS > 10
+layout(location = PRT_LOCATION_WEIGHTS + 10) in vec4 prt_weights_10;
+#endif
+#if PRT_WEIGHT_VECTORS > 11
+layout(location = PRT_LOCATION_WEIGHTS + 11) in vec4 prt_weights_11;
 #endif
 
+// On one line: GLSL 3.3 knows no others.
+#define PRT_ADD_FOUR(w) for (uint i = 0u; i < 4u && j < cluster.y; ++i, ++j) radiance += w[i] * prt_constant(cluster.x + 1u + j);
+
 vec3 prt_exit_radiance() {
-    uvec4 cluster = prt_clusters[prt_cluster];
-    vec3 radiance = prt_constants[cluster.x].rgb;
+    uvec4 cluster = prt_layout_of(prt_cluster);
+    vec3 radiance = prt_constant(cluster.x);
+    uint j = 0u;
 #if PRT_WEIGHT_VECTORS > 0
-    for (uint j = 0u; j < cluster.y; ++j)
-        radiance += prt_weights[j >> 2][j & 3u] * prt_constants[cluster.x + 1u + j].rgb;
+    PRT_ADD_FOUR(prt_weights_0)
+#endif
+#if PRT_WEIGHT_VECTORS > 1
+    PRT_ADD_FOUR(prt_weights_1)
+#endif
+#if PRT_WEIGHT_VECTORS > 2
+    PRT_ADD_FOUR(prt_weights_2)
+#endif
+#if PRT_WEIGHT_VECTORS > 3
+    PRT_ADD_FOUR(prt_weights_3)
+#endif
+#if PRT_WEIGHT_VECTORS > 4
+    PRT_ADD_FOUR(prt_weights_4)
+#endif
+#if PRT_WEIGHT_VECTORS > 5
+    PRT_ADD_FOUR(prt_weights_5)
+#endif
+#if PRT_WEIGHT_VECTORS > 6
+    PRT_ADD_FOUR(prt_weights_6)
+#endif
+#if PRT_WEIGHT_VECTORS > 7
+    PRT_ADD_FOUR(prt_weights_7)
+#endif
+#if PRT_WEIGHT_VECTORS > 8
+    PRT_ADD_FOUR(prt_weights_8)
+#endif
+#if PRT_WEIGHT_VECTORS > 9
+    PRT_ADD_FOUR(prt_weights_9)
+#endif
+#if PRT_WEIGHT_VECTORS > 10
+    PRT_ADD_FOUR(prt_weights_10)
+#endif
+#if PRT_WEIGHT_VECTORS > 11
+    PRT_ADD_FOUR(prt_weights_11)
 #endif
     return radiance;
 }

@@ -14,6 +14,9 @@
 #define PRT_BINDING_CONSTANTS 0
 #define PRT_BINDING_CLUSTERS 1
 
+#define PRT_BINDING_MATRIX 2
+#define PRT_BINDING_LIGHT 3
+
 // The baker's; its programs are others.
 #define PRT_BINDING_NODES 1
 #define PRT_BINDING_CORNERS 2

@@ -1,7 +1,7 @@
 #include "prt/gl_objects.h"
 
-#include "embedded_shaders.h"
 #include "prt/error.h"
+#include "prt/shader_source.h"
 
 #include <epoxy/gl.h>
 

@@ -1,6 +1,7 @@
 #include "prt/gl_renderer.h"
 
-#include "prt/error.h"
+#include "prt/constant_former.h"
+#include "prt/shader_source.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>
@@ -10,8 +11,6 @@
 
 namespace prt {
 namespace {
-
-constexpr int kMostPackedWords = 8; ///< two attributes of four words
 
 GLenum component_type(WeightFormat format) {
     switch (format) {
@@ -31,25 +30,11 @@ GLenum component_type(WeightFormat format) {
 
 GlTransfer::GlTransfer(const ClusteredTransfer& transfer)
     : format_(transfer.receivers.format), weight_vectors_(transfer.receivers.components / 4),
-      words_(transfer.receivers.words), cluster_bits_(transfer.receivers.cluster_bits) {
-    if (format_ != WeightFormat::packed && transfer.bases.max_components() > kMostVertexComponents)
-        throw Error(std::to_string(transfer.bases.max_components()) + " components do not fit the " +
-                    std::to_string(kMostVertexComponents) + " of the vertex attributes");
-    if (words_ > kMostPackedWords)
-        throw Error(std::to_string(words_) + " words of packed weights do not fit the " +
-                    std::to_string(kMostPackedWords) + " of the vertex attributes");
+      words_(transfer.receivers.words), defines_("#define PRT_COMPRESSED\n" + relight_defines(transfer)) {
     clusters_ = make_buffer(std::span<const std::uint16_t>(transfer.receivers.clusters));
     weights_ = make_buffer(std::span<const std::byte>(transfer.receivers.weights));
     const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
     layouts_ = make_buffer(std::span<const ClusterLayout>(layouts));
-}
-
-std::string GlTransfer::defines() const {
-    std::string text = "#define PRT_COMPRESSED\n";
-    if (words_ > 0)
-        return text + "#define PRT_PACKED_WORDS " + std::to_string(words_) + "\n#define PRT_CLUSTER_BITS " +
-               std::to_string(cluster_bits_) + "u\n";
-    return text + "#define PRT_WEIGHT_VECTORS " + std::to_string(weight_vectors_) + "\n";
 }
 
 void GlTransfer::set_light(const ClusteredTransfer& transfer, const Light& light) {

@@ -2,6 +2,7 @@
 
 #include "prt/error.h"
 #include "prt/sh.h"
+#include "prt/sky.h"
 #include "support/quadrature.h"
 
 #include <glm/geometric.hpp>
@@ -125,6 +126,150 @@ TEST(Light, AutomaticWindowMakesASunNonNegativeAndLeavesASkyAlone) {
 TEST(Light, MoreBandsThanThereAreCannotBeHad) {
     EXPECT_THROW(truncated(constant_light(3, glm::vec3(1)), 4), Error);
     EXPECT_EQ(truncated(constant_light(4, glm::vec3(1)), 3).coefficients.size(), 9u);
+}
+
+double largest_difference(const Light& a, const Light& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.coefficients.size(); ++i)
+        largest = std::max(largest, static_cast<double>(glm::distance(a.coefficients[i], b.coefficients[i])));
+    return largest;
+}
+
+TEST(Light, SphereIsTheConeThatItFills) {
+    const glm::vec3 centre(1, 2, -2);
+    EXPECT_LT(largest_difference(sphere_light(10, centre, 1.5, {1, 2, 3}),
+                                 cone_light(10, centre / 3.0f, std::asin(0.5), {1, 2, 3})),
+              1e-6);
+    EXPECT_THROW(sphere_light(3, {0, 0, 1}, 1.5, {1, 1, 1}), Error);
+    EXPECT_THROW(sphere_light(3, {0, 0, 1}, 0, {1, 1, 1}), Error);
+    EXPECT_THROW(directional_light(3, {0, 0, 0}, {1, 1, 1}), Error);
+}
+
+TEST(Light, HemisphereGoesOverFromTopToBottom) {
+    const glm::vec3 up = glm::normalize(glm::vec3(1, 2, 3)), top(3, 2, 1), bottom(0.5f, 1, 0);
+    const Light light = hemisphere_light(5, up, top, bottom);
+    EXPECT_LT(glm::distance(radiance(light, up), top), 1e-5f);
+    EXPECT_LT(glm::distance(radiance(light, -up), bottom), 1e-5f);
+    const glm::vec3 side = glm::normalize(glm::cross(up, glm::vec3(0, 0, 1)));
+    EXPECT_LT(glm::distance(radiance(light, side), 0.5f * (top + bottom)), 1e-5f);
+}
+
+/// ∫ over the disc of Y(w) cos / distance², in polar coordinates on the disc: another way than along its rim.
+std::vector<double> disc_by_area(int order, const glm::dvec3& centre, const glm::dvec3& normal,
+                                 double radius) {
+    const glm::dvec3 u = glm::normalize(glm::cross(normal, glm::dvec3(0.3, 0.5, -0.8))),
+                     v = glm::cross(normal, u);
+    std::vector<double> sum(static_cast<std::size_t>(coefficient_count(order)), 0), y(sum.size());
+    constexpr int kAngles = 400;
+    std::vector<double> nodes, weights; // Gauss-Legendre in the radius, taken from that of the sphere in z
+    for (const auto& point : test::sphere_quadrature(60))
+        if (nodes.empty() || std::abs(point.direction.z - nodes.back()) > 1e-12) {
+            nodes.push_back(point.direction.z);
+            weights.push_back(point.weight);
+        } else {
+            weights.back() += point.weight;
+        }
+    for (std::size_t n = 0; n < nodes.size(); ++n)
+        for (int a = 0; a < kAngles; ++a) {
+            const double r = 0.5 * radius * (1 + nodes[n]), t = 2 * std::numbers::pi * a / kAngles;
+            const glm::dvec3 p = centre + r * (std::cos(t) * u + std::sin(t) * v), w = glm::normalize(p);
+            const double area =
+                weights[n] / (2 * std::numbers::pi) * 0.5 * radius * r * 2 * std::numbers::pi / kAngles;
+            const double solid_angle = area * -glm::dot(normal, w) / glm::dot(p, p);
+            evaluate_sh(order, w, std::span<double>(y));
+            for (std::size_t i = 0; i < sum.size(); ++i)
+                sum[i] += solid_angle * y[i];
+        }
+    return sum;
+}
+
+TEST(Light, DiscAgreesWithQuadratureOverItsArea) {
+    for (const auto& [centre, normal] : {std::pair(glm::vec3(0, 0, 2), glm::vec3(0, 0, -1)),
+                                         std::pair(glm::vec3(1, 2, -1), glm::vec3(0.2f, -1, 0.4f)),
+                                         std::pair(glm::vec3(3, 0.2f, 0), glm::vec3(-0.3f, 0, 0.95f))}) {
+        const glm::dvec3 n = glm::normalize(glm::dvec3(normal));
+        const Light light = disc_light(10, centre, normal, 1.2, {1, 1, 1});
+        const auto expected = disc_by_area(10, glm::dvec3(centre), n, 1.2);
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_NEAR(static_cast<double>(light.coefficients[i].r), expected[i], 1e-6) << i;
+    }
+}
+
+TEST(Light, DiscThatFacesTheReceiverIsACone) {
+    EXPECT_LT(largest_difference(disc_light(10, {0, 3, 0}, {0, -1, 0}, 3, {1, 2, 3}),
+                                 cone_light(10, {0, 1, 0}, std::numbers::pi / 4, {1, 2, 3})),
+              3e-6);
+    // As large as can be it covers half of the sphere.
+    const Light wide = disc_light(4, {0, 0, 1e-3f}, {0, 0, -1}, 1000, {1, 1, 1});
+    EXPECT_NEAR(wide.coefficients[0].r, 2 * std::numbers::pi * 0.2820948, 1e-5);
+}
+
+TEST(Light, DiscIsDarkFromBehindAndRefusesNonsense) {
+    for (const glm::vec3& c : disc_light(4, {0, 0, 2}, {0, 0, 1}, 1, {1, 1, 1}).coefficients)
+        EXPECT_EQ(c, glm::vec3(0));
+    EXPECT_THROW(disc_light(4, {0, 0, 2}, {0, 0, -1}, 0, {1, 1, 1}), Error);
+    EXPECT_THROW(disc_light(4, {0, 0, 2}, {0, 0, 0}, 1, {1, 1, 1}), Error);
+}
+
+TEST(Light, ScaledLightGivesTheExitRadianceThatWasAskedFor) {
+    for (int order = 2; order <= 10; ++order) {
+        const glm::vec3 n = glm::normalize(glm::vec3(1, 2, 3));
+        const Light light = scaled_to_exit_radiance(directional_light(order, n, {1, 1, 1}), n, {1, 2, 3});
+        std::vector<double> lobe(light.coefficients.size());
+        clamped_cosine_lobe(order, glm::dvec3(n), lobe);
+        glm::dvec3 exit(0);
+        for (std::size_t i = 0; i < lobe.size(); ++i)
+            exit += lobe[i] * glm::dvec3(light.coefficients[i]);
+        EXPECT_LT(glm::distance(exit, glm::dvec3(1, 2, 3)), 1e-6);
+    }
+    EXPECT_THROW(scaled_to_exit_radiance(constant_light(3, {1, 0, 1}), {0, 1, 0}, {1, 1, 1}), Error);
+}
+
+TEST(Light, SumsAndBlends) {
+    const Light a = constant_light(3, {1, 2, 3}), b = directional_light(3, {0, 1, 0}, {3, 2, 1});
+    for (std::size_t i = 0; i < 9; ++i) {
+        EXPECT_EQ(sum(a, b).coefficients[i], a.coefficients[i] + b.coefficients[i]);
+        EXPECT_LT(glm::distance(blended(a, b, 0.25f).coefficients[i],
+                                0.75f * a.coefficients[i] + 0.25f * b.coefficients[i]),
+                  1e-6f);
+    }
+    EXPECT_THROW(sum(a, constant_light(4, {1, 1, 1})), Error);
+    EXPECT_THROW(blended(a, constant_light(4, {1, 1, 1}), 0.5f), Error);
+}
+
+TEST(Light, DeringedRadianceIsNowhereNegative) {
+    const Light sun = directional_light(8, glm::normalize(glm::vec3(1, 3, 2)), {5, 4, 3});
+    const Light dim = constant_light(8, {0.02f, 0.02f, 0.05f});
+    const Light light = windowed(sum(sun, dim), Window::automatic);
+    float least = 1e9f, largest = 0;
+    for (const auto& [w, weight] : test::sphere_quadrature(200)) {
+        const glm::vec3 value = radiance(light, glm::vec3(w));
+        least = std::min({least, value.r, value.g, value.b});
+        largest = std::max(largest, value.r);
+    }
+    EXPECT_GT(least, -1e-3f * largest);
+    EXPECT_LT(glm::distance(light.coefficients[0], sum(sun, dim).coefficients[0]), 1e-5f); // energy stays
+}
+
+TEST(Sky, AgreesWithAFinerQuadrature) {
+    const PreethamSky sky(3, glm::normalize(glm::dvec3(0.4, 0.6, 0.7)));
+    const Light light = sky_light(6, sky);
+    std::vector<glm::dvec3> expected(36, glm::dvec3(0));
+    std::vector<double> y(36);
+    for (const auto& [w, weight] : test::sphere_quadrature(600)) {
+        evaluate_sh(6, w, std::span<double>(y));
+        for (std::size_t i = 0; i < 36; ++i)
+            expected[i] += y[i] * weight * sky.radiance(w);
+    }
+    for (std::size_t i = 0; i < 36; ++i)
+        EXPECT_LT(glm::distance(glm::dvec3(light.coefficients[i]), expected[i]),
+                  2e-3 * glm::length(expected[0])); // 600 points err so at the horizon, where the sky ends
+    EXPECT_EQ(sky.radiance({0, -1, 0}), glm::dvec3(0));
+    const glm::dvec3 zenith = sky.radiance({0, 1, 0});
+    EXPECT_GT(zenith.b, zenith.r); // blue
+    EXPECT_THROW(PreethamSky(3, {0, -1, 0}), Error);
+    EXPECT_THROW(PreethamSky(3, {0, 2, 0}), Error);
+    EXPECT_THROW(PreethamSky(40, {0, 1, 0}), Error);
 }
 
 } // namespace

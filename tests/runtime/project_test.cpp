@@ -138,5 +138,88 @@ TEST(Project, AnEmptyImageIsAnError) {
     EXPECT_THROW(project(lat_long(2, 1, [](const auto&) { return glm::dvec3(1); }), 11), Error);
 }
 
+Environment angular(int size, const Radiance& radiance) {
+    Environment environment{{size, size, {}}, EnvironmentLayout::angular};
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const double u = 2 * (x + 0.5) / size - 1, v = 2 * (y + 0.5) / size - 1;
+            // Texels whose centre is outside show what their nearest part within shows.
+            const double shrink = std::min(1.0, 1 / std::hypot(u, v));
+            environment.image.pixels.emplace_back(radiance(angular_direction(shrink * u, shrink * v)));
+        }
+    return environment;
+}
+
+Environment cube_faces(int size, const Radiance& radiance) {
+    Environment environment{{size, 6 * size, {}}, EnvironmentLayout::cube_faces};
+    for (int y = 0; y < 6 * size; ++y)
+        for (int x = 0; x < size; ++x)
+            environment.image.pixels.emplace_back(radiance(
+                cube_face_direction(y / size, (2.0 * x + 1) / size - 1, (2.0 * (y % size) + 1) / size - 1)));
+    return environment;
+}
+
+TEST(OtherLayouts, ConstantImagesAreConstantLights) {
+    for (const int size : {1, 2, 3, 16, 65}) {
+        Environment faces{{size, 6 * size, {}}, EnvironmentLayout::cube_faces},
+            probe{{size, size, {}}, EnvironmentLayout::angular};
+        faces.image.pixels.assign(static_cast<std::size_t>(6 * size * size), glm::vec3(1, 2, 3));
+        probe.image.pixels.assign(static_cast<std::size_t>(size * size), glm::vec3(1, 2, 3));
+        const Light expected = constant_light(10, glm::vec3(1, 2, 3));
+        EXPECT_LT(largest_difference(project(faces, 10), expected), 1e-5) << size;
+        EXPECT_LT(largest_difference(project(probe, 10), expected), 2e-5) << size;
+    }
+}
+
+TEST(OtherLayouts, BasisFunctionsComeBack) {
+    for (const int i : {1, 2, 3, 4, 7, 11, 20, 35}) {
+        const auto function = [&](const glm::dvec3& w) {
+            std::array<double, 100> y{};
+            evaluate_sh(6, w, std::span<double>(y));
+            return glm::dvec3(1 + y[static_cast<std::size_t>(i)]);
+        };
+        Light expected = constant_light(6, glm::vec3(1));
+        expected.coefficients[static_cast<std::size_t>(i)] += 1.0f;
+        EXPECT_LT(largest_difference(project(cube_faces(128, function), 6), expected), 1e-3) << i;
+        EXPECT_LT(largest_difference(project(angular(256, function), 6), expected), 2e-3) << i;
+    }
+}
+
+TEST(OtherLayouts, SamplingFindsWhatIsThere) {
+    const auto function = [](const glm::dvec3& w) { return 1.0 + glm::dvec3(w); };
+    const Environment faces = cube_faces(64, function), probe = angular(128, function);
+    for (const glm::vec3 d : {glm::vec3(1, 2, 3), glm::vec3(-3, 0.1f, 0.2f), glm::vec3(0.1f, -1, 0.3f),
+                              glm::vec3(0.2f, 0.1f, -4), glm::vec3(0.3f, 5, 0.1f), glm::vec3(-1, -2, 2.5f)}) {
+        const glm::vec3 w = glm::normalize(d);
+        EXPECT_LT(glm::distance(sample(faces, w), 1.0f + w), 0.01f);
+        EXPECT_LT(glm::distance(sample(probe, w), 1.0f + w), 0.03f);
+        const Image flat = resampled_lat_long(probe);
+        EXPECT_LT(glm::distance(sample_lat_long(flat, w), 1.0f + w), 0.08f);
+    }
+}
+
+/// A sun in one texel of a lat-long map is a directional light, wherever it stands: at the poles, on the
+/// seam.
+TEST(Project, ADeltaSunIsADirectionalLightEverywhere) {
+    constexpr int kWidth = 2048, kHeight = 1024;
+    for (const auto& [x, y] : {std::pair(5, 0), std::pair(700, kHeight - 1), std::pair(0, 300),
+                               std::pair(kWidth - 1, 511), std::pair(1024, 512)}) {
+        Environment environment{{kWidth, kHeight, {}}, EnvironmentLayout::lat_long};
+        environment.image.pixels.assign(std::size_t{kWidth} * kHeight, glm::vec3(1e-3f));
+        environment.image.at(x, y) = glm::vec3(1e5f, 2e5f, 0.5e5f);
+        const double theta = std::numbers::pi / kHeight;
+        const double solid_angle =
+            2 * std::numbers::pi / kWidth * (std::cos(y * theta) - std::cos((y + 1) * theta));
+        const glm::vec3 towards(lat_long_direction(kWidth, kHeight, x + 0.5, y + 0.5));
+        const Light sun = directional_light(8, towards, glm::vec3(1e5f, 2e5f, 0.5e5f) * float(solid_angle));
+        const Light expected = sum(sun, constant_light(8, glm::vec3(1e-3f)));
+        const double scale = static_cast<double>(glm::length(expected.coefficients[0]));
+        // At a pole a texel is a sector, whose centroid is a sixth of a row from its centre: 5e-4 radians, by
+        // which a function of band 7 changes by at most 7 times as much.
+        const double tolerance = y == 0 || y == kHeight - 1 ? 4e-3 : 1e-4;
+        EXPECT_LT(largest_difference(project(environment, 8), expected), tolerance * scale) << x << " " << y;
+    }
+}
+
 } // namespace
 } // namespace prt

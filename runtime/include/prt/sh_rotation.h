@@ -21,7 +21,7 @@ namespace prt {
 class ShRotation {
 public:
     /// Throws `Error` for an order outside 1..kMaxOrder and for matrices that are not rotations within 1e-4
-    /// per element of R^T R: scaled, sheared or mirrored ones.
+    /// per element of R^T R: scaled, sheared or mirrored ones. What is left of such an error is taken out.
     ShRotation(int order, const glm::dmat3& rotation);
     /// Throws `Error` unless the length of `rotation` is 1 within 1e-4.
     ShRotation(int order, const glm::dquat& rotation);

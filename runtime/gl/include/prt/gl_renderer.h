@@ -13,7 +13,7 @@ public:
     explicit GlTransfer(const ClusteredTransfer& transfer);
 
     /// Defines for shaders that include prt_exit_radiance.glsl.
-    std::string defines() const;
+    const std::string& defines() const { return defines_; }
     /// Forms the constants for `light` and uploads them.
     void set_light(const ClusteredTransfer& transfer, const Light& light);
     /// Points the attributes of `vertex_array` at the receivers from `first` on.
@@ -23,7 +23,8 @@ public:
 
 private:
     WeightFormat format_;
-    int weight_vectors_ = 0, words_ = 0, cluster_bits_ = 0;
+    int weight_vectors_ = 0, words_ = 0;
+    std::string defines_;
     GlObject clusters_, weights_, layouts_, constants_;
 };
 

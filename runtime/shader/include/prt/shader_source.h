@@ -1,0 +1,46 @@
+#pragma once
+
+// The shaders of the runtime as text, for the graphics interface of a game.
+
+#include "prt/clustered_transfer.h"
+
+#include <string>
+#include <string_view>
+
+namespace prt {
+
+enum class ShaderLanguage {
+    glsl450, ///< OpenGL 4.5
+    glsl330, ///< OpenGL 3.3; blocks and samplers are bound by name
+    essl300, ///< OpenGL ES 3.0, WebGL 2; the same
+    vulkan,  ///< GLSL to be compiled to SPIR-V, and from there to HLSL
+};
+
+/// Where a vertex shader reads the constants.
+enum class ConstantSource {
+    buffer,  ///< storage buffers; not in OpenGL 3.3 and ES 3.0
+    block,   ///< uniform blocks; 16 bytes a row, and a driver may allow no more than 16 KB
+    texture, ///< texel fetch from an RGBA32F and an RGBA32UI texture of kConstantTextureWidth texels a row
+};
+
+inline constexpr int kConstantTextureWidth = 256;
+
+/// Source of a file of shaders/: #version, `defines` (lines), then the file with its includes in place, each
+/// once. Throws `Error` for a file that is not there.
+std::string shader_source(std::string_view name, std::string_view defines,
+                          ShaderLanguage language = ShaderLanguage::glsl450);
+
+/// The lines that `prt_exit_radiance.glsl` wants for a model. Throws `Error` where its weights do not fit
+/// twelve vertex attributes, and for storage buffers in a language that has none.
+std::string relight_defines(const ClusteredTransfer& transfer,
+                            ConstantSource constants = ConstantSource::buffer,
+                            ShaderLanguage language = ShaderLanguage::glsl450);
+
+/// A complete vertex shader for a model (shaders/prt_relight.vert).
+std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource constants,
+                           ShaderLanguage language);
+
+/// A complete compute shader that forms the constants (shaders/prt_constants.comp), for GLSL 4.5 and Vulkan.
+std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language);
+
+} // namespace prt

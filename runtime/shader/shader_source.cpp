@@ -1,0 +1,109 @@
+#include "prt/shader_source.h"
+
+#include "embedded_files.h"
+#include "prt/error.h"
+
+#include <algorithm>
+#include <set>
+#include <sstream>
+
+namespace prt {
+namespace {
+
+constexpr int kMostWeightVectors = 12, kMostWords = 8;
+
+void append_file(const std::string& name, std::set<std::string>& included, std::string& source) {
+    const auto found = embedded_files().find(name);
+    if (found == embedded_files().end())
+        throw Error("the shader " + name + " is not embedded");
+    if (!included.insert(name).second)
+        return;
+    std::istringstream lines(found->second);
+    for (std::string line; std::getline(lines, line);) {
+        constexpr std::string_view kInclude = "#include \"";
+        if (line.starts_with(kInclude))
+            append_file(line.substr(kInclude.size(), line.rfind('"') - kInclude.size()), included, source);
+        else
+            source += line + "\n";
+    }
+}
+
+const char* version_lines(ShaderLanguage language) {
+    switch (language) {
+    case ShaderLanguage::glsl330:
+        return "#version 330 core\n";
+    case ShaderLanguage::essl300:
+        return "#version 300 es\nprecision highp float;\nprecision highp int;\n";
+    case ShaderLanguage::vulkan:
+        return "#version 450\n";
+    case ShaderLanguage::glsl450:
+        break;
+    }
+    return "#version 450 core\n";
+}
+
+std::string define(const char* name, std::size_t value) {
+    return std::string("#define ") + name + " " + std::to_string(value) + "\n";
+}
+
+} // namespace
+
+std::string shader_source(std::string_view name, std::string_view defines, ShaderLanguage language) {
+    std::string source = version_lines(language);
+    source += defines;
+    std::set<std::string> included;
+    append_file(std::string(name), included, source);
+    return source;
+}
+
+std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource constants,
+                            ShaderLanguage language) {
+    const ClusteredReceivers& receivers = transfer.receivers;
+    std::string text;
+    if (receivers.format == WeightFormat::packed) {
+        if (receivers.words > kMostWords)
+            throw Error(std::to_string(receivers.words) + " words of packed weights do not fit the " +
+                        std::to_string(kMostWords) + " of the vertex attributes");
+        text += define("PRT_PACKED_WORDS", static_cast<std::size_t>(receivers.words)) +
+                define("PRT_CLUSTER_BITS", static_cast<std::size_t>(receivers.cluster_bits));
+    } else {
+        const int components = std::max(receivers.components, transfer.bases.max_components());
+        if (components > 4 * kMostWeightVectors)
+            throw Error(std::to_string(components) + " components do not fit the " +
+                        std::to_string(4 * kMostWeightVectors) + " of the vertex attributes");
+        text += define("PRT_WEIGHT_VECTORS", static_cast<std::size_t>(receivers.components / 4));
+    }
+    switch (constants) {
+    case ConstantSource::buffer:
+        if (language == ShaderLanguage::glsl330 || language == ShaderLanguage::essl300)
+            throw Error(
+                "OpenGL 3.3 and OpenGL ES 3.0 have no storage buffers: take constants from a block or a "
+                "texture");
+        return text + "#define PRT_CONSTANTS_BUFFER\n";
+    case ConstantSource::block:
+        return text + "#define PRT_CONSTANTS_BLOCK\n" +
+               define("PRT_MOST_ROWS", constant_rows(transfer.bases)) +
+               define("PRT_MOST_CLUSTERS", transfer.bases.clusters());
+    case ConstantSource::texture:
+        break;
+    }
+    return text + "#define PRT_CONSTANTS_TEXTURE\n" + define("PRT_TEXTURE_WIDTH", kConstantTextureWidth);
+}
+
+std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource constants,
+                           ShaderLanguage language) {
+    return shader_source("prt_relight.vert", relight_defines(transfer, constants, language), language);
+}
+
+std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language) {
+    if (language != ShaderLanguage::glsl450 && language != ShaderLanguage::vulkan)
+        throw Error("OpenGL 3.3 and OpenGL ES 3.0 have no compute shaders: form the constants on the CPU");
+    return shader_source(
+        "prt_constants.comp",
+        define("PRT_ROWS", constant_rows(transfer.bases)) +
+            define("PRT_CHANNELS", static_cast<std::size_t>(transfer.bases.channels)) +
+            define("PRT_COEFFICIENTS", static_cast<std::size_t>(coefficient_count(transfer.bases.order))),
+        language);
+}
+
+} // namespace prt

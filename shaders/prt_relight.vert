@@ -1,0 +1,18 @@
+// The whole vertex shader of a relit model: a start for one of your own.
+
+#include "prt_exit_radiance.glsl"
+
+layout(location = PRT_LOCATION_POSITION) in vec3 position;
+
+#ifdef VULKAN
+layout(push_constant) uniform Camera { mat4 view_projection; };
+layout(location = 0) out vec3 radiance;
+#else
+uniform mat4 view_projection;
+out vec3 radiance;
+#endif
+
+void main() {
+    radiance = prt_exit_radiance(); // times the albedo of the surface, in the fragment shader
+    gl_Position = view_projection * vec4(position, 1.0);
+}
