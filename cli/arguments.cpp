@@ -1,6 +1,4 @@
-#include "arguments.h"
-
-#include <CLI/CLI.hpp>
+#include "argument_parts.h"
 
 #include <array>
 #include <cstdio>
@@ -11,22 +9,6 @@
 namespace prt::cli {
 namespace {
 
-const std::map<std::string, Window> kWindows = {{"none", Window::none},
-                                                {"hann", Window::hann},
-                                                {"lanczos", Window::lanczos},
-                                                {"auto", Window::automatic}};
-const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", EnvironmentLayout::lat_long},
-                                                           {"cube", EnvironmentLayout::cube},
-                                                           {"cube-faces", EnvironmentLayout::cube_faces},
-                                                           {"angular", EnvironmentLayout::angular}};
-const std::map<std::string, BadPixels> kBadPixels = {
-    {"error", BadPixels::error}, {"zero", BadPixels::zero}, {"clamp", BadPixels::clamp}};
-const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::packed},
-                                                      {"float", WeightFormat::float32},
-                                                      {"16", WeightFormat::snorm16},
-                                                      {"8", WeightFormat::snorm8}};
-const std::map<std::string, MetricChoice> kMetrics = {{"natural", MetricChoice::natural},
-                                                      {"plain", MetricChoice::plain}};
 const std::map<std::string, Backend> kBackends = {
     {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
 const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
@@ -35,25 +17,16 @@ const std::map<std::string, Storage> kStorages = {
     {"auto", Storage::automatic}, {"float32", Storage::float32}, {"float16", Storage::float16}};
 const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
                                                          {"ignore", BadTextures::ignore}};
+const std::map<std::string, ShaderLanguage> kLanguages = {{"glsl450", ShaderLanguage::glsl450},
+                                                          {"glsl330", ShaderLanguage::glsl330},
+                                                          {"essl300", ShaderLanguage::essl300},
+                                                          {"vulkan", ShaderLanguage::vulkan}};
+const std::map<std::string, ConstantSource> kConstants = {{"buffer", ConstantSource::buffer},
+                                                          {"block", ConstantSource::block},
+                                                          {"texture", ConstantSource::texture}};
 const std::map<std::string, Show> kShows = {
     {"lit", Show::lit}, {"clusters", Show::clusters}, {"error", Show::error}, {"ao", Show::ao}};
 const std::map<std::string, ToneMap> kToneMaps = {{"filmic", ToneMap::filmic}, {"srgb", ToneMap::srgb}};
-
-/// An option whose value is one of `choices`.
-template <class T, class Target>
-CLI::Option* choice(CLI::App* command, const std::string& name, Target& target,
-                    const std::map<std::string, T>& choices, const std::string& text,
-                    const std::string& otherwise) {
-    std::string names;
-    for (const auto& [key, value] : choices)
-        names += (names.empty() ? "" : "|") + key;
-    return command
-        ->add_option_function<std::string>(
-            name, [&target, &choices](const std::string& key) { target = choices.at(key); }, text)
-        ->check(CLI::IsMember(choices))
-        ->type_name(names)
-        ->default_str(otherwise);
-}
 
 void parse_vector(const std::string& name, const std::string& text, std::optional<glm::vec3>& target) {
     glm::vec3 v(0);
@@ -70,28 +43,6 @@ void vector_option(CLI::App* command, const std::string& name, std::optional<glm
         ->add_option_function<std::string>(
             name, [name, &target](const std::string& value) { parse_vector(name, value, target); }, text)
         ->type_name("x,y,z");
-}
-
-void add_threads(CLI::App* command, int& threads) {
-    command->add_option("--threads", threads, "number of threads, 0: all")
-        ->capture_default_str()
-        ->check(CLI::Range(0, 1024));
-}
-
-void add_json(CLI::App* command, Path& json) {
-    command->add_option("--json", json, "also write all figures to this file")->type_name("FILE");
-}
-
-void add_light_options(CLI::App* command, LightOptions& options) {
-    choice(command, "--window", options.window, kWindows, "window over the SH bands against ringing", "none");
-    command
-        ->add_option("--rotate", options.rotation_degrees,
-                     "turn the environment about +Y, degrees, counter-clockwise from above")
-        ->capture_default_str();
-    choice(command, "--env-layout", options.environment.layout, kLayouts,
-           "how to read an image that does not say; otherwise by its shape", "by shape");
-    choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
-           "what to do with negative, infinite and NaN pixels", "error");
 }
 
 int parse_bounces(const std::string& text) {
@@ -221,112 +172,6 @@ void add_bench(CLI::App& app, BenchArguments& a) {
     command->add_option("--html", a.html, "also write a report page to this file")->type_name("FILE");
 }
 
-/// A number, or auto: the search chooses.
-void count_or_auto(CLI::App* command, const std::string& name, int& target, bool& choose,
-                   const std::string& text) {
-    command
-        ->add_option_function<std::string>(
-            name,
-            [name, &target, &choose](const std::string& value) {
-                choose = value == "auto";
-                if (!choose && !CLI::detail::lexical_cast(value, target))
-                    throw CLI::ValidationError(name, "'" + value + "' is neither a number nor auto");
-            },
-            text)
-        ->type_name("N|auto");
-}
-
-/// What a preset fixes; the rest of the options stays.
-void take_sizes(const CompressOptions& preset, CompressOptions& to) {
-    to.clusters = preset.clusters;
-    to.cluster_bits = preset.cluster_bits;
-    to.fixed_bits = preset.fixed_bits;
-    to.components = preset.components;
-}
-
-void add_sizes(CLI::App* command, SearchOptions& o) {
-    command
-        ->add_option_function<std::string>(
-            "--preset",
-            [&o](const std::string& name) {
-                if (name != "custom")
-                    take_sizes(name == "u32" ? preset_u32() : preset_u64(), o.compress);
-            },
-            "u32: all of a vertex in one 32-bit word; u64: in two; custom: as the following options say")
-        ->check(CLI::IsMember({"u32", "u64", "custom"}))
-        ->type_name("u32|u64|custom")
-        ->default_str("u32, custom with other sizes");
-    count_or_auto(command, "--clusters", o.compress.clusters, o.choose_clusters,
-                  "number of clusters, 1..65536");
-    count_or_auto(command, "--components", o.compress.components, o.choose_components,
-                  "most PCA components of a cluster");
-    command->add_option("--bits", o.compress.bits,
-                        "bits of a vertex's weights together, where they are packed");
-    choice(command, "--weights", o.compress.weights, kWeights,
-           "packed: bits by variance; or 8 or 16 bits each, or float", "packed");
-    command->add_option("--max-error", o.budget.max_error,
-                        "the cheapest whose expected lit_rms under the metric is at most this");
-    command->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
-                        "the best of at most this size, bases counted in");
-    command->add_option("--shader-ops", o.budget.shader_ops,
-                        "components that the vertex shader adds, on average over the vertices, at most");
-}
-
-void add_compress(CLI::App& app, CompressArguments& a) {
-    CLI::App* command = app.add_subcommand("compress", "Compress a bake by clustered PCA");
-    command->add_option("baked", a.baked, "output of prt bake")->required();
-    command->add_option("-o,--output", a.output, "compressed .glb to write")->required()->type_name("FILE");
-    add_sizes(command, a.options);
-    command->add_flag("--best-effort", a.best_effort, "write the nearest where nothing keeps the budget");
-    CLI::Option* metric =
-        choice(command, "--metric", a.metric, kMetrics,
-               "what an error costs: natural lighting from any side, or all coefficients alike", "natural");
-    command
-        ->add_option("--lights", a.lights,
-                     "compress for these environments (.exr, .hdr) or lights (.json), turned about +Y")
-        ->excludes(metric)
-        ->type_name("FILE");
-    add_light_options(command, a.light_options);
-    command
-        ->add_option("--seam-weight", a.options.compress.seam_weight,
-                     "what jumps of the error along mesh edges cost, 0: nothing")
-        ->capture_default_str();
-    command
-        ->add_option("--potts-weight", a.options.compress.potts_weight,
-                     "price of a neighbour in another cluster, in mean squared errors")
-        ->capture_default_str();
-    command->add_flag("--reorder", a.reorder, "put the vertices of a cluster side by side");
-    command->add_flag("--meshopt", a.meshopt, "write vertex data through EXT_meshopt_compression");
-    command->add_option("--seed", a.options.compress.seed, "seed of the clustering")->capture_default_str();
-    add_threads(command, a.options.compress.threads);
-    add_json(command, a.json);
-}
-
-/// What the options of prt compress mean together: u32 where no size is given, a search where a budget is.
-void resolve(const CLI::App& command, CompressArguments& a) {
-    SearchOptions& o = a.options;
-    const auto given = [&](const char* name) { return command.count(name) > 0; };
-    const bool sizes = given("--clusters") || given("--components") || given("--bits") || given("--weights");
-    const bool preset = given("--preset") && command.get_option("--preset")->as<std::string>() != "custom";
-    if (preset && (sizes || o.budget.any()))
-        throw CLI::ValidationError("--preset", "u32 and u64 fix what other sizes and budgets would choose");
-    a.components_given = given("--components");
-    if (o.budget.any()) {
-        if (given("--bits"))
-            throw CLI::ValidationError("--bits", "is what a budget chooses");
-        o.choose_clusters = o.choose_clusters || !given("--clusters");
-        o.choose_components = o.choose_components || !given("--components");
-        return;
-    }
-    if ((given("--clusters") && o.choose_clusters) || (given("--components") && o.choose_components))
-        throw CLI::ValidationError("auto", "needs --max-error, --bytes-per-vertex or --shader-ops");
-    if (!preset && !sizes && !given("--preset")) {
-        take_sizes(preset_u32(), o.compress);
-    } else if (!preset && o.compress.weights != WeightFormat::packed && !given("--components")) {
-        o.compress.components = 8;
-    }
-}
-
 void add_evaluate(CLI::App& app, EvaluateArguments& a) {
     CLI::App* command =
         app.add_subcommand("evaluate", "Measure the error of a compressed file against its bake");
@@ -428,6 +273,18 @@ void add_render(CLI::App& app, RenderArguments& a) {
     add_json(command, a.json);
 }
 
+void add_shader(CLI::App& app, ShaderArguments& a) {
+    CLI::App* command = app.add_subcommand("shader", "Write the shader that relights a compressed model");
+    command->add_option("model", a.model, "output of prt compress")->required();
+    command->add_option("-o,--output", a.output, "GLSL to write")->required()->type_name("FILE");
+    choice(command, "--language", a.language, kLanguages,
+           "vulkan is GLSL to compile to SPIR-V, and from there to HLSL", "glsl450");
+    choice(command, "--constants", a.constants, kConstants,
+           "where the constants are: a storage buffer, a uniform block or a float texture", "buffer");
+    command->add_flag("--compute", a.compute,
+                      "the compute shader that forms the constants instead of the vertex shader");
+}
+
 void add_info(CLI::App& app, InfoArguments& a) {
     CLI::App* command = app.add_subcommand("info", "Say what a glTF file holds");
     command->add_option("file", a.file, "any .gltf or .glb")->required();
@@ -462,6 +319,7 @@ std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
     EvaluateArguments evaluate;
     ProjectArguments project;
     RenderArguments render;
+    ShaderArguments shader;
     InfoArguments info;
     add_bake(app, bake);
     add_bench(app, bench);
@@ -469,6 +327,7 @@ std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
     add_evaluate(app, evaluate);
     add_project(app, project);
     add_render(app, render);
+    add_shader(app, shader);
     add_info(app, info);
     try {
         app.parse(argc, argv);
@@ -498,6 +357,8 @@ std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
         return Arguments(project);
     if (app.got_subcommand("render"))
         return Arguments(render);
+    if (app.got_subcommand("shader"))
+        return Arguments(shader);
     return Arguments(info);
 }
 

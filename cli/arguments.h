@@ -1,12 +1,14 @@
 #pragma once
 
-// What the command line says, as plain structs. Parsing is in arguments.cpp and nowhere else.
+// What the command line says, as plain structs. Parsing is in the files named *arguments*.cpp and nowhere
+// else.
 
 #include "bench.h"
 #include "prt/bake.h"
 #include "prt/image_file.h"
 #include "prt/light.h"
 #include "prt/search.h"
+#include "prt/shader_source.h"
 #include "prt/tone_map.h"
 
 #include <filesystem>
@@ -81,12 +83,19 @@ struct RenderArguments {
     int threads = 0;
 };
 
+struct ShaderArguments {
+    Path model, output;
+    ShaderLanguage language = ShaderLanguage::glsl450;
+    ConstantSource constants = ConstantSource::buffer;
+    bool compute = false;
+};
+
 struct InfoArguments {
     Path file, json;
 };
 
 using Arguments = std::variant<BakeArguments, BenchArguments, CompressArguments, EvaluateArguments,
-                               ProjectArguments, RenderArguments, InfoArguments>;
+                               ProjectArguments, RenderArguments, ShaderArguments, InfoArguments>;
 
 /// What was asked for, or the exit status when there is nothing to do: 0 after --help, 2 for wrong usage (a
 /// line on stderr says what).

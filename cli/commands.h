@@ -12,6 +12,7 @@ void run(const EvaluateArguments& arguments, Interrupt& interrupt);
 void run(const ProjectArguments& arguments, Interrupt& interrupt);
 void run(const RenderArguments& arguments, Interrupt& interrupt);
 void run(const BenchArguments& arguments, Interrupt& interrupt);
+void run(const ShaderArguments& arguments, Interrupt& interrupt);
 void run(const InfoArguments& arguments, Interrupt& interrupt);
 
 } // namespace prt::cli

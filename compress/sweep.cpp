@@ -161,7 +161,8 @@ private:
         }
         // The operations of the classic way, in no more bytes than it takes.
         for (const SweepPoint& reference : std::vector<SweepPoint>(sweep_.by_ops)) {
-            if (reference.method != kClassic)
+            if (reference.method != kClassic ||
+                !(reference.shader_ops > 0)) // none where receivers are all alike
                 continue;
             SearchOptions o;
             o.compress = options_;

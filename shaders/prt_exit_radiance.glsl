@@ -57,7 +57,7 @@ uvec4 prt_layout_of(uint cluster) {
 #ifdef PRT_PACKED_WORDS
 layout(location = PRT_LOCATION_WEIGHTS) in uvec4 prt_words_0;
 #if PRT_PACKED_WORDS > 4
-layout(location = PRT_LOCATION_WEIGHTS + 1) in uvec4 prt_words_1;
+layout(location = PRT_LOCATION_WEIGHTS_1) in uvec4 prt_words_1;
 #endif
 
 uint prt_word(uint index) {
@@ -98,37 +98,37 @@ layout(location = PRT_LOCATION_CLUSTER) in uint prt_cluster;
 layout(location = PRT_LOCATION_WEIGHTS) in vec4 prt_weights_0;
 #endif
 #if PRT_WEIGHT_VECTORS > 1
-layout(location = PRT_LOCATION_WEIGHTS + 1) in vec4 prt_weights_1;
+layout(location = PRT_LOCATION_WEIGHTS_1) in vec4 prt_weights_1;
 #endif
 #if PRT_WEIGHT_VECTORS > 2
-layout(location = PRT_LOCATION_WEIGHTS + 2) in vec4 prt_weights_2;
+layout(location = PRT_LOCATION_WEIGHTS_2) in vec4 prt_weights_2;
 #endif
 #if PRT_WEIGHT_VECTORS > 3
-layout(location = PRT_LOCATION_WEIGHTS + 3) in vec4 prt_weights_3;
+layout(location = PRT_LOCATION_WEIGHTS_3) in vec4 prt_weights_3;
 #endif
 #if PRT_WEIGHT_VECTORS > 4
-layout(location = PRT_LOCATION_WEIGHTS + 4) in vec4 prt_weights_4;
+layout(location = PRT_LOCATION_WEIGHTS_4) in vec4 prt_weights_4;
 #endif
 #if PRT_WEIGHT_VECTORS > 5
-layout(location = PRT_LOCATION_WEIGHTS + 5) in vec4 prt_weights_5;
+layout(location = PRT_LOCATION_WEIGHTS_5) in vec4 prt_weights_5;
 #endif
 #if PRT_WEIGHT_VECTORS > 6
-layout(location = PRT_LOCATION_WEIGHTS + 6) in vec4 prt_weights_6;
+layout(location = PRT_LOCATION_WEIGHTS_6) in vec4 prt_weights_6;
 #endif
 #if PRT_WEIGHT_VECTORS > 7
-layout(location = PRT_LOCATION_WEIGHTS + 7) in vec4 prt_weights_7;
+layout(location = PRT_LOCATION_WEIGHTS_7) in vec4 prt_weights_7;
 #endif
 #if PRT_WEIGHT_VECTORS > 8
-layout(location = PRT_LOCATION_WEIGHTS + 8) in vec4 prt_weights_8;
+layout(location = PRT_LOCATION_WEIGHTS_8) in vec4 prt_weights_8;
 #endif
 #if PRT_WEIGHT_VECTORS > 9
-layout(location = PRT_LOCATION_WEIGHTS + 9) in vec4 prt_weights_9;
+layout(location = PRT_LOCATION_WEIGHTS_9) in vec4 prt_weights_9;
 #endif
 #if PRT_WEIGHT_VECTORS > 10
-layout(location = PRT_LOCATION_WEIGHTS + 10) in vec4 prt_weights_10;
+layout(location = PRT_LOCATION_WEIGHTS_10) in vec4 prt_weights_10;
 #endif
 #if PRT_WEIGHT_VECTORS > 11
-layout(location = PRT_LOCATION_WEIGHTS + 11) in vec4 prt_weights_11;
+layout(location = PRT_LOCATION_WEIGHTS_11) in vec4 prt_weights_11;
 #endif
 
 // On one line: GLSL 3.3 knows no others.

@@ -8,7 +8,18 @@
 #define PRT_LOCATION_COLOR 2
 #define PRT_LOCATION_RADIANCE 3 // shares its place with the cluster: a vertex has one or the other
 #define PRT_LOCATION_CLUSTER 3
-#define PRT_LOCATION_WEIGHTS 4 // and the following ones, four weights each
+#define PRT_LOCATION_WEIGHTS 4 // and the following ones, four weights each; GLSL 3.3 wants plain numbers
+#define PRT_LOCATION_WEIGHTS_1 5
+#define PRT_LOCATION_WEIGHTS_2 6
+#define PRT_LOCATION_WEIGHTS_3 7
+#define PRT_LOCATION_WEIGHTS_4 8
+#define PRT_LOCATION_WEIGHTS_5 9
+#define PRT_LOCATION_WEIGHTS_6 10
+#define PRT_LOCATION_WEIGHTS_7 11
+#define PRT_LOCATION_WEIGHTS_8 12
+#define PRT_LOCATION_WEIGHTS_9 13
+#define PRT_LOCATION_WEIGHTS_10 14
+#define PRT_LOCATION_WEIGHTS_11 15
 
 // Storage buffers.
 #define PRT_BINDING_CONSTANTS 0

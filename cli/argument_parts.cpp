@@ -1,0 +1,41 @@
+#include "argument_parts.h"
+
+namespace prt::cli {
+namespace {
+
+const std::map<std::string, Window> kWindows = {{"none", Window::none},
+                                                {"hann", Window::hann},
+                                                {"lanczos", Window::lanczos},
+                                                {"auto", Window::automatic}};
+const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", EnvironmentLayout::lat_long},
+                                                           {"cube", EnvironmentLayout::cube},
+                                                           {"cube-faces", EnvironmentLayout::cube_faces},
+                                                           {"angular", EnvironmentLayout::angular}};
+const std::map<std::string, BadPixels> kBadPixels = {
+    {"error", BadPixels::error}, {"zero", BadPixels::zero}, {"clamp", BadPixels::clamp}};
+
+} // namespace
+
+void add_threads(CLI::App* command, int& threads) {
+    command->add_option("--threads", threads, "number of threads, 0: all")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 1024));
+}
+
+void add_json(CLI::App* command, Path& json) {
+    command->add_option("--json", json, "also write all figures to this file")->type_name("FILE");
+}
+
+void add_light_options(CLI::App* command, LightOptions& options) {
+    choice(command, "--window", options.window, kWindows, "window over the SH bands against ringing", "none");
+    command
+        ->add_option("--rotate", options.rotation_degrees,
+                     "turn the environment about +Y, degrees, counter-clockwise from above")
+        ->capture_default_str();
+    choice(command, "--env-layout", options.environment.layout, kLayouts,
+           "how to read an image that does not say; otherwise by its shape", "by shape");
+    choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
+           "what to do with negative, infinite and NaN pixels", "error");
+}
+
+} // namespace prt::cli

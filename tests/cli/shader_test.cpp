@@ -1,0 +1,89 @@
+// prt shader: every language, compiled and validated by the tools of Khronos.
+
+#include "program.h"
+#include "support/glb_file.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace prt::test {
+namespace {
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Shader : public testing::TestWithParam<std::vector<std::string>> {
+protected:
+    void SetUp() override {
+        if (std::string(PRT_GLSLANG).empty() || std::string(PRT_SPIRV_CROSS).empty())
+            GTEST_SKIP() << "glslangValidator or spirv-cross is not installed";
+        triangle_file().write(folder / "t.glb");
+        ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "3"}).status, 0);
+        std::vector<std::string> compress = {"compress", at("b.glb"), "-o", at("c.glb")};
+        compress.insert(compress.end(), GetParam().begin(), GetParam().end());
+        const Outcome outcome = prt(compress);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+    }
+    std::string at(const std::string& name) const { return (folder / name).string(); }
+    void succeeds(const std::string& program, const std::vector<std::string>& arguments) {
+        const Outcome outcome = run(program, arguments);
+        EXPECT_EQ(outcome.status, 0) << program << ": " << outcome.out << outcome.err;
+    }
+    /// SPIR-V, valid, and HLSL from it that compiles.
+    void compiles_for_vulkan(const std::string& source, const std::string& stage) {
+        succeeds(PRT_GLSLANG,
+                 {"-V", "--target-env", "vulkan1.0", "-S", stage, at(source), "-o", at("s.spv")});
+        succeeds(PRT_SPIRV_VAL, {"--target-env", "vulkan1.0", at("s.spv")});
+        succeeds(PRT_SPIRV_CROSS, {at("s.spv"), "--hlsl", "--shader-model", "50", "--output", at("s.hlsl")});
+        succeeds(PRT_GLSLANG, {"-D", "-V", "-S", stage, "-e", "main", at("s.hlsl"), "-o", at("h.spv")});
+    }
+
+    TemporaryFolder folder;
+};
+INSTANTIATE_TEST_SUITE_P(
+    Weights, Shader,
+    testing::Values(std::vector<std::string>{}, std::vector<std::string>{"--preset", "u64"},
+                    std::vector<std::string>{"--clusters", "1", "--bits", "200"},
+                    std::vector<std::string>{"--weights", "8", "--clusters", "1"},
+                    std::vector<std::string>{"--weights", "float", "--clusters", "2", "--components", "0"}));
+
+TEST_P(Shader, CompilesInEveryLanguage) {
+    for (const std::string language : {"glsl450", "glsl330", "essl300", "vulkan"})
+        for (const std::string constants : {"buffer", "block", "texture"}) {
+            const Outcome outcome = prt({"shader", at("c.glb"), "-o", at("s.vert"), "--language", language,
+                                         "--constants", constants});
+            if (constants == "buffer" && (language == "glsl330" || language == "essl300")) {
+                EXPECT_EQ(outcome.status, 1);
+                EXPECT_NE(outcome.err.find("storage buffers"), std::string::npos);
+                continue;
+            }
+            ASSERT_EQ(outcome.status, 0) << outcome.err;
+            EXPECT_EQ(text_of(folder / "s.vert").find("#include"), std::string::npos); // stands alone
+            if (language == "vulkan")
+                compiles_for_vulkan("s.vert", "vert");
+            else
+                succeeds(PRT_GLSLANG, {"-S", "vert", at("s.vert")});
+        }
+}
+
+TEST_P(Shader, ConstantsAreFormedByComputeShaders) {
+    for (const std::string language : {"glsl450", "vulkan"}) {
+        const Outcome outcome =
+            prt({"shader", at("c.glb"), "-o", at("s.comp"), "--compute", "--language", language});
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        if (language == "vulkan")
+            compiles_for_vulkan("s.comp", "comp");
+        else
+            succeeds(PRT_GLSLANG, {"-S", "comp", at("s.comp")});
+    }
+    EXPECT_EQ(prt({"shader", at("c.glb"), "-o", at("s.comp"), "--compute", "--language", "essl300"}).status,
+              1);
+    EXPECT_EQ(prt({"shader", at("b.glb"), "-o", at("s.comp")}).status, 1);
+}
+
+} // namespace
+} // namespace prt::test

@@ -1,0 +1,299 @@
+// The vertex shader in every language and with every place for the constants, run by the driver, against C++.
+// Only what OpenGL ES 3.0 has is called, so that one test serves both kinds of context.
+
+#include "prt/compress.h"
+#include "prt/constant_former.h"
+#include "prt/gl_context.h"
+#include "prt/gl_objects.h"
+#include "prt/shader_source.h"
+#include "shared_layout.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <memory>
+#include <random>
+
+namespace prt {
+namespace {
+
+/// An OpenGL ES 3.0 context without a surface.
+class EsContext {
+public:
+    EsContext() {
+        display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+        if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr))
+            return;
+        eglBindAPI(EGL_OPENGL_ES_API);
+        const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
+        EGLConfig config = nullptr;
+        EGLint count = 0;
+        eglChooseConfig(display_, wanted, &config, 1, &count);
+        const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
+        context_ = eglCreateContext(display_, count > 0 ? config : nullptr, EGL_NO_CONTEXT, version);
+        current_ =
+            context_ != EGL_NO_CONTEXT && eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+    }
+    ~EsContext() {
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        if (context_ != EGL_NO_CONTEXT)
+            eglDestroyContext(display_, context_);
+        eglTerminate(display_);
+        eglBindAPI(EGL_OPENGL_API);
+    }
+    bool current() const { return current_; }
+
+private:
+    EGLDisplay display_ = EGL_NO_DISPLAY;
+    EGLContext context_ = EGL_NO_CONTEXT;
+    bool current_ = false;
+};
+
+GLuint compiled(GLenum stage, const std::string& source) {
+    const GLuint shader = glCreateShader(stage);
+    const char* text = source.c_str();
+    glShaderSource(shader, 1, &text, nullptr);
+    glCompileShader(shader);
+    GLint ok = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    char log[2000] = {};
+    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+    EXPECT_TRUE(ok) << log;
+    return shader;
+}
+
+template <class T>
+void bind_buffer(GLenum target, GLuint binding, const std::vector<T>& values) {
+    GLuint name = 0;
+    glGenBuffers(1, &name);
+    glBindBuffer(target, name);
+    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), GL_STATIC_DRAW);
+    glBindBufferBase(target, binding, name);
+}
+
+/// `values` in rows of kConstantTextureWidth texels, the last filled up.
+template <class T>
+void bind_texture(GLuint unit, GLenum internal, GLenum format, GLenum type, std::vector<T> values) {
+    const std::size_t width = kConstantTextureWidth, height = (values.size() + width - 1) / width;
+    values.resize(width * height);
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, name);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal), static_cast<GLsizei>(width),
+                 static_cast<GLsizei>(height), 0, format, type, values.data());
+}
+
+void bind_constants(GLuint program, ConstantSource source, const std::vector<glm::vec4>& constants,
+                    const std::vector<ClusterLayout>& layouts) {
+    switch (source) {
+    case ConstantSource::buffer:
+        bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CONSTANTS, constants);
+        bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CLUSTERS, layouts);
+        return;
+    case ConstantSource::block:
+        glUniformBlockBinding(program, glGetUniformBlockIndex(program, "PrtConstants"),
+                              PRT_BINDING_CONSTANTS);
+        glUniformBlockBinding(program, glGetUniformBlockIndex(program, "PrtClusters"), PRT_BINDING_CLUSTERS);
+        bind_buffer(GL_UNIFORM_BUFFER, PRT_BINDING_CONSTANTS, constants);
+        bind_buffer(GL_UNIFORM_BUFFER, PRT_BINDING_CLUSTERS, layouts);
+        return;
+    case ConstantSource::texture:
+        bind_texture(PRT_BINDING_CONSTANTS, GL_RGBA32F, GL_RGBA, GL_FLOAT, constants);
+        bind_texture(PRT_BINDING_CLUSTERS, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, layouts);
+        glUniform1i(glGetUniformLocation(program, "prt_constants"), PRT_BINDING_CONSTANTS);
+        glUniform1i(glGetUniformLocation(program, "prt_clusters"), PRT_BINDING_CLUSTERS);
+        return;
+    }
+}
+
+void bind_receivers(const ClusteredReceivers& receivers) {
+    GLuint buffers[2] = {};
+    glGenBuffers(2, buffers);
+    glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(receivers.weights.size()), receivers.weights.data(),
+                 GL_STATIC_DRAW);
+    const auto stride = static_cast<GLsizei>(receivers.stride());
+    const bool packed = receivers.format == WeightFormat::packed;
+    const int vectors = packed ? (receivers.words + 3) / 4 : receivers.components / 4;
+    const std::size_t size = packed ? 16 : 4 * bytes_per_weight(receivers.format);
+    for (int v = 0; v < vectors; ++v) {
+        const auto location = static_cast<GLuint>(PRT_LOCATION_WEIGHTS + v);
+        const auto* offset = reinterpret_cast<const void*>(static_cast<std::size_t>(v) * size);
+        glEnableVertexAttribArray(location);
+        if (packed)
+            glVertexAttribIPointer(location, std::min(4, receivers.words - 4 * v), GL_UNSIGNED_INT, stride,
+                                   offset);
+        else
+            glVertexAttribPointer(location, 4,
+                                  receivers.format == WeightFormat::snorm8    ? GL_BYTE
+                                  : receivers.format == WeightFormat::snorm16 ? GL_SHORT
+                                                                              : GL_FLOAT,
+                                  GL_TRUE, stride, offset);
+    }
+    if (packed)
+        return;
+    glBindBuffer(GL_ARRAY_BUFFER, buffers[1]);
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(receivers.clusters.size() * 2),
+                 receivers.clusters.data(), GL_STATIC_DRAW);
+    glEnableVertexAttribArray(PRT_LOCATION_CLUSTER);
+    glVertexAttribIPointer(PRT_LOCATION_CLUSTER, 1, GL_UNSIGNED_SHORT, 2, nullptr);
+}
+
+/// Nothing is drawn, but without a window there is no framebuffer unless we make one.
+void bind_small_framebuffer() {
+    GLuint framebuffer = 0, colour = 0;
+    glGenRenderbuffers(1, &colour);
+    glBindRenderbuffer(GL_RENDERBUFFER, colour);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour);
+}
+
+std::vector<glm::vec3> radiance_of(const ClusteredTransfer& transfer, const Light& light,
+                                   ShaderLanguage language, ConstantSource source) {
+    const GLuint program = glCreateProgram();
+    glAttachShader(program, compiled(GL_VERTEX_SHADER, relight_shader(transfer, source, language)));
+    const std::string header = language == ShaderLanguage::essl300
+                                   ? "#version 300 es\nprecision highp float;\n"
+                               : language == ShaderLanguage::glsl330 ? "#version 330 core\n"
+                                                                     : "#version 450 core\n";
+    glAttachShader(
+        program, compiled(GL_FRAGMENT_SHADER,
+                          header + "in vec3 radiance; out vec4 c; void main() { c = vec4(radiance, 1.0); }"));
+    const char* captured = "radiance";
+    glTransformFeedbackVaryings(program, 1, &captured, GL_INTERLEAVED_ATTRIBS);
+    glLinkProgram(program);
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    char log[2000] = {};
+    glGetProgramInfoLog(program, sizeof log, nullptr, log);
+    EXPECT_TRUE(linked) << log;
+    glUseProgram(program);
+
+    const ConstantFormer former(transfer);
+    std::vector<glm::vec4> constants(former.rows());
+    former.form(light.coefficients, constants);
+    GLuint vertex_array = 0, output = 0;
+    glGenVertexArrays(1, &vertex_array);
+    glBindVertexArray(vertex_array);
+    bind_receivers(transfer.receivers);
+    bind_constants(program, source, constants, cluster_layouts(transfer.bases));
+    bind_small_framebuffer();
+    const std::size_t count = transfer.receivers.size(), bytes = count * sizeof(glm::vec3);
+    glGenBuffers(1, &output);
+    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, output);
+    glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STATIC_READ);
+    glEnable(GL_RASTERIZER_DISCARD);
+    glBeginTransformFeedback(GL_POINTS);
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
+    glEndTransformFeedback();
+    glDisable(GL_RASTERIZER_DISCARD);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    std::vector<glm::vec3> radiance(count, glm::vec3(-1));
+    if (const void* data = glMapBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, static_cast<GLsizeiptr>(bytes),
+                                            GL_MAP_READ_BIT))
+        std::memcpy(radiance.data(), data, bytes);
+    return radiance;
+}
+
+ClusteredTransfer compressed(WeightFormat format) {
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal;
+    Transfer transfer = zero_transfer(4, 3, 600);
+    for (std::size_t i = 0; i < transfer.vectors.size(); ++i)
+        transfer.vectors[i] = normal(random) + (i % 16 == 0 ? 3.0f : 0.0f);
+    CompressOptions options;
+    options.clusters = 20;
+    options.components = 6;
+    options.bits = 150; // five words: weights lie across words and attributes
+    options.weights = format;
+    return compress(transfer, std::vector<float>(600, 1.0f), {}, options).transfer;
+}
+
+Light random_light() {
+    std::mt19937 random(6);
+    std::normal_distribution<float> normal;
+    Light light = constant_light(4, glm::vec3(1));
+    for (glm::vec3& c : light.coefficients)
+        c += 0.3f * glm::vec3(normal(random), normal(random), normal(random));
+    return light;
+}
+
+struct Variant {
+    ShaderLanguage language;
+    ConstantSource constants;
+};
+class ShaderVariants : public testing::TestWithParam<Variant> {};
+INSTANTIATE_TEST_SUITE_P(All, ShaderVariants,
+                         testing::Values(Variant{ShaderLanguage::glsl450, ConstantSource::buffer},
+                                         Variant{ShaderLanguage::glsl450, ConstantSource::block},
+                                         Variant{ShaderLanguage::glsl450, ConstantSource::texture},
+                                         Variant{ShaderLanguage::glsl330, ConstantSource::block},
+                                         Variant{ShaderLanguage::glsl330, ConstantSource::texture},
+                                         Variant{ShaderLanguage::essl300, ConstantSource::block},
+                                         Variant{ShaderLanguage::essl300, ConstantSource::texture}));
+
+TEST_P(ShaderVariants, ComputeWhatCppComputes) {
+    const auto [language, constants] = GetParam();
+    std::unique_ptr<GlContext> desktop;
+    std::unique_ptr<EsContext> es;
+    if (language == ShaderLanguage::essl300) {
+        es = std::make_unique<EsContext>();
+        ASSERT_TRUE(es->current());
+    } else {
+        desktop = GlContext::create(GlDevice::any);
+        ASSERT_TRUE(desktop);
+    }
+    const Light light = random_light();
+    for (const WeightFormat format :
+         {WeightFormat::packed, WeightFormat::snorm8, WeightFormat::snorm16, WeightFormat::float32}) {
+        const ClusteredTransfer transfer = compressed(format);
+        const auto expected = exit_radiance(transfer, light),
+                   measured = radiance_of(transfer, light, language, constants);
+        float largest = 0;
+        for (std::size_t p = 0; p < expected.size(); ++p)
+            largest = std::max(largest, glm::distance(expected[p], measured[p]) /
+                                            std::max(1.0f, glm::length(expected[p])));
+        EXPECT_LT(largest, 1e-5f) << static_cast<int>(format);
+    }
+}
+
+TEST(ConstantsShader, FormsWhatCppForms) {
+    const auto context = GlContext::create(GlDevice::any);
+    ASSERT_TRUE(context);
+    const Light light = random_light();
+    for (const WeightFormat format : {WeightFormat::packed, WeightFormat::snorm8}) {
+        const ClusteredTransfer transfer = compressed(format);
+        const ConstantFormer former(transfer);
+        std::vector<glm::vec4> expected(former.rows()), measured(former.rows()), coefficients;
+        former.form(light.coefficients, expected);
+        for (const glm::vec3& c : light.coefficients)
+            coefficients.emplace_back(c, 0);
+        const GLuint program = glCreateProgram();
+        glAttachShader(program,
+                       compiled(GL_COMPUTE_SHADER, constants_shader(transfer, ShaderLanguage::glsl450)));
+        glLinkProgram(program);
+        glUseProgram(program);
+        bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_MATRIX,
+                    std::vector<float>(former.matrix().begin(), former.matrix().end()));
+        bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_LIGHT, coefficients);
+        bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CONSTANTS, measured);
+        glDispatchCompute(static_cast<GLuint>((former.rows() + 63) / 64), 1, 1);
+        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0,
+                           static_cast<GLsizeiptr>(measured.size() * sizeof(glm::vec4)), measured.data());
+        EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_LT(glm::distance(expected[i], measured[i]), 2e-4f) << i;
+    }
+}
+
+} // namespace
+} // namespace prt
