@@ -138,13 +138,13 @@ private:
                     classic("vector quantisation", clusters, 0, false, part(done, done)));
         }
         const int clusters = std::min(kSweepClusters, most_clusters);
-        sweep_.by_ops.push_back(classic("vector quantisation", clusters, 0, false, part(0.5, 0.5)));
         for (const int m : kSweepOps) {
             if (static_cast<std::size_t>(m) > transfer_.dimension())
                 break;
             sweep_.by_ops.push_back(classic("static CPCA", clusters, m, false, part(0.5, 0.5)));
             sweep_.by_ops.push_back(classic(kClassic, clusters, m, true, part(0.5, 0.5)));
         }
+        sweep_.by_ops.push_back(classic("vector quantisation", clusters, 0, false, part(0.5, 0.5)));
     }
 
     void ours() {
