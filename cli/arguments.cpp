@@ -204,6 +204,11 @@ void add_project(CLI::App& app, ProjectArguments& a) {
         ->required();
     command->add_option("-o,--output", a.output, "light to write, .json")->required()->type_name("FILE");
     command->add_option("--order", a.order, "SH order N, 1..10")->capture_default_str();
+    command
+        ->add_option("--suns", a.suns,
+                     "fit so many lights to it, write them apart, and the rest as coefficients")
+        ->check(CLI::Range(0, 16))
+        ->capture_default_str();
     add_light_options(command, a.light_options);
     add_threads(command, a.threads);
     add_json(command, a.json);

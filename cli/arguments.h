@@ -65,6 +65,7 @@ struct EvaluateArguments {
 struct ProjectArguments {
     Path environment, output, json;
     int order = 6;
+    int suns = 0; ///< lights to take out
     LightOptions light_options;
     int threads = 0;
 };
