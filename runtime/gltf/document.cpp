@@ -167,7 +167,11 @@ GltfDocument& GltfDocument::operator=(GltfDocument&&) noexcept = default;
 GltfDocument::~GltfDocument() = default;
 
 GltfDocument load_gltf(const std::filesystem::path& path, MissingImages missing) {
-    const std::vector<std::byte> file = read_file(path);
+    return parse_gltf(read_file(path), path, missing);
+}
+
+GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::path& path,
+                        MissingImages missing) {
     auto contents = std::make_unique<GltfContents>();
     contents->path = path;
     try {

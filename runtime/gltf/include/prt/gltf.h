@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace prt {
@@ -35,6 +36,10 @@ enum class MissingImages { error, ignore };
 
 /// Reads .gltf or .glb with its buffers and images. Throws `Error` that names the file and the place in it.
 GltfDocument load_gltf(const std::filesystem::path& path, MissingImages missing = MissingImages::error);
+
+/// The same from a file in memory. `path` is where it is from: for messages, and for the files beside it.
+GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::path& path,
+                        MissingImages missing = MissingImages::error);
 
 /// Flattens the default scene. Every node instance gets vertices of its own; skins and morph targets are
 /// taken in the pose of the file. Throws `Error` for accessors out of bounds, indices beyond the vertices,

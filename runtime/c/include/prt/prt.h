@@ -1,0 +1,136 @@
+/* The runtime for programs in C, and for languages that call C.
+ *
+ * No function throws, none keeps state beyond the handles it gives out. Those that can fail return a status
+ * and write a line for people to `message`, which may be null. Handles may be used from several threads at
+ * once as long as nobody destroys them. Conventions, units and layouts are those of the C++ headers: SH with
+ * Condon-Shortley phase, order N for N*N coefficients, right-handed axes with +Y up, linear Rec. 709.
+ */
+#ifndef PRT_PRT_H
+#define PRT_PRT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32)
+#define PRT_API
+#else
+#define PRT_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum prt_status {
+    PRT_OK = 0,
+    PRT_BAD_ARGUMENT =
+        1,            /* a null pointer, an order outside 1..10, a direction of length 0, a mirrored matrix */
+    PRT_BAD_FILE = 2, /* missing, damaged, or without what is wanted */
+    PRT_NO_MEMORY = 3,
+    PRT_TOO_SMALL = 4 /* the buffer; what it needs is written to *size */
+} prt_status;
+
+typedef struct prt_message {
+    char text[256];
+} prt_message;
+
+/* A light: `order`, and order*order colours (r, g, b) of the caller's. */
+
+/* Writes the order*order basis values in unit direction `direction` to `basis`. */
+PRT_API prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message);
+/* The product of two functions, truncated to `order` bands; `out` may be either. */
+PRT_API prt_status prt_sh_multiply(int order, const float* a, const float* b, float* out,
+                                   prt_message* message);
+/* Rotates functions of one channel by `rotation`, columns first (OpenGL's order); `out` may be `in`. */
+PRT_API prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, float* out,
+                                 prt_message* message);
+
+PRT_API prt_status prt_light_constant(int order, const float radiance[3], float* light, prt_message* message);
+PRT_API prt_status prt_light_directional(int order, const float towards[3], const float irradiance[3],
+                                         float* light, prt_message* message);
+PRT_API prt_status prt_light_cone(int order, const float axis[3], float half_angle, const float radiance[3],
+                                  float* light, prt_message* message);
+PRT_API prt_status prt_light_sphere(int order, const float centre[3], float radius, const float radiance[3],
+                                    float* light, prt_message* message);
+PRT_API prt_status prt_light_disc(int order, const float centre[3], const float normal[3], float radius,
+                                  const float radiance[3], float* light, prt_message* message);
+PRT_API prt_status prt_light_hemisphere(int order, const float up[3], const float top[3],
+                                        const float bottom[3], float* light, prt_message* message);
+/* Pixels (r, g, b), rows from the top: top row +Y, centre column +Z. Bad pixels are an error. `threads` 0:
+ * all. */
+PRT_API prt_status prt_light_from_lat_long(int order, int width, int height, const float* pixels, int threads,
+                                           float* light, prt_message* message);
+/* An environment map, .exr or .hdr. */
+PRT_API prt_status prt_light_from_file(int order, const char* path, float* light, prt_message* message);
+/* Rotates all three channels by `rotation`, columns first, in place. An object that turns wants its lighting
+ * turned by the inverse. */
+PRT_API prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message);
+/* The least diffusion under which the light is nowhere negative, in place. */
+PRT_API prt_status prt_light_dering(int order, float* light, prt_message* message);
+
+/* A model that prt compress has written. */
+typedef struct prt_model prt_model;
+
+PRT_API prt_status prt_model_load(const char* path, prt_model** model, prt_message* message);
+/* From a .glb in memory, which may be freed afterwards. */
+PRT_API prt_status prt_model_load_memory(const void* bytes, size_t size, prt_model** model,
+                                         prt_message* message);
+PRT_API void prt_model_destroy(prt_model* model); /* null is fine */
+
+typedef enum prt_weight_format {
+    PRT_FLOAT32 = 0,
+    PRT_SNORM16 = 1,
+    PRT_SNORM8 = 2,
+    PRT_PACKED = 3
+} prt_weight_format;
+
+typedef struct prt_model_info {
+    int order, channels;
+    size_t receivers; /* vertices of all meshes */
+    size_t clusters;
+    size_t rows; /* of constants, 4 floats each */
+    prt_weight_format format;
+    size_t stride;                 /* bytes of weights of a receiver */
+    const void* weights;           /* [receivers][stride], for the attributes prt_weights_* or prt_words_* */
+    const uint16_t* cluster_of;    /* [receivers], for prt_cluster; packed weights hold it */
+    const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
+    size_t meshes;
+} prt_model_info;
+/* Pointers live as long as the model. */
+PRT_API prt_model_info prt_model_get_info(const prt_model* model);
+
+typedef struct prt_mesh {
+    size_t vertices;
+    size_t first_receiver;  /* of the first vertex */
+    const float* positions; /* [vertices][3], metres, world */
+    const float* normals;   /* [vertices][3] */
+    const float* texcoords; /* [vertices][2], or null */
+    size_t indices;
+    const uint32_t* index; /* triangles, counter-clockwise */
+    float base_color[4];   /* linear */
+} prt_mesh;
+PRT_API prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out,
+                                      prt_message* message);
+
+/* Writes the constants of all clusters, [rows][4]. Allocates nothing. */
+PRT_API prt_status prt_model_form_constants(const prt_model* model, int order, const float* light,
+                                            float* constants, prt_message* message);
+/* What the vertex shader computes: exit radiance for albedo 1, [receivers][3]. */
+PRT_API prt_status prt_model_evaluate(const prt_model* model, const float* constants, float* radiance,
+                                      prt_message* message);
+
+typedef enum prt_language { PRT_GLSL450 = 0, PRT_GLSL330 = 1, PRT_ESSL300 = 2, PRT_VULKAN = 3 } prt_language;
+typedef enum prt_constants {
+    PRT_CONSTANTS_IN_BUFFER = 0,
+    PRT_CONSTANTS_IN_BLOCK = 1,
+    PRT_CONSTANTS_IN_TEXTURE = 2
+} prt_constants;
+/* The vertex shader of the model. *size: of `source` in, with the final 0; what it takes out. */
+PRT_API prt_status prt_model_shader(const prt_model* model, prt_language language, prt_constants constants,
+                                    char* source, size_t* size, prt_message* message);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

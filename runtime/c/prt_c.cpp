@@ -1,0 +1,350 @@
+#include "prt/prt.h"
+
+#include "prt/constant_former.h"
+#include "prt/environment.h"
+#include "prt/error.h"
+#include "prt/gltf.h"
+#include "prt/image_file.h"
+#include "prt/sh.h"
+#include "prt/sh_rotation.h"
+#include "prt/sh_vector.h"
+#include "prt/shader_source.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <new>
+
+struct prt_model {
+    prt::Scene scene;
+    prt::ClusteredTransfer transfer;
+    prt::ConstantFormer former;
+    std::vector<prt::ClusterLayout> layouts;
+};
+
+namespace {
+
+using prt::Error;
+using prt::Light;
+
+/// What a file or a function says no to, told apart by where it was asked.
+struct BadFile : Error {
+    using Error::Error;
+};
+
+struct TooSmall : Error {
+    using Error::Error;
+};
+
+void say(prt_message* message, const char* text) noexcept {
+    if (!message)
+        return;
+    const std::size_t length = std::min(std::strlen(text), sizeof message->text - 1);
+    std::memcpy(message->text, text, length);
+    message->text[length] = 0;
+}
+
+/// Runs `body` and turns what it throws into a status and a message.
+template <class Body>
+prt_status guarded(prt_message* message, Body&& body) noexcept {
+    try {
+        say(message, "");
+        body();
+        return PRT_OK;
+    } catch (const std::bad_alloc&) {
+        say(message, "out of memory");
+        return PRT_NO_MEMORY;
+    } catch (const BadFile& error) {
+        say(message, error.what());
+        return PRT_BAD_FILE;
+    } catch (const TooSmall& error) {
+        say(message, error.what());
+        return PRT_TOO_SMALL;
+    } catch (const std::exception& error) {
+        say(message, error.what());
+        return PRT_BAD_ARGUMENT;
+    }
+}
+
+template <class... Pointers>
+void check_pointers(const Pointers*... pointers) {
+    if ((... || (pointers == nullptr)))
+        throw Error("a pointer is null");
+}
+
+std::size_t count_of(int order) {
+    prt::check_order(order);
+    return static_cast<std::size_t>(prt::coefficient_count(order));
+}
+
+glm::vec3 vec3(const float* v) {
+    return glm::make_vec3(v);
+}
+
+glm::vec3* colours(float* light) {
+    return reinterpret_cast<glm::vec3*>(light); // three floats and nothing else
+}
+
+void put(const Light& light, float* to) {
+    std::copy(light.coefficients.begin(), light.coefficients.end(), colours(to));
+}
+
+Light light_from(int order, const float* from) {
+    const std::size_t count = count_of(order);
+    const auto* first = reinterpret_cast<const glm::vec3*>(from);
+    return {order, {first, first + count}};
+}
+
+/// Those of C are the same numbers.
+prt::ShaderLanguage language_of(prt_language language) {
+    if (language < PRT_GLSL450 || language > PRT_VULKAN)
+        throw Error("there is no such shader language");
+    return static_cast<prt::ShaderLanguage>(language);
+}
+
+prt::ConstantSource source_of(prt_constants constants) {
+    if (constants < PRT_CONSTANTS_IN_BUFFER || constants > PRT_CONSTANTS_IN_TEXTURE)
+        throw Error("there is no such place for constants");
+    return static_cast<prt::ConstantSource>(constants);
+}
+
+static_assert(static_cast<int>(prt::ShaderLanguage::vulkan) == PRT_VULKAN &&
+              static_cast<int>(prt::ConstantSource::texture) == PRT_CONSTANTS_IN_TEXTURE &&
+              static_cast<int>(prt::WeightFormat::packed) == PRT_PACKED &&
+              static_cast<int>(prt::WeightFormat::snorm8) == PRT_SNORM8);
+static_assert(sizeof(glm::vec3) == 3 * sizeof(float) &&
+              sizeof(prt::ClusterLayout) == 4 * sizeof(std::uint32_t) &&
+              sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
+
+prt_model* make_model(const prt::GltfDocument& document, const std::string& name) {
+    prt::Scene scene = prt::extract_scene(document);
+    auto compressed = prt::read_clustered(document, scene);
+    if (!compressed)
+        throw Error(name + ": holds no compressed transfer; run prt compress first");
+    prt::ConstantFormer former(compressed->transfer);
+    auto layouts = prt::cluster_layouts(compressed->transfer.bases);
+    return new prt_model{std::move(scene), std::move(compressed->transfer), std::move(former),
+                         std::move(layouts)};
+}
+
+template <class Body>
+void as_file(Body&& body) {
+    try {
+        body();
+    } catch (const Error& error) {
+        throw BadFile(error.what());
+    }
+}
+
+} // namespace
+
+extern "C" {
+
+prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(direction, basis);
+        prt::evaluate_sh(order, vec3(direction), std::span(basis, count_of(order)));
+    });
+}
+
+prt_status prt_sh_multiply(int order, const float* a, const float* b, float* out, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(a, b, out);
+        const std::size_t count = count_of(order);
+        prt::sh_product(order, std::span(a, count), std::span(b, count), std::span(out, count));
+    });
+}
+
+prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, float* out,
+                         prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(rotation, in, out);
+        const std::size_t count = count_of(order);
+        prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation)))
+            .apply(std::span(in, count), std::span(out, count));
+    });
+}
+
+prt_status prt_light_constant(int order, const float radiance[3], float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(radiance, light);
+        put(prt::constant_light(order, vec3(radiance)), light);
+    });
+}
+
+prt_status prt_light_directional(int order, const float towards[3], const float irradiance[3], float* light,
+                                 prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(towards, irradiance, light);
+        put(prt::directional_light(order, vec3(towards), vec3(irradiance)), light);
+    });
+}
+
+prt_status prt_light_cone(int order, const float axis[3], float half_angle, const float radiance[3],
+                          float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(axis, radiance, light);
+        put(prt::cone_light(order, vec3(axis), static_cast<double>(half_angle), vec3(radiance)), light);
+    });
+}
+
+prt_status prt_light_sphere(int order, const float centre[3], float radius, const float radiance[3],
+                            float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(centre, radiance, light);
+        put(prt::sphere_light(order, vec3(centre), static_cast<double>(radius), vec3(radiance)), light);
+    });
+}
+
+prt_status prt_light_disc(int order, const float centre[3], const float normal[3], float radius,
+                          const float radiance[3], float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(centre, normal, radiance, light);
+        put(prt::disc_light(order, vec3(centre), vec3(normal), static_cast<double>(radius), vec3(radiance)),
+            light);
+    });
+}
+
+prt_status prt_light_hemisphere(int order, const float up[3], const float top[3], const float bottom[3],
+                                float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(up, top, bottom, light);
+        put(prt::hemisphere_light(order, vec3(up), vec3(top), vec3(bottom)), light);
+    });
+}
+
+prt_status prt_light_from_lat_long(int order, int width, int height, const float* pixels, int threads,
+                                   float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(pixels, light);
+        if (width < 1 || height < 1)
+            throw Error("the environment has no pixels");
+        const auto* first = reinterpret_cast<const glm::vec3*>(pixels);
+        prt::Environment environment;
+        environment.image = {
+            width,
+            height,
+            {first, first + static_cast<std::size_t>(width) * static_cast<std::size_t>(height)}};
+        prt::repair_pixels(environment.image, prt::BadPixels::error);
+        put(prt::project(environment, order, threads), light);
+    });
+}
+
+prt_status prt_light_from_file(int order, const char* path, float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(path, light);
+        prt::check_order(order);
+        as_file([&] { put(prt::project(prt::load_environment(path).environment, order), light); });
+    });
+}
+
+prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(rotation, light);
+        prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation)))
+            .apply(std::span<glm::vec3>(colours(light), count_of(order)));
+    });
+}
+
+prt_status prt_light_dering(int order, float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(light);
+        put(prt::windowed(light_from(order, light), prt::Window::automatic), light);
+    });
+}
+
+prt_status prt_model_load(const char* path, prt_model** model, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(path, model);
+        *model = nullptr;
+        as_file([&] { *model = make_model(prt::load_gltf(path, prt::MissingImages::ignore), path); });
+    });
+}
+
+prt_status prt_model_load_memory(const void* bytes, size_t size, prt_model** model, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(bytes, model);
+        *model = nullptr;
+        const std::span file(static_cast<const std::byte*>(bytes), size);
+        as_file([&] {
+            *model = make_model(prt::parse_gltf(file, "memory", prt::MissingImages::ignore), "memory");
+        });
+    });
+}
+
+void prt_model_destroy(prt_model* model) {
+    delete model;
+}
+
+prt_model_info prt_model_get_info(const prt_model* model) {
+    const prt::ClusteredReceivers& receivers = model->transfer.receivers;
+    prt_model_info info{};
+    info.order = model->former.order();
+    info.channels = model->former.channels();
+    info.receivers = receivers.size();
+    info.clusters = model->layouts.size();
+    info.rows = model->former.rows();
+    info.format = static_cast<prt_weight_format>(receivers.format);
+    info.stride = receivers.stride();
+    info.weights = receivers.weights.data();
+    info.cluster_of = receivers.clusters.data();
+    info.cluster_table = reinterpret_cast<const std::uint32_t*>(model->layouts.data());
+    info.meshes = model->scene.primitives.size();
+    return info;
+}
+
+prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, out);
+        if (mesh >= model->scene.primitives.size())
+            throw Error("the model has " + std::to_string(model->scene.primitives.size()) + " meshes");
+        const prt::Primitive& primitive = model->scene.primitives[mesh];
+        const prt::VertexArray& vertices = model->scene.vertex_arrays[primitive.vertices];
+        *out = {};
+        out->vertices = vertices.size();
+        out->first_receiver = vertices.first_receiver;
+        out->positions = reinterpret_cast<const float*>(vertices.positions.data());
+        out->normals = reinterpret_cast<const float*>(vertices.normals.data());
+        if (!vertices.texcoords.empty() && !vertices.texcoords[0].empty())
+            out->texcoords = reinterpret_cast<const float*>(vertices.texcoords[0].data());
+        out->indices = 3 * primitive.triangles.size();
+        out->index = reinterpret_cast<const std::uint32_t*>(primitive.triangles.data());
+        const glm::vec4 color = model->scene.materials[primitive.material].base_color;
+        std::copy_n(glm::value_ptr(color), 4, out->base_color);
+    });
+}
+
+prt_status prt_model_form_constants(const prt_model* model, int order, const float* light, float* constants,
+                                    prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, light, constants);
+        model->former.form({reinterpret_cast<const glm::vec3*>(light), count_of(order)},
+                           {reinterpret_cast<glm::vec4*>(constants), model->former.rows()});
+    });
+}
+
+prt_status prt_model_evaluate(const prt_model* model, const float* constants, float* radiance,
+                              prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, constants, radiance);
+        prt::evaluate(model->transfer, {reinterpret_cast<const glm::vec4*>(constants), model->former.rows()},
+                      {colours(radiance), model->transfer.receivers.size()});
+    });
+}
+
+prt_status prt_model_shader(const prt_model* model, prt_language language, prt_constants constants,
+                            char* source, size_t* size, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, size);
+        const std::string text =
+            prt::relight_shader(model->transfer, source_of(constants), language_of(language));
+        const std::size_t room = source ? *size : 0;
+        *size = text.size() + 1;
+        if (room < *size)
+            throw TooSmall("the shader takes " + std::to_string(*size) + " bytes");
+        std::memcpy(source, text.c_str(), *size);
+    });
+}
+
+} // extern "C"

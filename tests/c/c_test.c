@@ -1,0 +1,165 @@
+/* The C interface, from C: c_test shipped.glb */
+
+#include "prt/prt.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static int failures = 0;
+
+static void expect(int condition, const char* what, int line) {
+    if (!condition) {
+        fprintf(stderr, "line %d: %s\n", line, what);
+        ++failures;
+    }
+}
+#define EXPECT(condition) expect((condition), #condition, __LINE__)
+
+static void* contents(const char* path, size_t* size) {
+    FILE* file = fopen(path, "rb");
+    if (!file)
+        exit(2);
+    fseek(file, 0, SEEK_END);
+    *size = (size_t)ftell(file);
+    rewind(file);
+    void* bytes = malloc(*size);
+    if (fread(bytes, 1, *size, file) != *size)
+        exit(2);
+    fclose(file);
+    return bytes;
+}
+
+static void test_sh(void) {
+    float basis[9], product[9], rotated[9];
+    const float up[3] = {0, 0, 1};
+    prt_message message;
+    EXPECT(prt_sh_evaluate(3, up, basis, &message) == PRT_OK);
+    EXPECT(fabsf(basis[0] - 0.2820948f) < 1e-6f && fabsf(basis[2] - 0.4886025f) < 1e-6f);
+    EXPECT(message.text[0] == 0);
+    const float one[9] = {3.5449077f};
+    EXPECT(prt_sh_multiply(3, basis, one, product, NULL) == PRT_OK);
+    for (int i = 0; i < 9; ++i)
+        EXPECT(fabsf(product[i] - basis[i]) < 1e-5f);
+    const float quarter_about_y[9] = {0, 0, -1, 0, 1, 0, 1, 0, 0}; /* z goes to x */
+    const float x[3] = {1, 0, 0};
+    float at_x[9];
+    EXPECT(prt_sh_rotate(3, quarter_about_y, basis, rotated, NULL) == PRT_OK);
+    prt_sh_evaluate(3, x, at_x, NULL);
+    for (int i = 0; i < 9; ++i)
+        EXPECT(fabsf(rotated[i] - at_x[i]) < 1e-6f);
+    const float mirror[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
+    EXPECT(prt_sh_rotate(3, mirror, basis, rotated, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(strstr(message.text, "mirror") != NULL);
+    EXPECT(prt_sh_evaluate(11, up, basis, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_sh_evaluate(3, NULL, basis, NULL) == PRT_BAD_ARGUMENT);
+}
+
+static void test_lights(void) {
+    float light[27], other[27];
+    const float white[3] = {1, 1, 1}, up[3] = {0, 1, 0}, down[3] = {0, -1, 0}, far_up[3] = {0, 4, 0}, none[3] = {0, 0, 0};
+    prt_message message;
+    EXPECT(prt_light_constant(3, white, light, NULL) == PRT_OK);
+    EXPECT(fabsf(light[0] - 3.5449077f) < 1e-5f);
+    EXPECT(prt_light_directional(3, up, white, light, NULL) == PRT_OK);
+    EXPECT(prt_light_hemisphere(3, up, white, none, light, NULL) == PRT_OK);
+    EXPECT(prt_light_cone(3, up, 0.5f, white, light, NULL) == PRT_OK);
+    EXPECT(prt_light_sphere(3, far_up, 4 * sinf(0.5f), white, other, NULL) == PRT_OK);
+    for (int i = 0; i < 27; ++i)
+        EXPECT(fabsf(light[i] - other[i]) < 1e-5f);
+    EXPECT(prt_light_disc(3, far_up, down, 4 * tanf(0.5f), white, other, NULL) == PRT_OK);
+    for (int i = 0; i < 27; ++i)
+        EXPECT(fabsf(light[i] - other[i]) < 1e-5f);
+    const float half_about_x[9] = {1, 0, 0, 0, -1, 0, 0, 0, -1};
+    EXPECT(prt_light_rotate(3, half_about_x, other, NULL) == PRT_OK);
+    prt_light_cone(3, down, 0.5f, white, light, NULL);
+    for (int i = 0; i < 27; ++i)
+        EXPECT(fabsf(light[i] - other[i]) < 1e-5f);
+    EXPECT(prt_light_dering(3, light, NULL) == PRT_OK);
+    EXPECT(prt_light_sphere(3, up, 2, white, light, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(strstr(message.text, "inside") != NULL);
+    EXPECT(prt_light_directional(3, none, white, light, &message) == PRT_BAD_ARGUMENT);
+    float pixels[6] = {1, 1, 1, 1, 1, 1};
+    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, 1, light, NULL) == PRT_OK);
+    EXPECT(fabsf(light[0] - 3.5449077f) < 1e-5f);
+    pixels[4] = NAN;
+    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, 1, light, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_light_from_lat_long(3, 0, 1, pixels, 1, light, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_light_from_file(3, "no such file.exr", light, &message) == PRT_BAD_FILE);
+    EXPECT(strstr(message.text, "no such file.exr") != NULL);
+}
+
+static void test_model(const char* path) {
+    prt_message message;
+    prt_model* model = NULL;
+    EXPECT(prt_model_load("no such file.glb", &model, &message) == PRT_BAD_FILE);
+    EXPECT(model == NULL && message.text[0] != 0);
+    EXPECT(prt_model_load_memory("glTF", 4, &model, &message) == PRT_BAD_FILE);
+    EXPECT(model == NULL);
+    if (prt_model_load(path, &model, &message) != PRT_OK) {
+        fprintf(stderr, "%s\n", message.text);
+        exit(2);
+    }
+    size_t size = 0;
+    void* bytes = contents(path, &size);
+    prt_model* again = NULL;
+    EXPECT(prt_model_load_memory(bytes, size, &again, &message) == PRT_OK);
+    free(bytes);
+    const prt_model_info info = prt_model_get_info(model), info_again = prt_model_get_info(again);
+    EXPECT(info.receivers == info_again.receivers && info.rows == info_again.rows);
+    EXPECT(memcmp(info.weights, info_again.weights, info.receivers * info.stride) == 0);
+    prt_model_destroy(again);
+
+    size_t vertices = 0;
+    for (size_t m = 0; m < info.meshes; ++m) {
+        prt_mesh mesh;
+        EXPECT(prt_model_get_mesh(model, m, &mesh, NULL) == PRT_OK);
+        EXPECT(mesh.first_receiver + mesh.vertices <= info.receivers);
+        for (size_t i = 0; i < mesh.indices; ++i)
+            EXPECT(mesh.index[i] < mesh.vertices);
+        vertices += mesh.vertices;
+    }
+    EXPECT(vertices >= info.receivers);
+    prt_mesh none;
+    EXPECT(prt_model_get_mesh(model, info.meshes, &none, &message) == PRT_BAD_ARGUMENT);
+
+    /* Under white light an open scene is about as bright as it is open: between 0 and 1. */
+    const float white[3] = {1, 1, 1};
+    float* light = malloc(3 * sizeof(float) * (size_t)(info.order * info.order));
+    float* constants = malloc(4 * sizeof(float) * info.rows);
+    float* radiance = malloc(3 * sizeof(float) * info.receivers);
+    EXPECT(prt_light_constant(info.order, white, light, NULL) == PRT_OK);
+    EXPECT(prt_model_form_constants(model, info.order, light, constants, NULL) == PRT_OK);
+    EXPECT(prt_model_evaluate(model, constants, radiance, NULL) == PRT_OK);
+    double mean = 0;
+    for (size_t p = 0; p < info.receivers; ++p)
+        mean += radiance[3 * p] / (double)info.receivers;
+    EXPECT(mean > 0.1 && mean < 1.1);
+    EXPECT(prt_model_form_constants(model, info.order - 1, light, constants, &message) == PRT_BAD_ARGUMENT);
+
+    size = 0;
+    EXPECT(prt_model_shader(model, PRT_ESSL300, PRT_CONSTANTS_IN_TEXTURE, NULL, &size, &message) == PRT_TOO_SMALL);
+    char* source = malloc(size);
+    EXPECT(prt_model_shader(model, PRT_ESSL300, PRT_CONSTANTS_IN_TEXTURE, source, &size, &message) == PRT_OK);
+    EXPECT(strncmp(source, "#version 300 es", 15) == 0 && strlen(source) + 1 == size);
+    EXPECT(prt_model_shader(model, PRT_GLSL330, PRT_CONSTANTS_IN_BUFFER, source, &size, &message) ==
+           PRT_BAD_ARGUMENT);
+    free(source);
+    free(radiance);
+    free(constants);
+    free(light);
+    prt_model_destroy(model);
+    prt_model_destroy(NULL);
+}
+
+int main(int argc, char** argv) {
+    if (argc != 2)
+        return 2;
+    test_sh();
+    test_lights();
+    test_model(argv[1]);
+    if (failures == 0)
+        puts("the C interface does what its header says");
+    return failures == 0 ? 0 : 1;
+}
