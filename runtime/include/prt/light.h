@@ -36,7 +36,7 @@ Light sphere_light(int order, const glm::vec3& centre, double radius, const glm:
 
 /// A disc about `centre` that shines to the side of its unit normal `normal`, seen from the origin; nothing
 /// from behind or edge on. By Green's theorem an integral along its rim, whose error falls exponentially with
-/// the number of nodes: to rounding, in any order (docs/math.md, eq. 10). Throws `Error` for a radius that is
+/// the number of nodes: to rounding, in any order (docs/math.md, eq. 34). Throws `Error` for a radius that is
 /// not positive.
 Light disc_light(int order, const glm::vec3& centre, const glm::vec3& normal, double radius,
                  const glm::vec3& radiance);

@@ -45,7 +45,7 @@ float sh_value(int order, std::span<const float> function, const glm::vec3& dire
 double sh_value(int order, std::span<const double> function, const glm::dvec3& direction);
 
 /// Convolution with a function that is symmetric about +z, of which `kernel` [order] holds the coefficients
-/// of m = 0: (k * f)_lm = sqrt(4 pi / (2l+1)) k_l f_lm (docs/math.md, eq. 8). `out` may be `function`.
+/// of m = 0: (k * f)_lm = sqrt(4 pi / (2l+1)) k_l f_lm. `out` may be `function`.
 void sh_convolve(int order, std::span<const float> function, std::span<const float> kernel,
                  std::span<float> out);
 void sh_convolve(int order, std::span<const double> function, std::span<const double> kernel,
@@ -53,7 +53,7 @@ void sh_convolve(int order, std::span<const double> function, std::span<const do
 
 /// The first `order` bands of the product of two functions of `order` bands, exact up to rounding: shadow
 /// times light, or light times what an object lets through. Both are evaluated at the nodes of a quadrature
-/// that is exact for three times their degree (docs/math.md, eq. 32), which takes far fewer operations than
+/// that is exact for three times their degree (docs/math.md, eq. 33), which takes far fewer operations than
 /// the table of triple products. `out` may be either. D3DXSHMultiply2 to 6 are this.
 void sh_product(int order, std::span<const float> a, std::span<const float> b, std::span<float> out);
 void sh_product(int order, std::span<const double> a, std::span<const double> b, std::span<double> out);
