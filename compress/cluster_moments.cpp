@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace prt {
 namespace {
@@ -89,34 +90,88 @@ Covariance covariance_of(const ClusterMoments::View& moments) {
     return result;
 }
 
-/// Descending; what float rounding of the points alone can make along one direction, (2^-24)² of their
-/// squared size with a margin of 4, is 0.
-std::vector<double> variances_of(const Eigen::VectorXd& ascending, const Covariance& covariance) {
-    const double floor = 4 * 0x1p-48 * (covariance.mean.squaredNorm() + covariance.matrix.trace());
-    std::vector<double> variances;
-    for (Eigen::Index i = ascending.size() - 1; i >= 0; --i)
-        variances.push_back(ascending[i] > floor ? ascending[i] : 0);
-    return variances;
+/// What float rounding of the points alone can make along one direction: (2^-24)² of their squared size, with
+/// a margin of 4.
+double rounding_floor(const Covariance& covariance) {
+    return 4 * 0x1p-48 * (covariance.mean.squaredNorm() + covariance.matrix.trace());
+}
+
+/// L with covariance = L L^T, where its rank is at most half of the dimension: pivoted Cholesky until nothing
+/// is left but rounding. Clusters of few points have few columns, and their axes cost a hundredth of a full
+/// decomposition.
+std::optional<Eigen::MatrixXd> low_rank_factor(const Eigen::MatrixXd& lower, double nothing) {
+    const Eigen::Index d = lower.rows();
+    Eigen::VectorXd left = lower.diagonal();
+    Eigen::MatrixXd factor(d, d / 2);
+    for (Eigen::Index rank = 0;; ++rank) {
+        Eigen::Index pivot = 0;
+        const double largest = left.maxCoeff(&pivot);
+        if (!(largest > nothing))
+            return factor.leftCols(rank).eval();
+        if (rank == d / 2)
+            return std::nullopt;
+        auto column = factor.col(rank);
+        for (Eigen::Index i = 0; i < d; ++i)
+            column[i] = i < pivot ? lower(pivot, i) : lower(i, pivot);
+        column.noalias() -= factor.leftCols(rank) * factor.row(pivot).head(rank).transpose();
+        column /= std::sqrt(largest);
+        left -= column.cwiseAbs2();
+        left[pivot] = 0;
+    }
+}
+
+/// Principal axes: variances, descending, and where they are wanted directions, as many as have variance.
+struct Spectrum {
+    std::vector<double> variances; ///< [dimension]; what is only rounding is 0
+    Eigen::MatrixXd directions;    ///< columns
+};
+
+Spectrum spectrum_of(const Covariance& covariance, bool with_directions) {
+    const int what = with_directions ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly;
+    const double floor = rounding_floor(covariance);
+    const auto d = covariance.matrix.rows();
+    Spectrum spectrum{std::vector<double>(static_cast<std::size_t>(d), 0.0), {}};
+    const auto take = [&](const Eigen::VectorXd& ascending) {
+        Eigen::Index kept = 0;
+        for (Eigen::Index i = ascending.size() - 1; i >= 0 && ascending[i] > floor; --i)
+            spectrum.variances[static_cast<std::size_t>(kept++)] = ascending[i];
+        return kept;
+    };
+    if (const auto factor = low_rank_factor(covariance.matrix, 0.25 * floor)) {
+        if (factor->cols() == 0)
+            return spectrum;
+        const Eigen::MatrixXd gram = factor->transpose() * *factor;
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram, what);
+        const Eigen::Index kept = take(solver.eigenvalues());
+        if (with_directions)
+            spectrum.directions =
+                (*factor * solver.eigenvectors().rowwise().reverse().leftCols(kept)).colwise().normalized();
+        return spectrum;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance.matrix, what);
+    const Eigen::Index kept = take(solver.eigenvalues());
+    if (with_directions)
+        spectrum.directions = solver.eigenvectors().rowwise().reverse().leftCols(kept);
+    return spectrum;
 }
 
 } // namespace
 
 ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending) {
-    const auto d = static_cast<Eigen::Index>(moments.dimension);
     ClusterFit fit{std::vector<float>(moments.dimension, 0.0f), {}, {}, {}, 0};
     if (!(moments.weight() > kLeastWeight))
         return fit;
     fit.weight = moments.weight();
-    if (d == 0)
+    if (moments.dimension == 0)
         return fit;
     const Covariance covariance = covariance_of(moments);
     std::transform(covariance.mean.begin(), covariance.mean.end(), fit.mean.begin(),
                    [](double v) { return static_cast<float>(v); });
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance.matrix);
-    fit.variances = variances_of(solver.eigenvalues(), covariance);
+    Spectrum spectrum = spectrum_of(covariance, true);
+    fit.variances = std::move(spectrum.variances);
     fit.plan = plan_components(fit.variances, fit.weight, spending);
     for (std::size_t j = 0; j < fit.plan.bits.size(); ++j) {
-        Eigen::VectorXd direction = solver.eigenvectors().col(d - 1 - static_cast<Eigen::Index>(j));
+        Eigen::VectorXd direction = spectrum.directions.col(static_cast<Eigen::Index>(j));
         Eigen::Index largest = 0; // the sign of an eigenvector is arbitrary; fix it
         direction.cwiseAbs().maxCoeff(&largest);
         if (direction[largest] < 0)
@@ -131,10 +186,8 @@ double cluster_cost(const ClusterMoments::View& moments, const Spending& spendin
     if (!(moments.weight() > kLeastWeight) || moments.dimension == 0)
         return 0;
     const Covariance covariance = covariance_of(moments);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance.matrix, Eigen::EigenvaluesOnly);
-    return cost_of(
-        plan_components(variances_of(solver.eigenvalues(), covariance), moments.weight(), spending),
-        moments.weight(), spending);
+    return cost_of(plan_components(spectrum_of(covariance, false).variances, moments.weight(), spending),
+                   moments.weight(), spending);
 }
 
 } // namespace prt

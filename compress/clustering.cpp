@@ -1,9 +1,11 @@
 #include "clustering.h"
 
+#include "cluster_neighbours.h"
 #include "kmeans.h"
 #include "prt/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -85,6 +87,10 @@ private:
     static constexpr std::size_t kNeighbours = 32;
     std::vector<std::vector<std::uint32_t>> neighbours(const std::vector<ClusterFit>& fits) const;
 
+    MeanDistances mean_distances(const std::vector<ClusterFit>& fits) const {
+        return {fits.size(), points_.dimension, [&](std::size_t k) { return fits[k].mean.data(); }};
+    }
+
     ClusterModels models(const std::vector<ClusterFit>& fits) const {
         std::size_t most = 0;
         for (const ClusterFit& fit : fits)
@@ -120,50 +126,26 @@ private:
     const ClusteringOptions& options_;
 };
 
-/// Clusters by the distance of one's mean to the other's points: to its mean, less what its directions reach
-/// with weights of up to three deviations.
+/// By the distance of one's mean to the other's points: to its mean, less what its directions reach with
+/// weights of up to three deviations.
 std::vector<std::vector<std::uint32_t>> ClusterSearch::neighbours(const std::vector<ClusterFit>& fits) const {
-    std::vector<std::vector<std::uint32_t>> result(fits.size());
-    parallel_for(fits.size(), 8, options_.threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::pair<float, std::uint32_t>> near(fits.size());
-        std::vector<float> d(points_.dimension);
-        const auto nearest = [&](std::size_t count) {
-            const auto last = near.begin() + static_cast<std::ptrdiff_t>(std::min(count, near.size()));
-            std::partial_sort(near.begin(), last, near.end());
-            near.erase(last, near.end());
-        };
-        for (std::size_t k = begin; k < end; ++k) {
-            near.clear();
-            for (std::uint32_t other = 0; other < fits.size(); ++other) {
-                float squared = 0;
-                for (std::size_t i = 0; i < d.size(); ++i) {
-                    const float along = fits[k].mean[i] - fits[other].mean[i];
-                    squared += along * along;
-                }
-                near.emplace_back(other == k ? -1.0f : squared, other);
-            }
-            nearest(4 * kNeighbours); // others are too far for any direction to reach
-            for (auto& [distance, other] : near) {
-                const ClusterFit& fit = fits[other];
-                for (std::size_t i = 0; i < d.size(); ++i)
-                    d[i] = fits[k].mean[i] - fit.mean[i];
-                for (std::size_t j = 0; j < fit.plan.bits.size(); ++j) {
-                    const float* direction = &fit.directions[j * d.size()];
-                    const float along = std::inner_product(d.begin(), d.end(), direction, 0.0f);
-                    const auto reach = 3 * static_cast<float>(std::sqrt(fit.variances[j]));
-                    const float w = std::clamp(along, -reach, reach);
-                    for (std::size_t i = 0; i < d.size(); ++i)
-                        d[i] -= w * direction[i];
-                }
-                if (other != k)
-                    distance = std::inner_product(d.begin(), d.end(), d.begin(), 0.0f);
-            }
-            nearest(kNeighbours);
-            for (const auto& [distance, other] : near)
-                result[k].push_back(other);
+    const MeanDistances means = mean_distances(fits);
+    return nearest_clusters(means, kNeighbours, options_.threads, [&](std::size_t k, std::size_t other) {
+        const ClusterFit& fit = fits[other];
+        std::array<float, kMostDimensions> d;
+        for (std::size_t i = 0; i < points_.dimension; ++i)
+            d[i] = fits[k].mean[i] - fit.mean[i];
+        for (std::size_t j = 0; j < fit.plan.bits.size(); ++j) {
+            const float* direction = &fit.directions[j * points_.dimension];
+            const float along = std::inner_product(direction, direction + points_.dimension, d.begin(), 0.0f);
+            const auto reach = 3 * static_cast<float>(std::sqrt(fit.variances[j]));
+            const float w = std::clamp(along, -reach, reach);
+            for (std::size_t i = 0; i < points_.dimension; ++i)
+                d[i] -= w * direction[i];
         }
+        return std::inner_product(d.begin(), d.begin() + static_cast<std::ptrdiff_t>(points_.dimension),
+                                  d.begin(), 0.0f);
     });
-    return result;
 }
 
 void ClusterSearch::converge(State& state, const Spending& spending, int most_rounds,
@@ -222,20 +204,16 @@ std::vector<ClusterSearch::Split> ClusterSearch::possible_splits(const State& st
 std::vector<ClusterSearch::Merge> ClusterSearch::possible_merges(const State& state,
                                                                  const Spending& spending) const {
     constexpr std::size_t kPartners = 4;
+    const MeanDistances means = mean_distances(state.fits);
     std::vector<std::vector<Merge>> found(state.fits.size());
     parallel_for(state.fits.size(), 1, options_.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
-            std::vector<std::pair<double, std::size_t>> near;
-            for (std::size_t other = 0; other < state.fits.size(); ++other) {
-                if (other == k)
-                    continue;
-                double squared = 0;
-                for (std::size_t i = 0; i < points_.dimension; ++i) {
-                    const auto d = static_cast<double>(state.fits[k].mean[i] - state.fits[other].mean[i]);
-                    squared += d * d;
-                }
-                near.emplace_back(state.fits[other].weight > 0 ? squared : 0, other);
-            }
+            const Eigen::ArrayXf squared = means.from(k);
+            std::vector<std::pair<float, std::size_t>> near;
+            for (std::size_t other = 0; other < state.fits.size(); ++other)
+                if (other != k)
+                    near.emplace_back(
+                        state.fits[other].weight > 0 ? squared[static_cast<Eigen::Index>(other)] : 0, other);
             const std::size_t count = std::min(kPartners, near.size());
             std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
             for (std::size_t n = 0; n < count; ++n) {

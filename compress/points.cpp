@@ -13,8 +13,6 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kMostDimensions = 3 * kMaxOrder * kMaxOrder;
-
 /// Squared distance of a block's points to an affine subspace: |d|² - |B d|² with d = x - mean (docs/math.md,
 /// eq. 13). In float it loses digits below 1e-6 |d|²; it only decides between clusters.
 [[gnu::always_inline]] inline Lanes squared_distance(const float* block, std::size_t dimension,

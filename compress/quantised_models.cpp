@@ -1,5 +1,6 @@
 #include "quantised_models.h"
 
+#include "cluster_neighbours.h"
 #include "prt/parallel.h"
 #include "prt/vector_lanes.h"
 
@@ -12,8 +13,6 @@
 
 namespace prt {
 namespace {
-
-constexpr std::size_t kMostDimensions = 3 * kMaxOrder * kMaxOrder;
 
 /// A cluster as the kernel reads it.
 struct ClusterRows {
@@ -260,37 +259,27 @@ void encode_points(const PointBlocks& points, const QuantisedModels& models,
 
 std::vector<std::vector<std::uint32_t>> neighbour_clusters(const QuantisedModels& models, std::size_t most,
                                                            int threads) {
-    const std::size_t count = models.clusters();
     const std::vector<float> norms = inverse_norms(models);
-    std::vector<std::vector<std::uint32_t>> result(count);
-    parallel_for(count, 4, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<std::pair<float, std::uint32_t>> near(count);
-        std::vector<float> d(models.dimension);
-        for (std::size_t k = begin; k < end; ++k) {
-            for (std::size_t other = 0; other < count; ++other) {
-                for (std::size_t i = 0; i < models.dimension; ++i)
-                    d[i] = models.mean(k)[i] - models.mean(other)[i];
-                for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[other]); ++j) {
-                    const float* row = models.row(other, j);
-                    float w = 0;
-                    for (std::size_t i = 0; i < models.dimension; ++i)
-                        w += row[i] * d[i];
-                    w = std::clamp(w * norms[other * models.max_components + j], -1.0f, 1.0f);
-                    for (std::size_t i = 0; i < models.dimension; ++i)
-                        d[i] -= w * row[i];
-                }
-                float squared = 0;
-                for (const float v : d)
-                    squared += v * v;
-                near[other] = {other == k ? -1.0f : squared, static_cast<std::uint32_t>(other)};
-            }
-            const std::size_t kept = std::min(most, count);
-            std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(kept), near.end());
-            for (std::size_t n = 0; n < kept; ++n)
-                result[k].push_back(near[n].second);
+    const MeanDistances means(models.clusters(), models.dimension,
+                              [&](std::size_t k) { return models.mean(k); });
+    return nearest_clusters(means, most, threads, [&](std::size_t k, std::size_t other) {
+        std::array<float, kMostDimensions> d;
+        for (std::size_t i = 0; i < models.dimension; ++i)
+            d[i] = models.mean(k)[i] - models.mean(other)[i];
+        for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[other]); ++j) {
+            const float* row = models.row(other, j);
+            float w = 0;
+            for (std::size_t i = 0; i < models.dimension; ++i)
+                w += row[i] * d[i];
+            w = std::clamp(w * norms[other * models.max_components + j], -1.0f, 1.0f);
+            for (std::size_t i = 0; i < models.dimension; ++i)
+                d[i] -= w * row[i];
         }
+        float squared = 0;
+        for (std::size_t i = 0; i < models.dimension; ++i)
+            squared += d[i] * d[i];
+        return squared;
     });
-    return result;
 }
 
 void refit(const PointBlocks& points, std::span<const float> weights, const Codes& codes,
