@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -185,6 +186,70 @@ template <WeightFormat Format>
     return sum;
 }
 
+using Words [[gnu::vector_size(4 * kLaneCount)]] = std::int32_t;
+
+/// A word of each of kLaneCount receivers, `stride` bytes apart.
+[[gnu::always_inline]] inline Words word_of_each(const std::byte* from, std::size_t stride) {
+    Words words[2];
+    if (stride == 8) { // eight components: every second word
+        std::memcpy(words, from, sizeof words - 4);
+        return __builtin_shufflevector(words[0], words[1], 0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26,
+                                       28, 30);
+    }
+    std::int32_t one_by_one[kLaneCount];
+    for (std::size_t lane = 0; lane < kLaneCount; ++lane)
+        one_by_one[lane] = load<std::int32_t>(from + lane * stride);
+    std::memcpy(words, one_by_one, sizeof one_by_one);
+    return words[0];
+}
+
+/// Radiance of kLaneCount receivers of one cluster whose weights are bytes, a receiver per lane: where
+/// clusters are contiguous (prt compress --reorder) memory is what limits.
+[[gnu::always_inline]] inline void evaluate_lanes(const std::byte* weights, std::size_t stride,
+                                                  std::size_t components, const glm::vec4* row,
+                                                  glm::vec3* radiance) {
+    Lanes sums[3] = {};
+    for (std::size_t first = 0; first < components; first += 4) {
+        Words four = word_of_each(weights + first, stride);
+        for (std::size_t j = first; j < std::min(first + 4, components); ++j) {
+            // The lowest byte with its sign; the next one moves down.
+            Words q = four << 24 >> 24;
+            four >>= 8;
+            q = q < -127 ? Words{} - 127 : q;
+            const Lanes w = __builtin_convertvector(q, Lanes);
+            for (int c = 0; c < 3; ++c)
+                sums[c] += w * row[1 + j][c];
+        }
+    }
+    for (int c = 0; c < 3; ++c)
+        sums[c] = sums[c] * (1.0f / 127) + row[0][c];
+    // r0 g0 r1 g1 .. and then b in between.
+    const auto interleave = [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
+        const auto part = [&]<int Part>() __attribute__((always_inline)) {
+            // Element 16 Part + i of the output is channel (16 Part + i) % 3 of receiver (16 Part + i) / 3.
+            const Lanes rg = __builtin_shufflevector(
+                sums[0], sums[1], ((16 * Part + I) / 3 + ((16 * Part + I) % 3 == 1 ? kLaneCount : 0))...);
+            const Lanes rgb = __builtin_shufflevector(
+                rg, sums[2], ((16 * Part + I) % 3 == 2 ? kLaneCount + (16 * Part + I) / 3 : I)...);
+            *reinterpret_cast<LanesInMemory*>(&radiance[0][0] + 16 * Part) = rgb;
+        };
+        part.template operator()<0>();
+        part.template operator()<1>();
+        part.template operator()<2>();
+    };
+    interleave(std::make_integer_sequence<int, kLaneCount>());
+}
+
+/// Whether kLaneCount receivers are of one cluster.
+[[gnu::always_inline]] inline bool all_alike(const std::uint16_t* clusters) {
+    const std::uint64_t first = clusters[0] * 0x0001000100010001u;
+    std::uint64_t four[kLaneCount / 4], differ = 0;
+    std::memcpy(four, clusters, sizeof four);
+    for (const std::uint64_t each : four)
+        differ |= each ^ first;
+    return differ == 0;
+}
+
 template <WeightFormat Format>
 [[gnu::always_inline]] inline void evaluate_format(const ClusteredReceivers& receivers,
                                                    const ClusterLayout* layouts, const glm::vec4* constants,
@@ -195,6 +260,12 @@ template <WeightFormat Format>
     for (std::size_t p = begin; p < end; ++p) {
         const ClusterLayout& layout = layouts[clusters[p]];
         const glm::vec4* row = constants + layout.first_row;
+        if constexpr (Format == WeightFormat::snorm8)
+            if (p + kLaneCount <= end && all_alike(clusters + p)) {
+                evaluate_lanes(weights + p * stride, stride, layout.components, row, radiance + p);
+                p += kLaneCount - 1;
+                continue;
+            }
         const Colour sum =
             colour_at(row) + sum_of_weights<Format>(receivers, layout, weights + p * stride, row + 1);
         radiance[p] = {sum[0], sum[1], sum[2]};

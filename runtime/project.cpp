@@ -11,6 +11,7 @@
 #include "prt/parallel.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
+#include "prt/vector_lanes.h"
 
 #include <glm/geometric.hpp>
 
@@ -38,43 +39,88 @@ struct RowFourier {
     std::array<glm::dvec3, kMaxOrder> cosine{}, sine{};
 };
 
-/// The azimuth in the image's polar frame (x', y', z') = (z, x, y) equals the longitude. `tables` holds for
-/// each m and column cos(m phi) and sin(m phi) at the column's centre.
+/// The azimuth in the image's polar frame (x', y', z') = (z, x, y) equals the longitude. Holds for each m and
+/// column cos(m phi) and sin(m phi) at the column's centre. Where the width is a multiple of four, columns at
+/// phi, -phi, pi - phi and phi - pi share them up to signs: a quarter of the columns will do.
 struct ColumnTables {
-    std::vector<double> cosine, sine; // [m][column]
+    bool folded;
+    std::size_t columns;
+    std::vector<double> cosine, sine; ///< [m][columns]
 
-    ColumnTables(int order, int width) {
-        for (int m = 0; m < order; ++m) {
-            for (int x = 0; x < width; ++x) {
-                const double phi = 2 * kPi * (0.5 - (x + 0.5) / width);
+    ColumnTables(int order, int width)
+        : folded(width % 4 == 0), columns(static_cast<std::size_t>(folded ? width / 4 : width)) {
+        for (int m = 0; m < order; ++m)
+            for (std::size_t x = 0; x < columns; ++x) {
+                const double phi = 2 * kPi * (0.5 - (static_cast<double>(x) + 0.5) / width);
                 cosine.push_back(std::cos(m * phi));
                 sine.push_back(std::sin(m * phi));
             }
-        }
     }
 };
 
-RowFourier row_fourier(const Image& image, int y, int order, const ColumnTables& tables) {
-    RowFourier result;
-    const auto width = static_cast<std::size_t>(image.width);
-    const glm::vec3* row = &image.pixels[static_cast<std::size_t>(y) * width];
-    for (int m = 0; m < order; ++m) {
-        const auto mi = static_cast<std::size_t>(m);
-        const double* cosine = &tables.cosine[mi * width];
-        const double* sine = &tables.sine[mi * width];
-        glm::dvec3 cosine_sum(0), sine_sum(0);
-        for (std::size_t x = 0; x < width; ++x) {
-            const glm::dvec3 pixel(row[x]);
-            cosine_sum += pixel * cosine[x];
-            sine_sum += pixel * sine[x];
-        }
-        // ∫ over a column of width d about phi: cos(m phi) 2 sin(m d / 2) / m.
-        const double d = 2 * kPi / image.width;
-        const double extent = m == 0 ? d : 2 * std::sin(0.5 * m * d) / m;
-        result.cosine[mi] = cosine_sum * extent;
-        result.sine[mi] = sine_sum * extent;
+/// What is multiplied with the cosines and sines of even and of odd m: [part][channel][columns].
+enum Part { even_cosine, odd_cosine, even_sine, odd_sine, kParts };
+using Wide [[gnu::vector_size(sizeof(double) * 8)]] = double;
+using WideInMemory [[gnu::vector_size(sizeof(double) * 8), gnu::aligned(8), gnu::may_alias]] = double;
+
+/// Sum of `values` times `factors` for three channels `stride` apart.
+[[gnu::always_inline]] inline glm::dvec3 weighted_sum(const double* values, std::size_t stride,
+                                                      const double* factors, std::size_t count) {
+    Wide wide[3] = {};
+    std::size_t x = 0;
+    for (; x + 8 <= count; x += 8) {
+        const Wide f = *reinterpret_cast<const WideInMemory*>(factors + x);
+        for (std::size_t c = 0; c < 3; ++c)
+            wide[c] += f * *reinterpret_cast<const WideInMemory*>(values + c * stride + x);
     }
-    return result;
+    glm::dvec3 sum(0);
+    for (int c = 0; c < 3; ++c)
+        for (int lane = 0; lane < 8; ++lane)
+            sum[c] += wide[c][lane];
+    for (; x < count; ++x)
+        for (int c = 0; c < 3; ++c)
+            sum[c] += values[static_cast<std::size_t>(c) * stride + x] * factors[x];
+    return sum;
+}
+
+/// `parts` [kParts][3][columns] of a row of pixels.
+[[gnu::always_inline]] inline void fold_row(const glm::vec3* row, const ColumnTables& tables, double* parts) {
+    const std::size_t n = tables.columns;
+    for (std::size_t x = 0; x < n; ++x)
+        for (int channel = 0; channel < 3; ++channel) {
+            const auto at = [&](std::size_t column) { return static_cast<double>(row[column][channel]); };
+            double* to = parts + static_cast<std::size_t>(channel) * n + x;
+            double value[kParts];
+            if (tables.folded) {
+                const double ahead = at(x) + at(4 * n - 1 - x), behind = at(2 * n - 1 - x) + at(2 * n + x);
+                const double left = at(x) - at(4 * n - 1 - x), right = at(2 * n - 1 - x) - at(2 * n + x);
+                value[even_cosine] = ahead + behind;
+                value[odd_cosine] = ahead - behind;
+                value[even_sine] = left - right;
+                value[odd_sine] = left + right;
+            } else {
+                std::fill_n(value, kParts, at(x));
+            }
+            for (std::size_t part = 0; part < kParts; ++part)
+                to[part * 3 * n] = value[part];
+        }
+}
+
+/// `parts` is room for a folded row.
+PRT_TARGET_CLONES
+void row_fourier(const glm::vec3* row, int width, int order, const ColumnTables& tables, double* parts,
+                 RowFourier& result) {
+    fold_row(row, tables, parts);
+    const std::size_t n = tables.columns;
+    for (std::size_t m = 0; m < static_cast<std::size_t>(order); ++m) {
+        // ∫ over a column of width d about phi: cos(m phi) 2 sin(m d / 2) / m.
+        const double d = 2 * kPi / width, md = static_cast<double>(m);
+        const double extent = m == 0 ? d : 2 * std::sin(0.5 * md * d) / md;
+        const std::size_t odd = m % 2;
+        result.cosine[m] =
+            extent * weighted_sum(parts + (even_cosine + odd) * 3 * n, n, &tables.cosine[m * n], n);
+        result.sine[m] = extent * weighted_sum(parts + (even_sine + odd) * 3 * n, n, &tables.sine[m * n], n);
+    }
 }
 
 /// ∫ over the row of Q_l^m(cos theta) sin^m(theta) sin(theta) dtheta, at [sh_index(l, m)], m >= 0: the basis
@@ -98,8 +144,11 @@ Coefficients project_lat_long(const Image& image, int order, int threads) {
     const auto height = static_cast<std::size_t>(image.height);
     std::vector<Coefficients> rows(height);
     parallel_for(height, 8, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<double> parts(kParts * 3 * tables.columns);
         for (std::size_t y = begin; y < end; ++y) {
-            const RowFourier fourier = row_fourier(image, static_cast<int>(y), order, tables);
+            RowFourier fourier;
+            row_fourier(&image.pixels[y * static_cast<std::size_t>(image.width)], image.width, order, tables,
+                        parts.data(), fourier);
             const double row = static_cast<double>(y);
             const auto legendre =
                 row_legendre(order, kPi * row / image.height, kPi * (row + 1) / image.height, quadrature);

@@ -1,4 +1,5 @@
-// How fast the runtime library is: runtime_benchmark [--benchmark_filter=REGEX]. One thread unless said otherwise.
+// How fast the runtime library is: runtime_benchmark [--benchmark_filter=REGEX]. One thread unless said
+// otherwise.
 
 #include "prt/constant_former.h"
 #include "prt/environment.h"
@@ -98,7 +99,9 @@ void product(State& state) {
 }
 BENCHMARK(product);
 
-ClusteredTransfer clustered(int clusters, int components, int channels, std::size_t receivers) {
+/// `run` receivers one after the other are of one cluster: with --reorder all that it has, else a few.
+ClusteredTransfer clustered(int clusters, int components, int channels, std::size_t receivers,
+                            std::size_t run) {
     ClusteredTransfer t;
     t.bases.order = kOrder;
     t.bases.channels = channels;
@@ -107,9 +110,9 @@ ClusteredTransfer clustered(int clusters, int components, int channels, std::siz
     t.receivers.format = WeightFormat::snorm8;
     t.receivers.components = components;
     std::mt19937 random(3);
-    for (std::size_t p = 0; p < receivers; ++p) // neighbours in the mesh are mostly of one cluster
+    for (std::size_t p = 0; p < receivers; ++p)
         t.receivers.clusters.push_back(
-            static_cast<std::uint16_t>(p * static_cast<std::size_t>(clusters) / receivers));
+            static_cast<std::uint16_t>(p / run * 97 % static_cast<std::size_t>(clusters)));
     t.receivers.weights.resize(receivers * t.receivers.stride());
     for (std::byte& b : t.receivers.weights)
         b = static_cast<std::byte>(random());
@@ -117,7 +120,7 @@ ClusteredTransfer clustered(int clusters, int components, int channels, std::siz
 }
 
 void constants(State& state) {
-    const ConstantFormer former(clustered(256, 8, static_cast<int>(state.range(0)), 256));
+    const ConstantFormer former(clustered(256, 8, static_cast<int>(state.range(0)), 256, 1));
     const auto light = random_light();
     std::vector<glm::vec4> out(former.rows());
     for (auto _ : state) {
@@ -130,7 +133,8 @@ BENCHMARK(constants)->ArgName("channels")->Arg(1)->Arg(3);
 constexpr std::size_t kVertices = 1'000'000;
 
 void evaluate_vertices(State& state) {
-    const ClusteredTransfer transfer = clustered(256, 8, 1, kVertices);
+    const ClusteredTransfer transfer =
+        clustered(256, 8, 1, kVertices, static_cast<std::size_t>(state.range(0)));
     const ConstantFormer former(transfer);
     const auto light = random_light();
     std::vector<glm::vec4> out(former.rows());
@@ -143,7 +147,7 @@ void evaluate_vertices(State& state) {
     // Cluster and weights in, radiance out.
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(kVertices * (2 + 8 + 12)));
 }
-BENCHMARK(evaluate_vertices);
+BENCHMARK(evaluate_vertices)->ArgName("run")->Arg(4000)->Arg(4);
 
 /// What memory can do: a copy that no cache holds, bytes read and written.
 void plain_copy(State& state) {
