@@ -46,7 +46,6 @@ struct Disc {
 /// ∫ over what the disc covers of Y_lm. The spherical Laplacian of Y_lm is -l (l+1) Y_lm, so that for l > 0
 /// this is -1/(l (l+1)) of what its gradient lets flow out through the rim; for l = 0 the field of divergence
 /// 1 about the direction a of the centre does, which is -(a - (a·w) w) / (1 + a·w).
-template <int Order>
 Coefficients rim_integral(const Disc& disc, int nodes) {
     Coefficients sum{};
     const glm::dvec3 a = glm::normalize(disc.centre);
@@ -59,10 +58,10 @@ Coefficients rim_integral(const Disc& disc, int nodes) {
         // Outwards from the disc, as long as the step along the rim. Only what is at right angles to w
         // counts.
         const glm::dvec3 out = glm::cross(along, w) * (2 * kPi / nodes / distance);
-        Dual basis[coefficient_count(Order)];
-        sh_basis<Order>(Dual{w.x, out.x}, Dual{w.y, out.y}, Dual{w.z, out.z}, basis);
+        Dual basis[coefficient_count(kMaxOrder)];
+        sh_basis<kMaxOrder>(Dual{w.x, out.x}, Dual{w.y, out.y}, Dual{w.z, out.z}, basis);
         sum[0] -= basis[0].value * glm::dot(a, out) / (1 + glm::dot(a, w));
-        for (int l = 1; l < Order; ++l)
+        for (int l = 1; l < kMaxOrder; ++l)
             for (int m = -l; m <= l; ++m)
                 sum[static_cast<std::size_t>(sh_index(l, m))] -= basis[sh_index(l, m)].slope / (l * (l + 1));
     }
@@ -70,12 +69,11 @@ Coefficients rim_integral(const Disc& disc, int nodes) {
 }
 
 /// Twice the nodes until nothing changes.
-template <int Order>
 Coefficients covered(const Disc& disc) {
     constexpr int kFewest = 32, kMost = 1 << 20; // so many where the disc almost touches the receiver
-    Coefficients sum = rim_integral<Order>(disc, kFewest);
+    Coefficients sum = rim_integral(disc, kFewest);
     for (int nodes = 2 * kFewest; nodes <= kMost; nodes *= 2) {
-        const Coefficients finer = rim_integral<Order>(disc, nodes);
+        const Coefficients finer = rim_integral(disc, nodes);
         double change = 0;
         for (std::size_t i = 0; i < finer.size(); ++i)
             change = std::max(change, std::abs(finer[i] - sum[i]));
@@ -104,7 +102,7 @@ Light disc_light(int order, const glm::vec3& centre, const glm::vec3& normal, do
     const glm::dvec3 u =
         glm::normalize(glm::cross(std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), n));
     const Disc disc{c, radius * u, radius * glm::cross(u, n)};
-    const Coefficients sum = with_order(order, [&]<int Order>() { return covered<Order>(disc); });
+    const Coefficients sum = covered(disc);
     for (std::size_t i = 0; i < light.coefficients.size(); ++i)
         light.coefficients[i] = glm::vec3(glm::dvec3(radiance) * sum[i]);
     return light;

@@ -3,6 +3,8 @@
 #include "prt/error.h"
 #include "prt/vector_lanes.h"
 
+#include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <string>
@@ -18,58 +20,93 @@ void check_order(int order) {
 
 namespace {
 
-template <class Vector, class Real>
-[[gnu::always_inline]] inline void evaluate(int order, const Vector& direction, std::span<Real> basis) {
-    assert(basis.size() >= static_cast<std::size_t>(coefficient_count(order)));
+/// Orders above this share the code of the highest.
+constexpr int kMostUsualOrder = 6;
+
+PRT_TWO_CLONES
+void evaluate_one(int order, const glm::vec3& direction, float* basis) {
     with_order(
         order, [&]<int Order>() __attribute__((always_inline)) {
-            sh_basis<Order>(direction.x, direction.y, direction.z, basis.data());
+            if constexpr (Order <= kMostUsualOrder || Order == kMaxOrder)
+                sh_basis<Order>(direction.x, direction.y, direction.z, basis);
         });
 }
 
 } // namespace
 
-PRT_TARGET_CLONES
 void evaluate_sh(int order, const glm::vec3& direction, std::span<float> basis) {
-    evaluate(order, direction, basis);
+    const auto count = static_cast<std::size_t>(coefficient_count(order));
+    assert(basis.size() >= count);
+    if (order <= kMostUsualOrder)
+        return evaluate_one(order, direction, basis.data());
+    std::array<float, kMaxOrder * kMaxOrder> all;
+    evaluate_one(kMaxOrder, direction, all.data());
+    std::copy_n(all.begin(), count, basis.begin());
 }
 
+/// Where precision counts and speed does not, one piece of code for the highest order serves all.
 void evaluate_sh(int order, const glm::dvec3& direction, std::span<double> basis) {
-    evaluate(order, direction, basis);
+    const auto count = static_cast<std::size_t>(coefficient_count(order));
+    assert(basis.size() >= count);
+    std::array<double, kMaxOrder * kMaxOrder> all;
+    sh_basis<kMaxOrder>(direction.x, direction.y, direction.z, all.data());
+    std::copy_n(all.begin(), count, basis.begin());
 }
 
 namespace {
 
-/// Up to kLaneCount directions from `first` on; the values of each coefficient go `stride` apart.
-template <int Order>
-[[gnu::always_inline]] inline void evaluate_lanes(const glm::vec3* directions, std::size_t count,
+/// Up to kLaneCount directions; the values of each coefficient go `stride` apart.
+[[gnu::always_inline]] inline void evaluate_lanes(int order, const glm::vec3* directions, std::size_t count,
                                                   float* basis, std::size_t stride) {
-    Lanes x{}, y{}, z{}, values[coefficient_count(Order)];
+    constexpr auto& k = detail::kLegendre;
+    Lanes x{}, y{}, z{};
     for (std::size_t lane = 0; lane < count; ++lane) {
         x[lane] = directions[lane].x;
         y[lane] = directions[lane].y;
         z[lane] = directions[lane].z;
     }
-    sh_basis<Order>(x, y, z, values);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(coefficient_count(Order)); ++i) {
+    const auto store = [&](int index, const Lanes& value) __attribute__((always_inline)) {
+        float* to = basis + static_cast<std::size_t>(index) * stride;
         if (count == kLaneCount)
-            *reinterpret_cast<LanesInMemory*>(basis + i * stride) = values[i];
+            *reinterpret_cast<LanesInMemory*>(to) = value;
         else
             for (std::size_t lane = 0; lane < count; ++lane)
-                basis[i * stride + lane] = values[i][lane];
+                to[lane] = value[lane];
+    };
+    Lanes cosine = x, sine = y; // as in sh_basis
+    for (int m = 0; m < order; ++m) {
+        const auto mi = static_cast<std::size_t>(m);
+        if (m > 1) {
+            const Lanes rotated = x * cosine - y * sine;
+            sine = x * sine + y * cosine;
+            cosine = rotated;
+        }
+        Lanes before{}, legendre = Lanes{} + static_cast<float>(k.sectoral[mi]);
+        for (int l = m;; ++l) {
+            if (m == 0) {
+                store(sh_index(l, 0), legendre);
+            } else {
+                store(sh_index(l, m), legendre * cosine);
+                store(sh_index(l, -m), legendre * sine);
+            }
+            if (l + 1 == order)
+                break;
+            const auto next_l = static_cast<std::size_t>(l + 1);
+            const Lanes next = static_cast<float>(k.a[next_l][mi]) * (z * legendre) -
+                               static_cast<float>(k.b[next_l][mi]) * before;
+            before = legendre;
+            legendre = next;
+        }
     }
 }
 
 PRT_TARGET_CLONES
 void evaluate_many(int order, const glm::vec3* directions, std::size_t count, float* basis) {
-    with_order(
-        order, [&]<int Order>() __attribute__((always_inline)) {
-            std::size_t first = 0;
-            for (; first + kLaneCount <= count; first += kLaneCount)
-                evaluate_lanes<Order>(directions + first, kLaneCount, basis + first, count);
-            if (first < count)
-                evaluate_lanes<Order>(directions + first, count - first, basis + first, count);
-        });
+    std::size_t first = 0;
+    for (; first + kLaneCount <= count; first += kLaneCount)
+        evaluate_lanes(order, directions + first, kLaneCount, basis + first, count);
+    if (first < count)
+        evaluate_lanes(order, directions + first, count - first, basis + first, count);
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 namespace prt {
@@ -15,149 +16,167 @@ namespace {
 
 using detail::kPi;
 
-template <int Order, class Real>
+/// Rings of an order: as many nodes in the cosine of the polar angle as integrate a · b · Y_lm.
+constexpr int ring_count(int order) {
+    return 3 * (order - 1) / 2 + 1;
+}
+constexpr int azimuth_count(int order) {
+    return 3 * (order - 1) + 1;
+}
+/// Azimuths from 0 to pi; the others mirror them.
+constexpr int half_count(int order) {
+    return azimuth_count(order) / 2 + 1;
+}
+
+template <class Real, int Lanes>
+struct RingsOf;
+template <>
+struct RingsOf<float, 8> {
+    using type [[gnu::vector_size(32)]] = float;
+};
+template <>
+struct RingsOf<float, 16> {
+    using type [[gnu::vector_size(64)]] = float;
+};
+template <>
+struct RingsOf<double, 16> {
+    using type [[gnu::vector_size(128)]] = double;
+};
+
+/// For one order. Rings beyond those there are have weight 0.
+template <class Real, int Lanes>
 struct ProductTables {
-    static constexpr int kDegree = 3 * (Order - 1); ///< of a · b · Y_lm
-    static constexpr int kRings = kDegree / 2 + 1;
-    static constexpr int kLanes = kRings <= 4 ? 4 : kRings <= 8 ? 8 : 16;
-    static constexpr int kAzimuths = kDegree + 1;
-    static constexpr int kHalf = kAzimuths / 2 + 1; ///< azimuths 0 to pi; the others mirror them
-    using Rings [[gnu::vector_size(sizeof(Real) * kLanes)]] = Real;
+    using Rings = typename RingsOf<Real, Lanes>::type;
 
-    Rings legendre[coefficient_count(Order)] = {}; ///< at [sh_index(l, m)], m >= 0; 0 in idle lanes
-    Rings weights = {};                            ///< of the rings, with the step of the azimuth
-    Real cosine[kHalf][Order] = {}, sine[kHalf][Order] = {};
+    Real legendre[kMaxOrder * kMaxOrder][Lanes] = {}; ///< at [sh_index(l, m)], m >= 0
+    Real weights[Lanes] = {};                         ///< with the step of the azimuth
+    std::vector<Real> cosine, sine;                   ///< [half][order]
 
-    ProductTables() {
-        const GaussLegendre rings(kRings);
+    explicit ProductTables(int order) {
+        const int azimuths = azimuth_count(order);
+        const GaussLegendre rings(ring_count(order));
         std::array<double, kMaxOrder * kMaxOrder> basis{};
-        for (int r = 0; r < kRings; ++r) {
-            const double z = rings.nodes[static_cast<std::size_t>(r)];
-            evaluate_sh(Order, glm::dvec3(std::sqrt(1 - z * z), 0, z), std::span<double>(basis));
-            for (int i = 0; i < coefficient_count(Order); ++i)
-                legendre[i][r] = static_cast<Real>(basis[static_cast<std::size_t>(i)]);
-            weights[r] = static_cast<Real>(rings.weights[static_cast<std::size_t>(r)] * 2 * kPi / kAzimuths);
+        for (std::size_t r = 0; r < rings.nodes.size(); ++r) {
+            const double z = rings.nodes[r];
+            evaluate_sh(order, glm::dvec3(std::sqrt(1 - z * z), 0, z), std::span<double>(basis));
+            for (std::size_t i = 0; i < static_cast<std::size_t>(coefficient_count(order)); ++i)
+                legendre[i][r] = static_cast<Real>(basis[i]);
+            weights[r] = static_cast<Real>(rings.weights[r] * 2 * kPi / azimuths);
         }
-        for (int j = 0; j < kHalf; ++j)
-            for (int m = 0; m < Order; ++m) {
-                cosine[j][m] = static_cast<Real>(std::cos(2 * kPi * j * m / kAzimuths));
-                sine[j][m] = static_cast<Real>(std::sin(2 * kPi * j * m / kAzimuths));
+        for (int j = 0; j < half_count(order); ++j)
+            for (int m = 0; m < order; ++m) {
+                cosine.push_back(static_cast<Real>(std::cos(2 * kPi * j * m / azimuths)));
+                sine.push_back(static_cast<Real>(std::sin(2 * kPi * j * m / azimuths)));
             }
-    }
-
-    static const ProductTables& get() {
-        static const ProductTables tables;
-        return tables;
     }
 };
 
-/// Whether azimuth j stands for itself alone: 0, and pi where there is one.
-template <class Tables>
-constexpr bool alone(int j) {
-    return j == 0 || 2 * j == Tables::kAzimuths;
+/// The rings of one azimuth.
+template <class Real, int Lanes>
+[[gnu::always_inline]] inline typename RingsOf<Real, Lanes>::type rings_at(const Real (&values)[Lanes]) {
+    typename RingsOf<Real, Lanes>::type rings;
+    std::memcpy(&rings, values, sizeof rings);
+    return rings;
+}
+
+/// Made when they are first wanted, for all orders of a width.
+template <class Real, int Lanes>
+const ProductTables<Real, Lanes>& tables_of(int order) {
+    static const std::vector<ProductTables<Real, Lanes>> all = [] {
+        std::vector<ProductTables<Real, Lanes>> tables;
+        for (int n = 1; n <= kMaxOrder && ring_count(n) <= Lanes; ++n)
+            tables.emplace_back(n);
+        return tables;
+    }();
+    return all[static_cast<std::size_t>(order - 1)];
 }
 
 /// A function at all nodes: at azimuth j and at -j.
-template <class Tables>
+template <class Real, int Lanes>
 struct Nodes {
-    typename Tables::Rings plus[Tables::kHalf], minus[Tables::kHalf];
+    typename ProductTables<Real, Lanes>::Rings plus[half_count(kMaxOrder)], minus[half_count(kMaxOrder)];
 };
 
-template <int Order, class Real>
-[[gnu::always_inline]] inline void to_nodes(const ProductTables<Order, Real>& t, const Real* c,
-                                            Nodes<ProductTables<Order, Real>>& at) {
-    using Tables = ProductTables<Order, Real>;
-    using Rings = typename Tables::Rings;
-    Rings cosine[Order], sine[Order];
-#pragma GCC unroll 10
-    for (int m = 0; m < Order; ++m) {
+template <class Real, int Lanes>
+[[gnu::always_inline]] inline void to_nodes(int order, const ProductTables<Real, Lanes>& t, const Real* c,
+                                            Nodes<Real, Lanes>& at) {
+    using Rings = typename ProductTables<Real, Lanes>::Rings;
+    Rings cosine[kMaxOrder], sine[kMaxOrder];
+    for (int m = 0; m < order; ++m) {
         cosine[m] = sine[m] = Rings{};
-#pragma GCC unroll 10
-        for (int l = m; l < Order; ++l) {
-            const Rings legendre = t.legendre[sh_index(l, m)];
+        for (int l = m; l < order; ++l) {
+            const Rings legendre = rings_at(t.legendre[sh_index(l, m)]);
             cosine[m] += c[sh_index(l, m)] * legendre;
-            if (m > 0)
-                sine[m] += c[sh_index(l, -m)] * legendre;
+            sine[m] += c[sh_index(l, -m)] * legendre;
         }
     }
-    for (int j = 0; j < Tables::kHalf; ++j) {
+    const Real *cosines = t.cosine.data(), *sines = t.sine.data();
+    for (int j = 0; j < half_count(order); ++j, cosines += order, sines += order) {
         Rings even = cosine[0], odd = {};
-#pragma GCC unroll 10
-        for (int m = 1; m < Order; ++m) {
-            even += t.cosine[j][m] * cosine[m];
-            odd += t.sine[j][m] * sine[m];
+        for (int m = 1; m < order; ++m) {
+            even += cosines[m] * cosine[m];
+            odd += sines[m] * sine[m];
         }
         at.plus[j] = even + odd;
         at.minus[j] = even - odd;
     }
 }
 
-template <int Order, class Real>
-[[gnu::always_inline]] inline void from_nodes(const ProductTables<Order, Real>& t,
-                                              const Nodes<ProductTables<Order, Real>>& at, Real* c) {
-    using Tables = ProductTables<Order, Real>;
-    using Rings = typename Tables::Rings;
-    Rings cosine[Order], sine[Order];
-#pragma GCC unroll 10
-    for (int m = 0; m < Order; ++m)
-        cosine[m] = sine[m] = Rings{};
-    for (int j = 0; j < Tables::kHalf; ++j) {
-        const Rings even = alone<Tables>(j) ? at.plus[j] : at.plus[j] + at.minus[j];
-        const Rings odd = alone<Tables>(j) ? Rings{} : at.plus[j] - at.minus[j];
-#pragma GCC unroll 10
-        for (int m = 0; m < Order; ++m) {
-            cosine[m] += t.cosine[j][m] * even;
-            sine[m] += t.sine[j][m] * odd;
+template <class Real, int Lanes>
+[[gnu::always_inline]] inline void from_nodes(int order, const ProductTables<Real, Lanes>& t,
+                                              const Nodes<Real, Lanes>& at, Real* c) {
+    using Rings = typename ProductTables<Real, Lanes>::Rings;
+    Rings cosine[kMaxOrder] = {}, sine[kMaxOrder] = {};
+    const Real *cosines = t.cosine.data(), *sines = t.sine.data();
+    for (int j = 0; j < half_count(order); ++j, cosines += order, sines += order) {
+        const bool alone = j == 0 || 2 * j == azimuth_count(order); // 0, and pi where there is one
+        const Rings even = alone ? at.plus[j] : at.plus[j] + at.minus[j];
+        const Rings odd = alone ? Rings{} : at.plus[j] - at.minus[j];
+        for (int m = 0; m < order; ++m) {
+            cosine[m] += cosines[m] * even;
+            sine[m] += sines[m] * odd;
         }
     }
     const auto total = [](const Rings& values) __attribute__((always_inline)) {
         Real sum = 0;
-        for (int r = 0; r < Tables::kRings; ++r)
+        for (int r = 0; r < Lanes; ++r)
             sum += values[r];
         return sum;
     };
-#pragma GCC unroll 10
-    for (int m = 0; m < Order; ++m) {
-        cosine[m] *= t.weights;
-        sine[m] *= t.weights;
-#pragma GCC unroll 10
-        for (int l = m; l < Order; ++l) {
-            const Rings legendre = t.legendre[sh_index(l, m)];
+    const Rings weights = rings_at(t.weights);
+    for (int m = 0; m < order; ++m)
+        for (int l = m; l < order; ++l) {
+            const Rings legendre = rings_at(t.legendre[sh_index(l, m)]) * weights;
+            c[sh_index(l, -m)] = total(sine[m] * legendre);
             c[sh_index(l, m)] = total(cosine[m] * legendre);
-            if (m > 0)
-                c[sh_index(l, -m)] = total(sine[m] * legendre);
         }
-    }
 }
 
-template <int Order, class Real>
-[[gnu::always_inline]] inline void product_of(const ProductTables<Order, Real>& t, const Real* a,
+template <class Real, int Lanes>
+[[gnu::always_inline]] inline void product_of(int order, const ProductTables<Real, Lanes>& t, const Real* a,
                                               const Real* b, Real* out) {
-    using Tables = ProductTables<Order, Real>;
-    Nodes<Tables> first, second;
-    to_nodes(t, a, first);
-    to_nodes(t, b, second);
-    for (int j = 0; j < Tables::kHalf; ++j) {
+    Nodes<Real, Lanes> first, second;
+    to_nodes(order, t, a, first);
+    to_nodes(order, t, b, second);
+    for (int j = 0; j < half_count(order); ++j) {
         first.plus[j] *= second.plus[j];
         first.minus[j] *= second.minus[j];
     }
-    from_nodes(t, first, out);
+    from_nodes(order, t, first, out);
 }
 
-PRT_TARGET_CLONES
+constexpr int kFewRings = 8, kManyRings = 16;
+
+PRT_TWO_CLONES
 void float_product(int order, const float* a, const float* b, float* out) {
-    with_order(
-        order, [&]<int Order>() __attribute__((always_inline)) {
-            product_of(ProductTables<Order, float>::get(), a, b, out);
-        });
+    if (ring_count(order) <= kFewRings)
+        product_of(order, tables_of<float, kFewRings>(order), a, b, out);
+    else
+        product_of(order, tables_of<float, kManyRings>(order), a, b, out);
 }
 
-PRT_TARGET_CLONES
 void double_product(int order, const double* a, const double* b, double* out) {
-    with_order(
-        order, [&]<int Order>() __attribute__((always_inline)) {
-            product_of(ProductTables<Order, double>::get(), a, b, out);
-        });
+    product_of(order, tables_of<double, kManyRings>(order), a, b, out);
 }
 
 } // namespace

@@ -8,6 +8,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <utility>
@@ -21,27 +22,22 @@ using Turns = ShRotation::Turns;
 /// Three channels and one that is idle.
 using Channels [[gnu::vector_size(sizeof(double) * 4)]] = double;
 
-template <int Order, class Value>
-[[gnu::always_inline]] inline void turn_about_z(const Turn& turn, Value* c) {
-#pragma GCC unroll 10
-    for (int m = 1; m < Order; ++m) {
+/// Band l about z; `c` points at its coefficient of m = 0.
+[[gnu::always_inline]] inline void turn_about_z(int l, const Turn& turn, Channels* c) {
+#pragma GCC unroll 5
+    for (int m = 1; m <= l; ++m) {
         const double cosine = turn.cosine[static_cast<std::size_t>(m)],
                      sine = turn.sine[static_cast<std::size_t>(m)];
-#pragma GCC unroll 10
-        for (int l = m; l < Order; ++l) {
-            Value& a = c[sh_index(l, m)];
-            Value& b = c[sh_index(l, -m)];
-            const Value turned = a * cosine - b * sine;
-            b = a * sine + b * cosine;
-            a = turned;
-        }
+        const Channels turned = c[m] * cosine - c[-m] * sine;
+        c[-m] = c[m] * sine + c[-m] * cosine;
+        c[m] = turned;
     }
 }
 
-/// Row `Row` of a band's quarter turn, or of its inverse, times `c`. Zeros take no time.
-template <bool Inverse, std::size_t L, std::size_t Row, class Value, std::size_t... Column>
-[[gnu::always_inline]] inline Value turned_row(const Value* c, std::index_sequence<Column...>) {
-    Value sum{};
+/// Row `Row` of a band's quarter turn about x, or of its inverse, times `c`. Zeros take no time.
+template <bool Inverse, std::size_t L, std::size_t Row, std::size_t... Column>
+[[gnu::always_inline]] inline Channels turned_row(const Channels* c, std::index_sequence<Column...>) {
+    Channels sum{};
     const auto add = [&]<std::size_t I>() __attribute__((always_inline)) {
         constexpr double factor = Inverse ? kQuarterTurn.at(L, I, Row) : kQuarterTurn.at(L, Row, I);
         if constexpr (factor != 0)
@@ -51,55 +47,109 @@ template <bool Inverse, std::size_t L, std::size_t Row, class Value, std::size_t
     return sum;
 }
 
-template <bool Inverse, std::size_t L, class Value, std::size_t... Row>
-[[gnu::always_inline]] inline void turn_band(Value* c, std::index_sequence<Row...> all) {
-    const Value turned[] = {turned_row<Inverse, L, Row>(c, all)...};
+template <bool Inverse, std::size_t L, std::size_t... Row>
+[[gnu::always_inline]] inline void quarter_turn(Channels* c, std::index_sequence<Row...> all) {
+    const Channels turned[] = {turned_row<Inverse, L, Row>(c, all)...};
     ((c[Row] = turned[Row]), ...);
 }
 
-/// By 90 degrees about x, or back.
-template <bool Inverse, class Value, std::size_t... L>
-[[gnu::always_inline]] inline void quarter_turn(Value* c, std::index_sequence<L...>) {
-    (turn_band<Inverse, L>(c + L * L, std::make_index_sequence<2 * L + 1>()), ...);
-}
-
-template <int Order, class Value>
-[[gnu::always_inline]] inline void rotate(const Turns& turns, Value* c) {
-    turn_about_z<Order>(turns.first, c);
+template <std::size_t L>
+[[gnu::always_inline]] inline void rotate_band(const Turns& turns, Channels* c) {
+    constexpr auto all = std::make_index_sequence<2 * L + 1>();
+    constexpr int l = static_cast<int>(L);
+    turn_about_z(l, turns.first, c + L);
     if (!turns.tilted)
         return;
-    constexpr auto bands = std::make_index_sequence<Order>();
-    quarter_turn<false>(c, bands);
-    turn_about_z<Order>(turns.tilt, c);
-    quarter_turn<true>(c, bands);
-    turn_about_z<Order>(turns.last, c);
+    quarter_turn<false, L>(c, all);
+    turn_about_z(l, turns.tilt, c + L);
+    quarter_turn<true, L>(c, all);
+    turn_about_z(l, turns.last, c + L);
 }
 
-PRT_TARGET_CLONES
-void rotate_channels(int order, const Turns& turns, const glm::vec3* in, glm::vec3* out) {
-    with_order(
-        order, [&]<int Order>() __attribute__((always_inline)) {
-            Channels c[coefficient_count(Order)];
-            for (int i = 0; i < coefficient_count(Order); ++i)
-                c[i] = Channels{in[i].r, in[i].g, in[i].b, 0};
-            rotate<Order>(turns, c);
-            for (int i = 0; i < coefficient_count(Order); ++i)
-                out[i] = {static_cast<float>(c[i][0]), static_cast<float>(c[i][1]),
-                          static_cast<float>(c[i][2])};
-        });
+/// The quarter turns of the bands that games hardly use, element by element: their code would be as long as
+/// that of the whole rest.
+constexpr int kFirstListedBand = 6;
+
+struct Element {
+    std::uint8_t row, column;
+    double value;
+};
+
+consteval std::size_t listed_elements() {
+    std::size_t count = 0;
+    for (std::size_t l = kFirstListedBand; l < kMaxOrder; ++l)
+        for (std::size_t row = 0; row <= 2 * l; ++row)
+            for (std::size_t column = 0; column <= 2 * l; ++column)
+                count += kQuarterTurn.at(l, row, column) != 0;
+    return count;
 }
 
+/// The elements that are not zero of bands kFirstListedBand to kMaxOrder - 1, and where each band starts.
+struct ElementList {
+    std::array<Element, listed_elements()> elements{};
+    std::array<std::size_t, kMaxOrder + 1> first{};
+
+    consteval ElementList() {
+        std::size_t count = 0;
+        for (std::size_t l = kFirstListedBand; l < kMaxOrder; ++l) {
+            first[l] = count;
+            for (std::size_t row = 0; row <= 2 * l; ++row)
+                for (std::size_t column = 0; column <= 2 * l; ++column)
+                    if (const double value = kQuarterTurn.at(l, row, column); value != 0)
+                        elements[count++] = {static_cast<std::uint8_t>(row),
+                                             static_cast<std::uint8_t>(column), value};
+        }
+        first[kMaxOrder] = count;
+    }
+};
+constexpr ElementList kElements;
+
+template <bool Inverse>
+[[gnu::always_inline]] inline void listed_quarter_turn(int l, Channels* c) {
+    Channels turned[2 * kMaxOrder - 1] = {};
+    const auto band = static_cast<std::size_t>(l);
+    for (std::size_t e = kElements.first[band]; e < kElements.first[band + 1]; ++e) {
+        const Element& element = kElements.elements[e];
+        turned[Inverse ? element.column : element.row] +=
+            element.value * c[Inverse ? element.row : element.column];
+    }
+    std::copy_n(turned, 2 * l + 1, c);
+}
+
+[[gnu::always_inline]] inline void rotate_listed_band(int l, const Turns& turns, Channels* c) {
+    turn_about_z(l, turns.first, c + l);
+    if (!turns.tilted)
+        return;
+    listed_quarter_turn<false>(l, c);
+    turn_about_z(l, turns.tilt, c + l);
+    listed_quarter_turn<true>(l, c);
+    turn_about_z(l, turns.last, c + l);
+}
+
+/// Band by band, so that every band's code is there once for all orders.
+PRT_TWO_CLONES
+void rotate(int order, const Turns& turns, Channels* c) {
+    for (int l = 1; l < std::min(order, kFirstListedBand); ++l)
+        with_order(
+            l, [&]<int L>() __attribute__((always_inline)) {
+                if constexpr (L < kFirstListedBand)
+                    rotate_band<static_cast<std::size_t>(L)>(turns, c + L * L);
+            });
+    for (int l = kFirstListedBand; l < order; ++l)
+        rotate_listed_band(l, turns, c + l * l);
+}
+
+/// One function is rotated as three are, in the first lane.
 template <class Real>
 void rotate_one(int order, const Turns& turns, std::span<const Real> in, std::span<Real> out) {
-    assert(in.size() >= static_cast<std::size_t>(coefficient_count(order)) && out.size() >= in.size());
-    with_order(order, [&]<int Order>() {
-        std::array<double, static_cast<std::size_t>(coefficient_count(Order))> c;
-        for (std::size_t i = 0; i < c.size(); ++i)
-            c[i] = static_cast<double>(in[i]);
-        rotate<Order>(turns, c.data());
-        for (std::size_t i = 0; i < c.size(); ++i)
-            out[i] = static_cast<Real>(c[i]);
-    });
+    const auto count = static_cast<std::size_t>(coefficient_count(order));
+    assert(in.size() >= count && out.size() >= count);
+    Channels c[kMaxOrder * kMaxOrder];
+    for (std::size_t i = 0; i < count; ++i)
+        c[i] = Channels{static_cast<double>(in[i]), 0, 0, 0};
+    rotate(order, turns, c);
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = static_cast<Real>(c[i][0]);
 }
 
 void check_rotation(const glm::dmat3& r) {
@@ -189,8 +239,14 @@ void ShRotation::apply(std::span<glm::vec3> coefficients) const {
 }
 
 void ShRotation::apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) const {
-    assert(in.size() >= static_cast<std::size_t>(coefficient_count(order_)) && out.size() >= in.size());
-    rotate_channels(order_, turns_, in.data(), out.data());
+    const auto count = static_cast<std::size_t>(coefficient_count(order_));
+    assert(in.size() >= count && out.size() >= count);
+    Channels c[kMaxOrder * kMaxOrder];
+    for (std::size_t i = 0; i < count; ++i)
+        c[i] = Channels{in[i].r, in[i].g, in[i].b, 0};
+    rotate(order_, turns_, c);
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = {static_cast<float>(c[i][0]), static_cast<float>(c[i][1]), static_cast<float>(c[i][2])};
 }
 
 } // namespace prt

@@ -26,6 +26,9 @@ using LanesInMemory
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) &&                 \
     !defined(__SANITIZE_ADDRESS__)
 #define PRT_TARGET_CLONES [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
+// For long code that gains little from the widest vectors.
+#define PRT_TWO_CLONES [[gnu::target_clones("arch=x86-64-v3", "default")]]
 #else
 #define PRT_TARGET_CLONES
+#define PRT_TWO_CLONES
 #endif

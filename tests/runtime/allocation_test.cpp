@@ -1,0 +1,61 @@
+// What runs every frame allocates nothing: a program of its own, because it counts every allocation.
+
+#include "prt/constant_former.h"
+#include "prt/sh.h"
+#include "prt/sh_rotation.h"
+#include "prt/sh_vector.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+std::atomic<std::size_t> allocations = 0;
+}
+
+void* operator new(std::size_t size) {
+    ++allocations;
+    if (void* memory = std::malloc(size))
+        return memory;
+    throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+    std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+    std::free(memory);
+}
+
+namespace prt {
+namespace {
+
+TEST(Frame, AllocatesNothing) {
+    ClusteredTransfer transfer;
+    transfer.bases.order = 6;
+    transfer.bases.components.assign(40, 5);
+    transfer.bases.rows.assign(40 * 6 * 36, 0.5f);
+    const ConstantFormer former(transfer);
+    std::vector<glm::vec4> constants(former.rows()), others(former.rows());
+    const Light light = constant_light(6, {1, 2, 3});
+    std::vector<glm::vec3> turned(36);
+    std::array<float, 36> basis{}, product{};
+    sh_product(6, basis, basis, product); // its tables are made when they are first wanted
+
+    const std::size_t before = allocations;
+    ShRotation(6, glm::dmat3(1)).apply(light.coefficients, turned);
+    former.form(turned, constants);
+    former.form(turned, others, 0, 64);
+    blend_constants(constants, others, 0.5f, constants);
+    evaluate_sh(6, glm::vec3(0, 0, 1), std::span<float>(basis));
+    sh_product(6, basis, basis, product);
+    EXPECT_EQ(allocations, before);
+    EXPECT_GT(constants[0].r, 0);
+    const std::vector<int> one(1); // the counter does count
+    EXPECT_GT(allocations, before);
+}
+
+} // namespace
+} // namespace prt
