@@ -142,5 +142,42 @@ TEST(ClusteredTransfer, ALightOfHigherOrderIsCutAndALowerOneRefused) {
     EXPECT_THROW(exit_radiance(transfer, truncated(light, 2)), Error);
 }
 
+/// Runs of a cluster are evaluated sixteen at a time: against the definition, weight by weight.
+TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
+    std::mt19937 random(11);
+    std::normal_distribution<float> normal;
+    for (const int components : {0, 1, 5, 8, 12}) {
+        ClusteredTransfer t;
+        t.bases.order = 1;
+        t.bases.components = {components, components > 2 ? components - 2 : 0};
+        for (std::size_t i = 0; i < constant_rows(t.bases); ++i)
+            t.bases.rows.push_back(normal(random));
+        t.receivers.format = WeightFormat::snorm8;
+        t.receivers.components = (components + 3) / 4 * 4;
+        for (int p = 0; p < 100; ++p) // 40, then 33, then single ones
+            t.receivers.clusters.push_back(static_cast<std::uint16_t>(p < 40 ? 1 : p < 73 ? 0 : p % 2));
+        t.receivers.weights.resize(100 * t.receivers.stride());
+        for (std::byte& b : t.receivers.weights)
+            b = static_cast<std::byte>(random());
+        if (!t.receivers.weights.empty())
+            t.receivers.weights[0] = std::byte{0x80}; // -128 stands for -1 as -127 does
+        std::vector<glm::vec4> constants(constant_rows(t.bases));
+        for (glm::vec4& c : constants)
+            c = {normal(random), normal(random), normal(random), 0};
+        std::vector<glm::vec3> radiance(100, glm::vec3(-9));
+        evaluate(t, constants, radiance, 1);
+        const auto layouts = cluster_layouts(t.bases);
+        for (std::size_t p = 0; p < 100; ++p) {
+            std::vector<float> weights(12);
+            decode_weights(t, layouts, p, weights);
+            const ClusterLayout& layout = layouts[t.receivers.clusters[p]];
+            glm::vec3 expected(constants[layout.first_row]);
+            for (std::size_t j = 0; j < layout.components; ++j)
+                expected += weights[j] * glm::vec3(constants[layout.first_row + 1 + j]);
+            EXPECT_LT(glm::distance(radiance[p], expected), 1e-5f) << components << " " << p;
+        }
+    }
+}
+
 } // namespace
 } // namespace prt
