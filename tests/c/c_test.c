@@ -1,4 +1,4 @@
-/* The C interface, from C: c_test shipped.glb */
+/* The C interface, from C: c_test shipped.glb sky.exr */
 
 #include "prt/prt.h"
 
@@ -90,6 +90,12 @@ static void test_lights(void) {
     EXPECT(strstr(message.text, "no such file.exr") != NULL);
 }
 
+static void test_sky(const char* path) {
+    float light[27];
+    EXPECT(prt_light_from_file(3, path, light, NULL) == PRT_OK);
+    EXPECT(light[0] > 0 && light[2] > light[0]); /* day: blue above red */
+}
+
 static void test_model(const char* path) {
     prt_message message;
     prt_model* model = NULL;
@@ -154,11 +160,12 @@ static void test_model(const char* path) {
 }
 
 int main(int argc, char** argv) {
-    if (argc != 2)
+    if (argc != 3)
         return 2;
     test_sh();
     test_lights();
     test_model(argv[1]);
+    test_sky(argv[2]);
     if (failures == 0)
         puts("the C interface does what its header says");
     return failures == 0 ? 0 : 1;

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
 #include <csignal>
 #include <fstream>
 #include <sstream>
@@ -125,6 +126,26 @@ TEST_F(Road, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
     }
 }
 #endif
+
+TEST_F(Road, SunsAreWrittenApartAndTheRestRelights) {
+    Image sky{64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0.5f, 0.6f, 0.8f))};
+    sky.at(32, 10) = glm::vec3(3000, 2800, 2000); // 10.5 rows of 32 from +Y, in the column of +Z
+    write_exr(folder / "sky.exr", sky, EnvironmentLayout::lat_long);
+    const Outcome project = prt({"project", at("sky.exr"), "-o", at("l.json"), "--suns", "1"});
+    ASSERT_EQ(project.status, 0) << project.err;
+    const auto light = read_json(folder / "l.json");
+    ASSERT_EQ(light["lights"].size(), 1u);
+    const auto towards = light["lights"][0]["towards"].get<std::vector<double>>();
+    EXPECT_NEAR(towards[1], std::cos(10.5 / 32 * 3.14159265), 0.02);
+    EXPECT_GT(towards[2], 0.8);
+    EXPECT_GT(light["lights"][0]["irradiance"][0], light["lights"][0]["irradiance"][2]);
+    const double red = light["coefficients"]["red"][0];
+    EXPECT_NEAR(red * 0.2820948, 0.5, 0.05); // the sky without its sun
+    triangle_file().write(folder / "t.glb");
+    EXPECT_EQ(
+        prt({"render", at("t.glb"), "--env", at("l.json"), "-o", at("p.png"), "--size", "32x32"}).status, 0);
+    EXPECT_EQ(prt({"project", at("sky.exr"), "-o", at("l.json"), "--suns", "-1"}).status, 2);
+}
 
 TEST_F(Road, ASweepIsAPageThatStandsAlone) {
     triangle_file().write(folder / "t.glb");

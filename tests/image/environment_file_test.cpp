@@ -189,6 +189,43 @@ TEST(EnvironmentFile, TheAttributeDecidesThenTheShape) {
     EXPECT_THROW(load_environment(folder / "d.exr", {EnvironmentLayout::cube, BadPixels::error}), Error);
 }
 
+TEST(EnvironmentFile, SixFacesMakeACube) {
+    const test::TemporaryFolder folder;
+    const auto square = [](int size, float value) {
+        return Image{size, size,
+                     std::vector<glm::vec3>(static_cast<std::size_t>(size * size), glm::vec3(value))};
+    };
+    const char* const faces[] = {"px", "nx", "py", "ny", "pz", "nz"};
+    for (int f = 0; f < 6; ++f)
+        write_exr(folder / (std::string("sky_") + faces[f] + ".exr"), square(4, static_cast<float>(f + 1)));
+    const Environment cube = load_environment(folder / "sky_{face}.exr").environment;
+    EXPECT_EQ(cube.layout, EnvironmentLayout::cube_faces);
+    EXPECT_EQ(cube.image.height, 24);
+    EXPECT_EQ(sample(cube, {1, 0, 0}), glm::vec3(1));
+    EXPECT_EQ(sample(cube, {0, -1, 0}), glm::vec3(4));
+    EXPECT_EQ(sample(cube, {0, 0, -1}), glm::vec3(6));
+
+    const auto message = [&] {
+        try {
+            load_environment(folder / "sky_{face}.exr");
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+        return std::string();
+    };
+    write_exr(folder / "sky_py.exr", square(3, 1));
+    EXPECT_NE(message().find("sky_py.exr"), std::string::npos);
+    std::filesystem::remove(folder / "sky_py.exr");
+    EXPECT_NE(message().find("sky_py.exr"), std::string::npos);
+    write_exr(folder / "probe.exr", square(8, 1));
+    EXPECT_EQ(load_environment(folder / "probe.exr", {EnvironmentLayout::angular, BadPixels::error})
+                  .environment.layout,
+              EnvironmentLayout::angular);
+    write_exr(folder / "wide.exr", Image{8, 4, std::vector<glm::vec3>(32, glm::vec3(1))});
+    EXPECT_THROW(load_environment(folder / "wide.exr", {EnvironmentLayout::angular, BadPixels::error}),
+                 Error);
+}
+
 TEST(EnvironmentFile, WhatIsNoImageIsNamed) {
     const test::TemporaryFolder folder;
     folder.file("text.hdr", "hello");
