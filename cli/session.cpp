@@ -2,22 +2,19 @@
 
 #include <fmt/core.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
-#include <ctime>
 
 #include <unistd.h>
 
 namespace prt::cli {
 namespace {
 
-sigset_t interrupt_signals() {
-    sigset_t signals;
-    sigemptyset(&signals);
-    sigaddset(&signals, SIGINT);
-    sigaddset(&signals, SIGTERM);
-    return signals;
-}
+/// Set by whatever thread gets the signal: libraries start threads before main, so that blocking signals here
+/// would not keep them from ending the program.
+std::atomic<bool> interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free); // what a signal handler may touch
 
 constexpr auto kPatience = std::chrono::milliseconds(800);
 constexpr auto kPoll = std::chrono::milliseconds(50);
@@ -25,19 +22,20 @@ constexpr auto kPoll = std::chrono::milliseconds(50);
 } // namespace
 
 Interrupt::Interrupt() {
-    // Blocked here and in all threads that follow; only the watcher takes them, so no handler runs anywhere.
-    const sigset_t signals = interrupt_signals();
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    struct sigaction action = {};
+    action.sa_handler = [](int) { interrupted = true; };
+    action.sa_flags = SA_RESTART;
+    for (const int signal : {SIGINT, SIGTERM})
+        sigaction(signal, &action, nullptr);
     watcher_ = std::jthread([this](const std::stop_token& finished) { watch(finished); });
 }
 
 Interrupt::~Interrupt() = default;
 
 void Interrupt::watch(const std::stop_token& finished) {
-    const sigset_t signals = interrupt_signals();
-    const timespec poll{0, std::chrono::nanoseconds(kPoll).count()};
     while (!finished.stop_requested()) {
-        if (sigtimedwait(&signals, nullptr, &poll) < 0)
+        std::this_thread::sleep_for(kPoll);
+        if (!interrupted)
             continue;
         stop_.request_stop();
         for (auto waited = kPoll; !finished.stop_requested(); waited += kPoll) {
