@@ -1,5 +1,4 @@
 # install() and the package that find_package(prtkit) reads.
-include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 get_property(libraries GLOBAL PROPERTY PRTKIT_LIBRARIES)
