@@ -95,7 +95,7 @@ public:
     explicit GlRenderer(const Picture& picture) : picture_(picture), target_(picture) {
         if (picture.transfer) {
             transfer_.emplace(*picture.transfer);
-            transfer_->set_light(*picture.transfer, truncated(*picture.light, picture.transfer->bases.order));
+            transfer_->set_light(*picture.light);
         }
         program_ = make_program("scene.vert", "scene.frag", transfer_ ? transfer_->defines() : "");
         for (const Texture& texture : picture.textures)

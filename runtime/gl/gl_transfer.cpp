@@ -1,6 +1,5 @@
 #include "prt/gl_renderer.h"
 
-#include "prt/constant_former.h"
 #include "prt/shader_source.h"
 #include "shared_layout.h"
 
@@ -30,16 +29,17 @@ GLenum component_type(WeightFormat format) {
 
 GlTransfer::GlTransfer(const ClusteredTransfer& transfer)
     : format_(transfer.receivers.format), weight_vectors_(transfer.receivers.components / 4),
-      words_(transfer.receivers.words), defines_("#define PRT_COMPRESSED\n" + relight_defines(transfer)) {
+      words_(transfer.receivers.words), defines_("#define PRT_COMPRESSED\n" + relight_defines(transfer)),
+      former_(transfer) {
     clusters_ = make_buffer(std::span<const std::uint16_t>(transfer.receivers.clusters));
     weights_ = make_buffer(std::span<const std::byte>(transfer.receivers.weights));
     const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
     layouts_ = make_buffer(std::span<const ClusterLayout>(layouts));
 }
 
-void GlTransfer::set_light(const ClusteredTransfer& transfer, const Light& light) {
-    std::vector<glm::vec4> constants(constant_rows(transfer.bases));
-    form_constants(transfer, light, constants);
+void GlTransfer::set_light(const Light& light) {
+    std::vector<glm::vec4> constants(former_.rows());
+    former_.form(light.coefficients, constants);
     constants_ = make_buffer(std::span<const glm::vec4>(constants));
 }
 
@@ -82,7 +82,7 @@ void GlTransfer::use() const {
 std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Light& light,
                                         const GlContext&) {
     GlTransfer on_gpu(transfer);
-    on_gpu.set_light(transfer, truncated(light, transfer.bases.order));
+    on_gpu.set_light(light);
     const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");
     GLuint name = 0;
     glCreateVertexArrays(1, &name);

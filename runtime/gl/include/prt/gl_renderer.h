@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prt/constant_former.h"
 #include "prt/gl_context.h"
 #include "prt/gl_objects.h"
 #include "prt/picture.h"
@@ -15,7 +16,7 @@ public:
     /// Defines for shaders that include prt_exit_radiance.glsl.
     const std::string& defines() const { return defines_; }
     /// Forms the constants for `light` and uploads them.
-    void set_light(const ClusteredTransfer& transfer, const Light& light);
+    void set_light(const Light& light);
     /// Points the attributes of `vertex_array` at the receivers from `first` on.
     void attach(std::uint32_t vertex_array, std::size_t first) const;
     /// Binds the constants and the table of clusters.
@@ -25,6 +26,7 @@ private:
     WeightFormat format_;
     int weight_vectors_ = 0, words_ = 0;
     std::string defines_;
+    ConstantFormer former_;
     GlObject clusters_, weights_, layouts_, constants_;
 };
 
