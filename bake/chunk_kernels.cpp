@@ -9,23 +9,6 @@
 namespace prt {
 namespace {
 
-[[gnu::always_inline]] inline std::uint32_t laine_karras(std::uint32_t v, std::uint32_t seed) {
-    v ^= v * 0x3d20adeau;
-    v += seed;
-    v *= (seed >> 16) | 1u;
-    v ^= v * 0x05526c56u;
-    v ^= v * 0x53a22864u;
-    return v;
-}
-
-[[gnu::always_inline]] inline std::uint32_t reverse_bits(std::uint32_t v) {
-    v = (v >> 16) | (v << 16);
-    v = ((v & 0x00ff00ffu) << 8) | ((v >> 8) & 0x00ff00ffu);
-    v = ((v & 0x0f0f0f0fu) << 4) | ((v >> 4) & 0x0f0f0f0fu);
-    v = ((v & 0x33333333u) << 2) | ((v >> 2) & 0x33333333u);
-    return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
-}
-
 /// To [-1, 1): the upper 24 bits, at the centre of their interval so that neither end is hit.
 [[gnu::always_inline]] inline float to_signed_unit(std::uint32_t v) {
     return (static_cast<float>(static_cast<std::int32_t>(v >> 8)) + 0.5f) * 0x1p-23f - 1.0f;

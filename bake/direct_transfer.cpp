@@ -1,10 +1,11 @@
 #include "prt/bake.h"
 
-#include "prt/sh_basis.h"
+#include "prt/sh.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace prt {
 
@@ -55,6 +56,18 @@ std::vector<glm::vec3> inward_directions(const Scene& scene) {
 }
 
 } // namespace
+
+Transfer unshadowed_transfer(const Scene& scene, int order) {
+    Transfer transfer{order, 1, {}};
+    std::array<double, kMaxOrder * kMaxOrder> lobe{};
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        for (const glm::vec3& normal : vertices.normals) {
+            clamped_cosine_lobe(order, glm::dvec3(normal), lobe);
+            for (std::size_t i = 0; i < transfer.dimension(); ++i)
+                transfer.vectors.push_back(normal == glm::vec3(0) ? 0.0f : static_cast<float>(lobe[i]));
+        }
+    return transfer;
+}
 
 Receivers vertex_receivers(const Scene& scene) {
     Receivers receivers;

@@ -13,6 +13,9 @@
 namespace prt {
 namespace {
 
+/// 32 units of rounding.
+constexpr float kOffset = 32 * std::numeric_limits<float>::epsilon() / 2;
+
 float largest_coordinate(const glm::vec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -75,7 +78,11 @@ float RayScene::surface_offset(const glm::vec3& position) const {
             return false; // the radius stays
         },
         &search);
-    return 32 * std::numeric_limits<float>::epsilon() / 2 * search.largest;
+    return kOffset * search.largest;
+}
+
+float RayScene::triangle_offset(unsigned id) const {
+    return kOffset * extents_[id];
 }
 
 glm::vec3 RayScene::ray_origin(const Receivers& receivers, std::uint32_t index) const {

@@ -40,6 +40,25 @@ constexpr std::uint32_t pcg_hash(std::uint32_t v) {
     return (word >> 22) ^ word;
 }
 
+/// Owen's scrambling of a bit-reversed point, by the hash of Laine and Karras (2011) in the form of Vegdahl
+/// (2021).
+[[gnu::always_inline]] inline std::uint32_t laine_karras(std::uint32_t v, std::uint32_t seed) {
+    v ^= v * 0x3d20adeau;
+    v += seed;
+    v *= (seed >> 16) | 1u;
+    v ^= v * 0x05526c56u;
+    v ^= v * 0x53a22864u;
+    return v;
+}
+
+[[gnu::always_inline]] inline std::uint32_t reverse_bits(std::uint32_t v) {
+    v = (v >> 16) | (v << 16);
+    v = ((v & 0x00ff00ffu) << 8) | ((v >> 8) & 0x00ff00ffu);
+    v = ((v & 0x0f0f0f0fu) << 4) | ((v >> 4) & 0x0f0f0f0fu);
+    v = ((v & 0x33333333u) << 2) | ((v >> 2) & 0x33333333u);
+    return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
+}
+
 /// Seed of the samples of a receiver.
 constexpr std::uint32_t receiver_seed(std::uint32_t receiver, std::uint64_t seed) {
     const auto low = static_cast<std::uint32_t>(seed), high = static_cast<std::uint32_t>(seed >> 32);

@@ -7,7 +7,7 @@
 #include "prt/error_measures.h"
 #include "prt/file.h"
 #include "prt/ray_renderer.h"
-#include "receiver_colors.h"
+#include "prt/receiver_colors.h"
 #include "report.h"
 #include "residual_vq.h"
 #include "sweep_report.h"
@@ -203,11 +203,14 @@ void measure(const EvaluateArguments& a, Model& baked, const std::vector<LoadedL
     }
     if (!a.html.empty()) {
         if (model.compressed)
-            evaluation.pictures.emplace_back("Clusters",
-                                             picture_png(model, cluster_colors(model), a.threads));
-        evaluation.pictures.emplace_back(
-            fmt::format("Error under {} (white: 10 % of the mean radiance)", lights.front().name),
-            picture_png(model, error_colors(model, baked, lights.front().light, a.threads), a.threads));
+            evaluation.pictures.emplace_back(
+                "Clusters", picture_png(model, cluster_colors(model.compressed->transfer), a.threads));
+        const Light& light = lights.front().light;
+        const auto errors = error_colors(exit_radiance(baked.baked->transfer, light, a.threads),
+                                         shipped.radiance(light, a.threads), receiver_areas(model.scene));
+        evaluation.pictures.emplace_back(fmt::format("Error under {} (white: {:.0f} % of the mean radiance)",
+                                                     lights.front().name, 100 * kWhiteError),
+                                         picture_png(model, errors, a.threads));
     }
 }
 

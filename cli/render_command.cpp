@@ -4,8 +4,9 @@
 #include "prt/error.h"
 #include "prt/gl_renderer.h"
 #include "prt/ray_renderer.h"
+#include "prt/receiver_colors.h"
+#include "prt/receivers.h"
 #include "prt/stopwatch.h"
-#include "receiver_colors.h"
 #include "report.h"
 
 #include <fmt/core.h>
@@ -29,19 +30,31 @@ std::unique_ptr<GlContext> choose_backend(Backend backend) {
     return context;
 }
 
+/// Exit radiance for albedo 1: compressed, baked, or unshadowed, whatever the model holds.
+std::vector<glm::vec3> lit_colors(const Model& model, const Light& light, int threads) {
+    if (model.compressed)
+        return exit_radiance(model.compressed->transfer, light, threads);
+    if (model.baked)
+        return exit_radiance(model.baked->transfer, light, threads);
+    return exit_radiance(unshadowed_transfer(model.scene, light.order), light, threads);
+}
+
 std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const Model& model, const Light& light) {
     switch (a.show) {
     case Show::clusters:
-        return cluster_colors(model);
-    case Show::ao:
-        return ao_colors(model, a.threads);
+        if (!model.compressed)
+            throw Error("--show clusters needs a compressed file");
+        return cluster_colors(model.compressed->transfer);
+    case Show::ao: // exit radiance under uniform light of radiance 1
+        return lit_colors(model, constant_light(std::max(1, model.order()), glm::vec3(1)), a.threads);
     case Show::error: {
         Model baked = load_model(a.baked);
         if (!baked.baked)
             throw Error(a.baked.string() + ": holds no raw transfer; --baked is the output of prt bake");
         check_belong_together(baked, a.baked, model, a.model);
         put_in_order_of(model.scene, baked);
-        return error_colors(model, baked, light, a.threads);
+        return error_colors(exit_radiance(baked.baked->transfer, light, a.threads),
+                            lit_colors(model, light, a.threads), receiver_areas(baked.scene));
     }
     case Show::lit:
         break;

@@ -1,42 +1,12 @@
 // Exit radiance times base colour, linear.
 
-#include "shared_layout.h"
+#include "surface.glsl"
 
 in vec3 radiance;
-in vec2 surface_texcoord;
-in vec4 surface_color;
-
-layout(binding = PRT_UNIT_BASE_COLOR) uniform sampler2D base_color_texture;
-uniform bool textured;          // multiply by base colour
-uniform bool has_texture;
-uniform vec4 base_color;
-uniform mat3x2 texture_transform;
-uniform int alpha_mode;         // prt::AlphaMode
-uniform float alpha_cutoff;
 
 out vec4 result;
 
-// The level of detail is computed here, not by the texture unit, whose formula differs between drivers.
-vec4 filtered_texture(vec2 uv) {
-    vec2 size = vec2(textureSize(base_color_texture, 0));
-    vec2 dx = dFdx(uv) * size, dy = dFdy(uv) * size;
-    float footprint = max(max(dot(dx, dx), dot(dy, dy)), 1e-12);
-    return textureLod(base_color_texture, uv, 0.5 * log2(footprint));
-}
-
 void main() {
-    vec4 base = vec4(1.0);
-    if (textured) {
-        base = base_color * surface_color;
-        if (has_texture)
-            base *= filtered_texture(texture_transform * vec3(surface_texcoord, 1.0));
-        if (alpha_mode == 0)
-            base.a = 1.0;
-        if (alpha_mode == 1) {
-            if (base.a < alpha_cutoff)
-                discard;
-            base.a = 1.0;
-        }
-    }
-    result = vec4(max(radiance, vec3(0.0)) * base.rgb, clamp(base.a, 0.0, 1.0));
+    vec4 base = surface_base_color();
+    result = vec4(max(radiance, vec3(0.0)) * base.rgb, base.a);
 }

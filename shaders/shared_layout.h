@@ -20,6 +20,8 @@
 #define PRT_LOCATION_WEIGHTS_9 13
 #define PRT_LOCATION_WEIGHTS_10 14
 #define PRT_LOCATION_WEIGHTS_11 15
+#define PRT_LOCATION_AO 4 // where there are no weights
+#define PRT_LOCATION_NORMAL 15 // shares its place with the last weights, which few models have
 
 // Storage buffers.
 #define PRT_BINDING_CONSTANTS 0
@@ -50,6 +52,16 @@
 // Texture units.
 #define PRT_UNIT_BASE_COLOR 0
 #define PRT_UNIT_BACKGROUND 1
+// The viewer's; its programs are others than the baker's.
+#define PRT_UNIT_GBUFFER_BASE 2
+#define PRT_UNIT_GBUFFER_NORMAL 3
+#define PRT_UNIT_GBUFFER_RADIANCE 4
+#define PRT_UNIT_GBUFFER_DEPTH 5
+#define PRT_UNIT_SSAO 6
+#define PRT_UNIT_LEFT 2
+#define PRT_UNIT_RIGHT 3
+#define PRT_AO_LEVELS 31 // largest value of five bits
+// The baker's.
 #define PRT_UNIT_OPAQUE_DEPTH 2
 #define PRT_UNIT_LAST_DEPTH 3
 #define PRT_UNIT_LAYER_COVERAGE 4

@@ -1,10 +1,10 @@
 #include "prt/gl_renderer.h"
 
 #include "prt/error.h"
+#include "prt/gl_scene.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -16,27 +16,6 @@ namespace {
 
 GLint uniform(const GlObject& program, const char* name) {
     return glGetUniformLocation(program.name(), name);
-}
-
-GLint wrap_mode(Wrap wrap) {
-    switch (wrap) {
-    case Wrap::clamp:
-        return GL_CLAMP_TO_EDGE;
-    case Wrap::mirror:
-        return GL_MIRRORED_REPEAT;
-    case Wrap::repeat:
-        break;
-    }
-    return GL_REPEAT;
-}
-
-GlObject make_texture_2d(int levels, GLenum format, int width, int height) {
-    GLuint name = 0;
-    glCreateTextures(GL_TEXTURE_2D, 1, &name);
-    GlObject texture(GlKind::texture, name);
-    glTextureStorage2D(name, levels, format, width, height);
-    check_gl("a texture");
-    return texture;
 }
 
 /// Colour and depth, both float, as large as the samples of the picture.
@@ -76,32 +55,21 @@ struct Target {
     }
 };
 
-/// One vertex array of the scene on the GPU.
-struct GlVertices {
-    GlObject positions, texcoords, colors, radiance, vertex_array;
-    int texcoord_set = -1;
-};
-
-void attach_floats(const GlObject& vertex_array, const GlObject& buffer, GLuint location, int components) {
-    const auto size = static_cast<GLsizei>(sizeof(float) * static_cast<std::size_t>(components));
-    glVertexArrayVertexBuffer(vertex_array.name(), location, buffer.name(), 0, size);
-    glEnableVertexArrayAttrib(vertex_array.name(), location);
-    glVertexArrayAttribFormat(vertex_array.name(), location, components, GL_FLOAT, GL_FALSE, 0);
-    glVertexArrayAttribBinding(vertex_array.name(), location, location);
-}
-
 class GlRenderer {
 public:
-    explicit GlRenderer(const Picture& picture) : picture_(picture), target_(picture) {
+    explicit GlRenderer(const Picture& picture)
+        : picture_(picture), target_(picture), scene_(*picture.scene, picture.textures),
+          arrays_(scene_.make_vertex_arrays()) {
         if (picture.transfer) {
             transfer_.emplace(*picture.transfer);
             transfer_->set_light(*picture.light);
+            for (std::size_t i = 0; i < arrays_.size(); ++i)
+                transfer_->attach(arrays_[i].name(), picture.scene->vertex_arrays[i].first_receiver);
+        } else {
+            radiance_ = make_buffer(picture.radiance);
+            scene_.attach_receivers(arrays_, radiance_, PRT_LOCATION_RADIANCE, 3);
         }
         program_ = make_program("scene.vert", "scene.frag", transfer_ ? transfer_->defines() : "");
-        for (const Texture& texture : picture.textures)
-            textures_.push_back(upload(texture));
-        for (const VertexArray& vertices : picture.scene->vertex_arrays)
-            vertices_.push_back(upload(vertices));
     }
 
     Image render() {
@@ -120,52 +88,10 @@ public:
     }
 
 private:
-    GlObject upload(const Texture& texture) const {
-        if (texture.levels.empty())
-            return {};
-        const Image8& base = texture.levels[0];
-        GlObject object = make_texture_2d(static_cast<int>(texture.levels.size()), GL_SRGB8_ALPHA8,
-                                          base.width, base.height);
-        for (std::size_t level = 0; level < texture.levels.size(); ++level) {
-            const Image8& image = texture.levels[level];
-            glTextureSubImage2D(object.name(), static_cast<GLint>(level), 0, 0, image.width, image.height,
-                                GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
-        }
-        glTextureParameteri(object.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-        glTextureParameteri(object.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        return object;
-    }
-
-    GlVertices upload(const VertexArray& vertices) const {
-        GlVertices result;
-        GLuint name = 0;
-        glCreateVertexArrays(1, &name);
-        result.vertex_array = GlObject(GlKind::vertex_array, name);
-        result.positions = make_buffer(std::span<const glm::vec3>(vertices.positions));
-        attach_floats(result.vertex_array, result.positions, PRT_LOCATION_POSITION, 3);
-        if (!vertices.colors.empty()) {
-            result.colors = make_buffer(std::span<const glm::vec4>(vertices.colors));
-            attach_floats(result.vertex_array, result.colors, PRT_LOCATION_COLOR, 4);
-        }
-        if (transfer_) {
-            transfer_->attach(name, vertices.first_receiver);
-        } else {
-            result.radiance =
-                make_buffer(picture_.radiance.subspan(vertices.first_receiver, vertices.size()));
-            attach_floats(result.vertex_array, result.radiance, PRT_LOCATION_RADIANCE, 3);
-        }
-        return result;
-    }
-
     void draw_background() const {
         if (!picture_.background)
             return;
-        const Image& image = *picture_.background;
-        const GlObject texture = make_texture_2d(1, GL_RGB32F, image.width, image.height);
-        glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-        glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
-                            image.pixels.data());
-        glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        const GlObject texture = make_background(*picture_.background);
         const GlObject program = make_program("background.vert", "background.frag");
         const CameraFrame frame = camera_frame(picture_.camera);
         const double aspect = static_cast<double>(picture_.width) / picture_.height;
@@ -192,91 +118,31 @@ private:
         const glm::mat4 matrix = view_projection(picture_.camera, bounds(*picture_.scene), aspect);
         glUniformMatrix4fv(uniform(program_, "view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
         glUniform1i(uniform(program_, "textured"), picture_.textured);
-        glVertexAttrib4f(PRT_LOCATION_COLOR, 1, 1, 1, 1); // where there is no array
-        glVertexAttrib2f(PRT_LOCATION_TEXCOORD, 0, 0);
         if (transfer_)
             transfer_->use();
     }
 
-    bool is_blended(const Primitive& primitive) const {
-        return picture_.textured &&
-               picture_.scene->materials[primitive.material].alpha_mode == AlphaMode::blend;
-    }
-
-    float distance(const Primitive& primitive) const {
-        const VertexArray& vertices = picture_.scene->vertex_arrays[primitive.vertices];
-        glm::vec3 sum(0);
-        for (const glm::uvec3& t : primitive.triangles)
-            sum += vertices.positions[t.x];
-        return glm::distance(picture_.camera.position,
-                             sum / static_cast<float>(std::max<std::size_t>(1, primitive.triangles.size())));
-    }
-
     void draw_primitives() {
-        std::vector<const Primitive*> blended;
-        for (const Primitive& primitive : picture_.scene->primitives) {
-            if (is_blended(primitive))
-                blended.push_back(&primitive);
-            else
-                draw(primitive);
-        }
-        std::stable_sort(blended.begin(), blended.end(),
-                         [&](const Primitive* a, const Primitive* b) { return distance(*a) > distance(*b); });
+        for (std::size_t p = 0; p < picture_.scene->primitives.size(); ++p)
+            if (!picture_.textured || !scene_.is_blended(picture_.scene->primitives[p]))
+                scene_.draw(program_, arrays_, p);
+        if (!picture_.textured)
+            return;
         glEnable(GL_BLEND);
         glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
         glDepthMask(GL_FALSE);
-        for (const Primitive* primitive : blended)
-            draw(*primitive);
+        for (const std::size_t p : scene_.blended_from_far(picture_.camera.position))
+            scene_.draw(program_, arrays_, p);
         glDepthMask(GL_TRUE);
         glDisable(GL_BLEND);
     }
 
-    void attach_texcoords(GlVertices& on_gpu, const VertexArray& vertices, int set) const {
-        if (set < 0 || static_cast<std::size_t>(set) >= vertices.texcoords.size() ||
-            on_gpu.texcoord_set == set)
-            return;
-        on_gpu.texcoords =
-            make_buffer(std::span<const glm::vec2>(vertices.texcoords[static_cast<std::size_t>(set)]));
-        attach_floats(on_gpu.vertex_array, on_gpu.texcoords, PRT_LOCATION_TEXCOORD, 2);
-        on_gpu.texcoord_set = set;
-    }
-
-    void draw(const Primitive& primitive) {
-        const Material& material = picture_.scene->materials[primitive.material];
-        const VertexArray& vertices = picture_.scene->vertex_arrays[primitive.vertices];
-        GlVertices& on_gpu = vertices_[primitive.vertices];
-        const TextureUse& use = material.base_color_texture;
-        attach_texcoords(on_gpu, vertices, use.texcoord);
-        const bool has_texture = use.image >= 0 && on_gpu.texcoord_set == use.texcoord;
-        glUniform1i(uniform(program_, "has_texture"), has_texture);
-        glUniform4fv(uniform(program_, "base_color"), 1, glm::value_ptr(material.base_color));
-        glUniformMatrix3x2fv(uniform(program_, "texture_transform"), 1, GL_FALSE,
-                             glm::value_ptr(use.transform));
-        glUniform1i(uniform(program_, "alpha_mode"), static_cast<int>(material.alpha_mode));
-        glUniform1f(uniform(program_, "alpha_cutoff"), material.alpha_cutoff);
-        if (has_texture) {
-            const GLuint texture = textures_[static_cast<std::size_t>(use.image)].name();
-            glTextureParameteri(texture, GL_TEXTURE_WRAP_S, wrap_mode(use.wrap_u));
-            glTextureParameteri(texture, GL_TEXTURE_WRAP_T, wrap_mode(use.wrap_v));
-            glBindTextureUnit(PRT_UNIT_BASE_COLOR, texture);
-        }
-        if (material.double_sided)
-            glDisable(GL_CULL_FACE);
-        else
-            glEnable(GL_CULL_FACE);
-        const GlObject indices = make_buffer(std::span<const glm::uvec3>(primitive.triangles));
-        glVertexArrayElementBuffer(on_gpu.vertex_array.name(), indices.name());
-        glBindVertexArray(on_gpu.vertex_array.name());
-        glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(primitive.triangles.size() * 3), GL_UNSIGNED_INT,
-                       nullptr);
-    }
-
     const Picture& picture_;
     Target target_;
+    GlScene scene_;
+    GlVertexArrays arrays_;
     std::optional<GlTransfer> transfer_;
-    GlObject program_;
-    std::vector<GlObject> textures_;
-    std::vector<GlVertices> vertices_;
+    GlObject radiance_, program_;
 };
 
 } // namespace

@@ -1,4 +1,4 @@
-#include "prt/gl_renderer.h"
+#include "prt/gl_transfer.h"
 
 #include "prt/shader_source.h"
 #include "shared_layout.h"
@@ -35,12 +35,17 @@ GlTransfer::GlTransfer(const ClusteredTransfer& transfer)
     weights_ = make_buffer(std::span<const std::byte>(transfer.receivers.weights));
     const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
     layouts_ = make_buffer(std::span<const ClusterLayout>(layouts));
+    formed_.resize(former_.rows());
+    constants_ = make_buffer(std::span<const glm::vec4>(formed_));
+    bytes_ = (words_ > 0 ? 0 : transfer.receivers.clusters.size() * sizeof(std::uint16_t)) +
+             transfer.receivers.weights.size() + layouts.size() * sizeof(ClusterLayout) +
+             formed_.size() * sizeof(glm::vec4);
 }
 
 void GlTransfer::set_light(const Light& light) {
-    std::vector<glm::vec4> constants(former_.rows());
-    former_.form(light.coefficients, constants);
-    constants_ = make_buffer(std::span<const glm::vec4>(constants));
+    former_.form(light.coefficients, formed_);
+    glNamedBufferSubData(constants_.name(), 0, static_cast<GLsizeiptr>(formed_.size() * sizeof(glm::vec4)),
+                         formed_.data());
 }
 
 void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {

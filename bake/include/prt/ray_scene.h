@@ -27,6 +27,9 @@ public:
     /// Rounding of the origin, and of the vertices seen from it, moves either by at most a few such units.
     float surface_offset(const glm::vec3& position) const;
 
+    /// The same for a point of the triangle with Embree's primID `id`, and quick.
+    float triangle_offset(unsigned id) const;
+
     /// Where the rays of receivers[index] start: off the surface along its normal, and by as much towards the
     /// surface that it stands for.
     glm::vec3 ray_origin(const Receivers& receivers, std::uint32_t index) const;

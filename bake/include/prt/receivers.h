@@ -1,6 +1,7 @@
 #pragma once
 
 #include "prt/scene.h"
+#include "prt/transfer.h"
 
 #include <glm/vec3.hpp>
 
@@ -24,5 +25,8 @@ struct Receivers {
 
 /// Every vertex of the scene, in the order of its vertex arrays, with a third of the area of its triangles.
 Receivers vertex_receivers(const Scene& scene);
+
+/// Direct transfer of every vertex as if nothing shadowed it: the lobes of their normals.
+Transfer unshadowed_transfer(const Scene& scene, int order);
 
 } // namespace prt

@@ -1,0 +1,61 @@
+#pragma once
+
+// The reference: what the camera sees, by path tracing, without spherical harmonics and without interpolation
+// between vertices.
+
+#include "prt/bake.h"
+#include "prt/camera.h"
+#include "prt/distant_light.h"
+#include "prt/ray_scene.h"
+#include "prt/surfaces.h"
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+namespace prt {
+
+struct PathTraceOptions {
+    Camera camera;
+    int width = 640, height = 360;
+    int bounces = kEndlessBounces; ///< between surfaces; endless: until roulette ends the path
+    /// Multiply by the base colour of what the camera sees; else exit radiance for albedo 1.
+    bool textured = true;
+    bool background = true; ///< show the environment behind the scene; else black
+    /// Rays through random points of each pixel; else through its centre.
+    bool antialiased = true;
+    std::uint64_t seed = 0;
+};
+
+/// Refines a picture pass by pass, a path per pixel each: next-event estimation and cosine sampling combined
+/// by the balance heuristic (Veach 1997), Owen-scrambled Sobol points over the passes (Burley 2020).
+/// Surfaces are as the baker takes them: Lambertian, cut out, blended, transmitting; media are not entered.
+class PathTracer {
+public:
+    /// Keeps references to all but the options.
+    PathTracer(const RayScene& rays, const Scene& scene, const Surfaces& surfaces, const DistantLight& light,
+               const PathTraceOptions& options);
+
+    /// Traces one path more for every pixel. Throws `Cancelled` within a row when asked to stop; the rows
+    /// that are done count. `threads` 0: all.
+    void add_pass(int threads = 0, std::stop_token stop = {});
+    int passes() const { return passes_; }
+
+    /// The mean so far: linear radiance, [height][width].
+    Image image() const;
+    /// Whether the ray through the centre of each pixel meets a surface that the camera sees. [height][width]
+    std::vector<bool> surface_mask() const;
+
+private:
+    const RayScene& rays_;
+    const Scene& scene_;
+    const Surfaces& surfaces_;
+    const DistantLight& light_;
+    PathTraceOptions options_;
+    CameraFrame frame_;
+    int passes_ = 0;
+    std::vector<glm::vec3> sums_; ///< [height][width]
+    std::vector<int> counts_;     ///< [height]
+};
+
+} // namespace prt

@@ -1,0 +1,85 @@
+#include "prt/receiver_colors.h"
+
+#include "prt/error_measures.h"
+
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+double mean_radiance(std::span<const glm::vec3> reference, std::span<const float> areas) {
+    return lit_error(reference, reference, areas, {}, std::nullopt).mean;
+}
+
+double largest(const glm::vec3& difference) {
+    const glm::vec3 d = glm::abs(difference);
+    return static_cast<double>(std::max({d.r, d.g, d.b}));
+}
+
+} // namespace
+
+glm::vec3 heat_color(double share) {
+    const auto ramp = static_cast<float>(3 * std::min(share, 1.0));
+    return glm::clamp(glm::vec3(ramp, ramp - 1, ramp - 2), 0.0f, 1.0f);
+}
+
+glm::vec3 label_color(std::size_t label) {
+    // Hues a golden ratio apart.
+    const auto number = static_cast<double>(label);
+    const double hue = 6 * std::fmod(0.61803398875 * number, 1.0);
+    const double value = 0.45 + 0.5 * std::fmod(0.754877666 * number, 1.0);
+    glm::dvec3 color;
+    for (int c = 0; c < 3; ++c)
+        color[c] = value * std::clamp(std::abs(std::fmod(hue + 2 * c, 6.0) - 3) - 1, 0.08, 1.0);
+    return glm::vec3(color);
+}
+
+std::vector<glm::vec3> cluster_colors(const ClusteredTransfer& transfer) {
+    std::vector<glm::vec3> colors;
+    for (const std::uint16_t cluster : transfer.receivers.clusters)
+        colors.push_back(label_color(cluster));
+    return colors;
+}
+
+std::vector<glm::vec3> component_colors(const ClusteredTransfer& transfer) {
+    const double most = std::max(1, transfer.bases.max_components());
+    std::vector<glm::vec3> colors;
+    for (const std::uint16_t cluster : transfer.receivers.clusters)
+        colors.push_back(heat_color(transfer.bases.components[cluster] / most));
+    return colors;
+}
+
+std::vector<glm::vec3> error_colors(std::span<const glm::vec3> reference,
+                                    std::span<const glm::vec3> approximation, std::span<const float> areas) {
+    const double mean = mean_radiance(reference, areas);
+    std::vector<glm::vec3> colors;
+    for (std::size_t p = 0; p < reference.size(); ++p)
+        colors.push_back(
+            heat_color(mean > 0 ? largest(reference[p] - approximation[p]) / (mean * kWhiteError) : 0));
+    return colors;
+}
+
+std::vector<glm::vec3> seam_colors(std::span<const glm::vec3> reference,
+                                   std::span<const glm::vec3> approximation, std::span<const float> areas,
+                                   std::span<const Edge> edges, std::span<const std::uint16_t> clusters) {
+    const double mean = mean_radiance(reference, areas);
+    std::vector<double> jumps(reference.size(), -1);
+    for (const Edge& edge : edges) {
+        if (clusters[edge.first] == clusters[edge.second])
+            continue;
+        const double jump = largest((reference[edge.first] - approximation[edge.first]) -
+                                    (reference[edge.second] - approximation[edge.second]));
+        for (const std::uint32_t end : {edge.first, edge.second})
+            jumps[end] = std::max(jumps[end], jump);
+    }
+    std::vector<glm::vec3> colors;
+    for (const double jump : jumps)
+        colors.push_back(jump < 0 ? glm::vec3(0.01f, 0.02f, 0.08f)
+                                  : heat_color(mean > 0 ? jump / (mean * kWhiteSeam) : 0));
+    return colors;
+}
+
+} // namespace prt

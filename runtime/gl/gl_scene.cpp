@@ -1,0 +1,193 @@
+#include "prt/gl_scene.h"
+
+#include "shared_layout.h"
+
+#include <epoxy/gl.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <array>
+
+namespace prt {
+namespace {
+
+GLint uniform(const GlObject& program, const char* name) {
+    return glGetUniformLocation(program.name(), name);
+}
+
+GLint wrap_mode(Wrap wrap) {
+    switch (wrap) {
+    case Wrap::clamp:
+        return GL_CLAMP_TO_EDGE;
+    case Wrap::mirror:
+        return GL_MIRRORED_REPEAT;
+    case Wrap::repeat:
+        break;
+    }
+    return GL_REPEAT;
+}
+
+GlObject upload(const Texture& texture) {
+    if (texture.levels.empty())
+        return {};
+    const Image8& base = texture.levels[0];
+    GlObject object =
+        make_texture_2d(static_cast<int>(texture.levels.size()), GL_SRGB8_ALPHA8, base.width, base.height);
+    for (std::size_t level = 0; level < texture.levels.size(); ++level) {
+        const Image8& image = texture.levels[level];
+        glTextureSubImage2D(object.name(), static_cast<GLint>(level), 0, 0, image.width, image.height,
+                            GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+    }
+    glTextureParameteri(object.name(), GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    glTextureParameteri(object.name(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    return object;
+}
+
+void attach_floats(GLuint vertex_array, const GlObject& buffer, GLuint location, int components,
+                   std::size_t first = 0) {
+    const std::size_t size = sizeof(float) * static_cast<std::size_t>(components);
+    glVertexArrayVertexBuffer(vertex_array, location, buffer.name(), static_cast<GLintptr>(first * size),
+                              static_cast<GLsizei>(size));
+    glEnableVertexArrayAttrib(vertex_array, location);
+    glVertexArrayAttribFormat(vertex_array, location, components, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(vertex_array, location, location);
+}
+
+glm::vec3 centre_of(const Primitive& primitive, const VertexArray& vertices) {
+    glm::vec3 sum(0);
+    for (const glm::uvec3& t : primitive.triangles)
+        sum += vertices.positions[t.x];
+    return sum / static_cast<float>(std::max<std::size_t>(1, primitive.triangles.size()));
+}
+
+} // namespace
+
+GlScene::GlScene(const Scene& scene, std::span<const Texture> textures) : scene_(scene) {
+    for (const Texture& texture : textures)
+        textures_.push_back(upload(texture));
+    for (const VertexArray& array : scene.vertex_arrays) {
+        Vertices vertices;
+        vertices.positions = make_buffer(std::span<const glm::vec3>(array.positions));
+        vertices.normals = make_buffer(std::span<const glm::vec3>(array.normals));
+        if (!array.colors.empty())
+            vertices.colors = make_buffer(std::span<const glm::vec4>(array.colors));
+        for (const auto& set : array.texcoords)
+            vertices.texcoords.push_back(set.empty() ? GlObject()
+                                                     : make_buffer(std::span<const glm::vec2>(set)));
+        bytes_ += array.size() * (2 * sizeof(glm::vec3) + array.texcoords.size() * sizeof(glm::vec2));
+        vertices_.push_back(std::move(vertices));
+    }
+    for (const Primitive& primitive : scene.primitives) {
+        indices_.push_back(make_buffer(std::span<const glm::uvec3>(primitive.triangles)));
+        centres_.push_back(centre_of(primitive, scene.vertex_arrays[primitive.vertices]));
+        bytes_ += primitive.triangles.size() * sizeof(glm::uvec3);
+    }
+}
+
+GlVertexArrays GlScene::make_vertex_arrays() const {
+    GlVertexArrays arrays;
+    for (const Vertices& vertices : vertices_) {
+        GLuint name = 0;
+        glCreateVertexArrays(1, &name);
+        arrays.emplace_back(GlKind::vertex_array, name);
+        attach_floats(name, vertices.positions, PRT_LOCATION_POSITION, 3);
+        attach_floats(name, vertices.normals, PRT_LOCATION_NORMAL, 3);
+        if (vertices.colors.name() != 0)
+            attach_floats(name, vertices.colors, PRT_LOCATION_COLOR, 4);
+    }
+    return arrays;
+}
+
+void GlScene::attach_receivers(const GlVertexArrays& arrays, const GlObject& buffer, std::uint32_t location,
+                               int components) const {
+    for (std::size_t i = 0; i < arrays.size(); ++i)
+        attach_floats(arrays[i].name(), buffer, location, components, scene_.vertex_arrays[i].first_receiver);
+}
+
+bool GlScene::is_blended(const Primitive& primitive) const {
+    return scene_.materials[primitive.material].alpha_mode == AlphaMode::blend;
+}
+
+std::vector<std::size_t> GlScene::blended_from_far(const glm::vec3& position) const {
+    std::vector<std::size_t> blended;
+    for (std::size_t p = 0; p < scene_.primitives.size(); ++p)
+        if (is_blended(scene_.primitives[p]))
+            blended.push_back(p);
+    std::stable_sort(blended.begin(), blended.end(), [&](std::size_t a, std::size_t b) {
+        return glm::distance(position, centres_[a]) > glm::distance(position, centres_[b]);
+    });
+    return blended;
+}
+
+void GlScene::prepare(const GlObject& program, const GlVertexArrays& arrays, std::size_t index) const {
+    const Primitive& primitive = scene_.primitives[index];
+    const Material& material = scene_.materials[primitive.material];
+    const Vertices& vertices = vertices_[primitive.vertices];
+    const GLuint array = arrays[primitive.vertices].name();
+    const TextureUse& use = material.base_color_texture;
+    const auto set = static_cast<std::size_t>(use.texcoord);
+    const bool has_texture = use.image >= 0 && static_cast<std::size_t>(use.image) < textures_.size() &&
+                             textures_[static_cast<std::size_t>(use.image)].name() != 0 &&
+                             set < vertices.texcoords.size() && vertices.texcoords[set].name() != 0;
+    glUniform1i(uniform(program, "has_texture"), has_texture);
+    glUniform4fv(uniform(program, "base_color"), 1, glm::value_ptr(material.base_color));
+    glUniformMatrix3x2fv(uniform(program, "texture_transform"), 1, GL_FALSE, glm::value_ptr(use.transform));
+    glUniform1i(uniform(program, "alpha_mode"), static_cast<int>(material.alpha_mode));
+    glUniform1f(uniform(program, "alpha_cutoff"), material.alpha_cutoff);
+    glVertexAttrib4f(PRT_LOCATION_COLOR, 1, 1, 1, 1); // where there is no array
+    glVertexAttrib2f(PRT_LOCATION_TEXCOORD, 0, 0);
+    if (has_texture) {
+        attach_floats(array, vertices.texcoords[set], PRT_LOCATION_TEXCOORD, 2);
+        const GLuint texture = textures_[static_cast<std::size_t>(use.image)].name();
+        glTextureParameteri(texture, GL_TEXTURE_WRAP_S, wrap_mode(use.wrap_u));
+        glTextureParameteri(texture, GL_TEXTURE_WRAP_T, wrap_mode(use.wrap_v));
+        glBindTextureUnit(PRT_UNIT_BASE_COLOR, texture);
+    }
+    if (material.double_sided)
+        glDisable(GL_CULL_FACE);
+    else
+        glEnable(GL_CULL_FACE);
+    glVertexArrayElementBuffer(array, indices_[index].name());
+    glBindVertexArray(array);
+}
+
+void GlScene::draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const {
+    const auto all = static_cast<std::uint32_t>(scene_.primitives[primitive].triangles.size());
+    draw(program, arrays, primitive, std::array{TriangleRange{0, all}});
+}
+
+void GlScene::draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive,
+                   std::span<const TriangleRange> ranges) const {
+    if (ranges.empty())
+        return;
+    prepare(program, arrays, primitive);
+    std::vector<GLsizei> counts;
+    std::vector<const void*> offsets;
+    for (const TriangleRange& range : ranges) {
+        counts.push_back(static_cast<GLsizei>(3 * range.count));
+        offsets.push_back(reinterpret_cast<const void*>(std::uintptr_t{range.first} * sizeof(glm::uvec3)));
+    }
+    glMultiDrawElements(GL_TRIANGLES, counts.data(), GL_UNSIGNED_INT, offsets.data(),
+                        static_cast<GLsizei>(counts.size()));
+}
+
+GlObject make_texture_2d(int levels, std::uint32_t format, int width, int height) {
+    GLuint name = 0;
+    glCreateTextures(GL_TEXTURE_2D, 1, &name);
+    GlObject texture(GlKind::texture, name);
+    glTextureStorage2D(name, levels, format, width, height);
+    check_gl("a texture");
+    return texture;
+}
+
+GlObject make_background(const Image& image) {
+    GlObject texture = make_texture_2d(1, GL_RGB32F, image.width, image.height);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+    glTextureSubImage2D(texture.name(), 0, 0, 0, image.width, image.height, GL_RGB, GL_FLOAT,
+                        image.pixels.data());
+    glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    return texture;
+}
+
+} // namespace prt

@@ -1,0 +1,64 @@
+#pragma once
+
+#include "prt/gl_objects.h"
+#include "prt/picture.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Vertex array objects, one for each of Scene::vertex_arrays.
+using GlVertexArrays = std::vector<GlObject>;
+
+/// Triangles [first, first + count) of a primitive.
+struct TriangleRange {
+    std::uint32_t first, count;
+};
+
+/// The geometry, textures and materials of a scene on the GPU, for any program whose fragment shader includes
+/// `shaders/surface.glsl`. A context must be current.
+class GlScene {
+public:
+    /// Keeps a reference to `scene`. `textures`: load_textures(scene). Throws `Error` when memory runs out.
+    GlScene(const Scene& scene, std::span<const Texture> textures);
+
+    const Scene& scene() const { return scene_; }
+    /// With positions, colours and normals at their locations.
+    GlVertexArrays make_vertex_arrays() const;
+    /// Points attribute `location` of all `arrays` at `components` floats per receiver in `buffer`.
+    void attach_receivers(const GlVertexArrays& arrays, const GlObject& buffer, std::uint32_t location,
+                          int components) const;
+
+    /// Drawn after all others, far ones first, without writing depth.
+    bool is_blended(const Primitive& primitive) const;
+    /// Draws `primitive` with `program`, which is in use; all of it, or some of its triangles.
+    void draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
+    void draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive,
+              std::span<const TriangleRange> ranges) const;
+    /// The blended primitives, far ones first.
+    std::vector<std::size_t> blended_from_far(const glm::vec3& position) const;
+    std::size_t bytes() const { return bytes_; }
+
+private:
+    struct Vertices {
+        GlObject positions, normals, colors;
+        std::vector<GlObject> texcoords; ///< [set]; none where the file has none
+    };
+    void prepare(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
+
+    const Scene& scene_;
+    std::vector<Vertices> vertices_; ///< [vertex arrays]
+    std::vector<GlObject> indices_;  ///< [primitives]
+    std::vector<glm::vec3> centres_; ///< [primitives] mean of a corner of each triangle
+    std::vector<GlObject> textures_; ///< [images]
+    std::size_t bytes_ = 0;
+};
+
+/// An immutable texture without pixels. Throws `Error` when memory runs out.
+GlObject make_texture_2d(int levels, std::uint32_t format, int width, int height);
+/// A lat-long picture for background.frag.
+GlObject make_background(const Image& image);
+
+} // namespace prt

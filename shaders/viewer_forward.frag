@@ -1,0 +1,16 @@
+// A surface lit at once. Alpha is 1 where there is a surface.
+
+#include "viewer_lighting.glsl"
+#include "irradiance.glsl"
+
+out vec4 result;
+
+void main() {
+    vec4 base = surface_base_color();
+#ifdef PRT_RADIANCE_GIVEN
+    vec3 lit = max(radiance, vec3(0.0));
+#else
+    vec3 lit = unshadowed_radiance(facing_normal()) * occlusion();
+#endif
+    result = vec4(min(lit * base.rgb, vec3(65000.0)), base.a);
+}

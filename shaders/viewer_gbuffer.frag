@@ -1,0 +1,43 @@
+// A surface into the G-buffer: base colour, and in alpha five bits of ambient occlusion and one that says whether the
+// exit radiance is already in the third target; the normal, octahedral (Meyer et al. 2010).
+
+#include "viewer_lighting.glsl"
+#include "shared_layout.h"
+
+layout(location = 0) out vec4 target_base;
+layout(location = 1) out vec2 target_normal;
+layout(location = 2) out vec4 target_radiance;
+
+uniform bool dithered;
+
+// Ordered dithering (Bayer 1973), 8 x 8: thresholds in (0, 1), each once.
+float bayer_threshold(uvec2 p) {
+    uint value = 0u;
+    for (uint bit = 0u; bit < 3u; ++bit) {
+        uint x = (p.x >> bit) & 1u, y = (p.y >> bit) & 1u;
+        value |= (((x ^ y) << 1) | y) << (4u - 2u * bit);
+    }
+    return (float(value) + 0.5) / 64.0;
+}
+
+vec2 octahedral(vec3 n) {
+    n /= abs(n.x) + abs(n.y) + abs(n.z);
+    vec2 folded = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+    return (n.z >= 0.0 ? n.xy : folded) * 0.5 + 0.5;
+}
+
+void main() {
+    vec4 base = surface_base_color();
+#ifdef PRT_RADIANCE_GIVEN
+    target_base = vec4(base.rgb, 1.0 / 255.0);
+    target_normal = vec2(0.5);
+    target_radiance = vec4(min(max(radiance, vec3(0.0)) * base.rgb, vec3(65000.0)), 1.0);
+#else
+    float threshold = dithered ? bayer_threshold(uvec2(gl_FragCoord.xy) & 7u) : 0.5;
+    float levels = float(PRT_AO_LEVELS);
+    float level = min(floor(occlusion() * levels + threshold), levels);
+    target_base = vec4(base.rgb, 8.0 * level / 255.0);
+    target_normal = octahedral(facing_normal());
+    target_radiance = vec4(0.0, 0.0, 0.0, 1.0);
+#endif
+}

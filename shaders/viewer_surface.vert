@@ -1,0 +1,40 @@
+// Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or from a PRT_VERTEX_RADIANCE
+// attribute; with neither, the fragment shader finds it from the normal and an ambient occlusion.
+
+#include "shared_layout.h"
+
+layout(location = PRT_LOCATION_POSITION) in vec3 position;
+layout(location = PRT_LOCATION_TEXCOORD) in vec2 texcoord;
+layout(location = PRT_LOCATION_COLOR) in vec4 color;
+
+#if defined(PRT_COMPRESSED)
+#include "prt_exit_radiance.glsl"
+out vec3 radiance;
+#elif defined(PRT_VERTEX_RADIANCE)
+layout(location = PRT_LOCATION_RADIANCE) in vec3 vertex_radiance;
+out vec3 radiance;
+#else
+layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;
+layout(location = PRT_LOCATION_AO) in float vertex_ao;
+out vec3 normal;
+out float ao;
+#endif
+
+uniform mat4 view_projection;
+
+out vec2 surface_texcoord;
+out vec4 surface_color;
+
+void main() {
+#if defined(PRT_COMPRESSED)
+    radiance = prt_exit_radiance();
+#elif defined(PRT_VERTEX_RADIANCE)
+    radiance = vertex_radiance;
+#else
+    normal = vertex_normal;
+    ao = vertex_ao;
+#endif
+    surface_texcoord = texcoord;
+    surface_color = color;
+    gl_Position = view_projection * vec4(position, 1.0);
+}
