@@ -1,8 +1,9 @@
-// As it is. Alpha 0: nothing that pictures are compared by.
+// As it is.
 
 in vec4 surface_color;
+uniform vec4 tint;
 out vec4 result;
 
 void main() {
-    result = surface_color;
+    result = surface_color * tint;
 }

@@ -29,7 +29,7 @@ vec3 encode(vec3 c) {
 // A picture may have several samples per pixel: each is mapped, then their mean is taken.
 vec3 shown(sampler2D picture, bool mapped) {
     ivec2 samples = max(textureSize(picture, 0) / size, ivec2(1));
-    ivec2 first = ivec2(gl_FragCoord.xy) * samples;
+    ivec2 first = ivec2(gl_FragCoord.xy) * textureSize(picture, 0) / size; // a coarse picture has larger pixels
     vec3 sum = vec3(0.0);
     for (int y = 0; y < samples.y; ++y)
         for (int x = 0; x < samples.x; ++x)
@@ -39,7 +39,7 @@ vec3 shown(sampler2D picture, bool mapped) {
 
 vec4 averaged(sampler2D picture) {
     ivec2 samples = max(textureSize(picture, 0) / size, ivec2(1));
-    ivec2 first = ivec2(gl_FragCoord.xy) * samples;
+    ivec2 first = ivec2(gl_FragCoord.xy) * textureSize(picture, 0) / size; // a coarse picture has larger pixels
     vec4 sum = vec4(0.0);
     for (int y = 0; y < samples.y; ++y)
         for (int x = 0; x < samples.x; ++x)

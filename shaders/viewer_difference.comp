@@ -17,7 +17,7 @@ vec4 averaged(sampler2D picture, ivec2 pixel) {
     vec4 sum = vec4(0.0);
     for (int y = 0; y < samples.y; ++y)
         for (int x = 0; x < samples.x; ++x)
-            sum += texelFetch(picture, pixel * samples + ivec2(x, y), 0);
+            sum += texelFetch(picture, pixel * textureSize(picture, 0) / size + ivec2(x, y), 0);
     return sum / float(samples.x * samples.y);
 }
 

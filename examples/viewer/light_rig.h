@@ -1,0 +1,91 @@
+#pragma once
+
+// Where light comes from: an environment or a day, and lights that can be moved.
+
+#include "prt/distant_light.h"
+#include "prt/environment.h"
+#include "prt/light.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace viewer {
+
+enum class LightKind { sun, cone, sphere, hemisphere };
+
+struct RigLight {
+    LightKind kind = LightKind::sun;
+    bool on = true;
+    glm::vec3 direction{0, 1, 0}; ///< unit, towards the light
+    float distance = 2;           ///< sphere: to its centre, in radii of the scene
+    float size = 0.4f;            ///< cone: half angle, radians; sphere: radius, in radii of the scene
+    glm::vec3 color{1, 0.9f, 0.75f};
+    float strength = 3; ///< suns: irradiance over pi; others: radiance; over the mean of the environment
+
+    friend bool operator==(const RigLight&, const RigLight&) = default;
+};
+
+/// A light of that kind as it comes first.
+RigLight make_light(LightKind kind);
+
+/// A clear day on the equinox at 45 degrees north, +Z to the south.
+struct Day {
+    double hour = 10; ///< 0..24
+    double turbidity = 3;
+
+    friend bool operator==(const Day&, const Day&) = default;
+};
+
+/// What is set; the environment itself is shared.
+struct LightSettings {
+    bool day = true; ///< instead of the environment
+    Day time;
+    bool environment_on = true;
+    float rotation = 0; ///< of environment or day about +Y, radians
+    std::vector<RigLight> lights;
+
+    friend bool operator==(const LightSettings&, const LightSettings&) = default;
+};
+
+/// An environment map, ready to light.
+struct LoadedEnvironment {
+    std::string name;
+    prt::Image lat_long;
+    prt::Light light; ///< of the highest order
+    float mean = 1;   ///< luminance
+};
+LoadedEnvironment load_environment(const std::string& path);
+
+class LightRig {
+public:
+    LightRig();
+    const LightSettings& settings() const { return settings_; }
+    /// Counts up `version` where something changes.
+    void set(const LightSettings& settings);
+    void set_environment(std::shared_ptr<const LoadedEnvironment> environment);
+    bool has_environment() const { return environment_ != nullptr; }
+    std::uint64_t version() const { return version_; }
+
+    prt::Light light(int order) const;
+    /// The same light as rays meet it. Suns are suns; all else is in its environment.
+    prt::DistantLight distant_light() const;
+
+    /// Behind the scene: the environment or the day's sky, not turned; null where neither is on.
+    const prt::Image* background() const;
+    std::uint64_t background_version() const { return background_version_; }
+
+private:
+    const LoadedEnvironment* base() const;
+    std::vector<prt::Sun> suns() const;
+    float unit() const;
+
+    LightSettings settings_;
+    std::shared_ptr<const LoadedEnvironment> environment_;
+    LoadedEnvironment day_;
+    glm::vec3 day_sun_{0, 1, 0}, day_sun_irradiance_{0};
+    std::uint64_t version_ = 1, background_version_ = 1;
+};
+
+} // namespace viewer

@@ -1,0 +1,43 @@
+// prt-viewer: precomputed radiance transfer to look at.
+
+#include "script.h"
+#include "window.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+
+int main(int argc, char** argv) {
+    CLI::App app("Looks at models lit by precomputed radiance transfer, and by what else games use.\n"
+                 "In the window, H shows the keys.",
+                 "prt-viewer");
+    std::vector<std::filesystem::path> files;
+    std::filesystem::path script;
+    int width = 1280, height = 720;
+    app.add_option("files", files,
+                   "models (.glb, .gltf: raw, baked or compressed) and environments (.hdr, .exr)");
+    app.add_option("--headless", script,
+                   "carry out the steps of this JSON file without a window (docs/viewer.md)");
+    app.add_option("--width", width, "of the window, pixels")
+        ->check(CLI::Range(64, 16384))
+        ->capture_default_str();
+    app.add_option("--height", height, "of the window, pixels")
+        ->check(CLI::Range(64, 16384))
+        ->capture_default_str();
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    try {
+        if (script.empty())
+            viewer::run_window(files, width, height);
+        else
+            viewer::run_script(script, files);
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "prt-viewer: error: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,51 @@
+#pragma once
+
+// What one side of the viewer shows.
+
+#include <array>
+
+namespace viewer {
+
+enum class PictureKind {
+    unshadowed,     ///< irradiance of the normal, nothing in the way
+    ssao,           ///< times screen-space ambient occlusion, from depth alone
+    ssao_normals,   ///< the same from depth and normals
+    baked_ao,       ///< times ambient occlusion of the vertices
+    prt,            ///< raw transfer
+    prt_compressed, ///< compressed transfer
+    reference,      ///< path tracing
+    clusters,       ///< a colour per cluster
+    components,     ///< how many directions the cluster has
+    error,          ///< of the compression, under this light
+    seams,          ///< jumps of that error between clusters
+};
+
+struct PictureName {
+    PictureKind kind;
+    const char *id, *title; ///< for scripts; for people
+};
+
+inline constexpr std::array<PictureName, 11> kPictures = {{
+    {PictureKind::unshadowed, "unshadowed", "Unshadowed irradiance"},
+    {PictureKind::ssao, "ssao", "SSAO"},
+    {PictureKind::ssao_normals, "ssao_normals", "SSAO with normals"},
+    {PictureKind::baked_ao, "baked_ao", "Baked AO"},
+    {PictureKind::prt, "prt", "PRT, uncompressed"},
+    {PictureKind::prt_compressed, "prt_compressed", "PRT, compressed"},
+    {PictureKind::reference, "reference", "Reference (path tracing)"},
+    {PictureKind::clusters, "clusters", "Clusters"},
+    {PictureKind::components, "components", "Number of components"},
+    {PictureKind::error, "error", "Error of compression"},
+    {PictureKind::seams, "seams", "Seams of compression"},
+}};
+
+inline const PictureName& name_of(PictureKind kind) {
+    return kPictures[static_cast<std::size_t>(kind)];
+}
+
+/// Colours that stand for numbers: shown as they are, without exposure and base colour.
+inline bool shows_numbers(PictureKind kind) {
+    return kind >= PictureKind::clusters;
+}
+
+} // namespace viewer

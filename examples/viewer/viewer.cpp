@@ -1,0 +1,570 @@
+#include "viewer.h"
+
+#include "lobe.h"
+
+#include "prt/bake.h"
+#include "prt/compress.h"
+#include "prt/error.h"
+#include "prt/receiver_colors.h"
+#include "prt/tone_map.h"
+#include "shared_layout.h"
+
+#include <epoxy/gl.h>
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace viewer {
+namespace {
+
+constexpr int kBakeOrder = 6, kBakeBounces = 3;
+/// A first picture at once, then better ones.
+constexpr int kBakeRays[] = {16, 128, 1024};
+constexpr std::size_t kMostMessages = 6;
+
+bool is_environment(const std::filesystem::path& path) {
+    return path.extension() == ".hdr" || path.extension() == ".exr" || path.extension() == ".pic";
+}
+
+bool is_model(const std::filesystem::path& path) {
+    return path.extension() == ".glb" || path.extension() == ".gltf";
+}
+
+prt::CompressOptions options_for(const CompressionSettings& how) {
+    prt::CompressOptions options = prt::preset_u32();
+    if (how.clusters == options.clusters && how.components == 4)
+        return options;
+    options.fixed_bits.clear();
+    options.clusters = how.clusters;
+    options.components = how.components;
+    options.bits = 6 * how.components; // as many for each as the preset has
+    options.cluster_bits = 0;
+    return options;
+}
+
+} // namespace
+
+Viewer::Viewer() {
+    lights = rig_.settings();
+    restore_gpu();
+}
+
+void Viewer::release_gpu() {
+    gpu_.reset();
+}
+
+void Viewer::restore_gpu() {
+    gpu_ = std::make_unique<Gpu>();
+    gpu_->colored_program = prt::make_program("viewer_color.vert", "viewer_color.frag");
+    if (model_)
+        upload_model();
+}
+
+void Viewer::message(const std::string& text) {
+    if (!messages_.empty() && messages_.back() == text)
+        return;
+    messages_.push_back(text);
+    if (messages_.size() > kMostMessages)
+        messages_.pop_front();
+}
+
+// ---- files
+
+namespace {
+
+/// Takes over from `other` the transfer that `loaded` lacks; false where there is none, or the scenes differ.
+bool add_transfer(LoadedModel& loaded, LoadedModel other) {
+    if (loaded.model->receivers_id != other.model->receivers_id)
+        return false;
+    if (loaded.compressed && !loaded.raw && other.raw) {
+        loaded.raw = std::make_shared<const prt::Transfer>(
+            in_order_of(loaded.model->scene, other.model->scene, *other.raw));
+        return true;
+    }
+    if (loaded.raw && !loaded.compressed && other.compressed) {
+        other.raw = std::make_shared<const prt::Transfer>(
+            in_order_of(other.model->scene, loaded.model->scene, *loaded.raw));
+        loaded = std::move(other);
+        return true;
+    }
+    return false;
+}
+
+} // namespace
+
+void Viewer::open(const std::vector<std::filesystem::path>& paths) {
+    std::vector<std::filesystem::path> models;
+    for (const std::filesystem::path& path : paths) {
+        if (is_model(path))
+            models.push_back(path);
+        else if (is_environment(path))
+            open_environment(path);
+        else
+            message(path.string() + ": is neither a model (.glb, .gltf) nor an environment map (.hdr, .exr)");
+    }
+    if (!models.empty())
+        open_models(models);
+}
+
+void Viewer::open_models(const std::vector<std::filesystem::path>& paths) {
+    opening_.emplace();
+    work_.start(
+        [this, paths,
+         open = LoadedModel{model_, raw_, compressed_, bounces_}](BackgroundWork::Channel& channel) {
+            channel.stage("reading " + paths.front().filename().string());
+            LoadedModel loaded = load_model(paths.front());
+            for (std::size_t i = 1; i < paths.size(); ++i)
+                if (!add_transfer(loaded, load_model(paths[i])))
+                    throw prt::Error(paths[i].string() + ": is another scene than " + paths.front().string() +
+                                     ", or adds no transfer to it");
+            if (open.model)
+                add_transfer(loaded, open);
+            channel.post([this, loaded] { take(loaded); });
+            if (loaded.raw && !loaded.compressed)
+                compress_once(channel, loaded.model, loaded.raw, {loaded.raw->order, 256, 4});
+            if (!loaded.raw && !loaded.compressed)
+                bake_in_stages(channel, loaded.model);
+            find_occlusion(channel, loaded.model);
+        },
+        [this](const std::string& why) {
+            opening_.reset();
+            message(why);
+        });
+}
+
+void Viewer::open_environment(const std::filesystem::path& path) {
+    environment_work_.start(
+        [this, path](BackgroundWork::Channel& channel) {
+            auto environment = std::make_shared<const LoadedEnvironment>(load_environment(path.string()));
+            channel.post([this, environment] {
+                environments_.push_back(environment);
+                use_environment(environments_.size() - 1);
+            });
+        },
+        [this](const std::string& why) { message(why); });
+}
+
+void Viewer::use_environment(std::size_t index) {
+    rig_.set_environment(environments_[index]);
+    lights.day = false;
+    lights.environment_on = true;
+}
+
+void Viewer::take(const LoadedModel& loaded) {
+    model_ = loaded.model;
+    raw_ = loaded.raw;
+    compressed_ = loaded.compressed;
+    occlusion_ = nullptr;
+    bounces_ = loaded.raw || loaded.compressed ? loaded.bounces : kBakeBounces;
+    if (compressed_) {
+        const prt::ClusteredBases& bases = compressed_->bases;
+        compression = {bases.order, static_cast<int>(bases.clusters()), bases.max_components()};
+    } else {
+        compression = {raw_ ? raw_->order : kBakeOrder, 256, 4};
+    }
+    compressed_how_ = compression;
+    ++transfer_version_;
+    hovered_.reset();
+    camera = OrbitCamera(prt::automatic_camera(
+        model_->scene, static_cast<float>(width_) / static_cast<float>(std::max(1, height_)), 0.61f));
+    upload_model();
+}
+
+void Viewer::upload_model() {
+    gpu_->model = std::make_unique<GpuModel>(model_);
+    if (raw_)
+        gpu_->model->set_raw(*raw_);
+    if (compressed_ && compressed_->bases.max_components() <= prt::kMostVertexComponents)
+        gpu_->model->set_compressed(*compressed_);
+    else if (compressed_)
+        message("the compressed transfer has more components than a vertex has attributes");
+    if (occlusion_)
+        gpu_->model->set_occlusion(*occlusion_);
+    gpu_->light_version = 0; // again for this model
+    numbers_version_ = 0;
+}
+
+// ---- work in the background
+
+void Viewer::bake_anew() {
+    if (!model_)
+        return;
+    work_.start(
+        [this, model = model_](BackgroundWork::Channel& channel) {
+            bake_in_stages(channel, model);
+            find_occlusion(channel, model);
+        },
+        [this](const std::string& why) { message(why); });
+}
+
+void Viewer::bake_in_stages(BackgroundWork::Channel& channel, std::shared_ptr<const Model> model) {
+    std::shared_ptr<const prt::Transfer> raw;
+    for (const int rays : kBakeRays) {
+        channel.stage(fmt::format("baking with {} rays", rays));
+        prt::BakeOptions options;
+        options.order = kBakeOrder;
+        options.rays = rays;
+        options.bounces = kBakeBounces;
+        options.bad_textures = prt::BadTextures::ignore;
+        raw = std::make_shared<const prt::Transfer>(
+            prt::bake(model->scene, options, channel.progress()).baked.transfer);
+        channel.post([this, raw] {
+            bounces_ = kBakeBounces;
+            set_raw(raw);
+        });
+    }
+    compress_once(channel, model, raw, {kBakeOrder, 256, 4});
+}
+
+void Viewer::compress_once(BackgroundWork::Channel& channel, std::shared_ptr<const Model> model,
+                           std::shared_ptr<const prt::Transfer> raw, const CompressionSettings& how) {
+    channel.stage("compressing");
+    auto compressed = std::make_shared<const prt::ClusteredTransfer>(
+        prt::compress(truncated(*raw, how.order), model->areas, model->edges, options_for(how),
+                      channel.progress())
+            .transfer);
+    channel.post([this, compressed, how] { set_compressed(compressed, how); });
+}
+
+void Viewer::find_occlusion(BackgroundWork::Channel& channel, std::shared_ptr<const Model> model) {
+    channel.stage("ambient occlusion");
+    auto occlusion =
+        std::make_shared<const std::vector<float>>(ambient_occlusion(*model, channel.progress()));
+    channel.post([this, occlusion] { set_occlusion(occlusion); });
+}
+
+void Viewer::recompress_where_asked() {
+    compression.order = std::clamp(compression.order, 1, std::max(1, raw_ ? raw_->order : compression.order));
+    if (!raw_ || !compressed_ || compression == compressed_how_)
+        return;
+    if (work_.busy() && work_.stage() != "compressing")
+        return;                    // first what is under way
+    compressed_how_ = compression; // asked for
+    work_.start(
+        [this, model = model_, raw = raw_, how = compression,
+         occlusion = occlusion_](BackgroundWork::Channel& channel) {
+            compress_once(channel, model, raw, how);
+            if (!occlusion)
+                find_occlusion(channel, model);
+        },
+        [this](const std::string& why) { message(why); });
+}
+
+void Viewer::set_raw(std::shared_ptr<const prt::Transfer> transfer) {
+    raw_ = std::move(transfer);
+    ++transfer_version_;
+    if (gpu_->model)
+        gpu_->model->set_raw(*raw_);
+    gpu_->light_version = 0;
+}
+
+void Viewer::set_compressed(std::shared_ptr<const prt::ClusteredTransfer> transfer,
+                            const CompressionSettings& how) {
+    compressed_ = std::move(transfer);
+    if (!(compression == how) && compressed_how_ == compression)
+        compression = how; // the file's own, when a model was opened
+    compressed_how_ = how;
+    ++transfer_version_;
+    if (gpu_->model)
+        gpu_->model->set_compressed(*compressed_);
+    gpu_->light_version = 0;
+}
+
+void Viewer::set_occlusion(std::shared_ptr<const std::vector<float>> occlusion) {
+    occlusion_ = std::move(occlusion);
+    if (gpu_->model)
+        gpu_->model->set_occlusion(*occlusion_);
+}
+
+// ---- frames
+
+int Viewer::light_order() const {
+    int order = 3;
+    if (raw_)
+        order = std::max(order, raw_->order);
+    if (compressed_)
+        order = std::max(order, compressed_->bases.order);
+    return order;
+}
+
+void Viewer::update(double seconds) {
+    if (day_runs && lights.day)
+        lights.time.hour = std::fmod(lights.time.hour + seconds, 24.0); // an hour a second
+    environment_work_.collect();
+    work_.collect();
+    numbers_work_.collect();
+    rig_.set(lights);
+    recompress_where_asked();
+}
+
+void Viewer::follow_light() {
+    if (gpu_->light_version != rig_.version() && gpu_->model) {
+        const prt::Light light = rig_.light(light_order());
+        gpu_->model->set_light(light);
+        if (compressed_)
+            figures_.constants_milliseconds = 1e3 * gpu_->model->seconds_constants();
+        gpu_->light_version = rig_.version();
+    }
+    if (gpu_->background_version != rig_.background_version()) {
+        const prt::Image* image = rig_.background();
+        gpu_->background = image ? prt::make_background(*image) : prt::GlObject();
+        gpu_->background_version = rig_.background_version();
+    }
+}
+
+bool Viewer::wants(PictureKind kind) const {
+    return settings.left == kind || settings.right == kind;
+}
+
+/// Colours for numbers, of the newest transfer and light. What takes the CPU goes to the background.
+void Viewer::find_numbers() {
+    const std::uint64_t version = (transfer_version_ << 32) + rig_.version();
+    const bool wanted = wants(PictureKind::clusters) || wants(PictureKind::components) ||
+                        wants(PictureKind::error) || wants(PictureKind::seams);
+    if (!wanted || !compressed_ || version == numbers_version_ || numbers_work_.busy())
+        return;
+    numbers_version_ = version;
+    numbers_work_.start(
+        [this, model = model_, raw = raw_, compressed = compressed_,
+         light = rig_.light(light_order())](BackgroundWork::Channel& channel) {
+            using Colors = std::vector<glm::vec3>;
+            std::vector<std::pair<PictureKind, Colors>> pictures;
+            pictures.emplace_back(PictureKind::clusters, prt::cluster_colors(*compressed));
+            pictures.emplace_back(PictureKind::components, prt::component_colors(*compressed));
+            if (raw && raw->receivers() == compressed->receivers.size()) {
+                const auto reference = prt::exit_radiance(*raw, light, 1);
+                const auto approximation = prt::exit_radiance(*compressed, light, 1);
+                pictures.emplace_back(PictureKind::error,
+                                      prt::error_colors(reference, approximation, model->areas));
+                pictures.emplace_back(PictureKind::seams,
+                                      prt::seam_colors(reference, approximation, model->areas, model->edges,
+                                                       compressed->receivers.clusters));
+            }
+            channel.post([this, model, pictures] {
+                if (model == model_ && gpu_->model)
+                    for (const auto& [kind, colors] : pictures)
+                        gpu_->model->set_numbers(kind, colors);
+            });
+        },
+        [this](const std::string& why) { message(why); });
+}
+
+FrameView Viewer::frame_view() const {
+    FrameView view;
+    view.camera = camera.camera();
+    view.exposure = prt::automatic_exposure(rig_.light(1)) * std::exp2(settings.exposure_stops);
+    view.background = gpu_->background.name() != 0 ? &gpu_->background : nullptr;
+    view.background_rotation = lights.rotation;
+    return view;
+}
+
+Screen Viewer::screen() const {
+    return {camera.camera(), {static_cast<float>(width_), static_cast<float>(height_)}};
+}
+
+Viewer::Shown Viewer::shown(PictureKind wanted) const {
+    if (wanted == PictureKind::reference || !gpu_->model || gpu_->model->can_draw(wanted))
+        return {wanted, ""};
+    std::string why = "not there yet";
+    const bool needs_raw =
+        wanted == PictureKind::prt || wanted == PictureKind::error || wanted == PictureKind::seams;
+    if (needs_raw && !raw_ && !work_.busy())
+        why = "the file holds compressed transfer only; bake to see it";
+    return {PictureKind::unshadowed, why};
+}
+
+void Viewer::draw(std::uint32_t framebuffer, int width, int height) {
+    width_ = width;
+    height_ = height;
+    figures_.frame_milliseconds += 0.1 * (1e3 * since_frame_.seconds() - figures_.frame_milliseconds);
+    since_frame_ = {};
+    gpu_->renderer.resize(width, height, settings.samples);
+    follow_light();
+    find_numbers();
+    const FrameView view = frame_view();
+    gpu_->frame.begin();
+    if (!gpu_->model) {
+        glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+        glViewport(0, 0, width, height);
+        glClearColor(0.05f, 0.055f, 0.07f, 1);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        gpu_->frame.end();
+        return;
+    }
+    const std::array<PictureKind, 2> kinds = {shown(settings.left).kind, shown(settings.right).kind};
+    const int split = static_cast<int>(std::lround(settings.split * static_cast<float>(width)));
+    for (int side = 0; side < 2; ++side) {
+        const int first = settings.difference || side == 0 ? 0 : split,
+                  last = settings.difference || side == 1 ? width : split;
+        const PictureKind kind = kinds[static_cast<std::size_t>(side)];
+        if (first >= last)
+            continue;
+        if (kind == PictureKind::reference)
+            show_reference(side, width, height, view);
+        else
+            gpu_->renderer.draw(side, kind, *gpu_->model, settings, view, first, last);
+    }
+    if (!wants(PictureKind::reference)) {
+        reference_.stop();
+        reference_subject_.clear();
+        reference_result_.reset();
+    }
+    if (settings.difference) {
+        figures_.difference = gpu_->renderer.difference();
+        mean_radiance_ = figures_.difference.mean;
+    }
+    gpu_->renderer.composite(framebuffer, settings, view, kinds, mean_radiance_);
+    gpu_->frame.end();
+    figures_.gpu_milliseconds = gpu_->frame.milliseconds();
+    figures_.triangles_drawn = gpu_->model->drawn_triangles();
+    if (settings.panels && frames_ % 16 == 0 && kinds[1] != PictureKind::reference) {
+        gpu_->vertices.begin();
+        gpu_->renderer.draw_vertices_only(kinds[1], *gpu_->model, settings, view);
+        gpu_->vertices.end();
+        figures_.vertex_milliseconds = gpu_->vertices.milliseconds();
+    }
+    pick();
+    if (settings.lobe && hovered_)
+        draw_lobe(framebuffer, width, height, view);
+    if (opening_) {
+        glFinish();
+        figures_.open_milliseconds = 1e3 * opening_->seconds();
+        opening_.reset();
+    }
+    figures_.reference_passes = reference_.passes();
+    figures_.receivers = model_->scene.receivers();
+    figures_.triangles = model_->scene.triangles();
+    figures_.raw_bytes = raw_ ? raw_->vectors.size() * sizeof(float) : 0;
+    figures_.order = compressed_ ? compressed_->bases.order : raw_ ? raw_->order : 0;
+    figures_.channels = compressed_ ? compressed_->bases.channels : raw_ ? raw_->channels : 0;
+    if (compressed_) {
+        const auto receivers = static_cast<double>(std::max<std::size_t>(1, figures_.receivers));
+        figures_.bytes_per_vertex = static_cast<double>(prt::bytes_per_receiver(*compressed_));
+        figures_.bytes_with_bases =
+            figures_.bytes_per_vertex + static_cast<double>(prt::basis_bytes(compressed_->bases)) / receivers;
+        figures_.clusters = static_cast<int>(compressed_->bases.clusters());
+    }
+    ++frames_;
+}
+
+void Viewer::show_reference(int side, int width, int height, const FrameView& view) {
+    Reference::Subject subject;
+    subject.model = model_;
+    subject.options.camera = view.camera;
+    subject.options.width = width;
+    subject.options.height = height;
+    subject.options.bounces = bounces_;
+    subject.options.textured = settings.textured;
+    subject.options.background = settings.background;
+    const prt::Camera& c = view.camera;
+    const std::string key = fmt::format(
+        "{} {} {} {} {} {} {} {} {} {} {} {} {} {}", static_cast<const void*>(model_.get()), rig_.version(),
+        width, height, bounces_, settings.textured, settings.background, c.position.x, c.position.y,
+        c.position.z, c.target.x, c.target.y, c.target.z, c.vertical_field_of_view);
+    if (key != reference_subject_) {
+        reference_subject_ = key;
+        subject.version = ++reference_version_;
+        subject.light = [rig = rig_] { return rig.distant_light(); };
+        reference_.show(std::move(subject));
+    }
+    if (auto result = reference_.take())
+        reference_result_ = std::move(result);
+    if (reference_result_)
+        gpu_->renderer.show(side, reference_result_->image, reference_result_->surfaces);
+}
+
+void Viewer::pick() {
+    hovered_.reset();
+    if (!settings.lobe || !pointer_ || !model_)
+        return;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    const glm::vec3 o = camera.camera().position, d = direction_through(screen(), *pointer_);
+    RTCRayHit ray{};
+    ray.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, std::numeric_limits<float>::infinity(), ~0u, 0, 0};
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(model_->rays->handle(), &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return;
+    // The nearest corner of the triangle.
+    const glm::uvec3& corners = model_->surfaces->corners(ray.hit.primID);
+    const float u = ray.hit.u, v = ray.hit.v, w = 1 - u - v;
+    Hovered found;
+    found.receiver = w >= u && w >= v ? corners.x : u >= v ? corners.y : corners.z;
+    for (const prt::VertexArray& vertices : model_->scene.vertex_arrays)
+        if (found.receiver >= vertices.first_receiver &&
+            found.receiver < vertices.first_receiver + vertices.size())
+            found.position = vertices.positions[found.receiver - vertices.first_receiver];
+    if (compressed_) {
+        found.cluster = compressed_->receivers.clusters[found.receiver];
+        const auto layouts = prt::cluster_layouts(compressed_->bases);
+        const std::size_t components = layouts[static_cast<std::size_t>(found.cluster)].components;
+        found.weights.resize(components);
+        prt::decode_weights(*compressed_, layouts, found.receiver, found.weights);
+    }
+    const bool from_raw = raw_ && (!compressed_ || settings.right == PictureKind::prt);
+    if (from_raw) {
+        found.order = raw_->order;
+        const auto vector = raw_->vector(found.receiver);
+        found.vector.assign(vector.begin(), vector.begin() + prt::coefficient_count(raw_->order));
+    } else if (compressed_) {
+        // mean + sum_j w_j direction_j, of the first channel
+        const prt::ClusteredBases& bases = compressed_->bases;
+        found.order = bases.order;
+        const auto count = static_cast<std::size_t>(prt::coefficient_count(bases.order));
+        const std::size_t first = bases.first_rows()[static_cast<std::size_t>(found.cluster)];
+        found.vector.resize(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            found.vector[i] = bases.rows[first * bases.dimension() + i];
+            for (std::size_t j = 0; j < found.weights.size(); ++j)
+                found.vector[i] += found.weights[j] * bases.rows[(first + 1 + j) * bases.dimension() + i];
+        }
+    }
+    hovered_ = std::move(found);
+}
+
+void Viewer::draw_lobe(std::uint32_t framebuffer, int width, int height, const FrameView& view) {
+    if (hovered_->order == 0)
+        return;
+    const float radius = 0.2f * model_->radius;
+    const ColoredMesh lobe = make_lobe(hovered_->order, hovered_->vector, hovered_->position, radius,
+                                       glm::normalize(view.camera.position - hovered_->position));
+    const prt::GlObject positions = prt::make_buffer(std::span<const glm::vec3>(lobe.positions)),
+                        colors = prt::make_buffer(std::span<const glm::vec4>(lobe.colors)),
+                        indices = prt::make_buffer(std::span<const glm::uvec3>(lobe.triangles));
+    GLuint name = 0;
+    glCreateVertexArrays(1, &name);
+    const prt::GlObject array(prt::GlKind::vertex_array, name);
+    const std::pair<GLuint, const prt::GlObject*> attributes[] = {{PRT_LOCATION_POSITION, &positions},
+                                                                  {PRT_LOCATION_COLOR, &colors}};
+    for (const auto& [location, buffer] : attributes) {
+        const GLint components = location == PRT_LOCATION_POSITION ? 3 : 4;
+        glVertexArrayVertexBuffer(name, location, buffer->name(), 0,
+                                  static_cast<GLsizei>(sizeof(float)) * components);
+        glEnableVertexArrayAttrib(name, location);
+        glVertexArrayAttribFormat(name, location, components, GL_FLOAT, GL_FALSE, 0);
+        glVertexArrayAttribBinding(name, location, location);
+    }
+    glVertexArrayElementBuffer(name, indices.name());
+    prt::Bounds box = model_->box;
+    box.low -= glm::vec3(radius);
+    box.high += glm::vec3(radius);
+    const glm::mat4 matrix =
+        prt::view_projection(view.camera, box, static_cast<float>(width) / static_cast<float>(height));
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glClear(GL_DEPTH_BUFFER_BIT); // in front of everything
+    glEnable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glUseProgram(gpu_->colored_program.name());
+    glUniformMatrix4fv(glGetUniformLocation(gpu_->colored_program.name(), "view_projection"), 1, GL_FALSE,
+                       glm::value_ptr(matrix));
+    glUniform4f(glGetUniformLocation(gpu_->colored_program.name(), "tint"), 1, 1, 1, 1);
+    glBindVertexArray(name);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * lobe.triangles.size()), GL_UNSIGNED_INT, nullptr);
+    glDisable(GL_DEPTH_TEST);
+}
+
+} // namespace viewer
