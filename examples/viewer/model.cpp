@@ -15,20 +15,10 @@ constexpr int kOcclusionRays = 256;
 
 } // namespace
 
-LoadedModel load_model(const std::filesystem::path& path) {
-    const prt::GltfDocument document = prt::load_gltf(path);
+std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path path) {
     auto model = std::make_shared<Model>();
-    model->path = path;
-    model->scene = prt::extract_scene(document);
-    LoadedModel loaded;
-    if (auto baked = prt::read_transfer(document, model->scene)) {
-        loaded.raw = std::make_shared<const prt::Transfer>(std::move(baked->transfer));
-        loaded.bounces = baked->record.bounces;
-    }
-    if (auto compressed = prt::read_clustered(document, model->scene)) {
-        loaded.compressed = std::make_shared<const prt::ClusteredTransfer>(std::move(compressed->transfer));
-        loaded.bounces = compressed->record.bounces;
-    }
+    model->path = std::move(path);
+    model->scene = std::move(scene);
     model->textures = prt::load_textures(model->scene, prt::BadTextures::ignore);
     model->areas = prt::receiver_areas(model->scene);
     model->edges = prt::mesh_edges(model->scene);
@@ -41,7 +31,22 @@ LoadedModel load_model(const std::filesystem::path& path) {
             make_triangle_clusters(primitive, model->scene.vertex_arrays[primitive.vertices]));
     model->rays = std::make_unique<prt::RayScene>(model->scene);
     model->surfaces = std::make_unique<prt::Surfaces>(model->scene, model->textures);
-    loaded.model = std::move(model);
+    return model;
+}
+
+LoadedModel load_model(const std::filesystem::path& path) {
+    const prt::GltfDocument document = prt::load_gltf(path);
+    prt::Scene scene = prt::extract_scene(document);
+    LoadedModel loaded;
+    if (auto baked = prt::read_transfer(document, scene)) {
+        loaded.raw = std::make_shared<const prt::Transfer>(std::move(baked->transfer));
+        loaded.bounces = baked->record.bounces;
+    }
+    if (auto compressed = prt::read_clustered(document, scene)) {
+        loaded.compressed = std::make_shared<const prt::ClusteredTransfer>(std::move(compressed->transfer));
+        loaded.bounces = compressed->record.bounces;
+    }
+    loaded.model = make_model(std::move(scene), path);
     return loaded;
 }
 

@@ -46,6 +46,9 @@ struct LoadedModel {
     int bounces = 0; ///< of the transfer
 };
 
+/// What the viewer needs of `scene`; textures that are missing or damaged are left out.
+std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path path);
+
 /// Reads `path`. Throws `prt::Error`.
 LoadedModel load_model(const std::filesystem::path& path);
 

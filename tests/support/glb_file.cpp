@@ -69,4 +69,28 @@ GlbFile triangle_file() {
     return file;
 }
 
+GlbFile scene_file(const Scene& scene) {
+    const VertexArray& vertices = scene.vertex_arrays.at(0);
+    const auto floats = [](const std::vector<glm::vec3>& values) {
+        return std::vector<float>(&values[0].x, &values[0].x + 3 * values.size());
+    };
+    const auto& triangles = scene.primitives.at(0).triangles;
+    GlbFile file;
+    const std::size_t positions = file.accessor(floats(vertices.positions), kFloat, "VEC3", 3),
+                      normals = file.accessor(floats(vertices.normals), kFloat, "VEC3", 3),
+                      indices = file.accessor(
+                          std::vector<std::uint32_t>(&triangles[0].x, &triangles[0].x + 3 * triangles.size()),
+                          kUnsignedInt, "SCALAR", 1);
+    const Bounds box = bounds(scene);
+    file.json["accessors"][positions]["min"] = {box.low.x, box.low.y, box.low.z};
+    file.json["accessors"][positions]["max"] = {box.high.x, box.high.y, box.high.z};
+    file.json["meshes"] = {
+        {{"primitives",
+          {{{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}}, {"indices", indices}}}}}};
+    file.json["nodes"] = {{{"mesh", 0}}};
+    file.json["scenes"] = {{{"nodes", {0}}}};
+    file.json["scene"] = 0;
+    return file;
+}
+
 } // namespace prt::test

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "prt/scene.h"
+
 #include <nlohmann/json.hpp>
 
 #include <filesystem>
@@ -33,5 +35,8 @@ inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsigne
 
 /// A file with one triangle (0,0,0) (1,0,0) (0,1,0), indexed, with normals, at node 0.
 GlbFile triangle_file();
+
+/// A file with the one vertex array and the one primitive of `scene`, white.
+GlbFile scene_file(const Scene& scene);
 
 } // namespace prt::test
