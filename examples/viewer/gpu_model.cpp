@@ -51,6 +51,12 @@ void GpuModel::set_raw(const prt::Transfer& transfer) {
         form_raw(*light_);
 }
 
+void GpuModel::drop_raw() {
+    raw_.reset();
+    raw_arrays_.clear();
+    radiance_ = {};
+}
+
 void GpuModel::set_compressed(const prt::ClusteredTransfer& transfer) {
     compressed_.emplace(transfer);
     compressed_arrays_ = scene_.make_vertex_arrays();

@@ -28,6 +28,7 @@ public:
     const Model& model() const { return *model_; }
 
     void set_raw(const prt::Transfer& transfer);
+    void drop_raw();
     void set_compressed(const prt::ClusteredTransfer& transfer);
     void set_occlusion(std::span<const float> occlusion);
     void set_numbers(PictureKind kind, std::span<const glm::vec3> colors);

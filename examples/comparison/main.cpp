@@ -1,0 +1,99 @@
+// prt-comparison: measures every way to light a scene against path tracing, and writes the page about it.
+
+#include "report.h"
+
+#include "prt/error.h"
+#include "prt/file.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <cstdio>
+
+namespace {
+
+nlohmann::json json_of(const std::vector<comparison::SceneResult>& scenes,
+                       const std::vector<comparison::Sky>& skies) {
+    nlohmann::json json = nlohmann::json::array();
+    for (const comparison::SceneResult& scene : scenes) {
+        nlohmann::json rows = nlohmann::json::array();
+        for (const comparison::Row& row : scene.rows) {
+            nlohmann::json errors;
+            for (std::size_t i = 0; i < skies.size(); ++i)
+                errors[skies[i].name] = row.errors[i];
+            rows.push_back({{"method", row.method},
+                            {"bytes_per_vertex", row.bytes_per_vertex},
+                            {"relative_l2", errors},
+                            {"frame_milliseconds", row.frame_milliseconds},
+                            {"relight_milliseconds", row.relight_milliseconds}});
+        }
+        json.push_back({{"scene", scene.name},
+                        {"vertices", scene.vertices},
+                        {"triangles", scene.triangles},
+                        {"channels", scene.channels},
+                        {"device", scene.device},
+                        {"methods", rows}});
+    }
+    return json;
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+    prt::OutputFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Measures unshadowed light, SSAO, baked AO and PRT against path tracing.", "prt-comparison");
+    std::vector<std::filesystem::path> scenes, skies;
+    std::filesystem::path output, json, images;
+    comparison::Options options;
+    app.add_option("scenes", scenes, "glTF scenes")->required();
+    app.add_option("--sky", skies, "environment maps; pictures are under the first")->required();
+    app.add_option("-o,--output", output, "the page, Markdown")->required();
+    app.add_option("--images", images, "folder for its pictures, beside the page")->required();
+    app.add_option("--json", json, "all figures");
+    app.add_option("--passes", options.passes, "paths per pixel of each reference")
+        ->check(CLI::Range(1, 1 << 16))
+        ->capture_default_str();
+    app.add_option("--rays", options.bake_rays, "of the bake, per vertex")
+        ->check(CLI::Range(1, 1 << 20))
+        ->capture_default_str();
+    app.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 8192))->capture_default_str();
+    app.add_option("--height", options.height, "pixels")->check(CLI::Range(16, 8192))->capture_default_str();
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
+    }
+    try {
+        std::string why;
+        const auto context = prt::GlContext::create(prt::GlDevice::any, &why);
+        if (!context)
+            throw prt::Error("there is no OpenGL 4.5 (" + why + ")");
+        std::vector<comparison::Sky> loaded;
+        for (const auto& sky : skies)
+            loaded.push_back(comparison::load_sky(sky));
+        std::vector<comparison::SceneResult> results;
+        for (const auto& scene : scenes)
+            results.push_back(
+                comparison::measure(scene, loaded, options, *context, [&](const std::string& what) {
+                    std::printf("%s: %s\n", scene.stem().c_str(), what.c_str());
+                    std::fflush(stdout);
+                }));
+        comparison::write_pictures(results, options, images);
+        write(output,
+              comparison::report(
+                  results, loaded, options,
+                  std::filesystem::relative(images, output.parent_path().empty() ? "." : output.parent_path())
+                      .generic_string()));
+        if (!json.empty())
+            write(json, json_of(results, loaded).dump(2) + "\n");
+        return 0;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "prt-comparison: error: %s\n", error.what());
+        return 1;
+    }
+}

@@ -1,0 +1,231 @@
+#include "measure.h"
+
+#include "frame_renderer.h"
+
+#include "prt/bake.h"
+#include "prt/path_tracer.h"
+#include "prt/search.h"
+#include "prt/stopwatch.h"
+#include "prt/tone_map.h"
+
+#include <epoxy/gl.h>
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace comparison {
+namespace {
+
+using viewer::PictureKind;
+
+constexpr int kOrders[] = {3, 4, 5, 6};
+constexpr double kBytes[] = {4, 8, 12, 16};
+/// SSAO is given the radius that suits the scene best, of the scene's radius.
+constexpr float kSsaoRadii[] = {0.02f, 0.05f, 0.1f, 0.2f, 0.4f};
+
+struct Reference {
+    prt::Image a, b;
+};
+
+prt::Image mean_of(const prt::Image& a, const prt::Image& b) {
+    prt::Image mean = a;
+    for (std::size_t i = 0; i < mean.pixels.size(); ++i)
+        mean.pixels[i] = 0.5f * (a.pixels[i] + b.pixels[i]);
+    return mean;
+}
+
+class SceneMeasurement {
+public:
+    SceneMeasurement(const std::filesystem::path& path, const std::vector<Sky>& skies, const Options& options,
+                     const std::function<void(const std::string&)>& say)
+        : skies_(skies), options_(options), say_(say), model_(viewer::load_model(path).model), gpu_(model_) {
+        result_.name = path.stem().string();
+        result_.vertices = model_->scene.receivers();
+        result_.triangles = model_->scene.triangles();
+        view_.camera = prt::automatic_camera(
+            model_->scene, static_cast<float>(options.width) / static_cast<float>(options.height), 0.61f);
+        settings_.textured = settings_.background = false;
+        renderer_.resize(options.width, options.height, 1);
+        result_.exposure = prt::automatic_exposure(skies.front().light);
+    }
+
+    SceneResult run() {
+        for (const Sky& sky : skies_)
+            trace_reference(sky);
+        result_.reference = mean_of(references_[0].a, references_[0].b);
+        add_row("unshadowed irradiance", PictureKind::unshadowed, 0);
+        add_ssao("SSAO, from depth", PictureKind::ssao);
+        add_ssao("SSAO, with normals", PictureKind::ssao_normals);
+        say_("ambient occlusion");
+        gpu_.set_occlusion(viewer::ambient_occlusion(*model_, {}));
+        add_row("baked AO", PictureKind::baked_ao, 1); // eight bits
+        add_transfer();
+        return std::move(result_);
+    }
+
+private:
+    void trace_reference(const Sky& sky) {
+        say_("reference under " + sky.name);
+        const prt::DistantLight light(sky.lat_long);
+        prt::PathTraceOptions trace;
+        trace.camera = view_.camera;
+        trace.width = options_.width;
+        trace.height = options_.height;
+        trace.textured = trace.background = trace.antialiased = false;
+        std::array<prt::Image, 2> images;
+        for (std::size_t i = 0; i < 2; ++i) {
+            trace.seed = i + 1;
+            prt::PathTracer tracer(*model_->rays, model_->scene, *model_->surfaces, light, trace);
+            for (int pass = 0; pass < options_.passes; ++pass)
+                tracer.add_pass();
+            images[i] = tracer.image();
+            if (result_.surfaces.empty())
+                result_.surfaces = tracer.surface_mask();
+        }
+        double squared = 0, norm = 0;
+        for (std::size_t i = 0; i < images[0].pixels.size(); ++i)
+            if (result_.surfaces[i]) {
+                const glm::dvec3 a(images[0].pixels[i]), b(images[1].pixels[i]);
+                squared += glm::dot(a - b, a - b);
+                norm += glm::dot(a, b);
+            }
+        result_.reference_noise.push_back(std::sqrt(squared / norm / 2));
+        references_.push_back({std::move(images[0]), std::move(images[1])});
+    }
+
+    void set_light(const Sky& sky) { gpu_.set_light(prt::truncated(sky.light, light_order_)); }
+
+    prt::Image draw(PictureKind kind) {
+        renderer_.draw(0, kind, gpu_, settings_, view_, 0, options_.width);
+        return renderer_.read(0);
+    }
+
+    std::vector<double> errors(PictureKind kind, prt::Image* first_picture) {
+        std::vector<double> errors;
+        for (std::size_t i = 0; i < skies_.size(); ++i) {
+            set_light(skies_[i]);
+            prt::Image picture = draw(kind);
+            errors.push_back(error_against(picture, references_[i].a, references_[i].b, result_.surfaces));
+            if (i == 0 && first_picture)
+                *first_picture = std::move(picture);
+        }
+        return errors;
+    }
+
+    /// Milliseconds of one call, all its work on the GPU done.
+    template <class Work>
+    double milliseconds(Work&& work) {
+        work();
+        glFinish();
+        const prt::Stopwatch stopwatch;
+        int calls = 0;
+        do {
+            work();
+            glFinish();
+            ++calls;
+        } while (stopwatch.seconds() < options_.frame_seconds);
+        return 1e3 * stopwatch.seconds() / calls;
+    }
+
+    void add_row(std::string method, PictureKind kind, double bytes) {
+        say_(method);
+        Row row;
+        row.method = std::move(method);
+        row.bytes_per_vertex = bytes;
+        row.errors = errors(kind, &row.picture);
+        row.frame_milliseconds =
+            milliseconds([&] { renderer_.draw(0, kind, gpu_, settings_, view_, 0, options_.width); });
+        row.relight_milliseconds = milliseconds([&] { set_light(skies_.front()); });
+        result_.rows.push_back(std::move(row));
+    }
+
+    void add_ssao(const std::string& method, PictureKind kind) {
+        double best = 0;
+        float best_radius = 0;
+        for (const float radius : kSsaoRadii) {
+            settings_.ssao.radius = radius;
+            double sum = 0;
+            for (const double error : errors(kind, nullptr))
+                sum += error;
+            if (best_radius == 0 || sum < best) {
+                best = sum;
+                best_radius = radius;
+            }
+        }
+        settings_.ssao.radius = best_radius;
+        add_row(fmt::format("{} (radius {:g})", method, best_radius), kind, 0);
+    }
+
+    void add_transfer() {
+        say_("bake");
+        prt::BakeOptions bake_options;
+        bake_options.order = kOrders[std::size(kOrders) - 1];
+        bake_options.rays = options_.bake_rays;
+        bake_options.bounces = prt::kEndlessBounces;
+        bake_options.backend = prt::Backend::cpu;
+        bake_options.bad_textures = prt::BadTextures::ignore;
+        const prt::Transfer raw = prt::bake(model_->scene, bake_options).baked.transfer;
+        result_.channels = raw.channels;
+        for (const int order : kOrders) {
+            const prt::Transfer transfer = viewer::truncated(raw, order);
+            light_order_ = order;
+            gpu_.set_raw(transfer);
+            add_row(fmt::format("PRT, order {}", order), PictureKind::prt,
+                    static_cast<double>(transfer.dimension()) * 2); // as float16
+        }
+        gpu_.drop_raw(); // a light change then counts the constants alone
+        for (const double bytes : kBytes) {
+            say_(fmt::format("compressing to {:g} bytes", bytes));
+            prt::SearchOptions search;
+            search.budget.bytes_per_vertex = bytes;
+            const prt::SearchResult found = prt::compress_within(raw, model_->areas, model_->edges, search);
+            gpu_.set_compressed(found.result.transfer);
+            add_row(fmt::format("PRT, order 6, {:g} bytes", bytes), PictureKind::prt_compressed,
+                    found.result.statistics.bytes_with_bases(result_.vertices));
+        }
+    }
+
+    const std::vector<Sky>& skies_;
+    const Options& options_;
+    const std::function<void(const std::string&)>& say_;
+    std::shared_ptr<const viewer::Model> model_;
+    viewer::GpuModel gpu_;
+    viewer::FrameRenderer renderer_;
+    viewer::Settings settings_;
+    viewer::FrameView view_;
+    int light_order_ = 6;
+    std::vector<Reference> references_;
+    SceneResult result_;
+};
+
+} // namespace
+
+Sky load_sky(const std::filesystem::path& path) {
+    const prt::Environment environment = prt::load_environment(path).environment;
+    return {path.stem().string(), prt::resampled_lat_long(environment),
+            prt::project(environment, prt::kMaxOrder)};
+}
+
+double error_against(const prt::Image& picture, const prt::Image& a, const prt::Image& b,
+                     const std::vector<bool>& surfaces) {
+    double squared = 0, norm = 0;
+    for (std::size_t i = 0; i < surfaces.size(); ++i)
+        if (surfaces[i]) {
+            const glm::dvec3 p(picture.pixels[i]), u(a.pixels[i]), v(b.pixels[i]);
+            squared += glm::dot(p - u, p - v);
+            norm += glm::dot(u, v);
+        }
+    return std::sqrt(std::max(0.0, squared / norm));
+}
+
+SceneResult measure(const std::filesystem::path& scene, const std::vector<Sky>& skies, const Options& options,
+                    const prt::GlContext& context, const std::function<void(const std::string&)>& say) {
+    SceneResult result = SceneMeasurement(scene, skies, options, say).run();
+    result.device = context.renderer();
+    return result;
+}
+
+} // namespace comparison

@@ -1,0 +1,63 @@
+#pragma once
+
+// Error, bytes and time of every way to light a scene, against path tracing.
+
+#include "model.h"
+#include "picture_kind.h"
+
+#include "prt/environment.h"
+#include "prt/gl_context.h"
+#include "prt/image_file.h"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace comparison {
+
+struct Options {
+    int width = 640, height = 360;
+    int passes = 64; ///< paths per pixel of each of the two references
+    int bake_rays = 4096;
+    double frame_seconds = 1; ///< to measure frame times for
+};
+
+struct Sky {
+    std::string name;
+    prt::Image lat_long;
+    prt::Light light; ///< of the highest order
+};
+Sky load_sky(const std::filesystem::path& path);
+
+struct Row {
+    std::string method;
+    double bytes_per_vertex = 0;
+    std::vector<double> errors;      ///< [skies] relative L2 of exit radiance over the pixels of the scene
+    double frame_milliseconds = 0;   ///< drawing
+    double relight_milliseconds = 0; ///< once per change of the light
+    prt::Image picture;              ///< under the first sky, linear
+};
+
+struct SceneResult {
+    std::string name;
+    std::size_t vertices = 0, triangles = 0;
+    int channels = 1;
+    std::string device; ///< that drew
+    std::vector<Row> rows;
+    prt::Image reference; ///< under the first sky
+    std::vector<bool> surfaces;
+    float exposure = 1; ///< of the first sky
+    std::vector<double>
+        reference_noise; ///< [skies] relative L2 of one reference against the other, over sqrt 2
+};
+
+/// Everything of one scene; base colour 1 where the camera looks. `say` gets what is done next.
+SceneResult measure(const std::filesystem::path& scene, const std::vector<Sky>& skies, const Options& options,
+                    const prt::GlContext& context, const std::function<void(const std::string&)>& say);
+
+/// Relative L2 of `picture` against what `a` and `b`, independent and without bias, are estimates of. Their
+/// noise does not count: the mean of (p - a)(p - b) is the squared error of p.
+double error_against(const prt::Image& picture, const prt::Image& a, const prt::Image& b,
+                     const std::vector<bool>& surfaces);
+
+} // namespace comparison

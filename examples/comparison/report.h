@@ -1,0 +1,17 @@
+#pragma once
+
+#include "measure.h"
+
+#include <filesystem>
+
+namespace comparison {
+
+/// Markdown with tables and pictures. `images`: where the pictures are, as the page refers to them.
+std::string report(const std::vector<SceneResult>& scenes, const std::vector<Sky>& skies,
+                   const Options& options, const std::string& images);
+
+/// For each scene a PNG into `folder`: reference and methods side by side, and below each its error as heat.
+void write_pictures(const std::vector<SceneResult>& scenes, const Options& options,
+                    const std::filesystem::path& folder);
+
+} // namespace comparison
