@@ -1,0 +1,40 @@
+import type { DataTexture } from "three";
+import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
+
+/** Lighting as spherical harmonics that turns about +Y. */
+export class ShLight {
+  readonly order: number;
+  /** Coefficients about the polar axis +Y, [order²][3]. */
+  readonly polar: Float64Array;
+  constructor(order: number, polar: Float64Array);
+  /** RGB coefficients [order²][3] in prtkit's convention, turned about +Y by `angle` radians. */
+  coefficients(angle?: number): Float64Array;
+  /** Luminance of the mean radiance over all directions; 0.25 over it is a good exposure. */
+  meanLuminance(): number;
+}
+
+/** The compressed transfer of one file: `gltf.userData.prtkit`. */
+export class PrtkitModel {
+  readonly order: number;
+  readonly channels: 1 | 3;
+  /** Vertices that have transfer. */
+  readonly vertices: number;
+  /** Of the vertex attributes that transfer takes. */
+  readonly bytesPerVertex: number;
+  /** Lights all meshes of the file. Throws a RangeError for a light of fewer bands than `order`. */
+  setLight(light: ShLight, angle?: number): void;
+  dispose(): void;
+}
+
+/** Reads PRTKIT_clustered_pca: `loader.register((parser) => new PrtkitPlugin(parser))`. */
+export class PrtkitPlugin implements GLTFLoaderPlugin {
+  readonly name: string;
+  constructor(parser: GLTFParser);
+  afterRoot(gltf: GLTF): Promise<void>;
+}
+
+/**
+ * The lighting of an equirectangular texture of HDRLoader or EXRLoader, loaded with `setDataType(FloatType)`.
+ * Throws an Error for a texture of fewer than three channels and a RangeError for an order outside 1..10.
+ */
+export function projectEquirectangular(texture: DataTexture, order?: number): ShLight;

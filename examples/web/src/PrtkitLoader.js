@@ -1,0 +1,202 @@
+// Compressed precomputed radiance transfer for three.js: a plug-in of its GLTFLoader.
+//
+//   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
+//   const gltf = await loader.loadAsync("shipped.glb");
+//   const sky = await new HDRLoader().setDataType(FloatType).loadAsync("sky.hdr");
+//   const light = projectEquirectangular(sky);
+//   gltf.userData.prtkit.setLight(light, angle);   // again when the light turns or changes
+//
+// Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
+
+import {
+  BufferAttribute,
+  DataTexture,
+  DataUtils,
+  FloatType,
+  HalfFloatType,
+  MeshBasicMaterial,
+  NearestFilter,
+  RGBAFormat,
+  RGBAIntegerFormat,
+  UnsignedIntType,
+} from "three";
+import { clusterTable, decodeClusters, formConstants, shaderRows } from "./clusteredPca.js";
+import exitRadiance from "./prt_exit_radiance.glsl.js";
+import { MAX_ORDER, projectLatLong } from "./sphericalHarmonics.js";
+
+export { ShLight } from "./sphericalHarmonics.js";
+
+const EXTENSION = "PRTKIT_clustered_pca";
+const TEXTURE_WIDTH = 256;
+
+function tableTexture(texels, data, format, type, internalFormat) {
+  const height = Math.max(1, Math.ceil(texels / TEXTURE_WIDTH));
+  const padded = new data.constructor(4 * TEXTURE_WIDTH * height);
+  padded.set(data);
+  const texture = new DataTexture(padded, TEXTURE_WIDTH, height, format, type);
+  texture.internalFormat = internalFormat;
+  texture.minFilter = texture.magFilter = NearestFilter;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** The compressed transfer of one file, shared by its meshes. */
+export class PrtkitModel {
+  constructor(extension, view) {
+    this.clusters = decodeClusters(extension, view);
+    this.rows = shaderRows(this.clusters);
+    const { rowCount, components } = this.clusters;
+    this.constantsTexture = tableTexture(rowCount, new Float32Array(4 * rowCount), RGBAFormat, FloatType, "RGBA32F");
+    this.clustersTexture = tableTexture(
+      components.length,
+      clusterTable(this.clusters),
+      RGBAIntegerFormat,
+      UnsignedIntType,
+      "RGBA32UI",
+    );
+    this.order = this.clusters.order;
+    this.channels = this.clusters.channels;
+    this.vertices = 0;
+    this.bytesPerVertex = 0;
+  }
+
+  /**
+   * Lights all meshes by `light` turned about +Y by `angle` radians: forms the constants of all clusters.
+   */
+  setLight(light, angle = 0) {
+    if (light.order < this.order)
+      throw new RangeError(`the light has order ${light.order}, the model needs ${this.order}`);
+    formConstants(this.clusters, this.rows, light.coefficients(angle), this.constantsTexture.image.data);
+    this.constantsTexture.needsUpdate = true;
+  }
+
+  dispose() {
+    this.constantsTexture.dispose();
+    this.clustersTexture.dispose();
+  }
+}
+
+/** Bytes of accessors of VEC4 of bytes, one after the other for each vertex, as 32-bit words [vertices][groups]. */
+function packedWords(groups) {
+  const count = groups[0].count;
+  const words = new Uint32Array(count * groups.length);
+  groups.forEach((group, g) => {
+    for (let v = 0; v < count; ++v)
+      words[v * groups.length + g] =
+        (group.getX(v) | (group.getY(v) << 8) | (group.getZ(v) << 16) | (group.getW(v) << 24)) >>> 0;
+  });
+  return words;
+}
+
+/** Words [first, first + 4) of each vertex, or as many as there are. */
+function wordAttribute(words, stride, first) {
+  const size = Math.min(4, stride - first);
+  const count = words.length / stride;
+  const part = new Uint32Array(count * size);
+  for (let v = 0; v < count; ++v)
+    for (let w = 0; w < size; ++w) part[v * size + w] = words[v * stride + first + w];
+  return new BufferAttribute(part, size);
+}
+
+/** Puts the attributes that the shader reads in place of those of the file; returns its defines. */
+function convertGeometry(geometry, model) {
+  const groups = [];
+  for (let i = 0; geometry.hasAttribute(`_prt_weights_${i}`); ++i) {
+    groups.push(geometry.getAttribute(`_prt_weights_${i}`));
+    geometry.deleteAttribute(`_prt_weights_${i}`);
+  }
+  const { clusters } = model;
+  if (clusters.widths) {
+    if (groups.length === 0 || groups.length > 8)
+      throw new Error(`${EXTENSION}: a primitive has ${groups.length} groups of packed weights, not 1 to 8`);
+    const words = packedWords(groups);
+    geometry.setAttribute("prt_words_0", wordAttribute(words, groups.length, 0));
+    if (groups.length > 4) geometry.setAttribute("prt_words_1", wordAttribute(words, groups.length, 4));
+    model.bytesPerVertex = 4 * groups.length;
+    return { PRT_PACKED_WORDS: groups.length, PRT_CLUSTER_BITS: clusters.clusterBits };
+  }
+  const cluster = geometry.getAttribute("_prt_cluster");
+  if (!cluster || groups.length > 12)
+    throw new Error(`${EXTENSION}: a primitive lacks _PRT_CLUSTER, or has more than 48 components`);
+  const numbers = Uint32Array.from({ length: cluster.count }, (_, v) => cluster.getX(v));
+  geometry.deleteAttribute("_prt_cluster");
+  geometry.setAttribute("prt_cluster", new BufferAttribute(numbers, 1));
+  groups.forEach((group, i) => geometry.setAttribute(`prt_weights_${i}`, group));
+  const weight = groups.length > 0 ? (groups[0].data ?? groups[0]).array.BYTES_PER_ELEMENT : 0;
+  model.bytesPerVertex = (clusters.components.length > 256 ? 2 : 1) + Math.max(...clusters.components) * weight;
+  return { PRT_WEIGHT_VECTORS: groups.length };
+}
+
+/** Base colour, texture, cut-outs and blending of `source`, lit by transfer alone. */
+function relitMaterial(source, model, defines) {
+  const material = new MeshBasicMaterial({
+    name: source.name,
+    color: source.color,
+    map: source.map ?? null,
+    alphaTest: source.alphaTest,
+    transparent: source.transparent,
+    opacity: source.opacity,
+    side: source.side,
+    vertexColors: source.vertexColors,
+    depthWrite: source.depthWrite,
+  });
+  material.defines = { ...defines, PRT_CONSTANTS_TEXTURE: 1, PRT_TEXTURE_WIDTH: TEXTURE_WIDTH };
+  material.onBeforeCompile = (shader) => {
+    shader.uniforms.prt_constants = { value: model.constantsTexture };
+    shader.uniforms.prt_clusters = { value: model.clustersTexture };
+    shader.vertexShader = shader.vertexShader
+      .replace("#include <common>", `#include <common>\n${exitRadiance}\nout vec3 prtRadiance;`)
+      .replace("#include <begin_vertex>", "#include <begin_vertex>\nprtRadiance = prt_exit_radiance();");
+    shader.fragmentShader = shader.fragmentShader
+      .replace("#include <common>", "#include <common>\nin vec3 prtRadiance;")
+      .replace("#include <opaque_fragment>", "outgoingLight *= max(prtRadiance, vec3(0.0));\n#include <opaque_fragment>");
+  };
+  material.customProgramCacheKey = () => `${EXTENSION}:${JSON.stringify(material.defines)}`;
+  return material;
+}
+
+/** For `GLTFLoader.register`. Files without the extension load as ever. */
+export class PrtkitPlugin {
+  constructor(parser) {
+    this.parser = parser;
+    this.name = EXTENSION;
+  }
+
+  async afterRoot(gltf) {
+    const { json, associations } = this.parser;
+    const extension = json.extensions?.[EXTENSION];
+    if (!extension) return;
+    const wanted = [extension.packing?.bufferView, extension.bases.bufferView];
+    for (const part of ["origin", "scales", "axes", "values"]) wanted.push(extension.bases[part]?.bufferView);
+    const views = new Map();
+    for (const i of wanted)
+      if (i !== undefined) views.set(i, new Uint8Array(await this.parser.getDependency("bufferView", i)));
+    const model = new PrtkitModel(extension, (i) => views.get(i));
+    const defines = new Map(); // by geometry: nodes may share one
+    for (const scene of gltf.scenes)
+      scene.traverse((object) => {
+        const from = associations.get(object);
+        if (!object.isMesh || from?.meshes === undefined) return;
+        if (!defines.has(object.geometry)) {
+          if (!Object.keys(object.geometry.attributes).some((name) => name.startsWith("_prt_"))) return;
+          defines.set(object.geometry, convertGeometry(object.geometry, model));
+          model.vertices += object.geometry.getAttribute("position").count;
+        }
+        object.material = relitMaterial(object.material, model, defines.get(object.geometry));
+      });
+    gltf.userData.prtkit = model;
+  }
+}
+
+/**
+ * The lighting of an equirectangular texture of HDRLoader or EXRLoader, of the layout of OpenEXR: +Y on top, the centre
+ * column looks at +Z. Load it with setDataType(FloatType): half floats cut off a sun.
+ */
+export function projectEquirectangular(texture, order = MAX_ORDER) {
+  const { width, height, data } = texture.image;
+  const stride = texture.format === RGBAFormat ? 4 : data.length / (width * height);
+  if (stride < 3) throw new Error("the environment has fewer than three channels");
+  const value = texture.type === HalfFloatType ? DataUtils.fromHalfFloat : (v) => v;
+  // HDRLoader stores the top row first and asks for a flip, EXRLoader has it flipped already.
+  return projectLatLong({ width, height, data, stride, topFirst: texture.flipY, value }, order);
+}

@@ -1,0 +1,210 @@
+// Real spherical harmonics as in docs/math.md, section 1: orthonormal, Condon-Shortley phase, polar axis z.
+
+export const MAX_ORDER = 10;
+
+const index = (l, m) => l * (l + 1) + m;
+
+/** Q_l^m(z) of docs/math.md, eq. 3: the polynomial in z beside sin^m(theta), normalised; [order²], m >= 0 filled. */
+function legendre(order, z, out) {
+  let product = 1;
+  for (let m = 0; m < order; ++m) {
+    if (m > 0) product *= (2 * m + 1) / (2 * m);
+    const sectoral = (m % 2 === 0 ? 1 : -1) * Math.sqrt(((m > 0 ? 2 : 1) * product) / (4 * Math.PI));
+    let previous = 0;
+    let current = sectoral;
+    out[index(m, m)] = current;
+    for (let l = m + 1; l < order; ++l) {
+      const a = Math.sqrt((4 * l * l - 1) / (l * l - m * m));
+      const b = a * Math.sqrt(((l - 1) ** 2 - m * m) / (4 * (l - 1) ** 2 - 1));
+      [previous, current] = [current, a * z * current - (l === m + 1 ? 0 : b * previous)];
+      out[index(l, m)] = current;
+    }
+  }
+}
+
+/**
+ * The order² basis values in the unit direction (x, y, z).
+ */
+export function evaluateSh(order, x, y, z, out = new Float64Array(order * order)) {
+  legendre(order, z, out);
+  let cosine = 1; // sin^m(theta) cos(m phi)
+  let sine = 0;
+  for (let m = 1; m < order; ++m) {
+    [cosine, sine] = [cosine * x - sine * y, cosine * y + sine * x];
+    for (let l = m; l < order; ++l) {
+      const q = out[index(l, m)];
+      out[index(l, m)] = q * cosine;
+      out[index(l, -m)] = q * sine;
+    }
+  }
+  return out;
+}
+
+/** Nodes and weights of Gauss-Legendre quadrature on [-1, 1]. */
+export function gaussLegendre(count) {
+  const nodes = new Float64Array(count);
+  const weights = new Float64Array(count);
+  for (let i = 0; i < count; ++i) {
+    let x = Math.cos((Math.PI * (i + 0.75)) / (count + 0.5));
+    let derivative = 1;
+    for (let step = 0; step < 100; ++step) {
+      let p = 1;
+      let before = 0;
+      for (let k = 1; k <= count; ++k) [p, before] = [((2 * k - 1) * x * p - (k - 1) * before) / k, p];
+      derivative = (count * (x * p - before)) / (x * x - 1);
+      const next = x - p / derivative;
+      if (Math.abs(next - x) < 1e-15) break;
+      x = next;
+    }
+    nodes[i] = x;
+    weights[i] = 2 / ((1 - x * x) * derivative * derivative);
+  }
+  return { nodes, weights };
+}
+
+/**
+ * For each band the matrix that turns coefficients about the polar axis +Y, azimuth from +Z to +X, into those about +Z:
+ * M_ij = ∫ Y_i(w) Y_j(w_z, w_x, w_y) dw, by a quadrature that is exact for it.
+ */
+function polarMatrices(order) {
+  const rings = gaussLegendre(order);
+  const azimuths = 2 * order;
+  const matrices = Array.from({ length: order }, (_, l) => new Float64Array((2 * l + 1) ** 2));
+  const direct = new Float64Array(order * order);
+  const turned = new Float64Array(order * order);
+  for (let r = 0; r < order; ++r)
+    for (let a = 0; a < azimuths; ++a) {
+      const z = rings.nodes[r];
+      const phi = (2 * Math.PI * a) / azimuths;
+      const x = Math.sqrt(1 - z * z) * Math.cos(phi);
+      const y = Math.sqrt(1 - z * z) * Math.sin(phi);
+      const weight = (rings.weights[r] * 2 * Math.PI) / azimuths;
+      evaluateSh(order, x, y, z, direct);
+      evaluateSh(order, z, x, y, turned);
+      for (let l = 0; l < order; ++l) {
+        const size = 2 * l + 1;
+        for (let i = 0; i < size; ++i)
+          for (let j = 0; j < size; ++j) matrices[l][i * size + j] += weight * direct[l * l + i] * turned[l * l + j];
+      }
+    }
+  return matrices;
+}
+
+const matricesByOrder = new Map();
+
+/**
+ * Lighting that turns about +Y: coefficients are kept about that axis, where a turn mixes m with -m alone.
+ */
+export class ShLight {
+  /** `polar`: [order²][3] about +Y, azimuth from +Z towards +X. */
+  constructor(order, polar) {
+    this.order = order;
+    this.polar = polar;
+    if (!matricesByOrder.has(order)) matricesByOrder.set(order, polarMatrices(order));
+    this.matrices = matricesByOrder.get(order);
+  }
+
+  /**
+   * RGB coefficients [order²][3] as prtkit wants them, the light turned about +Y by `angle` radians: light from +Z comes
+   * from +X after a quarter turn.
+   */
+  coefficients(angle = 0) {
+    const { order, polar } = this;
+    const turned = new Float64Array(polar);
+    for (let l = 1; l < order; ++l)
+      for (let m = 1; m <= l; ++m) {
+        const c = Math.cos(m * angle);
+        const s = Math.sin(m * angle);
+        for (let channel = 0; channel < 3; ++channel) {
+          const plus = polar[3 * index(l, m) + channel];
+          const minus = polar[3 * index(l, -m) + channel];
+          turned[3 * index(l, m) + channel] = c * plus - s * minus;
+          turned[3 * index(l, -m) + channel] = s * plus + c * minus;
+        }
+      }
+    const result = new Float64Array(3 * order * order);
+    for (let l = 0; l < order; ++l) {
+      const size = 2 * l + 1;
+      for (let i = 0; i < size; ++i)
+        for (let j = 0; j < size; ++j) {
+          const factor = this.matrices[l][i * size + j];
+          for (let channel = 0; channel < 3; ++channel)
+            result[3 * (l * l + i) + channel] += factor * turned[3 * (l * l + j) + channel];
+        }
+    }
+    return result;
+  }
+
+  /** Luminance (Rec. 709) of the mean radiance over all directions. */
+  meanLuminance() {
+    const y00 = 0.5 / Math.sqrt(Math.PI);
+    return y00 * (0.2126 * this.polar[0] + 0.7152 * this.polar[1] + 0.0722 * this.polar[2]);
+  }
+}
+
+/**
+ * Projects a lat-long image: +Y on top, its centre column looks at +Z, +X is a quarter of the width left of the centre.
+ * The image is constant over each texel, and the basis is integrated over it (docs/math.md, eq. 10).
+ *
+ * `image`: { width, height, data, stride, topFirst, value }: numbers per pixel, whether the first row is +Y, and what
+ * turns a stored number into radiance.
+ */
+export function projectLatLong(image, order) {
+  const { width, height, data, stride = 4, topFirst = true, value = (v) => v } = image;
+  if (!(order >= 1 && order <= MAX_ORDER)) throw new RangeError(`order ${order} is outside 1..${MAX_ORDER}`);
+  // ∫ cos(m phi) and sin(m phi) over the columns, whose azimuth falls from pi to -pi: [2 order - 1][width]
+  const columns = Array.from({ length: 2 * order - 1 }, () => new Float64Array(width));
+  for (let x = 0; x < width; ++x) {
+    const high = 2 * Math.PI * (0.5 - x / width);
+    const low = 2 * Math.PI * (0.5 - (x + 1) / width);
+    columns[0][x] = high - low;
+    for (let m = 1; m < order; ++m) {
+      columns[2 * m - 1][x] = (Math.sin(m * high) - Math.sin(m * low)) / m;
+      columns[2 * m][x] = (Math.cos(m * low) - Math.cos(m * high)) / m;
+    }
+  }
+  // Trigonometric polynomials of degree order + 1: in small rows four nodes integrate them to rounding.
+  const nodes = gaussLegendre(height < 32 ? 20 : 4);
+  const polar = new Float64Array(3 * order * order);
+  const q = new Float64Array(order * order);
+  const rowIntegral = new Float64Array(order * order);
+  const pixels = new Float64Array(3 * width);
+  const step = Math.PI / height;
+  for (let y = 0; y < height; ++y) {
+    // ∫ Q_l^m sin^(m+1) over the row
+    rowIntegral.fill(0);
+    for (let k = 0; k < nodes.nodes.length; ++k) {
+      const theta = (y + 0.5 + 0.5 * nodes.nodes[k]) * step;
+      const sine = Math.sin(theta);
+      legendre(order, Math.cos(theta), q);
+      for (let m = 0; m < order; ++m) {
+        const weight = 0.5 * step * nodes.weights[k] * sine ** (m + 1);
+        for (let l = m; l < order; ++l) rowIntegral[index(l, m)] += weight * q[index(l, m)];
+      }
+    }
+    const start = (topFirst ? y : height - 1 - y) * width * stride;
+    for (let x = 0; x < width; ++x)
+      for (let channel = 0; channel < 3; ++channel) pixels[3 * x + channel] = value(data[start + x * stride + channel]);
+    for (let c = 0; c < 2 * order - 1; ++c) {
+      const column = columns[c];
+      let red = 0;
+      let green = 0;
+      let blue = 0;
+      for (let x = 0; x < width; ++x) {
+        red += column[x] * pixels[3 * x];
+        green += column[x] * pixels[3 * x + 1];
+        blue += column[x] * pixels[3 * x + 2];
+      }
+      const m = (c + 1) >> 1;
+      const sign = c % 2 === 1 || c === 0 ? 1 : -1;
+      for (let l = m; l < order; ++l) {
+        const row = rowIntegral[index(l, m)];
+        const at = 3 * index(l, sign * m);
+        polar[at] += row * red;
+        polar[at + 1] += row * green;
+        polar[at + 2] += row * blue;
+      }
+    }
+  }
+  return new ShLight(order, polar);
+}

@@ -1,0 +1,92 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { clusterTable, decodeClusters, formConstants, shaderRows } from "../src/clusteredPca.js";
+
+/** Numbers of given widths as bytes, lowest bit first. */
+function bits(values) {
+  const bytes = [];
+  let position = 0;
+  for (const [value, width] of values)
+    for (let b = 0; b < width; ++b, ++position) {
+      if (position % 8 === 0) bytes.push(0);
+      if ((value >> b) & 1) bytes[bytes.length - 1] |= 1 << (position % 8);
+    }
+  return new Uint8Array(bytes);
+}
+const bytesOf = (...values) => new Uint8Array(new Float32Array(values).buffer);
+
+/** Two clusters of order 1: mean 2 with directions 0.5 and 0.25, mean 3 with none. Widths 3 and 5. */
+const plain = {
+  version: 2,
+  order: 1,
+  channels: 1,
+  components: [2, 0],
+  bases: { bufferView: 0, componentType: 5126 },
+  packing: { clusterBits: 1, bufferView: 1 },
+};
+const plainViews = [bytesOf(2, 0.5, 0.25, 3), bits([[2, 4], [4, 4]])];
+
+test("plain bases are read as they are", () => {
+  const clusters = decodeClusters(plain, (i) => plainViews[i]);
+  assert.deepEqual([...clusters.rows], [2, 0.5, 0.25, 3]);
+  assert.deepEqual(clusters.firstRows, [0, 3]);
+  assert.deepEqual(clusters.widths, [[3, 5], []]);
+  assert.deepEqual([...clusterTable(clusters)], [0, 2, 2 | (4 << 4), 0, 3, 0, 0, 0]);
+});
+
+test("the shader's rows times integers are the rows times weights", () => {
+  const clusters = decodeClusters(plain, (i) => plainViews[i]);
+  const constants = formConstants(clusters, shaderRows(clusters), [10, 20, 30], new Float32Array(16));
+  for (const [q0, q1] of [[0, 0], [7, 31], [3, 17]]) {
+    const w0 = (2 * q0 - 7) / 7;
+    const w1 = (2 * q1 - 31) / 31;
+    [10, 20, 30].forEach((light, channel) => {
+      const shader = constants[channel] + q0 * constants[4 + channel] + q1 * constants[8 + channel];
+      assert.ok(Math.abs(shader - light * (2 + 0.5 * w0 + 0.25 * w1)) < 1e-4);
+    });
+  }
+  assert.equal(constants[12], 30); // the second cluster
+});
+
+test("coded bases are sums over axes", () => {
+  // One axis (3, -1) of three channels and order 1 would be dimension 3; here dimension 3, two axes.
+  const extension = {
+    version: 2,
+    order: 1,
+    channels: 3,
+    components: [1],
+    bases: {
+      origin: { bufferView: 0, componentType: 5126 },
+      scales: { bufferView: 1, componentType: 5126 },
+      step: 0.5,
+      axes: { bufferView: 2, drops: [0, 0, 1] },
+      values: { bufferView: 3, drops: [0, 2] },
+    },
+  };
+  const views = [
+    bytesOf(1, 2, 3),
+    bytesOf(2, 4),
+    // axis 0 in level 4: 3, -1, 2 (the last in three bits); axis 1 in level 3: -4, 0, -1
+    bits([[4, 4], [3, 4], [15, 4], [2, 3], [3, 4], [4, 3], [0, 3], [3, 2]]),
+    // the mean: level 5: -16, 3; the direction: level 2: 1, nothing left for the second
+    bits([[5, 4], [16, 5], [3, 3], [2, 4], [1, 2]]),
+  ];
+  const { rows } = decodeClusters(extension, (i) => views[i]);
+  const axes = [[3, -1, 2], [-4, 0, -1]];
+  for (let a = 0; a < 3; ++a) {
+    assert.equal(rows[a], [1, 2, 3][a] + 0.5 * (2 * -16 * axes[0][a] + 4 * 3 * axes[1][a]));
+    assert.equal(rows[3 + a], 2 * 0.5 * (2 * 1 * axes[0][a]));
+  }
+});
+
+test("three channels meet three colours", () => {
+  const clusters = { order: 1, channels: 3, rowCount: 1 };
+  assert.deepEqual([...formConstants(clusters, [1, 2, 3], [10, 20, 30], new Float32Array(4))], [10, 40, 90, 0]);
+});
+
+test("files that are damaged or of another version are refused with a reason", () => {
+  assert.throws(() => decodeClusters({ ...plain, version: 1 }, (i) => plainViews[i]), /version 1/);
+  assert.throws(() => decodeClusters({ ...plain, order: 11 }, (i) => plainViews[i]), /order/);
+  assert.throws(() => decodeClusters({ ...plain, components: [3, 0] }, (i) => plainViews[i]), /size/);
+  assert.throws(() => decodeClusters(plain, (i) => [plainViews[0], new Uint8Array(0)][i]), /end too early/);
+});

@@ -1,0 +1,115 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { evaluateSh, gaussLegendre, projectLatLong, ShLight } from "../src/sphericalHarmonics.js";
+
+const near = (actual, expected, tolerance, what = "") =>
+  assert.ok(Math.abs(actual - expected) <= tolerance, `${what} ${actual} is not within ${tolerance} of ${expected}`);
+
+/** Calls `sum` with directions and weights of a quadrature over the sphere that is exact for degree 2 n - 1. */
+function overSphere(n, sum) {
+  const { nodes, weights } = gaussLegendre(n);
+  for (let r = 0; r < n; ++r)
+    for (let a = 0; a < 2 * n; ++a) {
+      const phi = (Math.PI * (a + 0.5)) / n;
+      const s = Math.sqrt(1 - nodes[r] ** 2);
+      sum([s * Math.cos(phi), s * Math.sin(phi), nodes[r]], (weights[r] * Math.PI) / n);
+    }
+}
+
+/** A lat-long image of `radiance(direction)`, taken at the centres of texels. */
+function imageOf(width, height, radiance) {
+  const data = new Float32Array(4 * width * height);
+  for (let y = 0; y < height; ++y)
+    for (let x = 0; x < width; ++x) {
+      const phi = 2 * Math.PI * (0.5 - (x + 0.5) / width);
+      const theta = (Math.PI * (y + 0.5)) / height;
+      const d = [Math.sin(theta) * Math.sin(phi), Math.cos(theta), Math.sin(theta) * Math.cos(phi)];
+      data.set([...radiance(d), 1], 4 * (y * width + x));
+    }
+  return { width, height, data };
+}
+
+test("the first functions are those of the convention", () => {
+  const d = [0.36, -0.48, 0.8];
+  const y = evaluateSh(3, ...d);
+  near(y[0], 0.282094791774, 1e-9);
+  near(y[1], -0.488602511903 * d[1], 1e-9);
+  near(y[2], 0.488602511903 * d[2], 1e-9);
+  near(y[3], -0.488602511903 * d[0], 1e-9);
+  near(y[4], 1.092548430592 * d[0] * d[1], 1e-9);
+  near(y[6], 0.315391565253 * (3 * d[2] ** 2 - 1), 1e-9);
+  near(y[8], 0.546274215296 * (d[0] ** 2 - d[1] ** 2), 1e-9);
+});
+
+test("the basis is orthonormal in every order", () => {
+  const order = 10;
+  const products = new Float64Array(order ** 4);
+  overSphere(order, (d, weight) => {
+    const y = evaluateSh(order, ...d);
+    for (let i = 0; i < y.length; ++i) for (let j = 0; j < y.length; ++j) products[i * y.length + j] += weight * y[i] * y[j];
+  });
+  for (let i = 0; i < 100; ++i) for (let j = 0; j < 100; ++j) near(products[100 * i + j], i === j ? 1 : 0, 1e-12);
+});
+
+test("an image of one pixel is a constant light", () => {
+  const light = projectLatLong({ width: 1, height: 1, data: [3, 2, 1, 1] }, 6);
+  const c = light.coefficients();
+  near(c[0], 3 * Math.sqrt(4 * Math.PI), 1e-5);
+  for (let i = 3; i < c.length; ++i) near(c[i], 0, 1e-6);
+  near(light.meanLuminance(), 3 * 0.2126 + 2 * 0.7152 + 0.0722, 1e-6);
+});
+
+test("light from a direction comes from that direction", () => {
+  // Linear in x, y and z: bands 0 and 1 alone, in closed form.
+  const light = projectLatLong(
+    imageOf(256, 128, ([x, y, z]) => [1 + x, 1 + y, 1 + z]),
+    4,
+  );
+  const c = light.coefficients();
+  const first = Math.sqrt((4 * Math.PI) / 3);
+  // Y_1-1 ~ -y, Y_10 ~ z, Y_11 ~ -x; texels of 1.4 degrees.
+  near(c[3 * 3], -first, 1e-3, "x");
+  near(c[3 * 1 + 1], -first, 1e-3, "y");
+  near(c[3 * 2 + 2], first, 1e-3, "z");
+  near(c[3 * 1], 0, 1e-6);
+  near(c[3 * 2 + 1], 0, 1e-6);
+  for (let i = 12; i < c.length; ++i) near(c[i], 0, 1e-3);
+});
+
+test("a turned light is the light of the turned image", () => {
+  const sky = ([x, y, z]) => [Math.exp(2 * x - y), Math.exp(z + 0.5 * x * y), Math.max(0, y)];
+  const angle = 1.234;
+  const [c, s] = [Math.cos(angle), Math.sin(angle)];
+  const turned = projectLatLong(imageOf(512, 256, sky), 8).coefficients(angle);
+  // f'(w) = f(R^-1 w)
+  const expected = projectLatLong(
+    imageOf(512, 256, ([x, y, z]) => sky([c * x - s * z, y, s * x + c * z])),
+    8,
+  ).coefficients();
+  expected.forEach((value, i) => near(turned[i], value, 2e-3, `coefficient ${i}`));
+});
+
+test("a quarter turn brings light from +Z to +X", () => {
+  const light = projectLatLong(imageOf(64, 32, ([, , z]) => [z > 0.9 ? 1 : 0, 0, 0]), 3);
+  const c = light.coefficients(Math.PI / 2);
+  assert.ok(-c[9] > 0.1, "light from +X");
+  near(c[6], 0, 1e-6);
+});
+
+test("rows may come from below", () => {
+  const image = imageOf(16, 8, ([x, y]) => [1 + y, x + 2, 0.5]);
+  const flipped = new Float32Array(image.data.length);
+  for (let y = 0; y < 8; ++y) flipped.set(image.data.subarray(64 * y, 64 * (y + 1)), 64 * (7 - y));
+  assert.deepEqual(projectLatLong({ ...image, data: flipped, topFirst: false }, 4).polar, projectLatLong(image, 4).polar);
+});
+
+test("orders outside 1..10 are refused", () => {
+  for (const order of [0, 11, NaN]) assert.throws(() => projectLatLong(imageOf(2, 1, () => [1, 1, 1]), order), RangeError);
+});
+
+test("coefficients do not change the light", () => {
+  const light = new ShLight(2, Float64Array.from({ length: 12 }, (_, i) => i));
+  const before = [...light.polar];
+  light.coefficients(1);
+  assert.deepEqual([...light.polar], before);
+});

@@ -1,0 +1,79 @@
+// Makes the page's models with prt: public/models/ and public/skies/. Scenes and sky are the example ones; more with
+//   npm run models -- scene.glb sky.hdr
+// prt and example_scenes are those of build/release (./demo.sh builds them), or in PRT and PRT_EXAMPLE_SCENES.
+import { execFileSync } from "node:child_process";
+import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
+import { basename, extname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+const root = fileURLToPath(new URL("../../../", import.meta.url));
+const web = fileURLToPath(new URL("../", import.meta.url));
+const prt = process.env.PRT ?? join(root, "build/release/cli/prt");
+const exampleScenes = process.env.PRT_EXAMPLE_SCENES ?? join(root, "build/release/examples/scenes/example_scenes");
+const rays = process.env.PRT_RAYS ?? "1024";
+const extra = process.argv.slice(2);
+const manifest = join(web, "public/models/models.json");
+
+if (existsSync(manifest) && extra.length === 0) process.exit(0); // made before
+for (const program of [prt, exampleScenes])
+  if (!existsSync(program)) {
+    console.error(`make-models: error: ${program}: is not there; run ./demo.sh, or say where with PRT and PRT_EXAMPLE_SCENES`);
+    process.exit(1);
+  }
+
+const run = (program, ...options) => execFileSync(program, options, { stdio: ["ignore", "ignore", "inherit"] });
+const work = join(web, "node_modules/.prtkit");
+mkdirSync(work, { recursive: true });
+mkdirSync(join(web, "public/models"), { recursive: true });
+mkdirSync(join(web, "public/skies"), { recursive: true });
+run(exampleScenes, work);
+
+const levels = [
+  { name: "u32", title: "one 32-bit word", options: ["--preset", "u32"] },
+  { name: "u64", title: "two 32-bit words", options: ["--preset", "u64"] },
+  { name: "snorm16", title: "16 components of 16 bits", options: ["--weights", "16", "--clusters", "64", "--components", "16"] },
+];
+const cameras = {
+  room: { position: [1.2, 1.9, 4.2], target: [0, 1.8, -5], fieldOfView: 45 },
+  tree: { position: [1.5, 1.7, 5.5], target: [0, 1.9, 0] },
+  terrain: { position: [1, 4.5, 11], target: [0, 2.6, 0] },
+};
+const scenes = ["knot", "room", "tree", "terrain"].map((name) => ({ name, file: join(work, `${name}.glb`) }));
+const skies = [{ title: "clear day", file: join(work, "sky.exr") }];
+for (const path of extra) {
+  const title = basename(path, extname(path));
+  if ([".glb", ".gltf"].includes(extname(path))) scenes.push({ name: title, file: path });
+  else skies.push({ title, file: path });
+}
+
+const models = scenes.map(({ name, file }) => {
+  console.log(`baking ${name}`);
+  const baked = join(work, `${name}.baked.glb`);
+  run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", rays);
+  return {
+    name,
+    title: name,
+    camera: cameras[name],
+    levels: levels.map((level) => {
+      const shipped = `models/${name}.${level.name}.glb`;
+      const json = join(work, "compress.json");
+      run(prt, "compress", baked, "-o", join(web, "public", shipped), "--meshopt", "--json", json, ...level.options);
+      const figures = JSON.parse(readFileSync(json, "utf8"));
+      return {
+        title: level.title,
+        file: shipped,
+        fileBytes: statSync(join(web, "public", shipped)).size,
+        bytesPerVertexWithBases: figures.bytes_per_vertex_with_bases,
+        litRms: figures.lit_rms,
+      };
+    }),
+  };
+});
+const skyEntries = skies.map(({ title, file }) => {
+  const to = `skies/${basename(file)}`;
+  copyFileSync(file, join(web, "public", to));
+  return { title, file: to };
+});
+writeFileSync(manifest, JSON.stringify({ models, skies: skyEntries }, null, 2));
+rmSync(work, { recursive: true });
+console.log("public/models and public/skies are there");
