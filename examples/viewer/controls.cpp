@@ -23,7 +23,7 @@ PictureKind next(PictureKind kind) {
 
 } // namespace
 
-const std::array<KeyHelp, 17> kKeys = {{
+const std::array<KeyHelp, 18> kKeys = {{
     {'1', "left picture: the next"},
     {'2', "right picture: the next"},
     {'X', "swap left and right"},
@@ -40,6 +40,7 @@ const std::array<KeyHelp, 17> kKeys = {{
     {'[', "darker"},
     {']', "brighter"},
     {'P', "screenshot"},
+    {'Q', "quit"},
     {'H', "this help; Tab hides the panels"},
 }};
 
@@ -163,6 +164,10 @@ bool Controls::key(char key) {
     case 'P':
         if (screenshot)
             screenshot();
+        return true;
+    case 'Q':
+        if (quit)
+            quit();
         return true;
     case 'H':
         s.help = !s.help;

@@ -5,7 +5,7 @@
 #include "viewer.h"
 
 #include <array>
-#include <string>
+#include <functional>
 
 namespace viewer {
 
@@ -20,9 +20,9 @@ public:
     void move(const glm::vec2& pixel);
     void release() { drag_ = Drag::nothing; }
     void scroll(float notches) { viewer_.camera.zoom(notches); }
-    /// False for a key that means nothing. `screenshot` is called by its key.
+    /// False for a key that means nothing.
     bool key(char key);
-    std::function<void()> screenshot;
+    std::function<void()> screenshot, quit; ///< called by their keys
 
     /// The light under the pointer or being dragged, -1: none.
     int light_at(const glm::vec2& pixel) const;
@@ -44,6 +44,6 @@ struct KeyHelp {
     const char* what;
 };
 /// Every key and what it does.
-extern const std::array<KeyHelp, 17> kKeys;
+extern const std::array<KeyHelp, 18> kKeys;
 
 } // namespace viewer

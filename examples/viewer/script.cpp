@@ -93,6 +93,7 @@ RigLight light_of(const Json& json) {
 
 Json figures_json(const Figures& f) {
     return {{"frame_milliseconds", f.frame_milliseconds},
+            {"longest_frame_milliseconds", f.longest_milliseconds},
             {"gpu_milliseconds", f.gpu_milliseconds},
             {"vertex_milliseconds", f.vertex_milliseconds},
             {"constants_milliseconds", f.constants_milliseconds},
@@ -267,6 +268,16 @@ private:
                      throw prt::Error(fmt::format("there is no key '{}'", key));
          }},
         {"hover", [this](const Json& json) { viewer_->hover(vec2(json)); }},
+        {"spin",
+         [this](const Json& json) {
+             // The light turns by a degree a frame.
+             viewer_->forget_longest();
+             for (int i = 0; i < json.get<int>(); ++i) {
+                 viewer_->lights.rotation = glm::radians(static_cast<float>(i % 360));
+                 draw();
+                 glFinish();
+             }
+         }},
         {"draw",
          [this](const Json& json) {
              for (int i = 0; i < json.get<int>(); ++i)

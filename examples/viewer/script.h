@@ -13,7 +13,8 @@ namespace viewer {
 ///     {"rotate": degrees}, {"light": {"kind": "sun", "direction": [x, y, z], ...}}, {"compress": {"order":
 ///     6, ...}},
 ///     {"press": ["left", x, y]}, {"move": [x, y]}, {"release": []}, {"scroll": notches}, {"keys": "DW"},
-///     {"hover": [x, y]}, {"draw": frames}, {"lose_context": []}, {"screenshot": "file.png"}, {"figures":
+///     {"hover": [x, y]}, {"draw": frames}, {"spin": frames},
+///     {"lose_context": []}, {"screenshot": "file.png"}, {"figures":
 ///     "file.json"}.
 /// Files are relative to the script. Throws `prt::Error` for a script that is wrong, and where a message for
 /// the user comes up that no step {"expect_message": "part of it"} waits for.

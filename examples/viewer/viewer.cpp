@@ -379,7 +379,9 @@ Viewer::Shown Viewer::shown(PictureKind wanted) const {
 void Viewer::draw(std::uint32_t framebuffer, int width, int height) {
     width_ = width;
     height_ = height;
-    figures_.frame_milliseconds += 0.1 * (1e3 * since_frame_.seconds() - figures_.frame_milliseconds);
+    const double milliseconds = 1e3 * since_frame_.seconds();
+    figures_.frame_milliseconds += 0.1 * (milliseconds - figures_.frame_milliseconds);
+    figures_.longest_milliseconds = std::max(figures_.longest_milliseconds, milliseconds);
     since_frame_ = {};
     gpu_->renderer.resize(width, height, settings.samples);
     follow_light();

@@ -26,6 +26,7 @@ namespace viewer {
 /// What the panel and scripts report.
 struct Figures {
     double frame_milliseconds = 0;     ///< mean of the last frames, from one to the next
+    double longest_milliseconds = 0;   ///< between two frames, since `forget_longest`
     double gpu_milliseconds = 0;       ///< of a frame
     double vertex_milliseconds = 0;    ///< of the vertex stage of the right picture alone
     double constants_milliseconds = 0; ///< forming and uploading, when the light changes
@@ -74,6 +75,7 @@ public:
     void hover(std::optional<glm::vec2> pixel) { pointer_ = pixel; }
 
     const Figures& figures() const { return figures_; }
+    void forget_longest() { figures_.longest_milliseconds = 0; }
     const std::optional<Hovered>& hovered() const { return hovered_; }
     bool busy() const { return work_.busy(); }
     std::string stage() const { return work_.stage(); }

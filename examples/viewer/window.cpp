@@ -41,6 +41,7 @@ public:
         viewer_ = std::make_unique<Viewer>();
         controls_ = std::make_unique<Controls>(*viewer_);
         controls_->screenshot = [this] { wants_screenshot_ = true; };
+        controls_->quit = [this] { glfwSetWindowShouldClose(window_.get(), GLFW_TRUE); };
         interface_ = std::make_unique<UserInterface>(window_.get());
         viewer_->open(files);
     }
