@@ -27,7 +27,12 @@ road tree 3 u64 --camera 1.5,1.7,5.5 --look-at 0,1.9,0
 road terrain 0 u64 --camera 1,4.5,11 --look-at 0,2.6,0
 $prt render out/knot.shipped.glb --env "$sky" --show clusters -o out/knot.clusters.png
 $prt render out/knot.shipped.glb --env "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png
+viewer=build/release/examples/viewer/prt-viewer
+cp examples/viewer/tour.json out/
+$viewer out/room.baked.glb out/room.shipped.glb out/scenes/sky.exr --headless out/tour.json
+rm out/tour.json
 echo
 $prt bench out/scenes/knot.glb --to 256 --most-seconds 2 --html out/bench.html
 echo
 echo "Pictures and reports are in out/: open out/*.png and out/*.html"
+echo "To look at them yourself: $viewer out/room.baked.glb out/room.shipped.glb out/scenes/sky.exr"

@@ -11,4 +11,13 @@ cmake --build --preset sanitize
 ctest --preset sanitize
 cmake --preset dev >/dev/null
 cmake --build --preset dev
+# The web page: units, types, and its pictures in Chromium against those of prt.
+web=(npm --silent --prefix examples/web)
+"${web[@]}" ci --no-audit --no-fund
+"${web[@]}" test
+export PRT=$PWD/build/dev/cli/prt PRT_EXAMPLE_SCENES=$PWD/build/dev/examples/scenes/example_scenes
+export PRTKIT_WEB=$PWD/build/web PRT_RAYS=64 PRT_SCENES=knot,tree
+rm -rf "$PRTKIT_WEB"
+"${web[@]}" run build
+node examples/web/test/e2e.mjs
 ctest --preset dev

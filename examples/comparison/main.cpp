@@ -49,11 +49,13 @@ int main(int argc, char** argv) {
     CLI::App app("Measures unshadowed light, SSAO, baked AO and PRT against path tracing.", "prt-comparison");
     std::vector<std::filesystem::path> scenes, skies;
     std::filesystem::path output, json, images;
+    std::string note;
     comparison::Options options;
     app.add_option("scenes", scenes, "glTF scenes")->required();
     app.add_option("--sky", skies, "environment maps; pictures are under the first")->required();
     app.add_option("-o,--output", output, "the page, Markdown")->required();
     app.add_option("--images", images, "folder for its pictures, beside the page")->required();
+    app.add_option("--note", note, "last line of the page: where scenes and skies are from");
     app.add_option("--json", json, "all figures");
     app.add_option("--passes", options.passes, "paths per pixel of each reference")
         ->check(CLI::Range(1, 1 << 16))
@@ -84,11 +86,9 @@ int main(int argc, char** argv) {
                     std::fflush(stdout);
                 }));
         comparison::write_pictures(results, options, images);
-        write(output,
-              comparison::report(
-                  results, loaded, options,
-                  std::filesystem::relative(images, output.parent_path().empty() ? "." : output.parent_path())
-                      .generic_string()));
+        const std::filesystem::path page_folder = output.parent_path().empty() ? "." : output.parent_path();
+        const std::string images_from_page = std::filesystem::relative(images, page_folder).generic_string();
+        write(output, comparison::report(results, loaded, options, images_from_page, note));
         if (!json.empty())
             write(json, json_of(results, loaded).dump(2) + "\n");
         return 0;

@@ -6,9 +6,10 @@
 
 namespace comparison {
 
-/// Markdown with tables and pictures. `images`: where the pictures are, as the page refers to them.
+/// Markdown with tables and pictures. `images`: where the pictures are, as the page refers to them. `note`: a
+/// last line.
 std::string report(const std::vector<SceneResult>& scenes, const std::vector<Sky>& skies,
-                   const Options& options, const std::string& images);
+                   const Options& options, const std::string& images, const std::string& note);
 
 /// For each scene a PNG into `folder`: reference and methods side by side, and below each its error as heat.
 void write_pictures(const std::vector<SceneResult>& scenes, const Options& options,

@@ -103,7 +103,7 @@ void LightRig::set(const LightSettings& settings) {
     if (settings == settings_ && !day_.lat_long.pixels.empty())
         return;
     const bool another_day = settings.time != settings_.time || day_.lat_long.pixels.empty();
-    if (another_day || settings.day != settings_.day)
+    if (another_day || settings.day != settings_.day || settings.environment_on != settings_.environment_on)
         ++background_version_;
     settings_ = settings;
     ++version_;

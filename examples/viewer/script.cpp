@@ -222,7 +222,11 @@ private:
                  const int passes = json.at("reference").get<int>();
                  wait([&] { return viewer_->figures().reference_passes >= passes; }, "the reference");
              } else {
-                 wait([&] { return !viewer_->busy(); }, "work in the background");
+                 const bool numbers = json.get<std::string>() == "numbers";
+                 if (!numbers && json.get<std::string>() != "work")
+                     throw prt::Error("what to wait for is work, numbers or a reference");
+                 wait([&] { return !(numbers ? viewer_->finding_numbers() : viewer_->busy()); },
+                      "work in the background");
              }
          }},
         {"set", [this](const Json& json) { apply(json, viewer_->settings); }},

@@ -78,6 +78,7 @@ public:
     void forget_longest() { figures_.longest_milliseconds = 0; }
     const std::optional<Hovered>& hovered() const { return hovered_; }
     bool busy() const { return work_.busy(); }
+    bool finding_numbers() const { return numbers_work_.busy(); }
     std::string stage() const { return work_.stage(); }
     double share() const { return work_.share(); }
     /// Newest last; shown until they are dismissed.

@@ -114,6 +114,12 @@ TEST(LightRig, CountsItsChanges) {
     settings.time.hour += 1;
     rig.set(settings);
     EXPECT_GT(rig.background_version(), background);
+    EXPECT_TRUE(rig.background());
+    settings.day = settings.environment_on = false;
+    const auto day = rig.background_version();
+    rig.set(settings);
+    EXPECT_GT(rig.background_version(), day);
+    EXPECT_FALSE(rig.background());
 }
 
 } // namespace

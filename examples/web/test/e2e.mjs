@@ -9,6 +9,7 @@ import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { preview } from "vite";
+import { distFolder } from "../tools/folders.mjs";
 
 const web = fileURLToPath(new URL("../", import.meta.url));
 const prt = process.env.PRT ?? join(web, "../../build/release/cli/prt");
@@ -87,13 +88,13 @@ const difference = (page, a, b) =>
 
 function render(file, angle, { position, target, fieldOfView }) {
   const output = join(work, "reference.png");
-  execFileSync(prt, ["render", join(web, "dist", file), "--env", join(web, "dist/skies/sky.exr"), "-o", output,
+  execFileSync(prt, ["render", join(distFolder, file), "--env", join(distFolder, "skies/sky.exr"), "-o", output,
     "--rotate", String(angle), "--size", `${width}x${height}`, "--samples", "3", "--camera", position.join(","),
     "--look-at", target.join(","), "--fov", String(fieldOfView)], { stdio: "ignore" });
   return dataUrl(output);
 }
 
-const { models } = JSON.parse(readFileSync(join(web, "dist/models/models.json"), "utf8"));
+const { models } = JSON.parse(readFileSync(join(distFolder, "models/models.json"), "utf8"));
 const camera = { position: [3.2, 2.6, 6.4], target: [0, 0.4, 0], fieldOfView: 35 };
 const query = (view) => ({
   camera: view.position.join(","),

@@ -1,18 +1,19 @@
 // Makes the page's models with prt: public/models/ and public/skies/. Scenes and sky are the example ones; more with
 //   npm run models -- scene.glb sky.hdr
+// PRT_RAYS and PRT_SCENES (knot,tree) make less of them, for tests.
 // prt and example_scenes are those of build/release (./demo.sh builds them), or in PRT and PRT_EXAMPLE_SCENES.
 import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { basename, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
+import { publicFolder } from "./folders.mjs";
 
 const root = fileURLToPath(new URL("../../../", import.meta.url));
-const web = fileURLToPath(new URL("../", import.meta.url));
 const prt = process.env.PRT ?? join(root, "build/release/cli/prt");
 const exampleScenes = process.env.PRT_EXAMPLE_SCENES ?? join(root, "build/release/examples/scenes/example_scenes");
 const rays = process.env.PRT_RAYS ?? "1024";
 const extra = process.argv.slice(2);
-const manifest = join(web, "public/models/models.json");
+const manifest = join(publicFolder, "models/models.json");
 
 if (existsSync(manifest) && extra.length === 0) process.exit(0); // made before
 for (const program of [prt, exampleScenes])
@@ -22,10 +23,10 @@ for (const program of [prt, exampleScenes])
   }
 
 const run = (program, ...options) => execFileSync(program, options, { stdio: ["ignore", "ignore", "inherit"] });
-const work = join(web, "node_modules/.prtkit");
+const work = join(publicFolder, "work");
 mkdirSync(work, { recursive: true });
-mkdirSync(join(web, "public/models"), { recursive: true });
-mkdirSync(join(web, "public/skies"), { recursive: true });
+mkdirSync(join(publicFolder, "models"), { recursive: true });
+mkdirSync(join(publicFolder, "skies"), { recursive: true });
 run(exampleScenes, work);
 
 const levels = [
@@ -38,7 +39,7 @@ const cameras = {
   tree: { position: [1.5, 1.7, 5.5], target: [0, 1.9, 0] },
   terrain: { position: [1, 4.5, 11], target: [0, 2.6, 0] },
 };
-const scenes = ["knot", "room", "tree", "terrain"].map((name) => ({ name, file: join(work, `${name}.glb`) }));
+const scenes = (process.env.PRT_SCENES?.split(",") ?? ["knot", "room", "tree", "terrain"]).map((name) => ({ name, file: join(work, `${name}.glb`) }));
 const skies = [{ title: "clear day", file: join(work, "sky.exr") }];
 for (const path of extra) {
   const title = basename(path, extname(path));
@@ -57,12 +58,12 @@ const models = scenes.map(({ name, file }) => {
     levels: levels.map((level) => {
       const shipped = `models/${name}.${level.name}.glb`;
       const json = join(work, "compress.json");
-      run(prt, "compress", baked, "-o", join(web, "public", shipped), "--meshopt", "--json", json, ...level.options);
+      run(prt, "compress", baked, "-o", join(publicFolder, shipped), "--meshopt", "--json", json, ...level.options);
       const figures = JSON.parse(readFileSync(json, "utf8"));
       return {
         title: level.title,
         file: shipped,
-        fileBytes: statSync(join(web, "public", shipped)).size,
+        fileBytes: statSync(join(publicFolder, shipped)).size,
         bytesPerVertexWithBases: figures.bytes_per_vertex_with_bases,
         litRms: figures.lit_rms,
       };
@@ -71,9 +72,9 @@ const models = scenes.map(({ name, file }) => {
 });
 const skyEntries = skies.map(({ title, file }) => {
   const to = `skies/${basename(file)}`;
-  copyFileSync(file, join(web, "public", to));
+  copyFileSync(file, join(publicFolder, to));
   return { title, file: to };
 });
 writeFileSync(manifest, JSON.stringify({ models, skies: skyEntries }, null, 2));
 rmSync(work, { recursive: true });
-console.log("public/models and public/skies are there");
+console.log(`${publicFolder}: models and skies are there`);
