@@ -96,15 +96,17 @@ bool add_transfer(LoadedModel& loaded, LoadedModel other) {
 } // namespace
 
 void Viewer::open(const std::vector<std::filesystem::path>& paths) {
-    std::vector<std::filesystem::path> models;
+    std::vector<std::filesystem::path> models, environments;
     for (const std::filesystem::path& path : paths) {
         if (is_model(path))
             models.push_back(path);
         else if (is_environment(path))
-            open_environment(path);
+            environments.push_back(path);
         else
             message(path.string() + ": is neither a model (.glb, .gltf) nor an environment map (.hdr, .exr)");
     }
+    if (!environments.empty())
+        open_environments(environments);
     if (!models.empty())
         open_models(models);
 }
@@ -135,14 +137,27 @@ void Viewer::open_models(const std::vector<std::filesystem::path>& paths) {
         });
 }
 
-void Viewer::open_environment(const std::filesystem::path& path) {
+void Viewer::open_environments(const std::vector<std::filesystem::path>& paths) {
+    // Those that were still being read are read again.
+    environments_to_read_.insert(environments_to_read_.end(), paths.begin(), paths.end());
     environment_work_.start(
-        [this, path](BackgroundWork::Channel& channel) {
-            auto environment = std::make_shared<const LoadedEnvironment>(load_environment(path.string()));
-            channel.post([this, environment] {
-                environments_.push_back(environment);
-                use_environment(environments_.size() - 1);
-            });
+        [this, all = environments_to_read_](BackgroundWork::Channel& channel) {
+            for (const std::filesystem::path& path : all) {
+                std::shared_ptr<const LoadedEnvironment> environment;
+                std::string why;
+                try {
+                    environment = std::make_shared<const LoadedEnvironment>(load_environment(path.string()));
+                } catch (const prt::Error& error) {
+                    why = error.what(); // the others are read all the same
+                }
+                channel.post([this, path, environment, why] {
+                    std::erase(environments_to_read_, path);
+                    if (!environment)
+                        return message(why);
+                    environments_.push_back(environment);
+                    use_environment(environments_.size() - 1);
+                });
+            }
         },
         [this](const std::string& why) { message(why); });
 }

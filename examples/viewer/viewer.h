@@ -77,7 +77,8 @@ public:
     const Figures& figures() const { return figures_; }
     void forget_longest() { figures_.longest_milliseconds = 0; }
     const std::optional<Hovered>& hovered() const { return hovered_; }
-    bool busy() const { return work_.busy(); }
+    /// Files are read, or the model is baked or compressed.
+    bool busy() const { return work_.busy() || environment_work_.busy(); }
     bool finding_numbers() const { return numbers_work_.busy(); }
     std::string stage() const { return work_.stage(); }
     double share() const { return work_.share(); }
@@ -117,7 +118,7 @@ private:
         prt::GlObject colored_program;
     };
     void open_models(const std::vector<std::filesystem::path>& paths);
-    void open_environment(const std::filesystem::path& path);
+    void open_environments(const std::vector<std::filesystem::path>& paths);
     void take(const LoadedModel& loaded);
     void set_raw(std::shared_ptr<const prt::Transfer> transfer);
     void set_compressed(std::shared_ptr<const prt::ClusteredTransfer> transfer,
@@ -141,6 +142,7 @@ private:
     std::unique_ptr<Gpu> gpu_;
     LightRig rig_;
     std::vector<std::shared_ptr<const LoadedEnvironment>> environments_;
+    std::vector<std::filesystem::path> environments_to_read_;
     std::shared_ptr<const Model> model_;
     std::shared_ptr<const prt::Transfer> raw_;
     std::shared_ptr<const prt::ClusteredTransfer> compressed_;

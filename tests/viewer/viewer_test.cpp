@@ -223,6 +223,23 @@ TEST_F(ViewerTest, TakesEnvironments) {
     EXPECT_NEAR(image.at(kWidth / 2, kHeight - 4).r, 1, 0.3f);
 }
 
+TEST_F(ViewerTest, ListsEveryEnvironmentThatItIsGiven) {
+    std::vector<std::filesystem::path> paths;
+    for (const char* name : {"a.exr", "b.exr", "c.exr"}) {
+        paths.push_back(folder / name);
+        prt::write_exr(paths.back(), {4, 2, std::vector<glm::vec3>(8, glm::vec3(1))},
+                       prt::EnvironmentLayout::lat_long);
+    }
+    paths.insert(paths.begin() + 1, folder / "missing.exr");
+    viewer->open(paths);
+    viewer->open({paths[0]}); // before the others are read
+    frames_until([&] { return !viewer->busy(); });
+    EXPECT_EQ(viewer->environments().size(), 4u);
+    EXPECT_EQ(viewer->messages().size(), 1u);
+    viewer->use_environment(0);
+    frame();
+}
+
 TEST_F(ViewerTest, CompressesAnewWhereSlidersSaySo) {
     open({baked()});
     const double before = viewer->figures().bytes_per_vertex;
