@@ -66,10 +66,6 @@ GlObject make_framebuffer() {
     return {GlKind::framebuffer, name};
 }
 
-GLint uniform(const GlObject& program, const char* name) {
-    return glGetUniformLocation(program.name(), name);
-}
-
 } // namespace
 
 class GlRasterizer::Implementation {

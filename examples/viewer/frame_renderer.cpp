@@ -15,10 +15,6 @@
 namespace viewer {
 namespace {
 
-GLint uniform(const prt::GlObject& program, const char* name) {
-    return glGetUniformLocation(program.name(), name);
-}
-
 prt::GlObject make_target(GLenum format, int width, int height) {
     prt::GlObject texture = prt::make_texture_2d(1, format, width, height);
     glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -106,10 +102,10 @@ void FrameRenderer::draw_background(const FrameView& view) const {
     const glm::vec3 forward(frame.forward), right(frame.right * (frame.half_height * aspect)),
         up(frame.up * frame.half_height);
     glUseProgram(background.name());
-    glUniform3fv(uniform(background, "forward"), 1, glm::value_ptr(forward));
-    glUniform3fv(uniform(background, "right"), 1, glm::value_ptr(right));
-    glUniform3fv(uniform(background, "up"), 1, glm::value_ptr(up));
-    glUniform1f(uniform(background, "rotation"), view.background_rotation);
+    glUniform3fv(prt::uniform(background, "forward"), 1, glm::value_ptr(forward));
+    glUniform3fv(prt::uniform(background, "right"), 1, glm::value_ptr(right));
+    glUniform3fv(prt::uniform(background, "up"), 1, glm::value_ptr(up));
+    glUniform1f(prt::uniform(background, "rotation"), view.background_rotation);
     glBindTextureUnit(PRT_UNIT_BACKGROUND, view.background->name());
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE); // alpha says where surfaces are
     fill_screen();
@@ -193,15 +189,16 @@ void FrameRenderer::draw_ssao(const Side& side, PictureKind kind, const Settings
         const prt::GlObject& ssao = program(fragment);
         glBindFramebuffer(GL_FRAMEBUFFER, ssao_framebuffer_[blur ? 1 : 0].name());
         glUseProgram(ssao.name());
-        glUniformMatrix4fv(uniform(ssao, "view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
-        glUniformMatrix4fv(uniform(ssao, "inverse_view_projection"), 1, GL_FALSE, glm::value_ptr(inverse));
-        glUniform3fv(uniform(ssao, "eye"), 1, glm::value_ptr(view.camera.position));
-        glUniform3fv(uniform(ssao, "forward"), 1, glm::value_ptr(forward));
-        glUniform1f(uniform(ssao, "radius"), radius);
-        glUniform1f(uniform(ssao, "bias"), settings.ssao.bias);
-        glUniform1f(uniform(ssao, "intensity"), settings.ssao.intensity);
-        glUniform1i(uniform(ssao, "pairs"), std::max(1, settings.ssao.samples / 2));
-        glUniform1i(uniform(ssao, "use_normals"), kind == PictureKind::ssao_normals);
+        glUniformMatrix4fv(prt::uniform(ssao, "view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
+        glUniformMatrix4fv(prt::uniform(ssao, "inverse_view_projection"), 1, GL_FALSE,
+                           glm::value_ptr(inverse));
+        glUniform3fv(prt::uniform(ssao, "eye"), 1, glm::value_ptr(view.camera.position));
+        glUniform3fv(prt::uniform(ssao, "forward"), 1, glm::value_ptr(forward));
+        glUniform1f(prt::uniform(ssao, "radius"), radius);
+        glUniform1f(prt::uniform(ssao, "bias"), settings.ssao.bias);
+        glUniform1f(prt::uniform(ssao, "intensity"), settings.ssao.intensity);
+        glUniform1i(prt::uniform(ssao, "pairs"), std::max(1, settings.ssao.samples / 2));
+        glUniform1i(prt::uniform(ssao, "use_normals"), kind == PictureKind::ssao_normals);
         if (blur)
             glBindTextureUnit(PRT_UNIT_SSAO, ssao_[0].name());
         fill_screen();
@@ -212,8 +209,8 @@ void FrameRenderer::light_gbuffer(const Side& side, GpuModel& model, bool with_s
     const prt::GlObject& deferred = programs_.at("viewer_deferred.frag");
     glBindFramebuffer(GL_FRAMEBUFFER, side.color_only.name());
     glUseProgram(deferred.name());
-    glUniform3fv(uniform(deferred, "irradiance_sh"), 9, glm::value_ptr(model.irradiance()[0]));
-    glUniform1i(uniform(deferred, "has_ssao"), with_ssao);
+    glUniform3fv(prt::uniform(deferred, "irradiance_sh"), 9, glm::value_ptr(model.irradiance()[0]));
+    glUniform1i(prt::uniform(deferred, "has_ssao"), with_ssao);
     glBindTextureUnit(PRT_UNIT_GBUFFER_BASE, base_.name());
     glBindTextureUnit(PRT_UNIT_GBUFFER_NORMAL, normal_.name());
     glBindTextureUnit(PRT_UNIT_GBUFFER_RADIANCE, radiance_.name());
@@ -260,12 +257,12 @@ void FrameRenderer::composite(std::uint32_t framebuffer, const Settings& setting
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glViewport(0, 0, width_, height_);
     glUseProgram(composite.name());
-    glUniform2i(uniform(composite, "size"), width_, height_);
-    glUniform1f(uniform(composite, "split"), std::round(settings.split * static_cast<float>(width_)));
-    glUniform2i(uniform(composite, "tone_mapped"), !shows_numbers(kinds[0]), !shows_numbers(kinds[1]));
-    glUniform1f(uniform(composite, "exposure"), view.exposure);
-    glUniform1i(uniform(composite, "difference"), settings.difference);
-    glUniform1f(uniform(composite, "white"), settings.white * static_cast<float>(std::max(mean, 1e-30)));
+    glUniform2i(prt::uniform(composite, "size"), width_, height_);
+    glUniform1f(prt::uniform(composite, "split"), std::round(settings.split * static_cast<float>(width_)));
+    glUniform2i(prt::uniform(composite, "tone_mapped"), !shows_numbers(kinds[0]), !shows_numbers(kinds[1]));
+    glUniform1f(prt::uniform(composite, "exposure"), view.exposure);
+    glUniform1i(prt::uniform(composite, "difference"), settings.difference);
+    glUniform1f(prt::uniform(composite, "white"), settings.white * static_cast<float>(std::max(mean, 1e-30)));
     bind_side_textures();
     fill_screen();
     prt::check_gl("drawing");
@@ -273,7 +270,7 @@ void FrameRenderer::composite(std::uint32_t framebuffer, const Settings& setting
 
 Difference FrameRenderer::difference() {
     glUseProgram(sums_program_.name());
-    glUniform2i(uniform(sums_program_, "size"), width_, height_);
+    glUniform2i(prt::uniform(sums_program_, "size"), width_, height_);
     bind_side_textures();
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_SUMS, sums_.name());
     glDispatchCompute(static_cast<GLuint>((width_ + 15) / 16), static_cast<GLuint>((height_ + 15) / 16), 1);

@@ -14,8 +14,7 @@ namespace viewer {
 namespace {
 
 void set_matrix(const prt::GlObject& program, const glm::mat4& matrix) {
-    glUniformMatrix4fv(glGetUniformLocation(program.name(), "view_projection"), 1, GL_FALSE,
-                       glm::value_ptr(matrix));
+    glUniformMatrix4fv(prt::uniform(program, "view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
 }
 
 } // namespace
@@ -117,8 +116,8 @@ void GpuModel::form_raw(const prt::Light& light) {
         const std::size_t count = std::min(piece, raw_->receivers - first);
         glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_MATRIX, raw_->vectors.name(),
                           static_cast<GLintptr>(first * stride), static_cast<GLsizeiptr>(count * stride));
-        glUniform1ui(glGetUniformLocation(name, "receivers"), static_cast<GLuint>(count));
-        glUniform1ui(glGetUniformLocation(name, "first"), static_cast<GLuint>(first));
+        glUniform1ui(prt::uniform(raw_->program, "receivers"), static_cast<GLuint>(count));
+        glUniform1ui(prt::uniform(raw_->program, "first"), static_cast<GLuint>(first));
         glDispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
     }
     glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
@@ -169,11 +168,11 @@ const prt::GlObject& GpuModel::use(PictureKind kind, const GeometryPass& pass) {
     const prt::GlObject& chosen = program(source, pass.gbuffer);
     glUseProgram(chosen.name());
     set_matrix(chosen, pass.view_projection);
-    glUniform1i(glGetUniformLocation(chosen.name(), "textured"), pass.textured && source != Source::numbers);
+    glUniform1i(prt::uniform(chosen, "textured"), pass.textured && source != Source::numbers);
     if (source == Source::normals) {
-        glUniform1i(glGetUniformLocation(chosen.name(), "occluded"), kind == PictureKind::baked_ao);
-        glUniform1i(glGetUniformLocation(chosen.name(), "dithered"), pass.dithered);
-        glUniform3fv(glGetUniformLocation(chosen.name(), "irradiance_sh"), 9, glm::value_ptr(irradiance_[0]));
+        glUniform1i(prt::uniform(chosen, "occluded"), kind == PictureKind::baked_ao);
+        glUniform1i(prt::uniform(chosen, "dithered"), pass.dithered);
+        glUniform3fv(prt::uniform(chosen, "irradiance_sh"), 9, glm::value_ptr(irradiance_[0]));
         glVertexAttrib1f(PRT_LOCATION_AO, 1); // until there is an occlusion
     }
     if (source == Source::compressed)
@@ -229,7 +228,7 @@ void GpuModel::draw_wires(const GeometryPass& pass, const glm::vec3& color) {
     glEnable(GL_POLYGON_OFFSET_LINE);
     glPolygonOffset(-1, -1);
     glDepthFunc(GL_LEQUAL);
-    glUniform4f(glGetUniformLocation(wires_.name(), "tint"), color.r, color.g, color.b, 1);
+    glUniform4f(prt::uniform(wires_, "tint"), color.r, color.g, color.b, 1);
     for (std::size_t p = 0; p < model_->scene.primitives.size(); ++p)
         scene_.draw(wires_, plain_, p);
     glDepthFunc(GL_LESS);

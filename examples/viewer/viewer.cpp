@@ -576,9 +576,9 @@ void Viewer::draw_lobe(std::uint32_t framebuffer, int width, int height, const F
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_CULL_FACE);
     glUseProgram(gpu_->colored_program.name());
-    glUniformMatrix4fv(glGetUniformLocation(gpu_->colored_program.name(), "view_projection"), 1, GL_FALSE,
+    glUniformMatrix4fv(prt::uniform(gpu_->colored_program, "view_projection"), 1, GL_FALSE,
                        glm::value_ptr(matrix));
-    glUniform4f(glGetUniformLocation(gpu_->colored_program.name(), "tint"), 1, 1, 1, 1);
+    glUniform4f(prt::uniform(gpu_->colored_program, "tint"), 1, 1, 1, 1);
     glBindVertexArray(name);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * lobe.triangles.size()), GL_UNSIGNED_INT, nullptr);
     glDisable(GL_DEPTH_TEST);

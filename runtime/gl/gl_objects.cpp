@@ -98,6 +98,10 @@ GlObject make_compute_program(const std::string& compute, const std::string& def
     return program;
 }
 
+int uniform(const GlObject& program, const char* name) {
+    return glGetUniformLocation(program.name(), name);
+}
+
 void check_gl(const char* what) {
     const GLenum error = glGetError();
     if (error == GL_OUT_OF_MEMORY)

@@ -14,10 +14,6 @@
 namespace prt {
 namespace {
 
-GLint uniform(const GlObject& program, const char* name) {
-    return glGetUniformLocation(program.name(), name);
-}
-
 /// Colour and depth, both float, as large as the samples of the picture.
 struct Target {
     GlObject color, depth, framebuffer;

@@ -12,10 +12,6 @@
 namespace prt {
 namespace {
 
-GLint uniform(const GlObject& program, const char* name) {
-    return glGetUniformLocation(program.name(), name);
-}
-
 GLint wrap_mode(Wrap wrap) {
     switch (wrap) {
     case Wrap::clamp:

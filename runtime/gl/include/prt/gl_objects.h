@@ -50,6 +50,9 @@ GlObject make_program(const std::string& vertex, const std::string& fragment, co
 /// A compute program of a file of shaders/.
 GlObject make_compute_program(const std::string& compute, const std::string& defines = "");
 
+/// Where `program` has the uniform `name`; -1 where it has none, which OpenGL ignores when it is set.
+int uniform(const GlObject& program, const char* name);
+
 /// Work that is cut smaller may still fit.
 struct GpuOutOfMemory : Error {
     using Error::Error;
