@@ -1,18 +1,14 @@
 #include "viewer.h"
 
 #include "lobe.h"
+#include "transfer_work.h"
 
-#include "prt/bake.h"
-#include "prt/compress.h"
 #include "prt/error.h"
-#include "prt/receiver_colors.h"
 #include "prt/tone_map.h"
-#include "shared_layout.h"
 
 #include <epoxy/gl.h>
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
-#include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +16,6 @@
 namespace viewer {
 namespace {
 
-constexpr int kBakeOrder = 6, kBakeBounces = 3;
-/// A first picture at once, then better ones.
-constexpr int kBakeRays[] = {16, 128, 1024};
 constexpr std::size_t kMostMessages = 6;
 
 bool is_environment(const std::filesystem::path& path) {
@@ -31,18 +24,6 @@ bool is_environment(const std::filesystem::path& path) {
 
 bool is_model(const std::filesystem::path& path) {
     return path.extension() == ".glb" || path.extension() == ".gltf";
-}
-
-prt::CompressOptions options_for(const CompressionSettings& how) {
-    prt::CompressOptions options = prt::preset_u32();
-    if (how.clusters == options.clusters && how.components == 4)
-        return options;
-    options.fixed_bits.clear();
-    options.clusters = how.clusters;
-    options.components = how.components;
-    options.bits = 6 * how.components; // as many for each as the preset has
-    options.cluster_bits = 0;
-    return options;
 }
 
 } // namespace
@@ -58,7 +39,6 @@ void Viewer::release_gpu() {
 
 void Viewer::restore_gpu() {
     gpu_ = std::make_unique<Gpu>();
-    gpu_->colored_program = prt::make_program("viewer_color.vert", "viewer_color.frag");
     if (model_)
         upload_model();
 }
@@ -72,28 +52,6 @@ void Viewer::message(const std::string& text) {
 }
 
 // ---- files
-
-namespace {
-
-/// Takes over from `other` the transfer that `loaded` lacks; false where there is none, or the scenes differ.
-bool add_transfer(LoadedModel& loaded, LoadedModel other) {
-    if (loaded.model->receivers_id != other.model->receivers_id)
-        return false;
-    if (loaded.compressed && !loaded.raw && other.raw) {
-        loaded.raw = std::make_shared<const prt::Transfer>(
-            in_order_of(loaded.model->scene, other.model->scene, *other.raw));
-        return true;
-    }
-    if (loaded.raw && !loaded.compressed && other.compressed) {
-        other.raw = std::make_shared<const prt::Transfer>(
-            in_order_of(other.model->scene, loaded.model->scene, *loaded.raw));
-        loaded = std::move(other);
-        return true;
-    }
-    return false;
-}
-
-} // namespace
 
 void Viewer::open(const std::vector<std::filesystem::path>& paths) {
     std::vector<std::filesystem::path> models, environments;
@@ -117,19 +75,9 @@ void Viewer::open_models(const std::vector<std::filesystem::path>& paths) {
         [this, paths,
          open = LoadedModel{model_, raw_, compressed_, bounces_}](BackgroundWork::Channel& channel) {
             channel.stage("reading " + paths.front().filename().string());
-            LoadedModel loaded = load_model(paths.front());
-            for (std::size_t i = 1; i < paths.size(); ++i)
-                if (!add_transfer(loaded, load_model(paths[i])))
-                    throw prt::Error(paths[i].string() + ": is another scene than " + paths.front().string() +
-                                     ", or adds no transfer to it");
-            if (open.model)
-                add_transfer(loaded, open);
+            const LoadedModel loaded = load_together(paths, open);
             channel.post([this, loaded] { take(loaded); });
-            if (loaded.raw && !loaded.compressed)
-                compress_once(channel, loaded.model, loaded.raw, {loaded.raw->order, 256, 4});
-            if (!loaded.raw && !loaded.compressed)
-                bake_in_stages(channel, loaded.model);
-            find_occlusion(channel, loaded.model);
+            complete(channel, loaded);
         },
         [this](const std::string& why) {
             opening_.reset();
@@ -209,45 +157,29 @@ void Viewer::bake_anew() {
         return;
     work_.start(
         [this, model = model_](BackgroundWork::Channel& channel) {
-            bake_in_stages(channel, model);
-            find_occlusion(channel, model);
+            complete(channel, {model, {}, {}, 0});
         },
         [this](const std::string& why) { message(why); });
 }
 
-void Viewer::bake_in_stages(BackgroundWork::Channel& channel, std::shared_ptr<const Model> model) {
-    std::shared_ptr<const prt::Transfer> raw;
-    for (const int rays : kBakeRays) {
-        channel.stage(fmt::format("baking with {} rays", rays));
-        prt::BakeOptions options;
-        options.order = kBakeOrder;
-        options.rays = rays;
-        options.bounces = kBakeBounces;
-        options.bad_textures = prt::BadTextures::ignore;
-        raw = std::make_shared<const prt::Transfer>(
-            prt::bake(model->scene, options, channel.progress()).baked.transfer);
-        channel.post([this, raw] {
+/// Runs in the background: what `loaded` lacks is computed and posted.
+void Viewer::complete(BackgroundWork::Channel& channel, LoadedModel loaded) {
+    if (!loaded.raw && !loaded.compressed)
+        loaded.raw = bake_in_stages(channel, *loaded.model, [this](std::shared_ptr<const prt::Transfer> raw) {
             bounces_ = kBakeBounces;
-            set_raw(raw);
+            set_raw(std::move(raw));
         });
+    if (!loaded.compressed) {
+        const CompressionSettings how{loaded.raw->order, 256, 4};
+        const auto compressed = compress_as(channel, *loaded.model, *loaded.raw, how);
+        channel.post([this, compressed, how] { set_compressed(compressed, how); });
     }
-    compress_once(channel, model, raw, {kBakeOrder, 256, 4});
+    find_occlusion(channel, *loaded.model);
 }
 
-void Viewer::compress_once(BackgroundWork::Channel& channel, std::shared_ptr<const Model> model,
-                           std::shared_ptr<const prt::Transfer> raw, const CompressionSettings& how) {
-    channel.stage("compressing");
-    auto compressed = std::make_shared<const prt::ClusteredTransfer>(
-        prt::compress(truncated(*raw, how.order), model->areas, model->edges, options_for(how),
-                      channel.progress())
-            .transfer);
-    channel.post([this, compressed, how] { set_compressed(compressed, how); });
-}
-
-void Viewer::find_occlusion(BackgroundWork::Channel& channel, std::shared_ptr<const Model> model) {
+void Viewer::find_occlusion(BackgroundWork::Channel& channel, const Model& model) {
     channel.stage("ambient occlusion");
-    auto occlusion =
-        std::make_shared<const std::vector<float>>(ambient_occlusion(*model, channel.progress()));
+    auto occlusion = std::make_shared<const std::vector<float>>(ambient_occlusion(model, channel.progress()));
     channel.post([this, occlusion] { set_occlusion(occlusion); });
 }
 
@@ -261,9 +193,10 @@ void Viewer::recompress_where_asked() {
     work_.start(
         [this, model = model_, raw = raw_, how = compression,
          occlusion = occlusion_](BackgroundWork::Channel& channel) {
-            compress_once(channel, model, raw, how);
+            const auto compressed = compress_as(channel, *model, *raw, how);
+            channel.post([this, compressed, how] { set_compressed(compressed, how); });
             if (!occlusion)
-                find_occlusion(channel, model);
+                find_occlusion(channel, *model);
         },
         [this](const std::string& why) { message(why); });
 }
@@ -345,19 +278,7 @@ void Viewer::find_numbers() {
     numbers_work_.start(
         [this, model = model_, raw = raw_, compressed = compressed_,
          light = rig_.light(light_order())](BackgroundWork::Channel& channel) {
-            using Colors = std::vector<glm::vec3>;
-            std::vector<std::pair<PictureKind, Colors>> pictures;
-            pictures.emplace_back(PictureKind::clusters, prt::cluster_colors(*compressed));
-            pictures.emplace_back(PictureKind::components, prt::component_colors(*compressed));
-            if (raw && raw->receivers() == compressed->receivers.size()) {
-                const auto reference = prt::exit_radiance(*raw, light, 1);
-                const auto approximation = prt::exit_radiance(*compressed, light, 1);
-                pictures.emplace_back(PictureKind::error,
-                                      prt::error_colors(reference, approximation, model->areas));
-                pictures.emplace_back(PictureKind::seams,
-                                      prt::seam_colors(reference, approximation, model->areas, model->edges,
-                                                       compressed->receivers.clusters));
-            }
+            const auto pictures = number_pictures(*model, raw.get(), *compressed, light);
             channel.post([this, model, pictures] {
                 if (model == model_ && gpu_->model)
                     for (const auto& [kind, colors] : pictures)
@@ -495,93 +416,22 @@ void Viewer::show_reference(int side, int width, int height, const FrameView& vi
 
 void Viewer::pick() {
     hovered_.reset();
-    if (!settings.lobe || !pointer_ || !model_)
-        return;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    const glm::vec3 o = camera.camera().position, d = direction_through(screen(), *pointer_);
-    RTCRayHit ray{};
-    ray.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, std::numeric_limits<float>::infinity(), ~0u, 0, 0};
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(model_->rays->handle(), &context, &ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
-        return;
-    // The nearest corner of the triangle.
-    const glm::uvec3& corners = model_->surfaces->corners(ray.hit.primID);
-    const float u = ray.hit.u, v = ray.hit.v, w = 1 - u - v;
-    Hovered found;
-    found.receiver = w >= u && w >= v ? corners.x : u >= v ? corners.y : corners.z;
-    for (const prt::VertexArray& vertices : model_->scene.vertex_arrays)
-        if (found.receiver >= vertices.first_receiver &&
-            found.receiver < vertices.first_receiver + vertices.size())
-            found.position = vertices.positions[found.receiver - vertices.first_receiver];
-    if (compressed_) {
-        found.cluster = compressed_->receivers.clusters[found.receiver];
-        const auto layouts = prt::cluster_layouts(compressed_->bases);
-        const std::size_t components = layouts[static_cast<std::size_t>(found.cluster)].components;
-        found.weights.resize(components);
-        prt::decode_weights(*compressed_, layouts, found.receiver, found.weights);
-    }
-    const bool from_raw = raw_ && (!compressed_ || settings.right == PictureKind::prt);
-    if (from_raw) {
-        found.order = raw_->order;
-        const auto vector = raw_->vector(found.receiver);
-        found.vector.assign(vector.begin(), vector.begin() + prt::coefficient_count(raw_->order));
-    } else if (compressed_) {
-        // mean + sum_j w_j direction_j, of the first channel
-        const prt::ClusteredBases& bases = compressed_->bases;
-        found.order = bases.order;
-        const auto count = static_cast<std::size_t>(prt::coefficient_count(bases.order));
-        const std::size_t first = bases.first_rows()[static_cast<std::size_t>(found.cluster)];
-        found.vector.resize(count);
-        for (std::size_t i = 0; i < count; ++i) {
-            found.vector[i] = bases.rows[first * bases.dimension() + i];
-            for (std::size_t j = 0; j < found.weights.size(); ++j)
-                found.vector[i] += found.weights[j] * bases.rows[(first + 1 + j) * bases.dimension() + i];
-        }
-    }
-    hovered_ = std::move(found);
+    if (settings.lobe && pointer_)
+        hovered_ = find_hovered(*model_, raw_.get(), compressed_.get(), settings.right == PictureKind::prt,
+                                screen(), *pointer_);
 }
 
 void Viewer::draw_lobe(std::uint32_t framebuffer, int width, int height, const FrameView& view) {
     if (hovered_->order == 0)
         return;
     const float radius = 0.2f * model_->radius;
-    const ColoredMesh lobe = make_lobe(hovered_->order, hovered_->vector, hovered_->position, radius,
-                                       glm::normalize(view.camera.position - hovered_->position));
-    const prt::GlObject positions = prt::make_buffer(std::span<const glm::vec3>(lobe.positions)),
-                        colors = prt::make_buffer(std::span<const glm::vec4>(lobe.colors)),
-                        indices = prt::make_buffer(std::span<const glm::uvec3>(lobe.triangles));
-    GLuint name = 0;
-    glCreateVertexArrays(1, &name);
-    const prt::GlObject array(prt::GlKind::vertex_array, name);
-    const std::pair<GLuint, const prt::GlObject*> attributes[] = {{PRT_LOCATION_POSITION, &positions},
-                                                                  {PRT_LOCATION_COLOR, &colors}};
-    for (const auto& [location, buffer] : attributes) {
-        const GLint components = location == PRT_LOCATION_POSITION ? 3 : 4;
-        glVertexArrayVertexBuffer(name, location, buffer->name(), 0,
-                                  static_cast<GLsizei>(sizeof(float)) * components);
-        glEnableVertexArrayAttrib(name, location);
-        glVertexArrayAttribFormat(name, location, components, GL_FLOAT, GL_FALSE, 0);
-        glVertexArrayAttribBinding(name, location, location);
-    }
-    glVertexArrayElementBuffer(name, indices.name());
     prt::Bounds box = model_->box;
     box.low -= glm::vec3(radius);
     box.high += glm::vec3(radius);
-    const glm::mat4 matrix =
-        prt::view_projection(view.camera, box, static_cast<float>(width) / static_cast<float>(height));
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glClear(GL_DEPTH_BUFFER_BIT); // in front of everything
-    glEnable(GL_DEPTH_TEST);
-    glDisable(GL_CULL_FACE);
-    glUseProgram(gpu_->colored_program.name());
-    glUniformMatrix4fv(prt::uniform(gpu_->colored_program, "view_projection"), 1, GL_FALSE,
-                       glm::value_ptr(matrix));
-    glUniform4f(prt::uniform(gpu_->colored_program, "tint"), 1, 1, 1, 1);
-    glBindVertexArray(name);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * lobe.triangles.size()), GL_UNSIGNED_INT, nullptr);
-    glDisable(GL_DEPTH_TEST);
+    const ColoredMesh lobe = make_lobe(hovered_->order, hovered_->vector, hovered_->position, radius,
+                                       glm::normalize(view.camera.position - hovered_->position));
+    const float aspect = static_cast<float>(width) / static_cast<float>(height);
+    gpu_->meshes.draw(lobe, prt::view_projection(view.camera, box, aspect), framebuffer);
 }
 
 } // namespace viewer

@@ -7,7 +7,9 @@
 #include "frame_renderer.h"
 #include "gpu_model.h"
 #include "gpu_timer.h"
+#include "hovered.h"
 #include "light_rig.h"
+#include "mesh_renderer.h"
 #include "model.h"
 #include "orbit_camera.h"
 #include "reference.h"
@@ -38,16 +40,6 @@ struct Figures {
     double components = 0; ///< per receiver
     int reference_passes = 0;
     Difference difference; ///< of the two pictures, while it is shown
-};
-
-/// The receiver under the pointer.
-struct Hovered {
-    std::uint32_t receiver = 0;
-    glm::vec3 position{0};
-    std::vector<float> vector; ///< transfer, [order²] of the first channel
-    int order = 0;
-    int cluster = -1;           ///< where it is compressed
-    std::vector<float> weights; ///< the cluster's
 };
 
 class Viewer {
@@ -115,7 +107,7 @@ private:
         prt::GlObject background;
         std::uint64_t background_version = 0, light_version = 0;
         GpuTimer frame, vertices;
-        prt::GlObject colored_program;
+        MeshRenderer meshes;
     };
     void open_models(const std::vector<std::filesystem::path>& paths);
     void open_environments(const std::vector<std::filesystem::path>& paths);
@@ -125,10 +117,8 @@ private:
                         const CompressionSettings& how);
     void set_occlusion(std::shared_ptr<const std::vector<float>> occlusion);
     void upload_model();
-    void bake_in_stages(BackgroundWork::Channel& channel, std::shared_ptr<const Model> model);
-    void compress_once(BackgroundWork::Channel& channel, std::shared_ptr<const Model> model,
-                       std::shared_ptr<const prt::Transfer> raw, const CompressionSettings& how);
-    void find_occlusion(BackgroundWork::Channel& channel, std::shared_ptr<const Model> model);
+    void complete(BackgroundWork::Channel& channel, LoadedModel loaded);
+    void find_occlusion(BackgroundWork::Channel& channel, const Model& model);
     void recompress_where_asked();
     void follow_light();
     void find_numbers();

@@ -1,0 +1,103 @@
+#include "transfer_work.h"
+
+#include "prt/bake.h"
+#include "prt/compress.h"
+#include "prt/error.h"
+#include "prt/receiver_colors.h"
+
+#include <fmt/core.h>
+
+namespace viewer {
+namespace {
+
+/// A first picture at once, then better ones.
+constexpr int kBakeRays[] = {16, 128, 1024};
+
+prt::CompressOptions options_for(const CompressionSettings& how) {
+    prt::CompressOptions options = prt::preset_u32();
+    if (how.clusters == options.clusters && how.components == 4)
+        return options;
+    options.fixed_bits.clear();
+    options.clusters = how.clusters;
+    options.components = how.components;
+    options.bits = 6 * how.components; // as many for each as the preset has
+    options.cluster_bits = 0;
+    return options;
+}
+
+/// Takes over from `other` the transfer that `loaded` lacks; false where there is none, or the scenes differ.
+bool add_transfer(LoadedModel& loaded, LoadedModel other) {
+    if (loaded.model->receivers_id != other.model->receivers_id)
+        return false;
+    if (loaded.compressed && !loaded.raw && other.raw) {
+        loaded.raw = std::make_shared<const prt::Transfer>(
+            in_order_of(loaded.model->scene, other.model->scene, *other.raw));
+        return true;
+    }
+    if (loaded.raw && !loaded.compressed && other.compressed) {
+        other.raw = std::make_shared<const prt::Transfer>(
+            in_order_of(other.model->scene, loaded.model->scene, *loaded.raw));
+        loaded = std::move(other);
+        return true;
+    }
+    return false;
+}
+
+} // namespace
+
+LoadedModel load_together(const std::vector<std::filesystem::path>& paths, const LoadedModel& open) {
+    LoadedModel loaded = load_model(paths.front());
+    for (std::size_t i = 1; i < paths.size(); ++i)
+        if (!add_transfer(loaded, load_model(paths[i])))
+            throw prt::Error(paths[i].string() + ": is another scene than " + paths.front().string() +
+                             ", or adds no transfer to it");
+    if (open.model)
+        add_transfer(loaded, open);
+    return loaded;
+}
+
+std::shared_ptr<const prt::Transfer>
+bake_in_stages(BackgroundWork::Channel& channel, const Model& model,
+               const std::function<void(std::shared_ptr<const prt::Transfer>)>& found) {
+    std::shared_ptr<const prt::Transfer> raw;
+    for (const int rays : kBakeRays) {
+        channel.stage(fmt::format("baking with {} rays", rays));
+        prt::BakeOptions options;
+        options.order = kBakeOrder;
+        options.rays = rays;
+        options.bounces = kBakeBounces;
+        options.bad_textures = prt::BadTextures::ignore;
+        raw = std::make_shared<const prt::Transfer>(
+            prt::bake(model.scene, options, channel.progress()).baked.transfer);
+        channel.post([found, raw] { found(raw); });
+    }
+    return raw;
+}
+
+std::shared_ptr<const prt::ClusteredTransfer> compress_as(BackgroundWork::Channel& channel,
+                                                          const Model& model, const prt::Transfer& raw,
+                                                          const CompressionSettings& how) {
+    channel.stage("compressing");
+    return std::make_shared<const prt::ClusteredTransfer>(prt::compress(truncated(raw, how.order),
+                                                                        model.areas, model.edges,
+                                                                        options_for(how), channel.progress())
+                                                              .transfer);
+}
+
+std::vector<std::pair<PictureKind, std::vector<glm::vec3>>>
+number_pictures(const Model& model, const prt::Transfer* raw, const prt::ClusteredTransfer& compressed,
+                const prt::Light& light) {
+    std::vector<std::pair<PictureKind, std::vector<glm::vec3>>> pictures;
+    pictures.emplace_back(PictureKind::clusters, prt::cluster_colors(compressed));
+    pictures.emplace_back(PictureKind::components, prt::component_colors(compressed));
+    if (!raw)
+        return pictures;
+    const auto reference = prt::exit_radiance(*raw, light, 1),
+               approximation = prt::exit_radiance(compressed, light, 1);
+    pictures.emplace_back(PictureKind::error, prt::error_colors(reference, approximation, model.areas));
+    pictures.emplace_back(PictureKind::seams, prt::seam_colors(reference, approximation, model.areas,
+                                                               model.edges, compressed.receivers.clusters));
+    return pictures;
+}
+
+} // namespace viewer

@@ -1,0 +1,37 @@
+#pragma once
+
+// What the viewer computes of transfer in the background.
+
+#include "background_work.h"
+#include "model.h"
+#include "settings.h"
+
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace viewer {
+
+inline constexpr int kBakeOrder = 6, kBakeBounces = 3;
+
+/// Reads the first of `paths` and takes over transfer from the others, and from `open`, which may be empty,
+/// where they hold the same scene. Throws `prt::Error` where another path is of another scene or adds
+/// nothing.
+LoadedModel load_together(const std::vector<std::filesystem::path>& paths, const LoadedModel& open);
+
+/// Bakes with few rays first and then with more; posts each result to `found`. Returns the last.
+std::shared_ptr<const prt::Transfer>
+bake_in_stages(BackgroundWork::Channel& channel, const Model& model,
+               const std::function<void(std::shared_ptr<const prt::Transfer>)>& found);
+
+std::shared_ptr<const prt::ClusteredTransfer> compress_as(BackgroundWork::Channel& channel,
+                                                          const Model& model, const prt::Transfer& raw,
+                                                          const CompressionSettings& how);
+
+/// Colours of all pictures of numbers that there are; `raw` may be null.
+std::vector<std::pair<PictureKind, std::vector<glm::vec3>>>
+number_pictures(const Model& model, const prt::Transfer* raw, const prt::ClusteredTransfer& compressed,
+                const prt::Light& light);
+
+} // namespace viewer
