@@ -1,7 +1,7 @@
 #pragma once
 
-// The reference: what the camera sees, by path tracing, without spherical harmonics and without interpolation
-// between vertices.
+// The reference (docs/math.md, section 11): what the camera sees, by path tracing, without spherical
+// harmonics and without interpolation between vertices.
 
 #include "prt/bake.h"
 #include "prt/camera.h"

@@ -86,9 +86,9 @@ const difference = (page, a, b) =>
     [a, b, FAR],
   );
 
-function render(file, angle, { position, target, fieldOfView }) {
+function render(file, angle, { position, target, fieldOfView }, sky = join(distFolder, "skies/sky.exr")) {
   const output = join(work, "reference.png");
-  execFileSync(prt, ["render", join(distFolder, file), "--env", join(distFolder, "skies/sky.exr"), "-o", output,
+  execFileSync(prt, ["render", join(distFolder, file), "--env", sky, "-o", output,
     "--rotate", String(angle), "--size", `${width}x${height}`, "--samples", "3", "--camera", position.join(","),
     "--look-at", target.join(","), "--fov", String(fieldOfView)], { stdio: "ignore" });
   return dataUrl(output);
@@ -118,6 +118,34 @@ for (const [i, model] of models.entries())
       assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
       assert.ok(d.far < FAR_SHARE, `${d.far} of the pixels differ`);
     });
+
+/** A Radiance file of flat RGBE pixels: sky above, ground below, a warm side. */
+function radianceFile(path) {
+  const [columns, rows] = [64, 32];
+  const pixels = Buffer.alloc(4 * columns * rows);
+  for (let y = 0; y < rows; ++y)
+    for (let x = 0; x < columns; ++x) {
+      const warm = x > 8 && x < 20 && y > 6 && y < 14;
+      pixels.set(warm ? [250, 180, 90, 131] : y < 16 ? [90, 120, 200, 128] : [120, 100, 80, 126], 4 * (y * columns + x));
+    }
+  writeFileSync(path, Buffer.concat([Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${rows} +X ${columns}\n`), pixels]));
+}
+
+await check("a Radiance sky lights as prt render does", async (page, errors) => {
+  const sky = join(work, "warm.hdr");
+  radianceFile(sky);
+  await page.route("**/models.json", async (route) => {
+    const manifest = await (await route.fetch()).json();
+    await route.fulfill({ json: { ...manifest, skies: [{ title: "warm", file: "skies/warm.hdr" }] } });
+  });
+  await page.route("**/warm.hdr", (route) => route.fulfill({ body: readFileSync(sky) }));
+  await page.goto(url({ model: "knot", angle: 25, ...query(camera) }));
+  await picture(page);
+  const d = await difference(page, await canvas(page), render(models[0].levels[0].file, 25, camera, sky));
+  console.log(`  mean ${d.mean.toFixed(3)} of 255`);
+  assert.deepEqual(errors, []);
+  assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`); // a few texels fill the background
+});
 
 await check("dragging with the right button turns the light", async (page, errors) => {
   await page.goto(url({ model: "knot", ...query(camera) }));
