@@ -32,6 +32,7 @@ GpuModel::GpuModel(std::shared_ptr<const Model> model)
       number_arrays_(scene_.make_vertex_arrays()) {}
 
 void GpuModel::set_raw(const prt::Transfer& transfer) {
+    drop_raw(); // there may not be room for two
     const std::string defines = "#define PRT_CHANNELS " + std::to_string(transfer.channels) +
                                 "\n#define PRT_COEFFICIENTS " +
                                 std::to_string(prt::coefficient_count(transfer.order)) + "\n";

@@ -137,6 +137,7 @@ void Viewer::take(const LoadedModel& loaded) {
 }
 
 void Viewer::upload_model() {
+    gpu_->model.reset(); // there may not be room for two
     gpu_->model = std::make_unique<GpuModel>(model_);
     if (raw_)
         gpu_->model->set_raw(*raw_);
@@ -241,9 +242,12 @@ int Viewer::light_order() const {
 void Viewer::update(double seconds) {
     if (day_runs && lights.day)
         lights.time.hour = std::fmod(lights.time.hour + seconds, 24.0); // an hour a second
-    environment_work_.collect();
-    work_.collect();
-    numbers_work_.collect();
+    for (BackgroundWork* work : {&environment_work_, &work_, &numbers_work_})
+        try {
+            work->collect();
+        } catch (const prt::Error& error) { // what was found does not fit the GPU
+            message(error.what());
+        }
     rig_.set(lights);
     recompress_where_asked();
 }

@@ -144,8 +144,8 @@ private:
     void draw(int width, int height) {
         try {
             viewer_->draw(0, width, height);
-        } catch (const prt::GpuOutOfMemory& error) {
-            viewer_->message(std::string(error.what()) + ": open something smaller");
+        } catch (const prt::Error& error) { // no room, or the context is lost
+            viewer_->message(error.what());
         }
         if (wants_screenshot_) {
             wants_screenshot_ = false;
