@@ -13,7 +13,7 @@ cmake --preset dev >/dev/null
 cmake --build --preset dev
 # The web page: units, types, and its pictures in Chromium against those of prt.
 web=(npm --silent --prefix examples/web)
-"${web[@]}" ci --no-audit --no-fund
+"${web[@]}" install --no-audit --no-fund --no-package-lock
 "${web[@]}" test
 export PRT=$PWD/build/dev/cli/prt PRT_EXAMPLE_SCENES=$PWD/build/dev/examples/scenes/example_scenes
 export PRTKIT_WEB=$PWD/build/web PRT_RAYS=64 PRT_SCENES=knot,tree
