@@ -27,9 +27,9 @@ GpuModel::Source GpuModel::source_of(PictureKind kind) {
     return shows_numbers(kind) ? Source::numbers : Source::normals;
 }
 
-GpuModel::GpuModel(std::shared_ptr<const Model> model)
-    : model_(std::move(model)), scene_(model_->scene, model_->textures), plain_(scene_.make_vertex_arrays()),
-      number_arrays_(scene_.make_vertex_arrays()) {}
+GpuModel::GpuModel(std::shared_ptr<const Model> model, std::size_t most_receivers)
+    : model_(std::move(model)), most_receivers_(most_receivers), scene_(model_->scene, model_->textures),
+      plain_(scene_.make_vertex_arrays()), number_arrays_(scene_.make_vertex_arrays()) {}
 
 void GpuModel::set_raw(const prt::Transfer& transfer) {
     drop_raw(); // there may not be room for two
@@ -108,7 +108,7 @@ void GpuModel::form_raw(const prt::Light& light) {
     const std::size_t stride =
         static_cast<std::size_t>(raw_->channels * prt::coefficient_count(raw_->order)) * sizeof(float);
     const std::size_t piece = std::max<std::size_t>(
-        256, std::min<std::size_t>(static_cast<std::size_t>(most) / stride, 1u << 21) / 256 * 256);
+        256, std::min<std::size_t>(static_cast<std::size_t>(most) / stride, most_receivers_) / 256 * 256);
     const GLuint name = raw_->program.name();
     glUseProgram(name);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_LIGHT, raw_->light.name());

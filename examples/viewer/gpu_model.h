@@ -24,7 +24,8 @@ struct GeometryPass {
 
 class GpuModel {
 public:
-    explicit GpuModel(std::shared_ptr<const Model> model);
+    /// `most_receivers`: of raw transfer that one dispatch takes, a multiple of 256.
+    explicit GpuModel(std::shared_ptr<const Model> model, std::size_t most_receivers = 1u << 21);
     const Model& model() const { return *model_; }
 
     void set_raw(const prt::Transfer& transfer);
@@ -62,6 +63,7 @@ private:
     const prt::GlVertexArrays& arrays(Source source) const;
 
     std::shared_ptr<const Model> model_;
+    std::size_t most_receivers_;
     prt::GlScene scene_;
     std::optional<prt::Light> light_;
     std::optional<Raw> raw_;

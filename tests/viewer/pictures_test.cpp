@@ -173,6 +173,16 @@ TEST_F(ViewerPictures, OfColouredTransferAreThoseOfCpp) {
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), kSame);
 }
 
+TEST_F(ViewerPictures, OfRawTransferInPiecesAreTheSame) {
+    const prt::Transfer transfer = baked();
+    gpu->set_raw(transfer);
+    const prt::Image whole = drawn(PictureKind::prt);
+    gpu = std::make_unique<GpuModel>(model, 256);
+    gpu->set_light(light);
+    gpu->set_raw(transfer);
+    EXPECT_EQ(drawn(PictureKind::prt).pixels, whole.pixels);
+}
+
 TEST_F(ViewerPictures, OfCompressedTransferAreThoseOfCpp) {
     const prt::ClusteredTransfer transfer = compressed(baked());
     gpu->set_compressed(transfer);
