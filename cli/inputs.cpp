@@ -41,12 +41,7 @@ void check_belong_together(const Model& baked, const Path& baked_path, const Mod
 }
 
 void put_in_order_of(const Scene& scene, Model& baked) {
-    const std::vector<std::uint32_t> match = matching_receivers(scene, baked.scene);
-    Transfer& transfer = baked.baked->transfer;
-    Transfer ordered = zero_transfer(transfer.order, transfer.channels, transfer.receivers());
-    for (std::size_t p = 0; p < match.size(); ++p)
-        std::copy_n(transfer.vector(match[p]).begin(), transfer.dimension(), ordered.vector(p).begin());
-    transfer = std::move(ordered);
+    baked.baked->transfer = in_order_of(scene, baked.scene, baked.baked->transfer);
     baked.scene = scene;
 }
 

@@ -67,11 +67,6 @@ void paste(const std::vector<glm::u8vec3>& tile, int tile_width, int tile_height
         std::copy_n(tile.begin() + row * tile_width, tile_width, sheet.begin() + (y + row) * sheet_width + x);
 }
 
-/// Smaller by a whole factor.
-std::vector<glm::u8vec3> tile_of(const prt::Image& image, int factor, float exposure, prt::ToneMap tone_map) {
-    return prt::tone_mapped(image, factor, exposure, tone_map);
-}
-
 double mean(const Row& row) {
     double sum = 0;
     for (const double error : row.errors)
@@ -111,16 +106,16 @@ void write_pictures(const std::vector<SceneResult>& scenes, const Options& optio
         const int columns = 1 + static_cast<int>(rows.size()), sheet_width = columns * width;
         std::vector<glm::u8vec3> sheet(
             static_cast<std::size_t>(sheet_width) * static_cast<std::size_t>(2 * height), glm::u8vec3(255));
-        paste(tile_of(scene.reference, factor, scene.exposure, prt::ToneMap::filmic), width, height, sheet,
-              sheet_width, 0, 0);
-        paste(tile_of(ramp(width, height), 1, 1, prt::ToneMap::srgb), width, height, sheet, sheet_width, 0,
-              height);
+        paste(prt::tone_mapped(scene.reference, factor, scene.exposure, prt::ToneMap::filmic), width, height,
+              sheet, sheet_width, 0, 0);
+        paste(prt::tone_mapped(ramp(width, height), 1, 1, prt::ToneMap::srgb), width, height, sheet,
+              sheet_width, 0, height);
         for (int c = 1; c < columns; ++c) {
             const prt::Image& picture = rows[static_cast<std::size_t>(c - 1)]->picture;
-            paste(tile_of(picture, factor, scene.exposure, prt::ToneMap::filmic), width, height, sheet,
-                  sheet_width, c * width, 0);
-            paste(tile_of(heat_of(scene, picture, factor), 1, 1, prt::ToneMap::srgb), width, height, sheet,
-                  sheet_width, c * width, height);
+            paste(prt::tone_mapped(picture, factor, scene.exposure, prt::ToneMap::filmic), width, height,
+                  sheet, sheet_width, c * width, 0);
+            paste(prt::tone_mapped(heat_of(scene, picture, factor), 1, 1, prt::ToneMap::srgb), width, height,
+                  sheet, sheet_width, c * width, height);
         }
         prt::write_png(folder / (scene.name + ".png"), sheet_width, 2 * height, sheet);
     }

@@ -1,7 +1,6 @@
 #include "model.h"
 
 #include "prt/bake.h"
-#include "prt/reorder.h"
 
 #include <glm/geometric.hpp>
 
@@ -48,14 +47,6 @@ LoadedModel load_model(const std::filesystem::path& path) {
     }
     loaded.model = make_model(std::move(scene), path);
     return loaded;
-}
-
-prt::Transfer in_order_of(const prt::Scene& to, const prt::Scene& from, const prt::Transfer& transfer) {
-    const std::vector<std::uint32_t> match = prt::matching_receivers(to, from);
-    prt::Transfer ordered = prt::zero_transfer(transfer.order, transfer.channels, transfer.receivers());
-    for (std::size_t p = 0; p < match.size(); ++p)
-        std::copy_n(transfer.vector(match[p]).begin(), transfer.dimension(), ordered.vector(p).begin());
-    return ordered;
 }
 
 std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& progress) {

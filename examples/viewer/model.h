@@ -52,10 +52,6 @@ std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path 
 /// Reads `path`. Throws `prt::Error`.
 LoadedModel load_model(const std::filesystem::path& path);
 
-/// Transfer of the receivers of `from` in the order that they have in `to`, which holds the same: a file's
-/// vertices may have moved when it was compressed.
-prt::Transfer in_order_of(const prt::Scene& to, const prt::Scene& from, const prt::Transfer& transfer);
-
 /// Share of the cosine-weighted hemisphere that is open, for every receiver.
 std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& progress);
 

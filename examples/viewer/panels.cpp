@@ -1,5 +1,7 @@
 #include "panels.h"
 
+#include "controls.h"
+
 #include <fmt/core.h>
 #include <imgui.h>
 
@@ -256,7 +258,7 @@ void message_window(Viewer& viewer) {
 
 } // namespace
 
-void draw_panels(Viewer& viewer, const Controls&) {
+void draw_panels(Viewer& viewer) {
     draw_labels(viewer);
     draw_handles(viewer);
     if (viewer.settings.panels) {

@@ -1,11 +1,10 @@
 #pragma once
 
-#include "controls.h"
 #include "viewer.h"
 
 namespace viewer {
 
 /// Everything of Dear ImGui in a frame: call between its NewFrame and Render.
-void draw_panels(Viewer& viewer, const Controls& controls);
+void draw_panels(Viewer& viewer);
 
 } // namespace viewer

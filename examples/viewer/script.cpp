@@ -165,7 +165,7 @@ private:
     void draw() {
         viewer_->update(1.0 / 60);
         viewer_->draw(screen_->framebuffer(), size_.x, size_.y);
-        interface_->draw(*viewer_, *controls_, screen_->framebuffer(), size_.x, size_.y);
+        interface_->draw(*viewer_, screen_->framebuffer(), size_.x, size_.y);
     }
 
     void wait(const std::function<bool()>& done, const char* what) {

@@ -4,6 +4,7 @@
 #include "prt/compress.h"
 #include "prt/error.h"
 #include "prt/receiver_colors.h"
+#include "prt/reorder.h"
 
 #include <fmt/core.h>
 
@@ -31,12 +32,12 @@ bool add_transfer(LoadedModel& loaded, LoadedModel other) {
         return false;
     if (loaded.compressed && !loaded.raw && other.raw) {
         loaded.raw = std::make_shared<const prt::Transfer>(
-            in_order_of(loaded.model->scene, other.model->scene, *other.raw));
+            prt::in_order_of(loaded.model->scene, other.model->scene, *other.raw));
         return true;
     }
     if (loaded.raw && !loaded.compressed && other.compressed) {
         other.raw = std::make_shared<const prt::Transfer>(
-            in_order_of(other.model->scene, loaded.model->scene, *loaded.raw));
+            prt::in_order_of(other.model->scene, loaded.model->scene, *loaded.raw));
         loaded = std::move(other);
         return true;
     }

@@ -27,8 +27,7 @@ UserInterface::~UserInterface() {
     ImGui::DestroyContext();
 }
 
-void UserInterface::draw(Viewer& viewer, const Controls& controls, std::uint32_t framebuffer, int width,
-                         int height) {
+void UserInterface::draw(Viewer& viewer, std::uint32_t framebuffer, int width, int height) {
     ImGui_ImplOpenGL3_NewFrame();
     if (window_) {
         ImGui_ImplGlfw_NewFrame();
@@ -37,7 +36,7 @@ void UserInterface::draw(Viewer& viewer, const Controls& controls, std::uint32_t
         ImGui::GetIO().DeltaTime = 1.0f / 60;
     }
     ImGui::NewFrame();
-    draw_panels(viewer, controls);
+    draw_panels(viewer);
     ImGui::Render();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "controls.h"
+#include "viewer.h"
 
 #include <functional>
 
@@ -18,7 +18,7 @@ public:
     UserInterface& operator=(const UserInterface&) = delete;
 
     /// Draws the panels over `framebuffer`.
-    void draw(Viewer& viewer, const Controls& controls, std::uint32_t framebuffer, int width, int height);
+    void draw(Viewer& viewer, std::uint32_t framebuffer, int width, int height);
     bool wants_pointer() const;
     bool wants_keyboard() const;
 

@@ -37,7 +37,6 @@ struct Figures {
     std::size_t raw_bytes = 0;                         ///< of transfer as baked
     double bytes_per_vertex = 0, bytes_with_bases = 0; ///< compressed
     int clusters = 0, order = 0, channels = 0;
-    double components = 0; ///< per receiver
     int reference_passes = 0;
     Difference difference; ///< of the two pictures, while it is shown
 };

@@ -151,7 +151,7 @@ private:
             wants_screenshot_ = false;
             take_screenshot(width, height);
         }
-        interface_->draw(*viewer_, *controls_, 0, width, height);
+        interface_->draw(*viewer_, 0, width, height);
     }
 
     void take_screenshot(int width, int height) {

@@ -136,6 +136,14 @@ std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& o
     return match;
 }
 
+Transfer in_order_of(const Scene& scene, const Scene& other, const Transfer& transfer) {
+    const std::vector<std::uint32_t> match = matching_receivers(scene, other);
+    Transfer ordered = zero_transfer(transfer.order, transfer.channels, transfer.receivers());
+    for (std::size_t p = 0; p < match.size(); ++p)
+        std::copy_n(transfer.vector(match[p]).begin(), transfer.dimension(), ordered.vector(p).begin());
+    return ordered;
+}
+
 VertexReuse vertex_reuse(const Scene& scene) {
     std::vector<unsigned> indices;
     for (const Primitive& primitive : scene.primitives) {

@@ -25,6 +25,10 @@ void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<cons
 /// first where several do. Throws `Error` where the two do not hold the same receivers.
 std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& other);
 
+/// `transfer` of the receivers of `other` in the order that they have in `scene`: a file's vertices may have
+/// moved when it was compressed. Throws as `matching_receivers` does.
+Transfer in_order_of(const Scene& scene, const Scene& other, const Transfer& transfer);
+
 /// How well a GPU reuses and fetches the vertices of all triangles in their order, by meshoptimizer's
 /// analysis.
 struct VertexReuse {
