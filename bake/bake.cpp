@@ -9,6 +9,7 @@
 #include "prt/make_tracer.h"
 #include "prt/sh.h"
 #include "prt/stopwatch.h"
+#include "sealed.h"
 #include "storage.h"
 
 #include <fmt/core.h>
@@ -153,7 +154,7 @@ private:
             all.positions.resize(receivers_.fronts);
             all.normals.resize(receivers_.fronts);
             all.areas.resize(receivers_.fronts);
-            all.inward.resize(receivers_.fronts);
+            all.starts.resize(receivers_.fronts);
             receivers_.back.clear();
         }
         make_diffusion();
@@ -229,7 +230,7 @@ private:
             trace_receivers(*tracer_, receivers, indices, options, transfer, progress);
             statistics().rays += indices.size() * static_cast<std::size_t>(options_.rays);
         }
-        mark_inside(rays, transfer);
+        refill_sealed(rays, transfer);
         if (!options_.target_error && tracer_->method() == "trace")
             statistics().sampling_error =
                 sampling_error(*tracer_, receivers, options, transfer, statistics().rays, progress_);
@@ -246,7 +247,6 @@ private:
                       const Progress& progress) {
         const Receivers& receivers = receivers_.receivers;
         gather_ = std::make_unique<GatherOperator>(surfaces_, receivers_, channels_);
-        back_share_.assign(receivers.size(), 0);
         std::map<std::uint32_t, std::vector<std::uint32_t>> by_rays;
         std::size_t all = 0, done = 0;
         for (const std::uint32_t p : receivers_on_surfaces(receivers)) {
@@ -262,7 +262,6 @@ private:
                                     static_cast<double>(done + here) / static_cast<double>(all)),
                             [&, count = options.rays](std::uint32_t p, std::span<const Hit> hits) {
                                 gather_->set_row(p, hits, count);
-                                back_share_[p] = back_share(hits, count);
                             });
             done += here;
         }
@@ -275,56 +274,29 @@ private:
         }
     }
 
-    float back_share(std::span<const Hit> hits, int rays) const {
-        float sum = 0;
-        for (const Hit& hit : hits)
-            if (hit.back && !surfaces_.two_sided(hit.triangle))
-                sum += hit.weight;
-        return sum / static_cast<float>(rays);
-    }
-
     const MeshNeighbours& neighbours() {
         if (!neighbours_)
             neighbours_.emplace(surfaces_, receivers_.receivers, receivers_.fronts);
         return *neighbours_;
     }
 
-    /// Which receivers lie inside geometry. Where hits are not known, a few rays of those that much is
-    /// blocked from find out.
-    void mark_inside(const RayScene& rays, const Transfer& transfer) {
-        const Receivers& receivers = receivers_.receivers;
-        if (back_share_.empty()) {
-            back_share_.assign(receivers.size(), 0);
-            const float y00 = static_cast<float>(detail::kLegendre.sectoral[0]);
-            std::vector<std::uint32_t> blocked;
-            for (const std::uint32_t p : receivers_on_surfaces(receivers))
-                if (transfer.vector(p)[0] < (1 - kInsideShare) * y00)
-                    blocked.push_back(p);
-            // Few rays for all of them, more for those that see a back face at all.
-            EmbreeTracer prober(rays, options_.threads, &surfaces_);
-            for (const int probes : {16, 64}) {
-                Transfer unused = zero_transfer(1, 1, receivers.size());
-                trace_receivers(prober, receivers, blocked, {1, probes, options_.seed, 0}, unused,
-                                {{}, progress_.stop}, [&](std::uint32_t p, std::span<const Hit> hits) {
-                                    back_share_[p] = back_share(hits, probes);
-                                });
-                statistics().rays += blocked.size() * static_cast<std::size_t>(probes);
-                std::erase_if(blocked, [&](std::uint32_t p) { return back_share_[p] == 0; });
-            }
-        }
-        std::vector<bool> inside(receivers.size());
-        for (std::size_t p = 0; p < receivers.size(); ++p)
-            inside[p] = back_share_[p] > kInsideShare;
-        statistics().inside = static_cast<std::size_t>(std::count(
-            inside.begin(), inside.begin() + static_cast<std::ptrdiff_t>(receivers_.fronts), true));
-        if (statistics().inside == 0)
+    /// Receivers that are sealed in take the light of their neighbours.
+    void refill_sealed(const RayScene& rays, const Transfer& transfer) {
+        // Depth maps do not resolve the last hundredth.
+        const SealedOptions options{tracer_->method() == "trace" ? 0 : 0.01, options_.seed, options_.threads};
+        const Sealed sealed =
+            find_sealed(rays, surfaces_, receivers_.receivers, transfer, options, progress_.stop);
+        statistics().rays += sealed.rays;
+        const auto& marked = sealed.receivers;
+        statistics().sealed = static_cast<std::size_t>(std::count(
+            marked.begin(), marked.begin() + static_cast<std::ptrdiff_t>(receivers_.fronts), true));
+        if (statistics().sealed == 0)
             return;
-        operators_.refill = Refill(neighbours(), inside);
+        if (options_.inside == Inside::refill)
+            operators_.refill = Refill(neighbours(), marked);
         statistics().refilled = operators_.refill.size();
-        note("{} receivers see more than {:.0f} % back faces, so they lie inside geometry; {} of them "
-             "take the "
-             "light of their neighbours",
-             statistics().inside, 100 * kInsideShare, statistics().refilled);
+        note("{} receivers are sealed in by backs of faces; {} of them take the light of their neighbours",
+             statistics().sealed, statistics().refilled);
     }
 
     /// Exit transfer of the scene's receivers, all bounces and subsurface scattering in it.
@@ -344,9 +316,9 @@ private:
             propagate(transfer, operators_, bounces_, options_.threads, part_of(progress_, 0.95, 1));
         result_.baked.record.bounces = bounced.bounces;
         statistics().remaining_energy = bounced.remaining;
-        if (bounces_ == kEndlessBounces && gather_ && !bounced.converged)
-            note("after {} bounces {:.2g} of the energy remains: hardly any light leaves this scene",
-                 bounced.bounces, bounced.remaining);
+        if (!bounced.converged)
+            note("the sum over all bounces still changes by {:.2g} after {} steps", bounced.remaining,
+                 bounced.bounces);
         if (surfaces_.has_transmission())
             add_transmission(transfer, surfaces_, receivers_);
         transfer.vectors.resize(receivers_.fronts * transfer.dimension());
@@ -385,7 +357,6 @@ private:
     std::optional<MeshNeighbours> neighbours_;
     std::vector<DiffusionOperator> diffusion_;
     std::unique_ptr<GatherOperator> gather_;
-    std::vector<float> back_share_; ///< [receivers]
     TransportOperators operators_;
     BakeResult result_;
 };

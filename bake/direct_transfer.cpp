@@ -1,8 +1,7 @@
 #include "prt/bake.h"
 
 #include "prt/sh.h"
-
-#include <glm/geometric.hpp>
+#include "ray_starts.h"
 
 #include <algorithm>
 #include <array>
@@ -16,46 +15,6 @@ std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers) {
             indices.push_back(i);
     return indices;
 }
-
-namespace {
-
-/// Unit mean of the directions from each vertex to the middles of its triangles; zero where they go all
-/// round.
-std::vector<glm::vec3> inward_directions(const Scene& scene) {
-    std::vector<glm::dvec3> sums(scene.receivers(), glm::dvec3(0));
-    std::vector<int> counts(scene.receivers(), 0);
-    for (const Primitive& primitive : scene.primitives) {
-        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
-        for (const glm::uvec3& t : primitive.triangles) {
-            const glm::dvec3 a(vertices.positions[t.x]), b(vertices.positions[t.y]),
-                c(vertices.positions[t.z]);
-            const glm::dvec3 middle = (a + b + c) / 3.0;
-            for (int corner = 0; corner < 3; ++corner) {
-                const glm::dvec3 to_middle = middle - glm::dvec3(vertices.positions[t[corner]]);
-                const double length = glm::length(to_middle);
-                if (!(length > 0))
-                    continue;
-                sums[vertices.first_receiver + t[corner]] += to_middle / length;
-                ++counts[vertices.first_receiver + t[corner]];
-            }
-        }
-    }
-    // Along the surface only: on a bent one the middles lie below the vertex. On a straight edge of an even
-    // mesh the mean is 0.6 to 0.9 long, inside it is near zero.
-    constexpr double kLeastMean = 0.25;
-    std::vector<glm::vec3> inward(sums.size(), glm::vec3(0));
-    for (const VertexArray& vertices : scene.vertex_arrays)
-        for (std::size_t v = 0; v < vertices.size(); ++v) {
-            const std::size_t i = vertices.first_receiver + v;
-            const glm::dvec3 normal(vertices.normals[v]);
-            const glm::dvec3 along = sums[i] - normal * glm::dot(normal, sums[i]);
-            if (counts[i] > 0 && glm::length(along) > kLeastMean * counts[i])
-                inward[i] = glm::vec3(glm::normalize(along));
-        }
-    return inward;
-}
-
-} // namespace
 
 Transfer unshadowed_transfer(const Scene& scene, int order) {
     Transfer transfer{order, 1, {}};
@@ -77,7 +36,7 @@ Receivers vertex_receivers(const Scene& scene) {
         receivers.normals.insert(receivers.normals.end(), vertices.normals.begin(), vertices.normals.end());
     }
     receivers.areas = receiver_areas(scene);
-    receivers.inward = inward_directions(scene);
+    receivers.starts = ray_starts(scene, Side::front);
     return receivers;
 }
 

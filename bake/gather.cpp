@@ -2,6 +2,7 @@
 
 #include "prt/parallel.h"
 #include "prt/sh_basis.h"
+#include "ray_starts.h"
 #include "sparse_rows.h"
 
 #include <algorithm>
@@ -63,11 +64,15 @@ TransportReceivers transport_receivers(Receivers fronts, const Surfaces& surface
     TransportReceivers result{std::move(fronts), {}, 0};
     result.fronts = result.receivers.size();
     Receivers& all = result.receivers;
+    std::vector<glm::vec3> starts;
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
         if (!surfaces.two_sided(t))
             continue;
-        if (result.back.empty())
+        if (result.back.empty()) {
             result.back.assign(result.fronts, kNoReceiver);
+            if (!all.starts.empty())
+                starts = ray_starts(surfaces.scene(), Side::back);
+        }
         for (int corner = 0; corner < 3; ++corner) {
             const std::uint32_t front = surfaces.corners(t)[corner];
             if (result.back[front] != kNoReceiver)
@@ -76,8 +81,8 @@ TransportReceivers transport_receivers(Receivers fronts, const Surfaces& surface
             all.positions.push_back(all.positions[front]);
             all.normals.push_back(-all.normals[front]);
             all.areas.push_back(all.areas[front]);
-            if (!all.inward.empty())
-                all.inward.push_back(all.inward[front]);
+            if (!starts.empty())
+                all.starts.push_back(starts[front]);
         }
     }
     return result;
@@ -168,6 +173,32 @@ void GatherOperator::apply(int order, std::span<float> from, std::span<float> to
         for (std::size_t p = begin; p < end; ++p)
             rows.push_back({rows_[p].count, rows_[p].sources.get(), rows_[p].weights.get()});
         apply_rows(order, channels_, !reflectance_.empty(), rows, from.data(), &to[begin * stride]);
+    });
+}
+
+void GatherOperator::apply_in_double(int order, std::span<const float> from, std::span<double> to,
+                                     int threads) const {
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(order));
+    const auto channels = static_cast<std::size_t>(channels_);
+    const std::size_t stride = coefficients * channels;
+    const bool shared = !reflectance_.empty();
+    parallel_for(rows_.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p) {
+            double* const sums = &to[p * stride];
+            std::fill_n(sums, stride, 0.0);
+            const Row& row = rows_[p];
+            for (std::size_t e = 0; e < row.count; ++e)
+                for (std::size_t c = 0; c < channels; ++c) {
+                    const std::uint32_t source = row.sources[e];
+                    const double weight =
+                        shared ? static_cast<double>(row.weights[e]) *
+                                     static_cast<double>(reflectance_[source][static_cast<int>(c)])
+                               : static_cast<double>(row.weights[e * channels + c]);
+                    const float* const values = &from[source * stride + c * coefficients];
+                    for (std::size_t i = 0; i < coefficients; ++i)
+                        sums[c * coefficients + i] += weight * static_cast<double>(values[i]);
+                }
+        }
     });
 }
 

@@ -50,6 +50,9 @@ public:
     /// to = F from; both [receivers][channels][order²]. `from` is used up.
     void apply(int order, std::span<float> from, std::span<float> to, int threads) const;
 
+    /// The same with sums in double, slower.
+    void apply_in_double(int order, std::span<const float> from, std::span<double> to, int threads) const;
+
     struct Row {
         std::uint32_t count = 0;
         std::unique_ptr<std::uint32_t[]> sources; ///< [count]

@@ -1,5 +1,6 @@
 #include "light_transport.h"
 
+#include "krylov.h"
 #include "prt/bake.h"
 
 #include <algorithm>
@@ -28,26 +29,42 @@ void exit_from_incident(const TransportOperators& operators, int order, int chan
         diffusion.apply(channels, order, vectors, threads);
 }
 
-} // namespace
+/// One bounce: exit transfer from exit transfer.
+ColumnOperator bounce_operator(const TransportOperators& operators, int order, int channels, int threads) {
+    const auto apply = [&operators, order, channels, threads](std::span<float> from, std::span<float> to) {
+        operators.gather->apply(order, from, to, threads);
+        exit_from_incident(operators, order, channels, to, threads);
+    };
+    const auto residual = [&operators, apply, order, channels,
+                           threads](std::span<const float> b, std::span<const float> x, std::span<float> r) {
+        if (operators.diffusion.empty()) {
+            std::vector<double> incident(x.size());
+            operators.gather->apply_in_double(order, x, incident, threads);
+            operators.refill.apply(std::span<double>(incident),
+                                   static_cast<std::size_t>(channels * coefficient_count(order)));
+            for (std::size_t i = 0; i < r.size(); ++i)
+                r[i] =
+                    static_cast<float>(static_cast<double>(b[i]) - static_cast<double>(x[i]) + incident[i]);
+        } else { // media mix light so well that nothing is slow
+            std::vector<float> from(x.begin(), x.end());
+            apply(from, r);
+            for (std::size_t i = 0; i < r.size(); ++i)
+                r[i] += b[i] - x[i];
+        }
+    };
+    return {apply, residual};
+}
 
-BounceResult propagate(Transfer& transfer, const TransportOperators& operators, int bounces, int threads,
-                       const Progress& progress) {
-    const int order = transfer.order, channels = transfer.channels;
-    const auto coefficients = static_cast<std::size_t>(coefficient_count(order));
+/// Adds bounce after bounce.
+BounceResult bounce_often(Transfer& transfer, const TransportOperators& operators, int bounces, int threads,
+                          const Progress& progress) {
+    const ColumnOperator bounce = bounce_operator(operators, transfer.order, transfer.channels, threads);
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.order));
     BounceResult result;
-    exit_from_incident(operators, order, channels, transfer.vectors, threads);
-    if (!operators.gather || bounces == 0)
-        return result;
-
-    // Enclosures of albedo 1 that hardly any light leaves converge slowly; this many bounces take seconds.
-    constexpr int kMostBounces = 10000;
-    const bool endless = bounces == kEndlessBounces;
     std::vector<float> now = transfer.vectors, next(now.size());
     double before = largest_norm(now, coefficients);
-    const double first = before;
-    while (result.bounces < (endless ? kMostBounces : bounces)) {
-        operators.gather->apply(order, now, next, threads);
-        exit_from_incident(operators, order, channels, next, threads);
+    while (result.bounces < bounces) {
+        bounce.apply(now, next);
         for (std::size_t i = 0; i < next.size(); ++i)
             transfer.vectors[i] += next[i];
         std::swap(now, next);
@@ -59,16 +76,59 @@ BounceResult propagate(Transfer& transfer, const TransportOperators& operators, 
                            : ratio < 1               ? energy * ratio / (1 - ratio) / total
                                                      : 1;
         before = energy;
-        if (endless && result.remaining < kRemainingEnergy) {
-            result.converged = true;
-            break;
-        }
-        // The energy falls geometrically, so that its logarithm says how far it is.
-        const double share = endless ? std::log(std::max(energy / first, 1e-30)) / std::log(kRemainingEnergy)
-                                     : static_cast<double>(result.bounces) / bounces;
-        progress.update(std::clamp(share, 0.0, 1.0));
+        progress.update(static_cast<double>(result.bounces) / bounces);
     }
     return result;
+}
+
+/// The sum over all bounces (docs/math.md, eq. 21).
+BounceResult bounce_endlessly(Transfer& transfer, const TransportOperators& operators, int threads,
+                              const Progress& progress) {
+    // A few coefficients at a time, since the solver keeps a vector for each of its steps.
+    const int order = std::min(transfer.order, 3), width = coefficient_count(order),
+              coefficients = coefficient_count(transfer.order), channels = transfer.channels;
+    const auto columns = static_cast<std::size_t>(channels * width);
+    std::vector<float> some(transfer.receivers() * columns);
+    const ColumnOperator bounce = bounce_operator(operators, order, channels, threads);
+    BounceResult result;
+    for (int first = 0; first < coefficients; first += width) {
+        progress.update(static_cast<double>(first) / coefficients);
+        const auto exchange = [&](auto&& visit) { // the last ones may be fewer
+            for (std::size_t p = 0; p < transfer.receivers(); ++p)
+                for (int c = 0; c < channels; ++c)
+                    for (int k = 0; k < width; ++k)
+                        visit(
+                            some[p * columns + static_cast<std::size_t>(c * width + k)],
+                            first + k < coefficients
+                                ? &transfer.vector(p)[static_cast<std::size_t>(c * coefficients + first + k)]
+                                : nullptr);
+        };
+        exchange([](float& here, const float* there) { here = there ? *there : 0.0f; });
+        const KrylovResult solved =
+            solve_fixed_point(bounce, some, {.columns = columns, .threads = threads, .check = [&] {
+                                                 if (progress.stop.stop_requested())
+                                                     throw Cancelled();
+                                             }});
+        exchange([](float here, float* there) {
+            if (there)
+                *there = here;
+        });
+        result.bounces = std::max(result.bounces, solved.applications);
+        result.remaining = std::max(result.remaining, solved.remaining);
+        result.converged = result.converged && solved.converged;
+    }
+    return result;
+}
+
+} // namespace
+
+BounceResult propagate(Transfer& transfer, const TransportOperators& operators, int bounces, int threads,
+                       const Progress& progress) {
+    exit_from_incident(operators, transfer.order, transfer.channels, transfer.vectors, threads);
+    if (!operators.gather || bounces == 0)
+        return {};
+    return bounces == kEndlessBounces ? bounce_endlessly(transfer, operators, threads, progress)
+                                      : bounce_often(transfer, operators, bounces, threads, progress);
 }
 
 void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers) {

@@ -19,15 +19,13 @@ struct TransportOperators {
 };
 
 struct BounceResult {
-    int bounces = 0; ///< done
+    int bounces = 0; ///< done; for endless ones how often the solver applied the operators
     /// Energy of the bounces not done, estimated as a geometric series: largest norm of a receiver's
-    /// transfer, over that of the sum.
+    /// transfer, over that of the sum. For endless ones the estimated error of the solution, over its largest
+    /// element.
     double remaining = 0;
-    bool converged = false;
+    bool converged = true; ///< endless bounces reached the solver's tolerance
 };
-
-/// Endless bounces end where less than this remains.
-inline constexpr double kRemainingEnergy = 1e-5;
 
 /// Replaces the direct transfer in `transfer` by the sum over direct light and `bounces` bounces (or
 /// kEndlessBounces).

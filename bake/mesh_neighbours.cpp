@@ -48,12 +48,12 @@ MeshNeighbours::MeshNeighbours(const Surfaces& surfaces, const Receivers& receiv
         neighbours_.push_back(to);
 }
 
-Refill::Refill(const MeshNeighbours& neighbours, const std::vector<bool>& inside) {
-    std::vector<bool> known(inside.size());
+Refill::Refill(const MeshNeighbours& neighbours, const std::vector<bool>& sealed) {
+    std::vector<bool> known(sealed.size());
     std::vector<std::uint32_t> waiting;
-    for (std::uint32_t p = 0; p < inside.size(); ++p) {
-        known[p] = !inside[p];
-        if (inside[p])
+    for (std::uint32_t p = 0; p < sealed.size(); ++p) {
+        known[p] = !sealed[p];
+        if (sealed[p])
             waiting.push_back(p);
     }
     while (!waiting.empty()) {
@@ -74,16 +74,6 @@ Refill::Refill(const MeshNeighbours& neighbours, const std::vector<bool>& inside
         for (std::size_t s = before; s < steps_.size(); ++s)
             known[steps_[s].receiver] = true; // only now: a ring is filled from the one before
         waiting = std::move(still);
-    }
-}
-
-void Refill::apply(std::span<float> values, std::size_t stride) const {
-    for (const Step& step : steps_) {
-        float* const to = &values[step.receiver * stride];
-        std::fill_n(to, stride, 0.0f);
-        for (const std::uint32_t source : step.sources)
-            for (std::size_t i = 0; i < stride; ++i)
-                to[i] += values[source * stride + i] / static_cast<float>(step.sources.size());
     }
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
-// Receivers that share an edge of a mesh, and the repair of receivers inside geometry.
+// Receivers that share an edge of a mesh, and the repair of receivers that are sealed in.
 
 #include "prt/receivers.h"
 #include "prt/surfaces.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,18 +29,24 @@ private:
     std::vector<std::uint32_t> neighbours_;
 };
 
-/// Share of rays on back faces above which a receiver lies inside geometry.
-inline constexpr float kInsideShare = 0.25f;
-
 /// Replaces the values of marked receivers by the mean of their neighbours that have values, ring by ring.
 class Refill {
 public:
     Refill() = default;
-    /// `inside` [receivers]. A part of a mesh that is marked as a whole stays as it is.
-    Refill(const MeshNeighbours& neighbours, const std::vector<bool>& inside);
+    /// `sealed` [receivers]. A part of a mesh that is marked as a whole stays as it is.
+    Refill(const MeshNeighbours& neighbours, const std::vector<bool>& sealed);
 
     /// `values` [receivers][stride].
-    void apply(std::span<float> values, std::size_t stride) const;
+    template <class Value>
+    void apply(std::span<Value> values, std::size_t stride) const {
+        for (const Step& step : steps_) {
+            Value* const to = &values[step.receiver * stride];
+            std::fill_n(to, stride, Value(0));
+            for (const std::uint32_t source : step.sources)
+                for (std::size_t i = 0; i < stride; ++i)
+                    to[i] += values[source * stride + i] / static_cast<Value>(step.sources.size());
+        }
+    }
     std::size_t size() const { return steps_.size(); }
 
 private:

@@ -87,10 +87,8 @@ float RayScene::triangle_offset(unsigned id) const {
 
 glm::vec3 RayScene::ray_origin(const Receivers& receivers, std::uint32_t index) const {
     const glm::vec3& position = receivers.positions[index];
-    glm::vec3 away = receivers.normals[index];
-    if (!receivers.inward.empty())
-        away += receivers.inward[index];
-    return position + away * surface_offset(position);
+    const auto& starts = receivers.starts.empty() ? receivers.normals : receivers.starts;
+    return position + starts[index] * surface_offset(position);
 }
 
 } // namespace prt

@@ -11,6 +11,7 @@ namespace {
 
 const std::map<std::string, Backend> kBackends = {
     {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
+const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
 const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
                                                         {"raster", BakeMethod::raster}};
 const std::map<std::string, Storage> kStorages = {
@@ -28,16 +29,16 @@ const std::map<std::string, Show> kShows = {
     {"lit", Show::lit}, {"clusters", Show::clusters}, {"error", Show::error}, {"ao", Show::ao}};
 const std::map<std::string, ToneMap> kToneMaps = {{"filmic", ToneMap::filmic}, {"srgb", ToneMap::srgb}};
 
-void parse_vector(const std::string& name, const std::string& text, std::optional<glm::vec3>& target) {
-    glm::vec3 v(0);
+void parse_vector(const std::string& name, const std::string& text, std::optional<glm::dvec3>& target) {
+    glm::dvec3 v(0);
     int used = 0;
-    if (std::sscanf(text.c_str(), "%f,%f,%f%n", &v.x, &v.y, &v.z, &used) != 3 ||
+    if (std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &v.x, &v.y, &v.z, &used) != 3 ||
         static_cast<std::size_t>(used) != text.size())
         throw CLI::ValidationError(name, "'" + text + "' is not x,y,z");
     target = v;
 }
 
-void vector_option(CLI::App* command, const std::string& name, std::optional<glm::vec3>& target,
+void vector_option(CLI::App* command, const std::string& name, std::optional<glm::dvec3>& target,
                    const std::string& text) {
     command
         ->add_option_function<std::string>(
@@ -86,7 +87,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
     command
         ->add_option_function<std::string>(
             "--bounces", [&options](const std::string& text) { options.bounces = parse_bounces(text); },
-            "bounces of light between surfaces; inf: until less than 1e-5 of the energy remains")
+            "bounces of light between surfaces; inf: all of them")
         ->type_name("N|inf")
         ->default_str("0");
     command
@@ -108,6 +109,11 @@ void add_transport(CLI::App* command, BakeOptions& options) {
     choice(command, "--bad-textures", options.bad_textures, kBadTextures,
            "textures that are missing or damaged: stop, or use the factors of their materials alone",
            "error");
+    choice(command, "--inside", options.inside, kInsides,
+           "vertices that lie inside solid geometry, where no light comes: they take the light of their "
+           "neighbours, "
+           "or stay dark",
+           "refill");
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {

@@ -74,7 +74,7 @@ struct RenderArguments {
     Path model, environment, output, json, baked;
     LightOptions light_options;
     int width = 1280, height = 720, samples = 2;
-    std::optional<glm::vec3> camera, look_at;
+    std::optional<glm::dvec3> camera, look_at; ///< metres, world
     double field_of_view_degrees = 35;
     Backend backend = Backend::automatic;
     Show show = Show::lit;

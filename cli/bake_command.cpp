@@ -16,7 +16,7 @@ Json statistics_json(const BakeStatistics& s) {
     return {{"receivers", s.receivers},
             {"receivers_traced", s.traced},
             {"back_sides", s.back_sides},
-            {"receivers_inside", s.inside},
+            {"receivers_sealed", s.sealed},
             {"receivers_refilled", s.refilled},
             {"triangles", s.triangles},
             {"rays", s.rays},

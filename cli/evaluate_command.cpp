@@ -99,15 +99,15 @@ Json jumps_json(const EdgeJumps& jumps, const Scene& scene) {
     const auto position = [&](std::uint32_t receiver) {
         for (const VertexArray& vertices : scene.vertex_arrays)
             if (receiver >= vertices.first_receiver && receiver < vertices.first_receiver + vertices.size())
-                return vertices.positions[receiver - vertices.first_receiver];
-        return glm::vec3(0);
+                return scene.world(vertices.positions[receiver - vertices.first_receiver]);
+        return scene.origin;
     };
     Json json = {{"edges", jumps.edges},
                  {"rms", jumps.rms},
                  {"percentile_99", jumps.percentile_99},
                  {"max", jumps.max}};
     if (jumps.edges > 0) {
-        const glm::vec3 place = position(jumps.worst.first);
+        const glm::dvec3 place = position(jumps.worst.first);
         json["worst_receivers"] = {jumps.worst.first, jumps.worst.second};
         json["worst_place_metres"] = {place.x, place.y, place.z};
     }

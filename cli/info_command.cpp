@@ -21,19 +21,19 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
     const Model model = load_model(a.file);
     const Scene& scene = model.scene;
     const Bounds box = bounds(scene);
+    const glm::dvec3 low = scene.world(box.low), high = scene.world(box.high);
     fmt::print("{}: {} primitives, {} triangles, {} vertices, {} materials, {} images\n", a.file.string(),
                scene.primitives.size(), scene.triangles(), scene.receivers(), scene.materials.size() - 1,
                scene.images.size());
-    fmt::print("  from {:g} {:g} {:g} to {:g} {:g} {:g} m\n", box.low.x, box.low.y, box.low.z, box.high.x,
-               box.high.y, box.high.z);
+    fmt::print("  from {:g} {:g} {:g} to {:g} {:g} {:g} m\n", low.x, low.y, low.z, high.x, high.y, high.z);
     Json report = {{"file", a.file.string()},
                    {"primitives", scene.primitives.size()},
                    {"triangles", scene.triangles()},
                    {"vertices", scene.receivers()},
                    {"materials", scene.materials.size() - 1},
                    {"images", scene.images.size()},
-                   {"low_metres", {box.low.x, box.low.y, box.low.z}},
-                   {"high_metres", {box.high.x, box.high.y, box.high.z}}};
+                   {"low_metres", {low.x, low.y, low.z}},
+                   {"high_metres", {high.x, high.y, high.z}}};
     if (model.baked) {
         const Transfer& t = model.baked->transfer;
         const bool half = model.baked->storage == TransferStorage::float16;

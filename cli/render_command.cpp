@@ -67,9 +67,9 @@ Camera choose_camera(const RenderArguments& a, const Scene& scene) {
     const auto fov = static_cast<float>(glm::radians(a.field_of_view_degrees));
     Camera camera = automatic_camera(scene, aspect, fov);
     if (a.look_at)
-        camera.target = *a.look_at;
+        camera.target = glm::vec3(*a.look_at - scene.origin);
     if (a.camera)
-        camera.position = *a.camera;
+        camera.position = glm::vec3(*a.camera - scene.origin);
     return camera;
 }
 
@@ -133,15 +133,16 @@ void run(const RenderArguments& a, Interrupt& interrupt) {
 
     const std::string renderer = context ? context->renderer() : "CPU ray casting";
     fmt::print("{}: {} x {}, {:.3f} s, {}\n", a.output.string(), a.width, a.height, seconds, renderer);
-    const Camera& c = picture.camera;
+    const glm::dvec3 position = model.scene.world(picture.camera.position),
+                     target = model.scene.world(picture.camera.target);
     write_json({{"output", a.output.string()},
                 {"width_pixels", a.width},
                 {"height_pixels", a.height},
                 {"seconds", seconds},
                 {"backend", context ? "gpu" : "cpu"},
                 {"renderer", renderer},
-                {"camera_metres", {c.position.x, c.position.y, c.position.z}},
-                {"look_at_metres", {c.target.x, c.target.y, c.target.z}}},
+                {"camera_metres", {position.x, position.y, position.z}},
+                {"look_at_metres", {target.x, target.y, target.z}}},
                a.json, interrupt);
 }
 

@@ -230,13 +230,18 @@ private:
              }
          }},
         {"set", [this](const Json& json) { apply(json, viewer_->settings); }},
-        {"camera",
+        {"camera", // in the world of the model's file
          [this](const Json& json) {
              prt::Camera camera = viewer_->camera.camera();
+             const glm::dvec3 origin = viewer_->model() ? viewer_->model()->scene.origin : glm::dvec3(0);
+             const auto place = [&](const Json& at) {
+                 const auto v = at.get<std::array<double, 3>>();
+                 return glm::vec3(glm::dvec3(v[0], v[1], v[2]) - origin);
+             };
              if (json.contains("position"))
-                 camera.position = vec3(json.at("position"));
+                 camera.position = place(json.at("position"));
              if (json.contains("target"))
-                 camera.target = vec3(json.at("target"));
+                 camera.target = place(json.at("target"));
              viewer_->camera = OrbitCamera(camera);
          }},
         {"day",

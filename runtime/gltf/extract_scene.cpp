@@ -10,10 +10,13 @@
 #include "triangle_normal.h"
 #include "triangles.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <string>
 #include <tuple>
@@ -91,13 +94,10 @@ glm::dmat3 cofactors(const glm::dmat3& m) {
     return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
 }
 
-void transform(VertexArray& vertices, std::size_t i, const glm::dmat4& matrix) {
+glm::vec3 transformed_normal(const glm::vec3& normal, const glm::dmat4& matrix) {
     const glm::dmat3 linear(matrix);
-    vertices.positions[i] = glm::vec3(matrix * glm::dvec4(vertices.positions[i], 1));
-    if (!vertices.normals.empty()) {
-        const double side = glm::determinant(linear) < 0 ? -1 : 1;
-        vertices.normals[i] = unit_or_zero(side * (cofactors(linear) * glm::dvec3(vertices.normals[i])));
-    }
+    const double side = glm::determinant(linear) < 0 ? -1 : 1;
+    return unit_or_zero(side * (cofactors(linear) * glm::dvec3(normal)));
 }
 
 class SceneExtractor {
@@ -116,9 +116,11 @@ public:
         const std::vector<NodeTransform> nodes = world_transforms(model_);
         for (const NodeTransform& node : nodes)
             add_node(node, nodes);
-        add_notices();
         if (scene_.triangles() == 0)
             throw Error("the scene has no triangles");
+        place_about_middle();
+        make_flat_normals();
+        add_notices();
         std::size_t first = 0;
         for (VertexArray& vertices : scene_.vertex_arrays) {
             vertices.first_receiver = first;
@@ -167,7 +169,7 @@ private:
             std::tuple(transform.node, alone, file.attributes, file.targets), scene_.vertex_arrays.size());
         primitive.vertices = found->second;
         if (is_new)
-            scene_.vertex_arrays.push_back(read_vertices(transform, all, file, mesh));
+            add_vertices(transform, all, file, mesh);
         VertexArray& vertices = scene_.vertex_arrays[primitive.vertices];
 
         primitive.triangles = read_triangles(model_, file, vertices.size());
@@ -175,15 +177,11 @@ private:
         if (primitive.mirrored)
             for (glm::uvec3& t : primitive.triangles)
                 std::swap(t.y, t.z);
-        if (vertices.normals.empty()) {
-            split_for_flat_normals(vertices, primitive.triangles);
-            ++flat_primitives_;
-        }
         scene_.primitives.push_back(std::move(primitive));
     }
 
-    VertexArray read_vertices(const NodeTransform& node_transform, const std::vector<NodeTransform>& all,
-                              const tinygltf::Primitive& file, const tinygltf::Mesh& mesh) {
+    void add_vertices(const NodeTransform& node_transform, const std::vector<NodeTransform>& all,
+                      const tinygltf::Primitive& file, const tinygltf::Mesh& mesh) {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(node_transform.node)];
         VertexArray vertices;
         vertices.positions = read_vectors<glm::vec3>(model_, attribute(file, "POSITION"));
@@ -196,20 +194,53 @@ private:
         has_morphs_ |= !file.targets.empty();
         apply_morph_targets(model_, file, node.weights.empty() ? mesh.weights : node.weights, vertices);
 
+        std::vector<glm::dmat4> skin;
         if (node.skin >= 0) {
             has_skins_ = true;
-            const std::vector<glm::dmat4> skin = skin_matrices(model_, node.skin, file, vertices.size(), all);
-            for (std::size_t i = 0; i < vertices.size(); ++i)
-                transform(vertices, i, skin[i]);
-        } else {
-            for (std::size_t i = 0; i < vertices.size(); ++i)
-                transform(vertices, i, node_transform.world);
+            skin = skin_matrices(model_, node.skin, file, vertices.size(), all);
         }
-        for (std::size_t i = 0; i < vertices.size(); ++i)
+        std::vector<glm::dvec3> places;
+        places.reserve(vertices.size());
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const glm::dmat4& matrix = skin.empty() ? node_transform.world : skin[i];
+            places.emplace_back(matrix * glm::dvec4(vertices.positions[i], 1));
+            const glm::vec3 as_float(places[i]);
             for (int axis = 0; axis < 3; ++axis)
-                if (!std::isfinite(vertices.positions[i][axis]))
+                if (!std::isfinite(as_float[axis]))
                     throw Error("the position of vertex " + std::to_string(i) + " is not finite");
-        return vertices;
+            if (!vertices.normals.empty())
+                vertices.normals[i] = transformed_normal(vertices.normals[i], matrix);
+        }
+        places_.push_back(std::move(places));
+        scene_.vertex_arrays.push_back(std::move(vertices));
+    }
+
+    /// Positions of the file become those in the world, seen from the middle of the triangles' box. They are
+    /// rounded to floats only here.
+    void place_about_middle() {
+        glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+        for (const Primitive& primitive : scene_.primitives)
+            for (const glm::uvec3& t : primitive.triangles)
+                for (int corner = 0; corner < 3; ++corner) {
+                    low = glm::min(low, places_[primitive.vertices][t[corner]]);
+                    high = glm::max(high, places_[primitive.vertices][t[corner]]);
+                }
+        scene_.origin = low + 0.5 * (high - low);
+        for (std::size_t array = 0; array < places_.size(); ++array)
+            std::transform(places_[array].begin(), places_[array].end(),
+                           scene_.vertex_arrays[array].positions.begin(),
+                           [&](const glm::dvec3& place) { return glm::vec3(place - scene_.origin); });
+        places_.clear();
+    }
+
+    void make_flat_normals() {
+        for (Primitive& primitive : scene_.primitives) {
+            VertexArray& vertices = scene_.vertex_arrays[primitive.vertices];
+            if (!vertices.normals.empty())
+                continue;
+            split_for_flat_normals(vertices, primitive.triangles);
+            ++flat_primitives_;
+        }
     }
 
     std::size_t material_index(int material) const {
@@ -241,6 +272,7 @@ private:
 
     const tinygltf::Model& model_;
     Scene scene_;
+    std::vector<std::vector<glm::dvec3>> places_; ///< [vertex arrays][vertices] in the world
     using Attributes = std::map<std::string, int>;
     /// Vertex arrays by node, primitive (where it matters), attributes and morph targets.
     std::map<std::tuple<int, int, Attributes, std::vector<Attributes>>, std::size_t> shared_;

@@ -53,6 +53,16 @@ float signed_area(const Scene& scene) {
     return area;
 }
 
+/// Where a vertex lies in the file's world.
+glm::vec3 world(const Scene& scene, const VertexArray& vertices, std::size_t i) {
+    return glm::vec3(scene.world(vertices.positions[i]));
+}
+
+glm::vec3 first_place(const GlbFile& file, std::size_t i) {
+    const Scene scene = scene_of(file);
+    return world(scene, scene.vertex_arrays[0], i);
+}
+
 TEST(Triangles, StripsFansListsIndexedOrNotCoverTheSquareFromTheFront) {
     EXPECT_FLOAT_EQ(signed_area(scene_of(strip_file(5, {}))), 1);
     EXPECT_FLOAT_EQ(signed_area(scene_of(strip_file(5, {0, 1, 2, 3}))), 1);
@@ -108,11 +118,11 @@ TEST(Nodes, HierarchyInstancesAndMirrorsPlaceTheMesh) {
     EXPECT_EQ(scene.receivers(), 9u); // instances are unshared
     // Breadth first: the rotated one is a root.
     const auto& rotated = scene.vertex_arrays[scene.primitives[0].vertices];
-    EXPECT_LT(glm::distance(rotated.positions[1], glm::vec3(0, 0, -1)), 1e-6f);
+    EXPECT_LT(glm::distance(world(scene, rotated, 1), glm::vec3(0, 0, -1)), 1e-6f);
     EXPECT_LT(glm::distance(rotated.normals[0], glm::vec3(1, 0, 0)), 1e-6f);
     const auto& scaled = scene.vertex_arrays[scene.primitives[1].vertices];
-    EXPECT_EQ(scaled.positions[1], glm::vec3(12, 0, 0));
-    EXPECT_EQ(scaled.positions[2], glm::vec3(10, 3, 0));
+    EXPECT_EQ(world(scene, scaled, 1), glm::vec3(12, 0, 0));
+    EXPECT_EQ(world(scene, scaled, 2), glm::vec3(10, 3, 0));
     // A mirror turns the winding round, and the front stays the front.
     EXPECT_TRUE(scene.primitives[2].mirrored);
     const auto& mirrored = scene.vertex_arrays[scene.primitives[2].vertices];
@@ -122,6 +132,25 @@ TEST(Nodes, HierarchyInstancesAndMirrorsPlaceTheMesh) {
                   .z,
               0);
     EXPECT_LT(glm::distance(mirrored.normals[0], glm::vec3(0, 0, 1)), 1e-6f);
+}
+
+TEST(Nodes, FarFromTheOriginLoseNoDigits) {
+    // A hundredth of a millimetre, a hundred kilometres away: floats there are 8 mm apart.
+    const auto moved = [](double where) {
+        GlbFile file = test::triangle_file();
+        const double small = 1e-5;
+        file.json["nodes"] = {
+            {{"translation", {where, -where, where}}, {"children", {1}}},
+            {{"mesh", 0}, {"scale", {small, small, small}}, {"translation", {0.1, 0.2, 0.3}}}};
+        return scene_of(file);
+    };
+    const Scene here = moved(0), there = moved(1e5);
+    EXPECT_NEAR(there.origin.x, 1e5 + 0.1, 1e-4);
+    EXPECT_NEAR(there.origin.y, -1e5 + 0.2, 1e-4);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_LT(glm::distance(here.vertex_arrays[0].positions[i], there.vertex_arrays[0].positions[i]),
+                  1e-10f);
+    EXPECT_NEAR(bounds(here).high.x - bounds(here).low.x, 1e-5f, 1e-11f);
 }
 
 TEST(Nodes, ShearedNormalsStayPerpendicular) {
@@ -144,10 +173,10 @@ TEST(Accessors, SparseSubstitutionsAreMade) {
     sparse["count"] = 1;
     sparse["indices"] = {{"bufferView", indices}, {"componentType", test::kUnsignedByte}};
     sparse["values"]["bufferView"] = values;
-    EXPECT_EQ(scene_of(file).vertex_arrays[0].positions[2], glm::vec3(0, 7, 0));
+    EXPECT_EQ(first_place(file, 2), glm::vec3(0, 7, 0));
     // Without a buffer view the rest is zero.
     file.json["accessors"][0].erase("bufferView");
-    EXPECT_EQ(scene_of(file).vertex_arrays[0].positions[1], glm::vec3(0));
+    EXPECT_EQ(first_place(file, 1), glm::vec3(0));
 }
 
 TEST(Accessors, QuantisedAndInterleavedAttributesAreRead) {
@@ -165,7 +194,7 @@ TEST(Accessors, QuantisedAndInterleavedAttributesAreRead) {
     primitive(file)["attributes"]["TEXCOORD_0"] = file.accessor(uv, test::kUnsignedShort, "VEC2", 2, true);
     const Scene scene = scene_of(file);
     const VertexArray& v = scene.vertex_arrays[0];
-    EXPECT_EQ(v.positions[1], glm::vec3(300, 0, 0));
+    EXPECT_EQ(world(scene, v, 1), glm::vec3(300, 0, 0));
     EXPECT_EQ(v.normals[2], glm::vec3(0, 0, 1));
     EXPECT_EQ(v.texcoords[0][0], glm::vec2(0, 1));
     EXPECT_NEAR(v.texcoords[0][2].x, 0.5f, 1e-4f);
@@ -253,10 +282,10 @@ TEST(Skins, TakeThePoseOfTheFile) {
         {{"translation", {1, 0, 5}}}};
     file.json["scenes"][0]["nodes"] = {0, 1, 2};
     const Scene scene = scene_of(file);
-    const auto& p = scene.vertex_arrays[0].positions;
-    EXPECT_EQ(p[0], glm::vec3(0, 0, 3));
-    EXPECT_EQ(p[1], glm::vec3(1, 0, 4));
-    EXPECT_EQ(p[2], glm::vec3(0, 1, 5));
+    const VertexArray& v = scene.vertex_arrays[0];
+    EXPECT_EQ(world(scene, v, 0), glm::vec3(0, 0, 3));
+    EXPECT_EQ(world(scene, v, 1), glm::vec3(1, 0, 4));
+    EXPECT_EQ(world(scene, v, 2), glm::vec3(0, 1, 5));
     EXPECT_EQ(scene.notices.size(), 1u);
 }
 
@@ -265,9 +294,9 @@ TEST(Morphs, TakeTheWeightsOfTheFile) {
     primitive(file)["targets"] = {{{"POSITION", file.accessor(std::vector<float>{0, 0, 2, 0, 0, 0, 0, 0, 0},
                                                               test::kFloat, "VEC3", 3)}}};
     file.json["meshes"][0]["weights"] = {0.5};
-    EXPECT_EQ(scene_of(file).vertex_arrays[0].positions[0], glm::vec3(0, 0, 1));
+    EXPECT_EQ(first_place(file, 0), glm::vec3(0, 0, 1));
     file.json["nodes"][0]["weights"] = {0.0};
-    EXPECT_EQ(scene_of(file).vertex_arrays[0].positions[0], glm::vec3(0));
+    EXPECT_EQ(first_place(file, 0), glm::vec3(0));
 }
 
 TEST(VertexArrays, AreSharedByPrimitivesThatShareAccessors) {

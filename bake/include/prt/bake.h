@@ -29,6 +29,12 @@ enum class Storage {
     float16,
 };
 
+/// What becomes of receivers that no light can reach because they lie inside solid geometry.
+enum class Inside {
+    refill, ///< they take the values of their neighbours, so that no dark seams show where bodies meet
+    keep,   ///< they stay dark
+};
+
 /// Bounce until nothing is left.
 inline constexpr int kEndlessBounces = -1;
 inline constexpr int kMostRays = 1 << 24; ///< per receiver
@@ -50,6 +56,7 @@ struct BakeOptions {
     std::vector<MediumChoice> subsurface;
     double metres_per_unit = 1; ///< size of the scene's unit, for media
     BadTextures bad_textures = BadTextures::error;
+    Inside inside = Inside::refill;
     Storage storage = Storage::automatic;
     int threads = 0; ///< 0: all
     std::uint64_t seed = 0;
@@ -60,7 +67,7 @@ struct BakeStatistics {
     std::size_t traced = 0;     ///< those on a surface; the others have zero transfer
     std::size_t back_sides = 0; ///< traced beside them, where surfaces scatter on both sides
     std::size_t triangles = 0;
-    std::size_t inside = 0;   ///< receivers inside geometry
+    std::size_t sealed = 0;   ///< receivers inside geometry, which no light reaches
     std::size_t refilled = 0; ///< of those, how many took the values of their neighbours
     std::size_t rays = 0;     ///< traced in all
     std::string device;

@@ -30,8 +30,7 @@ public:
     /// The same for a point of the triangle with Embree's primID `id`, and quick.
     float triangle_offset(unsigned id) const;
 
-    /// Where the rays of receivers[index] start: off the surface along its normal, and by as much towards the
-    /// surface that it stands for.
+    /// Where the rays of receivers[index] start: off the surface by Receivers::starts.
     glm::vec3 ray_origin(const Receivers& receivers, std::uint32_t index) const;
 
     struct Triangle {

@@ -15,10 +15,9 @@ struct Receivers {
     std::vector<glm::vec3> positions; ///< metres
     std::vector<glm::vec3> normals;   ///< unit; zero: no surface here, the transfer is zero
     std::vector<float> areas;         ///< m²; zero: nobody sees it, the transfer is zero
-    /// Where the surface lies that a receiver stands for, seen from its position: unit, zero for all sides
-    /// alike. A vertex on the edge of a floor lies in the plane of the wall that rises there, and without
-    /// this no rounding tells on which side of it. Empty: zero for all.
-    std::vector<glm::vec3> inward = {};
+    /// Where rays start, seen from the position, in units of RayScene::surface_offset; empty: the normals. A
+    /// vertex needs more than its normal, which may lean below its faces.
+    std::vector<glm::vec3> starts = {};
 
     std::size_t size() const { return positions.size(); }
 };

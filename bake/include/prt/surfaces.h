@@ -32,6 +32,7 @@ public:
     /// `solid` [materials]: materials with something inside, which are no thin sheets; empty: none.
     Surfaces(const Scene& scene, const std::vector<Texture>& textures, const std::vector<bool>& solid = {});
 
+    const Scene& scene() const { return scene_; }
     std::size_t triangles() const { return triangles_.size(); }
     /// Receivers (vertices) at the corners.
     const glm::uvec3& corners(std::uint32_t triangle) const { return triangles_[triangle].corners; }

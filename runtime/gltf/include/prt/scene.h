@@ -55,7 +55,7 @@ struct Material {
 
 /// Vertices of one or several primitives of one node. Each vertex is a receiver.
 struct VertexArray {
-    std::vector<glm::vec3> positions;              ///< metres, world
+    std::vector<glm::vec3> positions;              ///< metres, seen from Scene::origin
     std::vector<glm::vec3> normals;                ///< unit; zero where neither file nor triangles give one
     std::vector<std::vector<glm::vec2>> texcoords; ///< [set][vertex]; a set that the file lacks is empty
     std::vector<glm::vec4> colors;                 ///< COLOR_0, linear; empty: white
@@ -80,12 +80,17 @@ struct EncodedImage {
 };
 
 struct Scene {
+    /// The middle of the scene's box in the file's world, metres. Positions are seen from here, so that a scene
+    /// far from the world's origin loses no digits.
+    glm::dvec3 origin{0};
     std::vector<VertexArray> vertex_arrays;
     std::vector<Primitive> primitives;
     std::vector<Material> materials; ///< the file's, then glTF's default material
     std::vector<EncodedImage> images;
     std::vector<std::string> notices; ///< what a user should know about how the file was read, a line each
 
+    /// Where a position lies in the file's world.
+    glm::dvec3 world(const glm::vec3& position) const { return origin + glm::dvec3(position); }
     std::size_t receivers() const;
     std::size_t triangles() const;
 };
@@ -93,11 +98,11 @@ struct Scene {
 /// A third of the area of the triangles at each receiver, in m². [receivers]
 std::vector<float> receiver_areas(const Scene& scene);
 
-/// Hexadecimal hash of the positions and normals of all receivers, in any order: transfers belong together
-/// when it is equal.
+/// Hexadecimal hash of the positions (from the scene's origin) and normals of all receivers, in any order:
+/// transfers belong together when it is equal.
 std::string receivers_id(const Scene& scene);
 
-/// Corners of the box round all triangles.
+/// Corners of the box round all triangles, seen from the scene's origin.
 struct Bounds {
     glm::vec3 low, high;
 };
