@@ -1,6 +1,7 @@
 #include "prt/bake.h"
 
 #include "adaptive.h"
+#include "available_memory.h"
 #include "gather.h"
 #include "light_transport.h"
 #include "mesh_neighbours.h"
@@ -92,7 +93,7 @@ public:
         const Stopwatch all;
         receivers_ = transport_receivers(vertex_receivers(scene_), surfaces_);
         decide_what_is_needed();
-        check_memory();
+        check_memory(memory_needed());
         RayScene rays(scene_, options_.threads);
         tracer_ = make_tracer(scene_, rays, surfaces_, textures_, options_);
         statistics().device = tracer_->device();
@@ -185,16 +186,56 @@ private:
             diffusion_.emplace_back(receivers_.receivers, std::move(triangles), *media_[key.first]);
     }
 
-    void check_memory() const {
-        const double needed =
-            estimate_memory(options_, receivers_.receivers.size(), scene_.triangles(), channels_);
-        const double there = physical_memory();
+    double memory_there() const {
+        return options_.memory_limit > 0 ? options_.memory_limit : available_memory();
+    }
+
+    double memory_needed() const {
+        return estimate_memory(options_, receivers_.receivers.size(), scene_.triangles(), channels_);
+    }
+
+    void check_memory(double needed) const {
+        const double there = memory_there();
         if (there > 0 && needed > there)
             throw Error(
-                fmt::format("the bake needs about {:.1f} GB of memory ({} receivers, order {}, {} rays{}), "
-                            "and this machine has {:.1f} GB",
+                fmt::format("the bake needs about {:.2g} GB of memory ({} receivers, order {}, {} rays{}), "
+                            "and {} {:.2g} GB",
                             needed * 1e-9, receivers_.receivers.size(), options_.order, options_.rays,
-                            bounces_ != 0 ? ", with bounces" : "", there * 1e-9));
+                            bounces_ != 0 ? ", with bounces" : "",
+                            options_.memory_limit > 0 ? "the limit is" : "there are", there * 1e-9));
+    }
+
+    /// Asks whether the rows of the gather fit: by what there can be at most, else by what some receivers
+    /// see.
+    void check_gather_memory(const std::map<std::uint32_t, std::vector<std::uint32_t>>& by_rays,
+                             const TraceOptions& options) {
+        double most = 0, likely = 0;
+        for (const auto& [rays, members] : by_rays)
+            most += static_cast<double>(members.size()) * rays * GatherOperator::kMostBytesPerRay;
+        if (memory_needed() + most <= memory_there())
+            return;
+        for (const auto& [rays, members] : by_rays)
+            likely += estimate_gather(members, static_cast<int>(rays), options);
+        check_memory(memory_needed() + likely);
+    }
+
+    /// Bytes of the rows of all `receivers`, from some rays of some of them.
+    double estimate_gather(const std::vector<std::uint32_t>& receivers, int rays, TraceOptions options) {
+        const std::size_t count = std::min<std::size_t>(64, receivers.size());
+        std::vector<std::uint32_t> some;
+        for (std::size_t i = 0; i < count; ++i)
+            some.push_back(receivers[i * receivers.size() / count]);
+        GatherOperator rows(surfaces_, receivers_, channels_);
+        const auto empty = static_cast<double>(rows.bytes());
+        options.order = 1;
+        options.rays = std::min(rays, 4096);
+        Transfer unused = zero_transfer(1, 1, receivers_.receivers.size());
+        trace_receivers(
+            *tracer_, receivers_.receivers, some, options, unused, {{}, progress_.stop},
+            [&](std::uint32_t p, std::span<const Hit> hits) { rows.set_row(p, hits, options.rays); });
+        statistics().rays += count * static_cast<std::size_t>(options.rays);
+        return empty + (static_cast<double>(rows.bytes()) - empty) * static_cast<double>(receivers.size()) /
+                           static_cast<double>(count) * rays / options.rays;
     }
 
     std::span<const float> fronts_areas() const {
@@ -254,6 +295,7 @@ private:
             all += rays_of[p];
         }
         options.hit_stride = kHitStride;
+        check_gather_memory(by_rays, options);
         for (const auto& [rays, members] : by_rays) {
             options.rays = static_cast<int>(rays);
             const std::size_t here = members.size() * rays;

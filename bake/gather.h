@@ -44,6 +44,9 @@ public:
     /// Makes row `receiver` from what `rays` of its rays met. Rows may be made from several threads.
     void set_row(std::uint32_t receiver, std::span<const Hit> hits, int rays);
 
+    /// A row holds three entries per ray at most, each a source and a weight per channel.
+    static constexpr double kMostBytesPerRay = 3 * 16;
+
     std::size_t entries() const;
     std::size_t bytes() const;
 

@@ -189,14 +189,8 @@ private:
                     return false;
             return true;
         };
-        for (int step = 0; step < options_.steps && !reduced(); ++step) {
+        for (int step = 0; step < options_.steps && !reduced(); ++step)
             extend(basis, systems);
-            double w = 0;
-            for (std::size_t c = 0; c < columns; ++c)
-                if (norms[c] > 0)
-                    w = std::max(w, systems[c].residual() / norms[c]);
-            printf("  %.2g", w);
-        }
         Vector change(basis[0].size(), 0.0f);
         std::vector<std::vector<double>> solutions;
         for (const SmallSystem& system : systems)

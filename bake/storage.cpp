@@ -4,11 +4,8 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include <algorithm>
 #include <cmath>
-
-#if defined(__unix__) || defined(__APPLE__)
-#include <unistd.h>
-#endif
 
 namespace prt {
 
@@ -27,14 +24,6 @@ double half_rounding_error(const Transfer& transfer, std::span<const float> area
     return norm > 0 ? std::sqrt(error / norm) : 0;
 }
 
-double physical_memory() {
-#if defined(_SC_PHYS_PAGES) && defined(_SC_PAGE_SIZE)
-    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-#else
-    return 0;
-#endif
-}
-
 double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
                        int channels) {
     const auto count = static_cast<double>(receivers);
@@ -45,12 +34,11 @@ double estimate_memory(const BakeOptions& options, std::size_t receivers, std::s
         bytes += 3 * count * vector;
     // Embree's tree of high quality, our tables of triangles, the scene, its neighbours.
     bytes += 400.0 * static_cast<double>(triangles) + 150 * count;
-    if (options.bounces != 0) {
+    if (options.bounces == kEndlessBounces)
+        bytes +=
+            40 * count * 4 * channels * coefficient_count(std::min(options.order, 3)); // the solver's steps
+    else if (options.bounces != 0)
         bytes += 2 * count * vector;
-        // Half of the rays meet something, and each has three corners, of which many fall together: measured
-        // 0.5 to 1.2 entries per ray.
-        bytes += count * options.rays * (4.0 + 4 * channels);
-    }
     return bytes;
 }
 

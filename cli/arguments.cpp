@@ -109,6 +109,13 @@ void add_transport(CLI::App* command, BakeOptions& options) {
     choice(command, "--bad-textures", options.bad_textures, kBadTextures,
            "textures that are missing or damaged: stop, or use the factors of their materials alone",
            "error");
+    command
+        ->add_option_function<std::uint64_t>(
+            "--memory-limit",
+            [&options](const std::uint64_t& bytes) { options.memory_limit = static_cast<double>(bytes); },
+            "bytes that the bake may take; otherwise what the machine or its container has")
+        ->transform(CLI::AsSizeValue(true))
+        ->type_name("SIZE, as 8GB");
     choice(command, "--inside", options.inside, kInsides,
            "vertices that lie inside solid geometry, where no light comes: they take the light of their "
            "neighbours, "

@@ -1,13 +1,17 @@
+#include "available_memory.h"
 #include "prt/bake.h"
 #include "prt/error.h"
 #include "prt/light.h"
 #include "support/scene_builder.h"
+#include "support/temporary_folder.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <numbers>
 #include <random>
 
@@ -369,15 +373,49 @@ TEST(Memory, IsEstimatedFirstAndTooMuchIsRefused) {
     BakeOptions options;
     options.order = 10;
     EXPECT_GT(estimate_memory(options, 100'000'000, 200'000'000, 1), 1.2e11);
-    options.rays = kMostRays;
     options.bounces = 1;
-    const Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 40).build();
+    options.memory_limit = 20e6;
+    options.backend = Backend::cpu;
     try {
-        bake(scene, options);
+        bake(make_bowl(0.5).scene, options);
         FAIL();
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("GB of memory"), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find("the limit is 0.02 GB"), std::string::npos) << error.what();
     }
+}
+
+TEST(Memory, OfBouncesIsWhatRaysReallyMeet) {
+    // A lamp's shade over a floor: one ray in fifty meets something, and one in four is followed.
+    const Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 40).floor({0, 0.5f, 0}, 0.1f).build();
+    BakeOptions options;
+    options.order = 2;
+    options.rays = 2048;
+    options.bounces = 1;
+    options.backend = Backend::cpu;
+    options.memory_limit = 50e6; // as much as 9 600 · 2 048 entries would be, a third of them
+    EXPECT_NO_THROW(bake(scene, options));
+}
+
+TEST(Memory, OfAContainerIsItsLeastLimit) {
+    const test::TemporaryFolder folder;
+    const auto write = [&](const char* name, const char* text) {
+        std::filesystem::create_directories((folder.path() / name).parent_path());
+        std::ofstream(folder.path() / name) << text;
+    };
+    const auto limit = [&] {
+        return control_group_limit(folder.path() / "membership", folder.path() / "mounted");
+    };
+    EXPECT_TRUE(std::isinf(limit()));
+    write("membership", "0::/farm/job\n");
+    write("mounted/farm/job/memory.max", "max\n");
+    EXPECT_TRUE(std::isinf(limit()));
+    write("mounted/farm/memory.max", "8000000000\n"); // of the group above
+    EXPECT_EQ(limit(), 8e9);
+    write("mounted/farm/job/memory.max", "2000000000\n");
+    EXPECT_EQ(limit(), 2e9);
+    write("membership", "3:cpu:/\n5:memory:/job\n"); // version 1
+    write("mounted/memory/job/memory.limit_in_bytes", "3000000000\n");
+    EXPECT_EQ(limit(), 3e9);
 }
 
 } // namespace

@@ -58,7 +58,8 @@ struct BakeOptions {
     BadTextures bad_textures = BadTextures::error;
     Inside inside = Inside::refill;
     Storage storage = Storage::automatic;
-    int threads = 0; ///< 0: all
+    double memory_limit = 0; ///< bytes; 0: what the machine or its container has
+    int threads = 0;         ///< 0: all
     std::uint64_t seed = 0;
 };
 
@@ -95,7 +96,8 @@ struct BakeResult {
 /// backend is not there; `Cancelled` when asked to stop.
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
 
-/// Bytes that a bake takes at most at a time, roughly.
+/// Bytes that a bake takes at most at a time, roughly, but for the operator of its bounces, whose size is found
+/// by tracing some receivers.
 double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
                        int channels);
 
