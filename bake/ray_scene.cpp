@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 namespace prt {
 namespace {
@@ -61,24 +62,29 @@ RayScene::RayScene(const Scene& scene, int threads) {
 }
 
 float RayScene::surface_offset(const glm::vec3& position) const {
-    struct Search {
-        const std::vector<float>* extents;
-        float largest;
-    };
-    Search search{&extents_, largest_coordinate(position)};
-    RTCPointQuery query{position.x, position.y, position.z, 0,
-                        std::max(search.largest * 1e-6f, std::numeric_limits<float>::min())};
+    float largest = largest_coordinate(position);
+    visit_near(position, std::max(largest * 1e-6f, std::numeric_limits<float>::min()),
+               [&](unsigned id) { largest = std::max(largest, extents_[id]); });
+    return kOffset * largest;
+}
+
+void RayScene::triangles_near(const glm::vec3& position, float distance, std::vector<unsigned>& ids) const {
+    ids.clear();
+    visit_near(position, distance, [&](unsigned id) { ids.push_back(id); });
+}
+
+template <class Visit>
+void RayScene::visit_near(const glm::vec3& position, float distance, Visit&& visit) const {
+    RTCPointQuery query{position.x, position.y, position.z, 0, distance};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(
         scene_.get(), &query, &context,
         [](RTCPointQueryFunctionArguments* arguments) {
-            auto& s = *static_cast<Search*>(arguments->userPtr);
-            s.largest = std::max(s.largest, (*s.extents)[arguments->primID]);
+            (*static_cast<std::remove_reference_t<Visit>*>(arguments->userPtr))(arguments->primID);
             return false; // the radius stays
         },
-        &search);
-    return kOffset * search.largest;
+        &visit);
 }
 
 float RayScene::triangle_offset(unsigned id) const {

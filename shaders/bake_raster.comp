@@ -33,6 +33,15 @@ layout(binding = PRT_UNIT_OPAQUE_DEPTH) uniform sampler2DArray opaque_depth;
 layout(binding = PRT_UNIT_LAST_DEPTH) uniform sampler2D layer_depth;
 layout(binding = PRT_UNIT_LAYER_COVERAGE) uniform sampler2D layer_coverage;
 
+#ifndef PRT_PEEL
+layout(std430, binding = PRT_BINDING_TOUCHING_RANGES) readonly buffer TouchingRanges {
+    uvec2 touching_ranges[]; // per receiver: first triangle, one past the last
+};
+layout(std430, binding = PRT_BINDING_TOUCHING) readonly buffer Touching {
+    vec4 touching[]; // three corners per triangle, seen from the start of the receiver's rays
+};
+#endif
+
 uniform uint receiver_count, direction_count;
 uniform float texel_depth; // width of a texel in the unit of depth
 
@@ -60,6 +69,27 @@ float open_share(vec3 place, float cosine, int layer) {
     return mix(mix(shares[0], shares[1], f.x), mix(shares[2], shares[3], f.x), f.y);
 }
 
+#ifndef PRT_PEEL
+// Whether a ray from the origin meets the triangle, by the sides that it passes the edges on.
+bool meets(uint triangle, vec3 direction) {
+    vec3 a = touching[3u * triangle].xyz, b = touching[3u * triangle + 1u].xyz, c = touching[3u * triangle + 2u].xyz;
+    float u = dot(cross(c, b), direction), v = dot(cross(a, c), direction), w = dot(cross(b, a), direction);
+    vec3 normal = cross(b - a, c - a);
+    float facing = dot(normal, direction);
+    bool inside = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
+    return inside && facing != 0.0 && dot(normal, a) / facing > 0.0;
+}
+
+// Whether a triangle that touches the receiver blocks the direction.
+bool touch_blocks(uint receiver, vec3 direction) {
+    uvec2 range = touching_ranges[receiver];
+    bool blocks = false;
+    for (uint t = range.x; t < range.y; ++t)
+        blocks = blocks || meets(t, direction);
+    return blocks;
+}
+#endif
+
 void main() {
     uint receiver = gl_GlobalInvocationID.x;
     if (receiver >= receiver_count)
@@ -80,6 +110,7 @@ void main() {
             open *= passes[receiver];
             passes[receiver] = 1.0;
 #endif
+            open = touch_blocks(receiver, directions[d].towards_light.xyz) ? 0.0 : open;
             blocked = cosine * (1.0 - open);
         }
         if (cosine > 0.0)

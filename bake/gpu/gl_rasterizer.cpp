@@ -1,5 +1,6 @@
 #include "gpu/gpu_receivers.h"
 #include "gpu/gpu_scene.h"
+#include "gpu/touching_triangles.h"
 #include "prt/error.h"
 #include "prt/gl_objects.h"
 #include "prt/gl_tracer.h"
@@ -73,8 +74,9 @@ public:
     Implementation(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
                    const Surfaces& surfaces, const std::vector<Texture>& textures, int resolution,
                    int threads)
-        : context_(std::move(context)), rays_(rays), scene_(scene, surfaces, textures, threads),
-          blends_(has_blended(scene, surfaces)), resolution_(resolution), threads_(threads) {
+        : context_(std::move(context)), rays_(rays), surfaces_(surfaces),
+          scene_(scene, surfaces, textures, threads), blends_(has_blended(scene, surfaces)),
+          resolution_(resolution), threads_(threads) {
         const Bounds box = bounds(scene);
         centre_ = 0.5f * (box.low + box.high);
         // The sphere round the scene, a little larger so that nothing lies on the border.
@@ -113,6 +115,9 @@ public:
         const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
         Stopwatch transfer;
         const GlObject gpu_receivers = upload_receivers(rays_, receivers, indices, options.seed, threads_);
+        const TouchingTriangles touching = touching_triangles(rays_, surfaces_, receivers, indices, threads_);
+        const GlObject touching_ranges = make_buffer(std::span<const glm::uvec2>(touching.ranges)),
+                       touching_corners = make_buffer(std::span<const glm::vec4>(touching.corners));
         std::vector<float> sums(indices.size() * (2 * coefficients + 2));
         const GlObject gpu_sums = make_buffer(std::span<const float>(sums));
         const std::vector<float> ones(blends_ ? indices.size() : 1, 1.0f);
@@ -125,6 +130,8 @@ public:
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_RECEIVERS, gpu_receivers.name());
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_SUMS, gpu_sums.name());
         glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_BLOCKED, passes.name());
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_TOUCHING_RANGES, touching_ranges.name());
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_TOUCHING, touching_corners.name());
         glBindTextureUnit(PRT_UNIT_OPAQUE_DEPTH, maps_.name());
         const std::vector<glm::vec3> directions = even_directions(options.rays, options.seed);
         for (std::size_t begin = 0; begin < directions.size(); begin += maps_at_once()) {
@@ -294,6 +301,7 @@ private:
 
     std::unique_ptr<GlContext> context_;
     const RayScene& rays_;
+    const Surfaces& surfaces_;
     GpuScene scene_;
     bool blends_;
     int resolution_, threads_;

@@ -30,6 +30,9 @@ public:
     /// The same for a point of the triangle with Embree's primID `id`, and quick.
     float triangle_offset(unsigned id) const;
 
+    /// Replaces `ids` by the primIDs of the triangles whose boxes come as near as `distance` to `position`.
+    void triangles_near(const glm::vec3& position, float distance, std::vector<unsigned>& ids) const;
+
     /// Where the rays of receivers[index] start: off the surface by Receivers::starts.
     glm::vec3 ray_origin(const Receivers& receivers, std::uint32_t index) const;
 
@@ -40,6 +43,9 @@ public:
     Triangle triangle(unsigned id) const { return triangles_[id]; }
 
 private:
+    template <class Visit>
+    void visit_near(const glm::vec3& position, float distance, Visit&& visit) const;
+
     struct Release {
         void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
         void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
