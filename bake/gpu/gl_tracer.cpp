@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -33,7 +34,6 @@ constexpr std::uint32_t kBack = 0x80000000u;
 
 constexpr double kDispatchSeconds = 0.1;   ///< a desktop's driver kills what takes seconds
 constexpr std::size_t kMostGroups = 65535; ///< workgroups that every OpenGL 4.5 takes in one direction
-constexpr std::size_t kMostHitBytes = 96 << 20;
 
 std::vector<glm::vec4> sh_factors() {
     std::vector<glm::vec4> factors(100, glm::vec4(0));
@@ -74,11 +74,14 @@ void set_uniform(const GlObject& program, const char* name, std::size_t value) {
 class GlTracer::Implementation {
 public:
     Implementation(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                   const Surfaces& surfaces, const std::vector<Texture>& textures, int threads)
+                   const Surfaces& surfaces, const std::vector<Texture>& textures, int threads,
+                   std::size_t hit_bytes)
         : context_(std::move(context)), rays_(rays), scene_(scene, surfaces, textures, threads),
-          threads_(threads), sh_factors_(make_buffer(std::span<const glm::vec4>(sh_factors()))) {}
+          threads_(threads), most_hits_(hit_bytes / sizeof(HitRecord)),
+          sh_factors_(make_buffer(std::span<const glm::vec4>(sh_factors()))) {}
 
     std::string device() const { return context_->renderer(); }
+    std::size_t traced_again() const { return traced_again_; }
 
     std::size_t batch_size(const TraceOptions& options) const {
         const double receivers = rays_per_second_ * kDispatchSeconds / options.rays;
@@ -89,20 +92,28 @@ public:
                const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
                TraceSeconds& seconds) {
         const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
-        try {
-            if (indices.size() > kMostGroups ||
-                !try_trace(receivers, indices, options, vectors, sink, seconds))
-                throw GpuOutOfMemory("the GPU has no memory for what the rays of a receiver meet");
-        } catch (const GpuOutOfMemory&) {
-            if (indices.size() <= 1)
-                throw;
-            const std::size_t half = indices.size() / 2; // smaller batches may fit
-            HitSink second;
+        std::size_t most = kMostGroups;
+        for (std::size_t begin = 0; begin < indices.size();) {
+            const std::size_t count = std::min(
+                {indices.size() - begin, most,
+                 sink ? std::max<std::size_t>(1, most_hits_ / hits_per_chunk(options)) : kMostGroups});
+            HitSink part;
             if (sink)
-                second = [&](std::size_t i, std::span<const Hit> hits) { sink(half + i, hits); };
-            trace(receivers, indices.first(half), options, vectors, sink, seconds);
-            trace(receivers, indices.subspan(half), options, vectors.subspan(half * coefficients), second,
-                  seconds);
+                part = [&](std::size_t i, std::span<const Hit> hits) { sink(begin + i, hits); };
+            bool fits = false;
+            try {
+                fits = try_trace(receivers, indices.subspan(begin, count), options,
+                                 vectors.subspan(begin * coefficients, count * coefficients), part, seconds);
+            } catch (const GpuOutOfMemory&) {
+                if (count <= 1)
+                    throw;
+            }
+            if (fits)
+                begin += count;
+            else if (count <= 1)
+                throw GpuOutOfMemory("the GPU has no memory for what the rays of a receiver meet");
+            else
+                most = count / 2;
         }
     }
 
@@ -114,6 +125,15 @@ private:
                                                                   std::to_string(order) + "\n" +
                                                                   (hits ? "#define PRT_HITS\n" : ""));
         return program;
+    }
+
+    /// Records that the rays of a chunk need room for. Where surfaces are opaque no more can be: every ray
+    /// that is followed, and one that stands for those that are not. Through blended surfaces rays have no
+    /// bound: what they needed so far.
+    std::size_t hits_per_chunk(const TraceOptions& options) const {
+        if (scene_.has_alpha())
+            return static_cast<std::size_t>(std::ceil(hits_per_ray_ * kChunk));
+        return static_cast<std::size_t>((kChunk + options.hit_stride - 1) / options.hit_stride) + 1;
     }
 
     /// False where the hits do not fit.
@@ -153,9 +173,12 @@ private:
         for (std::size_t begin = 0; begin < chunks;) {
             const double chunks_wanted = rays_per_second_ * kDispatchSeconds /
                                          (static_cast<double>(kChunk) * static_cast<double>(indices.size()));
-            const std::size_t end =
-                std::min(chunks, begin + std::max<std::size_t>(1, static_cast<std::size_t>(chunks_wanted)));
-            if (!dispatch(shader, indices.size(), begin, end, sink ? &hits : nullptr, seconds))
+            std::size_t count = static_cast<std::size_t>(chunks_wanted);
+            if (sink)
+                count = std::min(count, most_hits_ / (hits_per_chunk(options) * indices.size()));
+            const std::size_t end = std::min(chunks, begin + std::max<std::size_t>(1, count));
+            if (!dispatch(shader, indices.size(), begin, end, sink ? &hits : nullptr, hits_per_chunk(options),
+                          seconds))
                 return false;
             begin = end;
         }
@@ -183,18 +206,14 @@ private:
 
     /// Traces chunks [begin, end) of all receivers of the batch. False where the hits do not fit.
     bool dispatch(const GlObject& shader, std::size_t receivers, std::size_t begin, std::size_t end,
-                  std::vector<std::vector<Hit>>* hits, TraceSeconds& seconds) {
+                  std::vector<std::vector<Hit>>* hits, std::size_t hits_per_chunk, TraceSeconds& seconds) {
         set_uniform(shader, "first_chunk", begin);
         set_uniform(shader, "end_chunk", end);
         GlObject records, count, blocked;
         std::size_t capacity = 0;
         const std::vector<float> no_blocked(receivers * (end - begin));
         if (hits) {
-            // Through blended surfaces a ray has no bound on what it meets: as much as there may be, and
-            // fewer receivers at a time where that is not enough.
-            capacity = kMostHitBytes / sizeof(HitRecord);
-            if (!scene_.has_alpha())
-                capacity = std::min(capacity, receivers * (end - begin) * kChunk);
+            capacity = std::min(most_hits_, receivers * (end - begin) * hits_per_chunk);
             records = make_buffer_of(capacity * sizeof(HitRecord));
             const std::uint32_t zero = 0;
             count = make_buffer(std::span(&zero, 1));
@@ -219,8 +238,11 @@ private:
         const Stopwatch transfer;
         std::uint32_t found = 0;
         read_buffer(count, std::span(&found, 1), "the number of hits");
-        if (found > capacity)
+        hits_per_ray_ = std::max(hits_per_ray_, 1.25 * found / rays); // the next batches have room
+        if (found > capacity) {
+            ++traced_again_;
             return false;
+        }
         std::vector<HitRecord> read(found);
         std::vector<float> blocked_of(no_blocked.size());
         read_buffer(records, std::span(read), "the hits");
@@ -260,20 +282,28 @@ private:
     const RayScene& rays_;
     GpuScene scene_;
     int threads_;
+    std::size_t most_hits_; ///< of a dispatch
+    std::size_t traced_again_ = 0;
     GlObject sh_factors_;
     std::map<std::pair<int, bool>, GlObject> programs_; ///< by order, and whether hits are noted
     double rays_per_second_ = 1e6;                      ///< until measured, that of a software rasteriser
+    double hits_per_ray_ = 1; ///< through blended surfaces, a quarter more than measured
 };
 
 GlTracer::GlTracer(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                   const Surfaces& surfaces, const std::vector<Texture>& textures, int threads)
-    : implementation_(
-          std::make_unique<Implementation>(std::move(context), scene, rays, surfaces, textures, threads)) {}
+                   const Surfaces& surfaces, const std::vector<Texture>& textures, int threads,
+                   std::size_t hit_bytes)
+    : implementation_(std::make_unique<Implementation>(std::move(context), scene, rays, surfaces, textures,
+                                                       threads, hit_bytes)) {}
 
 GlTracer::~GlTracer() = default;
 
 std::string GlTracer::device() const {
     return implementation_->device();
+}
+
+std::size_t GlTracer::traced_again() const {
+    return implementation_->traced_again();
 }
 
 std::size_t GlTracer::batch_size(const TraceOptions& options) const {

@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <random>
 #include <set>
 
@@ -60,9 +61,9 @@ public:
         : scene_(std::move(scene)), textures_(std::move(textures)), rays_(scene_),
           surfaces_(scene_, textures_), receivers_(vertex_receivers(scene_)), cpu_(rays_, 0, &surfaces_) {}
 
-    std::unique_ptr<GlTracer> gpu() {
+    std::unique_ptr<GlTracer> gpu(std::size_t hit_bytes = 96 << 20) {
         return std::make_unique<GlTracer>(GlContext::create(GlDevice::any), scene_, rays_, surfaces_,
-                                          textures_);
+                                          textures_, 0, hit_bytes);
     }
     std::unique_ptr<GlRasterizer> rasterizer(int resolution) {
         return std::make_unique<GlRasterizer>(GlContext::create(GlDevice::any), scene_, rays_, surfaces_,
@@ -172,6 +173,34 @@ TEST(GpuTrace, MeetsWhatTheCpuMeets) {
     }
 }
 
+TEST(GpuTrace, SizesBatchesByHitsAndTracesNothingTwice) {
+    // A hundredth of the room that all hits at once would take.
+    constexpr std::size_t kHitBytes = 64 << 10;
+    const auto weight = [](Pair& pair, Tracer& tracer, int stride) {
+        TraceOptions options{2, 200, 1, 0};
+        options.hit_stride = stride;
+        std::vector<double> sums(pair.receivers().size(), 0);
+        pair.trace(tracer, options, [&](std::uint32_t p, std::span<const Hit> hits) {
+            for (const Hit& hit : hits)
+                sums[p] += static_cast<double>(hit.weight);
+        });
+        return std::accumulate(sums.begin(), sums.end(), 0.0);
+    };
+    Pair opaque(balls_over_floor());
+    const auto gpu = opaque.gpu(kHitBytes);
+    const double expected = weight(opaque, opaque.cpu(), 4);
+    EXPECT_NEAR(weight(opaque, *gpu, 4), expected, 0.002 * expected);
+    EXPECT_EQ(gpu->traced_again(), 0u);
+    // Blended surfaces are learnt of once.
+    Pair blended(under_a_ceiling(AlphaMode::blend), {dotted_texture()});
+    const auto other = blended.gpu(kHitBytes);
+    weight(blended, *other, 1);
+    const std::size_t learnt = other->traced_again();
+    EXPECT_LE(learnt, 2u);
+    weight(blended, *other, 1);
+    EXPECT_EQ(other->traced_again(), learnt);
+}
+
 TEST(GpuTrace, PassesCutOutsAndBlendedSurfacesAsTheCpuDoes) {
     for (const AlphaMode mode : {AlphaMode::mask, AlphaMode::blend}) {
         Pair pair(under_a_ceiling(mode), {dotted_texture()});
@@ -245,6 +274,48 @@ TEST(GpuRaster, ConvergesToTraceWithResolutionAndDirections) {
     EXPECT_LT(many, 0.5 * few);
     EXPECT_LT(many, 0.03);
     EXPECT_LT(error(1024, 1024), error(64, 1024));
+}
+
+/// A room of quads that share no vertices: floor and walls meet, and the ceiling has a hole.
+Scene room_with_a_hole() {
+    SceneBuilder builder;
+    builder.floor({0, 0, 0}, 1, 6);
+    const glm::vec3 corners[] = {{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}};
+    for (int side = 0; side < 4; ++side) {
+        const glm::vec3 a = corners[side], along = (corners[(side + 1) % 4] - a) / 6.0f;
+        for (int i = 0; i < 6; ++i)
+            for (int j = 0; j < 4; ++j) {
+                const auto at = [&](int u, int v) {
+                    return a + along * static_cast<float>(u) + glm::vec3(0, 0.5f * static_cast<float>(v), 0);
+                };
+                builder.quad(at(i, j + 1), at(i + 1, j + 1), at(i + 1, j), at(i, j));
+            }
+    }
+    const auto roof = [&](float x0, float z0, float x1, float z1) {
+        builder.quad({x0, 2, z0}, {x1, 2, z0}, {x1, 2, z1}, {x0, 2, z1});
+    };
+    roof(-1, -1, 1, -0.4f);
+    roof(-1, 0.4f, 1, 1);
+    roof(-1, -0.4f, -0.4f, 0.4f);
+    roof(0.4f, -0.4f, 1, 0.4f);
+    return builder.build();
+}
+
+TEST(GpuRaster, LeaksNothingWhereWallsMeetTheFloor) {
+    Pair pair(room_with_a_hole());
+    const Transfer reference = pair.on_cpu({3, 4096, 99, 0});
+    const double raster = pair.distance(reference, pair.trace(*pair.rasterizer(512), {3, 512, 1, 0}));
+    EXPECT_LT(raster, 0.25);      // 512 directions over the sphere find the hole some twenty times
+    double inside = 0, truth = 0; // mean visibility of the floor's edge
+    const Transfer maps = pair.trace(*pair.rasterizer(256), {1, 512, 1, 0});
+    for (std::size_t p = 0; p < 6 * 6 * 6; ++p) {
+        const glm::vec3& at = pair.receivers().positions[p];
+        if (std::max(std::abs(at.x), std::abs(at.z)) > 0.99f) {
+            inside += static_cast<double>(maps.vector(p)[0]);
+            truth += static_cast<double>(reference.vector(p)[0]);
+        }
+    }
+    EXPECT_NEAR(inside, truth, 0.15 * truth);
 }
 
 TEST(GpuRaster, PeelsBlendedSurfacesAndDropsCutOuts) {

@@ -96,8 +96,8 @@ struct BakeResult {
 /// backend is not there; `Cancelled` when asked to stop.
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
 
-/// Bytes that a bake takes at most at a time, roughly, but for the operator of its bounces, whose size is found
-/// by tracing some receivers.
+/// Bytes that a bake takes at most at a time, roughly, but for the operator of its bounces, whose size is
+/// found by tracing some receivers.
 double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
                        int channels);
 
