@@ -107,5 +107,29 @@ TEST(Storage, IsFloat16WhereSamplingErrsTenTimesAsMuch) {
                 relative_l2(result.baked.transfer, rounded, receiver_areas(scene)), 1e-9);
 }
 
+TEST(SamplingError, OfFixedRaysIsNeitherLowNorScattered) {
+    const Scene scene = balls_over_floor();
+    const std::vector<float> areas = receiver_areas(scene);
+    const auto baked = [&](int rays, std::uint64_t seed) {
+        BakeOptions options;
+        options.order = 3;
+        options.rays = rays;
+        options.seed = seed;
+        options.backend = Backend::cpu;
+        options.storage = Storage::float32;
+        return bake(scene, options);
+    };
+    const Transfer reference = baked(1 << 14, 77).baked.transfer;
+    double estimated = 0, real = 0;
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+        const BakeResult result = baked(64, seed);
+        const double error = relative_l2(reference, result.baked.transfer, areas);
+        EXPECT_NEAR(result.statistics.sampling_error, error, 0.15 * error) << seed;
+        estimated += result.statistics.sampling_error;
+        real += error;
+    }
+    EXPECT_NEAR(estimated, real, 0.03 * real);
+}
+
 } // namespace
 } // namespace prt
