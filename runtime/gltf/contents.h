@@ -34,6 +34,10 @@ struct GltfContents {
     std::size_t add_accessor(Json accessor);
     /// Lists `name` in extensionsUsed.
     void use_extension(const std::string& name);
+    /// Takes `name` out of extensionsUsed and extensionsRequired.
+    void drop_extension(const std::string& name);
+    /// Cuts out of the buffer what no view refers to.
+    void cut_unused_bytes();
     /// Takes the extensions of prtkit out, with their attributes, accessors and data.
     void remove_transfer();
     /// Takes those of `accessors` out that nothing refers to any more, with their data.

@@ -2,6 +2,7 @@
 
 #include "accessor.h"
 #include "contents.h"
+#include "draco_primitives.h"
 #include "glb.h"
 #include "meshopt_views.h"
 #include "prt/error.h"
@@ -18,10 +19,11 @@ namespace {
 
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
 /// base colour is used.
-constexpr std::array<std::string_view, 22> kSupportedExtensions = {
+constexpr std::array<std::string_view, 23> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
     kMeshoptExtension,
+    kDracoExtension,
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "KHR_lights_punctual",
@@ -181,16 +183,25 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
                    : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
         contents->json = parse_json(text);
         check_required_extensions(contents->json);
-        if (has_meshopt_views(contents->json)) {
-            const std::string plain = without_meshopt(contents->json).dump();
+        const bool meshopt = has_meshopt_views(contents->json), draco = has_draco_primitives(contents->json);
+        if (meshopt || draco) {
+            Json plain = meshopt ? without_meshopt(contents->json) : contents->json;
+            if (draco)
+                plain = without_draco_indices(std::move(plain));
+            const std::string plain_text = plain.dump();
             const std::vector<std::byte> rebuilt =
-                binary ? make_glb(plain, glb_binary(file)) : std::vector<std::byte>{};
-            load_model(*contents, rebuilt, plain, binary, missing);
-            decompress_views(*contents);
+                binary ? make_glb(plain_text, glb_binary(file)) : std::vector<std::byte>{};
+            load_model(*contents, rebuilt, plain_text, binary, missing);
         } else {
             load_model(*contents, file, text, binary, missing);
         }
+        if (meshopt)
+            decompress_views(*contents);
+        if (draco)
+            decompress_primitives(*contents);
         join_buffers(*contents);
+        if (draco)
+            contents->cut_unused_bytes();
         embed_images(*contents);
     } catch (const std::exception& error) { // ours, and those of the JSON library on members of a wrong type
         throw Error(path.string() + ": " + one_line(error.what()));
