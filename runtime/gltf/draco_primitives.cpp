@@ -44,9 +44,8 @@ bool has_plain_data(const GltfContents& contents, const Json& primitive) {
     };
     const Json& compressed = extension_of(primitive)->at("attributes");
     return primitive.contains("indices") && is_plain(primitive["indices"]) &&
-           std::all_of(compressed.items().begin(), compressed.items().end(), [&](const auto& item) {
-               return is_plain(primitive.at("attributes").at(item.key()));
-           });
+           std::all_of(compressed.items().begin(), compressed.items().end(),
+                       [&](const auto& item) { return is_plain(primitive.at("attributes").at(item.key())); });
 }
 
 std::unique_ptr<draco::Mesh> decoded(std::span<const unsigned char> bytes) {
@@ -139,7 +138,8 @@ public:
         try {
             const auto mesh = decoded(buffer_view_bytes(contents_.model, static_cast<int>(view)));
             const bool small = mesh->num_points() <= 65535; // the last index means a restart
-            index_type_ = small ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+            index_type_ =
+                small ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
             set_view(view, index_bytes(*mesh, index_type_), 0);
             for (Place& place : places) {
                 name = place.name;
@@ -188,8 +188,8 @@ private:
         set_view(contents_.json["bufferViews"].size() - 1, data.bytes, data.stride);
     }
 
-    /// Lets `change` fill the accessor of `reference` from `source`; a new one where there is none, or where it
-    /// holds other data of this kind already.
+    /// Lets `change` fill the accessor of `reference` from `source`; a new one where there is none, or where
+    /// it holds other data of this kind already.
     template <class Change>
     void set_accessor(Json& reference, std::pair<std::size_t, int> source, const Change& change) {
         Json& accessors = member(contents_.json, "accessors", Json::value_t::array);
@@ -239,16 +239,15 @@ private:
         contents_.model.buffers.emplace_back().data.assign(begin, begin + bytes.size());
     }
 
-    /// What is not compressed goes with the vertices as they were before, so at least their number must be the
-    /// same.
+    /// What is not compressed goes with the vertices as they were before, so at least their number must be
+    /// the same.
     void check_counts(std::size_t points, const Place& place) const {
         const auto check = [&](const Json& attributes) {
             for (const auto& item : attributes.items()) {
-                const std::size_t count =
-                    contents_.model.accessors.at(item.value().get<std::size_t>()).count;
+                const std::size_t count = contents_.model.accessors.at(item.value().get<std::size_t>()).count;
                 if (count != points)
-                    throw Error("its Draco data has " + std::to_string(points) + " vertices, and " + item.key() +
-                                " beside it " + std::to_string(count));
+                    throw Error("its Draco data has " + std::to_string(points) + " vertices, and " +
+                                item.key() + " beside it " + std::to_string(count));
             }
         };
         check(place.json.at("attributes"));
