@@ -22,6 +22,7 @@ struct GltfContents {
     tinygltf::Model model; ///< as read; edits of `json` do not reach it, but its views follow the bytes
     Json json;
     std::vector<std::vector<std::byte>> images; ///< encoded, by image index
+    std::vector<std::string> notices;           ///< what was changed when it was read, a line each
 
     /// The one buffer that all views of `json`, and of `model`, point into.
     std::vector<unsigned char>& binary() { return model.buffers.front().data; }

@@ -4,6 +4,7 @@
 #include "contents.h"
 #include "draco_primitives.h"
 #include "glb.h"
+#include "instances.h"
 #include "meshopt_views.h"
 #include "prt/error.h"
 #include "prt/file.h"
@@ -18,13 +19,16 @@ namespace prt {
 namespace {
 
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
-/// base colour is used.
-constexpr std::array<std::string_view, 23> kSupportedExtensions = {
+/// base colour is used. Textures of other formats are missed only where they are needed.
+constexpr std::array<std::string_view, 27> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
     kMeshoptExtension,
     kDracoExtension,
+    "EXT_mesh_gpu_instancing",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
     "KHR_lights_punctual",
     "KHR_animation_pointer",
@@ -36,6 +40,7 @@ constexpr std::array<std::string_view, 23> kSupportedExtensions = {
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_materials_transmission",
@@ -144,6 +149,18 @@ void join_buffers(GltfContents& contents) {
     contents.json.erase("buffers");
 }
 
+/// The media type of an encoded image, by its first bytes.
+const char* mime_type(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("\x89PNG"))
+        return "image/png";
+    if (text.starts_with("\xABKTX 20"))
+        return "image/ktx2";
+    if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP"))
+        return "image/webp";
+    return "image/jpeg";
+}
+
 /// Images from files beside the glTF move inside.
 void embed_images(GltfContents& contents) {
     for (std::size_t i = 0; i < contents.images.size(); ++i) {
@@ -152,9 +169,8 @@ void embed_images(GltfContents& contents) {
         const auto& bytes = contents.images[i];
         if (uri.empty() || uri.starts_with("data:") || bytes.empty())
             continue;
-        const bool png = bytes.size() > 1 && bytes[0] == std::byte{0x89} && bytes[1] == std::byte{'P'};
         image.erase("uri");
-        image["mimeType"] = png ? "image/png" : "image/jpeg";
+        image["mimeType"] = mime_type(bytes);
         image["bufferView"] = contents.add_buffer_view(bytes);
         if (!image.contains("name"))
             image["name"] = std::filesystem::path(uri).stem().string();
@@ -202,6 +218,7 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
         join_buffers(*contents);
         if (draco)
             contents->cut_unused_bytes();
+        expand_instances(*contents);
         embed_images(*contents);
     } catch (const std::exception& error) { // ours, and those of the JSON library on members of a wrong type
         throw Error(path.string() + ": " + one_line(error.what()));

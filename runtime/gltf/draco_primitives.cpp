@@ -1,14 +1,11 @@
 #include "draco_primitives.h"
 
 #include "accessor.h"
+#include "draco_mesh.h"
 #include "prt/error.h"
 
-#include <draco/compression/decode.h>
-
 #include <algorithm>
-#include <cstring>
 #include <map>
-#include <memory>
 #include <string>
 #include <utility>
 
@@ -48,86 +45,6 @@ bool has_plain_data(const GltfContents& contents, const Json& primitive) {
                        [&](const auto& item) { return is_plain(primitive.at("attributes").at(item.key())); });
 }
 
-std::unique_ptr<draco::Mesh> decoded(std::span<const unsigned char> bytes) {
-    draco::DecoderBuffer buffer;
-    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    draco::Decoder decoder;
-    auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
-    if (!mesh.ok())
-        throw Error("its Draco data is damaged: " + mesh.status().error_msg_string());
-    return std::move(mesh).value();
-}
-
-/// Puts `value` at the end of `to`.
-template <class Value>
-void append(std::vector<std::byte>& to, Value value) {
-    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
-    to.insert(to.end(), bytes, bytes + sizeof value);
-}
-
-std::vector<std::byte> index_bytes(const draco::Mesh& mesh, int component_type) {
-    std::vector<std::byte> bytes;
-    for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face)
-        for (const draco::PointIndex& point : mesh.face(face)) {
-            if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
-                append(bytes, static_cast<std::uint16_t>(point.value()));
-            else
-                append(bytes, point.value());
-        }
-    return bytes;
-}
-
-/// The elements of an attribute, each padded to whole groups of 4 bytes, and their bounds.
-struct AttributeData {
-    std::vector<std::byte> bytes;
-    std::size_t stride = 0;
-    std::vector<double> low, high;
-};
-
-/// Throws unless every point has a value.
-void check_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute) {
-    const bool mapped = attribute.is_mapping_identity() || attribute.indices_map_size() >= mesh.num_points();
-    for (draco::PointIndex point(0); mapped && point < mesh.num_points(); ++point)
-        if (attribute.mapped_index(point).value() >= attribute.size())
-            throw Error("its Draco data has points without values");
-    if (!mapped)
-        throw Error("its Draco data has points without values");
-}
-
-AttributeData attribute_data(const draco::Mesh& mesh, int id, int component_type, int components) {
-    const draco::PointAttribute* attribute =
-        id < 0 ? nullptr : mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
-    if (!attribute)
-        throw Error("its Draco data has no attribute " + std::to_string(id));
-    if (attribute->num_components() != components)
-        throw Error("its Draco data has " + std::to_string(attribute->num_components()) +
-                    " components of attribute " + std::to_string(id) + ", the accessor " +
-                    std::to_string(components));
-    check_values(mesh, *attribute);
-    AttributeData data;
-    with_component_type(component_type, [&](auto type) {
-        std::vector<decltype(type)> element(static_cast<std::size_t>(components));
-        data.stride = (element.size() * sizeof type + 3) / 4 * 4;
-        data.bytes.reserve(data.stride * mesh.num_points());
-        for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
-            if (!attribute->ConvertValue(attribute->mapped_index(point), static_cast<std::int8_t>(components),
-                                         element.data()))
-                throw Error("its Draco data does not fit the accessor of attribute " + std::to_string(id));
-            for (const auto value : element)
-                append(data.bytes, value);
-            data.bytes.resize((data.bytes.size() + 3) / 4 * 4);
-            const std::vector<double> values(element.begin(), element.end());
-            if (data.low.empty())
-                data.low = data.high = values;
-            for (std::size_t c = 0; c < values.size(); ++c) {
-                data.low[c] = std::min(data.low[c], values[c]);
-                data.high[c] = std::max(data.high[c], values[c]);
-            }
-        }
-    });
-    return data;
-}
-
 class Decompressor {
 public:
     explicit Decompressor(GltfContents& contents) : contents_(contents) {}
@@ -136,11 +53,11 @@ public:
     void decompress(std::size_t view, std::vector<Place>& places) {
         std::string name = places.front().name;
         try {
-            const auto mesh = decoded(buffer_view_bytes(contents_.model, static_cast<int>(view)));
+            const auto mesh = decode_draco(buffer_view_bytes(contents_.model, static_cast<int>(view)));
             const bool small = mesh->num_points() <= 65535; // the last index means a restart
             index_type_ =
                 small ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
-            set_view(view, index_bytes(*mesh, index_type_), 0);
+            set_view(view, draco_indices(*mesh, index_type_), 0);
             for (Place& place : places) {
                 name = place.name;
                 decompress(view, *mesh, place);
@@ -175,8 +92,8 @@ private:
     }
 
     void fill(Json& accessor, const draco::Mesh& mesh, int id) {
-        const AttributeData data = attribute_data(mesh, id, accessor.at("componentType").get<int>(),
-                                                  component_count(tinygltf_type(accessor.at("type"))));
+        const DracoAttribute data = draco_attribute(mesh, id, accessor.at("componentType").get<int>(),
+                                                    component_count(tinygltf_type(accessor.at("type"))));
         accessor["bufferView"] = contents_.json["bufferViews"].size();
         accessor["count"] = mesh.num_points();
         if (accessor.contains("min") || accessor.contains("max")) {

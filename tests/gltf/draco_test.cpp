@@ -96,7 +96,7 @@ std::vector<std::byte> compressed(const Grid& grid, const Coding& coding) {
     return {begin, begin + buffer.size()};
 }
 
-nlohmann::ordered_json& primitive(GlbFile& file) {
+nlohmann::ordered_json& first_primitive(GlbFile& file) {
     return file.json["meshes"][0]["primitives"][0];
 }
 
@@ -127,7 +127,7 @@ GlbFile draco_file(const Grid& grid, const Coding& coding) {
     file.json.erase("bufferViews");
     for (auto& accessor : file.json["accessors"])
         accessor.erase("bufferView");
-    primitive(file)["extensions"]["KHR_draco_mesh_compression"] = {
+    first_primitive(file)["extensions"]["KHR_draco_mesh_compression"] = {
         {"bufferView", file.view(compressed(grid, coding))},
         {"attributes",
          {{"POSITION", kPositionId},
@@ -140,13 +140,13 @@ GlbFile draco_file(const Grid& grid, const Coding& coding) {
     return file;
 }
 
-Scene scene_of(const GlbFile& file) {
+Scene draco_scene(const GlbFile& file) {
     const std::string bytes = file.bytes();
     return extract_scene(parse_gltf(std::as_bytes(std::span(bytes)), "memory.glb"));
 }
 
 /// The vertex of `vertices` with the texture coordinates nearest to `texcoord`: they tell vertices apart.
-std::uint32_t nearest(const VertexArray& vertices, const glm::vec2& texcoord) {
+std::uint32_t nearest_vertex(const VertexArray& vertices, const glm::vec2& texcoord) {
     const auto& set = vertices.texcoords[0];
     return static_cast<std::uint32_t>(std::min_element(set.begin(), set.end(),
                                                        [&](const glm::vec2& a, const glm::vec2& b) {
@@ -170,18 +170,18 @@ std::multiset<std::array<std::uint32_t, 3>> triangles_of(const Primitive& primit
 
 TEST(Draco, GivesTheMeshBackWithinItsQuantisation) {
     const Grid grid(12);
-    const Scene plain = scene_of(plain_file(grid));
+    const Scene plain = draco_scene(plain_file(grid));
     const VertexArray& truth = plain.vertex_arrays[0];
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING})
         for (const int bits : {0, 10, 14}) {
-            const Scene scene = scene_of(draco_file(grid, {method, bits}));
+            const Scene scene = draco_scene(draco_file(grid, {method, bits}));
             const VertexArray& vertices = scene.vertex_arrays[0];
             ASSERT_EQ(vertices.size(), truth.size());
             // Half a step of the largest extent, which is 1; directions have as many steps in two dimensions.
             const float step = bits == 0 ? 0.0f : 1.0f / static_cast<float>((1 << bits) - 1);
             std::vector<std::uint32_t> vertex;
             for (std::size_t i = 0; i < vertices.size(); ++i) {
-                vertex.push_back(nearest(truth, vertices.texcoords[0][i]));
+                vertex.push_back(nearest_vertex(truth, vertices.texcoords[0][i]));
                 const glm::vec3 error = vertices.positions[i] - truth.positions[vertex[i]];
                 for (int axis = 0; axis < 3; ++axis)
                     EXPECT_LE(std::abs(error[axis]), 0.5f * step + 1e-6f);
@@ -198,10 +198,11 @@ TEST(Draco, GoesWithMorphTargetsWhoseVerticesKeepTheirOrder) {
     const Grid grid(9);
     GlbFile plain = plain_file(grid), packed = draco_file(grid, {draco::MESH_SEQUENTIAL_ENCODING, 0});
     for (GlbFile* file : {&plain, &packed}) {
-        primitive(*file)["targets"] = {{{"POSITION", file->accessor(grid.deltas, test::kFloat, "VEC3", 3)}}};
+        first_primitive(*file)["targets"] = {
+            {{"POSITION", file->accessor(grid.deltas, test::kFloat, "VEC3", 3)}}};
         file->json["meshes"][0]["weights"] = {0.5};
     }
-    const Scene a = scene_of(plain), b = scene_of(packed);
+    const Scene a = draco_scene(plain), b = draco_scene(packed);
     EXPECT_EQ(a.vertex_arrays[0].positions, b.vertex_arrays[0].positions);
     EXPECT_EQ(a.vertex_arrays[0].normals, b.vertex_arrays[0].normals);
 }
@@ -231,12 +232,12 @@ TEST(Draco, IsWrittenUncompressedAndTheCompressedBytesGo) {
 TEST(Draco, SharedDataIsDecodedForEveryPrimitiveThatUsesIt) {
     GlbFile file = draco_file(Grid(5), {});
     const auto other = file.view(compressed(Grid(8), {}));
-    auto same = primitive(file), different = primitive(file);
+    auto same = first_primitive(file), different = first_primitive(file);
     different["extensions"]["KHR_draco_mesh_compression"]["bufferView"] = other; // into the same accessors
     file.json["meshes"][0]["primitives"].push_back(same);
     file.json["meshes"][0]["primitives"].push_back(different);
-    const Scene scene = scene_of(file), small = scene_of(draco_file(Grid(5), {})),
-                large = scene_of(draco_file(Grid(8), {}));
+    const Scene scene = draco_scene(file), small = draco_scene(draco_file(Grid(5), {})),
+                large = draco_scene(draco_file(Grid(8), {}));
     ASSERT_EQ(scene.primitives.size(), 3u);
     EXPECT_EQ(scene.vertex_arrays.size(), 2u);
     for (const int i : {0, 1}) {
@@ -251,18 +252,18 @@ TEST(Draco, SharedDataIsDecodedForEveryPrimitiveThatUsesIt) {
 TEST(Draco, UncompressedDataBesideItIsUsedWhereItIsNotRequired) {
     const Grid grid(6);
     GlbFile file = plain_file(grid);
-    primitive(file)["extensions"]["KHR_draco_mesh_compression"] = {
+    first_primitive(file)["extensions"]["KHR_draco_mesh_compression"] = {
         {"bufferView", file.view(compressed(grid, {.bits = 4}))},
         {"attributes", {{"POSITION", kPositionId}}}};
     file.json["extensionsUsed"] = {"KHR_draco_mesh_compression"};
-    EXPECT_EQ(scene_of(file).vertex_arrays[0].positions,
-              scene_of(plain_file(grid)).vertex_arrays[0].positions);
+    EXPECT_EQ(draco_scene(file).vertex_arrays[0].positions,
+              draco_scene(plain_file(grid)).vertex_arrays[0].positions);
 }
 
 /// What the user is told about `file`; nothing where it is read.
 std::string message_of(const GlbFile& file) {
     try {
-        scene_of(file);
+        draco_scene(file);
     } catch (const Error& error) {
         return error.what();
     }
@@ -275,7 +276,7 @@ TEST(Draco, DamageNamesThePrimitive) {
     ASSERT_EQ(message_of(good), "");
     const auto broken = [&](const char* expected, const auto& change) {
         GlbFile file = good;
-        change(file, primitive(file)["extensions"]["KHR_draco_mesh_compression"]);
+        change(file, first_primitive(file)["extensions"]["KHR_draco_mesh_compression"]);
         const std::string message = message_of(file);
         EXPECT_TRUE(message.starts_with("memory.glb: mesh 0 primitive 0: ")) << message;
         EXPECT_NE(message.find(expected), std::string::npos) << message;
@@ -285,14 +286,14 @@ TEST(Draco, DamageNamesThePrimitive) {
     broken("components", [](GlbFile&, auto& extension) { extension["attributes"]["NORMAL"] = kTexcoordId; });
     broken("buffer view 40 is not there", [](GlbFile&, auto& extension) { extension["bufferView"] = 40; });
     broken("COLOR_0 beside it 3", [](GlbFile& file, auto&) {
-        primitive(file)["attributes"]["COLOR_0"] =
+        first_primitive(file)["attributes"]["COLOR_0"] =
             file.accessor(std::vector<float>(9, 0.5f), test::kFloat, "VEC3", 3);
     });
 }
 
 TEST(Draco, EveryTruncationIsRefused) {
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
-        GlbFile file = draco_file(Grid(4), {method, 11});
+        GlbFile file = draco_file(Grid(3), {method, 11});
         const std::size_t size = file.json["bufferViews"][0]["byteLength"];
         for (std::size_t length = 0; length < size; ++length) {
             file.json["bufferViews"][0]["byteLength"] = length;
@@ -301,9 +302,27 @@ TEST(Draco, EveryTruncationIsRefused) {
     }
 }
 
+TEST(Draco, ClaimsBeyondTheDataAreRefusedBeforeMemoryIsTaken) {
+    for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
+        GlbFile file = draco_file(Grid(3), {method, 11});
+        // Behind the header of 11 bytes: how it goes through the triangles, and the number of vertices (16),
+        // then that of triangles (18), seven bits to a byte.
+        const std::size_t at = method == draco::MESH_EDGEBREAKER_ENCODING ? 13 : 11;
+        ASSERT_EQ(file.binary[at], std::byte{18});
+        const std::byte many[] = {std::byte{0xff}, std::byte{0xff}, std::byte{0xff}, std::byte{0xff},
+                                  std::byte{0x04}};
+        file.binary.erase(file.binary.begin() + static_cast<std::ptrdiff_t>(at));
+        file.binary.insert(file.binary.begin() + static_cast<std::ptrdiff_t>(at), std::begin(many),
+                           std::end(many));
+        file.json["bufferViews"][0]["byteLength"] = file.binary.size();
+        EXPECT_NE(message_of(file).find("claims 1342177279 triangles"), std::string::npos)
+            << message_of(file);
+    }
+}
+
 TEST(Draco, FlippedBytesNeverCrash) {
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
-        const GlbFile good = draco_file(Grid(4), {method, 11});
+        const GlbFile good = draco_file(Grid(3), {method, 11});
         std::size_t refused = 0;
         for (std::size_t i = 0; i < good.binary.size(); ++i)
             for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
