@@ -29,7 +29,8 @@ std::uint32_t claimed_triangles(std::span<const unsigned char> bytes) {
     draco::DracoHeader header;
     if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok())
         return 0;
-    buffer.set_bitstream_version(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor));
+    buffer.set_bitstream_version(
+        static_cast<std::uint16_t>(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor)));
     draco::GeometryMetadata metadata;
     if ((header.flags & METADATA_FLAG_MASK) != 0 &&
         !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))

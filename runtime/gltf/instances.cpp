@@ -87,7 +87,8 @@ std::size_t expand(GltfContents& contents, std::size_t n) {
 } // namespace
 
 void expand_instances(GltfContents& contents) {
-    std::size_t instances = 0, nodes = 0;
+    std::size_t instances = 0;
+    bool found = false;
     const std::size_t before = contents.model.nodes.size();
     for (std::size_t n = 0; n < before; ++n) {
         const Json& node = contents.json["nodes"][n];
@@ -95,18 +96,18 @@ void expand_instances(GltfContents& contents) {
             continue;
         try {
             instances += expand(contents, n);
-            ++nodes;
+            found = true;
         } catch (const std::exception& error) { // ours, and those of the JSON library
             throw Error("node " + std::to_string(n) + ": " + error.what());
         }
         if (instances > kMostInstances)
             throw Error("has more than " + std::to_string(kMostInstances) + " instances of meshes");
     }
-    if (nodes == 0)
+    if (!found)
         return;
     contents.drop_extension(kInstancing);
-    contents.notices.push_back("the " + std::to_string(instances) + " instances of " + std::to_string(nodes) +
-                               " nodes (EXT_mesh_gpu_instancing) become nodes of their own");
+    contents.notices.push_back("its " + std::to_string(instances) +
+                               " instances (EXT_mesh_gpu_instancing) become nodes of their own");
 }
 
 } // namespace prt
