@@ -22,13 +22,13 @@ struct Place {
     std::string name;
 };
 
-const Json* extension_of(const Json& primitive) {
+const Json* draco_extension(const Json& primitive) {
     if (!primitive.contains("extensions") || !primitive["extensions"].contains(kDracoExtension))
         return nullptr;
     return &primitive["extensions"][kDracoExtension];
 }
 
-void erase_extension(Json& primitive) {
+void erase_draco_extension(Json& primitive) {
     primitive["extensions"].erase(kDracoExtension);
     if (primitive["extensions"].empty())
         primitive.erase("extensions");
@@ -39,7 +39,7 @@ bool has_plain_data(const GltfContents& contents, const Json& primitive) {
     const auto is_plain = [&](const Json& reference) {
         return contents.model.accessors.at(reference.get<std::size_t>()).bufferView >= 0;
     };
-    const Json& compressed = extension_of(primitive)->at("attributes");
+    const Json& compressed = draco_extension(primitive)->at("attributes");
     return primitive.contains("indices") && is_plain(primitive["indices"]) &&
            std::all_of(compressed.items().begin(), compressed.items().end(),
                        [&](const auto& item) { return is_plain(primitive.at("attributes").at(item.key())); });
@@ -182,7 +182,7 @@ private:
 bool has_draco_primitives(const Json& json) {
     for (const Json& mesh : json.value("meshes", Json::array()))
         for (const Json& primitive : mesh.value("primitives", Json::array()))
-            if (extension_of(primitive))
+            if (draco_extension(primitive))
                 return true;
     return false;
 }
@@ -190,7 +190,7 @@ bool has_draco_primitives(const Json& json) {
 Json without_draco_indices(Json json) {
     for (Json& mesh : json["meshes"])
         for (Json& primitive : mesh.at("primitives"))
-            if (extension_of(primitive) && primitive.contains("indices") &&
+            if (draco_extension(primitive) && primitive.contains("indices") &&
                 !json.at("accessors").at(primitive["indices"].get<std::size_t>()).contains("bufferView"))
                 primitive.erase("indices");
     return json;
@@ -203,14 +203,14 @@ void decompress_primitives(GltfContents& contents) {
     for (std::size_t m = 0; m < contents.model.meshes.size(); ++m)
         for (std::size_t p = 0; p < contents.model.meshes[m].primitives.size(); ++p) {
             Json& primitive = contents.json.at("meshes").at(m).at("primitives").at(p);
-            const Json* extension = extension_of(primitive);
+            const Json* extension = draco_extension(primitive);
             if (!extension)
                 continue;
             if (is_required || !has_plain_data(contents, primitive))
                 places[extension->at("bufferView").get<std::size_t>()].push_back(
                     {primitive, contents.model.meshes[m].primitives[p], extension->at("attributes"),
                      "mesh " + std::to_string(m) + " primitive " + std::to_string(p)});
-            erase_extension(primitive);
+            erase_draco_extension(primitive);
         }
     Decompressor decompressor(contents);
     for (auto& [view, users] : places)

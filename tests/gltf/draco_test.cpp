@@ -324,13 +324,13 @@ TEST(Draco, FlippedBytesNeverCrash) {
     for (const int method : {draco::MESH_EDGEBREAKER_ENCODING, draco::MESH_SEQUENTIAL_ENCODING}) {
         const GlbFile good = draco_file(Grid(3), {method, 11});
         std::size_t refused = 0;
-        for (std::size_t i = 0; i < good.binary.size(); ++i)
-            for (const unsigned flip : {0x01u, 0x80u, 0xffu}) {
-                GlbFile file = good;
-                file.binary[i] ^= static_cast<std::byte>(flip);
-                refused += !message_of(file).empty(); // values alone may change without a trace
-            }
-        EXPECT_GT(refused, good.binary.size() / 4);
+        constexpr unsigned kFlips[] = {0x01, 0x80, 0xff};
+        for (std::size_t i = 0; i < good.binary.size(); ++i) {
+            GlbFile file = good;
+            file.binary[i] ^= static_cast<std::byte>(kFlips[i % 3]);
+            refused += !message_of(file).empty(); // values alone may change without a trace
+        }
+        EXPECT_GT(refused, good.binary.size() / 12);
     }
 }
 

@@ -167,7 +167,7 @@ TEST(Hidden, NodesAndAllBelowThemAreNoPartOfTheScene) {
 }
 
 /// Three instances of the triangle, moved, turned and scaled, below a node that moves all up.
-GlbFile instanced_file() {
+GlbFile three_instances() {
     GlbFile file = test::triangle_file();
     const auto half = static_cast<std::int16_t>(std::lround(32767 * std::sqrt(0.5)));
     const auto translation =
@@ -191,7 +191,7 @@ GlbFile instanced_file() {
 }
 
 TEST(Instances, AreNodesOfTheirOwnInTheScene) {
-    const Scene scene = parsed(instanced_file());
+    const Scene scene = parsed(three_instances());
     ASSERT_EQ(scene.primitives.size(), 4u); // the child is there once
     const auto corner = [&](std::size_t primitive, std::size_t vertex) {
         return scene.vertex_arrays[scene.primitives[primitive].vertices].positions[vertex];
@@ -211,7 +211,7 @@ TEST(Instances, AreNodesOfTheirOwnInTheScene) {
 }
 
 TEST(Instances, KeepTransferOfTheirOwnInTheFile) {
-    GltfDocument document = document_of(instanced_file());
+    GltfDocument document = document_of(three_instances());
     const Scene scene = extract_scene(document);
     BakedTransfer baked;
     baked.transfer = {2, 1, std::vector<float>(scene.receivers() * 4)};
@@ -230,7 +230,7 @@ TEST(Instances, KeepTransferOfTheirOwnInTheFile) {
 
 TEST(Instances, ThatDoNotFitAreRefused) {
     const auto message = [](const auto& change) -> std::string {
-        GlbFile file = instanced_file();
+        GlbFile file = three_instances();
         change(file, file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]);
         try {
             parsed(file);
