@@ -103,9 +103,8 @@ TEST_F(BadInput, UnsupportedExtensionIsNamed) {
     GlbFile file = triangle_file();
     file.json["extensionsRequired"] = {"EXT_unheard_of"};
     file.write(folder / "unheard_of.glb");
-    EXPECT_NE(
-        prt({"bake", (folder / "unheard_of.glb").string(), "-o", out}).err.find("EXT_unheard_of"),
-        std::string::npos);
+    EXPECT_NE(prt({"bake", (folder / "unheard_of.glb").string(), "-o", out}).err.find("EXT_unheard_of"),
+              std::string::npos);
 }
 
 TEST_F(BadInput, OrdersAndRaysOutOfRange) {
