@@ -20,7 +20,7 @@ namespace {
 
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
 /// base colour is used. Textures of other formats are missed only where they are needed.
-constexpr std::array<std::string_view, 27> kSupportedExtensions = {
+constexpr std::array<std::string_view, 30> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
     kMeshoptExtension,
@@ -28,7 +28,10 @@ constexpr std::array<std::string_view, 27> kSupportedExtensions = {
     "EXT_mesh_gpu_instancing",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
+    "EXT_texture_avif",
+    "EXT_texture_webp",
     "KHR_texture_basisu",
+    "MSFT_texture_dds",
     "KHR_texture_transform",
     "KHR_lights_punctual",
     "KHR_animation_pointer",
@@ -158,6 +161,10 @@ const char* mime_type(std::span<const std::byte> bytes) {
         return "image/ktx2";
     if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP"))
         return "image/webp";
+    if (text.substr(0, 12).ends_with("ftypavif"))
+        return "image/avif";
+    if (text.starts_with("DDS "))
+        return "image/vnd-ms.dds";
     return "image/jpeg";
 }
 
