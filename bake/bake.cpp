@@ -4,6 +4,7 @@
 #include "available_memory.h"
 #include "gather.h"
 #include "light_transport.h"
+#include "material_notices.h"
 #include "mesh_neighbours.h"
 #include "prt/embree_tracer.h"
 #include "prt/error.h"
@@ -18,7 +19,6 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <set>
 
 namespace prt {
 namespace {
@@ -84,9 +84,9 @@ class Baker {
 public:
     Baker(const Scene& scene, const BakeOptions& options, const Progress& progress)
         : scene_(scene), options_(options), progress_(progress), media_(choose_media(scene, options)),
-          textures_(needs_textures() ? load_textures(scene, options.bad_textures) : std::vector<Texture>()),
+          textures_(load_textures(scene, options.bad_textures, texture_needs())),
           surfaces_(scene, textures_, solid()) {
-        note_bad_textures();
+        note_materials();
     }
 
     BakeResult run() {
@@ -118,13 +118,8 @@ private:
         statistics().notices.push_back(fmt::format(format, std::forward<Args>(args)...));
     }
 
-    /// Textures matter where light bounces off or passes surfaces.
-    bool needs_textures() const {
-        return options_.bounces != 0 ||
-               std::any_of(scene_.primitives.begin(), scene_.primitives.end(), [&](const Primitive& p) {
-                   const Material& m = scene_.materials[p.material];
-                   return m.alpha_mode != AlphaMode::opaque || m.transmission.factor > 0;
-               });
+    TextureNeeds texture_needs() const {
+        return options_.bounces != 0 ? TextureNeeds::all : TextureNeeds::visibility;
     }
 
     std::vector<bool> solid() const {
@@ -134,13 +129,12 @@ private:
         return result;
     }
 
-    void note_bad_textures() {
-        std::set<int> used;
-        for (const Primitive& primitive : scene_.primitives)
-            used.insert(scene_.materials[primitive.material].base_color_texture.image);
-        for (const int image : used)
-            if (image >= 0 && !textures_.empty() && textures_[static_cast<std::size_t>(image)].levels.empty())
+    void note_materials() {
+        for (const auto& [image, encoding] : needed_images(scene_, texture_needs()))
+            if (textures_[static_cast<std::size_t>(image)].levels.empty())
                 note("image {} is missing or damaged: the factors of its materials are used alone", image);
+        for (std::string& notice : material_notices(scene_, options_.bounces != 0))
+            statistics().notices.push_back(std::move(notice));
     }
 
     /// Only what the scene needs: bounces, back sides and colour.

@@ -170,11 +170,11 @@ glm::vec3 Tracing::path(const glm::vec3& camera, const glm::vec3& view, PathSamp
         if (!hit->scatters || (options.bounces >= 0 && vertex > options.bounces))
             return radiance;
         Scattering scattering = surfaces.scattering(hit->point);
-        if (seen && !options.textured) { // the share of the base colour that each side has
+        if (seen && !surfaces.transmits(hit->id)) { // all of the base colour, as renderers multiply by it
+            scattering = {options.textured ? surfaces.base_color(hit->point) : glm::vec3(1), glm::vec3(0)};
+        } else if (seen && !options.textured) { // the share of the base colour that each side has
             const glm::vec3 base = glm::max(surfaces.base_color(hit->point), glm::vec3(1e-6f));
-            scattering = surfaces.transmits(hit->id)
-                             ? Scattering{scattering.reflected / base, scattering.transmitted / base}
-                             : Scattering{glm::vec3(1), glm::vec3(0)};
+            scattering = {scattering.reflected / base, scattering.transmitted / base};
         }
         const float reflected = largest(scattering.reflected), transmitted = largest(scattering.transmitted);
         if (!(reflected + transmitted > 0))

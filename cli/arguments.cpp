@@ -107,7 +107,8 @@ void add_transport(CLI::App* command, BakeOptions& options) {
                      "size of the scene's unit, where it is not glTF's metre; only media care")
         ->capture_default_str();
     choice(command, "--bad-textures", options.bad_textures, kBadTextures,
-           "textures that are missing or damaged: stop, or use the factors of their materials alone",
+           "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
+           "use the factors of their materials alone",
            "error");
     command
         ->add_option_function<std::uint64_t>(

@@ -98,6 +98,8 @@ void run(const BakeArguments& a, Interrupt& interrupt) {
     if (a.options.target_error)
         report["target_error_relative_l2"] = *a.options.target_error;
     report.update(statistics_json(result.statistics));
+    for (const std::string& notice : scene.notices)
+        report["notices"].push_back(notice);
     report["bytes_output"] = std::filesystem::file_size(a.output);
     write_json(report, a.json, interrupt);
 }

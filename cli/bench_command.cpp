@@ -84,7 +84,9 @@ void run_scene(const BenchArguments& a, Interrupt& interrupt) {
         result = run_bench(a.scene.string(), scene, a.options, bar.progress());
     }
     print_result(result);
-    write_json(result_json(result), a.json, interrupt);
+    Json report = result_json(result);
+    report["notices"] = scene.notices;
+    write_json(report, a.json, interrupt);
     write_page(a.html, bench_html(result), interrupt);
 }
 

@@ -33,7 +33,8 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
                    {"materials", scene.materials.size() - 1},
                    {"images", scene.images.size()},
                    {"low_metres", {low.x, low.y, low.z}},
-                   {"high_metres", {high.x, high.y, high.z}}};
+                   {"high_metres", {high.x, high.y, high.z}},
+                   {"notices", scene.notices}};
     if (model.baked) {
         const Transfer& t = model.baked->transfer;
         const bool half = model.baked->storage == TransferStorage::float16;

@@ -94,7 +94,8 @@ void run(const RenderArguments& a, Interrupt& interrupt) {
         print_notices(a.model.string(), {"holds no transfer and is drawn without shadows"});
     const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
     const LoadedLight light = load_light(a.environment, order, a.light_options, a.threads);
-    const std::vector<Texture> textures = load_textures(model.scene);
+    const std::vector<Texture> textures =
+        load_textures(model.scene, BadTextures::error, TextureNeeds::pictures);
     const std::vector<glm::vec3> colors = colors_to_show(a, model, light.light);
 
     Picture picture;

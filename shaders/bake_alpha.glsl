@@ -1,14 +1,14 @@
-// Coverage of surfaces that are cut out or blended, as on the CPU (bake/surfaces.cpp, runtime/render/texture.cpp).
+// Coverage of surfaces that are cut out, blended or glass, as on the CPU (bake/surfaces.cpp, runtime/render/texture.cpp).
 
 struct AlphaTriangle {
     vec2 texcoord[3];     // transformed
     float vertex_alpha[3];
     uint material;
     float texel_density;  // texels of level 0 per m²
-    uint unused;
+    uint next;            // layer of the same triangle, counting from 1; 0: none
 };
 struct AlphaMaterial {
-    uint mode;            // prt::AlphaMode: 1 mask, 2 blend
+    uint mode;            // prt::AlphaMode: 1 mask, 2 blend; 3 glass. From 2 on rays are stopped in part
     float cutoff, factor;
     uint texels;          // where level 0 begins in alpha_texels, in bytes; ~0: no texture
     int width, height, levels;
@@ -54,21 +54,31 @@ float bilinear_alpha(AlphaMaterial m, int level, vec2 uv) {
                mix(alpha_texel(first, x0, y1, width), alpha_texel(first, x1, y1, width), f.x), f.y);
 }
 
-// `index` counts from 1; 0 is opaque.
-float coverage(uint index, vec2 uv, float footprint) {
-    if (index == 0u)
-        return 1.0;
-    AlphaTriangle t = alpha_triangles[index - 1u];
+float layer_coverage_of(AlphaTriangle t, vec2 uv, float footprint) {
     AlphaMaterial m = alpha_materials[t.material];
     vec3 b = vec3(1.0 - uv.x - uv.y, uv);
     float alpha = m.factor * (b.x * t.vertex_alpha[0] + b.y * t.vertex_alpha[1] + b.z * t.vertex_alpha[2]);
     if (m.texels != 0xffffffffu) {
         vec2 at = b.x * t.texcoord[0] + b.y * t.texcoord[1] + b.z * t.texcoord[2];
         float lod = 0.0;
-        if (m.mode == 2u && footprint * t.texel_density > 0.0)
+        if (m.mode >= 2u && footprint * t.texel_density > 0.0)
             lod = clamp(0.5 * log2(footprint * t.texel_density), 0.0, float(m.levels - 1));
         int fine = int(lod), coarse = min(fine + 1, m.levels - 1);
         alpha *= mix(bilinear_alpha(m, fine, at), bilinear_alpha(m, coarse, at), lod - float(fine));
     }
-    return m.mode == 1u ? (alpha >= m.cutoff ? 1.0 : 0.0) : clamp(alpha, 0.0, 1.0);
+    if (m.mode == 1u)
+        return alpha >= m.cutoff ? 1.0 : 0.0;
+    alpha = clamp(alpha, 0.0, 1.0);
+    return m.mode == 3u ? 1.0 - alpha : alpha;
+}
+
+// `index` counts from 1; 0 is opaque.
+float coverage(uint index, vec2 uv, float footprint) {
+    if (index == 0u)
+        return 1.0;
+    AlphaTriangle t = alpha_triangles[index - 1u];
+    float covered = layer_coverage_of(t, uv, footprint);
+    if (t.next != 0u)
+        covered *= layer_coverage_of(alpha_triangles[t.next - 1u], uv, footprint);
+    return covered;
 }

@@ -18,7 +18,7 @@ uniform float texel_area; // of the map, m²
 
 void main() {
 #ifdef PRT_ALPHA
-    bool blended = alpha_index != 0u && alpha_materials[alpha_triangles[alpha_index - 1u].material].mode == 2u;
+    bool blended = alpha_index != 0u && alpha_materials[alpha_triangles[alpha_index - 1u].material].mode >= 2u;
     float covered = coverage(alpha_index, barycentrics, texel_area);
 #ifdef PRT_PEEL
     ivec2 at = ivec2(gl_FragCoord.xy);

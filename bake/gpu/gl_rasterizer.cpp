@@ -164,11 +164,11 @@ public:
 
 private:
     static bool has_blended(const Scene& scene, const Surfaces& surfaces) {
-        for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
-            if (!surfaces.opaque(t) &&
-                scene.materials[scene.primitives[surfaces.primitive(t)].material].alpha_mode ==
-                    AlphaMode::blend)
+        for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
+            const Material& material = scene.materials[scene.primitives[surfaces.primitive(t)].material];
+            if (!surfaces.opaque(t) && (material.alpha_mode == AlphaMode::blend || material.glass.factor > 0))
                 return true;
+        }
         return false;
     }
 

@@ -19,7 +19,7 @@ struct AlphaTriangle {
     float vertex_alpha[3];
     std::uint32_t material;
     float texel_density;
-    std::uint32_t unused;
+    std::uint32_t next;
 };
 static_assert(sizeof(AlphaTriangle) == 48);
 struct AlphaMaterial {
@@ -32,29 +32,49 @@ struct AlphaMaterial {
 static_assert(sizeof(AlphaMaterial) == 32);
 
 constexpr std::uint32_t kNoTexels = ~0u;
+constexpr std::uint32_t kGlassMode = 3; ///< beside those of AlphaMode
 
 /// Tables for triangles that are not opaque.
 struct AlphaTables {
-    std::vector<std::uint32_t> index; ///< [triangles], counting from 1; 0: opaque
-    std::vector<AlphaTriangle> triangles;
-    std::vector<AlphaMaterial> materials; ///< [primitives]
+    std::vector<std::uint32_t> index;     ///< [triangles], counting from 1; 0: opaque
+    std::vector<AlphaTriangle> triangles; ///< [triangles that are not opaque][layers]
+    std::vector<AlphaMaterial> materials; ///< [primitives][layers]
     std::vector<std::uint8_t> texels;
 };
 
-AlphaMaterial alpha_material(const Scene& scene, const Surfaces& surfaces, const Primitive& primitive,
+/// One of the things that decide how much of a ray a surface stops.
+struct AlphaLayer {
+    std::uint32_t mode;
+    float cutoff, factor;
+    const TextureUse* use;
+    int channel;       ///< of the texture
+    bool vertex_alpha; ///< times that of the vertices
+};
+
+/// Glass first, whose mode says that the surface stops rays in part.
+std::vector<AlphaLayer> alpha_layers(const Material& m) {
+    std::vector<AlphaLayer> layers;
+    if (m.glass.factor > 0)
+        layers.push_back({kGlassMode, 0, glass_transmittance(m), &m.glass.texture, 0, false});
+    if (m.alpha_mode != AlphaMode::opaque)
+        layers.push_back({static_cast<std::uint32_t>(m.alpha_mode), m.alpha_cutoff, m.base_color.a,
+                          &m.base_color_texture, 3, true});
+    return layers;
+}
+
+AlphaMaterial alpha_material(const AlphaLayer& layer, const Surfaces& surfaces, const VertexArray& vertices,
                              const std::vector<Texture>& textures, std::vector<std::uint8_t>& texels) {
-    const Material& m = scene.materials[primitive.material];
-    const TextureUse& use = m.base_color_texture;
-    AlphaMaterial result{static_cast<std::uint32_t>(m.alpha_mode),
-                         m.alpha_cutoff,
-                         m.base_color.a,
+    const TextureUse& use = *layer.use;
+    AlphaMaterial result{layer.mode,
+                         layer.cutoff,
+                         layer.factor,
                          kNoTexels,
                          1,
                          1,
                          1,
                          static_cast<std::uint32_t>(use.wrap_u) | static_cast<std::uint32_t>(use.wrap_v)
                                                                       << 8};
-    if (!surfaces.has_texture(scene.vertex_arrays[primitive.vertices], use))
+    if (!surfaces.has_texture(vertices, use))
         return result;
     const Texture& texture = textures[static_cast<std::size_t>(use.image)];
     result.texels = static_cast<std::uint32_t>(texels.size());
@@ -63,47 +83,58 @@ AlphaMaterial alpha_material(const Scene& scene, const Surfaces& surfaces, const
     result.levels = static_cast<std::int32_t>(texture.levels.size());
     for (const Image8& level : texture.levels)
         for (const glm::u8vec4& texel : level.pixels)
-            texels.push_back(texel.a);
+            texels.push_back(texel[layer.channel]);
     return result;
+}
+
+AlphaTriangle alpha_triangle(const AlphaLayer& layer, std::uint32_t index, const AlphaMaterial& m,
+                             const VertexArray& vertices, const glm::uvec3& corners) {
+    AlphaTriangle triangle{{}, {1, 1, 1}, index, 0, 0};
+    for (int i = 0; i < 3; ++i) {
+        if (m.texels != kNoTexels)
+            triangle.texcoord[i] =
+                layer.use->transform *
+                glm::vec3(vertices.texcoords[static_cast<std::size_t>(layer.use->texcoord)][corners[i]], 1);
+        if (layer.vertex_alpha && !vertices.colors.empty())
+            triangle.vertex_alpha[i] = vertices.colors[corners[i]].a;
+    }
+    const glm::vec2 size(m.width, m.height);
+    const glm::vec2 ab = (triangle.texcoord[1] - triangle.texcoord[0]) * size,
+                    ac = (triangle.texcoord[2] - triangle.texcoord[0]) * size;
+    const glm::vec3& a = vertices.positions[corners.x];
+    const float area =
+        glm::length(glm::cross(vertices.positions[corners.y] - a, vertices.positions[corners.z] - a));
+    const float density = std::abs(ab.x * ac.y - ab.y * ac.x) / area;
+    triangle.texel_density = std::isfinite(density) ? density : 0;
+    return triangle;
 }
 
 AlphaTables make_alpha_tables(const Scene& scene, const Surfaces& surfaces,
                               const std::vector<Texture>& textures) {
     AlphaTables tables;
     tables.index.resize(surfaces.triangles());
-    std::vector<std::uint32_t> material_of(scene.primitives.size(), kNoTexels);
+    std::vector<std::uint32_t> material_of(scene.primitives.size(), kNoTexels); // of the first layer
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
         if (surfaces.opaque(t))
             continue;
         const Primitive& primitive = scene.primitives[surfaces.primitive(t)];
         const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
-        const TextureUse& use = scene.materials[primitive.material].base_color_texture;
-        std::uint32_t& material = material_of[surfaces.primitive(t)];
-        if (material == kNoTexels) {
-            material = static_cast<std::uint32_t>(tables.materials.size());
-            tables.materials.push_back(alpha_material(scene, surfaces, primitive, textures, tables.texels));
+        const std::vector<AlphaLayer> layers = alpha_layers(scene.materials[primitive.material]);
+        std::uint32_t& first = material_of[surfaces.primitive(t)];
+        if (first == kNoTexels) {
+            first = static_cast<std::uint32_t>(tables.materials.size());
+            for (const AlphaLayer& layer : layers)
+                tables.materials.push_back(
+                    alpha_material(layer, surfaces, vertices, textures, tables.texels));
         }
-        const AlphaMaterial& m = tables.materials[material];
-        const glm::uvec3 local = surfaces.corners(t) - static_cast<unsigned>(vertices.first_receiver);
-        AlphaTriangle triangle{{}, {1, 1, 1}, material, 0, 0};
-        for (int i = 0; i < 3; ++i) {
-            if (m.texels != kNoTexels)
-                triangle.texcoord[i] =
-                    use.transform *
-                    glm::vec3(vertices.texcoords[static_cast<std::size_t>(use.texcoord)][local[i]], 1);
-            if (!vertices.colors.empty())
-                triangle.vertex_alpha[i] = vertices.colors[local[i]].a;
+        const glm::uvec3 corners = surfaces.corners(t) - static_cast<unsigned>(vertices.first_receiver);
+        tables.index[t] = static_cast<std::uint32_t>(tables.triangles.size()) + 1;
+        for (std::uint32_t l = 0; l < layers.size(); ++l) {
+            tables.triangles.push_back(
+                alpha_triangle(layers[l], first + l, tables.materials[first + l], vertices, corners));
+            if (l + 1 < layers.size())
+                tables.triangles.back().next = static_cast<std::uint32_t>(tables.triangles.size()) + 1;
         }
-        const glm::vec2 size(m.width, m.height);
-        const glm::vec2 ab = (triangle.texcoord[1] - triangle.texcoord[0]) * size,
-                        ac = (triangle.texcoord[2] - triangle.texcoord[0]) * size;
-        const glm::vec3& a = vertices.positions[local.x];
-        const float area =
-            glm::length(glm::cross(vertices.positions[local.y] - a, vertices.positions[local.z] - a));
-        const float density = std::abs(ab.x * ac.y - ab.y * ac.x) / area;
-        triangle.texel_density = std::isfinite(density) ? density : 0;
-        tables.triangles.push_back(triangle);
-        tables.index[t] = static_cast<std::uint32_t>(tables.triangles.size());
     }
     tables.texels.resize((tables.texels.size() + 3) / 4 * 4);
     return tables;

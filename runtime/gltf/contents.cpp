@@ -208,6 +208,26 @@ void GltfContents::use_extension(const std::string& name) {
         used.push_back(name);
 }
 
+void GltfContents::drop_extension(const std::string& name) {
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        if (!json.contains(list))
+            continue;
+        Json kept = Json::array();
+        for (const Json& other : json[list])
+            if (other != name)
+                kept.push_back(other);
+        if (kept.empty())
+            json.erase(list);
+        else
+            json[list] = std::move(kept);
+    }
+}
+
+void GltfContents::cut_unused_bytes() {
+    if (json.contains("bufferViews"))
+        cut_bytes(*this, {});
+}
+
 void GltfContents::remove_transfer() {
     std::set<std::size_t> views, accessors;
     const auto take_view = [&](Json& object) {
@@ -246,16 +266,8 @@ void GltfContents::remove_transfer() {
 
     erase_accessors(*this, accessors);
     erase_views(*this, views);
-    if (json.contains("extensionsUsed")) {
-        Json kept = Json::array();
-        for (const Json& name : json["extensionsUsed"])
-            if (name != kTransferExtension && name != kClusteredExtension)
-                kept.push_back(name);
-        if (kept.empty())
-            json.erase("extensionsUsed");
-        else
-            json["extensionsUsed"] = std::move(kept);
-    }
+    for (const char* name : {kTransferExtension, kClusteredExtension})
+        drop_extension(name);
 }
 
 void GltfContents::remove_replaced(std::set<std::size_t> accessors) {

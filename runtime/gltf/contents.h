@@ -22,6 +22,7 @@ struct GltfContents {
     tinygltf::Model model; ///< as read; edits of `json` do not reach it, but its views follow the bytes
     Json json;
     std::vector<std::vector<std::byte>> images; ///< encoded, by image index
+    std::vector<std::string> notices;           ///< what was changed when it was read, a line each
 
     /// The one buffer that all views of `json`, and of `model`, point into.
     std::vector<unsigned char>& binary() { return model.buffers.front().data; }
@@ -34,6 +35,10 @@ struct GltfContents {
     std::size_t add_accessor(Json accessor);
     /// Lists `name` in extensionsUsed.
     void use_extension(const std::string& name);
+    /// Takes `name` out of extensionsUsed and extensionsRequired.
+    void drop_extension(const std::string& name);
+    /// Cuts out of the buffer what no view refers to.
+    void cut_unused_bytes();
     /// Takes the extensions of prtkit out, with their attributes, accessors and data.
     void remove_transfer();
     /// Takes those of `accessors` out that nothing refers to any more, with their data.

@@ -2,7 +2,9 @@
 
 #include "accessor.h"
 #include "contents.h"
+#include "draco_primitives.h"
 #include "glb.h"
+#include "instances.h"
 #include "meshopt_views.h"
 #include "prt/error.h"
 #include "prt/file.h"
@@ -17,12 +19,19 @@ namespace prt {
 namespace {
 
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
-/// base colour is used.
-constexpr std::array<std::string_view, 22> kSupportedExtensions = {
+/// base colour is used. Textures of other formats are missed only where they are needed.
+constexpr std::array<std::string_view, 30> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
     kMeshoptExtension,
+    kDracoExtension,
+    "EXT_mesh_gpu_instancing",
     "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "EXT_texture_avif",
+    "EXT_texture_webp",
+    "KHR_texture_basisu",
+    "MSFT_texture_dds",
     "KHR_texture_transform",
     "KHR_lights_punctual",
     "KHR_animation_pointer",
@@ -34,6 +43,7 @@ constexpr std::array<std::string_view, 22> kSupportedExtensions = {
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen",
     "KHR_materials_specular",
     "KHR_materials_transmission",
@@ -142,6 +152,22 @@ void join_buffers(GltfContents& contents) {
     contents.json.erase("buffers");
 }
 
+/// The media type of an encoded image, by its first bytes.
+const char* mime_type(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("\x89PNG"))
+        return "image/png";
+    if (text.starts_with("\xABKTX 20"))
+        return "image/ktx2";
+    if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP"))
+        return "image/webp";
+    if (text.substr(0, 12).ends_with("ftypavif"))
+        return "image/avif";
+    if (text.starts_with("DDS "))
+        return "image/vnd-ms.dds";
+    return "image/jpeg";
+}
+
 /// Images from files beside the glTF move inside.
 void embed_images(GltfContents& contents) {
     for (std::size_t i = 0; i < contents.images.size(); ++i) {
@@ -150,9 +176,8 @@ void embed_images(GltfContents& contents) {
         const auto& bytes = contents.images[i];
         if (uri.empty() || uri.starts_with("data:") || bytes.empty())
             continue;
-        const bool png = bytes.size() > 1 && bytes[0] == std::byte{0x89} && bytes[1] == std::byte{'P'};
         image.erase("uri");
-        image["mimeType"] = png ? "image/png" : "image/jpeg";
+        image["mimeType"] = mime_type(bytes);
         image["bufferView"] = contents.add_buffer_view(bytes);
         if (!image.contains("name"))
             image["name"] = std::filesystem::path(uri).stem().string();
@@ -181,16 +206,26 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
                    : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
         contents->json = parse_json(text);
         check_required_extensions(contents->json);
-        if (has_meshopt_views(contents->json)) {
-            const std::string plain = without_meshopt(contents->json).dump();
+        const bool meshopt = has_meshopt_views(contents->json), draco = has_draco_primitives(contents->json);
+        if (meshopt || draco) {
+            Json plain = meshopt ? without_meshopt(contents->json) : contents->json;
+            if (draco)
+                plain = without_draco_indices(std::move(plain));
+            const std::string plain_text = plain.dump();
             const std::vector<std::byte> rebuilt =
-                binary ? make_glb(plain, glb_binary(file)) : std::vector<std::byte>{};
-            load_model(*contents, rebuilt, plain, binary, missing);
-            decompress_views(*contents);
+                binary ? make_glb(plain_text, glb_binary(file)) : std::vector<std::byte>{};
+            load_model(*contents, rebuilt, plain_text, binary, missing);
         } else {
             load_model(*contents, file, text, binary, missing);
         }
+        if (meshopt)
+            decompress_views(*contents);
+        if (draco)
+            decompress_primitives(*contents);
         join_buffers(*contents);
+        if (draco)
+            contents->cut_unused_bytes();
+        expand_instances(*contents);
         embed_images(*contents);
     } catch (const std::exception& error) { // ours, and those of the JSON library on members of a wrong type
         throw Error(path.string() + ": " + one_line(error.what()));

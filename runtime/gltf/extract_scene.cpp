@@ -109,7 +109,8 @@ public:
             scene_.images.push_back(
                 {"image " + std::to_string(i) + (name.empty() ? "" : " '" + name + "'"), contents.images[i]});
         }
-        scene_.materials = read_materials(model_);
+        read_materials(model_, scene_, range_);
+        scene_.notices = contents.notices;
     }
 
     Scene extract() {
@@ -134,6 +135,10 @@ private:
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(transform.node)];
         if (node.mesh < 0)
             return;
+        if (!transform.visible) {
+            ++hidden_nodes_;
+            return;
+        }
         if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size())
             throw Error("node " + std::to_string(transform.node) + " names mesh " +
                         std::to_string(node.mesh) + ", which is not there");
@@ -191,6 +196,8 @@ private:
         }
         read_texcoords(model_, file, vertices);
         read_colors(model_, file, vertices);
+        for (glm::vec4& color : vertices.colors)
+            range_.clamp(color, "COLOR_0 of vertices");
         has_morphs_ |= !file.targets.empty();
         apply_morph_targets(model_, file, node.weights.empty() ? mesh.weights : node.weights, vertices);
 
@@ -262,6 +269,13 @@ private:
         if (skipped_primitives_ > 0)
             scene_.notices.emplace_back(std::to_string(skipped_primitives_) +
                                         " primitives of points, lines or nothing are left as they are");
+        if (hidden_nodes_ > 0)
+            scene_.notices.emplace_back(std::to_string(hidden_nodes_) +
+                                        " meshes are hidden (KHR_node_visibility) and left out");
+        if (!range_.notice().empty())
+            scene_.notices.push_back(range_.notice());
+        for (std::string& notice : unread_material_notices(model_, scene_))
+            scene_.notices.push_back(std::move(notice));
         std::size_t zero_normals = 0;
         for (VertexArray& vertices : scene_.vertex_arrays)
             zero_normals += replace_zero_normals(scene_, vertices);
@@ -276,7 +290,8 @@ private:
     using Attributes = std::map<std::string, int>;
     /// Vertex arrays by node, primitive (where it matters), attributes and morph targets.
     std::map<std::tuple<int, int, Attributes, std::vector<Attributes>>, std::size_t> shared_;
-    std::size_t flat_primitives_ = 0, skipped_primitives_ = 0;
+    UnitRange range_;
+    std::size_t flat_primitives_ = 0, skipped_primitives_ = 0, hidden_nodes_ = 0;
     bool has_skins_ = false, has_morphs_ = false;
 };
 

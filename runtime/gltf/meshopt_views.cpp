@@ -239,8 +239,7 @@ void decompress_views(GltfContents& contents) {
     for (std::size_t b = 0; b < used.size(); ++b)
         if (!used[b])
             contents.model.buffers[b].data.clear();
-    erase_name(contents.json, "extensionsUsed");
-    erase_name(contents.json, "extensionsRequired");
+    contents.drop_extension(kMeshoptExtension);
 }
 
 CompressedGlb compress_views(const GltfContents& contents) {

@@ -25,6 +25,12 @@ glm::dmat4 local_transform(const tinygltf::Node& node) {
     return local;
 }
 
+bool is_visible(const tinygltf::Node& node) {
+    const auto found = node.extensions.find("KHR_node_visibility");
+    return found == node.extensions.end() || !found->second.Has("visible") ||
+           found->second.Get("visible").Get<bool>();
+}
+
 std::vector<int> root_nodes(const tinygltf::Model& model) {
     if (!model.scenes.empty()) {
         const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
@@ -49,20 +55,21 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
 std::vector<NodeTransform> world_transforms(const tinygltf::Model& model) {
     std::vector<NodeTransform> result;
     std::vector<bool> visited(model.nodes.size(), false);
-    const auto add = [&](int node, const glm::dmat4& parent) {
+    const auto add = [&](int node, const NodeTransform& parent) {
         if (node < 0 || static_cast<std::size_t>(node) >= visited.size())
             throw Error("node " + std::to_string(node) + " is not there");
         if (visited[static_cast<std::size_t>(node)])
             throw Error("node " + std::to_string(node) + " has two parents or is its own ancestor");
         visited[static_cast<std::size_t>(node)] = true;
-        result.push_back({node, parent * local_transform(model.nodes[static_cast<std::size_t>(node)])});
+        const tinygltf::Node& file = model.nodes[static_cast<std::size_t>(node)];
+        result.push_back({node, parent.world * local_transform(file), parent.visible && is_visible(file)});
     };
     for (const int root : root_nodes(model))
-        add(root, glm::dmat4(1));
+        add(root, {});
     for (std::size_t i = 0; i < result.size(); ++i) {
         const NodeTransform parent = result[i];
         for (const int child : model.nodes[static_cast<std::size_t>(parent.node)].children)
-            add(child, parent.world);
+            add(child, parent);
     }
     return result;
 }

@@ -10,6 +10,7 @@ namespace prt {
 struct NodeTransform {
     int node = 0;
     glm::dmat4 world{1};
+    bool visible = true; ///< KHR_node_visibility, of the node and all above it
 };
 
 /// World transforms of the nodes of the default scene (or the first; of all root nodes where there is no

@@ -104,12 +104,6 @@ std::vector<Json*> unshare(GltfContents& contents, const Scene& scene) {
                                   [static_cast<std::size_t>(primitive.primitive)];
         if (!scene.vertex_arrays[primitive.vertices].source.empty())
             write_split_vertices(contents, json, scene, primitive);
-        // The vertices of a compressed copy may come in another order than those that our data belongs to.
-        if (json.contains("extensions")) {
-            json["extensions"].erase("KHR_draco_mesh_compression");
-            if (json["extensions"].empty())
-                json.erase("extensions");
-        }
         result.push_back(&json);
     }
     return result;

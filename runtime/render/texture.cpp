@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
+#include <string>
+#include <string_view>
 
 namespace prt {
 namespace {
@@ -23,15 +24,19 @@ const std::array<float, 256>& srgb_table() {
     return table;
 }
 
-glm::vec4 decoded(const glm::u8vec4& texel) {
+glm::vec4 decoded(const glm::u8vec4& texel, TextureEncoding encoding) {
+    if (encoding == TextureEncoding::linear)
+        return glm::vec4(texel) / 255.0f;
     const auto& table = srgb_table();
     return {table[texel.r], table[texel.g], table[texel.b], static_cast<float>(texel.a) / 255.0f};
 }
 
-glm::u8vec4 encoded(const glm::vec4& colour) {
+glm::u8vec4 encoded(const glm::vec4& colour, TextureEncoding encoding) {
     glm::u8vec4 texel;
-    for (int c = 0; c < 3; ++c)
-        texel[c] = static_cast<std::uint8_t>(std::lround(255 * srgb_encode(colour[c])));
+    for (int c = 0; c < 3; ++c) {
+        const float value = encoding == TextureEncoding::srgb ? srgb_encode(colour[c]) : colour[c];
+        texel[c] = static_cast<std::uint8_t>(std::lround(255 * value));
+    }
     texel.a = static_cast<std::uint8_t>(std::lround(255 * colour.a));
     return texel;
 }
@@ -41,14 +46,15 @@ const glm::u8vec4& texel(const Image8& image, int x, int y) {
                         static_cast<std::size_t>(x)];
 }
 
-Image8 half_size(const Image8& image) {
+Image8 half_size(const Image8& image, TextureEncoding encoding) {
+    const auto value = [&](int x, int y) { return decoded(texel(image, x, y), encoding); };
     Image8 half{std::max(1, image.width / 2), std::max(1, image.height / 2), {}};
     for (int y = 0; y < half.height; ++y)
         for (int x = 0; x < half.width; ++x) {
             const int x1 = std::min(2 * x + 1, image.width - 1), y1 = std::min(2 * y + 1, image.height - 1);
             half.pixels.push_back(
-                encoded(0.25f * (decoded(texel(image, 2 * x, 2 * y)) + decoded(texel(image, x1, 2 * y)) +
-                                 decoded(texel(image, 2 * x, y1)) + decoded(texel(image, x1, y1)))));
+                encoded(0.25f * (value(2 * x, 2 * y) + value(x1, 2 * y) + value(2 * x, y1) + value(x1, y1)),
+                        encoding));
         }
     return half;
 }
@@ -62,7 +68,8 @@ int wrapped(int i, int size, Wrap wrap) {
     return period < size ? period : 2 * size - 1 - period;
 }
 
-glm::vec4 bilinear(const Image8& image, const TextureUse& use, const glm::vec2& uv) {
+glm::vec4 bilinear(const Texture& texture, std::size_t level, const TextureUse& use, const glm::vec2& uv) {
+    const Image8& image = texture.levels[level];
     const float x = uv.x * static_cast<float>(image.width) - 0.5f,
                 y = uv.y * static_cast<float>(image.height) - 0.5f;
     if (!(std::abs(x) < 1e9f) || !(std::abs(y) < 1e9f)) // texture coordinates that are not finite
@@ -72,17 +79,32 @@ glm::vec4 bilinear(const Image8& image, const TextureUse& use, const glm::vec2& 
               x1 = wrapped(static_cast<int>(fx) + 1, image.width, use.wrap_u),
               y0 = wrapped(static_cast<int>(fy), image.height, use.wrap_v),
               y1 = wrapped(static_cast<int>(fy) + 1, image.height, use.wrap_v);
-    return glm::mix(glm::mix(decoded(texel(image, x0, y0)), decoded(texel(image, x1, y0)), x - fx),
-                    glm::mix(decoded(texel(image, x0, y1)), decoded(texel(image, x1, y1)), x - fx), y - fy);
+    const auto value = [&](int column, int row) {
+        return decoded(texel(image, column, row), texture.encoding);
+    };
+    return glm::mix(glm::mix(value(x0, y0), value(x1, y0), x - fx),
+                    glm::mix(value(x0, y1), value(x1, y1), x - fx), y - fy);
+}
+
+/// Formats that glTF extensions bring and that decode_image does not know, by their first bytes.
+void check_format(std::span<const std::byte> file) {
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    const char* format = text.starts_with("\xABKTX 20")                                     ? "KTX 2"
+                         : text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP") ? "WebP"
+                         : text.substr(0, 12).ends_with("ftypavif")                         ? "AVIF"
+                         : text.starts_with("DDS ")                                         ? "DDS"
+                                                                                            : nullptr;
+    if (format)
+        throw Error("is " + std::string(format) + ", which is not read, and no PNG or JPEG stands beside it");
 }
 
 } // namespace
 
-Texture make_texture(Image8 image) {
-    Texture texture;
+Texture make_texture(Image8 image, TextureEncoding encoding) {
+    Texture texture{{}, encoding};
     texture.levels.push_back(std::move(image));
     while (texture.levels.back().width > 1 || texture.levels.back().height > 1)
-        texture.levels.push_back(half_size(texture.levels.back()));
+        texture.levels.push_back(half_size(texture.levels.back(), encoding));
     return texture;
 }
 
@@ -91,29 +113,47 @@ glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2&
     const float level = std::clamp(lod, 0.0f, last);
     const auto fine = static_cast<std::size_t>(level);
     const std::size_t coarse = std::min(fine + 1, texture.levels.size() - 1);
-    return glm::mix(bilinear(texture.levels[fine], use, uv), bilinear(texture.levels[coarse], use, uv),
+    return glm::mix(bilinear(texture, fine, use, uv), bilinear(texture, coarse, use, uv),
                     level - static_cast<float>(fine));
 }
 
-std::vector<Texture> load_textures(const Scene& scene, BadTextures bad) {
-    std::set<int> images;
+std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds needs) {
+    std::map<int, TextureEncoding> images;
+    const auto add = [&](const TextureUse& use, TextureEncoding encoding) {
+        if (use.image >= 0 && (images.try_emplace(use.image, encoding), encoding == TextureEncoding::srgb))
+            images[use.image] = encoding;
+    };
     for (const Primitive& primitive : scene.primitives) {
-        const Material& material = scene.materials[primitive.material];
-        for (const TextureUse* use : {&material.base_color_texture, &material.transmission.factor_texture,
-                                      &material.transmission.color_texture})
-            images.insert(use->image);
+        const Material& m = scene.materials[primitive.material];
+        const bool leaf = m.transmission.factor > 0 && needs != TextureNeeds::pictures;
+        if (needs != TextureNeeds::visibility || m.alpha_mode != AlphaMode::opaque || leaf)
+            add(m.base_color_texture, TextureEncoding::srgb);
+        if (leaf) {
+            add(m.transmission.factor_texture, TextureEncoding::srgb); // a number, but in alpha
+            add(m.transmission.color_texture, TextureEncoding::srgb);
+        }
+        if (m.glass.factor > 0 && needs != TextureNeeds::pictures)
+            add(m.glass.texture, TextureEncoding::linear);
+        if (m.metallic > 0 && needs == TextureNeeds::all)
+            add(m.metallic_roughness_texture, TextureEncoding::linear);
     }
-    images.erase(-1);
-    const std::size_t used = images.empty() ? 0 : static_cast<std::size_t>(*images.rbegin()) + 1;
+    return images;
+}
+
+std::vector<Texture> load_textures(const Scene& scene, BadTextures bad, TextureNeeds needs) {
+    const std::map<int, TextureEncoding> images = needed_images(scene, needs);
+    const std::size_t used = images.empty() ? 0 : static_cast<std::size_t>(images.rbegin()->first) + 1;
     std::vector<Texture> textures(std::max(scene.images.size(), used));
-    for (const int image : images) {
+    for (const auto& [image, encoding] : images) {
         EncodedImage nothing{"image " + std::to_string(image), {}};
         const bool there = static_cast<std::size_t>(image) < scene.images.size();
         const EncodedImage& encoded_image = there ? scene.images[static_cast<std::size_t>(image)] : nothing;
         try {
             if (encoded_image.bytes.empty())
                 throw Error("is not there");
-            textures[static_cast<std::size_t>(image)] = make_texture(decode_image(encoded_image.bytes));
+            check_format(encoded_image.bytes);
+            textures[static_cast<std::size_t>(image)] =
+                make_texture(decode_image(encoded_image.bytes), encoding);
         } catch (const Error& error) {
             if (bad == BadTextures::error)
                 throw Error(encoded_image.name + " " + error.what());

@@ -214,6 +214,33 @@ TEST(GpuTrace, PassesCutOutsAndBlendedSurfacesAsTheCpuDoes) {
     }
 }
 
+/// The ceiling of glass with a texture, cut out, blended or neither.
+Scene under_glass(AlphaMode mode) {
+    Scene scene = under_a_ceiling(mode);
+    Material& m = scene.materials[1];
+    m.base_color = {0.9f, 0.8f, 1, 0.8f};
+    m.glass = {0.7f, {.image = 1, .texcoord = 0, .transform = {2, 0, 0, 3, 0.1f, 0}}};
+    return scene;
+}
+
+std::vector<Texture> glass_textures() {
+    Image8 image{8, 8, {}};
+    for (int i = 0; i < 64; ++i)
+        image.pixels.emplace_back(4 * i, 0, 0, 255);
+    return {dotted_texture(), make_texture(image, TextureEncoding::linear)};
+}
+
+TEST(GpuTrace, PassesGlassAsTheCpuDoes) {
+    for (const AlphaMode mode : {AlphaMode::opaque, AlphaMode::mask, AlphaMode::blend}) {
+        Pair pair(under_glass(mode), glass_textures());
+        const TraceOptions options{4, 256, 1, 0};
+        const Transfer cpu = pair.on_cpu(options);
+        EXPECT_LT(pair.distance(cpu, pair.trace(*pair.gpu(), options)), 3e-3);
+        Pair clay(under_a_ceiling(mode), glass_textures());
+        EXPECT_GT(pair.distance(cpu, clay.on_cpu(options)), 0.02);
+    }
+}
+
 BakeResult bake_on(Backend backend, const Scene& scene, BakeOptions options) {
     options.backend = backend;
     return bake(scene, options);
@@ -316,6 +343,14 @@ TEST(GpuRaster, LeaksNothingWhereWallsMeetTheFloor) {
         }
     }
     EXPECT_NEAR(inside, truth, 0.15 * truth);
+}
+
+TEST(GpuRaster, PeelsGlassThatIsCutOut) {
+    Pair pair(under_glass(AlphaMode::mask), glass_textures());
+    const Transfer reference = pair.on_cpu({2, 1024, 99, 0});
+    const double error = pair.distance(reference, pair.trace(*pair.rasterizer(128), {2, 128, 1, 0}));
+    Pair clay(under_a_ceiling(AlphaMode::mask), glass_textures());
+    EXPECT_LT(error, 0.5 * pair.distance(reference, clay.on_cpu({2, 1024, 99, 0})));
 }
 
 TEST(GpuRaster, PeelsBlendedSurfacesAndDropsCutOuts) {

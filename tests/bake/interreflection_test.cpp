@@ -2,6 +2,7 @@
 #include "prt/bake.h"
 #include "prt/error.h"
 #include "prt/light.h"
+#include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
 
@@ -335,6 +336,28 @@ TEST(Bounces, AreTheSameToTheByteForAnyNumberOfThreads) {
     const auto one = bake(scene, options).baked.transfer.vectors;
     options.threads = 3;
     EXPECT_EQ(one, bake(scene, options).baked.transfer.vectors);
+}
+
+TEST(Bounces, OfAFileWithAlbedosAboveOneEndAtOne) {
+    // Nearly closed, white by the clamp: under uniform light 1 what leaves is 1, however often it bounces.
+    const Scene bowl = SceneBuilder().bowl({0, 0, 0}, 1, 8, 2).build();
+    test::GlbFile file = test::scene_file(bowl);
+    auto& primitive = file.json["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {1.2, 1.5, 3, 1}}}}}};
+    primitive["attributes"]["COLOR_0"] =
+        file.accessor(std::vector<float>(3 * bowl.receivers(), 1.2f), test::kFloat, "VEC3", 3);
+    const std::string bytes = file.bytes();
+    const Scene scene = extract_scene(parse_gltf(std::as_bytes(std::span(bytes)), "bowl.glb"));
+    const BakeResult result = bake_bounces(scene, kEndlessBounces, 256);
+    EXPECT_EQ(result.baked.transfer.channels, 1);
+    const std::vector<float> areas = receiver_areas(scene);
+    const auto radiance = under_uniform_light(result.baked.transfer);
+    for (std::size_t p = 0; p < radiance.size(); ++p) {
+        if (areas[p] > 0) {
+            EXPECT_NEAR(static_cast<double>(radiance[p].x), 1, 2e-3) << p;
+        }
+    }
 }
 
 TEST(Bounces, AreLeftOutWhereNothingScatters) {

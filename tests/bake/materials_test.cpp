@@ -105,6 +105,140 @@ TEST(Blended, LayersMultiply) {
         EXPECT_NEAR(static_cast<double>(t[k]), std::pow(0.8, 7) * lobe[k], 0.01) << k;
 }
 
+/// A texture of one texel that holds numbers.
+Texture numbers(const glm::u8vec4& texel) {
+    return make_texture({1, 1, {texel}}, TextureEncoding::linear);
+}
+
+TEST(Glass, PassesItsFactorTimesItsTextureTimesItsTint) {
+    // Two sheets without end of grey glass: factor 0.9, red of the texture 0.6, tint 0.5.
+    std::vector<Scene> sheets;
+    for (int i = 1; i <= 2; ++i) {
+        Scene sheet = SceneBuilder().floor({0, 0.1f * static_cast<float>(i), 0}, 1e4f).build();
+        sheet.vertex_arrays[0].texcoords = {std::vector<glm::vec2>(sheet.receivers(), {0.5f, 0.5f})};
+        sheet.materials[0].base_color = {0.5f, 0.5f, 0.5f, 1};
+        sheet.materials[0].glass = {0.9f, {.image = 0}};
+        sheets.push_back(sheet);
+    }
+    std::array<double, 16> lobe{};
+    clamped_cosine_lobe(4, {0, 1, 0}, lobe);
+    const auto t = transfer_below(test::join(sheets), {numbers({153, 0, 0, 0})}, 256);
+    for (std::size_t k = 0; k < t.size(); ++k)
+        EXPECT_NEAR(static_cast<double>(t[k]), std::pow(0.9 * 0.6 * 0.5, 2) * lobe[k], 0.005) << k;
+    // Blended beside: alpha stops its share first.
+    sheets.pop_back();
+    sheets[0].materials[0].alpha_mode = AlphaMode::blend;
+    sheets[0].materials[0].base_color.a = 0.25f;
+    const auto both = transfer_below(sheets[0], {numbers({153, 0, 0, 0})}, 256);
+    for (std::size_t k = 0; k < both.size(); ++k)
+        EXPECT_NEAR(static_cast<double>(both[k]), (1 - 0.25 * (1 - 0.27)) * lobe[k], 0.005) << k;
+}
+
+TEST(Glass, ReflectsDiffuselyWhatItsFactorLeaves) {
+    Scene sheet = SceneBuilder().floor({0, 0, 0}, 1).build();
+    for (const float factor : {0.0f, 0.3f, 1.0f})
+        for (const glm::vec3& tint : {glm::vec3(1), glm::vec3(0.2f, 0.5f, 0.9f)}) {
+            sheet.materials[0].base_color = glm::vec4(tint, 1);
+            sheet.materials[0].glass.factor = factor;
+            const Surfaces surfaces(sheet, {});
+            const SurfacePoint point{0, {0.3f, 0.3f}, 1e-4f};
+            // Rays that meet it bring a share of the light, and of all light (1 - factor) is reflected.
+            const glm::vec3 reflected = surfaces.coverage(point) * surfaces.scattering(point).reflected;
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(reflected[c], (1 - factor) * tint[c], 1e-6f);
+        }
+}
+
+TEST(Metal, ReflectsDiffuselyAsFarAsItIsRough) {
+    Scene sheet = SceneBuilder().floor({0, 0, 0}, 1).build();
+    sheet.vertex_arrays[0].texcoords = {std::vector<glm::vec2>(sheet.receivers(), {0.5f, 0.5f})};
+    Material& m = sheet.materials[0];
+    m.base_color = {0.8f, 0.6f, 0.2f, 1};
+    const auto reflected = [&](float metallic, float roughness, const std::vector<Texture>& textures) {
+        m.metallic = metallic;
+        m.roughness = roughness;
+        m.metallic_roughness_texture.image = textures.empty() ? -1 : 0;
+        return Surfaces(sheet, textures).scattering({0, {0.3f, 0.3f}, 1e-4f}).reflected.r;
+    };
+    EXPECT_FLOAT_EQ(reflected(0, 0.3f, {}), 0.8f);
+    EXPECT_FLOAT_EQ(reflected(1, 1, {}), 0.8f); // glTF's default material
+    EXPECT_FLOAT_EQ(reflected(1, 0, {}), 0);
+    EXPECT_FLOAT_EQ(reflected(1, 0.5f, {}), 0.2f);
+    EXPECT_FLOAT_EQ(reflected(0.5f, 0.5f, {}), 0.8f * (1 - 0.5f * 0.75f));
+    // Metallic in blue, roughness in green, both as numbers: 51 is a fifth, not sRGB.
+    EXPECT_NEAR(reflected(1, 1, {numbers({9, 51, 255, 9})}), 0.8f * 0.04f, 1e-6f);
+    EXPECT_NEAR(reflected(1, 0, {numbers({9, 255, 51, 9})}), 0.8f * 0.8f, 1e-6f);
+    // The same image where it is colour elsewhere.
+    EXPECT_NEAR(reflected(1, 1, {make_texture({1, 1, {{9, 51, 255, 9}}})}), 0.8f * 0.04f, 1e-5f);
+}
+
+TEST(Metal, BouncesByThatShareAndSaysSo) {
+    const auto bounced = [](float metallic, float roughness, std::size_t& notices) {
+        Scene bowl = SceneBuilder().bowl({0, 0, 0}, 1, 12, 4).build();
+        bowl.materials[0].metallic = metallic;
+        bowl.materials[0].roughness = roughness;
+        BakeOptions options;
+        options.order = 1;
+        options.rays = 256;
+        options.backend = Backend::cpu;
+        const auto radiance = [&](int bounces) {
+            options.bounces = bounces;
+            const BakeResult result = bake(bowl, options);
+            notices = 0;
+            for (const std::string& notice : result.statistics.notices)
+                notices += notice.find("1 material of metal") != std::string::npos;
+            return exit_radiance(result.baked.transfer, constant_light(1, glm::vec3(1)))[12 * 25].x;
+        };
+        const float direct = radiance(0);
+        EXPECT_EQ(notices, 0u); // without bounces it is nothing to the bake
+        return radiance(1) - direct;
+    };
+    std::size_t notices = 0;
+    const float diffuse = bounced(0, 0, notices);
+    EXPECT_EQ(notices, 0u);
+    EXPECT_GT(diffuse, 0.1f);
+    EXPECT_NEAR(bounced(1, 0.5f, notices), 0.25f * diffuse, 1e-3f);
+    EXPECT_EQ(notices, 1u);
+    EXPECT_NEAR(bounced(1, 0, notices), 0, 1e-6f);
+}
+
+/// A ceiling that has a texture with coordinates, and no image behind it.
+Scene ceiling_without_its_image() {
+    Scene scene = test::join({SceneBuilder().floor({0, 0, 0}, 1).build(), ceiling()});
+    scene.images.push_back({"image 0 'wood.ktx2'", {}});
+    for (const char c : std::string("\xABKTX 20\xBB\r\n\x1A\n"))
+        scene.images[0].bytes.push_back(static_cast<std::byte>(c));
+    scene.materials[1].base_color_texture.image = 0;
+    return scene;
+}
+
+TEST(BadTextures, StopOnlyABakeThatNeedsThem) {
+    BakeOptions options;
+    options.order = 1;
+    options.rays = 16;
+    options.backend = Backend::cpu;
+    const auto message = [&](const Scene& scene) -> std::string {
+        try {
+            bake(scene, options);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    Scene scene = ceiling_without_its_image();
+    EXPECT_EQ(message(scene), ""); // direct light, opaque
+    scene.materials[1].alpha_mode = AlphaMode::mask;
+    EXPECT_EQ(message(scene),
+              "image 0 'wood.ktx2' is KTX 2, which is not read, and no PNG or JPEG stands beside it");
+    scene.materials[1].alpha_mode = AlphaMode::opaque;
+    options.bounces = 1;
+    EXPECT_NE(message(scene), "");
+    options.bad_textures = BadTextures::ignore;
+    EXPECT_EQ(message(scene), "");
+    scene.materials[1].base_color_texture.image = 7; // beyond the images
+    EXPECT_EQ(message(scene), "");
+}
+
 TEST(Leaf, TakesLightFromBehindThroughDiffuseTransmission) {
     // A lone sheet: in front and behind there is nothing, so both sides have their clamped-cosine lobe.
     Scene leaf = SceneBuilder().floor({0, 0, 0}, 1, 2).build();

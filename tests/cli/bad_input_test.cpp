@@ -52,6 +52,17 @@ TEST_F(BadInput, TruncatedGlbAndJsonThatIsNoGltf) {
     refuse_bake(folder.file("broken.gltf", "{\"asset\": "));
 }
 
+TEST_F(BadInput, DracoData) {
+    GlbFile file = triangle_file();
+    for (auto& accessor : file.json["accessors"])
+        accessor.erase("bufferView");
+    file.json["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
+        {"bufferView", 0}, {"attributes", {{"POSITION", 0}, {"NORMAL", 1}}}};
+    file.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
+    file.write(folder / "draco.glb");
+    refuse_bake(folder / "draco.glb");
+}
+
 TEST_F(BadInput, BuffersAccessorsAndIndices) {
     GlbFile gone = triangle_file();
     gone.json["buffers"] = {{{"uri", "gone.bin"}, {"byteLength", 90}}};
@@ -90,11 +101,10 @@ TEST_F(BadInput, PositionsThatAreNotFiniteAndNoTriangles) {
 
 TEST_F(BadInput, UnsupportedExtensionIsNamed) {
     GlbFile file = triangle_file();
-    file.json["extensionsRequired"] = {"KHR_draco_mesh_compression"};
-    file.write(folder / "draco.glb");
-    EXPECT_NE(
-        prt({"bake", (folder / "draco.glb").string(), "-o", out}).err.find("KHR_draco_mesh_compression"),
-        std::string::npos);
+    file.json["extensionsRequired"] = {"EXT_unheard_of"};
+    file.write(folder / "unheard_of.glb");
+    EXPECT_NE(prt({"bake", (folder / "unheard_of.glb").string(), "-o", out}).err.find("EXT_unheard_of"),
+              std::string::npos);
 }
 
 TEST_F(BadInput, OrdersAndRaysOutOfRange) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <fstream>
@@ -41,6 +42,22 @@ protected:
     std::string at(const char* name) const { return (folder / name).string(); }
     TemporaryFolder folder;
 };
+
+TEST_F(Road, NoticesOfTheSceneAreSaidOnceAndStandInTheReports) {
+    GlbFile file = triangle_file();
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {2, 1, 1, 1}}}}}};
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.write(folder / "a.glb");
+    const std::string notice = "clamped to 0..1: baseColorFactor of materials (1)";
+    const Outcome bake =
+        prt({"bake", at("a.glb"), "-o", at("b.glb"), "--rays", "16", "--json", at("b.json")});
+    EXPECT_EQ(bake.err, "prt: note: " + at("a.glb") + ": " + notice + "\n");
+    EXPECT_EQ(prt({"info", at("a.glb"), "--json", at("i.json")}).status, 0);
+    for (const char* report : {"b.json", "i.json"}) {
+        const nlohmann::json notices = read_json(at(report))["notices"];
+        EXPECT_EQ(std::count(notices.begin(), notices.end(), notice), 1) << report;
+    }
+}
 
 #ifdef PRT_EXAMPLE_SCENES
 class ExampleRoad : public Road, public testing::WithParamInterface<const char*> {};

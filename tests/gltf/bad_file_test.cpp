@@ -35,8 +35,8 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"no_asset", [](GlbFile& f) { f.json.erase("asset"); }, "no glTF"},
         Damage{"version_1", [](GlbFile& f) { f.json["asset"]["version"] = "1.0"; }, "version '1.0'"},
         Damage{"asset_of_wrong_type", [](GlbFile& f) { f.json["asset"]["version"] = 2; }, "glTF"},
-        Damage{"draco", [](GlbFile& f) { f.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
-               "KHR_draco_mesh_compression"},
+        Damage{"unknown_extension", [](GlbFile& f) { f.json["extensionsRequired"] = {"EXT_unheard_of"}; },
+               "EXT_unheard_of"},
         Damage{"missing_buffer_file",
                [](GlbFile& f) {
                    f.json["buffers"] = {{{"uri", "gone.bin"}, {"byteLength", 99}}};

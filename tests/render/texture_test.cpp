@@ -13,6 +13,15 @@ TEST(Texture, MipsAverageInLinearLight) {
     EXPECT_NEAR(srgb_decode(static_cast<float>(texture.levels[1].pixels[0].r) / 255), 0.5f, 0.005f);
 }
 
+TEST(Texture, MipsOfNumbersAverageTheNumbers) {
+    const Texture texture =
+        make_texture({2, 1, {{255, 100, 0, 255}, {0, 50, 200, 255}}}, TextureEncoding::linear);
+    EXPECT_EQ(texture.levels[1].pixels[0], glm::u8vec4(128, 75, 100, 255));
+    const glm::vec4 middle = sample(texture, {}, {0.5f, 0.5f}, 0);
+    EXPECT_NEAR(middle.r, 0.5f, 1e-6f);
+    EXPECT_NEAR(middle.g, 75.0f / 255, 1e-6f);
+}
+
 TEST(Texture, OddSizesEndInOneTexel) {
     Image8 image{7, 3, std::vector<glm::u8vec4>(21, {50, 100, 150, 200})};
     const Texture texture = make_texture(image);

@@ -26,6 +26,10 @@ struct Scattering {
     glm::vec3 reflected, transmitted;
 };
 
+/// Share of the light that glass without a texture lets through: its factor, dimmed by its base colour as
+/// luminance (Rec. 709), since what passes keeps its colour.
+float glass_transmittance(const Material& material);
+
 class Surfaces {
 public:
     /// Keeps references to `scene` and `textures` (load_textures(scene), or empty to leave textures out).
@@ -41,7 +45,7 @@ public:
         return scene_.materials[scene_.primitives[triangles_[triangle].primitive].material];
     }
 
-    /// Some surface lets rays through: cut out or blended.
+    /// Some surface lets rays through: cut out, blended, or glass.
     bool has_alpha() const { return has_alpha_; }
     /// Some surface has a texture to filter.
     bool has_textures() const { return has_textures_; }
@@ -60,7 +64,8 @@ public:
     /// Diffuse light passes.
     bool transmits(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].thin; }
     /// Share of a ray that the surface stops: 1 where it is opaque, 0 where it is cut out, alpha where it is
-    /// blended. Cut-outs are decided at the finest level of the texture, as rays average by themselves.
+    /// blended, and of that what glass does not let through. Cut-outs are decided at the finest level of the
+    /// texture, as rays average by themselves.
     float coverage(const SurfacePoint& point) const;
     Scattering scattering(const SurfacePoint& point) const;
     /// The same for all points of the triangle; nothing where it varies.
@@ -80,6 +85,8 @@ private:
     };
     Kind kind_of(const Primitive& primitive, bool solid) const;
     glm::vec4 texel(const SurfacePoint& point, const TextureUse& use, bool finest) const;
+    glm::vec3 numbers(const SurfacePoint& point, const TextureUse& use) const;
+    float diffuse_share(const Material& material, const SurfacePoint* point) const;
     glm::vec4 base_color(const SurfacePoint& point, bool finest) const;
     bool is_grey(const TextureUse& use) const;
 

@@ -19,7 +19,7 @@ namespace prt {
 enum class AlphaMode { opaque, mask, blend };
 enum class Wrap { repeat, mirror, clamp };
 
-/// A base-colour texture as a material uses it.
+/// A texture as a material uses it.
 struct TextureUse {
     int image = -1; ///< index into Scene::images, -1: none
     int texcoord = 0;
@@ -35,6 +35,12 @@ struct DiffuseTransmission {
     TextureUse color_texture;
 };
 
+/// Light that a surface lets through straight, like window glass: KHR_materials_transmission.
+struct Glass {
+    float factor = 0;   ///< share of the light that is not reflected by metal, 0..1
+    TextureUse texture; ///< times red
+};
+
 /// What is under a surface: KHR_materials_volume.
 struct Volume {
     float thickness = 0;                                                 ///< 0: a thin sheet, nothing inside
@@ -42,14 +48,18 @@ struct Volume {
     glm::vec3 attenuation_color{1};                                      ///< what is left after that distance
 };
 
+/// All factors lie in 0..1, as glTF wants them.
 struct Material {
     std::string name;
     glm::vec4 base_color{1}; ///< linear Rec. 709 and alpha
     TextureUse base_color_texture;
+    float metallic = 0, roughness = 1;
+    TextureUse metallic_roughness_texture; ///< times blue, times green
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
     DiffuseTransmission transmission;
+    Glass glass;
     Volume volume;
 };
 
@@ -58,7 +68,7 @@ struct VertexArray {
     std::vector<glm::vec3> positions;              ///< metres, seen from Scene::origin
     std::vector<glm::vec3> normals;                ///< unit; zero where neither file nor triangles give one
     std::vector<std::vector<glm::vec2>> texcoords; ///< [set][vertex]; a set that the file lacks is empty
-    std::vector<glm::vec4> colors;                 ///< COLOR_0, linear; empty: white
+    std::vector<glm::vec4> colors;                 ///< COLOR_0, linear, 0..1; empty: white
     /// Index of the file's vertex that each vertex came from, where flat normals split some; empty: the same.
     std::vector<std::uint32_t> source;
     std::size_t first_receiver = 0;

@@ -1,6 +1,6 @@
 #pragma once
 
-// Base-colour textures: a mip chain that OpenGL can take as it is, and the same filtering on the CPU.
+// Textures of materials: a mip chain that OpenGL can take as it is, and the same filtering on the CPU.
 
 #include "prt/image_file.h"
 #include "prt/scene.h"
@@ -8,17 +8,22 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include <map>
 #include <vector>
 
 namespace prt {
 
-/// sRGB-encoded colour and linear alpha; each level is the average of 2 x 2 texels of the one before, in
-/// linear light. Level 0 is the image; the last is one texel.
+/// How red, green and blue are stored: colours by the sRGB curve, numbers as they are. Alpha is a number.
+enum class TextureEncoding { srgb, linear };
+
+/// Each level is the average of 2 x 2 texels of the one before, decoded. Level 0 is the image; the last is
+/// one texel.
 struct Texture {
     std::vector<Image8> levels;
+    TextureEncoding encoding = TextureEncoding::srgb;
 };
 
-Texture make_texture(Image8 image);
+Texture make_texture(Image8 image, TextureEncoding encoding = TextureEncoding::srgb);
 
 /// Trilinear filtering at texture coordinates `uv` (glTF: origin at the top left) and level of detail `lod`,
 /// which is clamped to the levels there are. Returns linear colour and alpha.
@@ -30,8 +35,19 @@ enum class BadTextures {
     ignore, ///< leave them empty: the material's factors alone count
 };
 
-/// The textures that the materials of `scene` use for colour, coverage and transmission, by image index;
-/// others stay empty.
-std::vector<Texture> load_textures(const Scene& scene, BadTextures bad = BadTextures::error);
+/// What textures are wanted for.
+enum class TextureNeeds {
+    pictures,   ///< base colour
+    visibility, ///< what rays pass through: cut-outs, blended surfaces, glass, leaves
+    all,        ///< and what light bounces off
+};
+
+/// The images that the surfaces of `scene` use for that, with how they are encoded. One that holds both
+/// colours and numbers counts as colours.
+std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds needs);
+
+/// Those images as textures, by image index; others stay empty.
+std::vector<Texture> load_textures(const Scene& scene, BadTextures bad = BadTextures::error,
+                                   TextureNeeds needs = TextureNeeds::all);
 
 } // namespace prt

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+namespace prt {
+
+/// Clamps what glTF wants in 0..1: light that grows at every bounce has no end. Remembers what it changed.
+class UnitRange {
+public:
+    /// Clamps all components; NaN becomes 0. `name`: what it is and what it belongs to, "baseColorFactor of
+    /// materials".
+    template <class Vector>
+    void clamp(Vector& values, const char* name) {
+        bool changed = false;
+        for (int c = 0; c < Vector::length(); ++c)
+            changed |= clamp_component(values[c]);
+        count_if(changed, name);
+    }
+    void clamp(float& value, const char* name) { count_if(clamp_component(value), name); }
+
+    /// One line for all that was clamped; empty where nothing was.
+    std::string notice() const;
+
+private:
+    static bool clamp_component(float& value);
+    void count_if(bool changed, const char* name) {
+        if (changed)
+            ++clamped_[name];
+    }
+    std::map<std::string, std::size_t> clamped_;
+};
+
+} // namespace prt
