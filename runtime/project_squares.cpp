@@ -102,7 +102,7 @@ struct RowOfTexels {
 };
 
 /// Weighted sums over the points, of which large texels have hundreds: eight at a time in float.
-PRT_TARGET_CLONES
+PRT_TWO_CLONES
 void sum_points(std::size_t functions, std::size_t points, std::size_t stride, const float* basis,
                 const float* weights, float* texels) {
     using Doubles [[gnu::vector_size(sizeof(double) * kLaneCount)]] = double;
@@ -122,7 +122,7 @@ void sum_points(std::size_t functions, std::size_t points, std::size_t stride, c
 
 /// The nodes of a row of texels of an angular map that lie at height `t`: at s = first + step x, and all of
 /// the area `area`.
-PRT_TARGET_CLONES
+PRT_TWO_CLONES
 void put_disc_nodes(double first, double step, double t, double area, std::size_t stride,
                     glm::vec3* directions, float* weights) {
     for (std::size_t x = 0; x < stride; x += kLaneCount) {
@@ -158,7 +158,7 @@ void fold(const Image& image, int top, int size, int row, std::size_t stride, fl
 
 /// Adds the products of every function with the part that has its signs: cos(m phi) is even in y and, where m
 /// is even, in x; sin(m phi) is odd in y and, where m is odd, even in x.
-PRT_TARGET_CLONES
+PRT_TWO_CLONES
 void multiply_parts(int order, std::size_t stride, const float* texels, const float* parts,
                     glm::dvec3* sums) {
     for (int l = 0; l < order; ++l)

@@ -23,7 +23,7 @@ struct Ring {
 };
 
 /// `lowest` [columns] becomes the least channel in each direction; returns the largest of all.
-PRT_TARGET_CLONES
+PRT_TWO_CLONES
 float ring_values(const Ring& ring, int order, const float* cosines, const float* sines, std::size_t columns,
                   float* lowest) {
     Lanes high = Lanes{} - std::numeric_limits<float>::max();

@@ -186,7 +186,6 @@ void rotate(int order, const glm::dmat3& matrix, const Turns& turns, Channels* c
     rotate_high_bands(order, turns, c);
 }
 
-PRT_TWO_CLONES
 void rotate(int order, const glm::dmat3& matrix, const Turns& turns, double* c) {
     if (order > 1)
         rotate_vector(matrix, c);
@@ -233,27 +232,17 @@ glm::dmat3 checked_rotation(const glm::dmat3& r) {
     }
 }
 
-Turns turns_of(int order, const glm::dmat3& r) {
+/// Of a rotation that holds to rounding.
+void set_turns(int order, const glm::dmat3& r, Turns& turns) {
     // GLM is column-major: r[column][row]. The last turn takes +y's tilt plane to where z went; the first is
     // then read from the second row of what is left, which is well conditioned even where z hardly moved.
-    double cosine = r[2][0], sine = r[2][1];
-    const double tilt = std::sqrt(cosine * cosine + sine * sine);
-    if (!(tilt > 0)) {
-        cosine = 1;
-        sine = 0;
-    } else {
-        cosine /= tilt;
-        sine /= tilt;
-    }
-    const double first_sine = cosine * r[0][1] - sine * r[0][0],
-                 first_cosine = cosine * r[1][1] - sine * r[1][0];
-    const double first = std::sqrt(first_sine * first_sine + first_cosine * first_cosine),
-                 all = std::sqrt(tilt * tilt + r[2][2] * r[2][2]);
-    Turns turns{Turn(order, first_cosine / first, first_sine / first), Turn(order, r[2][2] / all, tilt / all),
-                Turn(order, cosine, sine), true};
-    if (tilt == 0 && r[2][2] > 0)
-        turns.tilted = false; // last is the identity
-    return turns;
+    const double tilt = std::sqrt(r[2][0] * r[2][0] + r[2][1] * r[2][1]);
+    const double inverse = tilt > 0 ? 1 / tilt : 0, cosine = tilt > 0 ? r[2][0] * inverse : 1,
+                 sine = r[2][1] * inverse;
+    turns.first.set(order, cosine * r[1][1] - sine * r[1][0], cosine * r[0][1] - sine * r[0][0]);
+    turns.tilt.set(order, r[2][2], tilt);
+    turns.last.set(order, cosine, sine);
+    turns.tilted = tilt > 0 || r[2][2] < 0; // else last is the identity
 }
 
 glm::dmat3 matrix_of(const glm::dquat& q) {
@@ -264,7 +253,7 @@ glm::dmat3 matrix_of(const glm::dquat& q) {
 
 } // namespace
 
-Turn::Turn(int order, double c, double s) {
+void Turn::set(int order, double c, double s) {
     cosine[0] = 1;
     sine[0] = 0;
     for (std::size_t m = 1; m < static_cast<std::size_t>(order); ++m) {
@@ -276,7 +265,7 @@ Turn::Turn(int order, double c, double s) {
 ShRotation::ShRotation(int order, const glm::dmat3& rotation)
     : order_((check_order(order), order)), matrix_(checked_rotation(rotation)) {
     if (order > kFirstTurnedBand)
-        turns_ = turns_of(order, matrix_);
+        set_turns(order, matrix_, turns_);
 }
 
 ShRotation::ShRotation(int order, const glm::dquat& rotation) : ShRotation(order, matrix_of(rotation)) {}
@@ -293,7 +282,7 @@ ShRotation ShRotation::about_z(int order, double angle) {
     check_order(order);
     const double cosine = std::cos(angle), sine = std::sin(angle);
     ShRotation result(order, glm::dmat3(cosine, sine, 0, -sine, cosine, 0, 0, 0, 1));
-    result.turns_.first = Turn(order, cosine, sine);
+    result.turns_.first.set(order, cosine, sine);
     result.turns_.tilted = false;
     return result;
 }

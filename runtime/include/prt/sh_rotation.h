@@ -49,8 +49,8 @@ public:
     /// cos(m a) and sin(m a) of a turn about z.
     struct Turn {
         std::array<double, kMaxOrder> cosine, sine; ///< [m < order]
-        Turn() {}
-        Turn(int order, double cosine_of_angle, double sine_of_angle);
+        Turn() {}                                   // left as it is where the order has no need of it
+        void set(int order, double cosine_of_angle, double sine_of_angle);
     };
     /// z first, then tilt about y, then z again.
     struct Turns {
