@@ -72,7 +72,7 @@ struct ProjectArguments {
 
 struct RenderArguments {
     Path model, environment, output, json, baked;
-    LightOptions light_options;
+    LightOptions light_options = {{}, Window::automatic, 0}; ///< a picture shows ringing as bruises
     int width = 1280, height = 720, samples = 2;
     std::optional<glm::dvec3> camera, look_at; ///< metres, world
     double field_of_view_degrees = 35;

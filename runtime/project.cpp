@@ -6,6 +6,7 @@
 // one exact rotation at the end.
 
 #include "gauss_legendre.h"
+#include "projection.h"
 #include "prt/environment.h"
 #include "prt/error.h"
 #include "prt/parallel.h"
@@ -24,14 +25,6 @@ namespace prt {
 using detail::kPi;
 
 namespace {
-
-using Coefficients = std::array<glm::dvec3, kMaxOrder * kMaxOrder>;
-
-/// How many quadrature points a texel that spans `angle` radians needs: over half a sphere 24 points
-/// integrate order 10 to rounding, over small texels 3 leave an error of order angle^7.
-int points_for(double angle) {
-    return angle > 0.2 ? 24 : 3;
-}
 
 /// Per row of a lat-long image, Fourier sums over its pixels, exact for pixels of constant colour:
 /// sum over pixels of L(pixel) ∫ cos(m phi) dphi, and the same with sin.
@@ -138,11 +131,12 @@ std::array<double, kMaxOrder * kMaxOrder> row_legendre(int order, double theta0,
     return sum;
 }
 
-Coefficients project_lat_long(const Image& image, int order, int threads) {
+ProjectedColours project_lat_long(const Environment& environment, int order, int threads) {
+    const Image& image = environment.image;
     const ColumnTables tables(order, image.width);
-    const GaussLegendre quadrature(points_for(kPi / image.height));
+    const GaussLegendre quadrature(kPi / image.height > 0.2 ? 24 : 3); // as in points_for
     const auto height = static_cast<std::size_t>(image.height);
-    std::vector<Coefficients> rows(height);
+    std::vector<ProjectedColours> rows(height);
     parallel_for(height, 8, threads, [&](std::size_t begin, std::size_t end) {
         std::vector<double> parts(kParts * 3 * tables.columns);
         for (std::size_t y = begin; y < end; ++y) {
@@ -163,15 +157,18 @@ Coefficients project_lat_long(const Image& image, int order, int threads) {
             }
         }
     });
-    Coefficients polar{};
-    for (const Coefficients& row : rows)
+    ProjectedColours polar{};
+    for (const ProjectedColours& row : rows)
         for (std::size_t i = 0; i < polar.size(); ++i)
             polar[i] += row[i];
 
-    // From the image's polar frame (z, x, y) to ours: columns are the images of x', y', z'.
-    const ShRotation to_world(order,
-                              glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)));
-    Coefficients result{};
+    // From the image's polar frame to ours: columns are the images of x', where the centre looks, y' to its
+    // left and z' up.
+    const glm::dmat3 frame = environment.centre == LatLongCentre::z
+                                 ? glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0))
+                                 : glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0));
+    const ShRotation to_world(order, frame);
+    ProjectedColours result{};
     for (int channel = 0; channel < 3; ++channel) {
         std::array<double, kMaxOrder * kMaxOrder> in{}, out{};
         for (std::size_t i = 0; i < in.size(); ++i)
@@ -183,106 +180,7 @@ Coefficients project_lat_long(const Image& image, int order, int threads) {
     return result;
 }
 
-/// A stretch along one axis, in coordinates [-1, 1] of a face or an image.
-struct Cell {
-    double begin, end;
-
-    double at(double node) const { return 0.5 * (begin + end + (end - begin) * node); }
-    double half() const { return 0.5 * (end - begin); }
-};
-
-Cell even_cell(int size, int i) {
-    return {2.0 * i / size - 1, 2.0 * (i + 1) / size - 1};
-}
-
-/// The part of a texel's cell that lies on the face, where border texels are centred on the border.
-Cell centred_cell(int size, int i) {
-    if (size == 1)
-        return {-1, 1};
-    const double half = 1.0 / (size - 1), centre = 2.0 * i / (size - 1) - 1;
-    return {std::max(-1.0, centre - half), std::min(1.0, centre + half)};
-}
-
-/// Sum over the texels of an image of their colour times the basis integrated over them, which
-/// `integrate(x, row, texel)` adds to `texel` [order²].
-template <class Integrate>
-Coefficients project_texels(const Image& image, int order, int threads, Integrate&& integrate) {
-    const auto height = static_cast<std::size_t>(image.height);
-    const auto count = static_cast<std::size_t>(coefficient_count(order));
-    std::vector<Coefficients> rows(height);
-    parallel_for(height, 4, threads, [&](std::size_t begin, std::size_t end) {
-        std::array<double, kMaxOrder * kMaxOrder> texel{};
-        for (std::size_t row = begin; row < end; ++row)
-            for (int x = 0; x < image.width; ++x) {
-                texel.fill(0);
-                integrate(x, static_cast<int>(row), texel);
-                const glm::dvec3 pixel(image.at(x, static_cast<int>(row)));
-                for (std::size_t k = 0; k < count; ++k)
-                    rows[row][k] += pixel * texel[k];
-            }
-    });
-    Coefficients result{};
-    for (const Coefficients& row : rows)
-        for (std::size_t i = 0; i < result.size(); ++i)
-            result[i] += row[i];
-    return result;
-}
-
-using Texel = std::array<double, kMaxOrder * kMaxOrder>;
-
-void add_point(int order, const glm::dvec3& direction, double weight, Texel& texel) {
-    std::array<double, kMaxOrder * kMaxOrder> basis{};
-    evaluate_sh(order, direction, std::span<double>(basis));
-    for (std::size_t k = 0; k < static_cast<std::size_t>(coefficient_count(order)); ++k)
-        texel[k] += weight * basis[k];
-}
-
-Coefficients project_cube(const Environment& environment, int order, int threads) {
-    const Image& image = environment.image;
-    const int size = image.width;
-    const bool exr = environment.layout == EnvironmentLayout::cube;
-    const GaussLegendre quadrature(points_for(2.0 / size));
-    return project_texels(image, order, threads, [&](int x, int row, Texel& texel) {
-        const int face = row / size;
-        const Cell u = exr ? centred_cell(size, x) : even_cell(size, x),
-                   v = exr ? centred_cell(size, row % size) : even_cell(size, row % size);
-        for (std::size_t i = 0; i < quadrature.nodes.size(); ++i)
-            for (std::size_t j = 0; j < quadrature.nodes.size(); ++j) {
-                const double s = u.at(quadrature.nodes[i]), t = v.at(quadrature.nodes[j]);
-                const double area = u.half() * v.half() * quadrature.weights[i] * quadrature.weights[j];
-                // Solid angle of a patch of the face at distance sqrt(1 + s² + t²).
-                add_point(order, exr ? cube_direction(face, s, t) : cube_face_direction(face, s, t),
-                          area / std::pow(1 + s * s + t * t, 1.5), texel);
-            }
-    });
-}
-
-/// Texels on the rim count as far as they lie inside it: of each of their rows the stretch within the circle.
-Coefficients project_angular(const Image& image, int order, int threads) {
-    const int size = image.width;
-    const GaussLegendre inner(points_for(2 * kPi / size)), rim(24);
-    return project_texels(image, order, threads, [&](int x, int row, Texel& texel) {
-        const Cell u = even_cell(size, x), v = even_cell(size, row);
-        const double far_u = std::max(std::abs(u.begin), std::abs(u.end)),
-                     far_v = std::max(std::abs(v.begin), std::abs(v.end));
-        const GaussLegendre& quadrature = far_u * far_u + far_v * far_v <= 1 ? inner : rim;
-        for (std::size_t j = 0; j < quadrature.nodes.size(); ++j) {
-            const double t = v.at(quadrature.nodes[j]), reach = std::sqrt(std::max(0.0, 1 - t * t));
-            const Cell chord{std::max(u.begin, -reach), std::min(u.end, reach)};
-            if (!(chord.begin < chord.end))
-                continue;
-            for (std::size_t i = 0; i < quadrature.nodes.size(); ++i) {
-                const double s = chord.at(quadrature.nodes[i]), r = std::hypot(s, t);
-                const double area = chord.half() * v.half() * quadrature.weights[i] * quadrature.weights[j];
-                // Solid angle: sin(pi r) pi dr dalpha, over r dr dalpha of the image.
-                add_point(order, angular_direction(s, t), area * kPi * (r > 0 ? std::sin(kPi * r) / r : kPi),
-                          texel);
-            }
-        }
-    });
-}
-
-Coefficients project_layout(const Environment& environment, int order, int threads) {
+ProjectedColours project_layout(const Environment& environment, int order, int threads) {
     switch (environment.layout) {
     case EnvironmentLayout::cube:
     case EnvironmentLayout::cube_faces:
@@ -292,17 +190,15 @@ Coefficients project_layout(const Environment& environment, int order, int threa
     case EnvironmentLayout::lat_long:
         break;
     }
-    return project_lat_long(environment.image, order, threads);
+    return project_lat_long(environment, order, threads);
 }
 
 } // namespace
 
 Light project(const Environment& environment, int order, int threads) {
     check_order(order);
-    const Image& image = environment.image;
-    if (image.width < 1 || image.height < 1)
-        throw Error("the environment has no pixels");
-    const Coefficients coefficients = project_layout(environment, order, threads);
+    check_environment(environment);
+    const ProjectedColours coefficients = project_layout(environment, order, threads);
     Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)))};
     for (std::size_t i = 0; i < light.coefficients.size(); ++i)
         light.coefficients[i] = glm::vec3(coefficients[i]);

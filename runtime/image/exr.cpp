@@ -14,8 +14,10 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStdIO.h>
 #include <OpenEXR/ImfTestFile.h>
 #include <OpenEXR/ImfTileDescriptionAttribute.h>
+#include <OpenEXR/ImfXdr.h>
 
 #include <algorithm>
 #include <exception>
@@ -128,12 +130,23 @@ void convert_primaries(Image& image, const Imf::Chromaticities& from) {
     }
 }
 
+/// Checks the header by itself: opening the file builds tables of all the lines and tiles that it claims.
+void check_header(const std::string& path) {
+    Imf::StdIFStream stream(path.c_str());
+    int magic = 0, version = 0;
+    Imf::Xdr::read<Imf::StreamIO>(stream, magic);
+    Imf::Xdr::read<Imf::StreamIO>(stream, version);
+    Imf::Header header;
+    header.readFrom(stream, version);
+    check_size(header.dataWindow());
+    check_tiles(header);
+}
+
 ExrFile read_exr_unnamed(const std::string& path) {
+    check_header(path);
     Imf::InputFile file(path.c_str());
     const Imf::Header& header = file.header();
     const Imath::Box2i window = header.dataWindow();
-    check_size(window);
-    check_tiles(header);
     const Imf::ChannelList& channels = header.channels();
     ExrFile result;
     if (channels.findChannel("RY") || channels.findChannel("BY"))

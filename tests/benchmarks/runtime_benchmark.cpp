@@ -2,6 +2,7 @@
 // otherwise.
 
 #include "prt/constant_former.h"
+#include "prt/dering.h"
 #include "prt/environment.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
@@ -89,15 +90,41 @@ void rotate_rgb_prepared(State& state) {
 }
 BENCHMARK(rotate_rgb_prepared);
 
-void product(State& state) {
-    const auto a = random_values(kCount), b = random_values(kCount);
-    std::vector<float> out(kCount);
+/// From a matrix to one rotated function, as DirectXMath's XMSHRotate.
+void rotate_one(State& state) {
+    const int order = static_cast<int>(state.range(0));
+    const auto count = static_cast<std::size_t>(coefficient_count(order));
+    const glm::dmat3 rotation = glm::mat3_cast(glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 2, 3))));
+    const auto in = random_values(count);
+    std::vector<float> out(count);
     for (auto _ : state) {
-        sh_product(kOrder, a, b, out);
+        ShRotation(order, rotation).apply(std::span<const float>(in), std::span<float>(out));
         benchmark::ClobberMemory();
     }
 }
-BENCHMARK(product);
+BENCHMARK(rotate_one)->ArgName("order")->Arg(3)->Arg(6);
+
+void product(State& state) {
+    const int order = static_cast<int>(state.range(0));
+    const auto count = static_cast<std::size_t>(coefficient_count(order));
+    const auto a = random_values(count), b = random_values(count);
+    std::vector<float> out(count);
+    for (auto _ : state) {
+        sh_product(order, a, b, out);
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(product)->ArgName("order")->Arg(3)->Arg(6);
+
+/// A sun over a sky: what a new sky costs once.
+void dering(State& state) {
+    const int order = static_cast<int>(state.range(0));
+    const Light light = sum(directional_light(order, glm::normalize(glm::vec3(1, 2, 3)), glm::vec3(3)),
+                            constant_light(order, glm::vec3(0.1f)));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(dering_factors(light));
+}
+BENCHMARK(dering)->ArgName("order")->Arg(3)->Arg(6)->Arg(10)->Unit(benchmark::kMicrosecond);
 
 /// `run` receivers one after the other are of one cluster: with --reorder all that it has, else a few.
 ClusteredTransfer clustered(int clusters, int components, int channels, std::size_t receivers,
@@ -170,6 +197,23 @@ void project_lat_long(State& state) {
         benchmark::DoNotOptimize(project(environment, kOrder, static_cast<int>(state.range(0))));
 }
 BENCHMARK(project_lat_long)->ArgName("threads")->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+/// Per pixel, by layout: 0 lat-long, 1 cube, 2 cube-faces, 3 angular.
+void project_pixels(State& state) {
+    const auto layout = static_cast<EnvironmentLayout>(state.range(0));
+    const int width = layout == EnvironmentLayout::lat_long  ? 1024
+                      : layout == EnvironmentLayout::angular ? 512
+                                                             : 256;
+    const int height =
+        layout == EnvironmentLayout::lat_long || layout == EnvironmentLayout::angular ? 512 : 1536;
+    Environment environment{{width, height, {}}, layout};
+    for (int i = 0; i < width * height; ++i)
+        environment.image.pixels.emplace_back(static_cast<float>(i % 97), 1, static_cast<float>(i % 13));
+    for (auto _ : state)
+        benchmark::DoNotOptimize(project(environment, kOrder, 1));
+    state.SetItemsProcessed(state.iterations() * width * height);
+}
+BENCHMARK(project_pixels)->ArgName("layout")->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace prt

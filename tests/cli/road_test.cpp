@@ -54,9 +54,52 @@ TEST_F(Road, NoticesOfTheSceneAreSaidOnceAndStandInTheReports) {
     EXPECT_EQ(bake.err, "prt: note: " + at("a.glb") + ": " + notice + "\n");
     EXPECT_EQ(prt({"info", at("a.glb"), "--json", at("i.json")}).status, 0);
     for (const char* report : {"b.json", "i.json"}) {
-        const nlohmann::json notices = read_json(at(report))["notices"];
+        const nlohmann::json notices = read_json(folder / report)["notices"];
         EXPECT_EQ(std::count(notices.begin(), notices.end(), notice), 1) << report;
     }
+}
+
+/// A dim sky with a sun of one texel.
+Image sunny_image() {
+    Image image{64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0.2f, 0.3f, 0.5f))};
+    image.at(20, 9) = {900, 800, 600};
+    return image;
+}
+
+double largest_difference(const nlohmann::json& a, const nlohmann::json& b) {
+    double largest = 0;
+    for (const char* channel : {"red", "green", "blue"})
+        for (std::size_t i = 0; i < a["coefficients"][channel].size(); ++i)
+            largest = std::max(largest, std::abs(a["coefficients"][channel][i].get<double>() -
+                                                 b["coefficients"][channel][i].get<double>()));
+    return largest;
+}
+
+TEST_F(Road, LightsOfALightFileAreAddedToItsCoefficients) {
+    write_exr(folder / "sky.exr", sunny_image(), EnvironmentLayout::lat_long);
+    ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("full.json")}).status, 0);
+    ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("suns.json"), "--suns", "1"}).status, 0);
+    ASSERT_EQ(prt({"project", at("suns.json"), "-o", at("back.json")}).status, 0);
+    const auto full = read_json(folder / "full.json"), suns = read_json(folder / "suns.json");
+    EXPECT_EQ(suns["lights"].size(), 1u);
+    EXPECT_GT(largest_difference(full, suns), 0.5);
+    EXPECT_LT(largest_difference(full, read_json(folder / "back.json")), 1e-5);
+
+    nlohmann::json damaged = suns;
+    damaged["lights"][0]["half_angle_radians"] = -1;
+    std::ofstream(folder / "bad.json") << damaged;
+    const Outcome bad = prt({"project", at("bad.json"), "-o", at("x.json")});
+    EXPECT_EQ(bad.status, 1);
+    EXPECT_NE(bad.err.find("bad.json: the half angle"), std::string::npos) << bad.err;
+}
+
+TEST_F(Road, TheCentreOfALatLongImageMayLookAtX) {
+    write_exr(folder / "sky.exr", sunny_image(), EnvironmentLayout::lat_long);
+    ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("x.json"), "--env-center", "x"}).status, 0);
+    ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("turned.json"), "--rotate", "90"}).status, 0);
+    ASSERT_EQ(prt({"project", at("sky.exr"), "-o", at("z.json")}).status, 0);
+    EXPECT_LT(largest_difference(read_json(folder / "x.json"), read_json(folder / "turned.json")), 1e-5);
+    EXPECT_GT(largest_difference(read_json(folder / "x.json"), read_json(folder / "z.json")), 0.5);
 }
 
 #ifdef PRT_EXAMPLE_SCENES

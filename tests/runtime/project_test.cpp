@@ -10,6 +10,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 
 namespace prt {
 namespace {
@@ -133,6 +134,40 @@ TEST(Project, DoesNotDependOnTheNumberOfThreads) {
     EXPECT_EQ(project(image, 6, 1).coefficients, project(image, 6, 7).coefficients);
 }
 
+TEST(Project, AnEnvironmentOfTheWrongShapeIsAnError) {
+    const auto of = [](int width, int height, std::size_t pixels, EnvironmentLayout layout) {
+        return Environment{{width, height, std::vector<glm::vec3>(pixels, glm::vec3(1))}, layout};
+    };
+    for (const Environment& environment :
+         {of(4, 100, 400, EnvironmentLayout::cube_faces), of(10, 3, 30, EnvironmentLayout::cube),
+          of(4, 2, 4, EnvironmentLayout::lat_long), of(4, 6, 24, EnvironmentLayout::angular)}) {
+        EXPECT_THROW(project(environment, 3), Error);
+        EXPECT_THROW(resampled_lat_long(environment), Error);
+    }
+    EXPECT_NO_THROW(project(of(4, 24, 96, EnvironmentLayout::cube), 3));
+}
+
+/// A hot texel in the middle of the image, seen by three ways of reading it.
+TEST(Project, TheCentreOfALatLongImageLooksWhereItIsToldTo) {
+    for (const int width : {16, 18}) { // with and without a quarter in whole pixels
+        Environment environment = lat_long(width, 9, [](const auto&) { return glm::dvec3(0); });
+        environment.image.at(width / 2, 4) = environment.image.at(width / 2 - 1, 4) = glm::vec3(1);
+        environment.image.at(width / 4, 4) = glm::vec3(0.2f, 0, 0); // left of the centre
+        const Light z = project(environment, 4);
+        environment.centre = LatLongCentre::x;
+        const Light x = project(environment, 4);
+        EXPECT_GT(radiance(z, {0, 0, 1}).g, 5 * std::abs(radiance(z, {1, 0, 0}).g));
+        EXPECT_GT(radiance(x, {1, 0, 0}).g, 5 * std::abs(radiance(x, {0, 0, 1}).g));
+        EXPECT_LT(largest_difference(x, rotated_about_y(z, std::numbers::pi / 2)), 1e-6);
+        EXPECT_GT(sample(environment, {1, 0, 0}).g, 0.9f);
+        EXPECT_GT(sample(environment, {0, 0, -1}).r, 0.01f);
+        EXPECT_LT(
+            largest_difference(project({resampled_lat_long(environment), EnvironmentLayout::lat_long}, 2),
+                               truncated(x, 2)),
+            width == 16 ? 1e-6 : 0.1);
+    }
+}
+
 TEST(Project, AnEmptyImageIsAnError) {
     EXPECT_THROW(project({}, 6), Error);
     EXPECT_THROW(project(lat_long(2, 1, [](const auto&) { return glm::dvec3(1); }), 11), Error);
@@ -183,6 +218,59 @@ TEST(OtherLayouts, BasisFunctionsComeBack) {
         EXPECT_LT(largest_difference(project(cube_faces(128, function), 6), expected), 1e-3) << i;
         EXPECT_LT(largest_difference(project(angular(256, function), 6), expected), 2e-3) << i;
     }
+}
+
+/// Texel by texel, with 4 x 4 points in each, in double: what the projection shortens by symmetry and floats.
+Light by_texels(const Environment& environment, int order) {
+    const Image& image = environment.image;
+    const int size = image.width;
+    const std::array<double, 4> nodes = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                         0.8611363115940526},
+                                weights = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                           0.3478548451374538};
+    std::vector<glm::dvec3> sum(static_cast<std::size_t>(coefficient_count(order)), glm::dvec3(0));
+    std::vector<double> y(sum.size());
+    for (int row = 0; row < image.height; ++row)
+        for (int x = 0; x < size; ++x)
+            for (std::size_t j = 0; j < 4; ++j)
+                for (std::size_t i = 0; i < 4; ++i) {
+                    const double u = (2 * x + 1 + nodes[i]) / size - 1,
+                                 v = (2 * (row % size) + 1 + nodes[j]) / size - 1, r = std::hypot(u, v);
+                    double share = weights[i] * weights[j] / (size * static_cast<double>(size));
+                    glm::dvec3 w;
+                    if (environment.layout == EnvironmentLayout::angular) {
+                        if (r >= 1)
+                            continue;
+                        w = angular_direction(u, v);
+                        share *= std::numbers::pi * std::sin(std::numbers::pi * r) / r;
+                    } else {
+                        w = cube_face_direction(row / size, u, v);
+                        share /= std::pow(1 + u * u + v * v, 1.5);
+                    }
+                    evaluate_sh(order, w, std::span<double>(y));
+                    for (std::size_t k = 0; k < sum.size(); ++k)
+                        sum[k] += share * y[k] * glm::dvec3(image.at(x, row));
+                }
+    Light light{order, {}};
+    for (const glm::dvec3& c : sum)
+        light.coefficients.emplace_back(c);
+    return light;
+}
+
+TEST(OtherLayouts, NoiseIsProjectedAsTexelByTexel) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> value(0, 2);
+    for (const int size : {51, 64})
+        for (const EnvironmentLayout layout : {EnvironmentLayout::cube_faces, EnvironmentLayout::angular}) {
+            const int height = layout == EnvironmentLayout::angular ? size : 6 * size;
+            Environment environment{{size, height, {}}, layout};
+            for (int i = 0; i < size * height; ++i)
+                environment.image.pixels.emplace_back(value(random), value(random), value(random));
+            // On the rim of an angular map the two cut texels differently.
+            EXPECT_LT(largest_difference(project(environment, 10), by_texels(environment, 10)),
+                      layout == EnvironmentLayout::angular ? 2e-4 : 5e-6)
+                << size;
+        }
 }
 
 TEST(OtherLayouts, SamplingFindsWhatIsThere) {
