@@ -6,12 +6,11 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <map>
 
 namespace prt {
 namespace {
 
-constexpr int kMostRays = 64; ///< along each axis
+constexpr int kMostRays = 48; ///< along each axis
 /// Above the middle grey of photographs (0.18), at which plaster looks grey.
 constexpr float kMeanShown = 0.22f;
 constexpr glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
@@ -21,7 +20,11 @@ constexpr glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
 LightMeter::LightMeter(const Picture& picture, const RayScene& ray_scene) {
     const PrimaryRays rays(picture, ray_scene, std::min(picture.width, kMostRays),
                            std::min(picture.height, kMostRays));
-    std::map<std::uint32_t, glm::vec3> weights; // ordered: the sum is the same every time
+    struct Reading {
+        std::uint32_t receiver;
+        glm::vec3 weight;
+    };
+    std::vector<Reading> readings;
     float covered = 0;
     for (int y = 0; y < rays.rows(); ++y)
         for (int x = 0; x < rays.columns(); ++x)
@@ -30,13 +33,18 @@ LightMeter::LightMeter(const Picture& picture, const RayScene& ray_scene) {
                 const glm::vec2 uv = glm::clamp(surface.barycentrics, 0.0f, 1.0f);
                 const glm::vec3 corners(std::max(0.0f, 1 - uv.x - uv.y), uv.x, uv.y);
                 for (int corner = 0; corner < 3; ++corner)
-                    weights[surface.receivers[corner]] +=
-                        share * corners[corner] * kLuminance * glm::vec3(surface.base);
+                    readings.push_back({surface.receivers[corner],
+                                        share * corners[corner] * kLuminance * glm::vec3(surface.base)});
                 covered += share;
             });
-    for (const auto& [receiver, weight] : weights) {
-        receivers_.push_back(receiver);
-        weights_.push_back(weight / covered);
+    std::stable_sort(readings.begin(), readings.end(),
+                     [](const Reading& a, const Reading& b) { return a.receiver < b.receiver; });
+    for (const Reading& reading : readings) {
+        if (receivers_.empty() || receivers_.back() != reading.receiver) {
+            receivers_.push_back(reading.receiver);
+            weights_.emplace_back(0);
+        }
+        weights_.back() += reading.weight / covered;
     }
 }
 

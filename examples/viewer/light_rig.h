@@ -66,6 +66,7 @@ public:
     void set(const LightSettings& settings);
     void set_environment(std::shared_ptr<const LoadedEnvironment> environment);
     bool has_environment() const { return environment_ != nullptr; }
+    std::string environment_name() const { return environment_ ? environment_->name : std::string(); }
     std::uint64_t version() const { return version_; }
 
     prt::Light light(int order) const;

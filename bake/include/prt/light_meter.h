@@ -15,7 +15,7 @@ namespace prt {
 /// Where the camera of a picture sees the model, on a coarse grid.
 class LightMeter {
 public:
-    /// Casts at most 64 x 64 rays. Uses all of `picture` but its radiance, transfer and light; keeps nothing
+    /// Casts at most 48 x 48 rays. Uses all of `picture` but its radiance, transfer and light; keeps nothing
     /// of it. `ray_scene` was built from `*picture.scene`.
     LightMeter(const Picture& picture, const RayScene& ray_scene);
 
