@@ -91,6 +91,77 @@ TEST_F(Script, KeysAndThePointerDoWhatTheyDoInTheWindow) {
     EXPECT_NE(picture("lobe.png").pixels, picture("wires.png").pixels);
 }
 
+/// Whether the two pictures are the same in the rectangle.
+bool same(const prt::Image8& a, const prt::Image8& b, const glm::ivec2& low, const glm::ivec2& high) {
+    for (int y = low.y; y < high.y; ++y)
+        for (int x = low.x; x < high.x; ++x)
+            if (a.pixels[static_cast<std::size_t>(y * a.width + x)] !=
+                b.pixels[static_cast<std::size_t>(y * b.width + x)])
+                return false;
+    return true;
+}
+
+TEST_F(Script, EscapeClosesADropDownAndTipsExplainControls) {
+    run(R"([
+        {"size": [640, 480]}, {"wait": "work"}, {"hover": [600, 20]}, {"screenshot": "before.png"},
+        {"press": ["left", 100, 70]}, {"release": []}, {"draw": 2}, {"hover": [600, 20]}, {"screenshot": "open.png"},
+        {"keys": "\u001b"}, {"draw": 3}, {"screenshot": "closed.png"},
+        {"hover": [100, 139]}, {"screenshot": "tip.png"}
+    ])",
+        {folder / "ball.glb"});
+    const glm::ivec2 low(20, 110), high(210, 150); // below the drop-down, above all figures
+    EXPECT_FALSE(same(picture("before.png"), picture("open.png"), low, high));
+    EXPECT_TRUE(same(picture("before.png"), picture("closed.png"), low, high));
+    EXPECT_FALSE(same(picture("before.png"), picture("tip.png"), {330, 100}, {420, 200})); // beside the panel
+}
+
+TEST_F(Script, PicturesOfNumbersHaveALegend) {
+    run(R"([
+        {"size": [640, 360]}, {"wait": "work"}, {"set": {"panels": false, "split": 0, "background": false}},
+        {"set": {"right": "components"}}, {"draw": 1}, {"wait": "numbers"}, {"screenshot": "components.png"},
+        {"set": {"right": "seams"}}, {"draw": 1}, {"wait": "numbers"}, {"screenshot": "seams.png"}
+    ])",
+        {folder / "ball.glb"});
+    for (const char* name : {"components.png", "seams.png"}) {
+        // From black over red and yellow to white, left to right.
+        const prt::Image8 shown = picture(name);
+        const auto at = [&](int x) { return shown.pixels[static_cast<std::size_t>((360 - 64) * 640 + x)]; };
+        EXPECT_LT(at(13).r, 60) << name;
+        EXPECT_LT(at(13).g, 10) << name;
+        int row = 0, brightest = 0;
+        for (int x = 13; x < 600; ++x) {
+            const int sum = at(x).r + at(x).g + at(x).b;
+            if (sum < brightest - 3)
+                break;
+            brightest = sum;
+            ++row;
+        }
+        EXPECT_GT(row, 150) << name;
+        EXPECT_GT(brightest, 3 * 240) << name;
+    }
+}
+
+TEST_F(Script, TheScaleOfTheDisplayMakesPanelsLarger) {
+    run(R"([
+        {"size": [800, 450]}, {"wait": "work"}, {"set": {"background": false}},
+        {"screenshot": "one.png"}, {"scale": 2}, {"draw": 1}, {"screenshot": "two.png"}
+    ])",
+        {folder / "ball.glb"});
+    // The panel's title reaches twice as far: blue at 500 pixels from the left, 30 from the top.
+    const auto at = [&](const char* name, int x, int y) {
+        return picture(name).pixels[static_cast<std::size_t>(y * 800 + x)];
+    };
+    EXPECT_GT(at("one.png", 300, 13).b, 60);
+    EXPECT_LT(at("one.png", 500, 30).b, 60);
+    EXPECT_GT(at("two.png", 500, 30).b, 60);
+}
+
+TEST_F(Script, SavesTheCompressedModel) {
+    run(R"([{"wait": "work"}, {"save": "kept.glb"}, {"open": "kept.glb"}, {"wait": "work"}, {"figures": "f.json"}])",
+        {folder / "ball.glb"});
+    EXPECT_GT(json("f.json")["bytes_per_vertex"].get<double>(), 0);
+}
+
 TEST_F(Script, SaysWhatIsWrongWithAScriptAndWhere) {
     EXPECT_NE(why("[{\"set\": ").find("script.json: "), std::string::npos);
     EXPECT_NE(why("{}").find("no array"), std::string::npos);
