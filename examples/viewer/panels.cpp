@@ -7,6 +7,7 @@
 #include <imgui.h>
 #include <imgui_internal.h>
 
+#include <algorithm>
 #include <array>
 #include <cfloat>
 #include <string>
@@ -135,6 +136,35 @@ void choose_sky(Viewer& viewer) {
     ImGui::EndCombo();
 }
 
+struct WindowName {
+    const char *title, *what;
+    prt::Window window;
+};
+constexpr std::array<WindowName, 4> kWindows = {
+    {{"auto: no negative light", "The least filter of the bands under which no light is negative.",
+      prt::Window::automatic},
+     {"none", "The bands as they are: sharpest, with dark and coloured rings about strong lights.",
+      prt::Window::none},
+     {"Hann", "Fades the bands out by a raised cosine, whatever the light.", prt::Window::hann},
+     {"Lanczos", "Fades the bands out by a sinc, whatever the light.", prt::Window::lanczos}}};
+
+void choose_window(prt::Window& window) {
+    const auto current = std::find_if(kWindows.begin(), kWindows.end(),
+                                      [&](const WindowName& w) { return w.window == window; });
+    const bool open = ImGui::BeginCombo("window", current->title);
+    if (!open)
+        tip("Spherical harmonics ring about strong lights; a window over their bands tames that. The "
+            "reference needs none.");
+    if (!open)
+        return;
+    for (const WindowName& name : kWindows) {
+        if (ImGui::Selectable(name.title, name.window == window))
+            window = name.window;
+        tip(name.what);
+    }
+    ImGui::EndCombo();
+}
+
 constexpr std::array<std::pair<const char*, LightKind>, 4> kLightKinds = {
     {{"sun", LightKind::sun},
      {"cone", LightKind::cone},
@@ -180,6 +210,7 @@ void light_panel(Viewer& viewer) {
         tip("Turbidity of the air: 2 clear, 10 hazy.");
         check("let the day run", viewer.day_runs, "An hour a second. Space.");
     }
+    choose_window(l.window);
     ImGui::SliderAngle("turned", &l.rotation, -180, 180);
     tip("The sky about the vertical. Drag the picture with the right button.");
     ImGui::TextDisabled("add");

@@ -72,6 +72,17 @@ void apply(const Json& json, Settings& s) {
     take(json, "ssao_samples", s.ssao.samples);
 }
 
+prt::Window window_of(const std::string& name) {
+    static const std::map<std::string, prt::Window> windows = {{"auto", prt::Window::automatic},
+                                                               {"none", prt::Window::none},
+                                                               {"hann", prt::Window::hann},
+                                                               {"lanczos", prt::Window::lanczos}};
+    const auto window = windows.find(name);
+    if (window == windows.end())
+        throw prt::Error("there is no window called '" + name + "'");
+    return window->second;
+}
+
 RigLight light_of(const Json& json) {
     static const std::map<std::string, LightKind> kinds = {{"sun", LightKind::sun},
                                                            {"cone", LightKind::cone},
@@ -291,6 +302,7 @@ private:
          }},
         {"no_sky", [this](const Json&) { viewer_->lights.day = viewer_->lights.environment_on = false; }},
         {"rotate", [this](const Json& json) { viewer_->lights.rotation = glm::radians(json.get<float>()); }},
+        {"window", [this](const Json& json) { viewer_->lights.window = window_of(json.get<std::string>()); }},
         {"light", [this](const Json& json) { viewer_->lights.lights.push_back(light_of(json)); }},
         {"compress",
          [this](const Json& json) {

@@ -172,6 +172,14 @@ int Viewer::light_order() const {
     return order;
 }
 
+/// Formed once for all that want it.
+const prt::Light& Viewer::light() {
+    if (light_version_ != rig_.version() || light_.order != light_order())
+        light_ = rig_.light(light_order());
+    light_version_ = rig_.version();
+    return light_;
+}
+
 void Viewer::update(double seconds) {
     if (day_runs && lights.day)
         lights.time.hour = std::fmod(lights.time.hour + seconds, 24.0); // an hour a second
@@ -187,8 +195,7 @@ void Viewer::update(double seconds) {
 
 void Viewer::follow_light() {
     if (gpu_->light_version != rig_.version() && gpu_->model) {
-        const prt::Light light = rig_.light(light_order());
-        gpu_->model->set_light(light);
+        gpu_->model->set_light(light());
         if (compressed_)
             figures_.constants_milliseconds = 1e3 * gpu_->model->seconds_constants();
         gpu_->light_version = rig_.version();
@@ -214,7 +221,7 @@ void Viewer::find_numbers() {
     numbers_version_ = version;
     numbers_work_.start(
         [this, model = model_, raw = raw_, compressed = compressed_,
-         light = rig_.light(light_order())](BackgroundWork::Channel& channel) {
+         light = light()](BackgroundWork::Channel& channel) {
             const auto pictures = number_pictures(*model, raw.get(), *compressed, light);
             channel.post([this, model, pictures] {
                 if (model == model_ && gpu_->model)
@@ -238,7 +245,7 @@ FrameView Viewer::frame_view() {
                                              .raw = raw_.get(),
                                              .compressed = compressed_.get(),
                                              .radiance_version = (transfer_version_ << 32) + rig_.version()},
-                                            [this] { return rig_.light(light_order()); });
+                                            [this] { return light(); });
     automatic_stops_ = std::log2(exposure);
     view.exposure = exposure * std::exp2(settings.exposure_stops);
     view.background = gpu_->background.name() != 0 ? &gpu_->background : nullptr;

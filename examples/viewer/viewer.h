@@ -141,10 +141,13 @@ private:
     void draw_lobe(std::uint32_t framebuffer, int width, int height, const FrameView& view);
     FrameView frame_view();
     int light_order() const;
+    const prt::Light& light();
     bool wants(PictureKind kind) const;
 
     std::unique_ptr<Gpu> gpu_;
     LightRig rig_;
+    prt::Light light_; ///< of `rig_` at `light_version_`
+    std::uint64_t light_version_ = 0;
     std::vector<std::shared_ptr<const LoadedEnvironment>> environments_;
     std::vector<std::filesystem::path> environments_to_read_;
     std::shared_ptr<const Model> model_;

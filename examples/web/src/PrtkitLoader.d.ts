@@ -9,6 +9,8 @@ export class ShLight {
   constructor(order: number, polar: Float64Array);
   /** RGB coefficients [order²][3] in prtkit's convention, turned about +Y by `angle` radians. */
   coefficients(angle?: number): Float64Array;
+  /** The same light under the least filter that leaves it nowhere negative: for lights of few bands, once for each. */
+  deringed(): ShLight;
   /** Luminance of the mean radiance over all directions; 0.25 over it is a good exposure. */
   meanLuminance(): number;
 }

@@ -3,9 +3,10 @@
 //   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
 //   const gltf = await loader.loadAsync("shipped.glb");
 //   const sky = await new HDRLoader().setDataType(FloatType).loadAsync("sky.hdr");
-//   const light = projectEquirectangular(sky);           // as three shows it: its centre looks at +X
+//   const { prtkit } = gltf.userData;
+//   const light = projectEquirectangular(sky, prtkit.order).deringed(); // as three shows it: its centre looks at +X
 //   scene.background = scene.environment = halfFloatSky(sky);
-//   gltf.userData.prtkit.setLight(light, angle);   // again when the light turns or changes
+//   prtkit.setLight(light, angle); // again when the light turns or changes
 //
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
