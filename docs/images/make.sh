@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
 # Makes the pictures of README.md and docs/viewer.md anew, from the example scenes, with the programs of build/release
 # (or of the folder that is given) and Chromium: docs/images/make.sh [BUILD]
+# What is baked stays in build/pictures for the next time: remove it after a change of the baker.
 # The pictures of docs/comparison.md come from examples/comparison.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 images=docs/images build=${1:-build/release}
 prt=$build/cli/prt
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+work=$PWD/build/pictures
+mkdir -p "$work"
 npm --silent --prefix examples/web install --no-audit --no-fund --no-package-lock
-"$build/examples/scenes/example_scenes" "$work" >/dev/null
+[ -f "$work/sky.exr" ] || "$build/examples/scenes/example_scenes" "$work" >/dev/null
 sky=$work/sky.exr
 
 # From a scene of that name: bake with the options that follow, and what is shipped of it.
-bake() { "$prt" bake "$work/$1.glb" -o "$work/$2.baked.glb" "${@:3}" >/dev/null; }
+bake() { [ -f "$work/$2.baked.glb" ] || "$prt" bake "$work/$1.glb" -o "$work/$2.baked.glb" "${@:3}" >/dev/null; }
 ship() { "$prt" compress "$work/$1.baked.glb" -o "$work/$1.shipped.glb" --preset "$2" >/dev/null; }
 render() { "$prt" render "$work/$1.glb" --env "$sky" -o "$work/$2.png" --size 840x472 --samples 4 "${@:3}"; }
 room_view=(--camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45)
@@ -37,7 +38,7 @@ node $images/sheet.mjs $images/demo.png 2 560 "$work"/{knot,tree,room,terrain,cl
 
 # What each part of the transport adds, each pair at one exposure.
 bake room dark --bounces 0
-bake knot marble --bounces 1 --subsurface marble --metres-per-unit 0.05
+bake knot marble --bounces 1 --subsurface marble --metres-per-unit 0.02
 node -e '
   const { readFileSync, writeFileSync } = require("fs");
   const file = readFileSync(process.argv[1]);
@@ -71,8 +72,8 @@ for picture in "$work"/viewer*.png; do
     node $images/sheet.mjs "$images/$(basename "$picture" .png).jpg" 1 0 "$picture"
 done
 
-# The page, from models in build/pictures.
-export PRT_SCENES=tree PRT=$PWD/$prt PRT_EXAMPLE_SCENES=$PWD/$build/examples/scenes/example_scenes PRTKIT_WEB=$PWD/build/pictures
+# The page.
+export PRT_SCENES=tree PRT=$PWD/$prt PRT_EXAMPLE_SCENES=$PWD/$build/examples/scenes/example_scenes PRTKIT_WEB=$work/web
 npm --silent --prefix examples/web run build
 node examples/web/tools/screenshot.mjs "$work/web.png" "?model=tree&quality=1&angle=-40"
 node $images/sheet.mjs $images/web.jpg 1 0 "$work/web.png"

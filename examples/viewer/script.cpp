@@ -170,10 +170,13 @@ private:
         interface_ = std::make_unique<UserInterface>(nullptr, scale);
     }
 
-    /// The pointer rests there, long enough for what the panels say of it.
+    /// The pointer rests there; on a panel long enough for what it says of the control.
     void hover(const glm::vec2& pixel) {
+        constexpr int kRest = 30; // frames
         interface_->point(pixel);
-        for (int frame = 0; frame < 30; ++frame)
+        draw(); // a panel says in the next frame that it is under the pointer
+        draw();
+        for (int frame = 0; frame < kRest && interface_->wants_pointer(); ++frame)
             draw();
         viewer_->hover(interface_->wants_pointer() ? std::nullopt : std::optional(pixel));
     }
