@@ -1,5 +1,7 @@
 #include "argument_parts.h"
 
+#include <algorithm>
+
 namespace prt::cli {
 namespace {
 
@@ -11,6 +13,7 @@ const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", Environm
                                                            {"cube", EnvironmentLayout::cube},
                                                            {"cube-faces", EnvironmentLayout::cube_faces},
                                                            {"angular", EnvironmentLayout::angular}};
+const std::map<std::string, LatLongCentre> kCentres = {{"x", LatLongCentre::x}, {"z", LatLongCentre::z}};
 const std::map<std::string, BadPixels> kBadPixels = {
     {"error", BadPixels::error}, {"zero", BadPixels::zero}, {"clamp", BadPixels::clamp}};
 
@@ -27,13 +30,22 @@ void add_json(CLI::App* command, Path& json) {
 }
 
 void add_light_options(CLI::App* command, LightOptions& options) {
-    choice(command, "--window", options.window, kWindows, "window over the SH bands against ringing", "none");
+    const auto window = std::find_if(kWindows.begin(), kWindows.end(),
+                                     [&](const auto& named) { return named.second == options.window; });
+    choice(command, "--window", options.window, kWindows,
+           "filter of the SH bands against ringing; auto: the least under which no radiance is negative",
+           window->first);
     command
         ->add_option("--rotate", options.rotation_degrees,
                      "turn the environment about +Y, degrees, counter-clockwise from above")
         ->capture_default_str();
     choice(command, "--env-layout", options.environment.layout, kLayouts,
            "how to read an image that does not say; otherwise by its shape", "by shape");
+    choice(
+        command, "--env-center", options.environment.centre, kCentres,
+        "what the centre column of a lat-long image looks at: z as OpenEXR says, x as three.js, glTF viewers "
+        "and Blender show it",
+        "z");
     choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
            "what to do with negative, infinite and NaN pixels", "error");
 }

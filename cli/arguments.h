@@ -78,7 +78,7 @@ struct ProjectArguments {
 
 struct RenderArguments {
     Path model, environment, output, json, baked;
-    LightOptions light_options;
+    LightOptions light_options = {{}, Window::automatic, 0}; ///< a picture shows ringing as bruises
     int width = 1280, height = 720, samples = 2;
     std::optional<glm::vec3> camera, look_at;
     double field_of_view_degrees = 35;

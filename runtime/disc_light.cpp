@@ -1,12 +1,19 @@
+// Seen from the origin a disc fills an elliptic cone. About the axis of that cone its coefficients are
+// integrals over a quarter of an ellipse, of something smooth (docs/math.md, eq. 34).
+
+#include "gauss_legendre.h"
 #include "prt/error.h"
 #include "prt/light.h"
 #include "prt/sh.h"
+#include "prt/sh_rotation.h"
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -14,72 +21,77 @@ namespace {
 using detail::kPi;
 using Coefficients = std::array<double, kMaxOrder * kMaxOrder>;
 
-/// A number and its derivative along a line: the basis template runs on it as it does on numbers.
-struct Dual {
-    double value = 0, slope = 0;
-
-    double operator[](int) const { return value; } // says what the scalar is
-};
-Dual operator+(const Dual& a, const Dual& b) {
-    return {a.value + b.value, a.slope + b.slope};
-}
-Dual operator-(const Dual& a, const Dual& b) {
-    return {a.value - b.value, a.slope - b.slope};
-}
-Dual operator*(const Dual& a, const Dual& b) {
-    return {a.value * b.value, a.value * b.slope + a.slope * b.value};
-}
-Dual operator+(const Dual& a, double b) {
-    return {a.value + b, a.slope};
-}
-Dual operator-(const Dual& a, double b) {
-    return {a.value - b, a.slope};
-}
-Dual operator*(double a, const Dual& b) {
-    return {a * b.value, a * b.slope};
-}
-
-struct Disc {
-    glm::dvec3 centre, u, v; ///< the rim is centre + cos t u + sin t v, right-handed about -normal
+/// { z > 0, (x / wide)² + (y / narrow)² <= z² } in a frame whose axes are the columns of `frame`.
+struct EllipticCone {
+    glm::dmat3 frame;
+    double wide, narrow; ///< tangents of its half angles, wide >= narrow
 };
 
-/// ∫ over what the disc covers of Y_lm. The spherical Laplacian of Y_lm is -l (l+1) Y_lm, so that for l > 0
-/// this is -1/(l (l+1)) of what its gradient lets flow out through the rim; for l = 0 the field of divergence
-/// 1 about the direction a of the centre does, which is -(a - (a·w) w) / (1 + a·w).
-Coefficients rim_integral(const Disc& disc, int nodes) {
-    Coefficients sum{};
-    const glm::dvec3 a = glm::normalize(disc.centre);
-    for (int n = 0; n < nodes; ++n) {
-        const double t = 2 * kPi * n / nodes;
-        const glm::dvec3 rim = disc.centre + std::cos(t) * disc.u + std::sin(t) * disc.v;
-        const glm::dvec3 along = std::cos(t) * disc.v - std::sin(t) * disc.u;
-        const double distance = glm::length(rim);
-        const glm::dvec3 w = rim / distance;
-        // Outwards from the disc, as long as the step along the rim. Only what is at right angles to w
-        // counts.
-        const glm::dvec3 out = glm::cross(along, w) * (2 * kPi / nodes / distance);
-        Dual basis[coefficient_count(kMaxOrder)];
-        sh_basis<kMaxOrder>(Dual{w.x, out.x}, Dual{w.y, out.y}, Dual{w.z, out.z}, basis);
-        sum[0] -= basis[0].value * glm::dot(a, out) / (1 + glm::dot(a, w));
-        for (int l = 1; l < kMaxOrder; ++l)
-            for (int m = -l; m <= l; ++m)
-                sum[static_cast<std::size_t>(sh_index(l, m))] -= basis[sh_index(l, m)].slope / (l * (l + 1));
+/// `normal` points from the disc to the side of the origin, which is `height` > 0 above it.
+EllipticCone cone_through(const glm::dvec3& centre, const glm::dvec3& normal, double height, double radius) {
+    const glm::dvec3 lateral = centre + height * normal;
+    const double offset = glm::length(lateral);
+    const glm::dvec3 side =
+        offset > 0 ? lateral / offset
+                   : glm::normalize(glm::cross(
+                         std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), normal));
+    // In the plane of symmetry the rim's nearest and farthest points are seen at angles a1 and a2 from the
+    // direction straight down, tan a = (offset -+ radius) / height. Of their difference and sum, without
+    // cancellation:
+    const double beyond = (offset - radius) * (offset + radius);
+    const double half_angle = 0.5 * std::atan2(2 * radius * height, beyond + height * height);
+    const double elevation = 0.5 * std::atan2(2 * offset * height, beyond - height * height); // of the axis
+    const double sine = std::sin(elevation), cosine = std::cos(elevation);
+    // Where the axis meets the disc's plane, half of the chord across, from the two pieces of the diameter.
+    const double meets = height * cosine / sine;
+    const double chord = std::sqrt(std::max(0.0, (meets - (offset - radius)) * (offset + radius - meets)));
+    const double in_plane = std::tan(half_angle), across = chord * sine / height;
+    const glm::dvec3 axis = cosine * side - sine * normal, in = sine * side + cosine * normal,
+                     out = glm::cross(axis, in);
+    if (in_plane >= across)
+        return {glm::dmat3(in, out, axis), in_plane, across};
+    return {glm::dmat3(out, -in, axis), across, in_plane};
+}
+
+/// Adds the integral over the angles from 0 to where the rim is at parameter `t`, times `weight`, of the
+/// functions that do not change sign from quarter to quarter: those of even m >= 0. The rim is
+/// (wide cos t, narrow sin t, 1), and the azimuth's share of dt is wide narrow / distance².
+void add_ray(const EllipticCone& cone, double t, double weight, const GaussLegendre& nodes,
+             Coefficients& sum) {
+    const double x = cone.wide * std::cos(t), y = cone.narrow * std::sin(t), distance = std::hypot(x, y);
+    if (!(distance > 0))
+        return;
+    const double azimuth_share = (cone.wide / distance) * (cone.narrow / distance);
+    const double angle = std::atan(distance);
+    std::array<double, kMaxOrder * kMaxOrder> basis;
+    for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
+        const double theta = 0.5 * angle * (1 + nodes.nodes[k]), sine = std::sin(theta);
+        evaluate_sh(kMaxOrder, glm::dvec3(sine * x / distance, sine * y / distance, std::cos(theta)),
+                    std::span<double>(basis));
+        const double share = weight * azimuth_share * 0.5 * angle * nodes.weights[k] * sine;
+        for (int l = 0; l < kMaxOrder; ++l)
+            for (int m = 0; m <= l; m += 2)
+                sum[static_cast<std::size_t>(sh_index(l, m))] +=
+                    share * basis[static_cast<std::size_t>(sh_index(l, m))];
     }
-    return sum;
 }
 
-/// Twice the nodes until nothing changes.
-Coefficients covered(const Disc& disc) {
-    constexpr int kFewest = 32, kMost = 1 << 20; // so many where the disc almost touches the receiver
-    Coefficients sum = rim_integral(disc, kFewest);
-    for (int nodes = 2 * kFewest; nodes <= kMost; nodes *= 2) {
-        const Coefficients finer = rim_integral(disc, nodes);
-        double change = 0;
-        for (std::size_t i = 0; i < finer.size(); ++i)
-            change = std::max(change, std::abs(finer[i] - sum[i]));
-        sum = finer;
-        if (change < 1e-12 * sum[0])
-            break;
+/// About the axis of the cone. Where it is wide in one direction the integrand changes within
+/// max(narrow, 1) / wide of t = pi/2, so that intervals halve towards it as often as that takes.
+Coefficients covered(const EllipticCone& cone) {
+    constexpr int kMostHalvings = 50; // beyond, less than rounding is left
+    static const GaussLegendre nodes(16);
+    const double width = std::max(cone.narrow, 1.0) / cone.wide;
+    const int halvings =
+        width < 1 ? std::clamp(static_cast<int>(std::ceil(-std::log2(width))), 0, kMostHalvings) : 0;
+    Coefficients sum{};
+    for (int interval = 0; interval <= halvings + 1; ++interval) {
+        // Distances from pi/2.
+        const double far = 0.5 * kPi * std::exp2(-interval), near = interval == halvings + 1 ? 0 : 0.5 * far;
+        for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
+            const double from_end = near + 0.5 * (far - near) * (1 + nodes.nodes[k]);
+            add_ray(cone, 0.5 * kPi - from_end, 4 * 0.5 * (far - near) * nodes.weights[k], nodes, sum);
+        }
     }
     return sum;
 }
@@ -89,20 +101,25 @@ Coefficients covered(const Disc& disc) {
 Light disc_light(int order, const glm::vec3& centre, const glm::vec3& normal, double radius,
                  const glm::vec3& radiance) {
     check_order(order);
-    if (!(radius > 0))
-        throw Error("the radius of a disc light must be positive");
+    if (!(radius > 0 && std::isfinite(radius)))
+        throw Error("the radius of a disc light must be positive and finite");
     const double length = glm::length(glm::dvec3(normal));
-    if (!(length > 0))
-        throw Error("a disc light needs a normal, not a vector of length 0");
+    if (!(length > 0 && std::isfinite(length)))
+        throw Error("a disc light needs a normal, not a vector of length " + std::to_string(length));
     const glm::dvec3 n = glm::dvec3(normal) / length, c(centre);
+    const double height = -glm::dot(n, c);
+    if (!std::isfinite(height))
+        throw Error("the centre of a disc light must be finite");
     Light light{order,
                 std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)), glm::vec3(0))};
-    if (!(glm::dot(n, c) < 0)) // the origin is behind it
+    if (!(height > 0)) // the origin is behind it
         return light;
-    const glm::dvec3 u =
-        glm::normalize(glm::cross(std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), n));
-    const Disc disc{c, radius * u, radius * glm::cross(u, n)};
-    const Coefficients sum = covered(disc);
+    const EllipticCone cone = cone_through(c, n, height, radius);
+    if (!(cone.narrow > 0)) // edge on, to rounding
+        return light;
+    const Coefficients about_axis = covered(cone);
+    Coefficients sum{};
+    ShRotation(kMaxOrder, cone.frame).apply(std::span<const double>(about_axis), std::span<double>(sum));
     for (std::size_t i = 0; i < light.coefficients.size(); ++i)
         light.coefficients[i] = glm::vec3(glm::dvec3(radiance) * sum[i]);
     return light;

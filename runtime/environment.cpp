@@ -113,7 +113,7 @@ std::size_t repair_pixels(Image& image, BadPixels policy) {
         throw Error(std::to_string(count) +
                     " pixels are negative, infinite or not a number, the first at x " +
                     std::to_string(first % width) + ", y " + std::to_string(first / width) +
-                    " (--bad-pixels zero or clamp repairs them)");
+                    " (they can be read as black or clamped)");
     }
     for (glm::vec3& pixel : image.pixels) {
         if (!is_bad(pixel))
@@ -174,22 +174,54 @@ glm::vec3 sample(const Environment& environment, const glm::vec3& direction) {
     case EnvironmentLayout::lat_long:
         break;
     }
+    if (environment.centre == LatLongCentre::x) // what is at +X in the world is where +Z is without a turn
+        return sample_lat_long(environment.image, {-direction.z, direction.y, direction.x});
     return sample_lat_long(environment.image, direction);
 }
 
+void check_environment(const Environment& environment) {
+    const Image& image = environment.image;
+    if (image.width < 1 || image.height < 1)
+        throw Error("the environment has no pixels");
+    const std::string size = std::to_string(image.width) + " x " + std::to_string(image.height);
+    if (image.pixels.size() != static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height))
+        throw Error("the environment is " + size + " pixels but holds " +
+                    std::to_string(image.pixels.size()));
+    switch (environment.layout) {
+    case EnvironmentLayout::cube:
+    case EnvironmentLayout::cube_faces:
+        if (image.height % 6 != 0 || image.height / 6 != image.width)
+            throw Error("is " + size + " pixels, but a cube map has six square faces in a column");
+        break;
+    case EnvironmentLayout::angular:
+        if (image.width != image.height)
+            throw Error("is " + size + " pixels, but an angular map is square");
+        break;
+    case EnvironmentLayout::lat_long:
+        break;
+    }
+}
+
 Image resampled_lat_long(const Environment& environment) {
-    if (environment.layout == EnvironmentLayout::lat_long)
-        return environment.image;
+    check_environment(environment);
+    const Image& image = environment.image;
+    const bool lat_long = environment.layout == EnvironmentLayout::lat_long;
+    if (lat_long && environment.centre == LatLongCentre::z)
+        return image;
     // A face of a cube spans a quarter turn, an angular map a whole one, the result's height half of one.
-    const int height = environment.layout == EnvironmentLayout::angular
-                           ? std::max(1, environment.image.width / 2)
-                           : 2 * environment.image.width;
-    Image result{2 * height, height, {}};
-    result.pixels.resize(static_cast<std::size_t>(2 * height) * static_cast<std::size_t>(height));
+    // Where a lat-long image has a quarter of its width in whole pixels, these fall on pixels.
+    const int height = lat_long                                           ? image.height
+                       : environment.layout == EnvironmentLayout::angular ? std::max(1, image.width / 2)
+                                                                          : 2 * image.width;
+    const int width = lat_long ? image.width : 2 * height;
+    Image result{width, height, {}};
+    result.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     for (int y = 0; y < height; ++y)
-        for (int x = 0; x < 2 * height; ++x)
+        for (int x = 0; x < width; ++x)
             result.at(x, y) =
-                sample(environment, glm::vec3(lat_long_direction(2 * height, height, x + 0.5, y + 0.5)));
+                lat_long && width % 4 == 0
+                    ? image.at((x + width / 4) % width, y)
+                    : sample(environment, glm::vec3(lat_long_direction(width, height, x + 0.5, y + 0.5)));
     return result;
 }
 

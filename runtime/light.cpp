@@ -1,5 +1,6 @@
 #include "prt/light.h"
 
+#include "prt/dering.h"
 #include "prt/error.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
@@ -40,54 +41,11 @@ Light zonal_light(int order, const glm::vec3& axis, const glm::vec3& scale,
     return light;
 }
 
-Light with_band_factors(const Light& light, const std::function<double(int)>& factor) {
-    Light result = light;
+Light with_window(const Light& light, double (*window)(int, double)) {
+    BandFactors factors{};
     for (int l = 0; l < light.order; ++l)
-        for (int m = -l; m <= l; ++m)
-            result.coefficients[static_cast<std::size_t>(sh_index(l, m))] *= static_cast<float>(factor(l));
-    return result;
-}
-
-/// Least radiance of any channel over a grid fine enough for the highest band (a ripple of band 9 is 20
-/// degrees wide, the grid 3).
-float least_radiance(const Light& light) {
-    constexpr int kRows = 60;
-    float least = std::numeric_limits<float>::infinity();
-    for (int row = 0; row < kRows; ++row) {
-        const double theta = kPi * (row + 0.5) / kRows;
-        for (int column = 0; column < 2 * kRows; ++column) {
-            const double phi = kPi * (column + 0.5) / kRows;
-            const glm::vec3 value =
-                radiance(light, glm::vec3(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
-                                          std::cos(theta)));
-            least = std::min({least, value.r, value.g, value.b});
-        }
-    }
-    return least;
-}
-
-/// The largest coefficient of float rounding that a sum of order² terms can show as a negative radiance.
-float rounding_floor(const Light& light) {
-    float largest = 0;
-    for (const glm::vec3& c : light.coefficients)
-        largest = std::max({largest, std::abs(c.r), std::abs(c.g), std::abs(c.b)});
-    return -1e-5f * largest;
-}
-
-/// Diffuses the light just so much over the sphere that it is nowhere negative. Diffusion is the one window
-/// whose effect is monotone: more of it never makes a minimum lower, so bisection finds the least.
-Light deringed(const Light& light) {
-    if (least_radiance(light) >= rounding_floor(light))
-        return light;
-    const auto diffused = [&](double time) {
-        return with_band_factors(light, [&](int l) { return std::exp(-time * l * (l + 1)); });
-    };
-    double too_little = 0, enough = 16; // after 16 nothing but the mean is left
-    for (int step = 0; step < 32; ++step) {
-        const double time = 0.5 * (too_little + enough);
-        (least_radiance(diffused(time)) >= rounding_floor(light) ? enough : too_little) = time;
-    }
-    return diffused(enough);
+        factors[static_cast<std::size_t>(l)] = window(l, light.order);
+    return with_band_factors(light, factors);
 }
 
 } // namespace
@@ -101,17 +59,23 @@ Light directional_light(int order, const glm::vec3& towards, const glm::vec3& ir
 }
 
 Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& radiance) {
-    std::array<double, kMaxOrder + 2> legendre{}; // P_l(cos half_angle)
-    const double t = std::cos(half_angle);
+    if (!(half_angle >= 0 && half_angle <= kPi * (1 + 1e-7))) // pi in float is more than pi
+        throw Error("the half angle of a cone of light lies in 0..pi radians, not " +
+                    std::to_string(half_angle));
+    std::array<double, kMaxOrder + 1> legendre{}, slope{}; // P_l and P_l' at cos half_angle
+    const double t = std::cos(half_angle), sine = std::sin(half_angle),
+                 half_sine = std::sin(0.5 * half_angle);
     legendre[0] = 1;
     legendre[1] = t;
+    slope[1] = 1;
     for (std::size_t l = 2; l < legendre.size(); ++l) {
         const double ld = static_cast<double>(l);
         legendre[l] = ((2 * ld - 1) * t * legendre[l - 1] - (ld - 1) * legendre[l - 2]) / ld;
+        slope[l] = slope[l - 2] + (2 * ld - 1) * legendre[l - 1];
     }
     return zonal_light(order, axis, radiance, [&](int l) {
-        const auto i = static_cast<std::size_t>(l);
-        return 2 * kPi * (l == 0 ? 1 - t : (legendre[i - 1] - legendre[i + 1]) / (2 * l + 1));
+        return l == 0 ? 4 * kPi * half_sine * half_sine
+                      : 2 * kPi * sine * sine * slope[static_cast<std::size_t>(l)] / (l * (l + 1));
     });
 }
 
@@ -204,12 +168,11 @@ Light rotated_about_y(const Light& light, double angle) {
 }
 
 Light windowed(const Light& light, Window window) {
-    const double width = light.order;
     switch (window) {
     case Window::hann:
-        return with_band_factors(light, [&](int l) { return hann_window(l, width); });
+        return with_window(light, hann_window);
     case Window::lanczos:
-        return with_band_factors(light, [&](int l) { return lanczos_window(l, width); });
+        return with_window(light, lanczos_window);
     case Window::automatic:
         return deringed(light);
     case Window::none:

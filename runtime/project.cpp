@@ -138,7 +138,8 @@ std::array<double, kMaxOrder * kMaxOrder> row_legendre(int order, double theta0,
     return sum;
 }
 
-Coefficients project_lat_long(const Image& image, int order, int threads) {
+Coefficients project_lat_long(const Environment& environment, int order, int threads) {
+    const Image& image = environment.image;
     const ColumnTables tables(order, image.width);
     const GaussLegendre quadrature(points_for(kPi / image.height));
     const auto height = static_cast<std::size_t>(image.height);
@@ -168,9 +169,12 @@ Coefficients project_lat_long(const Image& image, int order, int threads) {
         for (std::size_t i = 0; i < polar.size(); ++i)
             polar[i] += row[i];
 
-    // From the image's polar frame (z, x, y) to ours: columns are the images of x', y', z'.
-    const ShRotation to_world(order,
-                              glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)));
+    // From the image's polar frame to ours: columns are the images of x', where the centre looks, y' to its
+    // left and z' up.
+    const glm::dmat3 frame = environment.centre == LatLongCentre::z
+                                 ? glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0))
+                                 : glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0));
+    const ShRotation to_world(order, frame);
     Coefficients result{};
     for (int channel = 0; channel < 3; ++channel) {
         std::array<double, kMaxOrder * kMaxOrder> in{}, out{};
@@ -292,16 +296,14 @@ Coefficients project_layout(const Environment& environment, int order, int threa
     case EnvironmentLayout::lat_long:
         break;
     }
-    return project_lat_long(environment.image, order, threads);
+    return project_lat_long(environment, order, threads);
 }
 
 } // namespace
 
 Light project(const Environment& environment, int order, int threads) {
     check_order(order);
-    const Image& image = environment.image;
-    if (image.width < 1 || image.height < 1)
-        throw Error("the environment has no pixels");
+    check_environment(environment);
     const Coefficients coefficients = project_layout(environment, order, threads);
     Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)))};
     for (std::size_t i = 0; i < light.coefficients.size(); ++i)

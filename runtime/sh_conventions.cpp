@@ -1,8 +1,10 @@
 #include "prt/sh_conventions.h"
 
+#include "prt/error.h"
 #include "prt/sh.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace prt {
 namespace {
@@ -65,6 +67,25 @@ Light from_gltf_irradiance(const std::array<glm::vec3, 9>& coefficients) {
         for (int m = -l; m <= l; ++m)
             light.coefficients[static_cast<std::size_t>(sh_index(l, m))] /= irradiance_factor(l);
     return light;
+}
+
+Light d3dx_directional_light(int order, const glm::vec3& towards, const glm::vec3& intensity) {
+    Light light =
+        scaled_to_exit_radiance(directional_light(order, towards, glm::vec3(1)), towards, glm::vec3(1));
+    for (glm::vec3& c : light.coefficients)
+        c *= intensity;
+    return light;
+}
+
+Light d3dx_cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& intensity) {
+    if (!(half_angle > 0))
+        throw Error("the half angle of a cone of D3DX is more than 0");
+    const double sine = std::sin(std::min(half_angle, 0.5 * detail::kPi));
+    return cone_light(order, axis, half_angle, intensity / static_cast<float>(sine * sine));
+}
+
+Light d3dx_hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom) {
+    return hemisphere_light(order, up, 1.5f * top, 1.5f * bottom);
 }
 
 } // namespace prt

@@ -5,10 +5,12 @@
 #include "prt/sh.h"
 #include "prt/sh_vector.h"
 #include "prt/vector_lanes.h"
+#include "triple_product.h"
 
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 namespace prt {
@@ -165,6 +167,63 @@ template <class Real, int Lanes>
     from_nodes(order, t, first, out);
 }
 
+/// Row k of the product of two functions of Order bands, from the pairs a_i b_j + a_j b_i. Zeros take no
+/// time.
+template <int Order, std::size_t K, class Real>
+[[gnu::always_inline]] inline Real triple_row(const Real* pairs) {
+    constexpr std::size_t kCount = Order * Order;
+    Real sum = 0;
+    const auto add = [&]<std::size_t Pair>() __attribute__((always_inline)) {
+        constexpr std::size_t i = Pair / kCount, j = Pair % kCount;
+        if constexpr (i <= j) {
+            constexpr double factor = kTripleProducts.at(i, j, K);
+            if constexpr (factor != 0)
+                sum += static_cast<Real>(factor) * pairs[Pair];
+        }
+    };
+    [&]<std::size_t... Pair>(std::index_sequence<Pair...>) __attribute__((always_inline)) {
+        (add.template operator()<Pair>(), ...);
+    }
+    (std::make_index_sequence<kCount * kCount>());
+    return sum;
+}
+
+/// By the table of triple products, which in few bands is short.
+template <int Order, class Real>
+[[gnu::always_inline]] inline void short_product(const Real* a, const Real* b, Real* out) {
+    constexpr std::size_t kCount = Order * Order;
+    Real pairs[kCount * kCount];
+#pragma GCC unroll 9
+    for (std::size_t i = 0; i < kCount; ++i) {
+        pairs[i * kCount + i] = a[i] * b[i];
+#pragma GCC unroll 9
+        for (std::size_t j = i + 1; j < kCount; ++j)
+            pairs[i * kCount + j] = a[i] * b[j] + a[j] * b[i];
+    }
+    [&]<std::size_t... K>(std::index_sequence<K...>) __attribute__((always_inline)) {
+        const Real rows[] = {triple_row<Order, K>(pairs)...};
+        ((out[K] = rows[K]), ...);
+    }
+    (std::make_index_sequence<kCount>());
+}
+
+template <class Real>
+bool has_short_product(int order, const Real* a, const Real* b, Real* out) {
+    switch (order) {
+    case 1:
+        short_product<1>(a, b, out);
+        return true;
+    case 2:
+        short_product<2>(a, b, out);
+        return true;
+    case 3:
+        short_product<3>(a, b, out);
+        return true;
+    default:
+        return false;
+    }
+}
+
 constexpr int kFewRings = 8, kManyRings = 16;
 
 PRT_TWO_CLONES
@@ -182,11 +241,13 @@ void double_product(int order, const double* a, const double* b, double* out) {
 } // namespace
 
 void sh_product(int order, std::span<const float> a, std::span<const float> b, std::span<float> out) {
-    float_product(order, a.data(), b.data(), out.data());
+    if (!has_short_product(order, a.data(), b.data(), out.data()))
+        float_product(order, a.data(), b.data(), out.data());
 }
 
 void sh_product(int order, std::span<const double> a, std::span<const double> b, std::span<double> out) {
-    double_product(order, a.data(), b.data(), out.data());
+    if (!has_short_product(order, a.data(), b.data(), out.data()))
+        double_product(order, a.data(), b.data(), out.data());
 }
 
 void sh_product_matrix(int order, std::span<const double> function, std::span<double> matrix) {

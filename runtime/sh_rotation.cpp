@@ -23,21 +23,22 @@ using Turns = ShRotation::Turns;
 using Channels [[gnu::vector_size(sizeof(double) * 4)]] = double;
 
 /// Band l about z; `c` points at its coefficient of m = 0.
-[[gnu::always_inline]] inline void turn_about_z(int l, const Turn& turn, Channels* c) {
+template <class Value>
+[[gnu::always_inline]] inline void turn_about_z(int l, const Turn& turn, Value* c) {
 #pragma GCC unroll 5
     for (int m = 1; m <= l; ++m) {
         const double cosine = turn.cosine[static_cast<std::size_t>(m)],
                      sine = turn.sine[static_cast<std::size_t>(m)];
-        const Channels turned = c[m] * cosine - c[-m] * sine;
+        const Value turned = c[m] * cosine - c[-m] * sine;
         c[-m] = c[m] * sine + c[-m] * cosine;
         c[m] = turned;
     }
 }
 
 /// Row `Row` of a band's quarter turn about x, or of its inverse, times `c`. Zeros take no time.
-template <bool Inverse, std::size_t L, std::size_t Row, std::size_t... Column>
-[[gnu::always_inline]] inline Channels turned_row(const Channels* c, std::index_sequence<Column...>) {
-    Channels sum{};
+template <bool Inverse, std::size_t L, std::size_t Row, class Value, std::size_t... Column>
+[[gnu::always_inline]] inline Value turned_row(const Value* c, std::index_sequence<Column...>) {
+    Value sum{};
     const auto add = [&]<std::size_t I>() __attribute__((always_inline)) {
         constexpr double factor = Inverse ? kQuarterTurn.at(L, I, Row) : kQuarterTurn.at(L, Row, I);
         if constexpr (factor != 0)
@@ -47,14 +48,14 @@ template <bool Inverse, std::size_t L, std::size_t Row, std::size_t... Column>
     return sum;
 }
 
-template <bool Inverse, std::size_t L, std::size_t... Row>
-[[gnu::always_inline]] inline void quarter_turn(Channels* c, std::index_sequence<Row...> all) {
-    const Channels turned[] = {turned_row<Inverse, L, Row>(c, all)...};
+template <bool Inverse, std::size_t L, class Value, std::size_t... Row>
+[[gnu::always_inline]] inline void quarter_turn(Value* c, std::index_sequence<Row...> all) {
+    const Value turned[] = {turned_row<Inverse, L, Row>(c, all)...};
     ((c[Row] = turned[Row]), ...);
 }
 
-template <std::size_t L>
-[[gnu::always_inline]] inline void rotate_band(const Turns& turns, Channels* c) {
+template <std::size_t L, class Value>
+[[gnu::always_inline]] inline void rotate_band(const Turns& turns, Value* c) {
     constexpr auto all = std::make_index_sequence<2 * L + 1>();
     constexpr int l = static_cast<int>(L);
     turn_about_z(l, turns.first, c + L);
@@ -69,6 +70,8 @@ template <std::size_t L>
 /// The quarter turns of the bands that games hardly use, element by element: their code would be as long as
 /// that of the whole rest.
 constexpr int kFirstListedBand = 6;
+/// Those below come from the elements of the matrix.
+constexpr int kFirstTurnedBand = 3;
 
 struct Element {
     std::uint8_t row, column;
@@ -104,9 +107,9 @@ struct ElementList {
 };
 constexpr ElementList kElements;
 
-template <bool Inverse>
-[[gnu::always_inline]] inline void listed_quarter_turn(int l, Channels* c) {
-    Channels turned[2 * kMaxOrder - 1] = {};
+template <bool Inverse, class Value>
+[[gnu::always_inline]] inline void listed_quarter_turn(int l, Value* c) {
+    Value turned[2 * kMaxOrder - 1] = {};
     const auto band = static_cast<std::size_t>(l);
     for (std::size_t e = kElements.first[band]; e < kElements.first[band + 1]; ++e) {
         const Element& element = kElements.elements[e];
@@ -116,7 +119,8 @@ template <bool Inverse>
     std::copy_n(turned, 2 * l + 1, c);
 }
 
-[[gnu::always_inline]] inline void rotate_listed_band(int l, const Turns& turns, Channels* c) {
+template <class Value>
+[[gnu::always_inline]] inline void rotate_listed_band(int l, const Turns& turns, Value* c) {
     turn_about_z(l, turns.first, c + l);
     if (!turns.tilted)
         return;
@@ -126,45 +130,107 @@ template <bool Inverse>
     turn_about_z(l, turns.last, c + l);
 }
 
+/// Bands 1 and 2 from the elements of the matrix: a vector, and a quadratic form without a trace, in the
+/// frame that has been turned. `r` is column-major.
+template <class Value>
+[[gnu::always_inline]] inline void rotate_vector(const glm::dmat3& r, Value* c) {
+    const Value x = -c[3], y = -c[1], z = c[2];
+    c[3] = -(r[0][0] * x + r[1][0] * y + r[2][0] * z);
+    c[1] = -(r[0][1] * x + r[1][1] * y + r[2][1] * z);
+    c[2] = r[0][2] * x + r[1][2] * y + r[2][2] * z;
+}
+
+template <class Value>
+[[gnu::always_inline]] inline void rotate_form(const glm::dmat3& r, Value* c) {
+    constexpr double kThird = 0.57735026918962576451; // sqrt(1/3)
+    const Value xy = c[4], yz = -c[5], xz = -c[7], part = kThird * c[6], xx = c[8] - part, yy = -c[8] - part,
+                zz = 2 * part;
+    // Columns of Q R^T, of which R Q R^T needs no more than five elements.
+    Value q[3][3];
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) {
+        q[0][i] = r[0][i] * xx + r[1][i] * xy + r[2][i] * xz;
+        q[1][i] = r[0][i] * xy + r[1][i] * yy + r[2][i] * yz;
+        q[2][i] = r[0][i] * xz + r[1][i] * yz + r[2][i] * zz;
+    }
+    const auto element = [&](int i, int j) __attribute__((always_inline)) {
+        return r[0][i] * q[0][j] + r[1][i] * q[1][j] + r[2][i] * q[2][j];
+    };
+    c[4] = element(0, 1);
+    c[5] = -element(1, 2);
+    c[7] = -element(0, 2);
+    const Value last = element(2, 2), first = element(0, 0);
+    c[6] = (1.5 * kThird) * last;
+    c[8] = first + 0.5 * last; // (xx - yy) / 2, the trace being 0
+}
+
 /// Band by band, so that every band's code is there once for all orders.
-PRT_TWO_CLONES
-void rotate(int order, const Turns& turns, Channels* c) {
-    for (int l = 1; l < std::min(order, kFirstListedBand); ++l)
+template <class Value>
+[[gnu::always_inline]] inline void rotate_high_bands(int order, const Turns& turns, Value* c) {
+    for (int l = kFirstTurnedBand; l < std::min(order, kFirstListedBand); ++l)
         with_order(
             l, [&]<int L>() __attribute__((always_inline)) {
-                if constexpr (L < kFirstListedBand)
+                if constexpr (L >= kFirstTurnedBand && L < kFirstListedBand)
                     rotate_band<static_cast<std::size_t>(L)>(turns, c + L * L);
             });
     for (int l = kFirstListedBand; l < order; ++l)
         rotate_listed_band(l, turns, c + l * l);
 }
 
-/// One function is rotated as three are, in the first lane.
-template <class Real>
-void rotate_one(int order, const Turns& turns, std::span<const Real> in, std::span<Real> out) {
-    const auto count = static_cast<std::size_t>(coefficient_count(order));
-    assert(in.size() >= count && out.size() >= count);
-    Channels c[kMaxOrder * kMaxOrder];
-    for (std::size_t i = 0; i < count; ++i)
-        c[i] = Channels{static_cast<double>(in[i]), 0, 0, 0};
-    rotate(order, turns, c);
-    for (std::size_t i = 0; i < count; ++i)
-        out[i] = static_cast<Real>(c[i][0]);
+PRT_TWO_CLONES
+void rotate(int order, const glm::dmat3& matrix, const Turns& turns, Channels* c) {
+    if (order > 1)
+        rotate_vector(matrix, c);
+    if (order > 2)
+        rotate_form(matrix, c);
+    rotate_high_bands(order, turns, c);
 }
 
-void check_rotation(const glm::dmat3& r) {
-    const glm::dmat3 squared = glm::transpose(r) * r;
-    double worst = 0;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) {
-            const double off = std::abs(squared[i][j] - (i == j ? 1 : 0));
-            worst = off <= worst ? worst : off; // NaN wins
-        }
-    if (!(worst <= 2e-3)) // what thousands of products of float matrices leave
-        throw Error("a matrix that scales, shears or is not finite is no rotation of lighting");
-    if (glm::determinant(r) < 0)
-        throw Error(
-            "a mirrored matrix is no rotation: take the mirroring out of it, and bake the mirrored mesh");
+PRT_TWO_CLONES
+void rotate(int order, const glm::dmat3& matrix, const Turns& turns, double* c) {
+    if (order > 1)
+        rotate_vector(matrix, c);
+    if (order > 2)
+        rotate_form(matrix, c);
+    rotate_high_bands(order, turns, c);
+}
+
+template <class Real>
+void rotate_one(int order, const glm::dmat3& matrix, const Turns& turns, std::span<const Real> in,
+                std::span<Real> out) {
+    const auto count = static_cast<std::size_t>(coefficient_count(order));
+    assert(in.size() >= count && out.size() >= count);
+    double c[kMaxOrder * kMaxOrder];
+    for (std::size_t i = 0; i < count; ++i)
+        c[i] = static_cast<double>(in[i]);
+    rotate(order, matrix, turns, c);
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = static_cast<Real>(c[i]);
+}
+
+/// The rotation next to `r`, which is checked. Newton's iteration for the polar decomposition, R (3 - R^T R)
+/// / 2, squares what is off.
+glm::dmat3 checked_rotation(const glm::dmat3& r) {
+    glm::dmat3 result = r;
+    for (double allowed = kRotationTolerance;; allowed = 1) {
+        const glm::dvec3 &x = result[0], &y = result[1], &z = result[2];
+        const double xx = glm::dot(x, x) - 1, yy = glm::dot(y, y) - 1, zz = glm::dot(z, z) - 1,
+                     xy = glm::dot(x, y), yz = glm::dot(y, z), xz = glm::dot(x, z);
+        const double squares = xx * xx + yy * yy + zz * zz + xy * xy + yz * yz + xz * xz;
+        if (!(squares <= 6 * allowed * allowed)) // nor is NaN
+            throw Error("a matrix that scales, shears or is not finite is no rotation of lighting");
+        for (const double off : {xx, yy, zz, xy, yz, xz})
+            if (std::abs(off) > allowed)
+                throw Error("a matrix that scales, shears or is not finite is no rotation of lighting");
+        if (allowed < 1 && glm::dot(glm::cross(x, y), z) < 0)
+            throw Error(
+                "a mirrored matrix is no rotation: take the mirroring out of it, and bake the mirrored "
+                "mesh");
+        if (squares < 1e-28)
+            return result;
+        result = glm::dmat3(x - 0.5 * (xx * x + xy * y + xz * z), y - 0.5 * (xy * x + yy * y + yz * z),
+                            z - 0.5 * (xz * x + yz * y + zz * z));
+    }
 }
 
 Turns turns_of(int order, const glm::dmat3& r) {
@@ -191,7 +257,7 @@ Turns turns_of(int order, const glm::dmat3& r) {
 }
 
 glm::dmat3 matrix_of(const glm::dquat& q) {
-    if (!(std::abs(glm::dot(q, q) - 1) <= 2e-4))
+    if (!(std::abs(glm::dot(q, q) - 1) <= kRotationTolerance))
         throw Error("a quaternion whose length is not 1 is no rotation");
     return glm::mat3_cast(glm::normalize(q));
 }
@@ -208,7 +274,10 @@ Turn::Turn(int order, double c, double s) {
 }
 
 ShRotation::ShRotation(int order, const glm::dmat3& rotation)
-    : order_(order), turns_((check_order(order), check_rotation(rotation), turns_of(order, rotation))) {}
+    : order_((check_order(order), order)), matrix_(checked_rotation(rotation)) {
+    if (order > kFirstTurnedBand)
+        turns_ = turns_of(order, matrix_);
+}
 
 ShRotation::ShRotation(int order, const glm::dquat& rotation) : ShRotation(order, matrix_of(rotation)) {}
 
@@ -222,16 +291,19 @@ ShRotation ShRotation::about_y(int order, double angle) {
 
 ShRotation ShRotation::about_z(int order, double angle) {
     check_order(order);
-    return ShRotation(order, Turns{Turn(order, std::cos(angle), std::sin(angle)), Turn(order, 1, 0),
-                                   Turn(order, 1, 0), false});
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    ShRotation result(order, glm::dmat3(cosine, sine, 0, -sine, cosine, 0, 0, 0, 1));
+    result.turns_.first = Turn(order, cosine, sine);
+    result.turns_.tilted = false;
+    return result;
 }
 
 void ShRotation::apply(std::span<const float> in, std::span<float> out) const {
-    rotate_one(order_, turns_, in, out);
+    rotate_one(order_, matrix_, turns_, in, out);
 }
 
 void ShRotation::apply(std::span<const double> in, std::span<double> out) const {
-    rotate_one(order_, turns_, in, out);
+    rotate_one(order_, matrix_, turns_, in, out);
 }
 
 void ShRotation::apply(std::span<glm::vec3> coefficients) const {
@@ -244,7 +316,7 @@ void ShRotation::apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) 
     Channels c[kMaxOrder * kMaxOrder];
     for (std::size_t i = 0; i < count; ++i)
         c[i] = Channels{in[i].r, in[i].g, in[i].b, 0};
-    rotate(order_, turns_, c);
+    rotate(order_, matrix_, turns_, c);
     for (std::size_t i = 0; i < count; ++i)
         out[i] = {static_cast<float>(c[i][0]), static_cast<float>(c[i][1]), static_cast<float>(c[i][2])};
 }

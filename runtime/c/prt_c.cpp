@@ -97,16 +97,22 @@ Light light_from(int order, const float* from) {
 }
 
 /// Those of C are the same numbers.
-prt::ShaderLanguage language_of(prt_language language) {
+prt::ShaderLanguage language_of(int language) {
     if (language < PRT_GLSL450 || language > PRT_VULKAN)
         throw Error("there is no such shader language");
     return static_cast<prt::ShaderLanguage>(language);
 }
 
-prt::ConstantSource source_of(prt_constants constants) {
+prt::ConstantSource source_of(int constants) {
     if (constants < PRT_CONSTANTS_IN_BUFFER || constants > PRT_CONSTANTS_IN_TEXTURE)
         throw Error("there is no such place for constants");
     return static_cast<prt::ConstantSource>(constants);
+}
+
+prt::LatLongCentre centre_of(int center) {
+    if (center != PRT_CENTER_Z && center != PRT_CENTER_X)
+        throw Error("a lat-long image is centred on +Z or +X");
+    return center == PRT_CENTER_X ? prt::LatLongCentre::x : prt::LatLongCentre::z;
 }
 
 static_assert(static_cast<int>(prt::ShaderLanguage::vulkan) == PRT_VULKAN &&
@@ -214,14 +220,15 @@ prt_status prt_light_hemisphere(int order, const float up[3], const float top[3]
     });
 }
 
-prt_status prt_light_from_lat_long(int order, int width, int height, const float* pixels, int threads,
-                                   float* light, prt_message* message) {
+prt_status prt_light_from_lat_long(int order, int width, int height, const float* pixels, int center,
+                                   int threads, float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(pixels, light);
         if (width < 1 || height < 1)
             throw Error("the environment has no pixels");
         const auto* first = reinterpret_cast<const glm::vec3*>(pixels);
         prt::Environment environment;
+        environment.centre = centre_of(center);
         environment.image = {
             width,
             height,
@@ -231,11 +238,13 @@ prt_status prt_light_from_lat_long(int order, int width, int height, const float
     });
 }
 
-prt_status prt_light_from_file(int order, const char* path, float* light, prt_message* message) {
+prt_status prt_light_from_file(int order, const char* path, int center, float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(path, light);
         prt::check_order(order);
-        as_file([&] { put(prt::project(prt::load_environment(path).environment, order), light); });
+        prt::EnvironmentOptions options;
+        options.centre = centre_of(center);
+        as_file([&] { put(prt::project(prt::load_environment(path, options).environment, order), light); });
     });
 }
 
@@ -278,8 +287,10 @@ void prt_model_destroy(prt_model* model) {
 }
 
 prt_model_info prt_model_get_info(const prt_model* model) {
-    const prt::ClusteredReceivers& receivers = model->transfer.receivers;
     prt_model_info info{};
+    if (!model)
+        return info;
+    const prt::ClusteredReceivers& receivers = model->transfer.receivers;
     info.order = model->former.order();
     info.channels = model->former.channels();
     info.receivers = receivers.size();
@@ -333,8 +344,8 @@ prt_status prt_model_evaluate(const prt_model* model, const float* constants, fl
     });
 }
 
-prt_status prt_model_shader(const prt_model* model, prt_language language, prt_constants constants,
-                            char* source, size_t* size, prt_message* message) {
+prt_status prt_model_shader(const prt_model* model, int language, int constants, char* source, size_t* size,
+                            prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, size);
         const std::string text =

@@ -83,27 +83,17 @@ Image read_hdr(std::span<const std::byte> file) {
     return image;
 }
 
-[[noreturn]] void wrong_shape(const Image& image, const std::string& what) {
-    throw Error("is " + std::to_string(image.width) + " x " + std::to_string(image.height) + " pixels, but " +
-                what);
-}
-
 EnvironmentLayout layout_of(const Image& image, std::optional<EnvironmentLayout> stated) {
-    const bool cube_shaped = image.height == 6 * image.width;
-    if ((stated == EnvironmentLayout::cube || stated == EnvironmentLayout::cube_faces) && !cube_shaped)
-        wrong_shape(image, "a cube map has six square faces in a column");
-    if (stated == EnvironmentLayout::angular && image.width != image.height)
-        wrong_shape(image, "an angular map is square");
     if (stated)
         return *stated;
     if (image.width == 2 * image.height)
         return EnvironmentLayout::lat_long;
-    if (cube_shaped)
+    if (image.height == 6 * image.width)
         return EnvironmentLayout::cube;
     throw Error(
         "is no environment map: it is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
         " pixels and has no envmap attribute (a lat-long map is twice as wide as high, a cube map six "
-        "square faces in a column; --env-layout says what it is)");
+        "square faces in a column; otherwise its layout has to be said)");
 }
 
 /// An image, and what it says about its layout.
@@ -155,6 +145,8 @@ EnvironmentFile load_environment(const std::filesystem::path& path, const Enviro
     }
     try {
         result.environment.layout = layout_of(result.environment.image, layout);
+        result.environment.centre = options.centre;
+        check_environment(result.environment);
         result.repaired_pixels = repair_pixels(result.environment.image, options.bad_pixels);
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());

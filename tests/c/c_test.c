@@ -81,18 +81,31 @@ static void test_lights(void) {
     EXPECT(strstr(message.text, "inside") != NULL);
     EXPECT(prt_light_directional(3, none, white, light, &message) == PRT_BAD_ARGUMENT);
     float pixels[6] = {1, 1, 1, 1, 1, 1};
-    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, 1, light, NULL) == PRT_OK);
+    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, PRT_CENTER_Z, 1, light, NULL) == PRT_OK);
     EXPECT(fabsf(light[0] - 3.5449077f) < 1e-5f);
+    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, 7, 1, light, &message) == PRT_BAD_ARGUMENT);
+    for (int i = 0; i < 3; ++i)
+        pixels[i] = 0; /* the left half */
+    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, PRT_CENTER_Z, 1, light, NULL) == PRT_OK);
+    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, PRT_CENTER_X, 1, other, NULL) == PRT_OK);
+    EXPECT(light[9] > 0.5f && fabsf(light[6]) < 1e-5f); /* from -X, which is a positive coefficient */
+    EXPECT(other[6] > 0.5f && fabsf(other[9]) < 1e-5f); /* from +Z */
+    const float angles[4] = {NAN, -1, 4, 90};
+    for (int i = 0; i < 4; ++i)
+        EXPECT(prt_light_cone(3, up, angles[i], white, light, &message) == PRT_BAD_ARGUMENT);
+    const float no_rotation[9] = {NAN, 0, 0, 0, 1, 0, 0, 0, 1};
+    EXPECT(prt_light_rotate(3, no_rotation, light, &message) == PRT_BAD_ARGUMENT);
     pixels[4] = NAN;
-    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, 1, light, &message) == PRT_BAD_ARGUMENT);
-    EXPECT(prt_light_from_lat_long(3, 0, 1, pixels, 1, light, &message) == PRT_BAD_ARGUMENT);
-    EXPECT(prt_light_from_file(3, "no such file.exr", light, &message) == PRT_BAD_FILE);
+    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, PRT_CENTER_Z, 1, light, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(strstr(message.text, "--") == NULL); /* options of a program that is not there */
+    EXPECT(prt_light_from_lat_long(3, 0, 1, pixels, PRT_CENTER_Z, 1, light, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_light_from_file(3, "no such file.exr", PRT_CENTER_Z, light, &message) == PRT_BAD_FILE);
     EXPECT(strstr(message.text, "no such file.exr") != NULL);
 }
 
 static void test_sky(const char* path) {
     float light[27];
-    EXPECT(prt_light_from_file(3, path, light, NULL) == PRT_OK);
+    EXPECT(prt_light_from_file(3, path, PRT_CENTER_Z, light, NULL) == PRT_OK);
     EXPECT(light[0] > 0 && light[2] > light[0]); /* day: blue above red */
 }
 
@@ -149,6 +162,9 @@ static void test_model(const char* path) {
     char* source = malloc(size);
     EXPECT(prt_model_shader(model, PRT_ESSL300, PRT_CONSTANTS_IN_TEXTURE, source, &size, &message) == PRT_OK);
     EXPECT(strncmp(source, "#version 300 es", 15) == 0 && strlen(source) + 1 == size);
+    EXPECT(prt_model_shader(model, 77, PRT_CONSTANTS_IN_BUFFER, source, &size, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_model_shader(model, PRT_GLSL450, -1, source, &size, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_model_get_info(NULL).receivers == 0);
     EXPECT(prt_model_shader(model, PRT_GLSL330, PRT_CONSTANTS_IN_BUFFER, source, &size, &message) ==
            PRT_BAD_ARGUMENT);
     free(source);

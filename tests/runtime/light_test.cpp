@@ -2,6 +2,7 @@
 
 #include "prt/error.h"
 #include "prt/sh.h"
+#include "prt/sh_conventions.h"
 #include "prt/sky.h"
 #include "support/quadrature.h"
 
@@ -154,6 +155,19 @@ TEST(Light, HemisphereGoesOverFromTopToBottom) {
     EXPECT_LT(glm::distance(radiance(light, side), 0.5f * (top + bottom)), 1e-5f);
 }
 
+/// Gauss-Legendre on [-1, 1], taken from that of the sphere in z.
+std::pair<std::vector<double>, std::vector<double>> line_quadrature(int n) {
+    std::vector<double> nodes, weights;
+    for (const auto& point : test::sphere_quadrature(n)) {
+        if (nodes.empty() || std::abs(point.direction.z - nodes.back()) > 1e-12) {
+            nodes.push_back(point.direction.z);
+            weights.push_back(0);
+        }
+        weights.back() += point.weight / (2 * pi);
+    }
+    return {nodes, weights};
+}
+
 /// ∫ over the disc of Y(w) cos / distance², in polar coordinates on the disc: another way than along its rim.
 std::vector<double> disc_by_area(int order, const glm::dvec3& centre, const glm::dvec3& normal,
                                  double radius) {
@@ -161,20 +175,12 @@ std::vector<double> disc_by_area(int order, const glm::dvec3& centre, const glm:
                      v = glm::cross(normal, u);
     std::vector<double> sum(static_cast<std::size_t>(coefficient_count(order)), 0), y(sum.size());
     constexpr int kAngles = 400;
-    std::vector<double> nodes, weights; // Gauss-Legendre in the radius, taken from that of the sphere in z
-    for (const auto& point : test::sphere_quadrature(60))
-        if (nodes.empty() || std::abs(point.direction.z - nodes.back()) > 1e-12) {
-            nodes.push_back(point.direction.z);
-            weights.push_back(point.weight);
-        } else {
-            weights.back() += point.weight;
-        }
+    const auto [nodes, weights] = line_quadrature(60);
     for (std::size_t n = 0; n < nodes.size(); ++n)
         for (int a = 0; a < kAngles; ++a) {
             const double r = 0.5 * radius * (1 + nodes[n]), t = 2 * std::numbers::pi * a / kAngles;
             const glm::dvec3 p = centre + r * (std::cos(t) * u + std::sin(t) * v), w = glm::normalize(p);
-            const double area =
-                weights[n] / (2 * std::numbers::pi) * 0.5 * radius * r * 2 * std::numbers::pi / kAngles;
+            const double area = weights[n] * 0.5 * radius * r * 2 * std::numbers::pi / kAngles;
             const double solid_angle = area * -glm::dot(normal, w) / glm::dot(p, p);
             evaluate_sh(order, w, std::span<double>(y));
             for (std::size_t i = 0; i < sum.size(); ++i)
@@ -209,6 +215,115 @@ TEST(Light, DiscIsDarkFromBehindAndRefusesNonsense) {
         EXPECT_EQ(c, glm::vec3(0));
     EXPECT_THROW(disc_light(4, {0, 0, 2}, {0, 0, -1}, 0, {1, 1, 1}), Error);
     EXPECT_THROW(disc_light(4, {0, 0, 2}, {0, 0, 0}, 1, {1, 1, 1}), Error);
+}
+
+/// Another way, that minds neither the rim nor the plane of the disc: rings about the disc's normal, of each
+/// the arc that the disc covers.
+std::vector<double> disc_by_rings(int order, const glm::dvec3& centre, const glm::dvec3& normal,
+                                  double radius) {
+    const double height = -glm::dot(normal, centre);
+    const glm::dvec3 lateral = centre + height * normal;
+    const double offset = glm::length(lateral);
+    const glm::dvec3 u = offset > 0 ? lateral / offset : glm::dvec3(0, 0, 1), v = glm::cross(u, normal);
+    std::vector<double> sum(static_cast<std::size_t>(coefficient_count(order)), 0), y(sum.size());
+    const auto [nodes, weights] = line_quadrature(60);
+    // Both ends of an interval may have the slope of a root: s -> sin²(pi s / 2) takes it away.
+    const auto between = [&, &nodes = nodes, &weights = weights](double from, double to, std::size_t i) {
+        const double s = 0.5 * (1 + nodes[i]);
+        return std::pair(from + (to - from) * std::pow(std::sin(0.5 * pi * s), 2),
+                         (to - from) * 0.5 * pi * std::sin(pi * s) * 0.5 * weights[i]);
+    };
+    const auto rings = [&, &nodes = nodes](double from, double to) {
+        for (std::size_t r = 0; r < nodes.size(); ++r) {
+            const auto [theta, ring] = between(from, to, r);
+            const double distance = height * std::tan(theta);
+            // Half the arc from the three sides of the triangle, without cancellation.
+            const double a = radius - (distance - offset), b = radius + (distance - offset);
+            const double half =
+                distance + offset <= radius
+                    ? pi
+                    : 2 * std::asin(std::sqrt(std::clamp(a * b / (4 * distance * offset), 0.0, 1.0)));
+            for (std::size_t k = 0; k < nodes.size(); ++k) {
+                const auto [phi, arc] = between(-half, half, k);
+                const glm::dvec3 w =
+                    std::sin(theta) * (std::cos(phi) * u + std::sin(phi) * v) - std::cos(theta) * normal;
+                evaluate_sh(order, w, std::span<double>(y));
+                for (std::size_t i = 0; i < sum.size(); ++i)
+                    sum[i] += ring * arc * std::sin(theta) * y[i];
+            }
+        }
+    };
+    const double nearest = std::atan2(std::abs(offset - radius), height),
+                 farthest = std::atan2(offset + radius, height);
+    if (offset < radius)
+        rings(0, nearest);
+    rings(nearest, farthest);
+    return sum;
+}
+
+struct HardDisc {
+    glm::vec3 centre, normal;
+    double radius;
+};
+
+TEST(Light, DiscsNextToTheRimGrazingAndFarAgreeWithRings) {
+    const double tilt = 89.9 * pi / 180;
+    for (const HardDisc& d :
+         {HardDisc{{0.99f, 1e-6f, 0}, {0, -1, 0}, 1}, HardDisc{{1.01f, 1e-6f, 0}, {0, -1, 0}, 1},
+          HardDisc{{3, 1e-3f, 0}, {0, -1, 0}, 1}, HardDisc{{0, 0, 10000}, {0, 0, -1}, 1},
+          HardDisc{{0.3f, 1e-4f, 0.4f}, {0, -1, 0}, 1},
+          HardDisc{{0, 0, 30}, glm::vec3(std::sin(tilt), 0, -std::cos(tilt)), 1},
+          HardDisc{{2, 0.3f, 1}, {0, -1, 0}, 2},
+          HardDisc{{1, 2, -1}, glm::normalize(glm::vec3(0.2f, -1, 0.4f)), 1.2}}) {
+        const glm::dvec3 n = glm::normalize(glm::dvec3(d.normal));
+        const Light light = disc_light(10, d.centre, d.normal, d.radius, {1, 1, 1});
+        const auto expected = disc_by_rings(10, glm::dvec3(d.centre), n, d.radius);
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            EXPECT_NEAR(static_cast<double>(light.coefficients[i].r), expected[i],
+                        1e-5 * std::abs(expected[0]))
+                << d.centre.x << " " << d.centre.y << " " << d.centre.z << ": " << i;
+    }
+}
+
+/// On the rim, just above the plane, one sees half of the half sphere.
+TEST(Light, OnTheRimADiscCoversAQuarterOfTheSphere) {
+    for (const float height : {1e-20f, 1e-12f, 1e-7f}) {
+        const Light light = disc_light(3, {1, height, 0}, {0, -1, 0}, 1, {1, 1, 1});
+        EXPECT_NEAR(static_cast<double>(light.coefficients[0].r), pi * 0.28209479,
+                    2e-3 * std::sqrt(height / 1e-7f) + 1e-6);
+    }
+}
+
+/// A cone that holds irradiance 1, however narrow, is a directional light.
+TEST(Light, NarrowConesDoNotCancel) {
+    const glm::vec3 axis = glm::normalize(glm::vec3(1, 2, 3));
+    const Light sun = directional_light(10, axis, glm::vec3(1));
+    for (const double half_angle : {1e-5, 1e-6, 1e-8, 1e-12}) {
+        const double radiance = 1 / (pi * std::pow(std::sin(half_angle), 2));
+        EXPECT_LT(largest_difference(
+                      cone_light(10, axis, half_angle, glm::vec3(static_cast<float>(radiance))), sun),
+                  1e-6);
+    }
+}
+
+TEST(Light, ConesOfNoAngleAreRefused) {
+    for (const double half_angle : {-1.0, 4.0, 90.0, std::numeric_limits<double>::quiet_NaN()})
+        EXPECT_THROW(cone_light(3, {0, 1, 0}, half_angle, {1, 1, 1}), Error) << half_angle;
+    EXPECT_NO_THROW(cone_light(3, {0, 1, 0}, static_cast<double>(static_cast<float>(pi)), {1, 1, 1}));
+}
+
+/// The figures are those of D3DX's native tables and of DirectXMath.
+TEST(ShConventions, LightsOfD3dxHaveItsNumbers) {
+    for (const int order : {2, 3, 6})
+        EXPECT_NEAR(d3dx_cone_light(order, {0, 0, 1}, 0.5, {1.7f, 0, 0}).coefficients[0].r, 1.604815f, 2e-6f);
+    EXPECT_NEAR(d3dx_hemisphere_light(3, {0, 1, 0}, glm::vec3(0.1f), glm::vec3(8.71f)).coefficients[0].r,
+                23.422981f, 1e-5f);
+    const glm::vec3 n = glm::normalize(glm::vec3(1, 2, 3));
+    EXPECT_LT(
+        largest_difference(d3dx_directional_light(3, n, {1, 2, 0}),
+                           directional_light(3, n, glm::vec3(1, 2, 0) * static_cast<float>(pi * 16 / 17))),
+        1e-6); // 1/4 + 1/2 + 5/16 of three bands
+    EXPECT_THROW(d3dx_cone_light(3, n, 0, {1, 1, 1}), Error);
 }
 
 TEST(Light, ScaledLightGivesTheExitRadianceThatWasAskedFor) {

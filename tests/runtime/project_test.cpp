@@ -133,6 +133,40 @@ TEST(Project, DoesNotDependOnTheNumberOfThreads) {
     EXPECT_EQ(project(image, 6, 1).coefficients, project(image, 6, 7).coefficients);
 }
 
+TEST(Project, AnEnvironmentOfTheWrongShapeIsAnError) {
+    const auto of = [](int width, int height, std::size_t pixels, EnvironmentLayout layout) {
+        return Environment{{width, height, std::vector<glm::vec3>(pixels, glm::vec3(1))}, layout};
+    };
+    for (const Environment& environment :
+         {of(4, 100, 400, EnvironmentLayout::cube_faces), of(10, 3, 30, EnvironmentLayout::cube),
+          of(4, 2, 4, EnvironmentLayout::lat_long), of(4, 6, 24, EnvironmentLayout::angular)}) {
+        EXPECT_THROW(project(environment, 3), Error);
+        EXPECT_THROW(resampled_lat_long(environment), Error);
+    }
+    EXPECT_NO_THROW(project(of(4, 24, 96, EnvironmentLayout::cube), 3));
+}
+
+/// A hot texel in the middle of the image, seen by three ways of reading it.
+TEST(Project, TheCentreOfALatLongImageLooksWhereItIsToldTo) {
+    for (const int width : {16, 18}) { // with and without a quarter in whole pixels
+        Environment environment = lat_long(width, 9, [](const auto&) { return glm::dvec3(0); });
+        environment.image.at(width / 2, 4) = environment.image.at(width / 2 - 1, 4) = glm::vec3(1);
+        environment.image.at(width / 4, 4) = glm::vec3(0.2f, 0, 0); // left of the centre
+        const Light z = project(environment, 4);
+        environment.centre = LatLongCentre::x;
+        const Light x = project(environment, 4);
+        EXPECT_GT(radiance(z, {0, 0, 1}).g, 5 * std::abs(radiance(z, {1, 0, 0}).g));
+        EXPECT_GT(radiance(x, {1, 0, 0}).g, 5 * std::abs(radiance(x, {0, 0, 1}).g));
+        EXPECT_LT(largest_difference(x, rotated_about_y(z, std::numbers::pi / 2)), 1e-6);
+        EXPECT_GT(sample(environment, {1, 0, 0}).g, 0.9f);
+        EXPECT_GT(sample(environment, {0, 0, -1}).r, 0.01f);
+        EXPECT_LT(
+            largest_difference(project({resampled_lat_long(environment), EnvironmentLayout::lat_long}, 2),
+                               truncated(x, 2)),
+            width == 16 ? 1e-6 : 0.1);
+    }
+}
+
 TEST(Project, AnEmptyImageIsAnError) {
     EXPECT_THROW(project({}, 6), Error);
     EXPECT_THROW(project(lat_long(2, 1, [](const auto&) { return glm::dvec3(1); }), 11), Error);

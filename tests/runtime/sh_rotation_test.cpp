@@ -129,6 +129,13 @@ TEST(ShRotation, WhatIsNoRotationIsRefused) {
     EXPECT_THROW(ShRotation(3, 2.0 * r), Error);
     EXPECT_THROW(ShRotation(3, glm::dmat3(0)), Error);
     EXPECT_THROW(ShRotation(3, std::numeric_limits<double>::quiet_NaN() * r), Error);
+    for (int i = 0; i < 9; ++i) { // one is as bad as nine
+        glm::dmat3 one = r;
+        one[i / 3][i % 3] = std::numeric_limits<double>::quiet_NaN();
+        EXPECT_THROW(ShRotation(3, one), Error) << i;
+    }
+    EXPECT_NO_THROW(ShRotation(3, (1 + 0.4 * kRotationTolerance) * r));
+    EXPECT_THROW(ShRotation(3, (1 + 0.6 * kRotationTolerance) * r), Error);
     EXPECT_THROW(ShRotation(3, glm::dquat(2, 0, 0, 0)), Error);
     EXPECT_THROW(ShRotation(0, r), Error);
     EXPECT_THROW(ShRotation(11, r), Error);

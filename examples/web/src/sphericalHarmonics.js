@@ -135,6 +135,13 @@ export class ShLight {
     return result;
   }
 
+  /** The same light with the least filter under which its radiance is nowhere negative: `deringFactors`. */
+  deringed() {
+    const factors = deringFactors(this.order, this.polar);
+    const band = (i) => Math.floor(Math.sqrt(Math.floor(i / 3) + 0.5));
+    return new ShLight(this.order, Float64Array.from(this.polar, (v, i) => v * factors[band(i)]));
+  }
+
   /** Luminance (Rec. 709) of the mean radiance over all directions. */
   meanLuminance() {
     const y00 = 0.5 / Math.sqrt(Math.PI);
@@ -212,4 +219,189 @@ export function projectLatLong(image, order) {
     }
   }
   return new ShLight(order, polar);
+}
+
+/**
+ * Radiance on a grid of `rows` rings of 2 `rows` directions, as shares of the channels' means: the least, the largest,
+ * and of every patch of the grid the lowest direction where it is negative.
+ */
+function radianceOnGrid(order, shares, rows) {
+  const columns = 2 * rows;
+  const turns = new Float64Array(2 * order * columns); // cos(m phi), sin(m phi)
+  for (let m = 0; m < order; ++m)
+    for (let x = 0; x < columns; ++x) {
+      const phi = (Math.PI * (x + 0.5)) / rows;
+      turns[2 * m * columns + x] = Math.cos(m * phi);
+      turns[(2 * m + 1) * columns + x] = Math.sin(m * phi);
+    }
+  const basis = new Float64Array(order * order);
+  const values = new Float64Array(columns);
+  const lowest = new Float64Array(columns);
+  const patch = 16;
+  const patches = new Array(Math.ceil(columns / patch));
+  const result = { least: Infinity, largest: -Infinity, points: [] };
+  for (let y = 0; y < rows; ++y) {
+    const theta = (Math.PI * (y + 0.5)) / rows;
+    const sine = Math.sin(theta);
+    evaluateSh(order, sine, 0, Math.cos(theta), basis); // at azimuth 0: the Legendre part
+    lowest.fill(Infinity);
+    for (let channel = 0; channel < 3; ++channel) {
+      values.fill(0);
+      for (let m = 0; m < order; ++m) {
+        let cosine = 0;
+        let sines = 0;
+        for (let l = m; l < order; ++l) {
+          cosine += basis[index(l, m)] * shares[3 * index(l, m) + channel];
+          if (m > 0) sines += basis[index(l, m)] * shares[3 * index(l, -m) + channel];
+        }
+        for (let x = 0, at = 2 * m * columns; x < columns; ++x)
+          values[x] += cosine * turns[at + x] + sines * turns[at + columns + x];
+      }
+      for (let x = 0; x < columns; ++x) {
+        if (values[x] < lowest[x]) lowest[x] = values[x];
+        if (values[x] > result.largest) result.largest = values[x];
+      }
+    }
+    for (let x = 0; x < columns; ++x) {
+      if (lowest[x] < result.least) result.least = lowest[x];
+      const best = patches[(x / patch) | 0];
+      if (lowest[x] < (best ? best.value : 0)) {
+        const phi = (Math.PI * (x + 0.5)) / rows;
+        const direction = [sine * Math.cos(phi), sine * Math.sin(phi), Math.cos(theta)];
+        patches[(x / patch) | 0] = { value: lowest[x], direction };
+      }
+    }
+    if ((y + 1) % patch === 0 || y + 1 === rows) {
+      for (const point of patches) if (point) result.points.push(point);
+      patches.fill(undefined);
+    }
+  }
+  return result;
+}
+
+/** Solves the symmetric system `matrix` x = `right` by Cholesky's method; rows that depend on others count for little. */
+function solveSymmetric(matrix, right) {
+  const n = right.length;
+  const l = matrix.map((row) => Float64Array.from(row));
+  const x = Float64Array.from(right);
+  for (let i = 0; i < n; ++i)
+    for (let j = 0; j <= i; ++j) {
+      let sum = matrix[i][j] * (i === j ? 1 + 1e-10 : 1);
+      for (let k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
+      l[i][j] = i === j ? Math.sqrt(Math.max(sum, 1e-12 * matrix[i][i])) : sum / l[j][j];
+    }
+  for (let i = 0; i < n; ++i) {
+    for (let k = 0; k < i; ++k) x[i] -= l[i][k] * x[k];
+    x[i] /= l[i][i];
+  }
+  for (let i = n - 1; i >= 0; --i) {
+    for (let k = i + 1; k < n; ++k) x[i] -= l[k][i] * x[k];
+    x[i] /= l[i][i];
+  }
+  return x;
+}
+
+/**
+ * The factors h that minimise sum weights[l] (1 - h[l])², l > 0, with row[0] + sum h[l] row[l] >= 0 for all `rows`: the
+ * active-set method of Lawson and Hanson on the dual.
+ */
+function leastChange(order, weights, rows, tolerance) {
+  const bands = Array.from({ length: order - 1 }, (_, l) => l + 1);
+  const value = (row, h) => bands.reduce((sum, l) => sum + h[l] * row[l], row[0]);
+  const ones = new Float64Array(order).fill(1);
+  let active = [];
+  let multipliers = [];
+  let h = ones;
+  for (let step = 0; step < 500; ++step) {
+    let worst = rows[0];
+    for (const row of rows) if (value(row, h) < value(worst, h)) worst = row;
+    if (value(worst, h) >= -tolerance || active.includes(worst)) break;
+    active.push(worst);
+    multipliers.push(0);
+    while (active.length > 0) {
+      const matrix = active.map((a) => active.map((b) => bands.reduce((sum, l) => sum + (a[l] * b[l]) / weights[l], 0)));
+      const goal = solveSymmetric(matrix, active.map((row) => -value(row, ones)));
+      let share = 1;
+      let leaving = -1;
+      goal.forEach((g, k) => {
+        if (g > 0) return;
+        const reach = multipliers[k] / (multipliers[k] - g);
+        if (!(reach >= share)) [share, leaving] = [reach, k];
+      });
+      multipliers = multipliers.map((m, k) => m + share * (goal[k] - m));
+      if (leaving < 0) break;
+      active = active.filter((_, k) => k !== leaving);
+      multipliers = multipliers.filter((_, k) => k !== leaving);
+    }
+    h = Float64Array.from(ones);
+    active.forEach((row, k) => bands.forEach((l) => (h[l] += (multipliers[k] * row[l]) / weights[l])));
+  }
+  return h.map((factor) => Math.min(Math.max(factor, 0), 1));
+}
+
+/**
+ * The factors of the bands [order] under which a light is nowhere negative in any channel, and which change what receivers
+ * show the least: docs/math.md, eq. 37 to 40. `coefficients`: [order²][3], about any axis. 1 where nothing is negative.
+ * Turning the light does not change them.
+ */
+export function deringFactors(order, coefficients) {
+  const slack = 0.01; // of the mean; less is taken out by less contrast
+  const between = (rows) => {
+    const drop = (((order - 1) * Math.PI) / rows) ** 2 / 8;
+    return drop / (1 - 2 * drop) + 1e-9;
+  };
+  const rowsFor = (share) => {
+    const rows = ((order - 1) * Math.PI) / Math.sqrt((8 * share) / (1 + 2 * share));
+    return Math.max(16, 16 * Math.ceil(rows / 16));
+  };
+  const mean = [0, 1, 2].map((channel) => coefficients[channel] * 0.5 / Math.sqrt(Math.PI));
+  const shares = Float64Array.from(coefficients, (v, i) => (mean[i % 3] > 0 ? v / mean[i % 3] : 0));
+  shares.fill(Math.sqrt(4 * Math.PI), 0, 3); // a channel without a mean counts as 1 everywhere
+  const weights = new Float64Array(order);
+  for (let i = 3; i < coefficients.length; ++i) {
+    const l = Math.floor(Math.sqrt(Math.floor(i / 3) + 0.5));
+    weights[l] += coefficients[i] ** 2 / l ** 2;
+  }
+  const total = weights.reduce((sum, w) => sum + w, 0);
+  for (let l = 1; l < order; ++l) weights[l] = Math.max(weights[l], 1e-12 * total);
+
+  const constraints = [];
+  for (let l = 1; l < order; ++l) {
+    const band = new Float64Array(order);
+    band[l] = 1;
+    constraints.push(band, Float64Array.from(band, (v, i) => (i === 0 ? 1 : -v))); // 0 <= h <= 1
+  }
+  const addDirections = (points) => {
+    for (const { direction } of points) {
+      const basis = evaluateSh(order, ...direction);
+      for (let channel = 0; channel < 3; ++channel) {
+        if (!(mean[channel] > 0)) continue;
+        const row = new Float64Array(order);
+        row[0] = 1;
+        for (let l = 1; l < order; ++l)
+          for (let i = l * l; i < (l + 1) ** 2; ++i) row[l] += basis[i] * shares[3 * i + channel];
+        if (row.reduce((sum, v, l) => sum + (l > 0 ? Math.min(v, 0) : v), 0) < 0) constraints.push(row);
+      }
+    }
+  };
+
+  let factors = new Float64Array(order).fill(1);
+  let rows = rowsFor(0.05);
+  let lower = 0;
+  for (let round = 0; round < 10; ++round) {
+    const filtered = shares.map((v, i) => v * factors[Math.floor(Math.sqrt(Math.floor(i / 3) + 0.5))]);
+    const grid = radianceOnGrid(order, filtered, rows);
+    const range = grid.largest - grid.least;
+    lower = grid.least - between(rows) * range;
+    if (lower >= 0) break;
+    if (grid.least < -slack) {
+      addDirections(grid.points);
+      factors = leastChange(order, weights, constraints, 0.1 * slack);
+      continue;
+    }
+    const enough = rowsFor(Math.max(grid.least, slack) / range);
+    if (enough <= rows) break;
+    rows = enough;
+  }
+  return factors.map((factor, l) => (l === 0 ? 1 : factor / (1 - Math.min(lower, 0))));
 }

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { evaluateSh, gaussLegendre, projectLatLong, ShLight } from "../src/sphericalHarmonics.js";
+import { deringFactors, evaluateSh, gaussLegendre, projectLatLong, ShLight } from "../src/sphericalHarmonics.js";
 
 const near = (actual, expected, tolerance, what = "") =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what} ${actual} is not within ${tolerance} of ${expected}`);
@@ -112,4 +112,37 @@ test("coefficients do not change the light", () => {
   const before = [...light.polar];
   light.coefficients(1);
   assert.deepEqual([...light.polar], before);
+});
+
+/** A directional sun of `order` bands over a sky of constant radiance. */
+function sunAndSky(order, towards, sky) {
+  const basis = evaluateSh(order, ...towards);
+  const coefficients = new Float64Array(3 * order * order);
+  basis.forEach((y, i) => coefficients.set([3 * y, 2.5 * y, 2 * y], 3 * i));
+  for (let c = 0; c < 3; ++c) coefficients[c] += sky[c] * Math.sqrt(4 * Math.PI);
+  return coefficients;
+}
+
+test("a deringed sun is nowhere negative and keeps its energy and most of its contrast", () => {
+  for (const order of [2, 3, 6, 10]) {
+    const raw = sunAndSky(order, [0.48, 0.6, -0.64], [0.1, 0.1, 0.2]);
+    const factors = deringFactors(order, raw);
+    assert.equal(factors[0], 1);
+    const light = raw.map((v, i) => v * factors[Math.floor(Math.sqrt(Math.floor(i / 3) + 0.5))]);
+    let least = Infinity;
+    const count = 20000; // a Fibonacci lattice, which has nothing to do with the filter's grid
+    for (let k = 0; k < count; ++k) {
+      const z = 1 - (2 * k + 1) / count;
+      const phi = 2 * Math.PI * 0.6180339887498949 * k;
+      const basis = evaluateSh(order, Math.sqrt(1 - z * z) * Math.cos(phi), Math.sqrt(1 - z * z) * Math.sin(phi), z);
+      for (let c = 0; c < 3; ++c) least = Math.min(least, basis.reduce((sum, y, i) => sum + y * light[3 * i + c], 0));
+    }
+    assert.ok(least >= 0, `order ${order}: ${least}`);
+    if (order === 6) for (const [l, kept] of [0.9, 0.7, 0.45, 0.25, 0.1].entries()) assert.ok(factors[l + 1] > kept);
+  }
+});
+
+test("light that is nowhere negative stays as it is", () => {
+  const light = projectLatLong(imageOf(32, 16, (d) => [2 + d[0], 2, 2 + d[1]]), 5);
+  assert.deepEqual(light.deringed().coefficients(0.4), light.coefficients(0.4));
 });

@@ -8,6 +8,7 @@
 //     R = constants[first_k] + sum_j w_j constants[first_k + 1 + j]   // docs/math.md, eq. 14
 
 #include "prt/clustered_bases.h"
+#include "prt/glm_layout.h"
 #include "prt/light.h"
 #include "prt/transfer.h"
 

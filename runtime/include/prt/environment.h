@@ -2,6 +2,7 @@
 
 // Environment maps in memory and their projection into SH. Layouts: docs/math.md, section 3.
 
+#include "prt/glm_layout.h"
 #include "prt/light.h"
 
 #include <glm/vec2.hpp>
@@ -24,7 +25,7 @@ struct Image {
 };
 
 enum class EnvironmentLayout {
-    lat_long, ///< any size; top row +Y, centre column +Z, +X a quarter of the width left of the centre
+    lat_long, ///< any size; top row +Y; centre column and what is left of it: `LatLongCentre`
     cube,     ///< OpenEXR's: faces +X -X +Y -Y +Z -Z in a column, border texels centred on the cube's edges
     /// OpenGL's, Vulkan's and Direct3D's: the same order in a column, each face turned and mirrored as they
     /// do, texels cells of equal size.
@@ -35,10 +36,20 @@ enum class EnvironmentLayout {
     angular,
 };
 
+/// What the centre column of a lat-long image looks at.
+enum class LatLongCentre {
+    z, ///< +Z, and +X is a quarter of the width left of it: OpenEXR
+    x, ///< +X, and -Z is a quarter of the width left of it: three.js, glTF viewers and Blender show them so
+};
+
 struct Environment {
     Image image;
     EnvironmentLayout layout = EnvironmentLayout::lat_long;
+    LatLongCentre centre = LatLongCentre::z; ///< other layouts do not care
 };
+
+/// Throws `Error` unless the image has pixels, as many as its size says, and the shape of its layout.
+void check_environment(const Environment& environment);
 
 /// What to do with pixels that cannot be radiance.
 enum class BadPixels {
@@ -51,7 +62,7 @@ enum class BadPixels {
 /// Throws `Error` under `BadPixels::error` when there are any.
 std::size_t repair_pixels(Image& image, BadPixels policy);
 
-/// Unit direction at the pixel position (x, y), where pixel i covers [i, i + 1].
+/// Unit direction at the pixel position (x, y), where pixel i covers [i, i + 1]; the centre looks at +Z.
 glm::dvec3 lat_long_direction(int width, int height, double x, double y);
 
 /// Pixel position, as in `lat_long_direction`, of a unit direction; x in [0, width], y in [0, height].
@@ -71,12 +82,14 @@ glm::dvec3 angular_direction(double u, double v);
 glm::vec3 sample(const Environment& environment, const glm::vec3& direction);
 glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction);
 
-/// The environment as a lat-long image: a lat-long as it is, others by `sample` at about their resolution.
+/// The environment as a lat-long image whose centre looks at +Z: such a one as it is, others by `sample` at
+/// about their resolution. Throws as `check_environment`.
 Image resampled_lat_long(const Environment& environment);
 
 /// Projects the environment, piecewise constant over its texels, into SH: the basis is integrated over each
 /// texel, not only taken at its centre, so that an image of one pixel is exactly a constant light. Sums are
-/// in double, row by row in a fixed order: the result does not depend on `threads` (0: all).
+/// in double, row by row in a fixed order: the result does not depend on `threads` (0: all). Throws as
+/// `check_environment`.
 Light project(const Environment& environment, int order, int threads = 0);
 
 } // namespace prt

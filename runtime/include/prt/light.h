@@ -2,6 +2,8 @@
 
 // Lighting as SH coefficients: L_c[i] = ∫ L_c(w) Y_i(w) dw, colours linear Rec. 709.
 
+#include "prt/glm_layout.h"
+
 #include <glm/vec3.hpp>
 
 #include <vector>
@@ -23,11 +25,12 @@ Light constant_light(int order, const glm::vec3& radiance);
 Light directional_light(int order, const glm::vec3& towards, const glm::vec3& irradiance);
 
 /// Radiance `radiance` inside the cone of half angle `half_angle` (radians, at most pi) about unit `axis`,
-/// zero outside. Closed form: docs/math.md, eq. 9.
+/// zero outside, exact for cones as narrow as can be: docs/math.md, eq. 9. Throws `Error` for another half
+/// angle.
 Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& radiance);
 
 /// Radiance that goes over from `bottom` to `top` with the cosine to the unit direction `up`: their mean on
-/// the horizon (D3DXSHEvalHemisphereLight).
+/// the horizon. D3DXSHEvalHemisphereLight is 3/2 of it: `d3dx_hemisphere_light` of prt/sh_conventions.h.
 Light hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom);
 
 /// A sphere of radiance `radiance` about `centre`, seen from the origin: the cone that it fills, of half
@@ -35,9 +38,9 @@ Light hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, con
 Light sphere_light(int order, const glm::vec3& centre, double radius, const glm::vec3& radiance);
 
 /// A disc about `centre` that shines to the side of its unit normal `normal`, seen from the origin; nothing
-/// from behind or edge on. By Green's theorem an integral along its rim, whose error falls exponentially with
-/// the number of nodes: to rounding, in any order (docs/math.md, eq. 34). Throws `Error` for a radius that is
-/// not positive.
+/// from behind or edge on. Exact to rounding wherever the origin is, next to the rim and in the disc's plane,
+/// too, at some 0.1 to 1 ms (docs/math.md, eq. 34). Throws `Error` for a radius that is not positive and for
+/// what is not finite.
 Light disc_light(int order, const glm::vec3& centre, const glm::vec3& normal, double radius,
                  const glm::vec3& radiance);
 
@@ -45,8 +48,8 @@ Light disc_light(int order, const glm::vec3& centre, const glm::vec3& normal, do
 Light overcast_sky(int order, const glm::vec3& zenith);
 
 /// `light` scaled so that an open receiver of albedo 1 with unit normal `normal` has exit radiance
-/// `exit_radiance`: D3DX scales directional lights and cones so, for the receiver that faces them. Throws
-/// `Error` where `light` leaves a channel of that receiver black.
+/// `exit_radiance`: D3DX scales directional lights so, for the receiver that faces them. Throws `Error` where
+/// `light` leaves a channel of that receiver black.
 Light scaled_to_exit_radiance(const Light& light, const glm::vec3& normal, const glm::vec3& exit_radiance);
 
 /// a + b, of one order. Throws `Error` for two.
@@ -64,9 +67,8 @@ Light truncated(const Light& light, int order);
 /// after a quarter turn.
 Light rotated_about_y(const Light& light, double angle);
 
-/// Scales the bands by a window. Hann and Lanczos use width `order`; `automatic` is the least diffusion over
-/// the sphere, exp(-t l (l+1)), under which the radiance is nowhere negative, which may be none (the aim of
-/// Sloan 2017, "Deringing Spherical Harmonics").
+/// Scales the bands by a window. Hann and Lanczos use width `order`; `automatic` is the least filter under
+/// which the radiance is nowhere negative, which may be none: `deringed` of prt/dering.h.
 Light windowed(const Light& light, Window window);
 
 } // namespace prt

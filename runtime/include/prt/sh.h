@@ -4,6 +4,7 @@
 // rotation. Conventions: docs/math.md, section 1. Everything here is thread-safe and allocates nothing unless
 // it returns a container.
 
+#include "prt/glm_layout.h"
 #include "prt/sh_basis.h"
 
 #include <glm/vec3.hpp>

@@ -26,4 +26,14 @@ std::array<glm::vec3, 9> to_gltf_irradiance(const Light& light);
 /// Three bands of radiance; what the convolution has left of them is divided by it again.
 Light from_gltf_irradiance(const std::array<glm::vec3, 9>& coefficients);
 
+/// D3DX's lights, to its numbers (docs/conventions.md). `D3DXSHEvalDirectionalLight`: a receiver of albedo 1
+/// that faces it has exit radiance `intensity`, of the bands that there are.
+Light d3dx_directional_light(int order, const glm::vec3& towards, const glm::vec3& intensity);
+/// `D3DXSHEvalConeLight`: radiance intensity / sin²(min(half_angle, pi/2)), with which a receiver of albedo 1
+/// that faces it would have exit radiance `intensity` if all bands were there. Throws as `cone_light` does,
+/// and for a half angle of 0.
+Light d3dx_cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& intensity);
+/// `D3DXSHEvalHemisphereLight`: 3/2 of the radiance of `hemisphere_light`.
+Light d3dx_hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom);
+
 } // namespace prt

@@ -2,6 +2,7 @@
 
 // Rotation of spherical harmonics.
 
+#include "prt/glm_layout.h"
 #include "prt/sh_basis.h"
 
 #include <glm/ext/matrix_double3x3.hpp>
@@ -13,17 +14,23 @@
 
 namespace prt {
 
-/// Rotates SH vectors: for a function f with coefficients c, the result holds f'(w) = f(R^-1 w). R is taken
-/// apart into R_z R_y R_z, and R_y into quarter turns about x and another R_z (docs/math.md, eq. 32): turns
-/// about z are products with cosines and sines, the quarter turns are constant and three quarters of them
-/// zero. All arithmetic is in double, so that ten thousand steps lose nothing to speak of. Small, allocates
-/// nothing, thread-safe; serves every order up to the one it was made for.
+/// What an element of R^T R, or the squared length of a quaternion, may be off: what thousands of products of
+/// float matrices leave.
+inline constexpr double kRotationTolerance = 2e-3;
+
+/// Rotates SH vectors: for a function f with coefficients c, the result holds f'(w) = f(R^-1 w). Bands 1 and
+/// 2 are a vector and a quadratic form, which R turns as it is. For the others R is taken apart into R_z R_y
+/// R_z, and R_y into quarter turns about x and another R_z (docs/math.md, eq. 32): turns about z are products
+/// with cosines and sines, the quarter turns are constant and three quarters of them zero. All arithmetic is
+/// in double, so that ten thousand steps lose nothing to speak of. Small, allocates nothing, thread-safe;
+/// serves every order up to the one it was made for.
 class ShRotation {
 public:
-    /// Throws `Error` for an order outside 1..kMaxOrder and for matrices that are not rotations within 1e-4
-    /// per element of R^T R: scaled, sheared or mirrored ones. What is left of such an error is taken out.
+    /// Throws `Error` for an order outside 1..kMaxOrder and for matrices that are not rotations within
+    /// `kRotationTolerance`: scaled, sheared, mirrored ones, and NaN. What is left of such an error is taken
+    /// out.
     ShRotation(int order, const glm::dmat3& rotation);
-    /// Throws `Error` unless the length of `rotation` is 1 within 1e-4.
+    /// Throws `Error` unless the squared length of `rotation` is 1 within `kRotationTolerance`.
     ShRotation(int order, const glm::dquat& rotation);
     /// Turns by `angle` radians, counter-clockwise seen from the tip of the axis.
     static ShRotation about_x(int order, double angle);
@@ -42,6 +49,7 @@ public:
     /// cos(m a) and sin(m a) of a turn about z.
     struct Turn {
         std::array<double, kMaxOrder> cosine, sine; ///< [m < order]
+        Turn() {}
         Turn(int order, double cosine_of_angle, double sine_of_angle);
     };
     /// z first, then tilt about y, then z again.
@@ -51,9 +59,9 @@ public:
     };
 
 private:
-    ShRotation(int order, const Turns& turns) : order_(order), turns_(turns) {}
     int order_;
-    Turns turns_;
+    glm::dmat3 matrix_; ///< bands 1 and 2 come from its elements
+    Turns turns_;       ///< the others
 };
 
 } // namespace prt

@@ -1,8 +1,10 @@
 #pragma once
 
 // Functions on the sphere as vectors of SH coefficients [order²]: sums, dot products, convolution, products.
-// For float and double. Everything is thread-safe and allocates nothing. Nothing is checked but by assert.
+// For float and double. Everything is thread-safe and allocates
+// nothing, but for tables of `sh_product`. Nothing is checked but by assert.
 
+#include "prt/glm_layout.h"
 #include "prt/sh_basis.h"
 
 #include <glm/vec3.hpp>
@@ -52,9 +54,10 @@ void sh_convolve(int order, std::span<const double> function, std::span<const do
                  std::span<double> out);
 
 /// The first `order` bands of the product of two functions of `order` bands, exact up to rounding: shadow
-/// times light, or light times what an object lets through. Both are evaluated at the nodes of a quadrature
-/// that is exact for three times their degree (docs/math.md, eq. 33), which takes far fewer operations than
-/// the table of triple products. `out` may be either. D3DXSHMultiply2 to 6 are this.
+/// times light, or light times what an object lets through. Up to order 3 by the table of triple products,
+/// above at the nodes of a quadrature that is exact for three times the degree (docs/math.md, eq. 33), which
+/// takes far fewer operations there; its tables are made at the first call. `out` may be either.
+/// D3DXSHMultiply2 to 6 are this.
 void sh_product(int order, std::span<const float> a, std::span<const float> b, std::span<float> out);
 void sh_product(int order, std::span<const double> a, std::span<const double> b, std::span<double> out);
 

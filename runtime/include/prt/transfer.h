@@ -2,6 +2,7 @@
 
 // Raw transfer vectors, as the baker makes them.
 
+#include "prt/glm_layout.h"
 #include "prt/light.h"
 #include "prt/sh_basis.h"
 

@@ -56,16 +56,21 @@ PRT_API prt_status prt_light_disc(int order, const float centre[3], const float 
                                   const float radiance[3], float* light, prt_message* message);
 PRT_API prt_status prt_light_hemisphere(int order, const float up[3], const float top[3],
                                         const float bottom[3], float* light, prt_message* message);
-/* Pixels (r, g, b), rows from the top: top row +Y, centre column +Z. Bad pixels are an error. `threads` 0:
- * all. */
-PRT_API prt_status prt_light_from_lat_long(int order, int width, int height, const float* pixels, int threads,
-                                           float* light, prt_message* message);
-/* An environment map, .exr or .hdr. */
-PRT_API prt_status prt_light_from_file(int order, const char* path, float* light, prt_message* message);
+/* What the centre column of a lat-long image looks at: +Z as OpenEXR says, or +X as three.js, glTF viewers
+ * and Blender show it. */
+typedef enum prt_center { PRT_CENTER_Z = 0, PRT_CENTER_X = 1 } prt_center;
+/* Pixels (r, g, b), rows from the top: top row +Y, `center` a prt_center. Bad pixels are an error. `threads`
+ * 0: all. */
+PRT_API prt_status prt_light_from_lat_long(int order, int width, int height, const float* pixels, int center,
+                                           int threads, float* light, prt_message* message);
+/* An environment map, .exr or .hdr; `center` counts where it is lat-long. */
+PRT_API prt_status prt_light_from_file(int order, const char* path, int center, float* light,
+                                       prt_message* message);
 /* Rotates all three channels by `rotation`, columns first, in place. An object that turns wants its lighting
  * turned by the inverse. */
 PRT_API prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message);
-/* The least diffusion under which the light is nowhere negative, in place. */
+/* The least filter of the bands under which the light is nowhere negative, in place: for lights in pictures.
+ * A turned light is deringed before it is turned, once. */
 PRT_API prt_status prt_light_dering(int order, float* light, prt_message* message);
 
 /* A model that prt compress has written. */
@@ -96,7 +101,7 @@ typedef struct prt_model_info {
     const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
     size_t meshes;
 } prt_model_info;
-/* Pointers live as long as the model. */
+/* Pointers live as long as the model. All 0 where `model` is NULL. */
 PRT_API prt_model_info prt_model_get_info(const prt_model* model);
 
 typedef struct prt_mesh {
@@ -125,9 +130,10 @@ typedef enum prt_constants {
     PRT_CONSTANTS_IN_BLOCK = 1,
     PRT_CONSTANTS_IN_TEXTURE = 2
 } prt_constants;
-/* The vertex shader of the model. *size: of `source` in, with the final 0; what it takes out. */
-PRT_API prt_status prt_model_shader(const prt_model* model, prt_language language, prt_constants constants,
-                                    char* source, size_t* size, prt_message* message);
+/* The vertex shader of the model: a prt_language, a prt_constants. *size: of `source` in, with the final 0;
+ * what it takes out. */
+PRT_API prt_status prt_model_shader(const prt_model* model, int language, int constants, char* source,
+                                    size_t* size, prt_message* message);
 
 #ifdef __cplusplus
 }

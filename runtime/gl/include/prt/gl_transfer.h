@@ -3,6 +3,7 @@
 #include "prt/constant_former.h"
 #include "prt/gl_context.h"
 #include "prt/gl_objects.h"
+#include "prt/glm_layout.h"
 
 #include <glm/vec3.hpp>
 

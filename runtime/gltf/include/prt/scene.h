@@ -3,6 +3,8 @@
 // A glTF scene, flattened: world-space vertices and triangles of the default scene, ready to bake and to
 // draw.
 
+#include "prt/glm_layout.h"
+
 #include <glm/mat3x2.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -3,6 +3,7 @@
 // Reading and writing images: OpenEXR, Radiance HDR, PNG; PNG and JPEG textures.
 
 #include "prt/environment.h"
+#include "prt/glm_layout.h"
 
 #include <glm/gtc/type_precision.hpp>
 
@@ -18,6 +19,7 @@ struct EnvironmentOptions {
     /// How to read an image that does not say (EXR attribute `envmap`). Unset: by its shape, 2:1 or 1:6.
     std::optional<EnvironmentLayout> layout;
     BadPixels bad_pixels = BadPixels::error;
+    LatLongCentre centre = LatLongCentre::z; ///< files do not say it
 };
 
 struct EnvironmentFile {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prt/glm_layout.h"
 #include "prt/scene.h"
 
 #include <glm/mat4x4.hpp>

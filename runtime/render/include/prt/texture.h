@@ -2,6 +2,7 @@
 
 // Base-colour textures: a mip chain that OpenGL can take as it is, and the same filtering on the CPU.
 
+#include "prt/glm_layout.h"
 #include "prt/image_file.h"
 #include "prt/scene.h"
 

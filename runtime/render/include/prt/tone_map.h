@@ -1,6 +1,7 @@
 #pragma once
 
 #include "prt/environment.h"
+#include "prt/glm_layout.h"
 #include "prt/light.h"
 #include "prt/sh_basis.h"
 

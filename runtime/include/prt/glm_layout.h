@@ -1,0 +1,30 @@
+#pragma once
+
+// What the library takes GLM's types to be, asked of the program that includes its headers: with other
+// settings of GLM the two would link and read each other's memory wrongly.
+
+#include <glm/ext/quaternion_double.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+
+namespace prt {
+
+#define PRT_GLM                                                                                              \
+    "prtkit was built with GLM's packed types: no GLM_FORCE_DEFAULT_ALIGNED_GENTYPES, see "                  \
+    "docs/integration.md"
+static_assert(sizeof(glm::vec2) == 2 * sizeof(float) && sizeof(glm::vec3) == 3 * sizeof(float) &&
+                  sizeof(glm::vec4) == 4 * sizeof(float) && sizeof(glm::uvec3) == 3 * sizeof(unsigned) &&
+                  sizeof(glm::dvec3) == 3 * sizeof(double) && sizeof(glm::dmat3) == 9 * sizeof(double),
+              PRT_GLM);
+static_assert(alignof(glm::vec3) == alignof(float) && alignof(glm::vec4) == alignof(float) &&
+                  alignof(glm::dvec3) == alignof(double),
+              PRT_GLM);
+static_assert(offsetof(glm::dquat, w) == 3 * sizeof(double),
+              "prtkit was built with another order of GLM's quaternions: GLM_FORCE_QUAT_DATA_WXYZ");
+#undef PRT_GLM
+
+} // namespace prt
