@@ -160,13 +160,13 @@ test("images of OpenEXR's layout look at +Z in their middle", () => {
 });
 
 test("a sky for three's own materials is finite in half floats", () => {
-  const sun = brightTowards([0, 1, 0], 118735);
+  const sun = brightTowards(unit([0.1, 1, 0]), 118735);
   const sky = halfFloatSky(sun);
   const values = [...sky.image.data].map(DataUtils.fromHalfFloat);
   assert.equal(Math.max(...values), 65504);
   assert.equal(sky.flipY, sun.flipY);
   // The rest of it is the same, and so is where it is.
-  const dim = projectEquirectangular(halfFloatSky(brightTowards([0.3, 0.5, -0.8], 100)), 4).polar;
-  projectEquirectangular(brightTowards([0.3, 0.5, -0.8], 100), 4).polar.forEach((value, i) =>
+  const dim = projectEquirectangular(halfFloatSky(brightTowards(unit([0.3, 0.5, -0.8]), 100)), 4).polar;
+  projectEquirectangular(brightTowards(unit([0.3, 0.5, -0.8]), 100), 4).polar.forEach((value, i) =>
     assert.ok(Math.abs(value - dim[i]) < 1e-6));
 });
