@@ -29,7 +29,8 @@ RayScene::RayScene(const Scene& scene, int threads) {
         throw Error("Embree cannot be started");
     scene_.reset(rtcNewScene(device_.get()));
     // Robust: the triangle test does not depend on the tree round it, so results do not depend on the build.
-    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+    // Filters belong to queries: the bake's have none.
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
     rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
 
     RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);

@@ -1,6 +1,7 @@
 #include "argument_parts.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <functional>
 #include <map>
@@ -228,6 +229,20 @@ void add_project(CLI::App& app, ProjectArguments& a) {
     add_json(command, a.json);
 }
 
+Exposure parse_exposure(const std::string& text) {
+    Exposure exposure;
+    exposure.automatic = text.starts_with("auto");
+    const std::string number = exposure.automatic ? text.substr(4) : text;
+    const bool sign_follows = number.empty() || number[0] == '+' || number[0] == '-';
+    if ((exposure.automatic && !sign_follows) ||
+        (!number.empty() && !CLI::detail::lexical_cast(number, exposure.stops)) || text.empty() ||
+        !std::isfinite(exposure.stops))
+        throw CLI::ValidationError("--exposure", "'" + text +
+                                                     "' is neither a number of stops nor auto, "
+                                                     "auto+STOPS or auto-STOPS");
+    return exposure;
+}
+
 void add_render(CLI::App& app, RenderArguments& a) {
     CLI::App* command = app.add_subcommand("render", "Draw a file under an environment, without a window");
     command
@@ -268,18 +283,9 @@ void add_render(CLI::App& app, RenderArguments& a) {
     command->add_option("--baked", a.baked, "the bake that --show error compares with")->type_name("FILE");
     command
         ->add_option_function<std::string>(
-            "--exposure",
-            [&a](const std::string& text) {
-                double stops = 0;
-                if (text == "auto")
-                    a.exposure_stops.reset();
-                else if (CLI::detail::lexical_cast(text, stops))
-                    a.exposure_stops = stops;
-                else
-                    throw CLI::ValidationError("--exposure",
-                                               "'" + text + "' is neither auto nor a number of stops");
-            },
-            "stops, or auto: the mean radiance of the environment becomes 0.25")
+            "--exposure", [&a](const std::string& text) { a.exposure = parse_exposure(text); },
+            "stops; or auto: the mean luminance of what shows of the model becomes 0.22; or stops "
+            "beside it: auto+1, auto-0.5")
         ->type_name("STOPS")
         ->default_str("auto");
     choice(command, "--tone-map", a.tone_map, kToneMaps, "tone curve of .png", "filmic");

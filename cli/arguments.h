@@ -22,6 +22,12 @@ using Path = std::filesystem::path;
 
 enum class Show { lit, clusters, error, ao };
 
+/// How bright a picture is.
+struct Exposure {
+    bool automatic = true; ///< by what the model shows
+    double stops = 0;      ///< of radiance, or beside the automatic ones
+};
+
 /// How every command reads lighting.
 struct LightOptions {
     EnvironmentOptions environment;
@@ -78,7 +84,7 @@ struct RenderArguments {
     double field_of_view_degrees = 35;
     Backend backend = Backend::automatic;
     Show show = Show::lit;
-    std::optional<double> exposure_stops; ///< unset: automatic
+    Exposure exposure;
     ToneMap tone_map = ToneMap::filmic;
     bool background = true;
     int threads = 0;

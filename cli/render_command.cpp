@@ -3,6 +3,7 @@
 #include "inputs.h"
 #include "prt/error.h"
 #include "prt/gl_renderer.h"
+#include "prt/light_meter.h"
 #include "prt/ray_renderer.h"
 #include "prt/receiver_colors.h"
 #include "prt/receivers.h"
@@ -73,17 +74,55 @@ Camera choose_camera(const RenderArguments& a, const Scene& scene) {
     return camera;
 }
 
-void write_picture(const RenderArguments& a, const Image& image, const Light& light, Interrupt& interrupt) {
+/// Factor on radiance; `rays` may be null unless it is automatic. Where the picture shows nothing of the
+/// model that is lit, the light is measured.
+float choose_exposure(const RenderArguments& a, const Picture& picture, const RayScene* rays,
+                      const Light& light) {
+    const auto stops = static_cast<float>(std::exp2(a.exposure.stops));
+    if (!a.exposure.automatic)
+        return stops;
+    const LightMeter meter(picture, *rays);
+    std::vector<glm::vec3> radiance;
+    for (const std::uint32_t receiver : meter.receivers())
+        radiance.push_back(picture.radiance[receiver]);
+    const float luminance = meter.luminance(radiance);
+    return stops * (luminance > 0 ? exposure_for(luminance) : automatic_exposure(light));
+}
+
+void write_picture(const RenderArguments& a, const Image& image, std::optional<float> exposure,
+                   Interrupt& interrupt) {
     const Interrupt::WritingScope writing(interrupt);
     if (a.output.extension() == ".exr")
         return write_exr(a.output, downsampled(image, a.samples));
     // Views of numbers are shown as they are.
-    const bool lit = a.show == Show::lit;
-    const float exposure = !lit               ? 1.0f
-                           : a.exposure_stops ? static_cast<float>(std::exp2(*a.exposure_stops))
-                                              : automatic_exposure(light);
-    const auto pixels = tone_mapped(image, a.samples, exposure, lit ? a.tone_map : ToneMap::srgb);
+    const auto pixels =
+        tone_mapped(image, a.samples, exposure.value_or(1.0f), exposure ? a.tone_map : ToneMap::srgb);
     write_png(a.output, a.width, a.height, pixels);
+}
+
+void report(const RenderArguments& a, const Picture& picture, std::optional<float> exposure, double seconds,
+            const GlContext* context, Interrupt& interrupt) {
+    const std::string renderer = context ? context->renderer() : "CPU ray casting";
+    const glm::dvec3 position = picture.scene->world(picture.camera.position),
+                     target = picture.scene->world(picture.camera.target);
+    Json json = {{"output", a.output.string()},
+                 {"width_pixels", a.width},
+                 {"height_pixels", a.height},
+                 {"seconds", seconds},
+                 {"backend", context ? "gpu" : "cpu"},
+                 {"renderer", renderer},
+                 {"camera_metres", {position.x, position.y, position.z}},
+                 {"look_at_metres", {target.x, target.y, target.z}}};
+    std::string stops;
+    if (exposure) {
+        const double value = std::log2(static_cast<double>(*exposure));
+        stops = fmt::format(", exposure {:+.2f} stops{}", value, a.exposure.automatic ? " (auto)" : "");
+        json["exposure_stops"] = value;
+        json["exposure_automatic"] = a.exposure.automatic;
+    }
+    fmt::print("{}: {} x {}, {:.3f} s, {}{}\n", a.output.string(), a.width, a.height, seconds, renderer,
+               stops);
+    write_json(json, a.json, interrupt);
 }
 
 } // namespace
@@ -127,24 +166,18 @@ void run(const RenderArguments& a, Interrupt& interrupt) {
         }
     }
     const Stopwatch stopwatch;
-    const Image image = context ? render_gl(picture, *context)
-                                : render_rays(picture, RayScene(model.scene, a.threads), a.threads);
+    const bool exposed =
+        a.show == Show::lit && a.output.extension() != ".exr"; // else the numbers as they are
+    std::optional<RayScene> rays;
+    if (!context || (exposed && a.exposure.automatic))
+        rays.emplace(model.scene, a.threads);
+    const Image image = context ? render_gl(picture, *context) : render_rays(picture, *rays, a.threads);
     const double seconds = stopwatch.seconds();
-    write_picture(a, image, light.light, interrupt);
-
-    const std::string renderer = context ? context->renderer() : "CPU ray casting";
-    fmt::print("{}: {} x {}, {:.3f} s, {}\n", a.output.string(), a.width, a.height, seconds, renderer);
-    const glm::dvec3 position = model.scene.world(picture.camera.position),
-                     target = model.scene.world(picture.camera.target);
-    write_json({{"output", a.output.string()},
-                {"width_pixels", a.width},
-                {"height_pixels", a.height},
-                {"seconds", seconds},
-                {"backend", context ? "gpu" : "cpu"},
-                {"renderer", renderer},
-                {"camera_metres", {position.x, position.y, position.z}},
-                {"look_at_metres", {target.x, target.y, target.z}}},
-               a.json, interrupt);
+    std::optional<float> exposure;
+    if (exposed)
+        exposure = choose_exposure(a, picture, rays ? &*rays : nullptr, light.light);
+    write_picture(a, image, exposure, interrupt);
+    report(a, picture, exposure, seconds, context.get(), interrupt);
 }
 
 } // namespace prt::cli

@@ -7,9 +7,11 @@ install(TARGETS ${libraries} EXPORT prtkit ARCHIVE DESTINATION ${CMAKE_INSTALL_L
 install(DIRECTORY ${header_folders} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY shaders/ DESTINATION ${CMAKE_INSTALL_DATADIR}/prtkit/shaders)
 install(EXPORT prtkit NAMESPACE prt:: FILE prtkitTargets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/prtkit)
-if(TARGET prt)
-    install(TARGETS prt RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-endif()
+foreach(program prt prt-viewer)
+    if(TARGET ${program})
+        install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    endif()
+endforeach()
 
 configure_package_config_file(cmake/prtkitConfig.cmake.in prtkitConfig.cmake
     INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/prtkit)

@@ -23,7 +23,7 @@ PictureKind next(PictureKind kind) {
 
 } // namespace
 
-const std::array<KeyHelp, 18> kKeys = {{
+const std::array<KeyHelp, 20> kKeys = {{
     {'1', "left picture: the next"},
     {'2', "right picture: the next"},
     {'X', "swap left and right"},
@@ -39,7 +39,9 @@ const std::array<KeyHelp, 18> kKeys = {{
     {'A', "samples per pixel: 1, 4"},
     {'[', "darker"},
     {']', "brighter"},
+    {'R', "reset the camera: the whole model"},
     {'P', "screenshot"},
+    {'S', "save the compressed model"},
     {'Q', "quit"},
     {'H', "this help; Tab hides the panels"},
 }};
@@ -160,6 +162,12 @@ bool Controls::key(char key) {
         return true;
     case ']':
         s.exposure_stops += 0.25f;
+        return true;
+    case 'R':
+        viewer_.reset_camera();
+        return true;
+    case 'S':
+        viewer_.save();
         return true;
     case 'P':
         if (screenshot)

@@ -44,6 +44,6 @@ struct KeyHelp {
     const char* what;
 };
 /// Every key and what it does.
-extern const std::array<KeyHelp, 18> kKeys;
+extern const std::array<KeyHelp, 20> kKeys;
 
 } // namespace viewer

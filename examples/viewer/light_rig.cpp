@@ -172,7 +172,7 @@ prt::Light LightRig::light(int order) const {
         else if (light.kind == LightKind::hemisphere)
             sum = prt::sum(sum, prt::hemisphere_light(order, light.direction, radiance, glm::vec3(0)));
     }
-    return sum;
+    return prt::windowed(sum, settings_.window);
 }
 
 prt::DistantLight LightRig::distant_light() const {

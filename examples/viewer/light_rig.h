@@ -44,6 +44,8 @@ struct LightSettings {
     Day time;
     bool environment_on = true;
     float rotation = 0; ///< of environment or day about +Y, radians
+    /// Against ringing, over all lights together; the path-traced reference has no bands and no window.
+    prt::Window window = prt::Window::automatic;
     std::vector<RigLight> lights;
 
     friend bool operator==(const LightSettings&, const LightSettings&) = default;
@@ -66,8 +68,10 @@ public:
     void set(const LightSettings& settings);
     void set_environment(std::shared_ptr<const LoadedEnvironment> environment);
     bool has_environment() const { return environment_ != nullptr; }
+    std::string environment_name() const { return environment_ ? environment_->name : std::string(); }
     std::uint64_t version() const { return version_; }
 
+    /// All lights together, under the window.
     prt::Light light(int order) const;
     /// The same light as rays meet it. Suns are suns; all else is in its environment.
     prt::DistantLight distant_light() const;

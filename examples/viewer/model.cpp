@@ -39,11 +39,11 @@ LoadedModel load_model(const std::filesystem::path& path) {
     LoadedModel loaded;
     if (auto baked = prt::read_transfer(document, scene)) {
         loaded.raw = std::make_shared<const prt::Transfer>(std::move(baked->transfer));
-        loaded.bounces = baked->record.bounces;
+        loaded.record = baked->record;
     }
     if (auto compressed = prt::read_clustered(document, scene)) {
         loaded.compressed = std::make_shared<const prt::ClusteredTransfer>(std::move(compressed->transfer));
-        loaded.bounces = compressed->record.bounces;
+        loaded.record = compressed->record;
     }
     loaded.model = make_model(std::move(scene), path);
     return loaded;

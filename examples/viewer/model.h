@@ -43,7 +43,7 @@ struct LoadedModel {
     std::shared_ptr<const Model> model;
     std::shared_ptr<const prt::Transfer> raw;
     std::shared_ptr<const prt::ClusteredTransfer> compressed;
-    int bounces = 0; ///< of the transfer
+    prt::BakeRecord record; ///< of the transfer
 };
 
 /// What the viewer needs of `scene`; textures that are missing or damaged are left out.

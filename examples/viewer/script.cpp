@@ -72,6 +72,17 @@ void apply(const Json& json, Settings& s) {
     take(json, "ssao_samples", s.ssao.samples);
 }
 
+prt::Window window_of(const std::string& name) {
+    static const std::map<std::string, prt::Window> windows = {{"auto", prt::Window::automatic},
+                                                               {"none", prt::Window::none},
+                                                               {"hann", prt::Window::hann},
+                                                               {"lanczos", prt::Window::lanczos}};
+    const auto window = windows.find(name);
+    if (window == windows.end())
+        throw prt::Error("there is no window called '" + name + "'");
+    return window->second;
+}
+
 RigLight light_of(const Json& json) {
     static const std::map<std::string, LightKind> kinds = {{"sun", LightKind::sun},
                                                            {"cone", LightKind::cone},
@@ -151,7 +162,54 @@ private:
         } else {
             viewer_->restore_gpu();
         }
-        interface_ = std::make_unique<UserInterface>(nullptr);
+        make_interface(1);
+    }
+
+    void make_interface(float scale) {
+        interface_.reset(); // Dear ImGui has one context at a time
+        interface_ = std::make_unique<UserInterface>(nullptr, scale);
+    }
+
+    /// The pointer rests there; on a panel long enough for what it says of the control.
+    void hover(const glm::vec2& pixel) {
+        constexpr int kRest = 30; // frames
+        interface_->point(pixel);
+        draw(); // a panel says in the next frame that it is under the pointer
+        draw();
+        for (int frame = 0; frame < kRest && interface_->wants_pointer(); ++frame)
+            draw();
+        viewer_->hover(interface_->wants_pointer() ? std::nullopt : std::optional(pixel));
+    }
+
+    void press(Button button, const glm::vec2& pixel) {
+        interface_->point(pixel);
+        draw(); // a panel says in the next frame that it is under the pointer
+        interface_->press(button == Button::left);
+        draw();
+        if (!interface_->wants_pointer())
+            controls_->press(button, pixel);
+    }
+
+    void release() {
+        interface_->press(false);
+        draw();
+        controls_->release();
+    }
+
+    void press_keys(const std::string& keys) {
+        for (const char key : keys)
+            if (key == '\x1b')
+                interface_->close();
+            else if (!controls_->key(key))
+                throw prt::Error(fmt::format("there is no key '{}'", key));
+    }
+
+    /// Waits until it is written; the message that says so is expected.
+    void save(const std::filesystem::path& file) {
+        viewer_->save(file);
+        wait([&] { return !viewer_->busy(); }, "the file");
+        if (!viewer_->messages().empty() && viewer_->messages().back().starts_with("saved "))
+            viewer_->messages().pop_back();
     }
 
     void lose_context() {
@@ -252,6 +310,7 @@ private:
          }},
         {"no_sky", [this](const Json&) { viewer_->lights.day = viewer_->lights.environment_on = false; }},
         {"rotate", [this](const Json& json) { viewer_->lights.rotation = glm::radians(json.get<float>()); }},
+        {"window", [this](const Json& json) { viewer_->lights.window = window_of(json.get<std::string>()); }},
         {"light", [this](const Json& json) { viewer_->lights.lights.push_back(light_of(json)); }},
         {"compress",
          [this](const Json& json) {
@@ -262,21 +321,22 @@ private:
         {"press",
          [this](const Json& json) {
              const std::string button = json.at(0);
-             controls_->press(button == "right"    ? Button::right
-                              : button == "middle" ? Button::middle
-                                                   : Button::left,
-                              vec2(json, 1));
+             press(button == "right"    ? Button::right
+                   : button == "middle" ? Button::middle
+                                        : Button::left,
+                   vec2(json, 1));
          }},
-        {"move", [this](const Json& json) { controls_->move(vec2(json)); }},
-        {"release", [this](const Json&) { controls_->release(); }},
-        {"scroll", [this](const Json& json) { controls_->scroll(json.get<float>()); }},
-        {"keys",
+        {"move",
          [this](const Json& json) {
-             for (const char key : json.get<std::string>())
-                 if (!controls_->key(key))
-                     throw prt::Error(fmt::format("there is no key '{}'", key));
+             interface_->point(vec2(json));
+             controls_->move(vec2(json));
          }},
-        {"hover", [this](const Json& json) { viewer_->hover(vec2(json)); }},
+        {"release", [this](const Json&) { release(); }},
+        {"scroll", [this](const Json& json) { controls_->scroll(json.get<float>()); }},
+        {"keys", [this](const Json& json) { press_keys(json.get<std::string>()); }},
+        {"hover", [this](const Json& json) { hover(vec2(json)); }},
+        {"save", [this](const Json& json) { save(path(json)); }},
+        {"scale", [this](const Json& json) { make_interface(json.get<float>()); }},
         {"spin",
          [this](const Json& json) {
              // The light turns by a degree a frame.

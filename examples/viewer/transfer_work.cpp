@@ -57,10 +57,9 @@ LoadedModel load_together(const std::vector<std::filesystem::path>& paths, const
     return loaded;
 }
 
-std::shared_ptr<const prt::Transfer>
-bake_in_stages(BackgroundWork::Channel& channel, const Model& model,
-               const std::function<void(std::shared_ptr<const prt::Transfer>)>& found) {
-    std::shared_ptr<const prt::Transfer> raw;
+Baked bake_in_stages(BackgroundWork::Channel& channel, const Model& model,
+                     const std::function<void(const Baked&)>& found) {
+    Baked baked;
     for (const int rays : kBakeRays) {
         channel.stage(fmt::format("baking with {} rays", rays));
         prt::BakeOptions options;
@@ -68,11 +67,11 @@ bake_in_stages(BackgroundWork::Channel& channel, const Model& model,
         options.rays = rays;
         options.bounces = kBakeBounces;
         options.bad_textures = prt::BadTextures::ignore;
-        raw = std::make_shared<const prt::Transfer>(
-            prt::bake(model.scene, options, channel.progress()).baked.transfer);
-        channel.post([found, raw] { found(raw); });
+        prt::BakedTransfer result = prt::bake(model.scene, options, channel.progress()).baked;
+        baked = {std::make_shared<const prt::Transfer>(std::move(result.transfer)), result.record};
+        channel.post([found, baked] { found(baked); });
     }
-    return raw;
+    return baked;
 }
 
 std::shared_ptr<const prt::ClusteredTransfer> compress_as(BackgroundWork::Channel& channel,
@@ -83,6 +82,16 @@ std::shared_ptr<const prt::ClusteredTransfer> compress_as(BackgroundWork::Channe
                                                                         model.areas, model.edges,
                                                                         options_for(how), channel.progress())
                                                               .transfer);
+}
+
+void save_compressed(const Model& model, const prt::CompressedTransfer& compressed,
+                     const std::filesystem::path& output) {
+    prt::GltfDocument document = prt::load_gltf(model.path);
+    const prt::Scene scene = prt::extract_scene(document);
+    if (prt::receivers_id(scene) != model.receivers_id)
+        throw prt::Error(model.path.string() + ": has changed since it was opened");
+    prt::write_clustered(document, scene, compressed);
+    prt::save_glb(document, output);
 }
 
 std::vector<std::pair<PictureKind, std::vector<glm::vec3>>>

@@ -20,14 +20,24 @@ inline constexpr int kBakeOrder = 6, kBakeBounces = 3;
 /// nothing.
 LoadedModel load_together(const std::vector<std::filesystem::path>& paths, const LoadedModel& open);
 
+/// Transfer as it was baked, and how.
+struct Baked {
+    std::shared_ptr<const prt::Transfer> transfer;
+    prt::BakeRecord record;
+};
+
 /// Bakes with few rays first and then with more; posts each result to `found`. Returns the last.
-std::shared_ptr<const prt::Transfer>
-bake_in_stages(BackgroundWork::Channel& channel, const Model& model,
-               const std::function<void(std::shared_ptr<const prt::Transfer>)>& found);
+Baked bake_in_stages(BackgroundWork::Channel& channel, const Model& model,
+                     const std::function<void(const Baked&)>& found);
 
 std::shared_ptr<const prt::ClusteredTransfer> compress_as(BackgroundWork::Channel& channel,
                                                           const Model& model, const prt::Transfer& raw,
                                                           const CompressionSettings& how);
+
+/// Writes the model's file with `compressed` in it, for games. Throws `prt::Error` where it cannot, or where
+/// the file has become another scene.
+void save_compressed(const Model& model, const prt::CompressedTransfer& compressed,
+                     const std::filesystem::path& output);
 
 /// Colours of all pictures of numbers that there are; `raw` may be null.
 std::vector<std::pair<PictureKind, std::vector<glm::vec3>>>

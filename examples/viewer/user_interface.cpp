@@ -7,14 +7,27 @@
 #include <epoxy/gl.h>
 #include <imgui.h>
 
+#include <cmath>
+#include <utility>
+
 namespace viewer {
 
-UserInterface::UserInterface(GLFWwindow* window) : window_(window) {
+namespace {
+
+constexpr float kFontPixels = 13;
+
+} // namespace
+
+UserInterface::UserInterface(GLFWwindow* window, float scale) : window_(window) {
     ImGui::CreateContext();
+    ImFontConfig font;
+    font.SizePixels = std::round(kFontPixels * scale);
+    ImGui::GetIO().Fonts->AddFontDefault(&font);
     ImGui::GetIO().IniFilename = nullptr; // nothing is written where the viewer is started
     ImGui::StyleColorsDark();
     ImGui::GetStyle().WindowRounding = 4;
     ImGui::GetStyle().Colors[ImGuiCol_WindowBg].w = 0.86f;
+    ImGui::GetStyle().ScaleAllSizes(scale);
     if (window_)
         ImGui_ImplGlfw_InitForOpenGL(window_, false); // our callbacks call it
     ImGui_ImplOpenGL3_Init("#version 450 core");
@@ -36,10 +49,20 @@ void UserInterface::draw(Viewer& viewer, std::uint32_t framebuffer, int width, i
         ImGui::GetIO().DeltaTime = 1.0f / 60;
     }
     ImGui::NewFrame();
+    if (std::exchange(close_, false))
+        close_topmost(viewer);
     draw_panels(viewer);
     ImGui::Render();
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+void UserInterface::point(const glm::vec2& pixel) {
+    ImGui::GetIO().MousePos = {pixel.x, pixel.y};
+}
+
+void UserInterface::press(bool down) {
+    ImGui::GetIO().MouseDown[0] = down;
 }
 
 bool UserInterface::wants_pointer() const {

@@ -1,7 +1,6 @@
 #include "viewer.h"
 
 #include "lobe.h"
-#include "transfer_work.h"
 
 #include "prt/error.h"
 #include "prt/tone_map.h"
@@ -17,14 +16,6 @@ namespace viewer {
 namespace {
 
 constexpr std::size_t kMostMessages = 6;
-
-bool is_environment(const std::filesystem::path& path) {
-    return path.extension() == ".hdr" || path.extension() == ".exr" || path.extension() == ".pic";
-}
-
-bool is_model(const std::filesystem::path& path) {
-    return path.extension() == ".glb" || path.extension() == ".gltf";
-}
 
 } // namespace
 
@@ -51,77 +42,14 @@ void Viewer::message(const std::string& text) {
         messages_.pop_front();
 }
 
-// ---- files
-
-void Viewer::open(const std::vector<std::filesystem::path>& paths) {
-    std::vector<std::filesystem::path> models, environments;
-    for (const std::filesystem::path& path : paths) {
-        if (is_model(path))
-            models.push_back(path);
-        else if (is_environment(path))
-            environments.push_back(path);
-        else
-            message(path.string() + ": is neither a model (.glb, .gltf) nor an environment map (.hdr, .exr)");
-    }
-    if (!environments.empty())
-        open_environments(environments);
-    if (!models.empty())
-        open_models(models);
-}
-
-void Viewer::open_models(const std::vector<std::filesystem::path>& paths) {
-    opening_.emplace();
-    work_.start(
-        [this, paths,
-         open = LoadedModel{model_, raw_, compressed_, bounces_}](BackgroundWork::Channel& channel) {
-            channel.stage("reading " + paths.front().filename().string());
-            const LoadedModel loaded = load_together(paths, open);
-            channel.post([this, loaded] { take(loaded); });
-            complete(channel, loaded);
-        },
-        [this](const std::string& why) {
-            opening_.reset();
-            message(why);
-        });
-}
-
-void Viewer::open_environments(const std::vector<std::filesystem::path>& paths) {
-    // Those that were still being read are read again.
-    environments_to_read_.insert(environments_to_read_.end(), paths.begin(), paths.end());
-    environment_work_.start(
-        [this, all = environments_to_read_](BackgroundWork::Channel& channel) {
-            for (const std::filesystem::path& path : all) {
-                std::shared_ptr<const LoadedEnvironment> environment;
-                std::string why;
-                try {
-                    environment = std::make_shared<const LoadedEnvironment>(load_environment(path.string()));
-                } catch (const prt::Error& error) {
-                    why = error.what(); // the others are read all the same
-                }
-                channel.post([this, path, environment, why] {
-                    std::erase(environments_to_read_, path);
-                    if (!environment)
-                        return message(why);
-                    environments_.push_back(environment);
-                    use_environment(environments_.size() - 1);
-                });
-            }
-        },
-        [this](const std::string& why) { message(why); });
-}
-
-void Viewer::use_environment(std::size_t index) {
-    rig_.set_environment(environments_[index]);
-    lights.day = false;
-    lights.environment_on = true;
-}
-
 void Viewer::take(const LoadedModel& loaded) {
     model_ = loaded.model;
     raw_ = loaded.raw;
     compressed_ = loaded.compressed;
     occlusion_ = nullptr;
-    bounces_ = loaded.raw || loaded.compressed ? loaded.bounces : kBakeBounces;
+    record_ = loaded.record;
+    if (!loaded.raw && !loaded.compressed)
+        record_.bounces = kBakeBounces;
     if (compressed_) {
         const prt::ClusteredBases& bases = compressed_->bases;
         compression = {bases.order, static_cast<int>(bases.clusters()), bases.max_components()};
@@ -131,9 +59,15 @@ void Viewer::take(const LoadedModel& loaded) {
     compressed_how_ = compression;
     ++transfer_version_;
     hovered_.reset();
-    camera = OrbitCamera(prt::automatic_camera(
-        model_->scene, static_cast<float>(width_) / static_cast<float>(std::max(1, height_)), 0.61f));
+    exposure_meter_ = {};
+    reset_camera();
     upload_model();
+}
+
+void Viewer::reset_camera() {
+    const float aspect = static_cast<float>(width_) / static_cast<float>(std::max(1, height_));
+    if (model_)
+        camera = OrbitCamera(prt::automatic_camera(model_->scene, aspect, 0.61f));
 }
 
 void Viewer::upload_model() {
@@ -158,7 +92,7 @@ void Viewer::bake_anew() {
         return;
     work_.start(
         [this, model = model_](BackgroundWork::Channel& channel) {
-            complete(channel, {model, {}, {}, 0});
+            complete(channel, {model, {}, {}, {}});
         },
         [this](const std::string& why) { message(why); });
 }
@@ -166,10 +100,8 @@ void Viewer::bake_anew() {
 /// Runs in the background: what `loaded` lacks is computed and posted.
 void Viewer::complete(BackgroundWork::Channel& channel, LoadedModel loaded) {
     if (!loaded.raw && !loaded.compressed)
-        loaded.raw = bake_in_stages(channel, *loaded.model, [this](std::shared_ptr<const prt::Transfer> raw) {
-            bounces_ = kBakeBounces;
-            set_raw(std::move(raw));
-        });
+        loaded.raw =
+            bake_in_stages(channel, *loaded.model, [this](const Baked& baked) { set_baked(baked); }).transfer;
     if (!loaded.compressed) {
         const CompressionSettings how{loaded.raw->order, 256, 4};
         const auto compressed = compress_as(channel, *loaded.model, *loaded.raw, how);
@@ -202,8 +134,9 @@ void Viewer::recompress_where_asked() {
         [this](const std::string& why) { message(why); });
 }
 
-void Viewer::set_raw(std::shared_ptr<const prt::Transfer> transfer) {
-    raw_ = std::move(transfer);
+void Viewer::set_baked(const Baked& baked) {
+    raw_ = baked.transfer;
+    record_ = baked.record;
     ++transfer_version_;
     if (gpu_->model)
         gpu_->model->set_raw(*raw_);
@@ -239,10 +172,18 @@ int Viewer::light_order() const {
     return order;
 }
 
+/// Formed once for all that want it.
+const prt::Light& Viewer::light() {
+    if (light_version_ != rig_.version() || light_.order != light_order())
+        light_ = rig_.light(light_order());
+    light_version_ = rig_.version();
+    return light_;
+}
+
 void Viewer::update(double seconds) {
     if (day_runs && lights.day)
         lights.time.hour = std::fmod(lights.time.hour + seconds, 24.0); // an hour a second
-    for (BackgroundWork* work : {&environment_work_, &work_, &numbers_work_})
+    for (BackgroundWork* work : {&environment_work_, &work_, &numbers_work_, &save_work_})
         try {
             work->collect();
         } catch (const prt::Error& error) { // what was found does not fit the GPU
@@ -254,8 +195,7 @@ void Viewer::update(double seconds) {
 
 void Viewer::follow_light() {
     if (gpu_->light_version != rig_.version() && gpu_->model) {
-        const prt::Light light = rig_.light(light_order());
-        gpu_->model->set_light(light);
+        gpu_->model->set_light(light());
         if (compressed_)
             figures_.constants_milliseconds = 1e3 * gpu_->model->seconds_constants();
         gpu_->light_version = rig_.version();
@@ -281,7 +221,7 @@ void Viewer::find_numbers() {
     numbers_version_ = version;
     numbers_work_.start(
         [this, model = model_, raw = raw_, compressed = compressed_,
-         light = rig_.light(light_order())](BackgroundWork::Channel& channel) {
+         light = light()](BackgroundWork::Channel& channel) {
             const auto pictures = number_pictures(*model, raw.get(), *compressed, light);
             channel.post([this, model, pictures] {
                 if (model == model_ && gpu_->model)
@@ -292,10 +232,22 @@ void Viewer::find_numbers() {
         [this](const std::string& why) { message(why); });
 }
 
-FrameView Viewer::frame_view() const {
+FrameView Viewer::frame_view() {
     FrameView view;
     view.camera = camera.camera();
-    view.exposure = prt::automatic_exposure(rig_.light(1)) * std::exp2(settings.exposure_stops);
+    float exposure = 1;
+    if (model_)
+        exposure = exposure_meter_.exposure({.model = model_.get(),
+                                             .camera = view.camera,
+                                             .width = width_,
+                                             .height = height_,
+                                             .textured = settings.textured,
+                                             .raw = raw_.get(),
+                                             .compressed = compressed_.get(),
+                                             .radiance_version = (transfer_version_ << 32) + rig_.version()},
+                                            [this] { return light(); });
+    automatic_stops_ = std::log2(exposure);
+    view.exposure = exposure * std::exp2(settings.exposure_stops);
     view.background = gpu_->background.name() != 0 ? &gpu_->background : nullptr;
     view.background_rotation = lights.rotation;
     return view;
@@ -398,13 +350,13 @@ void Viewer::show_reference(int side, int width, int height, const FrameView& vi
     subject.options.camera = view.camera;
     subject.options.width = width;
     subject.options.height = height;
-    subject.options.bounces = bounces_;
+    subject.options.bounces = record_.bounces;
     subject.options.textured = settings.textured;
     subject.options.background = settings.background;
     const prt::Camera& c = view.camera;
     const std::string key = fmt::format(
         "{} {} {} {} {} {} {} {} {} {} {} {} {} {}", static_cast<const void*>(model_.get()), rig_.version(),
-        width, height, bounces_, settings.textured, settings.background, c.position.x, c.position.y,
+        width, height, record_.bounces, settings.textured, settings.background, c.position.x, c.position.y,
         c.position.z, c.target.x, c.target.y, c.target.z, c.vertical_field_of_view);
     if (key != reference_subject_) {
         reference_subject_ = key;

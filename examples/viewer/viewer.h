@@ -4,6 +4,7 @@
 // the OpenGL context draws it.
 
 #include "background_work.h"
+#include "exposure.h"
 #include "frame_renderer.h"
 #include "gpu_model.h"
 #include "gpu_timer.h"
@@ -15,6 +16,7 @@
 #include "reference.h"
 #include "screen.h"
 #include "settings.h"
+#include "transfer_work.h"
 
 #include "prt/stopwatch.h"
 
@@ -51,6 +53,13 @@ public:
     void open(const std::vector<std::filesystem::path>& paths);
     /// Bakes the model anew, though it may hold transfer.
     void bake_anew();
+    /// There is compressed transfer to save.
+    bool can_save() const { return compressed_ != nullptr && !save_work_.busy(); }
+    /// Writes the model with it in the background; a message says where, or why not. `output` empty: beside
+    /// the model, under a name that is free.
+    void save(std::filesystem::path output = {});
+    /// The whole model in view, as it was when it was opened.
+    void reset_camera();
 
     Settings settings;
     CompressionSettings compression; ///< what differs from what is there is compressed in the background
@@ -69,7 +78,7 @@ public:
     void forget_longest() { figures_.longest_milliseconds = 0; }
     const std::optional<Hovered>& hovered() const { return hovered_; }
     /// Files are read, or the model is baked or compressed.
-    bool busy() const { return work_.busy() || environment_work_.busy(); }
+    bool busy() const { return work_.busy() || environment_work_.busy() || save_work_.busy(); }
     bool finding_numbers() const { return numbers_work_.busy(); }
     std::string stage() const { return work_.stage(); }
     double share() const { return work_.share(); }
@@ -93,6 +102,12 @@ public:
         return environments_;
     }
     void use_environment(std::size_t index);
+    /// Of the environment that is used, or was last; empty: none yet.
+    std::string environment_name() const { return rig_.environment_name(); }
+    /// Stops of the automatic exposure of the last frame.
+    float automatic_stops() const { return automatic_stops_; }
+    /// The largest number of components of a cluster.
+    int most_components() const { return compressed_ ? compressed_->bases.max_components() : 0; }
     FrameRenderer& renderer() { return gpu_->renderer; }
 
     /// The context is gone, with all that was on the GPU; call `restore_gpu` with another one.
@@ -111,7 +126,7 @@ private:
     void open_models(const std::vector<std::filesystem::path>& paths);
     void open_environments(const std::vector<std::filesystem::path>& paths);
     void take(const LoadedModel& loaded);
-    void set_raw(std::shared_ptr<const prt::Transfer> transfer);
+    void set_baked(const Baked& baked);
     void set_compressed(std::shared_ptr<const prt::ClusteredTransfer> transfer,
                         const CompressionSettings& how);
     void set_occlusion(std::shared_ptr<const std::vector<float>> occlusion);
@@ -124,12 +139,15 @@ private:
     void show_reference(int side, int width, int height, const FrameView& view);
     void pick();
     void draw_lobe(std::uint32_t framebuffer, int width, int height, const FrameView& view);
-    FrameView frame_view() const;
+    FrameView frame_view();
     int light_order() const;
+    const prt::Light& light();
     bool wants(PictureKind kind) const;
 
     std::unique_ptr<Gpu> gpu_;
     LightRig rig_;
+    prt::Light light_; ///< of `rig_` at `light_version_`
+    std::uint64_t light_version_ = 0;
     std::vector<std::shared_ptr<const LoadedEnvironment>> environments_;
     std::vector<std::filesystem::path> environments_to_read_;
     std::shared_ptr<const Model> model_;
@@ -137,8 +155,8 @@ private:
     std::shared_ptr<const prt::ClusteredTransfer> compressed_;
     std::shared_ptr<const std::vector<float>> occlusion_;
     CompressionSettings compressed_how_;
-    int bounces_ = 3;
-    BackgroundWork work_, environment_work_, numbers_work_;
+    prt::BakeRecord record_; ///< of the transfer
+    BackgroundWork work_, environment_work_, numbers_work_, save_work_;
     std::uint64_t numbers_version_ = 0, transfer_version_ = 1;
     Reference reference_;
     std::string reference_subject_;
@@ -153,6 +171,8 @@ private:
     int width_ = 1, height_ = 1;
     std::uint64_t frames_ = 0;
     double mean_radiance_ = 1;
+    ExposureMeter exposure_meter_;
+    float automatic_stops_ = 0;
 };
 
 } // namespace viewer

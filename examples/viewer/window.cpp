@@ -12,6 +12,8 @@
 #include <backends/imgui_impl_glfw.h>
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace viewer {
@@ -42,7 +44,7 @@ public:
         controls_ = std::make_unique<Controls>(*viewer_);
         controls_->screenshot = [this] { wants_screenshot_ = true; };
         controls_->quit = [this] { glfwSetWindowShouldClose(window_.get(), GLFW_TRUE); };
-        interface_ = std::make_unique<UserInterface>(window_.get());
+        make_interface();
         viewer_->open(files);
     }
 
@@ -50,6 +52,8 @@ public:
         double last = glfwGetTime();
         while (!glfwWindowShouldClose(window_.get())) {
             glfwPollEvents();
+            if (std::exchange(rescale_, false))
+                make_interface();
             const double now = glfwGetTime();
             viewer_->update(now - std::exchange(last, now));
             int width = 0, height = 0;
@@ -100,15 +104,34 @@ private:
         });
         glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
             ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
-            if (action == GLFW_PRESS && !self(w).interface_->wants_keyboard())
+            if (action == GLFW_PRESS && key == GLFW_KEY_ESCAPE)
+                self(w).interface_->close();
+            else if (action == GLFW_PRESS && !self(w).interface_->wants_keyboard())
                 self(w).controls_->key(key == GLFW_KEY_TAB ? '\t'
                                        : key < 128         ? static_cast<char>(key)
                                                            : '\0');
         });
         glfwSetCharCallback(window, ImGui_ImplGlfw_CharCallback);
+        glfwSetWindowContentScaleCallback(window,
+                                          [](GLFWwindow* w, float, float) { self(w).rescale_ = true; });
         glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {
             self(w).viewer_->open({paths, paths + count});
         });
+    }
+
+    /// Letters as large as the display's other programs have them. Where the framebuffer is finer than the
+    /// window, that much of it is done by the system.
+    void make_interface() {
+        float scale = 1, ignored = 1;
+        int width = 1, window_width = 1, height = 1;
+        glfwGetWindowContentScale(window_.get(), &scale, &ignored);
+        glfwGetFramebufferSize(window_.get(), &width, &height);
+        glfwGetWindowSize(window_.get(), &window_width, &height);
+        if (width > 0)
+            scale *= static_cast<float>(window_width) / static_cast<float>(width);
+        interface_.reset(); // Dear ImGui has one context at a time
+        interface_ =
+            std::make_unique<UserInterface>(window_.get(), std::clamp(std::round(4 * scale) / 4, 1.0f, 4.0f));
     }
 
     static Application& self(GLFWwindow* window) {
@@ -173,7 +196,7 @@ private:
         window_.reset();
         make_window();
         viewer_->restore_gpu();
-        interface_ = std::make_unique<UserInterface>(window_.get());
+        make_interface();
         viewer_->message("the graphics driver was reset; everything was uploaded again");
     }
 
@@ -183,7 +206,7 @@ private:
     std::unique_ptr<Viewer> viewer_;
     std::unique_ptr<Controls> controls_;
     std::unique_ptr<UserInterface> interface_;
-    bool wants_screenshot_ = false;
+    bool wants_screenshot_ = false, rescale_ = false;
 };
 
 } // namespace

@@ -280,6 +280,38 @@ TEST_F(Road, LightFilesServeAsEnvironments) {
     EXPECT_EQ(read_file(folder / "a.exr"), read_file(folder / "b.exr"));
 }
 
+TEST_F(Road, AutomaticExposureIsThatOfTheModelAndIsReported) {
+    GlbFile file = triangle_file();
+    file.json["materials"] = {
+        {{"pbrMetallicRoughness", {{"baseColorFactor", {0.25, 0.5, 0.125, 1}}, {"metallicFactor", 0}}}}};
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.write(folder / "t.glb");
+    write_exr(folder / "e.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(4))});
+    const auto stops = [&](const char* exposure, const char* backend) {
+        const Outcome outcome =
+            prt({"render", at("t.glb"), "--env", at("e.exr"), "-o", at("p.png"), "--size", "64x48",
+                 "--backend", backend, "--exposure", exposure, "--json", at("r.json")});
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find(" stops"), std::string::npos) << outcome.out;
+        const auto report = read_json(folder / "r.json");
+        EXPECT_EQ(report["exposure_automatic"].get<bool>(), std::string(exposure).starts_with("auto"));
+        return report["exposure_stops"].get<double>();
+    };
+    // An open receiver of that base colour under light of radiance 4 comes to 0.22.
+    const double luminance = 4 * (0.2126 * 0.25 + 0.7152 * 0.5 + 0.0722 * 0.125);
+    for (const char* backend : {"cpu", "gpu"}) {
+        EXPECT_NEAR(stops("auto", backend), std::log2(0.22 / luminance), 1e-3);
+        EXPECT_NEAR(stops("auto+1", backend), std::log2(0.22 / luminance) + 1, 1e-3);
+        EXPECT_NEAR(stops("auto-0.5", backend), std::log2(0.22 / luminance) - 0.5, 1e-3);
+        EXPECT_NEAR(stops("-1.5", backend), -1.5, 1e-6);
+    }
+    for (const char* wrong : {"auto1", "auto+", "bright", "", "nan", "auto+inf"})
+        EXPECT_EQ(
+            prt({"render", at("t.glb"), "--env", at("e.exr"), "-o", at("p.png"), "--exposure", wrong}).status,
+            2)
+            << wrong;
+}
+
 TEST_F(Road, EveryViewIsDrawn) {
     triangle_file().write(folder / "t.glb");
     write_exr(folder / "e.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(1))});

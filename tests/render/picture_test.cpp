@@ -4,6 +4,7 @@
 #include "prt/compress.h"
 #include "prt/error.h"
 #include "prt/gl_renderer.h"
+#include "prt/light_meter.h"
 #include "prt/ray_renderer.h"
 #include "prt/tone_map.h"
 #include "support/scene_builder.h"
@@ -186,6 +187,87 @@ TEST_F(Pictures, SeeTheBackgroundWhereTheCameraLooks) {
         EXPECT_LT(image.at(kWidth / 2, 2).g, image.at(kWidth / 2, kHeight - 3).g); // top row of the map is up
         EXPECT_LT(image.at(2, kHeight / 2).r, image.at(kWidth - 3, kHeight / 2).r); // its left is the left
     }
+}
+
+/// Two square sheets at one place, one facing +Z and one facing -Z, each of one side.
+Scene coincident_sheets(bool front_first) {
+    const auto sheet = [](float sign) {
+        return test::painted(
+            test::SceneBuilder().quad({-sign, -1, 0}, {sign, -1, 0}, {sign, 1, 0}, {-sign, 1, 0}).build(),
+            glm::vec3(1));
+    };
+    return front_first ? test::join({sheet(1), sheet(-1)}) : test::join({sheet(-1), sheet(1)});
+}
+
+TEST(RayRenderer, CoincidentSheetsShowTheOneThatFacesTheCamera) {
+    for (const bool front_first : {true, false}) {
+        const Scene scene = coincident_sheets(front_first);
+        std::vector<glm::vec3> colours; // of the sheets that face +Z red, of the others green
+        for (const VertexArray& array : scene.vertex_arrays)
+            for (const glm::vec3& normal : array.normals)
+                colours.emplace_back(normal.z > 0, normal.z < 0, 0);
+        Picture picture;
+        picture.scene = &scene;
+        picture.radiance = colours;
+        picture.width = picture.height = 48;
+        picture.samples = 1;
+        for (const float side : {1.0f, -1.0f}) {
+            picture.camera = {
+                {0.3f * side, 0.2f, 3 * side}, {0, 0, 0}, {0, 1, 0}, 0.4f}; // filled by the sheet
+            for (const glm::vec3& pixel : render_rays(picture, RayScene(scene)).pixels)
+                ASSERT_LT(glm::distance(pixel, side > 0 ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)), 1e-5f);
+        }
+    }
+}
+
+TEST(RayRenderer, WhatIsCutOutDoesNotHideWhatLiesAtTheSamePlace) {
+    const auto sheet = test::SceneBuilder().quad({-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}).build();
+    Scene scene = test::join({sheet, sheet, sheet});
+    for (const std::size_t cut : {0u, 2u}) {
+        scene.materials[scene.primitives[cut].material].alpha_mode = AlphaMode::mask;
+        scene.materials[scene.primitives[cut].material].base_color = {0, 0, 0, 0};
+    }
+    const std::vector<glm::vec3> white(scene.receivers(), glm::vec3(1));
+    Picture picture;
+    picture.scene = &scene;
+    picture.radiance = white;
+    picture.width = picture.height = 32;
+    picture.camera = {{0.3f, 0.2f, 3}, {0, 0, 0}, {0, 1, 0}, 0.4f};
+    for (const glm::vec3& pixel : render_rays(picture, RayScene(scene)).pixels)
+        ASSERT_LT(glm::distance(pixel, glm::vec3(1)), 1e-5f);
+}
+
+TEST(LightMeter, MeasuresWhatTheModelShowsAndNotTheSky) {
+    // A sheet of base colour c before a bright sky: its left half emits 2 c, its right half 6 c.
+    const glm::vec3 color(0.5f, 0.25f, 0.125f);
+    const Scene scene = test::join(
+        {test::painted(test::SceneBuilder().quad({-1, -1, 0}, {0, -1, 0}, {0, 1, 0}, {-1, 1, 0}).build(),
+                       color),
+         test::painted(test::SceneBuilder().quad({0, -1, 0}, {1, -1, 0}, {1, 1, 0}, {0, 1, 0}).build(),
+                       color),
+         test::painted(test::SceneBuilder().quad({-9, -9, 1}, {-9, 9, 1}, {9, 9, 1}, {9, -9, 1}).build(),
+                       glm::vec3(1))}); // its back is culled
+    const Image sky{1, 1, {glm::vec3(1e4f)}};
+    Picture picture;
+    picture.scene = &scene;
+    picture.background = &sky;
+    picture.width = 640;
+    picture.height = 320;
+    picture.camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.5f};
+    const std::size_t right = scene.vertex_arrays[1].first_receiver,
+                      behind = scene.vertex_arrays[2].first_receiver;
+    const LightMeter meter(picture, RayScene(scene));
+    std::vector<glm::vec3> radiance;
+    for (const std::uint32_t receiver : meter.receivers()) {
+        ASSERT_LT(receiver, behind); // of the two sheets alone
+        radiance.emplace_back(receiver < right ? 2.0f : 6.0f);
+    }
+    const float expected = 4 * (0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b);
+    EXPECT_NEAR(meter.luminance(radiance), expected, 1e-4f * expected);
+    EXPECT_NEAR(exposure_for(expected) * expected, 0.22f, 1e-6f);
+    picture.camera.position = {0, 0, -10}; // nothing of it to be seen but the white sheet far behind
+    for (const std::uint32_t receiver : LightMeter(picture, RayScene(scene)).receivers())
+        EXPECT_GE(receiver, behind);
 }
 
 TEST(GlRenderer, RefusesPicturesLargerThanTheDevice) {

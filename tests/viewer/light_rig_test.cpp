@@ -2,12 +2,15 @@
 
 #include "light_rig.h"
 
+#include "prt/sh.h"
 #include "prt/sh_basis.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace viewer {
 namespace {
@@ -51,6 +54,7 @@ TEST_P(RigLights, AreTheSameForHarmonicsAndRays) {
     LightRig rig;
     rig.set_environment(gradient());
     LightSettings settings = rig.settings();
+    settings.window = prt::Window::none; // rays have no bands
     settings.lights = {make_light(GetParam())};
     settings.lights[0].direction = glm::normalize(glm::vec3(1, 0.4f, -0.7f));
     rig.set(settings);
@@ -73,6 +77,7 @@ TEST(LightRig, TurnsTheEnvironmentForBoth) {
     LightRig rig;
     rig.set_environment(gradient());
     LightSettings settings = rig.settings();
+    settings.window = prt::Window::none;
     settings.rotation = 1.1f;
     rig.set(settings);
     EXPECT_LT(relative_difference(rig.light(kOrder), projected(rig.distant_light())), 0.005);
@@ -86,6 +91,7 @@ TEST(LightRig, LetsTheSunRiseInTheEastAndStandInTheSouthAtNoon) {
     LightRig rig;
     LightSettings settings = rig.settings();
     settings.day = true;
+    settings.window = prt::Window::none;
     const auto sun = [&](double hour) {
         settings.time.hour = hour;
         rig.set(settings);
@@ -98,6 +104,41 @@ TEST(LightRig, LetsTheSunRiseInTheEastAndStandInTheSouthAtNoon) {
     EXPECT_LT(sun(7).x, -0.9f); // looking south, east is on the left
     EXPECT_GT(sun(17).x, 0.9f);
     EXPECT_EQ(sun(0), glm::vec3(0)); // night
+}
+
+/// The least radiance of any channel on a grid of two degrees, over the mean of the channel.
+float least_over_mean(const prt::Light& light) {
+    std::vector<float> basis(static_cast<std::size_t>(prt::coefficient_count(light.order)));
+    float least = std::numeric_limits<float>::infinity();
+    for (int y = 0; y < 90; ++y)
+        for (int x = 0; x < 180; ++x) {
+            prt::evaluate_sh(light.order, glm::vec3(prt::lat_long_direction(180, 90, x + 0.5, y + 0.5)),
+                             basis);
+            glm::vec3 sum(0);
+            for (std::size_t i = 0; i < basis.size(); ++i)
+                sum += basis[i] * light.coefficients[i];
+            const glm::vec3 share = sum / (0.2820948f * light.coefficients[0]);
+            least = std::min({least, share.r, share.g, share.b});
+        }
+    return least;
+}
+
+TEST(LightRig, LightIsNowhereNegativeUnlessAWindowIsChosenThatLetsIt) {
+    LightRig rig; // a clear day
+    LightSettings settings = rig.settings();
+    for (const bool with_sun : {false, true}) {
+        if (with_sun)
+            settings.lights = {make_light(LightKind::sun)};
+        settings.rotation = with_sun ? 0.8f : 0.0f;
+        settings.window = prt::Window::automatic;
+        rig.set(settings);
+        for (const int order : {3, 6, 10})
+            EXPECT_GT(least_over_mean(rig.light(order)), -1e-4f) << order;
+        settings.window = prt::Window::none;
+        rig.set(settings);
+        EXPECT_LT(least_over_mean(rig.light(6)), -0.1f);
+    }
+    EXPECT_EQ(LightRig().settings().window, prt::Window::automatic);
 }
 
 TEST(LightRig, CountsItsChanges) {

@@ -18,7 +18,9 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <thread>
 
 namespace viewer {
@@ -238,6 +240,65 @@ TEST_F(ViewerTest, ListsEveryEnvironmentThatItIsGiven) {
     EXPECT_EQ(viewer->messages().size(), 1u);
     viewer->use_environment(0);
     frame();
+}
+
+TEST_F(ViewerTest, SavesWhatItHasCompressedBesideTheModel) {
+    open({baked()});
+    viewer->compression = {3, 8, 2};
+    frame();
+    frames_until([&] { return !viewer->busy(); });
+    for (const char* name : {"baked.shipped.glb", "baked.shipped-2.glb"}) { // nothing is overwritten
+        viewer->save();
+        frames_until([&] { return !viewer->busy(); });
+        ASSERT_FALSE(viewer->messages().empty());
+        EXPECT_NE(viewer->messages().back().find(name), std::string::npos) << viewer->messages().back();
+        const prt::GltfDocument document = prt::load_gltf(folder / name);
+        const auto saved = prt::read_clustered(document, prt::extract_scene(document));
+        ASSERT_TRUE(saved);
+        EXPECT_EQ(saved->transfer.bases.order, 3);
+        EXPECT_EQ(static_cast<int>(saved->transfer.bases.clusters()), viewer->figures().clusters);
+        EXPECT_EQ(saved->record.rays, 64); // those of the bake
+        EXPECT_FALSE(prt::read_transfer(document, prt::extract_scene(document)));
+    }
+    viewer->save(folder / "missing" / "a.glb");
+    frames_until([&] { return !viewer->busy(); });
+    EXPECT_NE(viewer->messages().back().find("a.glb"), std::string::npos) << viewer->messages().back();
+}
+
+TEST_F(ViewerTest, ResetsTheCamera) {
+    open({baked()});
+    const prt::Camera before = viewer->camera.camera();
+    viewer->camera.orbit({0.3f, 0.2f});
+    viewer->camera.pan({0.1f, 0.1f});
+    viewer->camera.zoom(3);
+    Controls(*viewer).key('R');
+    EXPECT_EQ(viewer->camera.camera().position, before.position);
+    EXPECT_EQ(viewer->camera.camera().target, before.target);
+}
+
+TEST_F(ViewerTest, MetersTheModelAndNotTheSky) {
+    // An open floor of base colour c under light of radiance 4 shows 4 c, which comes to 0.22.
+    prt::test::GlbFile file = prt::test::scene_file(SceneBuilder().floor({0, 0, 0}, 1, 4).build());
+    file.json["materials"] = {
+        {{"pbrMetallicRoughness", {{"baseColorFactor", {0.25, 0.5, 0.125, 1}}, {"metallicFactor", 0}}}}};
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.write(folder / "floor.glb");
+    prt::write_exr(folder / "four.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(4))});
+    open({folder / "floor.glb", folder / "four.exr"});
+    frames_until([&] { return !viewer->busy(); });
+    const double luminance = 4 * (0.2126 * 0.25 + 0.7152 * 0.5 + 0.0722 * 0.125);
+    EXPECT_NEAR(viewer->automatic_stops(), std::log2(0.22 / luminance), 0.01);
+    viewer->settings.textured = false;
+    frame();
+    EXPECT_NEAR(viewer->automatic_stops(), std::log2(0.22 / 4), 0.01);
+    viewer->lights.day = false; // twice the light, half the exposure
+    viewer->lights.lights = {make_light(LightKind::cone)};
+    viewer->lights.lights[0].color = glm::vec3(1);
+    viewer->lights.lights[0].direction = {0, 1, 0};
+    viewer->lights.lights[0].size = std::numbers::pi_v<float> / 2; // all of the sky, once more
+    viewer->lights.lights[0].strength = 1;
+    frame();
+    EXPECT_NEAR(viewer->automatic_stops(), std::log2(0.22 / 8), 0.03);
 }
 
 TEST_F(ViewerTest, CompressesAnewWhereSlidersSaySo) {

@@ -9,6 +9,8 @@ export class ShLight {
   constructor(order: number, polar: Float64Array);
   /** RGB coefficients [order²][3] in prtkit's convention, turned about +Y by `angle` radians. */
   coefficients(angle?: number): Float64Array;
+  /** The same light under the least filter that leaves it nowhere negative: for lights of few bands, once for each. */
+  deringed(): ShLight;
   /** Luminance of the mean radiance over all directions; 0.25 over it is a good exposure. */
   meanLuminance(): number;
 }
@@ -33,8 +35,21 @@ export class PrtkitPlugin implements GLTFLoaderPlugin {
   afterRoot(gltf: GLTF): Promise<void>;
 }
 
+/** Which axis the centre column of an equirectangular image looks at. */
+export interface EquirectangularLayout {
+  /** "x": as three shows it (the default). "z": the layout of OpenEXR and of `prt`. */
+  center?: "x" | "z";
+}
+
 /**
- * The lighting of an equirectangular texture of HDRLoader or EXRLoader, loaded with `setDataType(FloatType)`.
- * Throws an Error for a texture of fewer than three channels and a RangeError for an order outside 1..10.
+ * The lighting of an equirectangular texture of HDRLoader or EXRLoader, loaded with `setDataType(FloatType)`, from where
+ * three shows it as `scene.background`. Throws an Error for a texture of fewer than three channels and a RangeError for
+ * an order outside 1..10.
  */
-export function projectEquirectangular(texture: DataTexture, order?: number): ShLight;
+export function projectEquirectangular(texture: DataTexture, order?: number, layout?: EquirectangularLayout): ShLight;
+
+/**
+ * A copy in half floats for `scene.background` and `scene.environment`, cut off at 65504: a brighter texel would turn
+ * materials that are lit by the environment black.
+ */
+export function halfFloatSky(texture: DataTexture): DataTexture;

@@ -3,8 +3,10 @@
 //   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
 //   const gltf = await loader.loadAsync("shipped.glb");
 //   const sky = await new HDRLoader().setDataType(FloatType).loadAsync("sky.hdr");
-//   const light = projectEquirectangular(sky);
-//   gltf.userData.prtkit.setLight(light, angle);   // again when the light turns or changes
+//   const { prtkit } = gltf.userData;
+//   const light = projectEquirectangular(sky, prtkit.order).deringed(); // as three shows it: its centre looks at +X
+//   scene.background = scene.environment = halfFloatSky(sky);
+//   prtkit.setLight(light, angle); // again when the light turns or changes
 //
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
@@ -12,8 +14,10 @@ import {
   BufferAttribute,
   DataTexture,
   DataUtils,
+  EquirectangularReflectionMapping,
   FloatType,
   HalfFloatType,
+  LinearFilter,
   MeshBasicMaterial,
   NearestFilter,
   RGBAFormat,
@@ -188,15 +192,43 @@ export class PrtkitPlugin {
   }
 }
 
-/**
- * The lighting of an equirectangular texture of HDRLoader or EXRLoader, of the layout of OpenEXR: +Y on top, the centre
- * column looks at +Z. Load it with setDataType(FloatType): half floats cut off a sun.
- */
-export function projectEquirectangular(texture, order = MAX_ORDER) {
+/** How the texels of an equirectangular texture are stored. */
+function texels(texture) {
   const { width, height, data } = texture.image;
   const stride = texture.format === RGBAFormat ? 4 : data.length / (width * height);
   if (stride < 3) throw new Error("the environment has fewer than three channels");
   const value = texture.type === HalfFloatType ? DataUtils.fromHalfFloat : (v) => v;
   // HDRLoader stores the top row first and asks for a flip, EXRLoader has it flipped already.
-  return projectLatLong({ width, height, data, stride, topFirst: texture.flipY, value }, order);
+  return { width, height, data, stride, topFirst: texture.flipY, value };
+}
+
+/**
+ * The lighting of an equirectangular texture of HDRLoader or EXRLoader, from the directions where three shows it as
+ * `scene.background`: +Y on top, the centre column looks at +X. `center: "z"` is for images of OpenEXR's layout, which
+ * three shows turned by 90 degrees. Load the texture with setDataType(FloatType): half floats cut off a sun.
+ */
+export function projectEquirectangular(texture, order = MAX_ORDER, { center = "x" } = {}) {
+  return projectLatLong({ ...texels(texture), center }, order);
+}
+
+const LARGEST_HALF = 65504;
+
+/**
+ * A copy of an equirectangular texture for `scene.background` and `scene.environment`, in half floats, where a sun above
+ * 65504 is cut off: three keeps environments in half floats, and one infinite texel turns all its materials black.
+ */
+export function halfFloatSky(texture) {
+  const { width, height, data, stride, value } = texels(texture);
+  const halves = new Uint16Array(4 * width * height);
+  for (let i = 0; i < width * height; ++i) {
+    for (let c = 0; c < 3; ++c)
+      halves[4 * i + c] = DataUtils.toHalfFloat(Math.min(Math.max(value(data[i * stride + c]), 0), LARGEST_HALF));
+    halves[4 * i + 3] = DataUtils.toHalfFloat(1);
+  }
+  const sky = new DataTexture(halves, width, height, RGBAFormat, HalfFloatType, EquirectangularReflectionMapping);
+  sky.minFilter = sky.magFilter = LinearFilter;
+  sky.colorSpace = texture.colorSpace;
+  sky.flipY = texture.flipY;
+  sky.needsUpdate = true;
+  return sky;
 }

@@ -1,11 +1,32 @@
 // The page: the panel, the pointer, what the address asks for.
-//   ?model=knot&quality=0&sky=0&angle=40&camera=x,y,z&target=x,y,z&fov=35&panel=0
+//   ?model=knot&quality=0&sky=0&window=auto&angle=40&camera=x,y,z&target=x,y,z&fov=35&panel=0
 
 import { Picture } from "./picture.js";
+import { WINDOWS } from "./windows.js";
 
 const element = (id) => document.getElementById(id);
 const canvas = element("view");
 const asked = new URLSearchParams(location.search);
+
+const loads = new Set(); // what is under way
+
+function showLoads() {
+  element("loading").textContent = `Loading ${[...loads].join(", ")} …`;
+  element("loading").hidden = loads.size === 0;
+}
+
+/** Says that `what` is loading until `work` is at an end; first waits for the browser to show it. */
+async function loading(what, work) {
+  loads.add(what);
+  showLoads();
+  await new Promise((shown) => requestAnimationFrame(() => setTimeout(shown)));
+  try {
+    return await work();
+  } finally {
+    loads.delete(what);
+    showLoads();
+  }
+}
 
 function say(text) {
   element("message").textContent = text;
@@ -58,32 +79,72 @@ async function start() {
   const { models, skies } = await response.json();
   const model = () => models[element("model").selectedIndex];
   const quality = () => model().levels[element("quality").selectedIndex];
-
-  async function showModel(keepCamera) {
-    const level = quality();
-    const began = performance.now();
-    await picture.setModel(level.file, { keepCamera, camera: keepCamera ? undefined : askedCamera ?? model().camera });
-    const { prtkit } = picture.gltf.userData;
-    figures({
-      vertices: prtkit.vertices.toLocaleString("en"),
-      "bytes per vertex": level.bytesPerVertexWithBases.toFixed(2),
-      "of them attributes": prtkit.bytesPerVertex,
-      clusters: prtkit.clusters.components.length,
-      order: prtkit.order,
-      "error (lit rms)": `${(100 * level.litRms).toFixed(2)} %`,
-      file: `${(level.fileBytes / 1e6).toFixed(2)} MB`,
-      loaded: `${Math.round(performance.now() - began)} ms`,
-    });
-  }
+  const sky = () => skies[element("sky").selectedIndex];
 
   const vector = (name) => asked.get(name)?.split(",").map(Number);
   const askedCamera = asked.has("camera")
     ? { position: vector("camera"), target: vector("target"), fieldOfView: Number(asked.get("fov") ?? 35) }
     : undefined;
-  fill(element("model"), models.map((m) => m.title), models.findIndex((m) => m.name === asked.get("model")));
-  fill(element("quality"), model().levels.map((l) => l.title), Number(asked.get("quality") ?? 0));
-  fill(element("sky"), skies.map((s) => s.title), Number(asked.get("sky") ?? 0));
-  if (asked.get("panel") === "0") element("panel").classList.add("hidden");
+
+  function showFigures({ bytesPerVertexWithBases, litRms, fileBytes }, milliseconds) {
+    const { prtkit } = picture.gltf.userData;
+    figures({
+      vertices: prtkit.vertices.toLocaleString("en"),
+      "bytes per vertex": (bytesPerVertexWithBases ?? prtkit.bytesPerVertex).toFixed(2),
+      "of them attributes": prtkit.bytesPerVertex,
+      clusters: prtkit.clusters.components.length,
+      order: prtkit.order,
+      ...(litRms === undefined ? {} : { "error (lit rms)": `${(100 * litRms).toFixed(2)} %` }),
+      file: `${(fileBytes / 1e6).toFixed(2)} MB`,
+      loaded: `${Math.round(milliseconds)} ms`,
+    });
+  }
+
+  async function showModel(keepCamera) {
+    const level = quality();
+    const camera = keepCamera ? undefined : askedCamera ?? model().camera;
+    const began = performance.now();
+    try {
+      await loading(model().title, () => picture.setModel(level.file, { keepCamera, camera }));
+    } catch (error) {
+      throw new Error(`${model().title}: ${error.message}`);
+    }
+    showFigures(level, performance.now() - began);
+  }
+
+  const showSky = () => loading(sky().title, () => picture.setSky(sky().file, sky()));
+
+  const fillModels = (chosen) => fill(element("model"), models.map((m) => m.title), chosen);
+  const fillSkies = (chosen) => fill(element("sky"), skies.map((s) => s.title), chosen);
+  const fillQualities = (chosen) =>
+    fill(
+      element("quality"),
+      model().levels.map(({ title, bytesPerVertexWithBases: bytes }) =>
+        bytes === undefined ? title : `${title}: ${bytes.toFixed(1)} bytes a vertex`,
+      ),
+      Math.min(chosen, model().levels.length - 1),
+    );
+
+  /** A file of the user's: shown, and added to its list where that works. */
+  async function openFile(file) {
+    const url = URL.createObjectURL(file);
+    if (/\.glb$/i.test(file.name)) {
+      const level = { title: "as in the file", file: url, fileBytes: file.size };
+      const began = performance.now();
+      await loading(file.name, () => picture.setModel(url));
+      models.push({ name: file.name, title: file.name, levels: [level] });
+      fillModels(models.length - 1);
+      fillQualities(0);
+      showFigures(level, performance.now() - began);
+    } else if (/\.(hdr|exr)$/i.test(file.name)) {
+      const entry = { title: file.name, file: url, exr: /\.exr$/i.test(file.name) };
+      await loading(file.name, () => picture.setSky(url, entry));
+      skies.push(entry);
+      fillSkies(skies.length - 1);
+    } else {
+      throw new Error("is neither a model (.glb) nor a sky (.hdr, .exr)");
+    }
+  }
 
   const guarded = (work) => async (event) => {
     try {
@@ -93,16 +154,61 @@ async function start() {
       say(error.message);
     }
   };
+
+  const openFiles = guarded(async (files) => {
+    for (const file of files)
+      try {
+        await openFile(file);
+      } catch (error) {
+        throw new Error(`${file.name}: ${error.message}`);
+      }
+  });
+
+  fillModels(models.findIndex((m) => m.name === asked.get("model")));
+  fillQualities(Number(asked.get("quality") ?? 0));
+  fillSkies(Number(asked.get("sky") ?? 0));
+  const windows = Object.keys(WINDOWS);
+  fill(element("window"), Object.values(WINDOWS).map((w) => w.title), windows.indexOf(asked.get("window")));
+  picture.window = windows[element("window").selectedIndex];
+  if (asked.get("panel") === "0") element("panel").classList.add("hidden");
+  element("panel").open = !matchMedia("(max-width: 600px)").matches;
+
   element("model").onchange = guarded(() => {
-    fill(element("quality"), model().levels.map((l) => l.title), element("quality").selectedIndex);
+    fillQualities(element("quality").selectedIndex);
     return showModel(false);
   });
   element("quality").onchange = guarded(() => showModel(true));
-  element("sky").onchange = guarded(() => picture.setSky(skies[element("sky").selectedIndex].file));
+  element("sky").onchange = guarded(showSky);
+  element("window").onchange = () => picture.setWindow(windows[element("window").selectedIndex]);
   element("angle").oninput = () => picture.setAngle((Number(element("angle").value) * Math.PI) / 180);
   element("exposure").oninput = () => picture.setExposure(Number(element("exposure").value));
+  element("files").onchange = () => openFiles([...element("files").files]);
 
-  // Drag with the right button or with Shift: the light. OrbitControls has the rest.
+  addEventListener("dragover", (event) => {
+    event.preventDefault();
+    element("drop").hidden = false;
+  });
+  addEventListener("dragleave", (event) => {
+    if (!event.relatedTarget) element("drop").hidden = true; // out of the page
+  });
+  addEventListener("drop", (event) => {
+    event.preventDefault();
+    element("drop").hidden = true;
+    openFiles([...event.dataTransfer.files]);
+  });
+
+  turnLightByDragging(picture);
+  const stage = element("stage");
+  const resize = () => picture.resize(stage.clientWidth, stage.clientHeight, Math.min(devicePixelRatio, 2));
+  new ResizeObserver(resize).observe(stage);
+  resize();
+  picture.setAngle((Number(asked.get("angle") ?? 0) * Math.PI) / 180);
+  element("angle").value = asked.get("angle") ?? 0;
+  await Promise.all([showModel(false), showSky()]);
+}
+
+/** Drag with the right button or with Shift: the light. OrbitControls has the rest. */
+function turnLightByDragging(picture) {
   let last = null;
   picture.controls.mouseButtons.RIGHT = null;
   canvas.addEventListener("contextmenu", (event) => event.preventDefault());
@@ -124,13 +230,6 @@ async function start() {
     picture.setAngle(angle);
   });
   canvas.addEventListener("pointerup", () => (last = null));
-
-  const resize = () => picture.resize(innerWidth, innerHeight, Math.min(devicePixelRatio, 2));
-  addEventListener("resize", resize);
-  resize();
-  picture.setAngle((Number(asked.get("angle") ?? 0) * Math.PI) / 180);
-  element("angle").value = asked.get("angle") ?? 0;
-  await Promise.all([showModel(false), picture.setSky(skies[element("sky").selectedIndex].file)]);
 }
 
 start().catch((error) => say(error.message));

@@ -9,6 +9,7 @@ import {
   Mesh,
   NearestFilter,
   PerspectiveCamera,
+  RepeatWrapping,
   Scene,
   ShaderChunk,
   ShaderMaterial,
@@ -21,6 +22,8 @@ import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { PrtkitPlugin, projectEquirectangular } from "./PrtkitLoader.js";
+import { truncated, WINDOWS } from "./windows.js";
+import { ExposureMeter } from "./exposureMeter.js";
 import backgroundFragment from "./background.frag?raw";
 import backgroundVertex from "./background.vert?raw";
 
@@ -37,16 +40,19 @@ export class Picture {
   constructor(canvas) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.toneMapping = CustomToneMapping;
+    this.renderer.setClearColor(0x000000, 0);
+    this.meter = new ExposureMeter(this.renderer);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(35, 1, 0.01, 100);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.addEventListener("change", () => this.draw());
+    this.fieldOfView = 35; // degrees, of the shorter side
     this.background = new Mesh(
       new BoxGeometry(2, 2, 2),
       new ShaderMaterial({
         vertexShader: backgroundVertex,
         fragmentShader: backgroundFragment,
-        uniforms: { environment: { value: null }, angle: { value: 0 } },
+        uniforms: { environment: { value: null }, angle: { value: 0 }, middle: { value: 0 } },
         side: BackSide,
         depthWrite: false,
       }),
@@ -56,7 +62,9 @@ export class Picture {
     this.background.visible = false;
     this.scene.add(this.background);
     this.gltf = null;
-    this.light = null;
+    this.light = null; // of the sky, all bands
+    this.window = "auto";
+    this.windowed = null; // as many bands as the model has, under the window
     this.angle = 0;
     this.stops = 0;
     this.drawn = 0;
@@ -67,12 +75,17 @@ export class Picture {
   async setModel(url, { keepCamera = false, camera } = {}) {
     const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).register((parser) => new PrtkitPlugin(parser));
     const gltf = await loader.loadAsync(url);
-    if (!gltf.userData.prtkit) throw new Error(`${url} holds no PRTKIT_clustered_pca: run prt bake and prt compress`);
+    if (!gltf.userData.prtkit)
+      throw new Error(
+        gltf.parser.json.extensions?.PRTKIT_transfer
+          ? "holds transfer as it was baked: run prt compress"
+          : "holds no compressed transfer: run prt bake and prt compress",
+      );
     this.removeModel();
     this.gltf = gltf;
     this.scene.add(gltf.scene);
     if (!keepCamera) this.frame(camera);
-    this.relight();
+    this.formLight();
   }
 
   removeModel() {
@@ -87,17 +100,34 @@ export class Picture {
     this.gltf = null;
   }
 
-  async setSky(url) {
-    const exr = /\.exr(\?|$)/.test(url);
+  /** A lat-long sky; `center` says which axis its middle looks at: "x" as three has it, "z" as OpenEXR has it. */
+  async setSky(url, { exr = /\.exr(\?|$)/.test(url), center = "x" } = {}) {
     const texture = await (exr ? new EXRLoader() : new HDRLoader()).setDataType(FloatType).loadAsync(url);
     texture.minFilter = texture.magFilter = this.renderer.extensions.has("OES_texture_float_linear")
       ? LinearFilter
       : NearestFilter;
+    texture.wrapS = RepeatWrapping;
     texture.generateMipmaps = false;
-    this.background.material.uniforms.environment.value?.dispose();
-    this.background.material.uniforms.environment.value = texture;
+    const light = projectEquirectangular(texture, undefined, { center });
+    const { environment, middle } = this.background.material.uniforms;
+    environment.value?.dispose();
+    environment.value = texture;
+    middle.value = center === "x" ? 0.75 : 0.5;
     this.background.visible = true;
-    this.light = projectEquirectangular(texture);
+    this.light = light;
+    this.formLight();
+  }
+
+  /** One of WINDOWS. */
+  setWindow(name) {
+    this.window = name;
+    this.formLight();
+  }
+
+  /** Once for each sky and model: turning the light does not change what its window takes out. */
+  formLight() {
+    const order = this.gltf?.userData.prtkit.order;
+    if (this.light && order) this.windowed = WINDOWS[this.window].apply(truncated(this.light, order));
     this.relight();
   }
 
@@ -114,8 +144,7 @@ export class Picture {
   relight() {
     if (!this.light) return;
     this.background.material.uniforms.angle.value = this.angle;
-    this.renderer.toneMappingExposure = (0.25 / this.light.meanLuminance()) * 2 ** this.stops;
-    this.gltf?.userData.prtkit.setLight(this.light, this.angle);
+    this.gltf?.userData.prtkit.setLight(this.windowed, this.angle);
     this.draw();
   }
 
@@ -132,23 +161,38 @@ export class Picture {
     });
     const centre = corner.low.clone().add(corner.high).multiplyScalar(0.5);
     const radius = corner.low.distanceTo(corner.high) / 2;
-    this.camera.fov = camera?.fieldOfView ?? 35;
+    this.fieldOfView = camera?.fieldOfView ?? 35;
     this.camera.near = radius / 100;
     this.camera.far = radius * 20;
     this.controls.target.fromArray(camera?.target ?? centre.toArray());
     const from = new Vector3(0.45, 0.35, 1).normalize();
-    const distance = radius / Math.sin((0.5 * this.camera.fov * Math.PI) / 180);
+    const distance = radius / Math.sin((0.5 * this.fieldOfView * Math.PI) / 180);
     this.camera.position.fromArray(camera?.position ?? from.multiplyScalar(distance).add(centre).toArray());
-    this.camera.updateProjectionMatrix();
+    this.fitFieldOfView();
     this.controls.update();
   }
 
   resize(width, height, pixelRatio) {
     this.renderer.setPixelRatio(pixelRatio);
     this.renderer.setSize(width, height, false);
-    this.camera.aspect = width / height;
-    this.camera.updateProjectionMatrix();
+    this.camera.aspect = width / Math.max(1, height);
+    this.fitFieldOfView();
     this.draw();
+  }
+
+  /** The field of view is that of the shorter side: on a phone the model fits the width. */
+  fitFieldOfView() {
+    const half = Math.tan((0.5 * this.fieldOfView * Math.PI) / 180);
+    this.camera.fov = (2 * Math.atan(half / Math.min(1, this.camera.aspect)) * 180) / Math.PI;
+    this.camera.updateProjectionMatrix();
+  }
+
+  expose() {
+    const { visible } = this.background;
+    this.background.visible = false;
+    const metered = this.meter.exposure(this.scene, this.camera);
+    this.background.visible = visible;
+    this.renderer.toneMappingExposure = (metered ?? 0.25 / this.light.meanLuminance()) * 2 ** this.stops;
   }
 
   /** Once, before the browser shows the next frame. */
@@ -157,6 +201,7 @@ export class Picture {
     this.pending = true;
     requestAnimationFrame(() => {
       this.pending = false;
+      if (this.gltf && this.light) this.expose();
       this.renderer.render(this.scene, this.camera);
       if (this.gltf && this.light) ++this.drawn;
     });

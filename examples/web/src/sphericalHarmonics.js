@@ -149,21 +149,26 @@ export class ShLight {
   }
 }
 
+/** Azimuth, from +Z towards +X, of the middle of a lat-long image that looks at that axis. */
+const CENTER_AZIMUTH = { x: Math.PI / 2, z: 0 };
+
 /**
- * Projects a lat-long image: +Y on top, its centre column looks at +Z, +X is a quarter of the width left of the centre.
- * The image is constant over each texel, and the basis is integrated over it (docs/math.md, eq. 10).
+ * Projects a lat-long image: +Y on top, columns from the centre to the right turn from +Z towards -X. The image is
+ * constant over each texel, and the basis is integrated over it (docs/math.md, eq. 10).
  *
- * `image`: { width, height, data, stride, topFirst, value }: numbers per pixel, whether the first row is +Y, and what
- * turns a stored number into radiance.
+ * `image`: { width, height, data, stride, topFirst, value, center }: numbers per pixel, whether the first row is +Y, what
+ * turns a stored number into radiance, and which axis the centre looks at: "z" as in OpenEXR, "x" as in three.
  */
 export function projectLatLong(image, order) {
-  const { width, height, data, stride = 4, topFirst = true, value = (v) => v } = image;
+  const { width, height, data, stride = 4, topFirst = true, value = (v) => v, center = "z" } = image;
   if (!(order >= 1 && order <= MAX_ORDER)) throw new RangeError(`order ${order} is outside 1..${MAX_ORDER}`);
-  // ∫ cos(m phi) and sin(m phi) over the columns, whose azimuth falls from pi to -pi: [2 order - 1][width]
+  if (!(center in CENTER_AZIMUTH)) throw new RangeError(`the centre looks at "x" or "z", not "${center}"`);
+  const middle = CENTER_AZIMUTH[center];
+  // ∫ cos(m phi) and sin(m phi) over the columns, whose azimuth falls by 2 pi: [2 order - 1][width]
   const columns = Array.from({ length: 2 * order - 1 }, () => new Float64Array(width));
   for (let x = 0; x < width; ++x) {
-    const high = 2 * Math.PI * (0.5 - x / width);
-    const low = 2 * Math.PI * (0.5 - (x + 1) / width);
+    const high = middle + 2 * Math.PI * (0.5 - x / width);
+    const low = middle + 2 * Math.PI * (0.5 - (x + 1) / width);
     columns[0][x] = high - low;
     for (let m = 1; m < order; ++m) {
       columns[2 * m - 1][x] = (Math.sin(m * high) - Math.sin(m * low)) / m;

@@ -12,8 +12,9 @@ import {
   Mesh,
   MeshStandardMaterial,
   RGBAFormat,
+  ShaderChunk,
 } from "three";
-import { PrtkitPlugin, projectEquirectangular } from "../src/PrtkitLoader.js";
+import { halfFloatSky, PrtkitPlugin, projectEquirectangular } from "../src/PrtkitLoader.js";
 
 const white = () => projectEquirectangular(new DataTexture(new Float32Array([1, 1, 1, 1]), 1, 1, RGBAFormat, FloatType));
 
@@ -111,4 +112,61 @@ test("half floats and three channels are read", () => {
   const half = new DataTexture(new Uint16Array([1, 2, 4, 1].map(DataUtils.toHalfFloat)), 1, 1, RGBAFormat, HalfFloatType);
   const light = projectEquirectangular(half, 2);
   assert.ok(Math.abs(light.polar[2] - 4 * Math.sqrt(4 * Math.PI)) < 1e-5);
+});
+
+/** Direction of the texel in which three's shaders look up `direction`, by the text of their own equirectUv. */
+function threeTexel([x, y, z], width, height) {
+  const text = ShaderChunk.common.replace(/\s+/g, " ");
+  assert.ok(text.includes("float u = atan( dir.z, dir.x ) * RECIPROCAL_PI2 + 0.5;"), "three looks up u otherwise");
+  assert.ok(text.includes("float v = asin( clamp( dir.y, - 1.0, 1.0 ) ) * RECIPROCAL_PI + 0.5;"), "three looks up v otherwise");
+  const u = Math.atan2(z, x) / (2 * Math.PI) + 0.5;
+  const v = Math.asin(y) / Math.PI + 0.5; // from the last row of a texture that is flipped
+  return [Math.floor(u * width), height - 1 - Math.floor(v * height)];
+}
+
+/** A texture as HDRLoader makes it, black but for the texel that three shows in `direction`. */
+function brightTowards(direction, value = 1000) {
+  const [width, height] = [128, 64];
+  const data = new Float32Array(4 * width * height);
+  const [x, y] = threeTexel(direction, width, height);
+  data.set([value, value, value, 1], 4 * (y * width + x));
+  const texture = new DataTexture(data, width, height, RGBAFormat, FloatType);
+  texture.flipY = true;
+  return texture;
+}
+
+/** Where most light comes from: bands 0 and 1 hold -y, z, -x. */
+function mainDirection(light, angle) {
+  const c = light.coefficients(angle);
+  const d = [-c[9], -c[3], c[6]];
+  return d.map((value) => value / Math.hypot(...d));
+}
+
+const unit = (d) => d.map((value) => value / Math.hypot(...d));
+
+test("light comes from where three shows the texel", () => {
+  for (const direction of [[1, 0, 0], [0, 0, 1], [-1, 0, 0.01], [0, 0, -1], [0.3, 0.5, -0.8], [-0.7, -0.6, 0.4]].map(unit)) {
+    const found = mainDirection(projectEquirectangular(brightTowards(direction), 4));
+    const cosine = found[0] * direction[0] + found[1] * direction[1] + found[2] * direction[2];
+    assert.ok(cosine > Math.cos((3 * Math.PI) / 180), `${found} is not ${direction}`); // texels of 2.8 degrees
+  }
+});
+
+test("images of OpenEXR's layout look at +Z in their middle", () => {
+  const texture = brightTowards([1, 0, 0]); // three's middle
+  const found = mainDirection(projectEquirectangular(texture, 4, { center: "z" }));
+  assert.ok(found[2] > 0.998, `${found}`);
+  assert.throws(() => projectEquirectangular(texture, 4, { center: "y" }), RangeError);
+});
+
+test("a sky for three's own materials is finite in half floats", () => {
+  const sun = brightTowards(unit([0.1, 1, 0]), 118735);
+  const sky = halfFloatSky(sun);
+  const values = [...sky.image.data].map(DataUtils.fromHalfFloat);
+  assert.equal(Math.max(...values), 65504);
+  assert.equal(sky.flipY, sun.flipY);
+  // The rest of it is the same, and so is where it is.
+  const dim = projectEquirectangular(halfFloatSky(brightTowards(unit([0.3, 0.5, -0.8]), 100)), 4).polar;
+  projectEquirectangular(brightTowards(unit([0.3, 0.5, -0.8]), 100), 4).polar.forEach((value, i) =>
+    assert.ok(Math.abs(value - dim[i]) < 1e-6));
 });

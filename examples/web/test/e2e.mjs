@@ -22,6 +22,7 @@ const [width, height] = [640, 360];
 // 3 x 3 samples), texture filtering, and 8 bits of rounding.
 const MEAN_TOLERANCE = 0.5; // of 255
 const FAR = 16;
+const METERED = 0.1; // stops: grids of 48 x 48 points see edges and textures a little differently
 const FAR_SHARE = 0.01; // of the pixels
 
 const server = await preview({ root: web, preview: { port: 0, host: "127.0.0.1" }, logLevel: "error" });
@@ -86,13 +87,24 @@ const difference = (page, a, b) =>
     [a, b, FAR],
   );
 
-function render(file, angle, { position, target, fieldOfView }, sky = join(distFolder, "skies/sky.exr")) {
+/** The picture of prt with the page's exposure; its own may be a little off it (METERED stops). */
+async function render(page, file, angle, { position, target, fieldOfView }, sky = join(distFolder, "skies/sky.exr"), window = "auto") {
   const output = join(work, "reference.png");
-  execFileSync(prt, ["render", join(distFolder, file), "--env", sky, "-o", output,
-    "--rotate", String(angle), "--size", `${width}x${height}`, "--samples", "3", "--camera", position.join(","),
-    "--look-at", target.join(","), "--fov", String(fieldOfView)], { stdio: "ignore" });
+  const json = join(work, "reference.json");
+  const exposure = await page.evaluate(() => Math.log2(globalThis.prtkitPicture.renderer.toneMappingExposure));
+  const run = (stops) =>
+    execFileSync(prt, ["render", join(distFolder, file), "--env", sky, "-o", output, "--json", json,
+      "--rotate", String(angle), "--size", `${width}x${height}`, "--samples", "3", "--camera", position.join(","),
+      "--look-at", target.join(","), "--window", window, "--fov", String(fieldOfView), "--exposure", stops], { stdio: "ignore" });
+  run("auto");
+  const metered = JSON.parse(readFileSync(json, "utf8")).exposure_stops;
+  assert.ok(Math.abs(metered - exposure) < METERED, `the page meters ${exposure} stops, prt ${metered}`);
+  run(String(exposure));
   return dataUrl(output);
 }
+
+// Skies are shown as three shows them, with +X in the middle; prt has +Z there.
+const THREE_TURN = 90;
 
 const { models } = JSON.parse(readFileSync(join(distFolder, "models/models.json"), "utf8"));
 const camera = { position: [3.2, 2.6, 6.4], target: [0, 0.4, 0], fieldOfView: 35 };
@@ -111,7 +123,7 @@ for (const [i, model] of models.entries())
       await page.goto(url({ model: model.name, quality, angle, ...query(view) }));
       await picture(page);
       const shown = await canvas(page);
-      const d = await difference(page, shown, render(level.file, angle, view));
+      const d = await difference(page, shown, await render(page, level.file, angle, view));
       console.log(`  mean ${d.mean.toFixed(3)} of 255, ${(100 * d.far).toFixed(2)} % of the pixels differ by more than ${FAR}`);
       if (screenshots) writeFileSync(join(screenshots, `${model.name}.${quality}.png`), Buffer.from(shown.split(",")[1], "base64"));
       assert.deepEqual(errors, []);
@@ -131,21 +143,69 @@ function radianceFile(path) {
   writeFileSync(path, Buffer.concat([Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${rows} +X ${columns}\n`), pixels]));
 }
 
-await check("a Radiance sky lights as prt render does", async (page, errors) => {
-  const sky = join(work, "warm.hdr");
-  radianceFile(sky);
+const warmSky = join(work, "warm.hdr");
+radianceFile(warmSky);
+const onlyWarmSky = async (page) => {
   await page.route("**/models.json", async (route) => {
     const manifest = await (await route.fetch()).json();
     await route.fulfill({ json: { ...manifest, skies: [{ title: "warm", file: "skies/warm.hdr" }] } });
   });
-  await page.route("**/warm.hdr", (route) => route.fulfill({ body: readFileSync(sky) }));
+  await page.route("**/warm.hdr", (route) => route.fulfill({ body: readFileSync(warmSky) }));
+};
+
+await check("a Radiance sky lights as prt render does", async (page, errors) => {
+  await onlyWarmSky(page);
   await page.goto(url({ model: "knot", angle: 25, ...query(camera) }));
   await picture(page);
-  const d = await difference(page, await canvas(page), render(models[0].levels[0].file, 25, camera, sky));
+  const d = await difference(page, await canvas(page),
+    await render(page, models[0].levels[0].file, 25 + THREE_TURN, camera, warmSky));
   console.log(`  mean ${d.mean.toFixed(3)} of 255`);
   assert.deepEqual(errors, []);
   assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`); // a few texels fill the background
 });
+
+await check("the sky is where three's own background has it", async (page, errors) => {
+  await onlyWarmSky(page);
+  const upwards = { position: [1, 0.5, 6], target: [0, 2.2, 0], fieldOfView: 70 }; // the warm side is in view
+  const angle = 20; // the light turns by as much as three's rotation
+  await page.goto(url({ model: "knot", angle, ...query(upwards) }));
+  await picture(page);
+  const before = await canvas(page);
+  if (screenshots) writeFileSync(join(screenshots, "own-background.png"), Buffer.from(before.split(",")[1], "base64"));
+  const count = await drawn(page);
+  const showThrees = (turn) =>
+    page.evaluate((radians) => {
+      const shown = globalThis.prtkitPicture;
+      const texture = shown.background.material.uniforms.environment.value;
+      texture.mapping = 303; // EquirectangularReflectionMapping
+      shown.background.visible = false;
+      shown.scene.background = texture;
+      shown.scene.backgroundRotation.y = radians;
+      shown.expose = () => {}; // as it was
+      shown.draw();
+    }, turn);
+  await showThrees((angle * Math.PI) / 180);
+  await picture(page, count);
+  const same = (await difference(page, before, await canvas(page))).mean;
+  const next = await drawn(page);
+  await showThrees((-angle * Math.PI) / 180);
+  await picture(page, next);
+  const turned = (await difference(page, before, await canvas(page))).mean;
+  console.log(`  mean ${same.toFixed(3)} of 255, turned the other way ${turned.toFixed(3)}`);
+  assert.deepEqual(errors, []);
+  assert.ok(same < 2, `mean difference ${same}`); // three keeps it as a cube map
+  assert.ok(turned > 5 * same);
+});
+
+for (const window of ["none", "hann", "lanczos"])
+  await check(`window ${window}: the picture is that of prt render`, async (page, errors) => {
+    await page.goto(url({ model: "knot", window, ...query(camera) }));
+    await picture(page);
+    const d = await difference(page, await canvas(page),
+      await render(page, models[0].levels[0].file, 0, camera, undefined, window));
+    assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
+    assert.deepEqual(errors, []);
+  });
 
 await check("dragging with the right button turns the light", async (page, errors) => {
   await page.goto(url({ model: "knot", ...query(camera) }));
@@ -162,7 +222,7 @@ await check("dragging with the right button turns the light", async (page, error
   assert.ok(Math.abs(angle - 90) < 1, `turned by ${angle}`);
   const after = await canvas(page);
   assert.ok((await difference(page, before, after)).mean > 5);
-  const d = await difference(page, after, render(models[0].levels[0].file, angle, camera));
+  const d = await difference(page, after, await render(page, models[0].levels[0].file, angle, camera));
   assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
   assert.deepEqual(errors, []);
 });
@@ -170,6 +230,8 @@ await check("dragging with the right button turns the light", async (page, error
 await check("the panel chooses model and quality, and shows bytes", async (page, errors) => {
   await page.goto(url({ model: "knot" }));
   await picture(page);
+  const words = await page.locator("#quality option").allTextContents();
+  ["small", "normal", "fine"].forEach((word, i) => assert.match(words[i], new RegExp(`^${word}: [0-9.]+ bytes a vertex$`)));
   const bytes = () => page.locator("#figures dd").nth(1).innerText();
   const first = Number(await bytes());
   assert.ok(first > 4 && first < 40, `bytes per vertex ${first}`);
@@ -182,6 +244,91 @@ await check("the panel chooses model and quality, and shows bytes", async (page,
   await picture(page, count);
   if (screenshots) await page.screenshot({ path: join(screenshots, "page.png") });
   assert.deepEqual(errors, []);
+});
+
+const dropped = (page, name, path) =>
+  page.evaluate(
+    async ([fileName, bytes]) => {
+      const files = new DataTransfer();
+      files.items.add(new File([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))], fileName));
+      dispatchEvent(new DragEvent("drop", { dataTransfer: files, bubbles: true, cancelable: true }));
+    },
+    [name, readFileSync(path).toString("base64")],
+  );
+
+await check("files that are dropped are shown and listed", async (page, errors) => {
+  await page.goto(url({ model: "knot", panel: 0 }));
+  await picture(page);
+  let count = await drawn(page);
+  await dropped(page, "warm.hdr", warmSky);
+  await page.waitForFunction(() => document.querySelector("#sky").selectedOptions[0].text === "warm.hdr");
+  await picture(page, count);
+  count = await drawn(page);
+  const other = models.at(-1);
+  await dropped(page, "mine.glb", join(distFolder, other.levels[1].file));
+  await page.waitForFunction(() => document.querySelector("#model").selectedOptions[0].text === "mine.glb");
+  await picture(page, count);
+  // The same as chosen from the list, from the same place.
+  const view = await page.evaluate(() => {
+    const { camera, controls, fieldOfView } = globalThis.prtkitPicture;
+    return { position: camera.position.toArray(), target: controls.target.toArray(), fieldOfView };
+  });
+  const d = await difference(page, await canvas(page), await render(page, other.levels[1].file, THREE_TURN, view, warmSky));
+  assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`);
+  assert.deepEqual(errors, []);
+  await dropped(page, "notes.txt", warmSky);
+  await page.waitForSelector("#message:not([hidden])");
+  assert.match(await page.locator("#message").innerText(), /notes\.txt/);
+  await dropped(page, "broken.glb", warmSky);
+  await page.waitForFunction(() => /broken\.glb/.test(document.querySelector("#message").innerText));
+  assert.equal(await page.locator("#model option").count(), models.length + 1); // the broken one is not listed
+});
+
+await check("on a phone the panel leaves the model free", async (page, errors) => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.goto(url({ model: "knot" }));
+  await picture(page);
+  for (const open of [false, true]) {
+    await page.evaluate((value) => (document.querySelector("#panel").open = value), open);
+    await page.waitForTimeout(200);
+    const [panel, view] = [await page.locator("#panel").boundingBox(), await page.locator("#view").boundingBox()];
+    assert.ok(panel.y >= view.y + view.height - 1, "the panel lies over the picture");
+    assert.ok(view.height > (open ? 0.5 : 0.9) * 844 && view.width === 390, `the picture has ${view.width} x ${view.height}`);
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth));
+    // The drawing has the shape of its element, and all corners of the model are in it.
+    const outside = await page.evaluate(() => {
+      const { camera, gltf, renderer } = globalThis.prtkitPicture;
+      const canvasShape = renderer.domElement.width / renderer.domElement.height;
+      let most = Math.abs(canvasShape / camera.aspect - 1) > 0.01 ? 9 : 0;
+      gltf.scene.traverse((object) => {
+        if (!object.isMesh) return;
+        const { min, max } = object.geometry.boundingBox;
+        for (let corner = 0; corner < 8; ++corner) {
+          const p = min.clone().set(corner & 1 ? min.x : max.x, corner & 2 ? min.y : max.y, corner & 4 ? min.z : max.z);
+          p.applyMatrix4(object.matrixWorld).project(camera);
+          most = Math.max(most, Math.abs(p.x), Math.abs(p.y));
+        }
+      });
+      return most;
+    });
+    assert.ok(outside <= 1, `the model reaches ${outside} times the edge of the picture`);
+    if (screenshots) await page.screenshot({ path: join(screenshots, `phone-${open ? "open" : "closed"}.png`) });
+  }
+  assert.deepEqual(errors, []);
+});
+
+await check("says that it is loading, and what", async (page) => {
+  let release;
+  const held = new Promise((resolve) => (release = resolve));
+  await page.route("**/*.glb", async (route) => {
+    await held;
+    await route.continue();
+  });
+  await page.goto(url({ model: "knot" }));
+  await page.waitForFunction(() => /knot/.test(document.querySelector("#loading:not([hidden])")?.innerText ?? ""));
+  release();
+  await picture(page);
+  await page.waitForSelector("#loading", { state: "hidden" });
 });
 
 await check("a model that is missing gives a message", async (page) => {

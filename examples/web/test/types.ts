@@ -2,13 +2,17 @@
 import { FloatType, Scene } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
-import { PrtkitModel, PrtkitPlugin, projectEquirectangular, ShLight } from "../src/PrtkitLoader.js";
+import { halfFloatSky, PrtkitModel, PrtkitPlugin, projectEquirectangular, ShLight } from "../src/PrtkitLoader.js";
 
 export async function show(scene: Scene): Promise<number> {
   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
   const gltf = await loader.loadAsync("model.glb");
   const sky = await new HDRLoader().setDataType(FloatType).loadAsync("sky.hdr");
   const light: ShLight = projectEquirectangular(sky, 6);
+  projectEquirectangular(sky, 6, { center: "z" });
+  // @ts-expect-error there is no third layout
+  projectEquirectangular(sky, 6, { center: "y" });
+  scene.background = scene.environment = halfFloatSky(sky);
   const model: PrtkitModel = gltf.userData.prtkit;
   model.setLight(light, Math.PI / 2);
   // @ts-expect-error a light is not an angle

@@ -4,5 +4,8 @@ import { fileURLToPath } from "node:url";
 
 const web = fileURLToPath(new URL("../", import.meta.url));
 const elsewhere = process.env.PRTKIT_WEB;
-export const publicFolder = elsewhere ? resolve(elsewhere, "public") : join(web, "public");
-export const distFolder = elsewhere ? resolve(elsewhere, "dist") : join(web, "dist");
+const folder = elsewhere ? resolve(elsewhere) : web;
+export const publicFolder = join(folder, "public");
+export const distFolder = join(folder, "dist");
+/** Scenes and bakes while models are made; not part of what is served. */
+export const workFolder = join(folder, "work");

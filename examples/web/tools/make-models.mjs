@@ -1,12 +1,13 @@
 // Makes the page's models with prt: public/models/ and public/skies/. Scenes and sky are the example ones; more with
 //   npm run models -- scene.glb sky.hdr
 // PRT_RAYS and PRT_SCENES (knot,tree) make less of them, for tests.
+// An interrupted run goes on where it was: what is baked stays in work/ until all is done.
 // prt and example_scenes are those of build/release (./demo.sh builds them), or in PRT and PRT_EXAMPLE_SCENES.
 import { execFileSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readFileSync, rmSync, statSync, writeFileSync } from "node:fs";
 import { basename, extname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { publicFolder } from "./folders.mjs";
+import { publicFolder, workFolder as work } from "./folders.mjs";
 
 const root = fileURLToPath(new URL("../../../", import.meta.url));
 const prt = process.env.PRT ?? join(root, "build/release/cli/prt");
@@ -23,16 +24,15 @@ for (const program of [prt, exampleScenes])
   }
 
 const run = (program, ...options) => execFileSync(program, options, { stdio: ["ignore", "ignore", "inherit"] });
-const work = join(publicFolder, "work");
 mkdirSync(work, { recursive: true });
 mkdirSync(join(publicFolder, "models"), { recursive: true });
 mkdirSync(join(publicFolder, "skies"), { recursive: true });
-run(exampleScenes, work);
+if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work); // the sky is written last
 
 const levels = [
-  { name: "u32", title: "one 32-bit word", options: ["--preset", "u32"] },
-  { name: "u64", title: "two 32-bit words", options: ["--preset", "u64"] },
-  { name: "snorm16", title: "16 components of 16 bits", options: ["--weights", "16", "--clusters", "64", "--components", "16"] },
+  { name: "u32", title: "small", options: ["--preset", "u32"] },
+  { name: "u64", title: "normal", options: ["--preset", "u64"] },
+  { name: "snorm16", title: "fine", options: ["--weights", "16", "--clusters", "64", "--components", "16"] },
 ];
 const cameras = {
   room: { position: [1.2, 1.9, 4.2], target: [0, 1.8, -5], fieldOfView: 45 },
@@ -40,17 +40,23 @@ const cameras = {
   terrain: { position: [1, 4.5, 11], target: [0, 2.6, 0] },
 };
 const scenes = (process.env.PRT_SCENES?.split(",") ?? ["knot", "room", "tree", "terrain"]).map((name) => ({ name, file: join(work, `${name}.glb`) }));
-const skies = [{ title: "clear day", file: join(work, "sky.exr") }];
+// The example sky is in OpenEXR's layout; those of users are taken as three takes them.
+const skies = [{ title: "clear day", file: join(work, "sky.exr"), center: "z" }];
 for (const path of extra) {
   const title = basename(path, extname(path));
   if ([".glb", ".gltf"].includes(extname(path))) scenes.push({ name: title, file: path });
   else skies.push({ title, file: path });
 }
 
-const models = scenes.map(({ name, file }) => {
-  console.log(`baking ${name}`);
-  const baked = join(work, `${name}.baked.glb`);
-  run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", rays);
+const isNewer = (made, from) => existsSync(made) && statSync(made).mtimeMs >= statSync(from).mtimeMs;
+
+const models = scenes.map(({ name, file }, i) => {
+  const baked = join(work, `${name}.${rays}.baked.glb`);
+  if (!isNewer(baked, file)) {
+    console.log(`baking ${name} (${i + 1} of ${scenes.length})`);
+    run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", rays);
+  }
+  console.log(`compressing ${name} (${i + 1} of ${scenes.length})`);
   return {
     name,
     title: name,
@@ -70,10 +76,10 @@ const models = scenes.map(({ name, file }) => {
     }),
   };
 });
-const skyEntries = skies.map(({ title, file }) => {
+const skyEntries = skies.map(({ title, file, center }) => {
   const to = `skies/${basename(file)}`;
   copyFileSync(file, join(publicFolder, to));
-  return { title, file: to };
+  return { title, file: to, center };
 });
 writeFileSync(manifest, JSON.stringify({ models, skies: skyEntries }, null, 2));
 rmSync(work, { recursive: true });

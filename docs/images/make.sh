@@ -1,0 +1,79 @@
+#!/usr/bin/env bash
+# Makes the pictures of README.md and docs/viewer.md anew, from the example scenes, with the programs of build/release
+# (or of the folder that is given) and Chromium: docs/images/make.sh [BUILD]
+# What is baked stays in build/pictures for the next time: remove it after a change of the baker.
+# The pictures of docs/comparison.md come from examples/comparison.
+set -euo pipefail
+cd "$(dirname "$0")/../.."
+images=docs/images build=${1:-build/release}
+prt=$build/cli/prt
+work=$PWD/build/pictures
+mkdir -p "$work"
+npm --silent --prefix examples/web install --no-audit --no-fund --no-package-lock
+[ -f "$work/sky.exr" ] || "$build/examples/scenes/example_scenes" "$work" >/dev/null
+sky=$work/sky.exr
+
+# From a scene of that name: bake with the options that follow, and what is shipped of it.
+bake() { [ -f "$work/$2.baked.glb" ] || "$prt" bake "$work/$1.glb" -o "$work/$2.baked.glb" "${@:3}" >/dev/null; }
+ship() { "$prt" compress "$work/$1.baked.glb" -o "$work/$1.shipped.glb" --preset "$2" >/dev/null; }
+render() { "$prt" render "$work/$1.glb" --env "$sky" -o "$work/$2.png" --size 840x472 --samples 4 "${@:3}"; }
+room_view=(--camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45)
+tree_view=(--camera 1.5,1.7,5.5 --look-at 0,1.9,0)
+
+bake knot knot --bounces 1
+bake room room --bounces 3
+bake tree tree --bounces 3
+bake terrain terrain --bounces 1
+ship knot u32
+ship room u32
+ship tree u64
+ship terrain u64
+render knot.shipped knot
+render tree.shipped tree "${tree_view[@]}"
+render room.shipped room "${room_view[@]}" --exposure auto+0.5
+render terrain.shipped terrain --camera 1,4.5,11 --look-at 0,2.6,0
+render knot.shipped clusters --show clusters
+render knot.shipped error --show error --baked "$work/knot.baked.glb"
+node $images/sheet.mjs $images/demo.png 2 560 "$work"/{knot,tree,room,terrain,clusters,error}.png
+
+# What each part of the transport adds, each pair at one exposure.
+bake room dark --bounces 0
+bake knot marble --bounces 1 --subsurface marble --metres-per-unit 0.02
+node -e '
+  const { readFileSync, writeFileSync } = require("fs");
+  const file = readFileSync(process.argv[1]);
+  const length = file.readUInt32LE(12);
+  const json = JSON.parse(file.subarray(20, 20 + length));
+  for (const material of json.materials) delete material.extensions; // leaves that let no light through
+  delete json.extensionsUsed;
+  file.fill(" ", 20, 20 + length);
+  file.write(JSON.stringify(json), 20);
+  writeFileSync(process.argv[2], file);' "$work/tree.glb" "$work/opaque.glb"
+bake opaque opaque --bounces 3
+# Exposure of the second picture for the first, too.
+pair() {
+    "$prt" render "$work/$2.baked.glb" --env "$sky" -o "$work/$2.png" --size 840x600 --json "$work/e.json" "${@:3}" >/dev/null
+    local stops
+    stops=$(node -p 'JSON.parse(require("fs").readFileSync(process.argv[1])).exposure_stops' "$work/e.json")
+    "$prt" render "$work/$1.baked.glb" --env "$sky" -o "$work/$1.png" --size 840x600 "${@:3}" --exposure "$stops" >/dev/null
+    mv "$work/$1.png" "$work/$1.first.png"
+    mv "$work/$2.png" "$work/$2.second.png"
+}
+pair dark room "${room_view[@]}"
+pair opaque tree "${tree_view[@]}"
+pair knot marble
+node $images/sheet.mjs $images/transport.jpg 2 426 \
+    "$work"/{dark.first,room.second,opaque.first,tree.second,knot.first,marble.second}.png
+
+# The viewer's tour.
+cp examples/viewer/tour.json "$work"
+"$build/examples/viewer/prt-viewer" "$work/room.baked.glb" "$work/room.shipped.glb" "$sky" --headless "$work/tour.json"
+for picture in "$work"/viewer*.png; do
+    node $images/sheet.mjs "$images/$(basename "$picture" .png).jpg" 1 0 "$picture"
+done
+
+# The page.
+export PRT_SCENES=tree PRT=$PWD/$prt PRT_EXAMPLE_SCENES=$PWD/$build/examples/scenes/example_scenes PRTKIT_WEB=$work/web
+npm --silent --prefix examples/web run build
+node examples/web/tools/screenshot.mjs "$work/web.png" "?model=tree&quality=1&angle=-40"
+node $images/sheet.mjs $images/web.jpg 1 0 "$work/web.png"
