@@ -1,6 +1,7 @@
 #include "commands.h"
 
 #include "inputs.h"
+#include "outputs.h"
 #include "prt/error.h"
 #include "prt/gl_renderer.h"
 #include "prt/ray_renderer.h"
@@ -75,7 +76,7 @@ Camera choose_camera(const RenderArguments& a, const Scene& scene) {
 
 void write_picture(const RenderArguments& a, const Image& image, const Light& light, Interrupt& interrupt) {
     const Interrupt::WritingScope writing(interrupt);
-    if (a.output.extension() == ".exr")
+    if (suffix_of(a.output) == ".exr")
         return write_exr(a.output, downsampled(image, a.samples));
     // Views of numbers are shown as they are.
     const bool lit = a.show == Show::lit;
@@ -89,6 +90,8 @@ void write_picture(const RenderArguments& a, const Image& image, const Light& li
 } // namespace
 
 void run(const RenderArguments& a, Interrupt& interrupt) {
+    check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
+                  {a.model, a.environment, a.baked});
     const Model model = load_model(a.model);
     if (!model.baked && !model.compressed)
         print_notices(a.model.string(), {"holds no transfer and is drawn without shadows"});
