@@ -97,7 +97,8 @@ Table lights_table(const Evaluation& evaluation, const Scene& scene) {
                   "that of 64 all over the sphere whose error is largest; errors under it are over the "
                   "radiance of all 64, since "
                   "one that lights nothing leaves nothing to divide by. It stands " +
-                  evaluation.worst_sun + ". Random white: every coefficient alike.";
+                  evaluation.worst_sun +
+                  ". Random white: every coefficient alike; over the root mean square of R.";
     return table;
 }
 
@@ -138,8 +139,11 @@ public:
                                           lit_error(wanted, lit, areas_, edges_, shipped_.clusters));
         }
         add_worst_sun(evaluation);
+        // Half of what random light gives is negative, and the mean of no use to divide by.
         const Light random = random_white_light(reference().order);
-        evaluation.standard.emplace_back("random white", error_under(random, std::nullopt));
+        const double square = lit_scale(wanted_under(random), areas_).mean_square;
+        evaluation.standard.emplace_back("random white",
+                                         error_under(random, LitScale{square, std::sqrt(square / 3)}));
         if (model_.compressed)
             evaluation.clusters = shares.finish(model_.compressed->transfer, areas_);
         return evaluation;
@@ -259,6 +263,14 @@ private:
     std::vector<Edge> edges_;
 };
 
+/// Where a difference is seen if anywhere.
+const LoadedLight& worst_of(const Evaluation& evaluation, const std::vector<LoadedLight>& lights) {
+    const auto worst =
+        std::max_element(evaluation.named.begin(), evaluation.named.end(),
+                         [](const auto& a, const auto& b) { return a.second.rms < b.second.rms; });
+    return lights[static_cast<std::size_t>(worst - evaluation.named.begin())];
+}
+
 void add_comparison(const EvaluateArguments& a, Model& baked, const std::vector<LoadedLight>& lights,
                     Report& report) {
     const Comparison comparison(a, baked);
@@ -272,7 +284,7 @@ void add_comparison(const EvaluateArguments& a, Model& baked, const std::vector<
     if (!evaluation.clusters.empty())
         report.tables.push_back(clusters_table(evaluation));
     if (!a.html.empty())
-        comparison.add_pictures(lights.front(), report);
+        comparison.add_pictures(worst_of(evaluation, lights), report);
 }
 
 Sweep run_sweep(const EvaluateArguments& a, const Model& baked, const std::vector<LoadedLight>& lights,

@@ -286,9 +286,9 @@ std::string in_plain_words(const std::exception& error) {
     const std::string what = one_line(error.what());
     if (dynamic_cast<const nlohmann::json::exception*>(
             &error)) // "[json.exception.type_error.302] type must be .."
-        return "is damaged: " + what.substr(what.starts_with("[json") ? what.find("] ") + 2 : 0);
+        return "is damaged glTF: " + what.substr(what.starts_with("[json") ? what.find("] ") + 2 : 0);
     if (dynamic_cast<const std::out_of_range*>(&error))
-        return "is damaged: an index points outside of what the file holds";
+        return "is damaged glTF: an index points outside of what the file holds";
     if (dynamic_cast<const std::bad_alloc*>(&error))
         return "there is not enough memory to read it";
     return what;
