@@ -48,7 +48,7 @@ std::vector<glm::vec3> lattice(int count) {
 
 /// A prop of 232 receivers: four balls that shadow each other, by quadrature over the sphere.
 Transfer prop_transfer() {
-    constexpr int kOrder = 4, kDirections = 400;
+    constexpr int kOrder = 6, kDirections = 600;
     const glm::vec3 centers[4] = {{0, 0, 0}, {1.6f, 0.4f, 0}, {0.3f, 1.5f, 0.8f}, {-0.7f, 0.2f, -1.3f}};
     const float radii[4] = {1, 0.6f, 0.7f, 0.4f};
     const std::vector<glm::vec3> directions = lattice(kDirections), places = lattice(58);
@@ -197,7 +197,7 @@ TEST(Search, FindsOnSmallMeshesWhatAGridByHandFinds) {
         double bytes, error;
     };
     std::vector<Cell> grid;
-    for (const int clusters : {1, 2, 4, 8, 16, 32, 64})
+    for (const int clusters : {1, 2, 4, 8, 16, 32})
         for (const int bits : {12, 26, 56}) {
             CompressOptions o;
             o.clusters = clusters;
@@ -205,7 +205,7 @@ TEST(Search, FindsOnSmallMeshesWhatAGridByHandFinds) {
             const CompressResult r = compress(prop.transfer, prop.areas, {}, o);
             grid.push_back({bound_bytes(r), r.statistics.lit_rms});
         }
-    for (const double bytes : {8.0, 12.0, 16.0}) {
+    for (const double bytes : {12.0, 16.0, 24.0}) {
         double best = 1;
         for (const Cell& cell : grid)
             best = cell.bytes <= bytes ? std::min(best, cell.error) : best;
@@ -213,7 +213,7 @@ TEST(Search, FindsOnSmallMeshesWhatAGridByHandFinds) {
         EXPECT_LE(bound_bytes(found.result), bytes);
         EXPECT_LT(found.result.statistics.lit_rms, 1.05 * best) << bytes << " bytes";
     }
-    for (const double error : {0.05, 0.01}) {
+    for (const double error : {0.03, 0.01, 0.003}) {
         double best = 1e9;
         for (const Cell& cell : grid)
             best = cell.error <= error ? std::min(best, cell.bytes) : best;
@@ -223,13 +223,17 @@ TEST(Search, FindsOnSmallMeshesWhatAGridByHandFinds) {
     }
 }
 
-TEST(Search, OperationsAloneAreSpentAsWellAsWithBytesBesideThem) {
-    const Tried scene(2000, 1, 7);
+TEST(Search, OperationsAloneAreSpentAsWellAsByHand) {
+    const Tried scene(5000, 1, 7);
     const SearchResult alone = scene.within({{}, {}, 2.0});
-    const SearchResult both = scene.within({{}, bound_bytes(alone.result), 2.0});
     EXPECT_LE(alone.result.statistics.mean_components, 2);
-    EXPECT_LT(alone.result.statistics.lit_rms, 1.05 * both.result.statistics.lit_rms);
     EXPECT_LT(bound_bytes(alone.result), 24.01); // three times two words at most
+    CompressOptions by_hand;
+    by_hand.clusters = 416; // a dozen receivers each
+    by_hand.components = 2;
+    by_hand.bits = 22;
+    const CompressResult hand = compress(scene.transfer, scene.areas, {}, by_hand);
+    EXPECT_LT(alone.result.statistics.lit_rms, 1.05 * hand.statistics.lit_rms);
 }
 
 TEST(Search, PresetsFitSmallMeshes) {
@@ -239,7 +243,7 @@ TEST(Search, PresetsFitSmallMeshes) {
         EXPECT_TRUE(found.kept);
         EXPECT_EQ(found.result.transfer.receivers.words, words);
         EXPECT_LE(basis_bytes(found.result.transfer.bases), 4096u);
-        EXPECT_LT(found.result.statistics.lit_rms, 0.01);
+        EXPECT_LT(found.result.statistics.lit_rms, 0.03);
         EXPECT_GT(found.result.statistics.mean_components, 1); // clusters, not a copy of the mesh
     }
     // Where there is room for the bases, the preset is what it says.
