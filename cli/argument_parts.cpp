@@ -29,6 +29,12 @@ void add_json(CLI::App* command, Path& json) {
     command->add_option("--json", json, "also write all figures to this file")->type_name("FILE");
 }
 
+void add_reports(CLI::App* command, Path& json, Path& html, Path& csv) {
+    add_json(command, json);
+    command->add_option("--html", html, "also write a report page to this file")->type_name("FILE");
+    command->add_option("--csv", csv, "also write all figures to this file, one a line")->type_name("FILE");
+}
+
 void add_light_options(CLI::App* command, LightOptions& options) {
     const auto window = std::find_if(kWindows.begin(), kWindows.end(),
                                      [&](const auto& named) { return named.second == options.window; });

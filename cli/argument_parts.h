@@ -29,6 +29,7 @@ CLI::Option* choice(CLI::App* command, const std::string& name, Target& target,
 
 void add_threads(CLI::App* command, int& threads);
 void add_json(CLI::App* command, Path& json);
+void add_reports(CLI::App* command, Path& json, Path& html, Path& csv);
 void add_light_options(CLI::App* command, LightOptions& options);
 
 void add_compress(CLI::App& app, CompressArguments& arguments);

@@ -1,11 +1,15 @@
 #include "argument_parts.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <numeric>
 #include <string>
+#include <string_view>
+#include <utility>
 
 namespace prt::cli {
 namespace {
@@ -183,8 +187,7 @@ void add_bench(CLI::App& app, BenchArguments& a) {
         ->capture_default_str();
     command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
     add_threads(command, a.options.threads);
-    add_json(command, a.json);
-    command->add_option("--html", a.html, "also write a report page to this file")->type_name("FILE");
+    add_reports(command, a.json, a.html, a.csv);
 }
 
 void add_evaluate(CLI::App& app, EvaluateArguments& a) {
@@ -193,10 +196,10 @@ void add_evaluate(CLI::App& app, EvaluateArguments& a) {
     command->add_option("baked", a.baked, "output of prt bake, the reference")->required();
     command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene");
     command
-        ->add_option(
-            "--lights", a.lights,
-            "environments (.exr, .hdr) or lights (.json); otherwise a uniform light, an overcast sky and "
-            "a sun")
+        ->add_option("--lights", a.lights,
+                     "environments (.exr, .hdr, .png, .jpg) or lights (.json); otherwise a uniform light, an "
+                     "overcast sky and "
+                     "a sun")
         ->type_name("FILE");
     add_light_options(command, a.light_options);
     command->add_option("--rotations", a.rotations, "turn each light about +Y by this many equal angles")
@@ -206,16 +209,15 @@ void add_evaluate(CLI::App& app, EvaluateArguments& a) {
         "--sweep", a.sweep,
         "error against size and shader cost of this compressor and of those it came from; minutes");
     add_threads(command, a.threads);
-    add_json(command, a.json);
-    command->add_option("--html", a.html, "also write a report page to this file")->type_name("FILE");
+    add_reports(command, a.json, a.html, a.csv);
 }
 
 void add_project(CLI::App& app, ProjectArguments& a) {
     CLI::App* command = app.add_subcommand("project", "Project an environment map into SH lighting");
     command
-        ->add_option(
-            "environment", a.environment,
-            "environment map, .exr or .hdr; with {face} in its name six files px, nx, py, ny, pz, nz")
+        ->add_option("environment", a.environment,
+                     "environment map, .exr, .hdr, .png or .jpg; with {face} in its name six files px, nx, "
+                     "py, ny, pz, nz")
         ->required();
     command->add_option("-o,--output", a.output, "light to write, .json")->required()->type_name("FILE");
     command->add_option("--order", a.order, "SH order N, 1..10")->capture_default_str();
@@ -248,7 +250,7 @@ void add_render(CLI::App& app, RenderArguments& a) {
     command
         ->add_option("model", a.model, "any .gltf or .glb: compressed, baked, or neither (then unshadowed)")
         ->required();
-    command->add_option("--env", a.environment, "environment (.exr, .hdr) or light (.json)")
+    command->add_option("--env", a.environment, "environment (.exr, .hdr, .png, .jpg) or light (.json)")
         ->required()
         ->type_name("FILE");
     command->add_option("-o,--output", a.output, "picture to write, .png or .exr")
@@ -305,7 +307,8 @@ void add_shader(CLI::App& app, ShaderArguments& a) {
     choice(command, "--language", a.language, kLanguages,
            "vulkan is GLSL to compile to SPIR-V, and from there to HLSL", "glsl450");
     choice(command, "--constants", a.constants, kConstants,
-           "where the constants are: a storage buffer, a uniform block or a float texture", "buffer");
+           "where the constants are: a storage buffer, a uniform block or a float texture",
+           "buffer, texture where the language has no buffers");
     command->add_flag("--compute", a.compute,
                       "the compute shader that forms the constants instead of the vertex shader");
 }
@@ -316,20 +319,61 @@ void add_info(CLI::App& app, InfoArguments& a) {
     add_json(command, a.json);
 }
 
-bool has_extension(const Path& path, std::initializer_list<const char*> extensions) {
-    for (const char* extension : extensions)
-        if (path.extension() == extension)
-            return true;
-    return false;
-}
-
-/// What CLI11 cannot see: file types, and options that need each other.
+/// What CLI11 cannot see: options that need each other.
 void check_together(const RenderArguments& a) {
-    if (!has_extension(a.output, {".png", ".exr"}))
-        throw CLI::ValidationError("--output",
-                                   "'" + a.output.string() + "' ends neither in .png nor in .exr");
     if ((a.show == Show::error) == a.baked.empty())
         throw CLI::ValidationError("--show error", "and --baked FILE go together");
+}
+
+/// Letters to change, add or leave out to make one word of the other (Levenshtein 1965).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i + 1);
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
+        }
+    }
+    return row.back();
+}
+
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+    return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+bool is_command(const CLI::App& app, const std::string& name) {
+    const auto all = commands_of(app);
+    return std::any_of(all.begin(), all.end(),
+                       [&](const CLI::App* command) { return command->get_name() == name; });
+}
+
+/// As a shell would take it.
+std::string command_line(int argc, char** argv) {
+    std::string line = "prt";
+    for (int i = 1; i < argc; ++i) {
+        const std::string word = argv[i];
+        const bool plain =
+            !word.empty() && word.find_first_of(" \t\n'\"\\$`*?;&|<>(){}#") == std::string::npos;
+        line += plain ? " " + word : " '" + word + "'";
+    }
+    return line;
+}
+
+/// "; did you mean bake?", or all commands where none is near.
+std::string suggestion(const CLI::App& app, const std::string& name) {
+    std::string all, nearest;
+    std::size_t least = 3;
+    for (const CLI::App* command : commands_of(app)) {
+        all += (all.empty() ? "" : ", ") + command->get_name();
+        if (const std::size_t distance = edit_distance(name, command->get_name()); distance < least) {
+            least = distance;
+            nearest = command->get_name();
+        }
+    }
+    return nearest.empty() ? "; there are " + all : "; did you mean " + nearest + "?";
 }
 
 } // namespace
@@ -354,12 +398,24 @@ std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
     add_render(app, render);
     add_shader(app, shader);
     add_info(app, info);
+    if (argc < 2) {
+        std::fputs(app.help().c_str(), stdout);
+        std::fputs("prt: error: which command? They are listed above\n", stderr);
+        return 2;
+    }
+    if (const std::string name = argv[1]; !name.starts_with("-") && !is_command(app, name)) {
+        std::fprintf(stderr, "prt: error: there is no command '%s'%s\n", name.c_str(),
+                     suggestion(app, name).c_str());
+        return 2;
+    }
     try {
         app.parse(argc, argv);
         if (app.got_subcommand("render"))
             check_together(render);
         if (app.got_subcommand("evaluate") && evaluate.shipped.empty() && !evaluate.sweep)
-            throw CLI::RequiredError("shipped, or --sweep");
+            throw CLI::ValidationError(
+                "evaluate", "compares two files: prt evaluate BAKED.glb SHIPPED.glb; or measures what the "
+                            "compressor makes of one: prt evaluate BAKED.glb --sweep");
         if (app.got_subcommand("compress"))
             resolve(*app.get_subcommand("compress"), compress);
         if (app.got_subcommand("bench") && bench.scene.empty() && !bench.classic)
@@ -370,6 +426,7 @@ std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
         std::fprintf(stderr, "prt: error: %s\n", error.what());
         return 2;
     }
+    evaluate.command_line = bench.command_line = command_line(argc, argv);
     if (app.got_subcommand("bake"))
         return Arguments(bake);
     if (app.got_subcommand("bench"))

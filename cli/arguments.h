@@ -13,6 +13,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
@@ -41,9 +42,10 @@ struct BakeArguments {
 };
 
 struct BenchArguments {
-    Path scene, json, html;
+    Path scene, json, html, csv;
     BenchOptions options;
     bool classic = false;
+    std::string command_line;
 };
 
 enum class MetricChoice { natural, plain };
@@ -55,16 +57,18 @@ struct CompressArguments {
     std::vector<Path> lights; ///< to compress for, instead of `metric`
     LightOptions light_options;
     bool components_given = false;
+    bool preset = false; ///< `options.compress` is one, to be fitted to the mesh
     bool best_effort = false;
     bool meshopt = false, reorder = false;
 };
 
 struct EvaluateArguments {
-    Path baked, shipped, json, html;
+    Path baked, shipped, json, html, csv;
     std::vector<Path> lights;
     LightOptions light_options;
     int rotations = 1; ///< of each light about +Y
     bool sweep = false;
+    std::string command_line;
     int threads = 0;
 };
 
@@ -93,7 +97,7 @@ struct RenderArguments {
 struct ShaderArguments {
     Path model, output;
     ShaderLanguage language = ShaderLanguage::glsl450;
-    ConstantSource constants = ConstantSource::buffer;
+    std::optional<ConstantSource> constants; ///< unset: what the language can do
     bool compute = false;
 };
 

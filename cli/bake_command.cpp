@@ -1,5 +1,6 @@
 #include "commands.h"
 
+#include "outputs.h"
 #include "prt/error.h"
 #include "prt/gltf.h"
 #include "report.h"
@@ -69,6 +70,7 @@ void print_report(const BakeArguments& a, const BakeResult& result) {
 } // namespace
 
 void run(const BakeArguments& a, Interrupt& interrupt) {
+    check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.scene});
     const auto missing =
         a.options.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
     GltfDocument document = load_gltf(a.scene, missing);
@@ -100,7 +102,7 @@ void run(const BakeArguments& a, Interrupt& interrupt) {
     report.update(statistics_json(result.statistics));
     for (const std::string& notice : scene.notices)
         report["notices"].push_back(notice);
-    report["bytes_output"] = std::filesystem::file_size(a.output);
+    report["bytes_file"] = std::filesystem::file_size(a.output);
     write_json(report, a.json, interrupt);
 }
 

@@ -4,6 +4,7 @@
 
 #include "prt/bake.h"
 #include "prt/scene.h"
+#include "report/report.h"
 
 #include <string>
 #include <vector>
@@ -47,7 +48,7 @@ struct BenchResult {
 BenchResult run_bench(const std::string& name, const Scene& scene, const BenchOptions& options,
                       const Progress& progress);
 
-/// A page with the table and the curves of error over time and of speed over rays.
-std::string bench_html(const BenchResult& result);
+/// All runs, with the curves of error over time and of speed over rays.
+Report bench_report(const BenchResult& result);
 
 } // namespace prt::cli

@@ -41,7 +41,8 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
                 if (name != "custom")
                     take_sizes(name == "u32" ? preset_u32() : preset_u64(), o.compress);
             },
-            "u32: all of a vertex in one 32-bit word; u64: in two; custom: as the following options say")
+            "u32: all of a vertex in one 32-bit word; u64: in two; both with 256 clusters, or as many as "
+            "bases of twice those bytes (or 4 KB) hold; custom: as the following options say")
         ->check(CLI::IsMember({"u32", "u64", "custom"}))
         ->type_name("u32|u64|custom")
         ->default_str("u32, custom with other sizes");
@@ -56,7 +57,7 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
     command->add_option("--max-error", o.budget.max_error,
                         "the cheapest whose expected lit_rms under the metric is at most this");
     command->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
-                        "the best of at most this size, bases counted in");
+                        "the best of at most this size: whole 32-bit words, as a game binds them, and bases");
     command->add_option("--shader-ops", o.budget.shader_ops,
                         "components that the vertex shader adds, on average over the vertices, at most");
 }
@@ -73,8 +74,9 @@ void add_compress(CLI::App& app, CompressArguments& a) {
         choice(command, "--metric", a.metric, kMetrics,
                "what an error costs: natural lighting from any side, or all coefficients alike", "natural");
     command
-        ->add_option("--lights", a.lights,
-                     "compress for these environments (.exr, .hdr) or lights (.json), turned about +Y")
+        ->add_option(
+            "--lights", a.lights,
+            "compress for these environments (.exr, .hdr, .png, .jpg) or lights (.json), turned about +Y")
         ->excludes(metric)
         ->type_name("FILE");
     add_light_options(command, a.light_options);
@@ -101,6 +103,7 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     if (preset && (sizes || o.budget.any()))
         throw CLI::ValidationError("--preset", "u32 and u64 fix what other sizes and budgets would choose");
     a.components_given = given("--components");
+    a.preset = preset || (!o.budget.any() && !sizes && !given("--preset"));
     if (o.budget.any()) {
         if (given("--bits"))
             throw CLI::ValidationError("--bits", "is what a budget chooses");

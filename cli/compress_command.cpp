@@ -1,6 +1,7 @@
 #include "commands.h"
 
 #include "inputs.h"
+#include "outputs.h"
 #include "prt/error.h"
 #include "prt/error_measures.h"
 #include "prt/reorder.h"
@@ -43,6 +44,10 @@ Outcome run_compressor(const CompressArguments& a, const Model& model, const Sea
     const std::vector<Edge> edges =
         o.seam_weight > 0 || o.potts_weight > 0 ? mesh_edges(model.scene) : std::vector<Edge>{};
     ProgressBar bar("compressing", interrupt.token());
+    if (a.preset) {
+        SearchResult found = compress_preset(transfer, areas, edges, o, bar.progress());
+        return {std::move(found.result), std::move(found.trials)};
+    }
     if (!options.budget.any())
         return {compress(transfer, areas, edges, o, bar.progress()), {}};
     SearchResult found = compress_within(transfer, areas, edges, options, bar.progress());
@@ -56,9 +61,9 @@ Json trials_json(const std::vector<SearchTrial>& trials) {
     Json list = Json::array();
     for (const SearchTrial& t : trials)
         list.push_back({{"clusters", t.clusters},
-                        {"payload_bytes", t.payload_bytes},
+                        {"bytes_bound_per_vertex", t.payload_bytes},
                         {"lit_rms", t.lit_rms},
-                        {"bytes_per_vertex_with_bases", t.bytes_per_vertex},
+                        {"bytes_bound_per_vertex_with_bases", t.bytes_per_vertex},
                         {"shader_operations", t.mean_components}});
     return list;
 }
@@ -66,6 +71,9 @@ Json trials_json(const std::vector<SearchTrial>& trials) {
 } // namespace
 
 void run(const CompressArguments& a, Interrupt& interrupt) {
+    std::vector<Path> inputs = a.lights;
+    inputs.push_back(a.baked);
+    check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
     Model model = load_model(a.baked);
     if (!model.baked)
         throw Error(a.baked.string() + (model.compressed
@@ -108,8 +116,8 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
     const std::size_t constants = constant_rows(coded.bases) * sizeof(glm::vec4);
     fmt::print("{}: {} clusters x {:.2f} components, lit_rms {:.3f} %, relative L2 {:.3f} %\n",
                a.output.string(), s.clusters, s.mean_components, 100 * s.lit_rms, 100 * l2);
-    fmt::print("  {} bytes per vertex of {}, {:.2f} with the bases\n", s.bytes_per_receiver, uncompressed,
-               s.bytes_with_bases(receivers));
+    fmt::print("  {} bytes per vertex to bind ({} bits in use) of {}, {:.2f} with the bases\n",
+               s.bytes_per_receiver, s.bits_per_receiver, uncompressed, s.bytes_with_bases(receivers));
     fmt::print("  GPU: {} bytes of attributes, {} of bases, {} of constants per lighting; uncompressed {}\n",
                s.bytes_per_receiver * receivers, s.basis_bytes, constants, uncompressed * receivers);
     if (a.reorder)
@@ -128,9 +136,10 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
                 {"lit_rms", s.lit_rms},
                 {"relative_l2", l2},
                 {"lit_rms_by_iteration", s.lit_rms_by_iteration},
-                {"bytes_per_vertex", s.bytes_per_receiver},
-                {"bytes_per_vertex_with_bases", s.bytes_with_bases(receivers)},
-                {"bytes_per_vertex_uncompressed", uncompressed},
+                {"bytes_bound_per_vertex", s.bytes_per_receiver},
+                {"bytes_bound_per_vertex_with_bases", s.bytes_with_bases(receivers)},
+                {"bits_used_per_vertex", s.bits_per_receiver},
+                {"bytes_uncompressed_per_vertex", uncompressed},
                 {"bytes_attributes", s.bytes_per_receiver * receivers},
                 {"bytes_bases", s.basis_bytes},
                 {"bytes_constants", constants},
@@ -139,7 +148,7 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
                 {"vertices_transformed_per_triangle_before", reuse_before.transforms_per_triangle},
                 {"vertex_overfetch", reuse.overfetch},
                 {"vertex_overfetch_before", reuse_before.overfetch},
-                {"bytes_output", std::filesystem::file_size(a.output)},
+                {"bytes_file", std::filesystem::file_size(a.output)},
                 {"trials", trials_json(outcome.trials)},
                 {"seconds", s.seconds}},
                a.json, interrupt);

@@ -1,6 +1,7 @@
 #include "commands.h"
 
 #include "inputs.h"
+#include "outputs.h"
 #include "report.h"
 
 #include <fmt/core.h>
@@ -18,6 +19,7 @@ void describe_record(const BakeRecord& record) {
 } // namespace
 
 void run(const InfoArguments& a, Interrupt& interrupt) {
+    check_outputs({{a.json, "--json", {".json"}}}, {a.file});
     const Model model = load_model(a.file);
     const Scene& scene = model.scene;
     const Bounds box = bounds(scene);
@@ -44,7 +46,7 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
         describe_record(model.baked->record);
         report["transfer"] = {{"order", t.order},
                               {"channels", t.channels},
-                              {"bytes_per_vertex", bytes},
+                              {"bytes_stored_per_vertex", bytes},
                               {"bake", bake_record_json(model.baked->record)}};
     }
     if (model.compressed) {
@@ -54,8 +56,9 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
         const std::size_t bits = packed ? 0 : 8 * bytes_per_weight(t.receivers.format);
         fmt::print("  clustered PCA: order {}, {} channels, {} clusters x {} to {} components, {}\n",
                    t.bases.order, t.bases.channels, t.bases.clusters(), *least, *most,
-                   packed ? fmt::format("{} packed bytes per vertex", bytes_per_receiver(t))
-                          : fmt::format("{}-bit weights", bits));
+                   packed ? fmt::format("packed weights") : fmt::format("{}-bit weights", bits));
+        fmt::print("  {} bytes per vertex to bind ({} bits in use)\n", bytes_per_receiver(t),
+                   bits_per_receiver(t));
         fmt::print("  {} bytes of bases, {} shader constants per frame\n", basis_bytes(t.bases),
                    constant_rows(t.bases));
         describe_record(model.compressed->record);
@@ -65,7 +68,8 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
                                    {"components_least", *least},
                                    {"components_most", *most},
                                    {"weights", packed ? "packed" : std::to_string(bits)},
-                                   {"bytes_per_vertex", bytes_per_receiver(t)},
+                                   {"bytes_bound_per_vertex", bytes_per_receiver(t)},
+                                   {"bits_used_per_vertex", bits_per_receiver(t)},
                                    {"bytes_bases", basis_bytes(t.bases)},
                                    {"bake", bake_record_json(model.compressed->record)}};
     }

@@ -1,5 +1,6 @@
 #include "inputs.h"
 
+#include "outputs.h"
 #include "prt/error.h"
 #include "prt/reorder.h"
 #include "report.h"
@@ -58,7 +59,7 @@ Model load_model(const Path& path) {
 LoadedLight load_light(const Path& path, int order, const LightOptions& options, int threads) {
     LoadedLight result;
     result.name = path.filename().string();
-    if (path.extension() == ".json") {
+    if (suffix_of(path) == ".json") {
         const Light light = read_light_json(path);
         if (light.order < order)
             throw Error(
@@ -68,6 +69,10 @@ LoadedLight load_light(const Path& path, int order, const LightOptions& options,
         EnvironmentFile file = load_environment(path, options.environment);
         if (file.repaired_pixels > 0)
             print_notices(path.string(), {fmt::format("{} bad pixels were repaired", file.repaired_pixels)});
+        if (file.low_dynamic_range)
+            print_notices(path.string(),
+                          {"has 8 bits per channel: it is read as sRGB, and what is brighter than "
+                           "white (suns, lamps) is clipped"});
         result.light = project(file.environment, order, threads);
         result.environment = std::move(file.environment);
     }

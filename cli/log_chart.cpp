@@ -5,14 +5,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace prt::cli {
 namespace {
 
-constexpr std::array kColors = {"#1f6fb4", "#d1611c", "#3a923a", "#8a5ab0",
-                                "#b0352f", "#7a6a55", "#c2529f", "#5d6d7e"};
+constexpr std::size_t kColors = 8; ///< --series-0.. of report/page.html
 constexpr int kWidth = 800, kHeight = 420, kLeft = 80, kRight = 190, kTop = 28, kBottom = 46;
 
 /// Values of one axis, from the least to the largest with a margin.
@@ -53,32 +51,36 @@ bool shown(const ChartPoint& point) {
 std::string grid(const Axes& axes) {
     std::string out;
     for (const double t : axes.x.ticks())
-        out += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" stroke=\"#e4e4e4\"/>"
+        out += fmt::format("<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\" class=\"grid\"/>"
                            "<text x=\"{0:.1f}\" y=\"{3}\" text-anchor=\"middle\">{4:g}</text>\n",
                            axes.place_x(t), kTop, kHeight - kBottom, kHeight - kBottom + 18, t);
     for (const double t : axes.y.ticks())
-        out += fmt::format("<line y1=\"{0:.1f}\" y2=\"{0:.1f}\" x1=\"{1}\" x2=\"{2}\" stroke=\"#e4e4e4\"/>"
+        out += fmt::format("<line y1=\"{0:.1f}\" y2=\"{0:.1f}\" x1=\"{1}\" x2=\"{2}\" class=\"grid\"/>"
                            "<text x=\"{3}\" y=\"{4:.1f}\" text-anchor=\"end\">{5:g}</text>\n",
                            axes.place_y(t), kLeft, kWidth - kRight, kLeft - 6, axes.place_y(t) + 4, t);
     return out;
 }
 
+/// A curve with its points, and a line of the legend: a stroke in its colour, the name as text.
 std::string curve(const ChartSeries& series, const Axes& axes, std::size_t row) {
-    const char* color = kColors[row % kColors.size()];
+    const std::string color = series.strong ? "var(--text)" : fmt::format("var(--series-{})", row % kColors);
+    const char* kind = series.strong ? "curve strong" : "curve";
     std::string points, dots;
     for (const ChartPoint& point : series.points) {
         if (!shown(point))
             continue;
         const double x = axes.place_x(point.x), y = axes.place_y(point.y);
         points += fmt::format("{:.1f},{:.1f} ", x, y);
-        dots += fmt::format(
-            "<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"{}\"><title>{}</title></circle>\n", x, y,
-            color, html_escaped(point.label));
+        dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"{}\" style=\"fill:{}\"><title>{}</title>"
+                            "</circle>\n",
+                            x, y, series.strong ? 5 : 3.5, color, html_escaped(point.label));
     }
-    return fmt::format("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"/>\n{}"
-                       "<text x=\"{}\" y=\"{}\" fill=\"{}\">{}</text>\n",
-                       points, color, series.strong ? 3.5 : 1.8, dots, kWidth - kRight + 10,
-                       kTop + 14 + 20 * static_cast<int>(row), color, html_escaped(series.name));
+    const int left = kWidth - kRight + 12, middle = kTop + 10 + 22 * static_cast<int>(row);
+    return fmt::format(
+        "<polyline class=\"{0}\" style=\"stroke:{1}\" points=\"{2}\"/>\n{3}"
+        "<line class=\"{0}\" style=\"stroke:{1}\" x1=\"{4}\" x2=\"{5}\" y1=\"{6}\" y2=\"{6}\"/>"
+        "<text x=\"{7}\" y=\"{8}\">{9}</text>\n",
+        kind, color, points, dots, left, left + 22, middle, left + 30, middle + 4, html_escaped(series.name));
 }
 
 } // namespace
@@ -92,10 +94,8 @@ std::string log_chart(const std::vector<ChartSeries>& series, const std::string&
                 axes.x.extend(point.x);
                 axes.y.extend(point.y);
             }
-    std::string out =
-        fmt::format("<svg viewBox=\"0 0 {} {}\" width=\"{}\" role=\"img\" aria-label=\"{} over {}\" "
-                    "font-size=\"13\">\n",
-                    kWidth, kHeight, kWidth, html_escaped(y_title), html_escaped(x_title));
+    std::string out = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{} over {}\">\n",
+                                  kWidth, kHeight, html_escaped(y_title), html_escaped(x_title));
     out += grid(axes);
     out += fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n",
                        (kLeft + kWidth - kRight) / 2, kHeight - 6, html_escaped(x_title));

@@ -1,6 +1,7 @@
 #include "commands.h"
 
 #include "inputs.h"
+#include "outputs.h"
 #include "prt/error.h"
 #include "prt/sh.h"
 #include "prt/stopwatch.h"
@@ -59,6 +60,8 @@ void print_lights(const std::vector<FittedLight>& lights) {
 } // namespace
 
 void run(const ProjectArguments& a, Interrupt& interrupt) {
+    // A light file is known by its name.
+    check_outputs({{a.output, "--output", {".json"}, true}, {a.json, "--json", {".json"}}}, {a.environment});
     check_order(a.order);
     const Stopwatch stopwatch;
     LoadedLight loaded =

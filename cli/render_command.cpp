@@ -1,6 +1,7 @@
 #include "commands.h"
 
 #include "inputs.h"
+#include "outputs.h"
 #include "prt/error.h"
 #include "prt/gl_renderer.h"
 #include "prt/light_meter.h"
@@ -92,7 +93,7 @@ float choose_exposure(const RenderArguments& a, const Picture& picture, const Ra
 void write_picture(const RenderArguments& a, const Image& image, std::optional<float> exposure,
                    Interrupt& interrupt) {
     const Interrupt::WritingScope writing(interrupt);
-    if (a.output.extension() == ".exr")
+    if (suffix_of(a.output) == ".exr")
         return write_exr(a.output, downsampled(image, a.samples));
     // Views of numbers are shown as they are.
     const auto pixels =
@@ -128,6 +129,8 @@ void report(const RenderArguments& a, const Picture& picture, std::optional<floa
 } // namespace
 
 void run(const RenderArguments& a, Interrupt& interrupt) {
+    check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
+                  {a.model, a.environment, a.baked});
     const Model model = load_model(a.model);
     if (!model.baked && !model.compressed)
         print_notices(a.model.string(), {"holds no transfer and is drawn without shadows"});

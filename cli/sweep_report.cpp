@@ -1,6 +1,5 @@
 #include "sweep_report.h"
 
-#include "html.h"
 #include "log_chart.h"
 
 #include <fmt/core.h>
@@ -15,6 +14,8 @@ std::vector<std::string> methods_of(const std::vector<SweepPoint>& points) {
     for (const SweepPoint& point : points)
         if (std::find(methods.begin(), methods.end(), point.method) == methods.end())
             methods.push_back(point.method);
+    if (std::find(methods.begin(), methods.end(), kOurs) == methods.end())
+        methods.push_back(kOurs);
     return methods;
 }
 
@@ -50,25 +51,38 @@ std::string chart(const std::vector<SweepPoint>& points, const char* x_title, Co
 
 using Best = const SweepPoint* (*)(const Sweep&, const std::string&, double);
 
-/// The best of every method for each limit.
+/// The best of every method for each limit; ours has its row even where it has no point.
 template <class Limits>
-std::string table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits,
-                  const char* unit, Best best) {
-    std::string html = "<table>\n<tr><th>lit_rms at most</th>";
+Table best_table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits,
+                 const char* unit, Best best) {
+    Table table;
+    table.columns.push_back({"method", "lit_rms at most", Unit::plain});
     for (const auto limit : limits)
-        html += fmt::format("<th>{:g} {}</th>", static_cast<double>(limit), unit);
-    html += "</tr>\n";
+        table.columns.push_back(
+            {"", fmt::format("{:g} {}", static_cast<double>(limit), unit), Unit::percent});
     for (const std::string& method : methods_of(points)) {
-        html += fmt::format("<tr><td>{}</td>", html_escaped(method));
+        std::vector<Json> row = {method};
         for (const auto limit : limits) {
             const SweepPoint* p = best(sweep, method, static_cast<double>(limit));
-            html +=
-                p ? fmt::format("<td title=\"{}\">{:.3f} %</td>", html_escaped(p->setting), 100 * p->lit_rms)
-                  : std::string("<td></td>");
+            row.push_back(p ? Json(p->lit_rms) : Json());
         }
-        html += "</tr>\n";
+        table.rows.push_back(std::move(row));
     }
-    return html + "</table>\n";
+    table.audience = Audience::people;
+    return table;
+}
+
+/// Every point, for files.
+Table points_table(const char* key, const std::vector<SweepPoint>& points) {
+    Table table{key, "", "", {}, {}};
+    for (const char* column : {"method", "setting", "payload_bytes_per_vertex", "table_bytes_per_vertex",
+                               "bytes_per_vertex", "shader_operations", "lit_rms", "relative_l2", "seconds"})
+        table.columns.push_back({column, ""});
+    for (const SweepPoint& p : points)
+        table.rows.push_back({p.method, p.setting, p.payload_bytes, p.table_bytes, p.bytes(), p.shader_ops,
+                              p.lit_rms, p.relative_l2, p.seconds});
+    table.audience = Audience::files;
+    return table;
 }
 
 double ops_of(const SweepPoint& p) {
@@ -78,62 +92,29 @@ double bytes_of(const SweepPoint& p) {
     return p.bytes();
 }
 
-Json points_json(const std::vector<SweepPoint>& points) {
-    Json list = Json::array();
-    for (const SweepPoint& p : points)
-        list.push_back({{"method", p.method},
-                        {"setting", p.setting},
-                        {"payload_bytes_per_vertex", p.payload_bytes},
-                        {"table_bytes_per_vertex", p.table_bytes},
-                        {"bytes_per_vertex", p.bytes()},
-                        {"shader_operations", p.shader_ops},
-                        {"lit_rms", p.lit_rms},
-                        {"relative_l2", p.relative_l2},
-                        {"seconds", p.seconds}});
-    return list;
-}
-
-template <class Limits>
-void print_table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits,
-                 const char* unit, Best best) {
-    fmt::print("  {:<22}", fmt::format("lit_rms at most, {}", unit));
-    for (const auto limit : limits)
-        fmt::print(" {:>9g}", static_cast<double>(limit));
-    fmt::print("\n");
-    for (const std::string& method : methods_of(points)) {
-        fmt::print("  {:<22}", method);
-        for (const auto limit : limits) {
-            const SweepPoint* p = best(sweep, method, static_cast<double>(limit));
-            fmt::print(" {:>9}", p ? fmt::format("{:.3f} %", 100 * p->lit_rms) : "");
-        }
-        fmt::print("\n");
-    }
-}
-
 } // namespace
 
-std::string sweep_html(const Sweep& sweep) {
-    return "<h2>Error at equal bytes</h2>\n<p>Bytes per vertex: payload, and all tables over the "
-           "vertices.</p>\n" +
-           chart(sweep.by_bytes, "bytes per vertex, bases counted in", bytes_of) +
-           table(sweep, sweep.by_bytes, kSweepBytes, "bytes", best_by_bytes) +
-           fmt::format(
-               "<h2>Error at equal shader operations</h2>\n<p>Multiply-adds of a colour per vertex, on "
-               "average. Clustered methods of the literature have {} clusters; prtkit has as many as take no "
-               "more bytes than classic CPCA at the same operations.</p>\n",
-               kSweepClusters) +
-           chart(sweep.by_ops, "multiply-adds per vertex", ops_of) +
-           table(sweep, sweep.by_ops, kSweepOps, "operations", best_by_ops);
-}
-
-Json sweep_json(const Sweep& sweep) {
-    return {{"equal_bytes", points_json(sweep.by_bytes)},
-            {"equal_shader_operations", points_json(sweep.by_ops)}};
-}
-
-void print_sweep(const Sweep& sweep) {
-    print_table(sweep, sweep.by_bytes, kSweepBytes, "bytes", best_by_bytes);
-    print_table(sweep, sweep.by_ops, kSweepOps, "operations", best_by_ops);
+void add_sweep(const Sweep& sweep, Report& report) {
+    Table bytes = best_table(sweep, sweep.by_bytes, kSweepBytes, "bytes", best_by_bytes);
+    bytes.title = "Error at equal bytes";
+    bytes.about =
+        "Bytes per vertex: payload, and all tables over the vertices. prtkit counts what is bound, whole "
+        "32-bit words; the others count as published, without padding.";
+    bytes.chart = chart(sweep.by_bytes, "bytes per vertex, bases counted in", bytes_of);
+    Table ops = best_table(sweep, sweep.by_ops, kSweepOps, "operations", best_by_ops);
+    ops.title = "Error at equal shader operations";
+    ops.about =
+        fmt::format("Multiply-adds of a colour per vertex, on average. Clustered methods of the literature "
+                    "have {} clusters; prtkit has as many as take no more bytes than classic CPCA at the "
+                    "same operations.",
+                    kSweepClusters);
+    ops.chart = chart(sweep.by_ops, "multiply-adds per vertex", ops_of);
+    report.tables.push_back(std::move(bytes));
+    report.tables.push_back(std::move(ops));
+    report.tables.push_back(points_table("sweep/equal_bytes", sweep.by_bytes));
+    report.tables.push_back(points_table("sweep/equal_shader_operations", sweep.by_ops));
+    for (const std::string& missing : sweep.left_out)
+        report.notes.push_back(std::string(kOurs) + ": " + missing);
 }
 
 } // namespace prt::cli

@@ -10,13 +10,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 
 namespace prt {
 namespace {
-
-constexpr int kMostPackedBits = 240; // eight words, less the cluster
 
 [[noreturn]] void out_of_range(const std::string& what, double value) {
     std::string number = std::to_string(value);
@@ -223,21 +222,32 @@ void encode_all(const PointBlocks& points, const CompressOptions& options, Quant
 }
 
 /// Alternates codes, given the clusters, and clusters, given the codes; from the third round on with the
-/// bases rounded as they will be written.
+/// bases rounded as they will be written. Leaves the best of the rounds that could be written.
 void alternate(const PointBlocks& points, std::span<const float> weights, const CompressOptions& options,
                const Progress& progress, Quantised& q) {
     constexpr int kRounds = 6, kRoundedFrom = 2;
     if (options.weights == WeightFormat::float32)
         return;
+    const bool rounded = basis_share(options) > 0;
+    Quantised best;
+    double least = std::numeric_limits<double>::infinity();
     for (int round = 0; round < kRounds; ++round) {
         progress.update(0.7 + 0.04 * round);
         refit(points, weights, q.codes, q.models, options.threads);
-        if (round >= kRoundedFrom && basis_share(options) > 0) {
+        if (round >= kRoundedFrom && rounded) {
             q.step = basis_step(q.models, total_error(weights, q.codes.errors), basis_share(options));
             round_rows(q.models, q.step);
         }
+        const Codes before = q.codes;
         encode_all(points, options, q);
+        keep_better(points, q.models, before, q.codes, options.threads);
+        if (const double error = total_error(weights, q.codes.errors);
+            (round >= kRoundedFrom || !rounded) && error < least) {
+            least = error;
+            best = q;
+        }
     }
+    q = std::move(best);
 }
 
 double mean_components(const ClusteredTransfer& transfer) {
@@ -316,6 +326,7 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas, 
     statistics.clusters = static_cast<int>(result.transfer.bases.clusters());
     statistics.mean_components = mean_components(result.transfer);
     statistics.bytes_per_receiver = bytes_per_receiver(result.transfer);
+    statistics.bits_per_receiver = bits_per_receiver(result.transfer);
     statistics.basis_bytes = basis_bytes(result.transfer.bases);
     statistics.lit_rms =
         expected_lit_rms(transfer, decode(result.transfer, options.threads), areas, metric, options.threads);

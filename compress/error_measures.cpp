@@ -123,27 +123,41 @@ double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> 
     return std::sqrt(ratio(error, norm));
 }
 
+LitScale lit_scale(std::span<const glm::vec3> reference, std::span<const float> areas) {
+    LitScale scale;
+    double area = 0;
+    for (std::size_t p = 0; p < reference.size(); ++p) {
+        const double a = static_cast<double>(areas[p]);
+        const glm::dvec3 r(reference[p]);
+        scale.mean_square += a * glm::dot(r, r);
+        scale.mean += a * (r.x + r.y + r.z) / 3;
+        area += a;
+    }
+    return {ratio(scale.mean_square, area), ratio(scale.mean, area)};
+}
+
 LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                    std::span<const float> areas, std::span<const Edge> edges,
-                   std::optional<std::span<const std::uint16_t>> clusters) {
-    double sum = 0, area = 0, largest = 0;
+                   std::optional<std::span<const std::uint16_t>> clusters,
+                   const std::optional<LitScale>& scale) {
+    double area = 0, largest = 0, squares = 0;
     std::vector<glm::dvec3> differences(reference.size());
     std::vector<double> sizes;
     for (std::size_t p = 0; p < reference.size(); ++p) {
         const double a = static_cast<double>(areas[p]);
-        const glm::dvec3 r(reference[p]);
-        differences[p] = r - glm::dvec3(approximation[p]);
-        sum += a * (r.x + r.y + r.z) / 3;
+        differences[p] = glm::dvec3(reference[p]) - glm::dvec3(approximation[p]);
+        squares += a * glm::dot(differences[p], differences[p]);
         area += a;
         if (a > 0) {
             sizes.push_back(largest_of(differences[p]));
             largest = std::max(largest, sizes.back());
         }
     }
+    const LitScale own = lit_scale(reference, areas), in = scale.value_or(own);
     LitError result;
-    result.rms = lit_rms(reference, approximation, areas);
-    result.mean = ratio(sum, area);
-    const double mean = std::abs(result.mean);
+    result.rms = std::sqrt(ratio(ratio(squares, area), in.mean_square));
+    result.mean = own.mean;
+    const double mean = std::abs(in.mean);
     result.max = ratio(largest, mean);
     result.percentile_999 = ratio(percentile(sizes, 0.999), mean);
     result.darker_half_rms = darker_half(reference, differences, areas, area);

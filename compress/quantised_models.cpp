@@ -257,6 +257,31 @@ void encode_points(const PointBlocks& points, const QuantisedModels& models,
     });
 }
 
+void keep_better(const PointBlocks& points, const QuantisedModels& models, const Codes& before, Codes& codes,
+                 int threads) {
+    parallel_for(points.count, 1024, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> rest(models.dimension);
+        for (std::size_t p = begin; p < end; ++p) {
+            const std::size_t k = before.clusters[p];
+            const std::span<const float> w = before.of(p);
+            points.copy_point(p, rest.data());
+            for (std::size_t i = 0; i < models.dimension; ++i)
+                rest[i] -= models.mean(k)[i];
+            for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[k]); ++j)
+                for (std::size_t i = 0; i < models.dimension; ++i)
+                    rest[i] -= w[j] * models.row(k, j)[i];
+            float error = 0;
+            for (const float r : rest)
+                error += r * r;
+            if (!(error < codes.errors[p]))
+                continue;
+            codes.clusters[p] = before.clusters[p];
+            codes.errors[p] = error;
+            std::copy(w.begin(), w.end(), codes.weights.begin() + static_cast<std::ptrdiff_t>(p * w.size()));
+        }
+    });
+}
+
 std::vector<std::vector<std::uint32_t>> neighbour_clusters(const QuantisedModels& models, std::size_t most,
                                                            int threads) {
     const std::vector<float> norms = inverse_norms(models);

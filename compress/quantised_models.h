@@ -57,6 +57,12 @@ void encode_in_place(const PointBlocks& points, const QuantisedModels& models, C
 void encode_points(const PointBlocks& points, const QuantisedModels& models,
                    std::span<const std::vector<std::uint32_t>> candidates, Codes& codes, int threads);
 
+/// Gives points their code of `before` back where it loses less: weights are rounded one after the other,
+/// which is not always the best where rows are not orthogonal, and what refit has found for a code must not
+/// be lost.
+void keep_better(const PointBlocks& points, const QuantisedModels& models, const Codes& before, Codes& codes,
+                 int threads);
+
 /// Clusters that are near each other: for each the `most` whose subspaces are nearest to its mean, itself
 /// first.
 std::vector<std::vector<std::uint32_t>> neighbour_clusters(const QuantisedModels& models, std::size_t most,

@@ -11,8 +11,10 @@
 namespace prt {
 namespace {
 
-constexpr int kMostPayloadBytes = 30;
-constexpr int kMostOperationBytes = 24; ///< sixteen components of 11 or 12 bits
+constexpr int kMostWords = 8; ///< of packed weights
+constexpr double kBasesOverWeights =
+    2; ///< bases of a preset take at most so many times the weights' bytes ..
+constexpr double kAlwaysForBases = 4096; ///< .. or so many bytes: a prop of some hundred vertices needs them
 
 void check(const SearchOptions& o) {
     for (const auto& [value, name] :
@@ -24,7 +26,25 @@ void check(const SearchOptions& o) {
         throw Error("there is no budget to search for");
 }
 
-/// Tries numbers of clusters and bytes of payload, each pair once, and keeps the best.
+/// A number of clusters is searched for along a line: at so much payload, and with directions that pay for
+/// their bytes or do not.
+struct Line {
+    int payload = 1; ///< packed: 32-bit words of a receiver; else groups of four weights
+    bool bases_count = true;
+    friend auto operator<=>(const Line&, const Line&) = default;
+};
+
+/// A number of clusters and what it led to.
+struct Known {
+    double clusters = 0, value = 0;
+};
+
+/// Where a straight line through both has `value`.
+double interpolated(const Known& a, const Known& b, double value) {
+    return a.clusters + (b.clusters - a.clusters) * (value - a.value) / (b.value - a.value);
+}
+
+/// Tries numbers of clusters on lines, each pair once, and keeps the best.
 class Search {
 public:
     Search(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
@@ -39,24 +59,40 @@ public:
             most_clusters_ = options.compress.clusters;
     }
 
+    /// Where operations are what is short they are few anyway, and more of them must not give way to clusters
+    /// that the bytes have room for: 0.40 instead of 1.04 times the error of classic CPCA with one operation,
+    /// measured on a head. The other way is tried where operations turn out not to be short, or where bases
+    /// outweigh what they serve: the price of a direction is measured on meshes where they do not.
     SearchResult run() {
         const std::optional<double> ops = options_.budget.shader_ops;
-        bases_count_ = !ops;
-        search_payloads();
-        if (ops && best_trial_.mean_components < 0.9 * *ops) { // they are not short
-            bases_count_ = true;
-            tried_.clear();
-            best_.clear();
-            search_payloads();
-        }
+        search_payloads({start(), !ops});
+        const bool other_way = ops ? best_trial_.mean_components < 0.9 * *ops
+                                   : packed() && best_trial_.bytes_per_vertex > 2 * best_trial_.payload_bytes;
+        if (other_way)
+            search_payloads({best_payload_, ops.has_value()});
         return std::move(result_);
     }
 
 private:
-    void search_payloads();
     bool packed() const { return options_.compress.weights == WeightFormat::packed; }
-    SearchTrial attempt(int clusters, int payload);
-    void keep_if_better(CompressResult&& result, const SearchTrial& trial);
+    int start() const;
+    int least_payload() const { return options_.payload > 0 ? options_.payload : packed() ? 1 : 0; }
+    int most_payload() const;
+    /// Bytes that the payload of a line takes, where the number of clusters does not count.
+    double payload_bytes(int payload) const {
+        return packed()
+                   ? 4.0 * payload
+                   : 1 + 4.0 * payload * static_cast<double>(bytes_per_weight(options_.compress.weights));
+    }
+    /// Bytes per receiver that a line may fill: the budget's, or, where bytes are not asked about, as much as
+    /// a preset may.
+    double most_bytes(const Line& line) const {
+        return options_.budget.bytes_per_vertex.value_or((1 + kBasesOverWeights) *
+                                                         payload_bytes(line.payload));
+    }
+    CompressOptions options_on(const Line& line, int clusters) const;
+    SearchTrial attempt(int clusters, const Line& line);
+    void keep_if_better(CompressResult&& result, const SearchTrial& trial, const Line& line);
 
     bool keeps(const SearchTrial& t) const {
         const Budget& b = options_.budget;
@@ -80,10 +116,11 @@ private:
         return b.max_error ? t.bytes_per_vertex : t.lit_rms;
     }
 
-    /// The best number of clusters at a payload: by bytes or by error. Returns its cost.
-    double best_at(int payload);
-    void fill_bytes(int payload);
-    void reach_error(int payload);
+    void search_payloads(const Line& start);
+    /// The best number of clusters on a line: by bytes or by error. Returns its cost.
+    double best_on(const Line& line);
+    void fill_bytes(const Line& line);
+    void reach_error(const Line& line);
     int clamped(double clusters) const {
         return static_cast<int>(std::clamp(std::round(clusters), 1.0, static_cast<double>(most_clusters_)));
     }
@@ -96,20 +133,34 @@ private:
     double receivers_;
     int most_clusters_ = 1;
     double bytes_per_cluster_ = 120; ///< of the bases, from the last try
-    int clusters_guess_ = 64;
-    /// Whether directions pay for their bytes. Where operations are what is short they are few anyway, and
-    /// more of them must not give way to clusters that the bytes have room for: 0.40 instead of 1.04 times
-    /// the error of classic CPCA with one operation, measured on a head.
-    bool bases_count_ = true;
-    std::map<std::pair<int, int>, SearchTrial> tried_;
-    std::map<int, double> best_;
+    double clusters_guess_ = 64;
+    std::map<std::pair<int, Line>, SearchTrial> tried_;
+    std::map<Line, double> best_;
     SearchResult result_;
     bool any_ = false;
     SearchTrial best_trial_;
+    int best_payload_ = 1;
 };
 
-SearchTrial Search::attempt(int clusters, int payload) {
-    const auto key = std::pair(clusters, payload);
+CompressOptions Search::options_on(const Line& line, int clusters) const {
+    CompressOptions o = options_.compress;
+    o.clusters = clusters;
+    o.mean_components = options_.budget.shader_ops.value_or(0);
+    if (packed()) {
+        o.cluster_bits = static_cast<int>(std::bit_width(static_cast<unsigned>(clusters - 1)));
+        o.bases_count = line.bases_count;
+        o.fixed_bits.clear();
+        o.bits = std::min(32 * line.payload - o.cluster_bits, kMostPackedBits); // words are bound whole
+        if (options_.choose_components)
+            o.components = std::min(kMostPackedComponents, static_cast<int>(transfer_.dimension()));
+    } else if (options_.choose_components) {
+        o.components = std::min(4 * line.payload, static_cast<int>(transfer_.dimension()));
+    }
+    return o;
+}
+
+SearchTrial Search::attempt(int clusters, const Line& line) {
+    const auto key = std::pair(clusters, line);
     if (const auto known = tried_.find(key); known != tried_.end())
         return known->second;
     // How many tries there will be is not known; each takes a tenth of what is left of the bar.
@@ -117,139 +168,134 @@ SearchTrial Search::attempt(int clusters, int payload) {
     Progress part{{}, progress_.stop};
     if (progress_.report)
         part.report = [&, done](double share) { progress_.report(done + 0.1 * (1 - done) * share); };
-
-    CompressOptions o = options_.compress;
-    o.clusters = clusters;
-    o.mean_components = options_.budget.shader_ops.value_or(0);
-    const int cluster_bits = static_cast<int>(std::bit_width(static_cast<unsigned>(clusters - 1)));
-    if (packed()) {
-        o.cluster_bits = cluster_bits;
-        o.bases_count = bases_count_ && (options_.budget.max_error || options_.budget.bytes_per_vertex);
-        o.fixed_bits.clear();
-        o.bits = std::max(0, 8 * payload - cluster_bits);
-        if (options_.choose_components)
-            o.components = std::min(kMostPackedComponents, static_cast<int>(transfer_.dimension()));
-    } else if (options_.choose_components) {
-        const int left = payload - (clusters > 256 ? 2 : 1);
-        o.components = std::clamp(left / static_cast<int>(bytes_per_weight(o.weights)), 0,
-                                  static_cast<int>(transfer_.dimension()));
-    }
-    CompressResult result = compress(transfer_, areas_, edges_, o, part);
+    CompressResult result = compress(transfer_, areas_, edges_, options_on(line, clusters), part);
     const CompressStatistics& s = result.statistics;
-    const SearchTrial trial{clusters, payload, s.lit_rms, s.bytes_with_bases(transfer_.receivers()),
-                            s.mean_components};
+    const SearchTrial trial{clusters, static_cast<int>(s.bytes_per_receiver), s.lit_rms,
+                            s.bytes_with_bases(transfer_.receivers()), s.mean_components};
     bytes_per_cluster_ = std::max(4.0, static_cast<double>(s.basis_bytes) / static_cast<double>(s.clusters));
     tried_[key] = trial;
     result_.trials.push_back(trial);
-    keep_if_better(std::move(result), trial);
+    best_[line] = std::min(best_[line], cost(trial));
+    keep_if_better(std::move(result), trial, line);
     return trial;
 }
 
-void Search::keep_if_better(CompressResult&& result, const SearchTrial& trial) {
+void Search::keep_if_better(CompressResult&& result, const SearchTrial& trial, const Line& line) {
     if (any_ && !(cost(trial) < cost(best_trial_)))
         return;
     any_ = true;
     best_trial_ = trial;
+    best_payload_ = line.payload;
     result_.result = std::move(result);
     result_.kept = keeps(trial);
 }
 
-/// As many clusters as the bytes have room for.
-void Search::fill_bytes(int payload) {
-    const double room = (*options_.budget.bytes_per_vertex - payload) * receivers_;
-    double low = 0, high = static_cast<double>(most_clusters_) + 1; // known to fit, known not to
-    double next = room / bytes_per_cluster_;
-    for (int i = 0; i < 5; ++i) {
-        const int clusters = clamped(std::clamp(next, low + 1, high - 1));
-        const SearchTrial trial = attempt(clusters, payload);
-        const bool fits = trial.bytes_per_vertex <= *options_.budget.bytes_per_vertex;
-        (fits ? low : high) = clusters;
-        best_[payload] = std::min(best_[payload], cost(trial));
-        if (low + 1 >= high || (fits && trial.bytes_per_vertex > 0.975 * *options_.budget.bytes_per_vertex))
+/// As many clusters as the bytes have room for, between a number that fits and one that does not.
+void Search::fill_bytes(const Line& line) {
+    constexpr int kTries = 6;
+    const double most = most_bytes(line);
+    Known fits{0, payload_bytes(line.payload)}, too_many{static_cast<double>(most_clusters_) + 1, 0};
+    double next = (most - fits.value) * receivers_ / bytes_per_cluster_;
+    for (int i = 0; i < kTries && fits.clusters + 1 < too_many.clusters; ++i) {
+        const int clusters = clamped(std::clamp(next, fits.clusters + 1, too_many.clusters - 1));
+        const double bytes = attempt(clusters, line).bytes_per_vertex;
+        (bytes <= most ? fits : too_many) = {static_cast<double>(clusters), bytes};
+        if (bytes <= most && bytes > 0.975 * most)
             break;
-        next = 0.997 * room / bytes_per_cluster_;
-        if (std::round(next) <= low)
-            break; // what is left has no room for another
+        if (too_many.value > 0)
+            next = interpolated(fits, too_many, 0.99 * most);
+        else
+            next = clusters + 0.99 * (most - bytes) * receivers_ / bytes_per_cluster_;
     }
 }
 
-/// As few clusters as reach the error: between known bounds by the slope of error against clusters on
-/// logarithmic scales, of which -0.4 is usual.
-void Search::reach_error(int payload) {
-    const double wanted = *options_.budget.max_error;
-    double low = 0, high = static_cast<double>(most_clusters_) + 1; // known to miss, known to reach
+/// As few clusters as reach the error, between a number that misses and one that does: the logarithm of the
+/// error falls straight with that of the clusters, by -0.4 as a rule.
+void Search::reach_error(const Line& line) {
+    constexpr int kTries = 8;
+    const double wanted = *options_.budget.max_error, aim = std::log(0.993 * wanted);
+    Known misses{0, 0}, reaches{static_cast<double>(most_clusters_) + 1, 0};
+    bool missed = false, reached = false;
     double next = clusters_guess_;
-    for (int i = 0; i < 8 && low + 1 < high; ++i) {
-        const int clusters = clamped(std::clamp(next, low + 1, high - 1));
-        const SearchTrial trial = attempt(clusters, payload);
-        best_[payload] = std::min(best_[payload], cost(trial));
-        const bool reached = trial.lit_rms <= wanted;
-        if (reached)
+    for (int i = 0; i < kTries && misses.clusters + 1 < reaches.clusters; ++i) {
+        const int clusters = clamped(std::clamp(next, misses.clusters + 1, reaches.clusters - 1));
+        const SearchTrial trial = attempt(clusters, line);
+        const double error = std::log(std::max(trial.lit_rms, 1e-12));
+        const bool enough = trial.lit_rms <= wanted;
+        (enough ? reaches : misses) = {static_cast<double>(clusters), error};
+        (enough ? reached : missed) = true;
+        if (enough)
             clusters_guess_ = clusters;
-        (reached ? high : low) = clusters;
-        if (reached && trial.lit_rms > 0.985 * wanted)
+        if (enough && trial.lit_rms > 0.985 * wanted)
             break;
         // More clusters only cost more where the bytes already pass what is allowed, or the best so far.
-        const double most_bytes =
+        const double dearest =
             result_.kept ? best_trial_.bytes_per_vertex : options_.budget.bytes_per_vertex.value_or(1e30);
-        if (!reached && trial.bytes_per_vertex > most_bytes)
+        if (!enough && trial.bytes_per_vertex > dearest)
             break;
-        const double factor = std::pow(trial.lit_rms / (0.993 * wanted), 1 / 0.4);
+        const double factor = std::exp(std::clamp((error - aim) / 0.4, -5.0, 5.0));
+        if (!reached && factor > 64) // so far off, a larger payload is the way
+            break;
         next = clusters * std::clamp(factor, 1.0 / 64, 4.0);
-        if (factor > 64) // so far off, a larger payload is the way
-            break;
-        if (low > 0 && high <= most_clusters_ && (next <= low || next >= high))
-            next = std::sqrt(low * high);
+        if (missed && reached)
+            next = std::exp(interpolated({std::log(misses.clusters), misses.value},
+                                         {std::log(reaches.clusters), reaches.value}, aim));
     }
 }
 
-double Search::best_at(int payload) {
-    if (const auto known = best_.find(payload); known != best_.end())
+double Search::best_on(const Line& line) {
+    if (const auto known = best_.find(line); known != best_.end())
         return known->second;
-    best_[payload] = 1e30;
-    if (!options_.choose_clusters) {
-        best_[payload] = cost(attempt(options_.compress.clusters, payload));
-    } else if (options_.budget.max_error) {
-        reach_error(payload);
-    } else if (options_.budget.bytes_per_vertex) {
-        fill_bytes(payload);
-    } else { // operations alone: clusters in one byte, and bits that lose nothing to speak of
-        best_[payload] = cost(attempt(std::min(256, most_clusters_), payload));
-    }
-    return best_[payload];
+    best_[line] = 1e30;
+    if (!options_.choose_clusters)
+        attempt(options_.compress.clusters, line);
+    else if (options_.budget.max_error)
+        reach_error(line);
+    else
+        fill_bytes(line);
+    return best_[line];
 }
 
-void Search::search_payloads() {
+int Search::most_payload() const {
+    if (options_.payload > 0)
+        return options_.payload;
+    int most = packed() ? kMostWords : (static_cast<int>(transfer_.dimension()) + 3) / 4;
     const Budget& budget = options_.budget;
-    int least = 1, most = kMostPayloadBytes, start = 4;
+    if (budget.bytes_per_vertex)
+        while (most > least_payload() && payload_bytes(most) > *budget.bytes_per_vertex)
+            --most;
+    else if (packed() && budget.shader_ops && !budget.max_error)
+        // More bits than these lose nothing to speak of: 16 of the cluster, 12 of every component.
+        most = std::min(most, static_cast<int>(std::ceil((16 + 12 * *budget.shader_ops) / 32)));
+    return most;
+}
+
+/// Where to begin: what was the best share of the weights on meshes of 10 000 to 40 000 vertices. Few
+/// operations leave little to spend there.
+int Search::start() const {
+    const Budget& budget = options_.budget;
+    double bytes = 4;
     if (budget.max_error) // four bytes or so for a hundredth, and one more for every half of it
-        start = static_cast<int>(std::lround(4 + 1.1 * std::log2(0.01 / *budget.max_error)));
-    if (budget.bytes_per_vertex) {
-        most = std::min(most, static_cast<int>(std::floor(*budget.bytes_per_vertex)));
-        if (most < 1) {
-            // Not a byte: a cluster's number alone takes one.
-            attempt(1, 1);
-            return;
-        }
-        // What is best in the payload on meshes of 10 000 to 40 000 vertices; larger ones want more. Few
-        // operations leave little to spend there.
-        start = std::max(
-            1, static_cast<int>(std::lround((budget.shader_ops ? 0.4 : 0.6) * *budget.bytes_per_vertex)));
-    }
-    if (!budget.max_error && !budget.bytes_per_vertex)
-        start = least = most = kMostOperationBytes; // bytes are not asked about
-    start = std::clamp(start, least, most);
-    // From the start in the direction that gets better, until it gets worse.
-    best_at(start);
+        bytes = 4 + 1.1 * std::log2(0.01 / *budget.max_error);
+    if (budget.bytes_per_vertex)
+        bytes = (budget.shader_ops ? 0.4 : 0.6) * *budget.bytes_per_vertex;
+    const double payload = packed() ? bytes / 4 : bytes / payload_bytes(1);
+    return std::clamp(static_cast<int>(std::lround(payload)), least_payload(), most_payload());
+}
+
+/// From the start both ways, until it got worse twice in a row.
+void Search::search_payloads(const Line& start) {
+    constexpr int kPatience = 2;
     for (const int direction : {1, -1}) {
-        bool moved = false;
-        for (int payload = start + direction; payload >= least && payload <= most; payload += direction) {
-            if (!(best_at(payload) < best_at(payload - direction)))
-                break;
-            moved = true;
+        double best = best_on(start);
+        int worse = 0;
+        for (int payload = start.payload + direction;
+             payload >= least_payload() && payload <= most_payload() && worse < kPatience;
+             payload += direction) {
+            const double found = best_on({payload, start.bases_count});
+            worse = found < best ? 0 : worse + 1;
+            best = std::min(best, found);
         }
-        if (moved)
-            break;
     }
 }
 
@@ -260,6 +306,28 @@ SearchResult compress_within(const Transfer& transfer, std::span<const float> ar
                              const Progress& progress) {
     check(options);
     return Search(transfer, areas, edges, options, progress).run();
+}
+
+SearchResult compress_preset(const Transfer& transfer, std::span<const float> areas,
+                             std::span<const Edge> edges, const CompressOptions& preset,
+                             const Progress& progress) {
+    SearchResult found;
+    found.result = compress(transfer, areas, edges, preset, progress);
+    const CompressStatistics& s = found.result.statistics;
+    const auto receivers = static_cast<double>(transfer.receivers());
+    int bits = preset.cluster_bits;
+    for (const int b : preset.fixed_bits)
+        bits += b;
+    const int words = (bits + 31) / 32;
+    const double most_bases = std::max(kBasesOverWeights * 4 * words * receivers, kAlwaysForBases);
+    found.kept = static_cast<double>(s.basis_bytes) <= most_bases;
+    if (found.kept)
+        return found;
+    SearchOptions options;
+    options.compress = preset;
+    options.payload = words;
+    options.budget.bytes_per_vertex = 4 * words + most_bases / receivers;
+    return compress_within(transfer, areas, edges, options, progress);
 }
 
 } // namespace prt

@@ -7,10 +7,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <set>
+#include <sstream>
 
 namespace prt {
 namespace {
+
+/// "7", "3.25"
+std::string short_number(double value) {
+    std::ostringstream text;
+    text << std::setprecision(3) << value;
+    return text.str();
+}
 
 class Sweeper {
 public:
@@ -150,30 +159,46 @@ private:
     void ours() {
         double done = 0.5;
         for (const double bytes : kSweepBytes) {
-            SearchOptions o;
-            o.compress = options_;
-            o.budget.bytes_per_vertex = bytes;
-            const SearchResult found = compress_within(transfer_, areas_, edges_, o, part(done, done + 0.07));
+            Budget budget;
+            budget.bytes_per_vertex = bytes;
+            within(budget, short_number(bytes) + " bytes", part(done, done + 0.07), sweep_.by_bytes);
             done += 0.07;
-            if (found.kept)
-                sweep_.by_bytes.push_back(
-                    measured(std::to_string(found.result.statistics.clusters) + " clusters", found.result));
         }
         // The operations of the classic way, in no more bytes than it takes.
         for (const SweepPoint& reference : std::vector<SweepPoint>(sweep_.by_ops)) {
-            if (reference.method != kClassic ||
-                !(reference.shader_ops > 0)) // none where receivers are all alike
+            if (reference.method != kClassic)
                 continue;
-            SearchOptions o;
-            o.compress = options_;
-            o.budget.bytes_per_vertex = reference.bytes();
-            o.budget.shader_ops = reference.shader_ops;
-            const SearchResult found = compress_within(transfer_, areas_, edges_, o, part(done, done + 0.01));
+            if (!(reference.shader_ops > 0)) {
+                sweep_.left_out.push_back(
+                    "nothing at the operations of classic CPCA with " + reference.setting +
+                    ": it has a cluster for every receiver there, or they are all alike");
+                continue;
+            }
+            Budget budget;
+            budget.bytes_per_vertex = reference.bytes();
+            budget.shader_ops = reference.shader_ops;
+            within(budget,
+                   short_number(reference.shader_ops) + " operations and " + short_number(reference.bytes()) +
+                       " bytes",
+                   part(done, done + 0.01), sweep_.by_ops);
             done += 0.01;
-            if (found.kept)
-                sweep_.by_ops.push_back(
-                    measured(std::to_string(found.result.statistics.clusters) + " clusters", found.result));
         }
+    }
+
+    /// Ours within a budget, or why not.
+    void within(const Budget& budget, const std::string& words, const Progress& progress,
+                std::vector<SweepPoint>& points) {
+        SearchOptions o;
+        o.compress = options_;
+        o.budget = budget;
+        const SearchResult found = compress_within(transfer_, areas_, edges_, o, progress);
+        const CompressStatistics& s = found.result.statistics;
+        if (found.kept)
+            points.push_back(measured(std::to_string(s.clusters) + " clusters", found.result));
+        else
+            sweep_.left_out.push_back("nothing keeps " + words + ", the nearest has " +
+                                      short_number(s.bytes_with_bases(transfer_.receivers())) +
+                                      " bytes and " + short_number(s.mean_components) + " operations");
     }
 
     const Transfer& transfer_;

@@ -99,10 +99,17 @@ void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& la
 
 std::size_t bytes_per_receiver(const ClusteredTransfer& transfer) {
     const ClusteredReceivers& receivers = transfer.receivers;
+    if (receivers.format == WeightFormat::packed)
+        return receivers.stride();
+    return (transfer.bases.clusters() > 256 ? 2 : 1) + receivers.stride();
+}
+
+std::size_t bits_per_receiver(const ClusteredTransfer& transfer) {
+    const ClusteredReceivers& receivers = transfer.receivers;
     const ClusteredBases& bases = transfer.bases;
     if (receivers.format != WeightFormat::packed)
-        return (bases.clusters() > 256 ? 2 : 1) +
-               static_cast<std::size_t>(bases.max_components()) * bytes_per_weight(receivers.format);
+        return 8 * ((bases.clusters() > 256 ? 2 : 1) +
+                    static_cast<std::size_t>(bases.max_components()) * bytes_per_weight(receivers.format));
     std::size_t most = 0;
     for (const ClusterLayout& layout : cluster_layouts(bases)) {
         auto bits = static_cast<std::size_t>(receivers.cluster_bits);
@@ -110,7 +117,7 @@ std::size_t bytes_per_receiver(const ClusteredTransfer& transfer) {
             bits += static_cast<std::size_t>(width_of(layout, j));
         most = std::max(most, bits);
     }
-    return (most + 7) / 8;
+    return most;
 }
 
 std::size_t constant_rows(const ClusteredBases& bases) {

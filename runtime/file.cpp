@@ -38,12 +38,26 @@ std::vector<std::byte> read_file(const std::filesystem::path& path) {
     return bytes;
 }
 
-OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
+std::filesystem::path followed(std::filesystem::path path) {
+    constexpr int kMostLinks = 40; // as Linux
     std::error_code error;
-    const auto status = std::filesystem::status(path_, error);
+    for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(path, error); ++i) {
+        const std::filesystem::path to = std::filesystem::read_symlink(path, error);
+        if (error)
+            break;
+        path = to.is_absolute() ? to : path.parent_path() / to;
+    }
+    return path;
+}
+
+OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)), target_(followed(path_)) {
+    std::error_code error;
+    const auto status = std::filesystem::status(target_, error);
+    if (std::filesystem::is_directory(status))
+        throw Error(path_.string() + ": is a folder and cannot be written as a file");
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
         throw Error(path_.string() + ": is not a regular file and cannot be replaced");
-    std::string name = path_.string() + ".XXXXXX";
+    std::string name = target_.string() + ".XXXXXX";
     descriptor_ = ::mkstemp(name.data());
     temporary_ = name;
     if (descriptor_ < 0)
@@ -79,7 +93,7 @@ void OutputFile::write(std::span<const std::byte> bytes) {
 void OutputFile::commit() {
     if (::fsync(descriptor_) != 0 && errno != EINVAL)
         fail("cannot be written");
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0)
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0)
         fail("cannot be written");
     ::close(descriptor_);
     descriptor_ = -1;

@@ -22,7 +22,7 @@ namespace {
 using viewer::PictureKind;
 
 constexpr int kOrders[] = {3, 4, 5, 6};
-constexpr double kBytes[] = {4, 8, 12, 16};
+constexpr double kBytes[] = {5, 8, 12, 16};
 /// SSAO is given the radius that suits the scene best, of the scene's radius.
 constexpr float kSsaoRadii[] = {0.02f, 0.05f, 0.1f, 0.2f, 0.4f};
 

@@ -284,7 +284,7 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
                 if (packed && receivers.words > 0)
                     unpack_clusters(vertices.first_receiver, vertices.size(), bases.clusters(), receivers);
             } catch (const std::exception& error) {
-                throw Error(primitive_name(primitive) + ": " + error.what());
+                throw Error(primitive_name(primitive) + ": " + in_plain_words(error));
             }
         }
         return compressed;

@@ -1,8 +1,12 @@
 #include "contents.h"
 
+#include "prt/error.h"
+
 #include <algorithm>
 #include <functional>
+#include <new>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 namespace prt {
@@ -288,6 +292,18 @@ void GltfContents::remove_replaced(std::set<std::size_t> accessors) {
             views.erase(object["bufferView"].get<std::size_t>());
     });
     erase_views(*this, views);
+}
+
+std::string in_plain_words(const std::exception& error) {
+    const std::string what = one_line(error.what());
+    if (dynamic_cast<const nlohmann::json::exception*>(
+            &error)) // "[json.exception.type_error.302] type must be .."
+        return "is damaged glTF: " + what.substr(what.starts_with("[json") ? what.find("] ") + 2 : 0);
+    if (dynamic_cast<const std::out_of_range*>(&error))
+        return "is damaged glTF: an index points outside of what the file holds";
+    if (dynamic_cast<const std::bad_alloc*>(&error))
+        return "there is not enough memory to read it";
+    return what;
 }
 
 } // namespace prt

@@ -48,6 +48,9 @@ struct GltfContents {
 inline constexpr const char* kTransferExtension = "PRTKIT_transfer";
 inline constexpr const char* kClusteredExtension = "PRTKIT_clustered_pca";
 
+/// What an exception says of the file, without the inner words of the libraries that threw it.
+std::string in_plain_words(const std::exception& error);
+
 /// The member `key` of `object`, made if it is not there.
 Json& member(Json& object, const char* key, Json::value_t type);
 

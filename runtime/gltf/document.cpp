@@ -11,9 +11,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <climits>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -53,6 +55,45 @@ constexpr std::array<std::string_view, 30> kSupportedExtensions = {
     "EXT_lights_image_based",
 };
 
+/// What other formats for scenes are called, by suffix.
+std::string_view other_format(const std::filesystem::path& path) {
+    static constexpr std::pair<std::string_view, std::string_view> kFormats[] = {
+        {".obj", "Wavefront OBJ"}, {".ply", "PLY"},       {".fbx", "FBX"}, {".stl", "STL"},
+        {".dae", "COLLADA"},       {".blend", "Blender"}, {".usd", "USD"}, {".usda", "USD"},
+        {".usdc", "USD"},          {".usdz", "USD"},      {".3ds", "3ds"}, {".abc", "Alembic"},
+        {".max", "3ds Max"},       {".ma", "Maya"},       {".mb", "Maya"}, {".x", "DirectX"},
+        {".gltf2", "glTF"}};
+    std::string suffix = path.extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    for (const auto& [end, name] : kFormats)
+        if (suffix == end)
+            return name;
+    return {};
+}
+
+/// Refuses what is no glTF before any parser sees it.
+void check_is_gltf(std::span<const std::byte> file, const std::filesystem::path& path) {
+    if (is_glb(file))
+        return;
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    if (first != std::string_view::npos && text[first] == '{')
+        return;
+    const std::string_view format = other_format(path);
+    throw Error((format.empty() ? std::string("is no glTF") : "is " + std::string(format) + ", not glTF") +
+                ": export the scene as glTF 2.0 (.glb)");
+}
+
+/// Line and column of a byte of the file, both from 1.
+std::string place_of(std::string_view text, std::size_t byte) {
+    const std::string_view before = text.substr(0, std::min(byte, text.size()));
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t start = before.find_last_of('\n');
+    return "line " + std::to_string(line) + ", column " +
+           std::to_string(before.size() - (start == std::string_view::npos ? 0 : start + 1));
+}
+
 Json parse_json(std::string_view text) {
     try {
         Json json = Json::parse(text);
@@ -62,8 +103,8 @@ Json parse_json(std::string_view text) {
         if (!version.starts_with("2."))
             throw Error("is glTF of version '" + version + "', only 2 is supported");
         return json;
-    } catch (const nlohmann::json::exception& error) {
-        throw Error("is no glTF: " + one_line(error.what()));
+    } catch (const nlohmann::json::parse_error& error) {
+        throw Error("is damaged: its JSON cannot be read at " + place_of(text, error.byte));
     }
 }
 
@@ -200,6 +241,7 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
     auto contents = std::make_unique<GltfContents>();
     contents->path = path;
     try {
+        check_is_gltf(file, path);
         const bool binary = is_glb(file);
         const std::string_view text =
             binary ? glb_json(file)
@@ -227,8 +269,10 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
             contents->cut_unused_bytes();
         expand_instances(*contents);
         embed_images(*contents);
-    } catch (const std::exception& error) { // ours, and those of the JSON library on members of a wrong type
+    } catch (const Error& error) {
         throw Error(path.string() + ": " + one_line(error.what()));
+    } catch (const std::exception& error) {
+        throw Error(path.string() + ": " + in_plain_words(error));
     }
     return GltfDocument(std::move(contents));
 }

@@ -228,7 +228,7 @@ void decompress_views(GltfContents& contents) {
             contents.model.buffers.push_back(std::move(buffer));
             erase_extension(views[v]);
         } catch (const std::exception& error) {
-            throw Error("compressed buffer view " + std::to_string(v) + " " + error.what());
+            throw Error("compressed buffer view " + std::to_string(v) + " " + in_plain_words(error));
         }
     }
     // What was compressed is not needed any more.

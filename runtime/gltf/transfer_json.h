@@ -43,7 +43,7 @@ auto named(const GltfDocument& document, Read&& read) {
     try {
         return read(document.contents());
     } catch (const std::exception& error) { // ours, and those of the JSON library on members of a wrong type
-        throw Error(document.contents().path.string() + ": " + error.what());
+        throw Error(document.contents().path.string() + ": " + in_plain_words(error));
     }
 }
 

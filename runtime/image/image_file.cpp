@@ -4,11 +4,13 @@
 #include "image_limits.h"
 #include "prt/error.h"
 #include "prt/file.h"
+#include "prt/srgb.h"
 
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
 
 #include <algorithm>
+#include <array>
 #include <climits>
 #include <cstring>
 #include <memory>
@@ -96,15 +98,37 @@ EnvironmentLayout layout_of(const Image& image, std::optional<EnvironmentLayout>
         "square faces in a column; otherwise its layout has to be said)");
 }
 
-/// An image, and what it says about its layout.
-ExrFile read_any(const std::filesystem::path& path) {
-    if (is_exr(path))
-        return read_exr(path);
-    const std::vector<std::byte> hdr = read_file(path);
-    if (!starts_with(hdr, "#?"))
-        throw Error(path.string() + ": is neither an OpenEXR nor a Radiance HDR image");
+/// 8-bit sRGB as linear radiance up to 1.
+Image linear(const Image8& image) {
+    std::array<float, 256> values;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = srgb_decode(static_cast<float>(i) / 255);
+    Image result{image.width, image.height, {}};
+    result.pixels.reserve(image.pixels.size());
+    for (const glm::u8vec4& pixel : image.pixels)
+        result.pixels.emplace_back(values[pixel.r], values[pixel.g], values[pixel.b]);
+    return result;
+}
+
+/// An image, and what it says about itself.
+struct AnyImage {
+    Image image;
+    std::optional<EnvironmentLayout> layout;
+    bool low_dynamic_range = false;
+};
+
+AnyImage read_any(const std::filesystem::path& path) {
+    if (is_exr(path)) {
+        ExrFile exr = read_exr(path);
+        return {std::move(exr.image), exr.layout};
+    }
+    const std::vector<std::byte> file = read_file(path);
     try {
-        return {read_hdr(hdr), {}};
+        if (starts_with(file, "#?"))
+            return {read_hdr(file), {}};
+        if (starts_with(file, "\x89PNG") || starts_with(file, "\xff\xd8\xff"))
+            return {linear(decode_image(file)), {}, true};
+        throw Error("is no image that is read here: OpenEXR, Radiance HDR, PNG and JPEG are");
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
     }
@@ -113,12 +137,14 @@ ExrFile read_any(const std::filesystem::path& path) {
 constexpr std::string_view kFaceMark = "{face}";
 
 /// The six faces of a cube map, of one size, in a column.
-Image read_faces(const std::string& pattern) {
+Image read_faces(const std::string& pattern, bool& low_dynamic_range) {
     Image column;
     for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"}) {
         std::string path = pattern;
         path.replace(path.find(kFaceMark), kFaceMark.size(), face);
-        const Image image = read_any(path).image;
+        AnyImage file = read_any(path);
+        low_dynamic_range |= file.low_dynamic_range;
+        const Image image = std::move(file.image);
         if (image.width != image.height || (column.width != 0 && image.width != column.width))
             throw Error(path + ": is " + std::to_string(image.width) + " x " + std::to_string(image.height) +
                         " pixels, but the faces of a cube map are squares of one size");
@@ -135,10 +161,11 @@ EnvironmentFile load_environment(const std::filesystem::path& path, const Enviro
     EnvironmentFile result;
     std::optional<EnvironmentLayout> layout = options.layout;
     if (path.string().find(kFaceMark) != std::string::npos) {
-        result.environment.image = read_faces(path.string());
+        result.environment.image = read_faces(path.string(), result.low_dynamic_range);
         layout = layout.value_or(EnvironmentLayout::cube_faces);
     } else {
-        ExrFile file = read_any(path);
+        AnyImage file = read_any(path);
+        result.low_dynamic_range = file.low_dynamic_range;
         result.environment.image = std::move(file.image);
         if (!layout)
             layout = file.layout;

@@ -26,14 +26,6 @@ Image empty_smaller(const Image& image, int samples) {
 
 } // namespace
 
-float srgb_encode(float linear) {
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1 / 2.4f) - 0.055f;
-}
-
-float srgb_decode(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
 float automatic_exposure(const Light& light) {
     // Mean radiance over the sphere is L_0 Y_00; luminance by the weights of Rec. 709.
     const glm::vec3 mean = light.coefficients[0] * static_cast<float>(detail::kLegendre.sectoral[0]);

@@ -122,7 +122,8 @@ TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
     ASSERT_EQ(compress.status, 0) << compress.err;
     const auto compress_report = read_json(folder / "c.json");
     EXPECT_LT(compress_report["relative_l2"], 0.3);
-    EXPECT_EQ(compress_report["bytes_per_vertex"], 4); // 4 bits of cluster, 24 of weights
+    EXPECT_EQ(compress_report["bytes_bound_per_vertex"], 4); // 4 bits of cluster, 24 of weights
+    EXPECT_LE(compress_report["bits_used_per_vertex"], 28);
 
     const Outcome evaluate = prt({"evaluate", at("b.glb"), at("c.glb"), "--lights", at("sky.exr"), "--json",
                                   at("e.json"), "--html", at("e.html")});
@@ -432,13 +433,10 @@ TEST_F(Road, BenchMeasuresEveryBackendAndMethod) {
     ASSERT_EQ(bench.status, 0) << bench.err;
     const auto report = read_json(folder / "bench.json");
     EXPECT_EQ(report["reference_rays"], 64 * 64);
-    ASSERT_EQ(report["series"].size(), 3u);
-    for (const auto& series : report["series"]) {
-        ASSERT_EQ(series["runs"].size(), 3u) << series;
-        for (const auto& run : series["runs"]) {
-            EXPECT_LT(run["relative_l2"], 1e-5); // a lone triangle is open: no sampling error at all
-            EXPECT_GT(run["seconds"], 0);
-        }
+    ASSERT_EQ(report["runs"].size(), 9u); // three ways, three numbers of rays
+    for (const auto& run : report["runs"]) {
+        EXPECT_LT(run["relative_l2"], 1e-5); // a lone triangle is open: no sampling error at all
+        EXPECT_GT(run["seconds"], 0);
     }
     const std::vector<std::byte> page = read_file(folder / "bench.html");
     const std::string text(reinterpret_cast<const char*>(page.data()), page.size());

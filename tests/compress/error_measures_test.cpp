@@ -52,5 +52,20 @@ TEST(LitError, HasTheDefinedMeasures) {
     EXPECT_NEAR(error.inner.max, 0.3 / 2, 1e-6); // 3-4
 }
 
+TEST(LitError, UnderALightThatReachesNothingIsOverTheScaleThatIsGiven) {
+    // A sun below the floor: nothing is lit, and an error of a thousandth is infinitely many times as much.
+    const std::vector<float> areas = {1, 3};
+    const std::vector<glm::vec3> dark(2, glm::vec3(0)), lit = {glm::vec3(2), glm::vec3(0.4f)},
+                                                        error(2, glm::vec3(0.001f));
+    EXPECT_TRUE(std::isinf(lit_error(dark, error, areas, {}, std::nullopt).rms));
+    const LitScale scale = lit_scale(lit, areas);
+    EXPECT_NEAR(scale.mean_square, (3 * 4.0 + 3 * 3 * 0.16) / 4, 1e-6);
+    EXPECT_NEAR(scale.mean, (2 + 3 * 0.4) / 4, 1e-6);
+    const LitError found = lit_error(dark, error, areas, {}, std::nullopt, scale);
+    EXPECT_NEAR(found.rms, std::sqrt(3e-6 / scale.mean_square), 1e-9);
+    EXPECT_NEAR(found.max, 0.001 / scale.mean, 1e-8);
+    EXPECT_EQ(found.mean, 0);
+}
+
 } // namespace
 } // namespace prt

@@ -60,5 +60,21 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
         }
 }
 
+TEST(Sweep, SaysWhyOursIsMissing) {
+    // Forty receivers: no bases fit five bytes, and classic CPCA has a cluster for each of them.
+    Transfer few = zero_transfer(2, 1, 40);
+    std::copy_n(strip().vectors.begin(), few.vectors.size(), few.vectors.begin());
+    const std::vector<Light> lights = {constant_light(2, {1, 1, 1})};
+    const Sweep result = sweep(few, std::vector<float>(40, 1.0f), {}, lights, {});
+    std::size_t ours = 0, asked = std::size(kSweepBytes);
+    for (const auto* points : {&result.by_bytes, &result.by_ops})
+        for (const SweepPoint& point : *points) {
+            ours += point.method == kOurs;
+            asked += points == &result.by_ops && point.method == kClassic;
+        }
+    EXPECT_LT(ours, asked);
+    EXPECT_EQ(ours + result.left_out.size(), asked);
+}
+
 } // namespace
 } // namespace prt

@@ -302,5 +302,23 @@ TEST(Png, RoundTrips) {
         EXPECT_EQ(glm::u8vec3(read.pixels[i]), pixels[i]);
 }
 
+TEST(LoadEnvironment, EightBitSkiesAreReadAsSrgb) {
+    const test::TemporaryFolder folder;
+    const std::vector<glm::u8vec3> pixels = {{0, 10, 128}, {255, 200, 188}};
+    write_png(folder / "sky.png", 2, 1, pixels);
+    const EnvironmentFile file = load_environment(folder / "sky.png");
+    EXPECT_TRUE(file.low_dynamic_range);
+    for (std::size_t p = 0; p < 2; ++p)
+        for (int c = 0; c < 3; ++c) {
+            const double v = pixels[p][c] / 255.0; // IEC 61966-2-1
+            const double linear = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
+            EXPECT_NEAR(static_cast<double>(file.environment.image.pixels[p][c]), linear, 1e-6);
+        }
+    write_exr(folder / "sky.exr", file.environment.image);
+    EXPECT_FALSE(load_environment(folder / "sky.exr").low_dynamic_range);
+    folder.file("sky.jpg", "\xff\xd8\xff no picture");
+    EXPECT_THROW(load_environment(folder / "sky.jpg"), Error);
+}
+
 } // namespace
 } // namespace prt

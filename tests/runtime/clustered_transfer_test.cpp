@@ -131,6 +131,29 @@ TEST(ClusteredTransfer, PackedWeightsLieWhereTheFormatSays) {
     EXPECT_FLOAT_EQ(weights[2], (2 * 21 - 63) / 63.0f);
     EXPECT_EQ(weights[3], 1);
     EXPECT_EQ(bytes_per_receiver(transfer), 4u);
+    EXPECT_EQ(bits_per_receiver(transfer), 32u);
+}
+
+TEST(ClusteredTransfer, BytesPerReceiverAreThoseOfTheArraysThatAreBound) {
+    std::mt19937 random(3);
+    ClusteredTransfer packed = random_transfer({2, 1, WeightFormat::float32}, random);
+    packed.receivers.format = WeightFormat::packed;
+    packed.receivers.cluster_bits = 9;
+    packed.receivers.words = 2; // 34 bits do not fit one
+    packed.bases.components = {2, 3};
+    packed.bases.bits = {8, 8, 9, 8, 8};
+    packed.receivers.clusters.assign(10, 0);
+    packed.receivers.weights.assign(80, std::byte{0});
+    EXPECT_EQ(10 * bytes_per_receiver(packed), packed.receivers.weights.size());
+    EXPECT_EQ(bits_per_receiver(packed), 34u);
+
+    ClusteredTransfer bytes = packed;
+    bytes.receivers.format = WeightFormat::snorm8;
+    bytes.receivers.components = 4; // three in use
+    bytes.receivers.weights.assign(40, std::byte{0});
+    EXPECT_EQ(10 * bytes_per_receiver(bytes),
+              bytes.receivers.weights.size() + 10); // the cluster takes one more
+    EXPECT_EQ(bits_per_receiver(bytes), 8u + 3 * 8);
 }
 
 TEST(ClusteredTransfer, ALightOfHigherOrderIsCutAndALowerOneRefused) {

@@ -55,5 +55,21 @@ TEST(OutputFile, RefusesWhatIsNoRegularFile) {
     EXPECT_THROW(OutputFile(folder / "no/such/folder"), Error);
 }
 
+TEST(OutputFile, FollowsLinksInsteadOfReplacingThem) {
+    const test::TemporaryFolder folder;
+    folder.file("target", "old");
+    std::filesystem::create_symlink("target", folder / "link");
+    std::filesystem::create_symlink("later", folder / "dangling");
+    for (const char* name : {"link", "dangling"}) {
+        OutputFile file(folder / name);
+        file.write("new");
+        file.commit();
+        EXPECT_TRUE(std::filesystem::is_symlink(folder / name)) << name;
+    }
+    for (const char* name : {"target", "later"})
+        EXPECT_EQ(read_file(folder / name).size(), 3u);
+    EXPECT_EQ(std::to_integer<char>(read_file(folder / "target")[0]), 'n');
+}
+
 } // namespace
 } // namespace prt

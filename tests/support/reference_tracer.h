@@ -18,9 +18,9 @@ struct ReferenceTransfer {
     double relative_l2(const std::vector<float>& other, const std::vector<float>& areas) const;
 };
 
-/// Rays start a millionth of the scene's size above the faces of a vertex, along the sum of their normals (the
-/// open side of all of them, where they are no worse than a corner of a box), whatever the vertex's normal.
-/// `rays` is a square.
+/// Rays start a millionth of the scene's size above the faces of a vertex, along the sum of their normals
+/// (the open side of all of them, where they are no worse than a corner of a box), whatever the vertex's
+/// normal. `rays` is a square.
 ReferenceTransfer reference_transfer(const Scene& scene, int rays);
 
 } // namespace prt::test

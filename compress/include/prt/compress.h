@@ -21,6 +21,8 @@
 
 namespace prt {
 
+inline constexpr int kMostPackedBits = 240; ///< of a receiver's weights: eight words, less the cluster
+
 struct CompressOptions {
     int clusters = 256;
     /// Most components of a cluster; beyond the dimension of the transfer vectors, or 16 for packed weights,
@@ -65,7 +67,8 @@ struct CompressStatistics {
     int clusters = 0;           ///< that hold receivers; empty ones are dropped
     double mean_components = 0; ///< of all receivers
     double seconds = 0;
-    std::size_t bytes_per_receiver = 0; ///< cluster and weights
+    std::size_t bytes_per_receiver = 0; ///< what a game binds: cluster and weights
+    std::size_t bits_per_receiver = 0;  ///< of them in use
     std::size_t basis_bytes = 0;        ///< all bases, and the layout of packed weights
 
     double bytes_with_bases(std::size_t receivers) const {

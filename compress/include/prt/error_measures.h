@@ -40,10 +40,20 @@ struct LitError {
     EdgeJumps inner;    ///< all others
 };
 
+/// What errors of exit radiance are measured in.
+struct LitScale {
+    double mean_square = 0; ///< area-weighted mean of |R|² over the receivers, three channels together
+    double mean = 0;        ///< area-weighted mean of R over the channels
+};
+
+LitScale lit_scale(std::span<const glm::vec3> reference, std::span<const float> areas);
+
 /// Errors of exit radiance `approximation` against `reference`, both [receivers]. `clusters` [receivers]:
-/// where given, jumps are measured along `edges`.
+/// where given, jumps are measured along `edges`. `scale`: what errors are relative to instead of `reference`
+/// itself, for one of many lights under which next to nothing may be lit; `darker_half_rms` does not heed it.
 LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                    std::span<const float> areas, std::span<const Edge> edges,
-                   std::optional<std::span<const std::uint16_t>> clusters);
+                   std::optional<std::span<const std::uint16_t>> clusters,
+                   const std::optional<LitScale>& scale = std::nullopt);
 
 } // namespace prt

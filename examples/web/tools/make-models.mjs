@@ -70,7 +70,7 @@ const models = scenes.map(({ name, file }, i) => {
         title: level.title,
         file: shipped,
         fileBytes: statSync(join(publicFolder, shipped)).size,
-        bytesPerVertexWithBases: figures.bytes_per_vertex_with_bases,
+        bytesPerVertexWithBases: figures.bytes_bound_per_vertex_with_bases,
         litRms: figures.lit_rms,
       };
     }),

@@ -59,9 +59,13 @@ void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLa
 void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& layout,
                 std::span<const std::uint32_t> values, std::span<std::uint32_t> words);
 
-/// What a game binds per receiver, in whole bytes: the cluster in one byte, two above 256 clusters, and the
-/// weights in use; packed: all bits together.
+/// Bytes that a game binds per receiver. Packed: whole 32-bit words. Else the cluster in one byte, two above
+/// 256 clusters, and the weights as vectors of four.
 std::size_t bytes_per_receiver(const ClusteredTransfer& transfer);
+
+/// Bits of them that are in use in the cluster that uses most: the rest is zeros, which
+/// EXT_meshopt_compression takes away on disk and nothing takes away in a vertex buffer.
+std::size_t bits_per_receiver(const ClusteredTransfer& transfer);
 
 /// Rows of constants: a mean and m_k directions for each cluster.
 std::size_t constant_rows(const ClusteredBases& bases);

@@ -11,8 +11,12 @@ namespace prt {
 /// The whole file. Throws `Error` that names it when it is missing, a directory, empty or unreadable.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
+/// The path that writing to `path` ends at: symbolic links are followed, also one whose end is not there yet.
+std::filesystem::path followed(std::filesystem::path path);
+
 /// A file that appears under its name only when it is complete: it is written beside and renamed by `commit`.
-/// Destroyed without `commit`, it leaves nothing and the old file as it was.
+/// A link is followed, not replaced. Destroyed without `commit`, it leaves nothing and the old file as it
+/// was.
 class OutputFile {
 public:
     /// Throws `Error` when nothing can be written there: no such folder, no permission, not a regular file.
@@ -31,7 +35,7 @@ public:
 
 private:
     [[noreturn]] void fail(const char* what) const;
-    std::filesystem::path path_, temporary_;
+    std::filesystem::path path_, target_, temporary_; ///< as named; where links lead; beside it
     int descriptor_ = -1;
 };
 

@@ -92,8 +92,8 @@ struct EncodedImage {
 };
 
 struct Scene {
-    /// The middle of the scene's box in the file's world, metres. Positions are seen from here, so that a scene
-    /// far from the world's origin loses no digits.
+    /// The middle of the scene's box in the file's world, metres. Positions are seen from here, so that a
+    /// scene far from the world's origin loses no digits.
     glm::dvec3 origin{0};
     std::vector<VertexArray> vertex_arrays;
     std::vector<Primitive> primitives;

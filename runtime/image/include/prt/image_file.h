@@ -25,13 +25,15 @@ struct EnvironmentOptions {
 struct EnvironmentFile {
     Environment environment;
     std::size_t repaired_pixels = 0;
+    /// Eight bits per channel, read as sRGB: nothing is brighter than 1, and suns and lamps are clipped.
+    bool low_dynamic_range = false;
 };
 
 /// Reads an environment map from OpenEXR (any channel type and compression, scanline or tiled, RGB, luminance
-/// or luminance-chroma; other primaries are converted) or Radiance HDR. A path that holds "{face}" stands for
-/// six files, with px, nx, py, ny, pz and nz in its place, laid out as `EnvironmentLayout::cube_faces`.
-/// Throws `Error` that names the file for anything that is damaged or no environment map. Memory grows with
-/// what is decoded, not with what a header claims.
+/// or luminance-chroma; other primaries are converted), Radiance HDR, or PNG and JPEG, which are read as
+/// sRGB. A path that holds "{face}" stands for six files, with px, nx, py, ny, pz and nz in its place, laid
+/// out as `EnvironmentLayout::cube_faces`. Throws `Error` that names the file for anything that is damaged or
+/// no environment map. Memory grows with what is decoded, not with what a header claims.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
 /// 8-bit RGBA pixels as stored, without any conversion of colour.

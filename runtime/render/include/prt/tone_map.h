@@ -4,6 +4,7 @@
 #include "prt/glm_layout.h"
 #include "prt/light.h"
 #include "prt/sh_basis.h"
+#include "prt/srgb.h"
 
 #include <glm/gtc/type_precision.hpp>
 
@@ -15,10 +16,6 @@ enum class ToneMap {
     filmic, ///< shoulder and toe by the rational fit of Narkowicz (2016) to the ACES curve, then sRGB
     srgb,   ///< clipped at 1, then sRGB
 };
-
-/// The sRGB transfer function (IEC 61966-2-1) and its inverse.
-float srgb_encode(float linear);
-float srgb_decode(float encoded);
 
 /// Factor on radiance that brings the mean radiance of the lighting to 0.25.
 float automatic_exposure(const Light& light);

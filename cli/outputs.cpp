@@ -1,0 +1,92 @@
+#include "outputs.h"
+
+#include "prt/error.h"
+#include "prt/file.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <system_error>
+
+namespace prt::cli {
+namespace {
+
+using Path = std::filesystem::path;
+
+/// Suffixes that say what a file holds.
+constexpr std::array<std::string_view, 15> kTelling = {".glb",  ".gltf", ".bin", ".png", ".jpg",
+                                                       ".jpeg", ".exr",  ".hdr", ".csv", ".json",
+                                                       ".html", ".htm",  ".obj", ".fbx", ".ply"};
+
+/// Whether both names lead to one file, there or not.
+bool same_file(const Path& a, const Path& b) {
+    std::error_code error;
+    if (std::filesystem::equivalent(a, b, error))
+        return true;
+    return std::filesystem::weakly_canonical(followed(a), error) ==
+           std::filesystem::weakly_canonical(followed(b), error);
+}
+
+void check_suffix(const Output& output) {
+    const std::string suffix = suffix_of(output.path);
+    const auto is_in = [&](const auto& list) {
+        return std::find(list.begin(), list.end(), suffix) != list.end();
+    };
+    if (suffix.empty()            ? !output.suffix_needed
+        : output.suffixes.empty() ? !is_in(kTelling)
+                                  : is_in(output.suffixes))
+        return;
+    if (output.suffixes.empty())
+        throw Error(fmt::format("{}: {} writes text, which is no {} file", output.path.string(),
+                                output.option, suffix));
+    throw Error(fmt::format("{}: {} writes {}, so the name must end in that", output.path.string(),
+                            output.option, fmt::join(output.suffixes, " or ")));
+}
+
+/// The files that a name stands for: six where it holds {face}.
+std::vector<Path> files_of(const Path& input) {
+    constexpr std::string_view kMark = "{face}";
+    const std::string name = input.string();
+    const std::size_t at = name.find(kMark);
+    if (at == std::string::npos)
+        return {input};
+    std::vector<Path> files;
+    for (const char* face : {"px", "nx", "py", "ny", "pz", "nz"})
+        files.emplace_back(std::string(name).replace(at, kMark.size(), face));
+    return files;
+}
+
+} // namespace
+
+std::string suffix_of(const Path& path) {
+    std::string suffix = path.extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return suffix;
+}
+
+void check_outputs(const std::vector<Output>& outputs, const std::vector<Path>& inputs) {
+    std::vector<Output> asked;
+    std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(asked),
+                 [](const Output& output) { return !output.path.empty(); });
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        const Output& output = asked[i];
+        const std::string name = output.path.string();
+        const OutputFile place(output.path); // leaves nothing behind
+        check_suffix(output);
+        for (const Path& input : inputs)
+            for (const Path& file : files_of(input))
+                if (!file.empty() && same_file(file, output.path))
+                    throw Error(fmt::format("{}: is an input, which {} would replace: give another name",
+                                            name, output.option));
+        for (std::size_t other = 0; other < i; ++other)
+            if (same_file(asked[other].path, output.path))
+                throw Error(
+                    fmt::format("{}: {} and {} would be one file", name, asked[other].option, output.option));
+    }
+}
+
+} // namespace prt::cli

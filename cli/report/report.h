@@ -1,0 +1,77 @@
+#pragma once
+
+// A report is one list of figures. Text, JSON, CSV and HTML each show the same list in their way, so that no
+// figure is written down twice.
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace prt::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// How people read a value. JSON and CSV hold the value itself, with the unit in its key.
+enum class Unit {
+    plain,   ///< as it is
+    percent, ///< a share of 1
+    seconds,
+};
+
+struct Column {
+    std::string key;   ///< in JSON and CSV
+    std::string title; ///< for people
+    Unit unit = Unit::plain;
+    int digits = 3;      ///< behind the point, of what people see
+    bool detail = false; ///< in JSON and CSV alone
+};
+
+struct Figure {
+    Column column;
+    Json value;
+};
+
+/// Who a table is for.
+enum class Audience { all, files, people };
+
+struct Table {
+    std::string key;          ///< in JSON, with '/' between levels
+    std::string title, about; ///< about: a sentence on what the columns are
+    std::vector<Column> columns;
+    std::vector<std::vector<Json>> rows; ///< [rows][columns]; null: there is none
+    std::string chart = {};              ///< SVG, before the table
+    Audience audience = Audience::all;
+    std::size_t most_shown = 1000; ///< rows that people see
+};
+
+struct ReportPicture {
+    std::string title;
+    std::vector<std::byte> png;
+};
+
+struct Report {
+    std::string title;
+    std::string verdict;                                     ///< one line; empty: there is none
+    std::vector<std::pair<std::string, std::string>> origin; ///< files, command: what the figures are of
+    std::vector<Figure> figures;
+    std::vector<Table> tables;
+    std::vector<ReportPicture> pictures; ///< for HTML
+    std::vector<std::string> notes;      ///< what is missing, and why
+    std::vector<std::string> notices;    ///< of how the scene was read; for JSON, as they are printed before
+};
+
+/// A value as people read it, "-" where there is none.
+std::string shown(const Json& value, const Column& column);
+
+/// Lines for the terminal.
+std::string report_text(const Report& report);
+/// All figures by key, tables as lists of objects.
+Json report_json(const Report& report);
+/// A line for each figure: table, row (what its first column says), figure, value.
+std::string report_csv(const Report& report);
+/// A page that stands alone: no scripts, nothing loaded.
+std::string report_html(const Report& report);
+
+} // namespace prt::cli

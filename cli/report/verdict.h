@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace prt::cli {
+
+/// What a difference in radiance must pass, relative to the mean, to be seen: the upper end of Weber's
+/// fraction, 1 to 2 %, and little more than one step of an 8-bit sRGB display at its middle, 1.7 %
+/// (docs/math.md, section 6).
+inline constexpr double kVisible = 0.02;
+
+/// What a verdict rests on, over the lights that were named.
+struct Verdict {
+    std::optional<std::size_t> bytes_per_vertex; ///< to bind; unset: not compressed
+    std::string under;                           ///< "these 3 lights"
+    double lit_rms = 0;                          ///< the worst of them
+    std::optional<double> seam;                  ///< the largest jump between clusters
+    double seam_99 = 0;                          ///< what 99 % of such edges stay below
+};
+
+/// One line: "4 bytes a vertex, 0.9 % under these 3 lights; worst seam 2 %: looks the same as the bake".
+std::string in_one_line(const Verdict& verdict);
+
+} // namespace prt::cli

@@ -1,0 +1,160 @@
+// What somebody meets who has never used the program: one line that helps, before any work is done.
+
+#include "program.h"
+#include "prt/image_file.h"
+#include "support/glb_file.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+namespace prt::test {
+namespace {
+
+class FirstHour : public testing::Test {
+protected:
+    void SetUp() override { triangle_file().write(folder / "t.glb"); }
+    std::string at(const std::string& name) const { return (folder / name).string(); }
+    std::string text(const char* name) const {
+        std::ifstream file(folder / name);
+        return {std::istreambuf_iterator<char>(file), {}};
+    }
+    /// Expects one line with `words`, that status, and no file more.
+    void expect_line(const std::vector<std::string>& arguments, int status, const std::string& words) {
+        const std::size_t before = folder.files();
+        const Outcome outcome = prt(arguments);
+        EXPECT_EQ(outcome.status, status) << outcome.err;
+        EXPECT_TRUE(outcome.err.starts_with("prt: error: ")) << outcome.err;
+        EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+        for (const char* inner : {"json.exception", "_M_range_check", "std::", "tinygltf"})
+            EXPECT_EQ(outcome.err.find(inner), std::string::npos) << outcome.err;
+        EXPECT_EQ(folder.files(), before);
+    }
+    void bake_and_compress() {
+        ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "3"}).status, 0);
+        ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("c.glb")}).status, 0);
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(FirstHour, OutputsAreCheckedBeforeWorkBegins) {
+    // A bake of so many rays would take hours: that it ends at once says that nothing was baked.
+    const std::vector<std::string> bake = {"bake", at("t.glb"), "--rays", "16777216"};
+    const auto with = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), bake.begin(), bake.end());
+        return more;
+    };
+    expect_line(with({"-o", at("b.png")}), 1, ".glb");
+    expect_line(with({"-o", at("b.gltf")}), 1, ".glb");
+    expect_line(with({"-o", at("no/such/b.glb")}), 1, "No such file or directory");
+    expect_line(with({"-o", folder.path().string()}), 1, "is a folder");
+    expect_line(with({"-o", at("t.glb")}), 1, "is an input");
+    expect_line(with({"-o", at("b.glb"), "--json", at("b.txt")}), 1, ".json");
+    expect_line(with({"-o", at("b.glb"), "--json", at("no/b.json")}), 1, "no/b.json");
+    expect_line(with({"-o", at("b"), "--json", at("b")}), 1, "would be one file");
+}
+
+TEST_F(FirstHour, EveryCommandThatWritesChecksItsOutputs) {
+    bake_and_compress();
+    write_exr(folder / "e.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(1))});
+    expect_line({"compress", at("b.glb"), "-o", at("c.png")}, 1, ".glb");
+    expect_line({"compress", at("b.glb"), "-o", at("b.glb")}, 1, "is an input");
+    expect_line({"evaluate", at("b.glb"), at("c.glb"), "--html", at("no/r.html")}, 1, "no/r.html");
+    expect_line({"evaluate", at("b.glb"), at("c.glb"), "--csv", at("r.html")}, 1, ".csv");
+    expect_line({"project", at("e.exr"), "-o", at("light.exr")}, 1, ".json");
+    expect_line({"project", at("e.exr"), "-o", at("light")}, 1, ".json");
+    expect_line({"render", at("c.glb"), "--env", at("e.exr"), "-o", at("p.jpg")}, 1, ".png or .exr");
+    expect_line({"render", at("c.glb"), "--env", at("e.exr"), "-o", at("e.exr")}, 1, "is an input");
+    expect_line({"shader", at("c.glb"), "-o", at("s.png")}, 1, "s.png");
+    expect_line({"bench", at("t.glb"), "--html", at("b.json")}, 1, ".html");
+    expect_line({"info", at("c.glb"), "--json", at("no/i.json")}, 1, "no/i.json");
+}
+
+TEST_F(FirstHour, OtherFormatsAreToldToExportGltf) {
+    folder.file("m.obj", "v 0 0 0\nf 1 1 1\n");
+    folder.file("m.ply", "ply\nformat ascii 1.0\n");
+    folder.file("m.fbx", "Kaydara FBX Binary  ");
+    folder.file("m.glb", "this is no model");
+    for (const char* name : {"m.obj", "m.ply", "m.fbx", "m.glb"})
+        expect_line({"bake", at(name), "-o", at("o.glb")}, 1, "export the scene as glTF 2.0 (.glb)");
+    folder.file("broken.gltf", "{\n  \"asset\": {\"version\": \"2.0\"},\n  \"nodes\": [,]\n}");
+    expect_line({"bake", at("broken.gltf"), "-o", at("o.glb")}, 1, "line 3");
+    folder.file("wrong.gltf", "{\"asset\": {\"version\": 2}}");
+    expect_line({"bake", at("wrong.gltf"), "-o", at("o.glb")}, 1, "wrong.gltf");
+}
+
+TEST_F(FirstHour, CommandsThatAreMissingOrMisspeltAreNamed) {
+    expect_line({"bak", at("t.glb")}, 2, "did you mean bake?");
+    expect_line({"evalaute"}, 2, "did you mean evaluate?");
+    expect_line({"frobnicate"}, 2, "compress");
+    expect_line({"evaluate", at("t.glb")}, 2, "prt evaluate BAKED.glb SHIPPED.glb");
+    const Outcome alone = prt({});
+    EXPECT_EQ(alone.status, 2);
+    for (const char* command : {"bake", "compress", "evaluate", "render"})
+        EXPECT_NE(alone.out.find(command), std::string::npos);
+}
+
+TEST_F(FirstHour, ShadersTakeWhatTheirLanguageHas) {
+    bake_and_compress();
+    for (const char* language : {"essl300", "glsl330"}) {
+        const Outcome outcome = prt({"shader", at("c.glb"), "-o", at("s.vert"), "--language", language});
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_NE(text("s.vert").find("PRT_CONSTANTS_TEXTURE"), std::string::npos);
+    }
+}
+
+TEST_F(FirstHour, SkiesOfEightBitsAreReadWithANotice) {
+    write_png(folder / "sky.png", 4, 2, std::vector<glm::u8vec3>(8, glm::u8vec3(188)));
+    const Outcome outcome = prt({"project", at("sky.png"), "-o", at("l.json"), "--json", at("r.json")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("clipped"), std::string::npos) << outcome.err;
+    const auto report = nlohmann::json::parse(text("r.json"));
+    EXPECT_NEAR(report["mean_radiance"][0].get<double>(), std::pow((188 / 255.0 + 0.055) / 1.055, 2.4), 1e-4);
+}
+
+TEST_F(FirstHour, AnEvaluationBeginsWithAVerdictAndEveryFileHoldsItsFigures) {
+    bake_and_compress();
+    const Outcome outcome = prt({"evaluate", at("b.glb"), at("c.glb"), "--json", at("e.json"), "--html",
+                                 at("e.html"), "--csv", at("e.csv")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const std::string verdict = outcome.out.substr(0, outcome.out.find('\n'));
+    EXPECT_TRUE(verdict.starts_with("4 bytes a vertex, ")) << verdict; // a lone triangle is exact
+    EXPECT_NE(verdict.find("looks the same as the bake"), std::string::npos) << verdict;
+    const auto json = nlohmann::json::parse(text("e.json"));
+    EXPECT_EQ(json["verdict"], verdict);
+    EXPECT_EQ(json["bytes_bound_per_vertex"], 4);
+    const std::string page = text("e.html"), csv = text("e.csv");
+    for (const char* part :
+         {"b.glb", "c.glb", "prt evaluate", "prefers-color-scheme", "UTC", "Before", "After"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+    EXPECT_NE(page.find(verdict), std::string::npos);
+    EXPECT_EQ(page.find("{{"), std::string::npos);
+    EXPECT_NE(csv.find("lights,uniform,lit_rms," + json["lights"][0]["lit_rms"].dump() + "\n"),
+              std::string::npos);
+    EXPECT_NE(csv.find(",,bytes_bound_per_vertex,4\n"), std::string::npos);
+}
+
+#ifdef PRT_EXAMPLE_SCENES
+TEST_F(FirstHour, UniformBlocksLargerThanGuaranteedAreSaid) {
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    ASSERT_EQ(prt({"bake", at("knot.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "3"}).status, 0);
+    for (const auto& [clusters, large] : {std::pair("20", false), std::pair("1100", true)}) {
+        ASSERT_EQ(
+            prt({"compress", at("b.glb"), "-o", at("c.glb"), "--clusters", clusters, "--components", "1"})
+                .status,
+            0);
+        const Outcome outcome = prt({"shader", at("c.glb"), "-o", at("s.vert"), "--constants", "block"});
+        EXPECT_EQ(outcome.status, 0);
+        EXPECT_EQ(outcome.err.find("16384 are guaranteed") != std::string::npos, large) << outcome.err;
+    }
+}
+#endif
+
+} // namespace
+} // namespace prt::test
