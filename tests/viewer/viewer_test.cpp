@@ -303,14 +303,14 @@ TEST_F(ViewerTest, MetersTheModelAndNotTheSky) {
 
 TEST_F(ViewerTest, CompressesAnewWhereSlidersSaySo) {
     open({baked()});
-    const double before = viewer->figures().bytes_per_vertex;
+    const double before = viewer->figures().bytes_with_bases;
     viewer->compression = {3, 8, 2};
     frame();
     EXPECT_TRUE(viewer->busy());
     frames_until([&] { return !viewer->busy(); });
     EXPECT_EQ(viewer->figures().order, 3);
     EXPECT_LE(viewer->figures().clusters, 8);
-    EXPECT_LT(viewer->figures().bytes_per_vertex, before);
+    EXPECT_LT(viewer->figures().bytes_with_bases, before);
     EXPECT_EQ(right(), PictureKind::prt_compressed);
     // Order beyond the bake's is brought back to it.
     viewer->compression.order = 9;
