@@ -47,7 +47,10 @@ RayScene::RayScene(const Scene& scene, int threads) {
         const VertexArray& array = scene.vertex_arrays[primitive.vertices];
         for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
             const glm::uvec3& triangle = primitive.triangles[t];
-            *indices++ = triangle + static_cast<unsigned>(array.first_receiver);
+            // No ray meets a triangle without area; the numbers of the others stay what they are.
+            *indices++ =
+                (scene.materials[primitive.material].casts_shadow ? triangle : glm::uvec3(triangle.x)) +
+                static_cast<unsigned>(array.first_receiver);
             triangles_.push_back({static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(t)});
             extents_.push_back(std::max({largest_coordinate(array.positions[triangle.x]),
                                          largest_coordinate(array.positions[triangle.y]),

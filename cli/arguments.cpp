@@ -155,6 +155,12 @@ void add_bake(CLI::App& app, BakeArguments& a) {
             "relative L2 error of the direct light to reach, with as many rays as each receiver needs")
         ->excludes(rays);
     add_transport(command, a.options);
+    command
+        ->add_option("--no-shadow", a.no_shadow,
+                     "a material whose surfaces stop no light, as the sky or the outline that is a shell "
+                     "round a scene")
+        ->allow_extra_args(false)
+        ->type_name("MATERIAL");
     add_method(command, a.options);
     choice(command, "--storage", a.options.storage, kStorages,
            "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");

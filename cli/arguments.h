@@ -38,6 +38,7 @@ struct LightOptions {
 
 struct BakeArguments {
     Path scene, output, json;
+    std::vector<std::string> no_shadow; ///< names of materials
     BakeOptions options;
 };
 

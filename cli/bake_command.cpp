@@ -38,6 +38,8 @@ Json statistics_json(const BakeStatistics& s) {
             {"notices", s.notices}};
 }
 
+constexpr double kDark = 0.05; ///< mean visibility; a cellar with a window has as much
+
 void print_report(const BakeArguments& a, const BakeResult& result) {
     const BakeStatistics& s = result.statistics;
     const Transfer& t = result.baked.transfer;
@@ -65,6 +67,24 @@ void print_report(const BakeArguments& a, const BakeResult& result) {
         fmt::print("  gather of {} entries, {:.1f} MB; {:.1g} of the energy remains\n", s.gather_entries,
                    static_cast<double>(s.gather_bytes) * 1e-6, s.remaining_energy);
     fmt::print("  mean visibility {:.4f}\n", s.mean_visibility);
+    if (s.mean_visibility < kDark && a.no_shadow.empty())
+        fmt::print("  hardly any light comes in: where a shell round the scene, as an outline or a sky, "
+                   "keeps it out, "
+                   "--no-shadow MATERIAL lets it pass\n");
+}
+
+/// Surfaces of these materials stop no light.
+void leave_out_shadows(Scene& scene, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        bool found = false;
+        for (Material& material : scene.materials)
+            if (material.name == name) {
+                material.casts_shadow = false;
+                found = true;
+            }
+        if (!found)
+            throw Error("no material is called '" + name + "'");
+    }
 }
 
 } // namespace
@@ -74,11 +94,12 @@ void run(const BakeArguments& a, Interrupt& interrupt) {
     const auto missing =
         a.options.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
     GltfDocument document = load_gltf(a.scene, missing);
-    const Scene scene = extract_scene(document);
+    Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
 
     BakeResult result;
     try {
+        leave_out_shadows(scene, a.no_shadow);
         ProgressBar bar("baking", interrupt.token());
         result = bake(scene, a.options, bar.progress());
     } catch (const Cancelled&) {

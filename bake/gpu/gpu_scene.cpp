@@ -161,7 +161,8 @@ GpuScene::GpuScene(const Scene& scene, const Surfaces& surfaces, const std::vect
         positions.insert(positions.end(), vertices.positions.begin(), vertices.positions.end());
     std::vector<glm::uvec3> indices(surfaces.triangles());
     for (std::uint32_t t = 0; t < indices.size(); ++t)
-        indices[t] = surfaces.corners(t);
+        indices[t] =
+            surfaces.material(t).casts_shadow ? surfaces.corners(t) : glm::uvec3(surfaces.corners(t).x);
     const WideBvh bvh = build_wide_bvh(positions, indices, threads);
     const AlphaTables alpha = make_alpha_tables(scene, surfaces, textures);
 

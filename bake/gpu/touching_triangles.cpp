@@ -45,7 +45,7 @@ TouchingTriangles touching_triangles(const RayScene& rays, const Surfaces& surfa
             rays.triangles_near(position, near, ids);
             for (const unsigned id : ids) {
                 const Corners corners = corners_of(surfaces.scene(), rays.triangle(id));
-                if (surfaces.opaque(id) &&
+                if (surfaces.opaque(id) && surfaces.material(id).casts_shadow &&
                     touches(corners, glm::dvec3(position), normal, static_cast<double>(near)))
                     for (const glm::dvec3& corner : corners)
                         found[i].emplace_back(glm::vec3(corner - start), 0);

@@ -139,6 +139,20 @@ TEST(SealedIn, AHoleThatLetsLightInLeavesReceiversAsTheyAre) {
         }
 }
 
+TEST(Shell, OfAMaterialThatCastsNoShadowLetsAllLightIn) {
+    // An outline: a closed hull whose fronts look inwards.
+    Scene hull = SceneBuilder().bowl({0, 0, 0}, 3, 8, 0).build();
+    const Scene inside = SceneBuilder().floor({0, 0, 0}, 1, 4).sphere({0, 0.5f, 0}, 0.3f, 8).build();
+    const auto light = [](const Scene& scene) { return bake_kept(scene).baked.transfer; };
+    const Transfer dark = light(test::join({inside, hull}));
+    hull.materials[0].casts_shadow = false;
+    const Transfer lit = light(test::join({inside, hull})), alone = light(inside);
+    for (std::size_t i = 0; i < alone.vectors.size(); ++i) {
+        EXPECT_EQ(dark.vectors[i], 0);
+        EXPECT_EQ(lit.vectors[i], alone.vectors[i]);
+    }
+}
+
 /// A strip of cells along x, 1 wide; normals of the edge at z = 0 lean towards +z by `degrees`.
 Scene leaning_strip(double degrees) {
     Scene scene;

@@ -60,6 +60,8 @@ struct Material {
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;
+    /// Its surfaces stop rays. Not part of glTF: for skies and outlines that are shells round a scene.
+    bool casts_shadow = true;
     DiffuseTransmission transmission;
     Glass glass;
     Volume volume;
