@@ -4,6 +4,7 @@
 // frames, in which the sky turns once, it writes the last as a picture.
 
 #include "prt/constant_former.h"
+#include "prt/dering.h"
 #include "prt/gl_context.h"
 #include "prt/gltf.h"
 #include "prt/image_file.h"
@@ -78,7 +79,8 @@ void play(const char* model, const char* sky, const char* picture, int frames) {
         throw std::runtime_error("the model is not compressed");
     const prt::ClusteredTransfer& transfer = compressed->transfer;
     const prt::ConstantFormer former(transfer);
-    const prt::Light light = prt::project(prt::load_environment(sky).environment, former.order());
+    const prt::Light light = prt::deringed(
+        prt::project(prt::load_environment(sky).environment, former.order())); // nowhere negative
 
     const auto context = prt::GlContext::create(prt::GlDevice::any);
     if (!context)

@@ -173,6 +173,27 @@ TEST(GpuTrace, MeetsWhatTheCpuMeets) {
     }
 }
 
+TEST(GpuTrace, PassesSurfacesThatCastNoShadow) {
+    Scene shell = SceneBuilder().sphere({0, 0, 0}, 5, 8).build();
+    shell.materials[0].casts_shadow = false;
+    const Scene balls = balls_over_floor();
+    Pair alone(balls), inside(test::join({balls, shell}));
+    const TraceOptions options{3, 128, 1, 0};
+    const Transfer expected = alone.on_cpu(options);
+    const auto rays = inside.gpu();
+    const auto maps = inside.rasterizer(64);
+    const std::size_t count = expected.vectors.size();
+    const Transfer traced = inside.trace(*rays, options);
+    EXPECT_NEAR(
+        relative_l2(
+            {3, 1, {traced.vectors.begin(), traced.vectors.begin() + static_cast<std::ptrdiff_t>(count)}},
+            expected, alone.receivers().areas),
+        0, 3e-3);
+    // The sphere of a map grows with the shell; what it shows of the floor does not darken.
+    const Transfer drawn = inside.trace(*maps, options);
+    EXPECT_NEAR(drawn.vectors[0], inside.on_cpu(options).vectors[0], 0.05f);
+}
+
 TEST(GpuTrace, SizesBatchesByHitsAndTracesNothingTwice) {
     // A hundredth of the room that all hits at once would take.
     constexpr std::size_t kHitBytes = 64 << 10;
