@@ -211,7 +211,7 @@ TEST_F(BadInput, CompressAndEvaluateWantABake) {
     expect_refused(prt({"evaluate", shipped, shipped}), shipped);
 
     GlbFile other = triangle_file();
-    other.json["nodes"][0]["translation"] = {1, 2, 3};
+    other.json["nodes"][0]["scale"] = {1, 2, 3}; // moved as a whole it would be the same scene
     other.write(folder / "other.glb");
     const std::string other_baked = (folder / "other_baked.glb").string();
     ASSERT_EQ(prt({"bake", (folder / "other.glb").string(), "-o", other_baked, "--rays", "4"}).status, 0);

@@ -182,7 +182,8 @@ TEST(Draco, GivesTheMeshBackWithinItsQuantisation) {
             std::vector<std::uint32_t> vertex;
             for (std::size_t i = 0; i < vertices.size(); ++i) {
                 vertex.push_back(nearest_vertex(truth, vertices.texcoords[0][i]));
-                const glm::vec3 error = vertices.positions[i] - truth.positions[vertex[i]];
+                const glm::vec3 error(scene.world(vertices.positions[i]) -
+                                      plain.world(truth.positions[vertex[i]]));
                 for (int axis = 0; axis < 3; ++axis)
                     EXPECT_LE(std::abs(error[axis]), 0.5f * step + 1e-6f);
                 EXPECT_LE(glm::distance(vertices.normals[i], truth.normals[vertex[i]]), 4 * step + 1e-6f);

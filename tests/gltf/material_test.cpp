@@ -194,7 +194,8 @@ TEST(Instances, AreNodesOfTheirOwnInTheScene) {
     const Scene scene = parsed(three_instances());
     ASSERT_EQ(scene.primitives.size(), 4u); // the child is there once
     const auto corner = [&](std::size_t primitive, std::size_t vertex) {
-        return scene.vertex_arrays[scene.primitives[primitive].vertices].positions[vertex];
+        return glm::vec3(
+            scene.world(scene.vertex_arrays[scene.primitives[primitive].vertices].positions[vertex]));
     };
     std::vector<glm::vec3> corners;
     for (std::size_t p = 0; p < 4; ++p)
