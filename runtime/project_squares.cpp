@@ -14,7 +14,9 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 namespace prt {
@@ -54,13 +56,9 @@ Node on_face(double s, double t, double area) {
     return {{s * inverse, t * inverse, inverse}, area * inverse * inverse * inverse};
 }
 
-/// At (s, t) of an angular map: solid angle sin(pi r) pi dr dalpha, over r dr dalpha of the image.
-Node on_disc(double s, double t, double area) {
-    const double r = std::sqrt(s * s + t * t), factor = r > 0 ? std::sin(kPi * r) / r : kPi;
-    return {{factor * s, factor * t, std::cos(kPi * r)}, area * kPi * factor};
-}
-
-/// sin(pi r) / r and cos(pi r) as power series in r² < 2.
+/// sin(pi r) / r and cos(pi r) as power series in r² < 2. At (s, t) of an angular map the direction is
+/// (s sin(pi r) / r, t sin(pi r) / r, cos(pi r)), and the solid angle sin(pi r) pi dr dalpha, over r dr
+/// dalpha of the image.
 [[gnu::always_inline]] inline void disc_factors(const Lanes& r2, Lanes& sine, Lanes& cosine) {
     constexpr int kTerms = 13;
     constexpr auto kSeries = [] {
@@ -78,6 +76,16 @@ Node on_disc(double s, double t, double area) {
         cosine = cosine * r2 + static_cast<float>(kSeries[0][k]);
         sine = sine * r2 + static_cast<float>(kSeries[1][k]);
     }
+}
+
+/// Half of the lanes: sums of four functions in three colours fit the registers.
+constexpr std::size_t kHalfLanes = 8;
+using HalfLanes [[gnu::vector_size(sizeof(float) * kHalfLanes)]] = float;
+
+[[gnu::always_inline]] inline HalfLanes half_lanes_at(const float* values) {
+    HalfLanes lanes;
+    std::memcpy(&lanes, values, sizeof lanes);
+    return lanes;
 }
 
 /// The basis integrated over the texels of half a row; the stride is a multiple of the lanes.
@@ -99,48 +107,62 @@ struct RowOfTexels {
         directions[point * stride + texel] = glm::vec3(node.direction);
         weights[point * stride + texel] = static_cast<float>(node.weight);
     }
+    /// From directions and weights to `texels`.
+    void integrate(int order);
 };
 
-/// Weighted sums over the points, of which large texels have hundreds: eight at a time in float.
+/// Sums over the points of texels that have few.
 PRT_TWO_CLONES
-void sum_points(std::size_t functions, std::size_t points, std::size_t stride, const float* basis,
-                const float* weights, float* texels) {
-    using Doubles [[gnu::vector_size(sizeof(double) * kLaneCount)]] = double;
+void sum_few_points(std::size_t functions, std::size_t points, std::size_t stride, const float* basis,
+                    const float* weights, float* texels) {
     for (std::size_t i = 0; i < functions; ++i)
-        for (std::size_t x = 0; x < stride; x += kLaneCount) {
-            Doubles sum{};
-            for (std::size_t first = 0; first < points; first += 8) {
-                Lanes some{};
-                for (std::size_t p = first; p < std::min(points, first + 8); ++p)
-                    some +=
-                        lanes_at(weights + p * stride + x) * lanes_at(basis + (i * points + p) * stride + x);
-                sum += __builtin_convertvector(some, Doubles);
-            }
-            *reinterpret_cast<LanesInMemory*>(texels + i * stride + x) = __builtin_convertvector(sum, Lanes);
+        for (std::size_t x = 0; x < stride; x += kHalfLanes) {
+            HalfLanes sum{};
+            for (std::size_t p = 0; p < points; ++p)
+                sum += half_lanes_at(weights + p * stride + x) *
+                       half_lanes_at(basis + (i * points + p) * stride + x);
+            std::memcpy(texels + i * stride + x, &sum, sizeof sum);
         }
 }
 
-/// The nodes of a row of texels of an angular map that lie at height `t`: at s = first + step x, and all of
-/// the area `area`.
+/// The same over the hundreds that large texels have, which takes doubles.
+void sum_many_points(std::size_t functions, std::size_t points, std::size_t stride, const float* basis,
+                     const float* weights, float* texels) {
+    for (std::size_t i = 0; i < functions; ++i)
+        for (std::size_t x = 0; x < stride; ++x) {
+            double sum = 0;
+            for (std::size_t p = 0; p < points; ++p)
+                sum += static_cast<double>(weights[p * stride + x]) *
+                       static_cast<double>(basis[(i * points + p) * stride + x]);
+            texels[i * stride + x] = static_cast<float>(sum);
+        }
+}
+
+void RowOfTexels::integrate(int order) {
+    evaluate_sh(order, directions, basis);
+    const auto sum = points <= 9 ? sum_few_points : sum_many_points;
+    sum(static_cast<std::size_t>(coefficient_count(order)), points, stride, basis.data(), weights.data(),
+        texels.data());
+}
+
+/// Directions of the points (s, t) of an angular map, and their solid angle per area of the image.
 PRT_TWO_CLONES
-void put_disc_nodes(double first, double step, double t, double area, std::size_t stride,
-                    glm::vec3* directions, float* weights) {
+void put_disc_nodes(const float* s, const float* t, std::size_t stride, glm::vec3* directions,
+                    float* weights) {
     for (std::size_t x = 0; x < stride; x += kLaneCount) {
-        Lanes s;
-        for (int lane = 0; lane < kLaneCount; ++lane)
-            s[lane] = static_cast<float>(first + step * (static_cast<double>(x) + lane));
         Lanes sine, cosine;
-        disc_factors(s * s + static_cast<float>(t * t), sine, cosine);
-        const Lanes away = sine * s, down = sine * static_cast<float>(t);
-        *reinterpret_cast<LanesInMemory*>(weights + x) = sine * static_cast<float>(area * kPi);
+        disc_factors(lanes_at(s + x) * lanes_at(s + x) + lanes_at(t + x) * lanes_at(t + x), sine, cosine);
+        const Lanes away = sine * lanes_at(s + x), down = sine * lanes_at(t + x);
+        *reinterpret_cast<LanesInMemory*>(weights + x) = sine * static_cast<float>(kPi);
         for (int lane = 0; lane < kLaneCount; ++lane)
             directions[x + static_cast<std::size_t>(lane)] = {away[lane], down[lane], cosine[lane]};
     }
 }
 
-/// Sums of four mirrored pixels: even or odd in x, even or odd in y. [2 y + x][channel][stride]
-void fold(const Image& image, int top, int size, int row, std::size_t stride, float* parts) {
-    const glm::vec3 *above = &image.at(0, top + row), *below = &image.at(0, top + size - 1 - row);
+/// Sums of four mirrored pixels of rows `row` and size - 1 - row: even or odd in x, even or odd in y.
+/// [2 y + x][channel][stride]
+void fold(const glm::vec3* above, const glm::vec3* below, int size, int row, std::size_t stride,
+          float* parts) {
     const float twice_y = 2 * row + 1 == size ? 0.5f : 1.0f; // the middle row is its own mirror
     for (int x = 0; 2 * x < size; ++x) {
         const float share = twice_y * (2 * x + 1 == size ? 0.5f : 1.0f);
@@ -156,61 +178,123 @@ void fold(const Image& image, int top, int size, int row, std::size_t stride, fl
     }
 }
 
-/// Adds the products of every function with the part that has its signs: cos(m phi) is even in y and, where m
-/// is even, in x; sin(m phi) is odd in y and, where m is odd, even in x.
-PRT_TWO_CLONES
-void multiply_parts(int order, std::size_t stride, const float* texels, const float* parts,
-                    glm::dvec3* sums) {
-    for (int l = 0; l < order; ++l)
-        for (int m = -l; m <= l; ++m) {
-            const auto i = static_cast<std::size_t>(sh_index(l, m));
-            const bool odd_y = m < 0, odd_x = (m % 2 != 0) != odd_y;
-            const float* part = parts + 3 * stride * static_cast<std::size_t>(2 * odd_y + odd_x);
-            const float* texel = texels + i * stride;
-            Lanes wide[3] = {};
-            for (std::size_t x = 0; x < stride; x += kLaneCount)
-                for (std::size_t c = 0; c < 3; ++c)
-                    wide[c] += lanes_at(texel + x) * lanes_at(part + c * stride + x);
-            for (int c = 0; c < 3; ++c) {
-                double sum = 0;
-                for (int lane = 0; lane < kLaneCount; ++lane)
-                    sum += static_cast<double>(wide[c][lane]);
-                sums[i][c] += sum;
-            }
+/// Sums of the products of functions and pixels that have not been added up yet, lane by lane.
+struct LaneSums {
+    float at[kMaxOrder * kMaxOrder][3][kHalfLanes] = {};
+};
+
+/// Indices of the functions, those of the same signs in x and in y next to one another. cos(m phi) is even in
+/// y and, where m is even, in x; sin(m phi) is odd in y and, where m is odd, even in x.
+struct BySigns {
+    std::array<std::size_t, kMaxOrder * kMaxOrder> index;
+    std::array<std::size_t, 5> first{}; ///< of part 2 odd_y + odd_x
+
+    explicit BySigns(int order) {
+        std::size_t count = 0;
+        for (std::size_t part = 0; part < 4; ++part) {
+            for (int l = 0; l < order; ++l)
+                for (int m = -l; m <= l; ++m) {
+                    const bool odd_y = m < 0, odd_x = (m % 2 != 0) != odd_y;
+                    if (part == std::size_t{2} * odd_y + odd_x)
+                        index[count++] = static_cast<std::size_t>(sh_index(l, m));
+                }
+            first[part + 1] = count;
         }
+    }
+};
+
+/// Adds the products of `Functions` functions with a part.
+template <std::size_t Functions>
+[[gnu::always_inline]] inline void multiply_part(const std::size_t* index, std::size_t stride,
+                                                 const float* texels, const float* part, LaneSums& sums) {
+    HalfLanes sum[Functions][3];
+#pragma GCC unroll 4
+    for (std::size_t f = 0; f < Functions; ++f)
+#pragma GCC unroll 3
+        for (std::size_t c = 0; c < 3; ++c)
+            sum[f][c] = half_lanes_at(sums.at[index[f]][c]);
+    for (std::size_t x = 0; x < stride; x += kHalfLanes) {
+        const HalfLanes red = half_lanes_at(part + x), green = half_lanes_at(part + stride + x),
+                        blue = half_lanes_at(part + 2 * stride + x);
+#pragma GCC unroll 4
+        for (std::size_t f = 0; f < Functions; ++f) {
+            const HalfLanes texel = half_lanes_at(texels + index[f] * stride + x);
+            sum[f][0] += texel * red;
+            sum[f][1] += texel * green;
+            sum[f][2] += texel * blue;
+        }
+    }
+#pragma GCC unroll 4
+    for (std::size_t f = 0; f < Functions; ++f)
+#pragma GCC unroll 3
+        for (std::size_t c = 0; c < 3; ++c)
+            std::memcpy(sums.at[index[f]][c], &sum[f][c], sizeof sum[f][c]);
 }
 
+/// Adds the products of every function with the part that has its signs.
+PRT_TWO_CLONES
+void multiply_parts(const BySigns& functions, std::size_t stride, const float* texels, const float* parts,
+                    LaneSums& sums) {
+    for (std::size_t p = 0; p < 4; ++p) {
+        const float* part = parts + 3 * stride * p;
+        std::size_t f = functions.first[p];
+        for (; f + 4 <= functions.first[p + 1]; f += 4)
+            multiply_part<4>(&functions.index[f], stride, texels, part, sums);
+        for (; f < functions.first[p + 1]; ++f)
+            multiply_part<1>(&functions.index[f], stride, texels, part, sums);
+    }
+}
+
+/// Adds the products of all functions with one part.
+PRT_TWO_CLONES
+void multiply_all(const BySigns& functions, std::size_t stride, const float* texels, const float* part,
+                  LaneSums& sums) {
+    for (std::size_t f = 0; f < functions.first[4]; ++f)
+        multiply_part<1>(&functions.index[f], stride, texels, part, sums);
+}
+
+void add_lanes(std::size_t functions, const LaneSums& sums, ProjectedColours& result) {
+    for (std::size_t i = 0; i < functions; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t lane = 0; lane < kHalfLanes; ++lane)
+                result[i][static_cast<int>(c)] += static_cast<double>(sums.at[i][c][lane]);
+}
+
+/// Rows whose sums are added up in float, and blocks of them that share their memory.
+constexpr std::size_t kRowsOfBlock = 8, kBlocksOfTask = 2;
+
 /// Projects the squares of `size` pixels that lie in a column, each in its own frame. `put_row(row, texels)`
-/// fills in directions and weights, `correct(row, texels)` what is not regular.
-template <class PutRow, class Correct>
-std::vector<ProjectedColours> project_squares(const Image& image, int squares, std::size_t points, int order,
-                                              int threads, PutRow&& put_row, Correct&& correct) {
-    const int size = image.width;
+/// fills in directions and weights; `fold_row(square, row, stride, parts)` folds pixels.
+template <class PutRow, class FoldRow>
+std::vector<ProjectedColours> project_squares(int size, int squares, std::size_t points, int order,
+                                              int threads, PutRow&& put_row, FoldRow&& fold_row) {
     const auto half = static_cast<std::size_t>((size + 1) / 2), columns = static_cast<std::size_t>(squares);
     const auto functions = static_cast<std::size_t>(coefficient_count(order));
-    std::vector<ProjectedColours> rows(half * columns);
-    parallel_for(half, 4, threads, [&](std::size_t begin, std::size_t end) {
+    const std::size_t blocks = (half + kRowsOfBlock - 1) / kRowsOfBlock;
+    const BySigns by_signs(order);
+    std::vector<ProjectedColours> sums(blocks * columns);
+    parallel_for(blocks, kBlocksOfTask, threads, [&](std::size_t begin, std::size_t end) {
         RowOfTexels row(order, half, points);
         std::vector<float> parts(12 * row.stride, 0.0f);
-        for (std::size_t y = begin; y < end; ++y) {
-            put_row(static_cast<int>(y), row);
-            evaluate_sh(order, row.directions, row.basis);
-            sum_points(functions, points, row.stride, row.basis.data(), row.weights.data(),
-                       row.texels.data());
-            correct(static_cast<int>(y), row);
-            for (std::size_t square = 0; square < columns; ++square) {
-                fold(image, static_cast<int>(square) * size, size, static_cast<int>(y), row.stride,
-                     parts.data());
-                multiply_parts(order, row.stride, row.texels.data(), parts.data(),
-                               rows[y * columns + square].data());
+        for (std::size_t block = begin; block < end; ++block) {
+            std::vector<LaneSums> lanes(columns);
+            for (std::size_t y = block * kRowsOfBlock; y < std::min(half, (block + 1) * kRowsOfBlock); ++y) {
+                put_row(static_cast<int>(y), row);
+                row.integrate(order);
+                for (std::size_t square = 0; square < columns; ++square) {
+                    fold_row(static_cast<int>(square), static_cast<int>(y), row.stride, parts.data());
+                    multiply_parts(by_signs, row.stride, row.texels.data(), parts.data(), lanes[square]);
+                }
             }
+            for (std::size_t square = 0; square < columns; ++square)
+                add_lanes(functions, lanes[square], sums[block * columns + square]);
         }
     });
     std::vector<ProjectedColours> result(columns);
-    for (std::size_t y = 0; y < half; ++y)
+    for (std::size_t block = 0; block < blocks; ++block)
         for (std::size_t square = 0; square < columns; ++square)
             for (std::size_t i = 0; i < functions; ++i)
-                result[square][i] += rows[y * columns + square][i];
+                result[square][i] += sums[block * columns + square][i];
     return result;
 }
 
@@ -257,8 +341,11 @@ ProjectedColours project_cube(const Environment& environment, int order, int thr
                                     u.half() * v.half() * quadrature.weights[i] * quadrature.weights[j]));
         }
     };
-    const auto faces =
-        project_squares(environment.image, 6, n * n, order, threads, put_row, [](int, RowOfTexels&) {});
+    const auto fold_row = [&](int face, int y, std::size_t stride, float* parts) {
+        const Image& image = environment.image;
+        fold(&image.at(0, face * size + y), &image.at(0, face * size + size - 1 - y), size, y, stride, parts);
+    };
+    const auto faces = project_squares(size, 6, n * n, order, threads, put_row, fold_row);
     ProjectedColours result{};
     for (int face = 0; face < 6; ++face) {
         const auto at = [&](double u, double v) {
@@ -271,52 +358,154 @@ ProjectedColours project_cube(const Environment& environment, int order, int thr
     return result;
 }
 
-ProjectedColours project_angular(const Image& image, int order, int threads) {
-    const int size = image.width;
-    const GaussLegendre inner(points_for(2 * kPi / size)), rim(size < 64 ? 24 : 6);
-    const std::size_t n = inner.nodes.size();
-    const auto beyond = [&](const Cell& u, const Cell& v) {
-        return u.begin * u.begin + v.begin * v.begin > 1;
-    };
-    const auto put_row = [&](int y, RowOfTexels& row) {
-        const Cell v = even_cell(size, y), u = even_cell(size, 0);
-        for (std::size_t j = 0; j < n; ++j)
-            for (std::size_t i = 0; i < n; ++i)
-                put_disc_nodes(u.at(inner.nodes[i]), 2.0 / size, v.at(inner.nodes[j]),
-                               u.half() * v.half() * inner.weights[i] * inner.weights[j], row.stride,
-                               &row.directions[(j * n + i) * row.stride],
-                               &row.weights[(j * n + i) * row.stride]);
-    };
-    // Texels on the rim count as far as they lie inside it: of each of their rows the stretch within the
-    // circle.
-    const auto correct = [&](int y, RowOfTexels& row) {
-        const Cell v = even_cell(size, y);
-        std::array<double, kMaxOrder * kMaxOrder> basis{};
-        for (std::size_t x = 0; x < row.count; ++x) {
-            const Cell u = even_cell(size, static_cast<int>(x));
-            if (!beyond(u, v))
-                break; // those that follow are nearer to the middle
-            std::array<double, kMaxOrder * kMaxOrder> sum{};
-            const bool within = u.end * u.end + v.end * v.end < 1 || u.end > 0 || v.end > 0;
-            for (std::size_t j = 0; within && j < rim.nodes.size(); ++j) {
-                const double t = v.at(rim.nodes[j]), reach = std::sqrt(std::max(0.0, 1 - t * t));
-                const Cell chord{std::max(u.begin, -reach), std::min(u.end, reach)};
-                if (!(chord.begin < chord.end))
-                    continue;
-                for (std::size_t i = 0; i < rim.nodes.size(); ++i) {
-                    const Node node = on_disc(chord.at(rim.nodes[i]), t,
-                                              chord.half() * v.half() * rim.weights[i] * rim.weights[j]);
-                    evaluate_sh(order, node.direction, std::span<double>(basis));
-                    for (int k = 0; k < coefficient_count(order); ++k)
-                        sum[static_cast<std::size_t>(k)] += node.weight * basis[static_cast<std::size_t>(k)];
-                }
+namespace {
+
+/// The mean of a function over a cell of width 1, from its values at the middles of five cells, to order 6:
+/// 1 + d²/24 - 17 d⁴/5760 of central differences. What holds for the functions may as well be done to the
+/// pixels, since only their products are summed; the functions are then wanted at the middles alone.
+constexpr double kMeanOfCell[] = {1 - 2.0 / 24 - 6 * 17.0 / 5760, 1.0 / 24 + 4 * 17.0 / 5760, -17.0 / 5760};
+constexpr int kReach = 2;
+
+PRT_TWO_CLONES
+void add_scaled(const float* from, float factor, std::size_t count, float* to) {
+    std::size_t i = 0;
+    for (; i + kLaneCount <= count; i += kLaneCount)
+        *reinterpret_cast<LanesInMemory*>(to + i) = lanes_at(to + i) + factor * lanes_at(from + i);
+    for (; i < count; ++i)
+        to[i] += factor * from[i];
+}
+
+class AngularMap {
+public:
+    explicit AngularMap(const Image& image) : image_(image), size_(image.width) {}
+
+    int size() const { return size_; }
+    const glm::vec3* row(int y) const { return &image_.at(0, y); }
+    Cell cell(int i) const { return even_cell(size_, i); }
+
+    /// The first texel of row `y` that lies within the circle; the last mirrors it. Half of the row and more
+    /// if there is none.
+    int first_inside(int y) const {
+        const Cell v = cell(y);
+        const double t = std::max(std::abs(v.begin), std::abs(v.end));
+        const double reach = t < 1 ? std::sqrt(1 - t * t) : 0;
+        return std::min((size_ + 1) / 2, static_cast<int>(std::ceil(0.5 * (1 - reach) * size_)));
+    }
+
+    /// Pixels of row `y`, those that the rim cuts taken for black, with the means of cells done to them if
+    /// `filtered`. [size] after kReach that are black, and some behind.
+    void pixels(int y, bool filtered, std::vector<glm::vec3>& result) const {
+        std::vector<glm::vec3> column(result.size(), glm::vec3(0));
+        for (int step = filtered ? -kReach : 0; step <= (filtered ? kReach : 0); ++step)
+            if (y + step >= 0 && y + step < size_)
+                add_row(y + step, filtered ? kMeanOfCell[std::abs(step)] : 1, column);
+        std::ranges::fill(result, glm::vec3(0));
+        const auto count = static_cast<std::size_t>(size_ + 2 * kReach);
+        for (int step = filtered ? -kReach : 0; step <= (filtered ? kReach : 0); ++step)
+            add_scaled(&column[static_cast<std::size_t>(kReach + step)].x,
+                       static_cast<float>(filtered ? kMeanOfCell[std::abs(step)] : 1),
+                       3 * (count - 2 * kReach), &result[kReach].x);
+    }
+
+private:
+    void add_row(int y, double factor, std::vector<glm::vec3>& to) const {
+        const int begin = first_inside(y), end = size_ - begin;
+        if (begin < end)
+            add_scaled(&row(y)[begin].x, static_cast<float>(factor),
+                       static_cast<std::size_t>(3 * (end - begin)),
+                       &to[static_cast<std::size_t>(kReach + begin)].x);
+    }
+
+    const Image& image_;
+    int size_;
+};
+
+/// Nodes in the texels of one row that the rim cuts, of each of their rows the stretch within the circle.
+struct RimNodes {
+    std::vector<float> s, t;
+    std::vector<glm::vec3> colours; ///< times the area
+
+    void add(const Cell& u, const Cell& v, const GaussLegendre& rim, const glm::vec3& colour) {
+        for (std::size_t j = 0; j < rim.nodes.size(); ++j) {
+            const double y = v.at(rim.nodes[j]), reach = std::sqrt(std::max(0.0, 1 - y * y));
+            const Cell chord{std::max(u.begin, -reach), std::min(u.end, reach)};
+            if (!(chord.begin < chord.end))
+                continue;
+            for (std::size_t i = 0; i < rim.nodes.size(); ++i) {
+                s.push_back(static_cast<float>(chord.at(rim.nodes[i])));
+                t.push_back(static_cast<float>(y));
+                colours.push_back(
+                    static_cast<float>(chord.half() * v.half() * rim.weights[i] * rim.weights[j]) * colour);
             }
-            for (int k = 0; k < coefficient_count(order); ++k)
-                row.texels[static_cast<std::size_t>(k) * row.stride + x] =
-                    static_cast<float>(sum[static_cast<std::size_t>(k)]);
         }
+    }
+};
+
+RimNodes rim_nodes(const AngularMap& map, int y, const GaussLegendre& rim) {
+    RimNodes nodes;
+    const int begin = map.first_inside(y), end = std::max(begin, map.size() - begin);
+    for (int x = 0; x < map.size(); x = x + 1 == begin ? std::max(end, x + 1) : x + 1)
+        if (x < begin || x >= end)
+            nodes.add(map.cell(x), map.cell(y), rim, map.row(y)[x]);
+    return nodes;
+}
+
+/// Adds the texels of row `y` that the rim cuts.
+void add_rim(const AngularMap& map, int y, const GaussLegendre& rim, int order, const BySigns& functions,
+             ProjectedColours& result) {
+    RimNodes nodes = rim_nodes(map, y, rim);
+    RowOfTexels row(order, nodes.s.size(), 1);
+    std::vector<float> parts(3 * row.stride, 0.0f);
+    nodes.s.resize(row.stride, 0.0f);
+    nodes.t.resize(row.stride, 0.0f);
+    put_disc_nodes(nodes.s.data(), nodes.t.data(), row.stride, row.directions.data(), row.weights.data());
+    for (std::size_t i = 0; i < row.count; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            parts[c * row.stride + i] = row.weights[i] * nodes.colours[i][static_cast<int>(c)];
+    evaluate_sh(order, row.directions, row.basis);
+    LaneSums sums;
+    multiply_all(functions, row.stride, row.basis.data(), parts.data(), sums);
+    add_lanes(static_cast<std::size_t>(coefficient_count(order)), sums, result);
+}
+
+} // namespace
+
+ProjectedColours project_angular(const Image& image, int order, int threads) {
+    const AngularMap map(image);
+    const int size = map.size(), points = points_for(2 * kPi / size);
+    const bool small = points == 2;
+    const GaussLegendre inner(small ? 1 : points), rim(size < 64 ? 24 : size < 256 ? 6 : 3);
+    const std::size_t n = inner.nodes.size();
+    const auto put_row = [&](int y, RowOfTexels& row) {
+        std::vector<float> s(row.stride), t(row.stride);
+        for (std::size_t j = 0; j < n; ++j)
+            for (std::size_t i = 0; i < n; ++i) {
+                const std::size_t first = (j * n + i) * row.stride;
+                for (std::size_t x = 0; x < row.stride; ++x)
+                    s[x] = static_cast<float>(map.cell(static_cast<int>(x)).at(inner.nodes[i]));
+                std::ranges::fill(t, static_cast<float>(map.cell(y).at(inner.nodes[j])));
+                put_disc_nodes(s.data(), t.data(), row.stride, &row.directions[first], &row.weights[first]);
+                const auto area = static_cast<float>(inner.weights[i] * inner.weights[j] / size / size);
+                for (std::size_t x = 0; x < row.stride; ++x)
+                    row.weights[first + x] *= area;
+            }
     };
-    const auto whole = project_squares(image, 1, n * n, order, threads, put_row, correct);
+    const auto fold_row = [&](int, int y, std::size_t stride, float* parts) {
+        std::vector<glm::vec3> above(static_cast<std::size_t>(size + 2 * kReach)), below = above;
+        map.pixels(y, small, above);
+        map.pixels(size - 1 - y, small, below);
+        fold(&above[kReach], &below[kReach], size, y, stride, parts);
+    };
+    auto whole = project_squares(size, 1, n * n, order, threads, put_row, fold_row);
+    const BySigns functions(order);
+    std::vector<ProjectedColours> rims(static_cast<std::size_t>(size));
+    parallel_for(rims.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t y = begin; y < end; ++y)
+            add_rim(map, static_cast<int>(y), rim, order, functions, rims[y]);
+    });
+    for (const ProjectedColours& row : rims)
+        for (std::size_t i = 0; i < row.size(); ++i)
+            whole[0][i] += row[i];
     ProjectedColours result{};
     add_square(whole[0], {1, 0, 0}, {0, -1, 0}, {0, 0, -1}, order, result);
     return result;
