@@ -360,11 +360,24 @@ ProjectedColours project_cube(const Environment& environment, int order, int thr
 
 namespace {
 
-/// The mean of a function over a cell of width 1, from its values at the middles of five cells, to order 6:
-/// 1 + d²/24 - 17 d⁴/5760 of central differences. What holds for the functions may as well be done to the
-/// pixels, since only their products are summed; the functions are then wanted at the middles alone.
-constexpr double kMeanOfCell[] = {1 - 2.0 / 24 - 6 * 17.0 / 5760, 1.0 / 24 + 4 * 17.0 / 5760, -17.0 / 5760};
-constexpr int kReach = 2;
+/// The mean of a function over a cell of width 1, from its values at the middles of the cells around: 1 +
+/// d²/24 of central differences, and - 17 d⁴/5760 to order 6. What holds for the functions may as well be
+/// done to the pixels, since only their products are summed; the functions are then wanted at the middles
+/// alone.
+struct MeanOfCell {
+    int reach;
+    double factor[3]; ///< of cells that far away
+};
+constexpr MeanOfCell kMeansOfCell[] = {
+    {0, {1}},
+    {1, {1 - 2.0 / 24, 1.0 / 24}},
+    {2, {1 - 2.0 / 24 - 6 * 17.0 / 5760, 1.0 / 24 + 4 * 17.0 / 5760, -17.0 / 5760}}};
+constexpr int kLongestReach = 2;
+
+/// For texels that span `angle` radians at most: what is left is of order angle^4 or angle^6.
+const MeanOfCell& mean_of_cell(double angle) {
+    return kMeansOfCell[points_for(angle) > 2 ? 0 : angle < 0.015 ? 1 : 2];
+}
 
 PRT_TWO_CLONES
 void add_scaled(const float* from, float factor, std::size_t count, float* to) {
@@ -392,19 +405,20 @@ public:
         return std::min((size_ + 1) / 2, static_cast<int>(std::ceil(0.5 * (1 - reach) * size_)));
     }
 
-    /// Pixels of row `y`, those that the rim cuts taken for black, with the means of cells done to them if
-    /// `filtered`. [size] after kReach that are black, and some behind.
-    void pixels(int y, bool filtered, std::vector<glm::vec3>& result) const {
+    /// Pixels of row `y`, those that the rim cuts taken for black, with `mean` done to them. [size] between
+    /// kLongestReach on each side.
+    void pixels(int y, const MeanOfCell& mean, std::vector<glm::vec3>& result) const {
         std::vector<glm::vec3> column(result.size(), glm::vec3(0));
-        for (int step = filtered ? -kReach : 0; step <= (filtered ? kReach : 0); ++step)
+        for (int step = -mean.reach; step <= mean.reach; ++step)
             if (y + step >= 0 && y + step < size_)
-                add_row(y + step, filtered ? kMeanOfCell[std::abs(step)] : 1, column);
+                add_row(y + step, mean.factor[std::abs(step)], column);
+        if (mean.reach == 0)
+            return column.swap(result);
         std::ranges::fill(result, glm::vec3(0));
-        const auto count = static_cast<std::size_t>(size_ + 2 * kReach);
-        for (int step = filtered ? -kReach : 0; step <= (filtered ? kReach : 0); ++step)
-            add_scaled(&column[static_cast<std::size_t>(kReach + step)].x,
-                       static_cast<float>(filtered ? kMeanOfCell[std::abs(step)] : 1),
-                       3 * (count - 2 * kReach), &result[kReach].x);
+        for (int step = -mean.reach; step <= mean.reach; ++step)
+            add_scaled(&column[static_cast<std::size_t>(kLongestReach + step)].x,
+                       static_cast<float>(mean.factor[std::abs(step)]), 3 * static_cast<std::size_t>(size_),
+                       &result[kLongestReach].x);
     }
 
 private:
@@ -413,7 +427,7 @@ private:
         if (begin < end)
             add_scaled(&row(y)[begin].x, static_cast<float>(factor),
                        static_cast<std::size_t>(3 * (end - begin)),
-                       &to[static_cast<std::size_t>(kReach + begin)].x);
+                       &to[static_cast<std::size_t>(kLongestReach + begin)].x);
     }
 
     const Image& image_;
@@ -452,7 +466,7 @@ RimNodes rim_nodes(const AngularMap& map, int y, const GaussLegendre& rim) {
 
 /// Adds the texels of row `y` that the rim cuts.
 void add_rim(const AngularMap& map, int y, const GaussLegendre& rim, int order, const BySigns& functions,
-             ProjectedColours& result) {
+             LaneSums& sums) {
     RimNodes nodes = rim_nodes(map, y, rim);
     RowOfTexels row(order, nodes.s.size(), 1);
     std::vector<float> parts(3 * row.stride, 0.0f);
@@ -463,18 +477,19 @@ void add_rim(const AngularMap& map, int y, const GaussLegendre& rim, int order, 
         for (std::size_t c = 0; c < 3; ++c)
             parts[c * row.stride + i] = row.weights[i] * nodes.colours[i][static_cast<int>(c)];
     evaluate_sh(order, row.directions, row.basis);
-    LaneSums sums;
     multiply_all(functions, row.stride, row.basis.data(), parts.data(), sums);
-    add_lanes(static_cast<std::size_t>(coefficient_count(order)), sums, result);
 }
 
 } // namespace
 
 ProjectedColours project_angular(const Image& image, int order, int threads) {
     const AngularMap map(image);
-    const int size = map.size(), points = points_for(2 * kPi / size);
-    const bool small = points == 2;
-    const GaussLegendre inner(small ? 1 : points), rim(size < 64 ? 24 : size < 256 ? 6 : 3);
+    const int size = map.size();
+    const double texel = 2 * kPi / size;
+    const MeanOfCell& mean = mean_of_cell(texel);
+    const GaussLegendre inner(mean.reach > 0 ? 1 : points_for(texel)), rim(size < 64    ? 24
+                                                                           : size < 256 ? 6
+                                                                                        : 2);
     const std::size_t n = inner.nodes.size();
     const auto put_row = [&](int y, RowOfTexels& row) {
         std::vector<float> s(row.stride), t(row.stride);
@@ -491,18 +506,21 @@ ProjectedColours project_angular(const Image& image, int order, int threads) {
             }
     };
     const auto fold_row = [&](int, int y, std::size_t stride, float* parts) {
-        std::vector<glm::vec3> above(static_cast<std::size_t>(size + 2 * kReach)), below = above;
-        map.pixels(y, small, above);
-        map.pixels(size - 1 - y, small, below);
-        fold(&above[kReach], &below[kReach], size, y, stride, parts);
+        std::vector<glm::vec3> above(static_cast<std::size_t>(size + 2 * kLongestReach)), below = above;
+        map.pixels(y, mean, above);
+        map.pixels(size - 1 - y, mean, below);
+        fold(&above[kLongestReach], &below[kLongestReach], size, y, stride, parts);
     };
     auto whole = project_squares(size, 1, n * n, order, threads, put_row, fold_row);
     const BySigns functions(order);
-    std::vector<ProjectedColours> rims(static_cast<std::size_t>(size));
-    parallel_for(rims.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t y = begin; y < end; ++y)
-            add_rim(map, static_cast<int>(y), rim, order, functions, rims[y]);
-    });
+    std::vector<ProjectedColours> rims((static_cast<std::size_t>(size) + kRowsOfBlock - 1) / kRowsOfBlock);
+    parallel_for(
+        static_cast<std::size_t>(size), kRowsOfBlock, threads, [&](std::size_t begin, std::size_t end) {
+            LaneSums sums;
+            for (std::size_t y = begin; y < end; ++y)
+                add_rim(map, static_cast<int>(y), rim, order, functions, sums);
+            add_lanes(static_cast<std::size_t>(coefficient_count(order)), sums, rims[begin / kRowsOfBlock]);
+        });
     for (const ProjectedColours& row : rims)
         for (std::size_t i = 0; i < row.size(); ++i)
             whole[0][i] += row[i];

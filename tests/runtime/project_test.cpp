@@ -195,7 +195,7 @@ Environment cube_faces(int size, const Radiance& radiance) {
 }
 
 TEST(OtherLayouts, ConstantImagesAreConstantLights) {
-    for (const int size : {1, 2, 3, 16, 65}) {
+    for (const int size : {1, 2, 3, 16, 65, 158, 300, 421}) { // every way of integrating over texels
         Environment faces{{size, 6 * size, {}}, EnvironmentLayout::cube_faces},
             probe{{size, size, {}}, EnvironmentLayout::angular};
         faces.image.pixels.assign(static_cast<std::size_t>(6 * size * size), glm::vec3(1, 2, 3));
@@ -260,7 +260,7 @@ Light by_texels(const Environment& environment, int order) {
 TEST(OtherLayouts, NoiseIsProjectedAsTexelByTexel) {
     std::mt19937 random(5);
     std::uniform_real_distribution<float> value(0, 2);
-    for (const int size : {51, 64})
+    for (const int size : {51, 64, 160})
         for (const EnvironmentLayout layout : {EnvironmentLayout::cube_faces, EnvironmentLayout::angular}) {
             const int height = layout == EnvironmentLayout::angular ? size : 6 * size;
             Environment environment{{size, height, {}}, layout};
