@@ -396,13 +396,17 @@ public:
     const glm::vec3* row(int y) const { return &image_.at(0, y); }
     Cell cell(int i) const { return even_cell(size_, i); }
 
-    /// The first texel of row `y` that lies within the circle; the last mirrors it. Half of the row and more
-    /// if there is none.
+    /// The first texel of row `y` that lies within the circle; the last mirrors it. The middle of the row and
+    /// more if there is none.
     int first_inside(int y) const {
         const Cell v = cell(y);
-        const double t = std::max(std::abs(v.begin), std::abs(v.end));
-        const double reach = t < 1 ? std::sqrt(1 - t * t) : 0;
-        return std::min((size_ + 1) / 2, static_cast<int>(std::ceil(0.5 * (1 - reach) * size_)));
+        return std::min((size_ + 1) / 2, static_cast<int>(std::ceil(edge(std::max(-v.begin, v.end)))));
+    }
+
+    /// The first texel of row `y` of which a part lies within the circle.
+    int first_touched(int y) const {
+        const Cell v = cell(y);
+        return static_cast<int>(edge(std::max({0.0, v.begin, -v.end})));
     }
 
     /// Pixels of row `y`, those that the rim cuts taken for black, with `mean` done to them. [size] between
@@ -422,6 +426,9 @@ public:
     }
 
 private:
+    /// Where the circle is at height `t`, in texels.
+    double edge(double t) const { return 0.5 * (1 - (t < 1 ? std::sqrt(1 - t * t) : 0)) * size_; }
+
     void add_row(int y, double factor, std::vector<glm::vec3>& to) const {
         const int begin = first_inside(y), end = size_ - begin;
         if (begin < end)
@@ -457,10 +464,11 @@ struct RimNodes {
 
 RimNodes rim_nodes(const AngularMap& map, int y, const GaussLegendre& rim) {
     RimNodes nodes;
-    const int begin = map.first_inside(y), end = std::max(begin, map.size() - begin);
-    for (int x = 0; x < map.size(); x = x + 1 == begin ? std::max(end, x + 1) : x + 1)
-        if (x < begin || x >= end)
-            nodes.add(map.cell(x), map.cell(y), rim, map.row(y)[x]);
+    const int begin = map.first_touched(y), inside = map.first_inside(y), end = map.size() - inside;
+    for (int x = begin; x < std::min(inside, map.size()); ++x)
+        nodes.add(map.cell(x), map.cell(y), rim, map.row(y)[x]);
+    for (int x = std::max(inside, end); x < map.size() - begin; ++x)
+        nodes.add(map.cell(x), map.cell(y), rim, map.row(y)[x]);
     return nodes;
 }
 
