@@ -1,9 +1,11 @@
 #include "prt/sh_rotation.h"
 
+#include "checked_rotation.h"
 #include "prt/error.h"
 #include "prt/sh.h"
 #include "prt/vector_lanes.h"
 #include "quarter_turn.h"
+#include "sh_rotation_lanes.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
@@ -11,7 +13,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstring>
 #include <utility>
 
 namespace prt {
@@ -187,102 +188,6 @@ void rotate(int order, const glm::dmat3& matrix, const Turns& turns, Channels* c
     rotate_high_bands(order, turns, c);
 }
 
-/// Bands 2 to 5 side by side, one to a lane. Counted from the top, k = l - |m|, the quarter turns of all
-/// bands have their zeros in the same places.
-using Bands = Channels;
-constexpr std::size_t kLanes = 4, kFirstLane = 2, kDegrees = kFirstLane + kLanes;
-constexpr int kLaneOrder = static_cast<int>(kDegrees);
-
-/// At [0][k] what belongs to m = l - k, at [1][k] what belongs to -m. Where k > l nothing does, and what
-/// stands there meets factors of 0.
-struct Sides {
-    Bands at[2][kDegrees];
-};
-
-constexpr std::size_t place_in_band(std::size_t l, bool minus, std::size_t k) {
-    return minus ? k : 2 * l - k;
-}
-
-/// Of the quarter turn of band l.
-template <bool Inverse>
-consteval double lane_factor(std::size_t l, bool to_minus, std::size_t to, bool from_minus,
-                             std::size_t from) {
-    if (to > l || from > l || (to_minus && to == l) || (from_minus && from == l))
-        return 0;
-    const std::size_t row = place_in_band(l, to_minus, to), column = place_in_band(l, from_minus, from);
-    return Inverse ? kQuarterTurn.at(l, column, row) : kQuarterTurn.at(l, row, column);
-}
-
-template <bool Inverse, bool ToMinus, std::size_t To, std::size_t... From>
-[[gnu::always_inline]] inline Bands turned_lanes(const Sides& c, std::index_sequence<From...>) {
-    Bands sum{};
-    const auto add = [&]<bool Minus, std::size_t K>() __attribute__((always_inline)) {
-        constexpr Bands factor = {
-            lane_factor<Inverse>(2, ToMinus, To, Minus, K), lane_factor<Inverse>(3, ToMinus, To, Minus, K),
-            lane_factor<Inverse>(4, ToMinus, To, Minus, K), lane_factor<Inverse>(5, ToMinus, To, Minus, K)};
-        if constexpr (factor[0] != 0 || factor[1] != 0 || factor[2] != 0 || factor[3] != 0)
-            sum += factor * c.at[Minus][K];
-    };
-    (add.template operator()<false, From>(), ...);
-    (add.template operator()<true, From>(), ...);
-    return sum;
-}
-
-template <bool Inverse, std::size_t... K>
-[[gnu::always_inline]] inline void quarter_turn_lanes(Sides& c, std::index_sequence<K...> all) {
-    c = {{{turned_lanes<Inverse, false, K>(c, all)...}, {turned_lanes<Inverse, true, K>(c, all)...}}};
-}
-
-[[gnu::always_inline]] inline void turn_lanes_about_z(const Turn& turn, Sides& c) {
-#pragma GCC unroll 6
-    for (std::size_t k = 0; k < kDegrees; ++k) {
-        Bands cosine, sine;
-        std::memcpy(&cosine, &turn.cosine[Turn::kZero + kFirstLane - k], sizeof cosine);
-        std::memcpy(&sine, &turn.sine[Turn::kZero + kFirstLane - k], sizeof sine);
-        const Bands plus = c.at[0][k], minus = c.at[1][k];
-        c.at[0][k] = plus * cosine - minus * sine;
-        c.at[1][k] = plus * sine + minus * cosine;
-    }
-}
-
-/// Bands 2 to 5 of `in` to `out`, both [36].
-template <class Real>
-[[gnu::always_inline]] inline void rotate_lanes(const Turns& turns, const Real* in, Real* out) {
-    using Four [[gnu::vector_size(sizeof(Real) * kLanes)]] = Real;
-    constexpr auto all = std::make_index_sequence<kDegrees>();
-    Sides c;
-#pragma GCC unroll 6
-    for (std::size_t k = 0; k < kDegrees; ++k) {
-        const auto from = [&](std::size_t l, bool minus) __attribute__((always_inline)) {
-            return k <= l ? in[l * l + place_in_band(l, minus, k)] : Real(0);
-        };
-        c.at[0][k] = __builtin_convertvector(
-            (Four{from(2, false), from(3, false), from(4, false), from(5, false)}), Bands);
-        c.at[1][k] = __builtin_convertvector(
-            (Four{from(2, true), from(3, true), from(4, true), from(5, true)}), Bands);
-    }
-    turn_lanes_about_z(turns.first, c);
-    if (turns.tilted) {
-        quarter_turn_lanes<false>(c, all);
-        turn_lanes_about_z(turns.tilt, c);
-        quarter_turn_lanes<true>(c, all);
-        turn_lanes_about_z(turns.last, c);
-    }
-#pragma GCC unroll 6
-    for (std::size_t k = 0; k < kDegrees; ++k) {
-        const Four plus = __builtin_convertvector(c.at[0][k], Four),
-                   minus = __builtin_convertvector(c.at[1][k], Four);
-#pragma GCC unroll 4
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
-            const std::size_t l = kFirstLane + lane;
-            if (k < l)
-                out[l * l + place_in_band(l, true, k)] = minus[lane];
-            if (k <= l)
-                out[l * l + place_in_band(l, false, k)] = plus[lane];
-        }
-    }
-}
-
 /// `in` and `out` hold all that the order has, and no less than 36 where it is above 3.
 template <class Real>
 [[gnu::always_inline]] inline void rotate_one_channel(int order, const glm::dmat3& matrix, const Turns& turns,
@@ -352,71 +257,6 @@ void rotate_one(int order, const glm::dmat3& matrix, const Turns& turns, std::sp
         for (std::size_t i = 0; i < width; ++i)
             out[first + i] = static_cast<Real>(c[i]);
     }
-}
-
-[[gnu::always_inline]] inline double product(const glm::dvec3& a, const glm::dvec3& b) {
-    return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-[[gnu::always_inline]] inline glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-/// What the elements of R^T R - 1 are.
-struct Deviation {
-    double xx, yy, zz, xy, yz, xz;
-
-    explicit Deviation(const glm::dmat3& r)
-        : xx(product(r[0], r[0]) - 1), yy(product(r[1], r[1]) - 1), zz(product(r[2], r[2]) - 1),
-          xy(product(r[0], r[1])), yz(product(r[1], r[2])), xz(product(r[0], r[2])) {}
-
-    bool within(double allowed) const {
-        return std::ranges::all_of(std::array{xx, yy, zz, xy, yz, xz},
-                                   [&](double off) { return std::abs(off) <= allowed; }); // nor is NaN
-    }
-};
-
-/// A step of Newton's iteration for the polar decomposition, R (3 - R^T R) / 2, which squares what is off.
-glm::dmat3 nearer_rotation(const glm::dmat3& r, const Deviation& d) {
-    const glm::dvec3 &x = r[0], &y = r[1], &z = r[2];
-    return {x - 0.5 * (d.xx * x + d.xy * y + d.xz * z), y - 0.5 * (d.xy * x + d.yy * y + d.yz * z),
-            z - 0.5 * (d.xz * x + d.yz * y + d.zz * z)};
-}
-
-/// Squares of what is off that a matrix of doubles has by rounding, and that one of floats has.
-constexpr double kDoubleRounding = 1e-28, kFloatRounding = 1e-13;
-
-/// Makes `result`, a copy of `r`, a rotation where `r` is off by no more than the rounding of floats; else
-/// returns false. Of a rotation the first two columns are orthonormal and the third is their product.
-PRT_TWO_CLONES
-bool made_rotation(const glm::dmat3& r, glm::dmat3& result) {
-    const glm::dvec3 &x = r[0], &y = r[1];
-    const double xx = product(x, x) - 1, yy = product(y, y) - 1, xy = product(x, y);
-    const glm::dvec3 off = r[2] - cross(x, y);
-    const double squares = (xx * xx + yy * yy) + (xy * xy + product(off, off));
-    if (!(squares < kFloatRounding)) // nor is NaN
-        return false;
-    if (squares >= kDoubleRounding) {
-        result[0] = x - 0.5 * (xx * x + xy * y);
-        result[1] = y - 0.5 * (xy * x + yy * y);
-        result[2] = cross(result[0], result[1]);
-    }
-    return true;
-}
-
-/// Checks `r`, and makes `result`, a copy of it, the rotation next to it.
-void make_rotation(const glm::dmat3& r, glm::dmat3& result) {
-    if (made_rotation(r, result))
-        return;
-    if (!Deviation(r).within(kRotationTolerance))
-        throw Error("a matrix that scales, shears or is not finite is no rotation of lighting");
-    if (glm::dot(glm::cross(r[0], r[1]), r[2]) < 0)
-        throw Error(
-            "a mirrored matrix is no rotation: take the mirroring out of it, and bake the mirrored mesh");
-    do {
-        const glm::dmat3 before = result;
-        result = nearer_rotation(before, Deviation(before));
-    } while (!made_rotation(glm::dmat3(result), result));
 }
 
 [[gnu::always_inline]] inline void set_turn(int order, double c, double s, Turn& turn) {
