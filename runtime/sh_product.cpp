@@ -207,21 +207,21 @@ template <int Order, class Real>
     (std::make_index_sequence<kCount>());
 }
 
+constexpr int kShortOrder = 3;
+
 template <class Real>
-bool has_short_product(int order, const Real* a, const Real* b, Real* out) {
-    switch (order) {
-    case 1:
-        short_product<1>(a, b, out);
-        return true;
-    case 2:
-        short_product<2>(a, b, out);
-        return true;
-    case 3:
+[[gnu::always_inline]] inline void product_by_table(int order, const Real* a, const Real* b, Real* out) {
+    if (order == 3)
         short_product<3>(a, b, out);
-        return true;
-    default:
-        return false;
-    }
+    else if (order == 2)
+        short_product<2>(a, b, out);
+    else
+        short_product<1>(a, b, out);
+}
+
+PRT_TWO_CLONES
+void short_float_product(int order, const float* a, const float* b, float* out) {
+    product_by_table(order, a, b, out);
 }
 
 constexpr int kFewRings = 8, kManyRings = 16;
@@ -241,12 +241,16 @@ void double_product(int order, const double* a, const double* b, double* out) {
 } // namespace
 
 void sh_product(int order, std::span<const float> a, std::span<const float> b, std::span<float> out) {
-    if (!has_short_product(order, a.data(), b.data(), out.data()))
+    if (order <= kShortOrder)
+        short_float_product(order, a.data(), b.data(), out.data());
+    else
         float_product(order, a.data(), b.data(), out.data());
 }
 
 void sh_product(int order, std::span<const double> a, std::span<const double> b, std::span<double> out) {
-    if (!has_short_product(order, a.data(), b.data(), out.data()))
+    if (order <= kShortOrder)
+        product_by_table(order, a.data(), b.data(), out.data());
+    else
         double_product(order, a.data(), b.data(), out.data());
 }
 

@@ -1,9 +1,11 @@
 #include "prt/sh_rotation.h"
 
+#include "checked_rotation.h"
 #include "prt/error.h"
 #include "prt/sh.h"
 #include "prt/vector_lanes.h"
 #include "quarter_turn.h"
+#include "sh_rotation_lanes.h"
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
@@ -27,8 +29,8 @@ template <class Value>
 [[gnu::always_inline]] inline void turn_about_z(int l, const Turn& turn, Value* c) {
 #pragma GCC unroll 5
     for (int m = 1; m <= l; ++m) {
-        const double cosine = turn.cosine[static_cast<std::size_t>(m)],
-                     sine = turn.sine[static_cast<std::size_t>(m)];
+        const double cosine = turn.cosine[Turn::kZero + static_cast<std::size_t>(m)],
+                     sine = turn.sine[Turn::kZero + static_cast<std::size_t>(m)];
         const Value turned = c[m] * cosine - c[-m] * sine;
         c[-m] = c[m] * sine + c[-m] * cosine;
         c[m] = turned;
@@ -186,62 +188,110 @@ void rotate(int order, const glm::dmat3& matrix, const Turns& turns, Channels* c
     rotate_high_bands(order, turns, c);
 }
 
-void rotate(int order, const glm::dmat3& matrix, const Turns& turns, double* c) {
-    if (order > 1)
+/// `in` and `out` hold all that the order has, and no less than 36 where it is above 3.
+template <class Real>
+[[gnu::always_inline]] inline void rotate_one_channel(int order, const glm::dmat3& matrix, const Turns& turns,
+                                                      const Real* in, Real* out) {
+    double c[9];
+    out[0] = in[0];
+    if (order > 1) {
+#pragma GCC unroll 8
+        for (int i = 1; i < 4; ++i)
+            c[i] = static_cast<double>(in[i]);
         rotate_vector(matrix, c);
-    if (order > 2)
+#pragma GCC unroll 8
+        for (int i = 1; i < 4; ++i)
+            out[i] = static_cast<Real>(c[i]);
+    }
+    if (order == 3) {
+#pragma GCC unroll 8
+        for (int i = 4; i < 9; ++i)
+            c[i] = static_cast<double>(in[i]);
         rotate_form(matrix, c);
-    rotate_high_bands(order, turns, c);
+#pragma GCC unroll 8
+        for (int i = 4; i < 9; ++i)
+            out[i] = static_cast<Real>(c[i]);
+    } else if (order > 3) {
+        rotate_lanes(turns, in, out);
+    }
+}
+
+PRT_TWO_CLONES
+void rotate_floats(int order, const glm::dmat3& matrix, const Turns& turns, const float* in, float* out) {
+    rotate_one_channel(order, matrix, turns, in, out);
+}
+
+void rotate_low_bands(int order, const glm::dmat3& matrix, const Turns& turns, const float* in, float* out) {
+    rotate_floats(order, matrix, turns, in, out);
+}
+
+void rotate_low_bands(int order, const glm::dmat3& matrix, const Turns& turns, const double* in,
+                      double* out) {
+    rotate_one_channel(order, matrix, turns, in, out);
+}
+
+/// Where bands are missing, their lanes turn zeros.
+template <std::size_t Count, class Real>
+void rotate_padded(int order, const glm::dmat3& matrix, const Turns& turns, const Real* in, Real* out) {
+    Real padded[kLaneOrder * kLaneOrder] = {};
+    std::copy_n(in, Count, padded);
+    rotate_low_bands(order, matrix, turns, padded, padded);
+    std::copy_n(padded, Count, out);
 }
 
 template <class Real>
 void rotate_one(int order, const glm::dmat3& matrix, const Turns& turns, std::span<const Real> in,
                 std::span<Real> out) {
-    const auto count = static_cast<std::size_t>(coefficient_count(order));
-    assert(in.size() >= count && out.size() >= count);
-    double c[kMaxOrder * kMaxOrder];
-    for (std::size_t i = 0; i < count; ++i)
-        c[i] = static_cast<double>(in[i]);
-    rotate(order, matrix, turns, c);
-    for (std::size_t i = 0; i < count; ++i)
-        out[i] = static_cast<Real>(c[i]);
-}
-
-/// The rotation next to `r`, which is checked. Newton's iteration for the polar decomposition, R (3 - R^T R)
-/// / 2, squares what is off.
-glm::dmat3 checked_rotation(const glm::dmat3& r) {
-    glm::dmat3 result = r;
-    for (double allowed = kRotationTolerance;; allowed = 1) {
-        const glm::dvec3 &x = result[0], &y = result[1], &z = result[2];
-        const double xx = glm::dot(x, x) - 1, yy = glm::dot(y, y) - 1, zz = glm::dot(z, z) - 1,
-                     xy = glm::dot(x, y), yz = glm::dot(y, z), xz = glm::dot(x, z);
-        const double squares = xx * xx + yy * yy + zz * zz + xy * xy + yz * yz + xz * xz;
-        if (!(squares <= 6 * allowed * allowed)) // nor is NaN
-            throw Error("a matrix that scales, shears or is not finite is no rotation of lighting");
-        for (const double off : {xx, yy, zz, xy, yz, xz})
-            if (std::abs(off) > allowed)
-                throw Error("a matrix that scales, shears or is not finite is no rotation of lighting");
-        if (allowed < 1 && glm::dot(glm::cross(x, y), z) < 0)
-            throw Error(
-                "a mirrored matrix is no rotation: take the mirroring out of it, and bake the mirrored "
-                "mesh");
-        if (squares < 1e-28)
-            return result;
-        result = glm::dmat3(x - 0.5 * (xx * x + xy * y + xz * z), y - 0.5 * (xy * x + yy * y + yz * z),
-                            z - 0.5 * (xz * x + yz * y + zz * z));
+    assert(std::min(in.size(), out.size()) >= static_cast<std::size_t>(coefficient_count(order)));
+    if (order == 4)
+        return rotate_padded<16>(order, matrix, turns, in.data(), out.data());
+    if (order == 5)
+        return rotate_padded<25>(order, matrix, turns, in.data(), out.data());
+    rotate_low_bands(order, matrix, turns, in.data(), out.data());
+    for (int l = kFirstListedBand; l < order; ++l) {
+        double c[2 * kMaxOrder - 1];
+        const auto width = static_cast<std::size_t>(2 * l + 1), first = static_cast<std::size_t>(l * l);
+        for (std::size_t i = 0; i < width; ++i)
+            c[i] = static_cast<double>(in[first + i]);
+        rotate_listed_band(l, turns, c);
+        for (std::size_t i = 0; i < width; ++i)
+            out[first + i] = static_cast<Real>(c[i]);
     }
 }
 
+[[gnu::always_inline]] inline void set_turn(int order, double c, double s, Turn& turn) {
+    double *cosine = &turn.cosine[Turn::kZero], *sine = &turn.sine[Turn::kZero];
+#pragma GCC unroll 3
+    for (std::size_t i = 0; i < Turn::kZero; ++i)
+        turn.cosine[i] = turn.sine[i] = 0;
+    cosine[0] = 1;
+    sine[0] = 0;
+    cosine[1] = c;
+    sine[1] = s;
+    const auto add = [&](int m)
+        __attribute__((always_inline)) { // from the halves, which hardly wait for each other
+        const int a = m / 2, b = m - a;
+        cosine[m] = cosine[a] * cosine[b] - sine[a] * sine[b];
+        sine[m] = cosine[a] * sine[b] + sine[a] * cosine[b];
+    };
+#pragma GCC unroll 4
+    for (int m = 2; m < kLaneOrder; ++m)
+        add(m);
+    for (int m = kLaneOrder; m < order; ++m)
+        add(m);
+}
+
 /// Of a rotation that holds to rounding.
+PRT_TWO_CLONES
 void set_turns(int order, const glm::dmat3& r, Turns& turns) {
     // GLM is column-major: r[column][row]. The last turn takes +y's tilt plane to where z went; the first is
     // then read from the second row of what is left, which is well conditioned even where z hardly moved.
     const double tilt = std::sqrt(r[2][0] * r[2][0] + r[2][1] * r[2][1]);
     const double inverse = tilt > 0 ? 1 / tilt : 0, cosine = tilt > 0 ? r[2][0] * inverse : 1,
                  sine = r[2][1] * inverse;
-    turns.first.set(order, cosine * r[1][1] - sine * r[1][0], cosine * r[0][1] - sine * r[0][0]);
-    turns.tilt.set(order, r[2][2], tilt);
-    turns.last.set(order, cosine, sine);
+    set_turn(order, cosine * r[1][1] - sine * r[1][0], cosine * r[0][1] - sine * r[0][0], turns.first);
+    set_turn(order, r[2][2], tilt, turns.tilt);
+    set_turn(order, cosine, sine, turns.last);
     turns.tilted = tilt > 0 || r[2][2] < 0; // else last is the identity
 }
 
@@ -253,17 +303,9 @@ glm::dmat3 matrix_of(const glm::dquat& q) {
 
 } // namespace
 
-void Turn::set(int order, double c, double s) {
-    cosine[0] = 1;
-    sine[0] = 0;
-    for (std::size_t m = 1; m < static_cast<std::size_t>(order); ++m) {
-        cosine[m] = cosine[m - 1] * c - sine[m - 1] * s;
-        sine[m] = cosine[m - 1] * s + sine[m - 1] * c;
-    }
-}
-
 ShRotation::ShRotation(int order, const glm::dmat3& rotation)
-    : order_((check_order(order), order)), matrix_(checked_rotation(rotation)) {
+    : order_((check_order(order), order)), matrix_(rotation) {
+    make_rotation(rotation, matrix_);
     if (order > kFirstTurnedBand)
         set_turns(order, matrix_, turns_);
 }
@@ -282,7 +324,7 @@ ShRotation ShRotation::about_z(int order, double angle) {
     check_order(order);
     const double cosine = std::cos(angle), sine = std::sin(angle);
     ShRotation result(order, glm::dmat3(cosine, sine, 0, -sine, cosine, 0, 0, 0, 1));
-    result.turns_.first.set(order, cosine, sine);
+    set_turn(order, cosine, sine, result.turns_.first);
     result.turns_.tilted = false;
     return result;
 }

@@ -210,10 +210,13 @@ void project_pixels(State& state) {
     for (int i = 0; i < width * height; ++i)
         environment.image.pixels.emplace_back(static_cast<float>(i % 97), 1, static_cast<float>(i % 13));
     for (auto _ : state)
-        benchmark::DoNotOptimize(project(environment, kOrder, 1));
+        benchmark::DoNotOptimize(project(environment, static_cast<int>(state.range(1)), 1));
     state.SetItemsProcessed(state.iterations() * width * height);
 }
-BENCHMARK(project_pixels)->ArgName("layout")->DenseRange(0, 3)->Unit(benchmark::kMillisecond);
+BENCHMARK(project_pixels)
+    ->ArgNames({"layout", "order"})
+    ->ArgsProduct({{0, 1, 2, 3}, {3, 6, 10}})
+    ->Unit(benchmark::kMillisecond);
 
 } // namespace
 } // namespace prt

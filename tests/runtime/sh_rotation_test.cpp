@@ -7,6 +7,7 @@
 #include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -107,6 +108,52 @@ TEST(ShRotation, FloatsAndColoursAreTheSame) {
         EXPECT_NEAR(static_cast<double>(colours[i].r), expected[i], 1e-6);
         EXPECT_NEAR(static_cast<double>(colours[i].g), 2 * expected[i], 2e-6);
         EXPECT_NEAR(static_cast<double>(colours[i].b), -expected[i], 1e-6);
+    }
+}
+
+/// Bands know nothing of each other, so a rotation of fewer bands is the beginning of one of more, and
+/// touches nothing behind its end. Against the function itself.
+TEST(ShRotation, EveryOrderTurnsTheFunctionAndNothingElse) {
+    const glm::dmat3 r = glm::mat3_cast(turn(2.3, {0.3, -1, 0.7}));
+    const glm::dvec3 w = glm::normalize(glm::dvec3(0.2, 0.9, -0.5)), before = glm::transpose(r) * w;
+    const auto f = random_function(8);
+    std::array<double, 100> at_w{}, at_before{};
+    evaluate_sh(kOrder, w, std::span<double>(at_w));
+    evaluate_sh(kOrder, before, std::span<double>(at_before));
+    for (int order = 1; order <= kMaxOrder; ++order) {
+        const auto count = static_cast<std::size_t>(order * order);
+        std::vector<double> in(f.begin(), f.begin() + order * order), out(count);
+        std::vector<float> floats(in.begin(), in.end()), beyond(count + 40, 7.0f);
+        ShRotation(order, r).apply(std::span<const double>(in), std::span<double>(out));
+        ShRotation(order, r).apply(std::span<const float>(floats), std::span<float>(beyond));
+        double expected = 0, found = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            expected += in[i] * at_before[i];
+            found += out[i] * at_w[i];
+            EXPECT_NEAR(static_cast<double>(beyond[i]), out[i], 1e-6) << order << ", " << i;
+        }
+        EXPECT_NEAR(found, expected, 1e-12) << order;
+        for (std::size_t i = count; i < beyond.size(); ++i)
+            EXPECT_EQ(beyond[i], 7.0f) << order;
+    }
+}
+
+TEST(ShRotation, MatricesOfFloatsAreTakenApartAsRotations) {
+    std::mt19937 random(9);
+    std::normal_distribution<double> normal;
+    const auto f = random_function(10);
+    for (int i = 0; i < 50; ++i) {
+        const glm::dmat3 r = glm::mat3_cast(
+            glm::normalize(glm::dquat(normal(random), normal(random), normal(random), normal(random))));
+        const auto exact = rotated(f, ShRotation(kOrder, r)),
+                   rounded = rotated(f, ShRotation(kOrder, glm::dmat3(glm::mat3(r))));
+        double before = 0, after = 0;
+        for (std::size_t k = 0; k < f.size(); ++k) {
+            before += f[k] * f[k];
+            after += rounded[k] * rounded[k];
+        }
+        EXPECT_NEAR(after / before, 1, 1e-12);
+        EXPECT_LT(largest_difference(exact, rounded), 1e-5);
     }
 }
 

@@ -48,9 +48,9 @@ public:
 
     /// cos(m a) and sin(m a) of a turn about z.
     struct Turn {
-        std::array<double, kMaxOrder> cosine, sine; ///< [m < order]
-        Turn() {}                                   // left as it is where the order has no need of it
-        void set(int order, double cosine_of_angle, double sine_of_angle);
+        static constexpr std::size_t kZero = 3; ///< where m = 0 stands; bands side by side reach before it
+        std::array<double, kZero + kMaxOrder> cosine, sine;
+        Turn() {} // left as it is where the order has no need of it
     };
     /// z first, then tilt about y, then z again.
     struct Turns {
