@@ -18,7 +18,7 @@ const char* judgement(const Verdict& v) {
     if (v.lit_rms <= kVisible / 2)
         return "looks the same as the bake, but for edges between clusters";
     if (v.lit_rms <= 2 * kVisible)
-        return "differs from the bake where one takes the other's place";
+        return "differs from the bake, as flicking between both shows";
     if (v.lit_rms <= 5 * kVisible)
         return "differs from the bake where both are seen side by side";
     return "differs from the bake in plain sight";
