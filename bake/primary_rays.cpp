@@ -13,8 +13,6 @@
 namespace prt {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
 struct Corners {
     glm::vec3 a, b, c;
 };
@@ -84,13 +82,16 @@ bool PrimaryRays::next(const glm::vec3& along, int x, int y, float& from, SeenSu
     query.context.filter = filter;
     const glm::vec3& origin = picture_.camera.position;
     RTCRayHit hit{};
-    hit.ray = {origin.x, origin.y, origin.z, from, along.x, along.y, along.z, 0, kInfinity, ~0u, 0, 0};
+    hit.ray = {origin.x, origin.y, origin.z,
+               from,     along.x,  along.y,
+               along.z,  0,        std::numeric_limits<float>::infinity(),
+               ~0u,      0,        0};
     hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(rays_.handle(), &query.context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
         return false;
     surface = surface_at(hit.hit.primID, along, x, y);
-    from = std::nextafter(hit.ray.tfar, kInfinity);
+    from = std::nextafter(hit.ray.tfar, std::numeric_limits<float>::infinity());
     return true;
 }
 

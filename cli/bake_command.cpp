@@ -47,7 +47,8 @@ void print_report(const BakeArguments& a, const BakeResult& result) {
     fmt::print("{}: {} receivers, {} triangles, order {}, {} {}, {} {} each, {} bounces\n", a.output.string(),
                s.receivers, s.triangles, t.order, t.channels, t.channels == 1 ? "channel" : "channels",
                result.baked.record.rays, raster ? "directions" : "rays", result.baked.record.bounces);
-    fmt::print("  {} by {} on {}\n", result.baked.record.method, result.baked.record.backend, s.device);
+    fmt::print("  {} on the {}: {}\n", raster ? "depth maps" : "rays",
+               result.baked.record.backend == "cpu" ? "CPU" : "GPU", s.device);
     if (s.receivers > s.traced)
         fmt::print("  {} receivers are on no surface and have zero transfer\n", s.receivers - s.traced);
     for (const std::string& notice : s.notices)
@@ -64,9 +65,10 @@ void print_report(const BakeArguments& a, const BakeResult& result) {
     else if (s.sampling_error > 0)
         fmt::print("  error of the direct light: {:.3f} % estimated\n", 100 * s.sampling_error);
     if (s.gather_entries > 0)
-        fmt::print("  gather of {} entries, {:.1f} MB; {:.1g} of the energy remains\n", s.gather_entries,
-                   static_cast<double>(s.gather_bytes) * 1e-6, s.remaining_energy);
-    fmt::print("  mean visibility {:.4f}\n", s.mean_visibility);
+        fmt::print("  bounces: {} pairs of receivers that light each other, {:.1f} MB; at most {:.2g} % of a "
+                   "receiver's light is missing\n",
+                   s.gather_entries, static_cast<double>(s.gather_bytes) * 1e-6, 100 * s.remaining_energy);
+    fmt::print("  {:.1f} % of the light of a uniform sky arrives, on average\n", 100 * s.mean_visibility);
     if (s.mean_visibility < kDark && a.no_shadow.empty())
         fmt::print("  hardly any light comes in: where a shell round the scene, as an outline or a sky, "
                    "keeps it out, "

@@ -114,10 +114,15 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
     const std::size_t receivers = transfer.receivers();
     const std::size_t uncompressed = transfer.dimension() * sizeof(float);
     const std::size_t constants = constant_rows(coded.bases) * sizeof(glm::vec4);
-    fmt::print("{}: {} clusters x {:.2f} components, lit_rms {:.3f} %, relative L2 {:.3f} %\n",
-               a.output.string(), s.clusters, s.mean_components, 100 * s.lit_rms, 100 * l2);
-    fmt::print("  {} bytes per vertex to bind ({} bits in use) of {}, {:.2f} with the bases\n",
-               s.bytes_per_receiver, s.bits_per_receiver, uncompressed, s.bytes_with_bases(receivers));
+    fmt::print("{}: {} clusters x {:.2f} components\n", a.output.string(), s.clusters, s.mean_components);
+    if (a.preset && !outcome.trials.empty())
+        fmt::print("  the mesh is small: clusters and bits are fitted to it, so that bases do not outweigh "
+                   "weights\n");
+    fmt::print(
+        "  expected error of the lit surface (lit_rms) {:.3f} %, of the transfer (relative L2) {:.3f} %\n",
+        100 * s.lit_rms, 100 * l2);
+    fmt::print("  {} bytes per vertex to bind ({} bits in use), {:.2f} with the bases; uncompressed {}\n",
+               s.bytes_per_receiver, s.bits_per_receiver, s.bytes_with_bases(receivers), uncompressed);
     fmt::print("  GPU: {} bytes of attributes, {} of bases, {} of constants per lighting; uncompressed {}\n",
                s.bytes_per_receiver * receivers, s.basis_bytes, constants, uncompressed * receivers);
     if (a.reorder)

@@ -4,6 +4,7 @@
 #include "evaluation_lights.h"
 #include "inputs.h"
 #include "outputs.h"
+#include "prt/dering.h"
 #include "prt/error.h"
 #include "prt/error_measures.h"
 #include "prt/ray_renderer.h"
@@ -183,13 +184,15 @@ public:
         return v;
     }
 
-    /// Lit by the bake and by what is shipped, at one exposure and without textures, which would hide errors;
-    /// then clusters and the error.
+    /// Lit by the bake and by what is shipped, as `prt render` lights them, at one exposure and without
+    /// textures, which would hide errors; then the error as the figures count it, and clusters.
     void add_pictures(const LoadedLight& light, Report& report) const {
+        const Light drawn = deringed(light.light);
+        const auto before = wanted_under(drawn);
+        const float exposure = exposure_of(before);
+        add_picture(report, "Before: the bake, under " + light.name, before, exposure);
+        add_picture(report, "After: as shipped", shipped_.radiance(drawn, a_.threads), exposure);
         const auto wanted = wanted_under(light.light), lit = shipped_.radiance(light.light, a_.threads);
-        const float exposure = exposure_of(wanted);
-        add_picture(report, "Before: the bake, under " + light.name, wanted, exposure);
-        add_picture(report, "After: as shipped", lit, exposure);
         add_picture(report, fmt::format("Error (white: {:.0f} % of the mean radiance)", 100 * kWhiteError),
                     error_colors(wanted, lit, areas_), 1);
         if (model_.compressed)

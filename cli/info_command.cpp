@@ -11,9 +11,17 @@
 namespace prt::cli {
 namespace {
 
+/// "1 image", "2 images"
+std::string counted(std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 void describe_record(const BakeRecord& record) {
-    fmt::print("  baked by {} on {}, {} rays per receiver, {} bounces, seed {}\n", record.method,
-               record.backend, record.rays, record.bounces, record.seed);
+    fmt::print(
+        "  baked by {} on the {}, {} per vertex, {}, seed {}\n",
+        record.method == "raster" ? "depth maps" : "rays", record.backend == "cpu" ? "CPU" : "GPU",
+        counted(static_cast<std::size_t>(record.rays), record.method == "raster" ? "direction" : "ray"),
+        counted(static_cast<std::size_t>(record.bounces), "bounce"), record.seed);
 }
 
 } // namespace
@@ -24,9 +32,10 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
     const Scene& scene = model.scene;
     const Bounds box = bounds(scene);
     const glm::dvec3 low = scene.world(box.low), high = scene.world(box.high);
-    fmt::print("{}: {} primitives, {} triangles, {} vertices, {} materials, {} images\n", a.file.string(),
-               scene.primitives.size(), scene.triangles(), scene.receivers(), scene.materials.size() - 1,
-               scene.images.size());
+    fmt::print("{}: {}, {}, {}, {}, {}\n", a.file.string(), counted(scene.primitives.size(), "primitive"),
+               counted(scene.triangles(), "triangle"),
+               scene.receivers() == 1 ? "1 vertex" : fmt::format("{} vertices", scene.receivers()),
+               counted(scene.materials.size() - 1, "material"), counted(scene.images.size(), "image"));
     fmt::print("  from {:g} {:g} {:g} to {:g} {:g} {:g} m\n", low.x, low.y, low.z, high.x, high.y, high.z);
     Json report = {{"file", a.file.string()},
                    {"primitives", scene.primitives.size()},
@@ -41,8 +50,9 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
         const Transfer& t = model.baked->transfer;
         const bool half = model.baked->storage == TransferStorage::float16;
         const std::size_t bytes = t.dimension() * (half ? sizeof(std::uint16_t) : sizeof(float));
-        fmt::print("  raw transfer: order {}, {} channels, {} bytes per vertex as {}\n", t.order, t.channels,
-                   bytes, half ? "float16" : "float32");
+        fmt::print("  raw transfer: order {}, {}, {} bytes per vertex as {}\n", t.order,
+                   counted(static_cast<std::size_t>(t.channels), "channel"), bytes,
+                   half ? "float16" : "float32");
         describe_record(model.baked->record);
         report["transfer"] = {{"order", t.order},
                               {"channels", t.channels},
@@ -54,8 +64,9 @@ void run(const InfoArguments& a, Interrupt& interrupt) {
         const auto [least, most] = std::minmax_element(t.bases.components.begin(), t.bases.components.end());
         const bool packed = t.receivers.format == WeightFormat::packed;
         const std::size_t bits = packed ? 0 : 8 * bytes_per_weight(t.receivers.format);
-        fmt::print("  clustered PCA: order {}, {} channels, {} clusters x {} to {} components, {}\n",
-                   t.bases.order, t.bases.channels, t.bases.clusters(), *least, *most,
+        fmt::print("  clustered PCA: order {}, {}, {} x {} to {} components, {}\n", t.bases.order,
+                   counted(static_cast<std::size_t>(t.bases.channels), "channel"),
+                   counted(t.bases.clusters(), "cluster"), *least, *most,
                    packed ? fmt::format("packed weights") : fmt::format("{}-bit weights", bits));
         fmt::print("  {} bytes per vertex to bind ({} bits in use)\n", bytes_per_receiver(t),
                    bits_per_receiver(t));

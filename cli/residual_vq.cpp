@@ -29,7 +29,7 @@ BaselineResult residual_vq(const Transfer& transfer, std::size_t codebooks, std:
     BaselineResult result;
     result.decoded = transfer;
     quantizer.decode(codes.data(), result.decoded.vectors.data(), receivers);
-    result.payload_bytes = static_cast<double>(codebooks);
+    result.payload_bytes = bound_bytes(codebooks);
     result.table_bytes = static_cast<double>(codebooks * kRows * dimension * kBytesOfValue);
     result.shader_ops = static_cast<double>(codebooks);
     return result;
@@ -41,11 +41,15 @@ std::vector<SweepCandidate> residual_vq_candidates(const Transfer& transfer, std
     std::vector<SweepCandidate> candidates;
     if (transfer.receivers() < kRows)
         return candidates;
-    const double bytes_of_codebook = 1 + static_cast<double>(kRows * transfer.dimension() * kBytesOfValue) /
-                                             static_cast<double>(transfer.receivers());
+    const double bytes_of_rows = static_cast<double>(kRows * transfer.dimension() * kBytesOfValue) /
+                                 static_cast<double>(transfer.receivers());
     std::set<std::size_t> sizes;
-    for (const double bytes : kSweepBytes)
-        sizes.insert(static_cast<std::size_t>(std::max(1.0, std::floor(bytes / bytes_of_codebook))));
+    for (const double bytes : kSweepBytes) {
+        std::size_t codebooks = 1;
+        while (bound_bytes(codebooks + 1) + static_cast<double>(codebooks + 1) * bytes_of_rows <= bytes)
+            ++codebooks;
+        sizes.insert(codebooks);
+    }
     for (const std::size_t codebooks : sizes)
         candidates.push_back(
             {"residual VQ", std::to_string(codebooks) + " x 256",

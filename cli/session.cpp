@@ -68,15 +68,15 @@ void ProgressBar::show(double fraction) {
     shown_ = now;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const std::string left =
-        fraction > 0.01 ? fmt::format("{:.0f} s left", elapsed * (1 - fraction) / fraction) : std::string();
+        fraction > 0.01 ? fmt::format(", {:.0f} s left", elapsed * (1 - fraction) / fraction) : std::string();
     if (terminal_) {
         constexpr int kWidth = 30;
         const int filled = static_cast<int>(fraction * kWidth);
-        fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %  {}", title_,
+        fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %{}", title_,
                    std::string(static_cast<std::size_t>(filled), '#'),
                    std::string(static_cast<std::size_t>(kWidth - filled), '.'), 100 * fraction, left);
     } else {
-        fmt::print(stderr, "{}: {:.0f} %, {}\n", title_, 100 * fraction, left);
+        fmt::print(stderr, "{}: {:.0f} %{}\n", title_, 100 * fraction, left);
     }
 }
 

@@ -98,8 +98,8 @@ void add_sweep(const Sweep& sweep, Report& report) {
     Table bytes = best_table(sweep, sweep.by_bytes, kSweepBytes, "bytes", best_by_bytes);
     bytes.title = "Error at equal bytes";
     bytes.about =
-        "Bytes per vertex: payload, and all tables over the vertices. prtkit counts what is bound, whole "
-        "32-bit words; the others count as published, without padding.";
+        "Bytes per vertex: payload as a game binds it, in whole 32-bit words, and all tables over the "
+        "vertices. All methods are counted alike.";
     bytes.chart = chart(sweep.by_bytes, "bytes per vertex, bases counted in", bytes_of);
     Table ops = best_table(sweep, sweep.by_ops, kSweepOps, "operations", best_by_ops);
     ops.title = "Error at equal shader operations";

@@ -47,6 +47,10 @@ float dot(std::span<const float> a, std::span<const float> b) {
 
 } // namespace
 
+double bound_bytes(std::size_t bytes) {
+    return static_cast<double>((bytes + 3) / 4 * 4);
+}
+
 BaselineResult truncated_sh(const Transfer& transfer, int bands) {
     BaselineResult result;
     result.decoded = zero_transfer(transfer.order, transfer.channels, transfer.receivers());
@@ -60,8 +64,9 @@ BaselineResult truncated_sh(const Transfer& transfer, int bands) {
         for (std::size_t i = 0; i < transfer.dimension(); ++i)
             if (i % count < kept)
                 result.decoded.vector(p)[i] = snorm8(transfer.vector(p)[i], largest[i]);
-    result.payload_bytes = static_cast<double>(kept) * transfer.channels;
-    result.table_bytes = result.payload_bytes * sizeof(float);
+    const std::size_t bytes = kept * static_cast<std::size_t>(transfer.channels);
+    result.payload_bytes = bound_bytes(bytes);
+    result.table_bytes = static_cast<double>(bytes * sizeof(float));
     // A colour times a number, or each channel by itself: the cost of one multiply-add of a colour.
     result.shader_ops = static_cast<double>(kept);
     return result;
@@ -115,10 +120,8 @@ BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> are
                 to[i] += w * rows[k][j + 1][i];
         }
     }
-    result.payload_bytes = (found.fits.size() > 256 ? 2.0
-                            : found.fits.size() > 1 ? 1.0
-                                                    : 0.0) +
-                           static_cast<double>(most);
+    const std::size_t index = found.fits.size() > 256 ? 2 : found.fits.size() > 1 ? 1 : 0;
+    result.payload_bytes = bound_bytes(index + most);
     result.table_bytes = static_cast<double>(row_count * transfer.dimension() * 2 +
                                              (row_count - found.fits.size()) * sizeof(float));
     result.shader_ops = static_cast<double>(most);

@@ -39,6 +39,25 @@ struct Known {
     double clusters = 0, value = 0;
 };
 
+/// How hard a search tries.
+struct Effort {
+    double least_filled = 0.975; ///< share of the bytes that ends a line
+    /// Bytes over those of the weights above which directions are tried both as paying for their bytes and as
+    /// not.
+    double both_ways = 2;
+    double bytes_per_cluster = 120; ///< of the bases, before the first try
+};
+
+/// A preset that does not fit: its bytes are a rule of thumb, and a tenth of them is not worth a try. Both
+/// ways differ only where there are so few vertices that bases take more than their share: 2 478 of them had
+/// 0.479 and 0.506 %, and 0.069 and 0.074 %.
+Effort effort_of_preset(const CompressStatistics& too_large) {
+    return {.least_filled = 0.9,
+            .both_ways = 1.02 * (1 + kBasesOverWeights),
+            .bytes_per_cluster =
+                static_cast<double>(too_large.basis_bytes) / static_cast<double>(too_large.clusters)};
+}
+
 /// Where a straight line through both has `value`.
 double interpolated(const Known& a, const Known& b, double value) {
     return a.clusters + (b.clusters - a.clusters) * (value - a.value) / (b.value - a.value);
@@ -48,9 +67,10 @@ double interpolated(const Known& a, const Known& b, double value) {
 class Search {
 public:
     Search(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-           const SearchOptions& options, const Progress& progress)
+           const SearchOptions& options, const Progress& progress, const Effort& effort = {})
         : transfer_(transfer), areas_(areas), edges_(edges), options_(options), progress_(progress),
-          receivers_(static_cast<double>(transfer.receivers())) {
+          effort_(effort), receivers_(static_cast<double>(transfer.receivers())),
+          bytes_per_cluster_(effort.bytes_per_cluster) {
         // Fewer than a dozen receivers a cluster, and tables outweigh weights.
         const std::size_t enough = std::max<std::size_t>(64, transfer.receivers() / 12);
         most_clusters_ =
@@ -66,8 +86,9 @@ public:
     SearchResult run() {
         const std::optional<double> ops = options_.budget.shader_ops;
         search_payloads({start(), !ops});
-        const bool other_way = ops ? best_trial_.mean_components < 0.9 * *ops
-                                   : packed() && best_trial_.bytes_per_vertex > 2 * best_trial_.payload_bytes;
+        const bool other_way =
+            ops ? best_trial_.mean_components < 0.9 * *ops
+                : packed() && best_trial_.bytes_per_vertex > effort_.both_ways * best_trial_.payload_bytes;
         if (other_way)
             search_payloads({best_payload_, ops.has_value()});
         return std::move(result_);
@@ -130,9 +151,10 @@ private:
     std::span<const Edge> edges_;
     const SearchOptions& options_;
     const Progress& progress_;
+    Effort effort_;
     double receivers_;
     int most_clusters_ = 1;
-    double bytes_per_cluster_ = 120; ///< of the bases, from the last try
+    double bytes_per_cluster_; ///< of the bases, from the last try
     double clusters_guess_ = 64;
     std::map<std::pair<int, Line>, SearchTrial> tried_;
     std::map<Line, double> best_;
@@ -193,19 +215,19 @@ void Search::keep_if_better(CompressResult&& result, const SearchTrial& trial, c
 /// As many clusters as the bytes have room for, between a number that fits and one that does not.
 void Search::fill_bytes(const Line& line) {
     constexpr int kTries = 6;
-    const double most = most_bytes(line);
+    const double most = most_bytes(line), aim = 0.5 * (1 + effort_.least_filled) * most;
     Known fits{0, payload_bytes(line.payload)}, too_many{static_cast<double>(most_clusters_) + 1, 0};
-    double next = (most - fits.value) * receivers_ / bytes_per_cluster_;
+    double next = (aim - fits.value) * receivers_ / bytes_per_cluster_;
     for (int i = 0; i < kTries && fits.clusters + 1 < too_many.clusters; ++i) {
         const int clusters = clamped(std::clamp(next, fits.clusters + 1, too_many.clusters - 1));
         const double bytes = attempt(clusters, line).bytes_per_vertex;
         (bytes <= most ? fits : too_many) = {static_cast<double>(clusters), bytes};
-        if (bytes <= most && bytes > 0.975 * most)
+        if (bytes <= most && bytes > effort_.least_filled * most)
             break;
         if (too_many.value > 0)
-            next = interpolated(fits, too_many, 0.99 * most);
+            next = interpolated(fits, too_many, aim);
         else
-            next = clusters + 0.99 * (most - bytes) * receivers_ / bytes_per_cluster_;
+            next = clusters + (aim - bytes) * receivers_ / bytes_per_cluster_;
     }
 }
 
@@ -327,7 +349,7 @@ SearchResult compress_preset(const Transfer& transfer, std::span<const float> ar
     options.compress = preset;
     options.payload = words;
     options.budget.bytes_per_vertex = 4 * words + most_bases / receivers;
-    return compress_within(transfer, areas, edges, options, progress);
+    return Search(transfer, areas, edges, options, progress, effort_of_preset(s)).run();
 }
 
 } // namespace prt

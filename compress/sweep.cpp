@@ -118,14 +118,17 @@ private:
         }
     }
 
-    /// The most components that K clusters can have in `bytes` as the literature stores them; -1: not even
-    /// none.
+    /// The most components that K clusters can have in `bytes`, with rows as float16; -1: not even none.
     int classic_components(int clusters, double bytes) const {
         const auto row = static_cast<double>(clusters) * static_cast<double>(2 * transfer_.dimension()) /
                          static_cast<double>(transfer_.receivers());
         const double scale = 4.0 * clusters / static_cast<double>(transfer_.receivers());
-        const double most = std::floor((bytes - (clusters > 256 ? 2 : 1) - row) / (1 + row + scale));
-        return static_cast<int>(std::clamp(most, -1.0, static_cast<double>(transfer_.dimension())));
+        const std::size_t index = clusters > 256 ? 2 : 1;
+        std::size_t count = 0; // that fit, and none is one of them
+        while (count <= transfer_.dimension() &&
+               bound_bytes(index + count) + row + static_cast<double>(count) * (row + scale) <= bytes)
+            ++count;
+        return static_cast<int>(count) - 1;
     }
 
     void clustered() {

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace prt::cli {
 namespace {
@@ -16,6 +17,21 @@ std::size_t width_of(const std::string& text) {
 std::string padded(const std::string& text, std::size_t width, bool left) {
     const std::string space(width > width_of(text) ? width - width_of(text) : 0, ' ');
     return left ? text + space : space + text;
+}
+
+/// Lines of at most 100 characters, broken at spaces.
+std::string wrapped(const std::string& text, const std::string& indent) {
+    constexpr std::size_t kWidth = 100;
+    std::string lines, line = indent;
+    std::istringstream words(text);
+    for (std::string word; words >> word;) {
+        if (line != indent && width_of(line) + 1 + width_of(word) > kWidth) {
+            lines += line + "\n";
+            line = indent;
+        }
+        line += (line == indent ? "" : " ") + word;
+    }
+    return lines + line + "\n";
 }
 
 /// The first column to the left, numbers to the right, as wide as they need.
@@ -44,7 +60,7 @@ std::string table_text(const Table& table) {
         text.erase(text.find_last_not_of(' ') + 1);
         text += "\n";
     }
-    return text;
+    return table.about.empty() ? text : text + wrapped(table.about, "    ");
 }
 
 } // namespace

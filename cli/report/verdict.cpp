@@ -18,6 +18,8 @@ const char* judgement(const Verdict& v) {
     if (v.lit_rms <= kVisible / 2)
         return "looks the same as the bake, but for edges between clusters";
     if (v.lit_rms <= 2 * kVisible)
+        return "differs from the bake, as flicking between both shows";
+    if (v.lit_rms <= 5 * kVisible)
         return "differs from the bake where both are seen side by side";
     return "differs from the bake in plain sight";
 }
@@ -36,7 +38,7 @@ std::string in_one_line(const Verdict& v) {
         line = fmt::format("{} bytes a vertex, ", *v.bytes_per_vertex);
     line += fmt::format("{} under {}", short_percent(v.lit_rms), v.under);
     if (v.seam)
-        line += fmt::format("; worst seam {}", short_percent(*v.seam));
+        line += fmt::format("; worst seam {} of the mean radiance", short_percent(*v.seam));
     return line + ": " + judgement(v);
 }
 

@@ -1,10 +1,10 @@
 #include "transfer_work.h"
 
 #include "prt/bake.h"
-#include "prt/compress.h"
 #include "prt/error.h"
 #include "prt/receiver_colors.h"
 #include "prt/reorder.h"
+#include "prt/search.h"
 
 #include <fmt/core.h>
 
@@ -14,16 +14,19 @@ namespace {
 /// A first picture at once, then better ones.
 constexpr int kBakeRays[] = {16, 128, 1024};
 
-prt::CompressOptions options_for(const CompressionSettings& how) {
+/// The preset where its own sizes are asked for, made to fit small meshes as `prt compress` does; else as
+/// asked.
+prt::CompressResult compressed_as(const CompressionSettings& how, const prt::Transfer& transfer,
+                                  const Model& model, const prt::Progress& progress) {
     prt::CompressOptions options = prt::preset_u32();
     if (how.clusters == options.clusters && how.components == 4)
-        return options;
+        return prt::compress_preset(transfer, model.areas, model.edges, options, progress).result;
     options.fixed_bits.clear();
     options.clusters = how.clusters;
     options.components = how.components;
     options.bits = 6 * how.components; // as many for each as the preset has
     options.cluster_bits = 0;
-    return options;
+    return prt::compress(transfer, model.areas, model.edges, options, progress);
 }
 
 /// Takes over from `other` the transfer that `loaded` lacks; false where there is none, or the scenes differ.
@@ -78,10 +81,8 @@ std::shared_ptr<const prt::ClusteredTransfer> compress_as(BackgroundWork::Channe
                                                           const Model& model, const prt::Transfer& raw,
                                                           const CompressionSettings& how) {
     channel.stage("compressing");
-    return std::make_shared<const prt::ClusteredTransfer>(prt::compress(truncated(raw, how.order),
-                                                                        model.areas, model.edges,
-                                                                        options_for(how), channel.progress())
-                                                              .transfer);
+    prt::CompressResult result = compressed_as(how, truncated(raw, how.order), model, channel.progress());
+    return std::make_shared<const prt::ClusteredTransfer>(std::move(result.transfer));
 }
 
 void save_compressed(const Model& model, const prt::CompressedTransfer& compressed,

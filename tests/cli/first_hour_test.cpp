@@ -3,6 +3,7 @@
 #include "program.h"
 #include "prt/image_file.h"
 #include "support/glb_file.h"
+#include "support/scene_builder.h"
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -116,6 +117,33 @@ TEST_F(FirstHour, SkiesOfEightBitsAreReadWithANotice) {
     EXPECT_NE(outcome.err.find("clipped"), std::string::npos) << outcome.err;
     const auto report = nlohmann::json::parse(text("r.json"));
     EXPECT_NEAR(report["mean_radiance"][0].get<double>(), std::pow((188 / 255.0 + 0.055) / 1.055, 2.4), 1e-4);
+}
+
+TEST_F(FirstHour, TheVerdictFallsWithTheErrorAndItsFiguresAreExplained) {
+    test::scene_file(test::SceneBuilder().floor({0, -0.5f, 0}, 1.5f, 10).sphere({0, 0, 0}, 0.5f, 12).build())
+        .write(folder / "ball.glb");
+    ASSERT_EQ(prt({"bake", at("ball.glb"), "-o", at("b.glb"), "--rays", "64", "--order", "3"}).status, 0);
+    const auto verdict_of = [&](const char* clusters, const char* components) {
+        const Outcome made = prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "float",
+                                  "--clusters", clusters, "--components", components});
+        EXPECT_EQ(made.status, 0) << made.err;
+        return prt({"evaluate", at("b.glb"), at("c.glb")}).out;
+    };
+    const std::string mean = verdict_of("1", "0"), all = verdict_of("1", "9");
+    EXPECT_NE(mean.find("in plain sight"), std::string::npos) << mean; // every vertex has the mean's light
+    EXPECT_NE(all.find("looks the same as the bake"), std::string::npos) << all; // nothing is left out
+    EXPECT_NE(all.find("lit_rms: relative L2"), std::string::npos) << all;       // what the columns are
+}
+
+TEST_F(FirstHour, SmallMeshesAreToldThatSizesAreFitted) {
+    test::scene_file(test::SceneBuilder().floor({0, -0.5f, 0}, 1.5f, 10).sphere({0, 0, 0}, 0.5f, 12).build())
+        .write(folder / "small.glb");
+    ASSERT_EQ(prt({"bake", at("small.glb"), "-o", at("b.glb"), "--rays", "64"}).status, 0);
+    const Outcome outcome = prt({"compress", at("b.glb"), "-o", at("c.glb"), "--json", at("c.json")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("fitted"), std::string::npos) << outcome.out;
+    const auto json = nlohmann::json::parse(text("c.json"));
+    EXPECT_LE(json["bytes_bases"], 4096u + 12u * json["receivers"].get<unsigned>());
 }
 
 TEST_F(FirstHour, AnEvaluationBeginsWithAVerdictAndEveryFileHoldsItsFigures) {

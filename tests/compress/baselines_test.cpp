@@ -34,8 +34,19 @@ TEST(Baselines, AllComponentsLoseOnlyWhatEightBitsLose) {
     EXPECT_LT(relative_l2(t, r.decoded, areas),
               0.01); // a step of 3.5 sigma / 127 along each of nine axes: 0.8 %
     EXPECT_GT(relative_l2(t, r.decoded, areas), 0.001);
-    EXPECT_EQ(r.payload_bytes, 9);
+    EXPECT_EQ(r.payload_bytes, 12); // nine bytes in whole words
     EXPECT_EQ(r.table_bytes, 10 * 9 * 2 + 9 * 4);
+}
+
+TEST(Baselines, CountsTheWholeWordsThatAGameBinds) {
+    const Transfer t = random_transfer(600);
+    const std::vector<float> areas(600, 1.0f);
+    EXPECT_EQ(truncated_sh(t, 3).payload_bytes, 12);  // 9 bytes
+    EXPECT_EQ(truncated_sh(t, 3).table_bytes, 9 * 4); // tables have no padding
+    EXPECT_EQ(classic_cpca(t, areas, {1, 4}).payload_bytes, 4);
+    EXPECT_EQ(classic_cpca(t, areas, {8, 3}).payload_bytes, 4); // the cluster's byte beside three weights
+    EXPECT_EQ(classic_cpca(t, areas, {8, 4}).payload_bytes, 8);
+    EXPECT_EQ(classic_cpca(t, areas, {300, 0}).payload_bytes, 4); // two bytes of cluster
 }
 
 TEST(Baselines, IteratingIsNoWorseThanPcaOnce) {

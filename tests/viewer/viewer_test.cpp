@@ -242,6 +242,15 @@ TEST_F(ViewerTest, ListsEveryEnvironmentThatItIsGiven) {
     frame();
 }
 
+TEST_F(ViewerTest, GivesSmallModelsNoMoreBasesThanTheirWeightsAreWorth) {
+    open({baked(6)});
+    const auto receivers = static_cast<double>(viewer->figures().receivers);
+    EXPECT_LT(receivers, 1000);
+    EXPECT_EQ(viewer->figures().bytes_per_vertex, 4); // one word, as the preset says
+    // Bases of twice the weights' bytes, or 4 KB; 256 clusters would take ten times that.
+    EXPECT_LE(viewer->figures().bytes_with_bases, 4 + std::max(8.0, 4096 / receivers));
+}
+
 TEST_F(ViewerTest, SavesWhatItHasCompressedBesideTheModel) {
     open({baked()});
     viewer->compression = {3, 8, 2};

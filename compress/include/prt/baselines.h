@@ -6,6 +6,7 @@
 #include "prt/progress.h"
 #include "prt/transfer.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
@@ -14,10 +15,13 @@ namespace prt {
 /// A transfer after coding and decoding by some method, and what the code takes.
 struct BaselineResult {
     Transfer decoded;
-    double payload_bytes = 0; ///< per receiver
+    double payload_bytes = 0; ///< per receiver, as a game binds it: whole 32-bit words (`bound_bytes`)
     double table_bytes = 0;   ///< in all
     double shader_ops = 0;    ///< multiply-adds of a colour per receiver
 };
+
+/// `bytes` of a receiver, each a code, in the whole 32-bit words that a vertex attribute takes.
+double bound_bytes(std::size_t bytes);
 
 /// The first `bands` bands, a byte per coefficient over its largest value.
 BaselineResult truncated_sh(const Transfer& transfer, int bands);

@@ -13,7 +13,7 @@ namespace prt {
 
 struct SweepPoint {
     std::string method, setting;
-    double payload_bytes = 0; ///< per receiver: ours as bound, in whole words; others as published, unpadded
+    double payload_bytes = 0; ///< per receiver, as a game binds it: whole 32-bit words
     double table_bytes = 0;   ///< bases and all else, per receiver
     double shader_ops = 0;    ///< multiply-adds of a colour per receiver, on average
     double lit_rms = 0;       ///< root of the mean square over the lights of the sweep
@@ -32,7 +32,7 @@ struct Sweep {
 };
 
 inline constexpr int kSweepClusters = 256; ///< in one byte
-/// Budgets of the sweep, bytes per receiver with bases. Ours binds at least four.
+/// Budgets of the sweep, bytes per receiver with bases: one, one, two and three words at most.
 inline constexpr double kSweepBytes[] = {5, 7, 9, 13};
 /// Components per receiver.
 inline constexpr int kSweepOps[] = {1, 2, 4, 8};

@@ -21,7 +21,8 @@ export class PrtkitModel {
   readonly channels: 1 | 3;
   /** Vertices that have transfer. */
   readonly vertices: number;
-  /** Of the vertex attributes that transfer takes. */
+  /** Of the vertex attributes that transfer takes, as they are bound: packed weights in whole 32-bit words, others
+   * as vectors of four beside the cluster in a word of its own. */
   readonly bytesPerVertex: number;
   /** Lights all meshes of the file. Throws a RangeError for a light of fewer bands than `order`. */
   setLight(light: ShLight, angle?: number): void;

@@ -127,7 +127,7 @@ function convertGeometry(geometry, model) {
   geometry.setAttribute("prt_cluster", new BufferAttribute(numbers, 1));
   groups.forEach((group, i) => geometry.setAttribute(`prt_weights_${i}`, group));
   const weight = groups.length > 0 ? (groups[0].data ?? groups[0]).array.BYTES_PER_ELEMENT : 0;
-  model.bytesPerVertex = (clusters.components.length > 256 ? 2 : 1) + Math.max(...clusters.components) * weight;
+  model.bytesPerVertex = numbers.BYTES_PER_ELEMENT + 4 * groups.length * weight;
   return { PRT_WEIGHT_VECTORS: groups.length };
 }
 

@@ -74,7 +74,23 @@ test("weights that are not packed stay as they are, beside the cluster", async (
   await new PrtkitPlugin(parser).afterRoot(gltf);
   assert.equal(mesh.geometry.getAttribute("prt_weights_0"), weights);
   assert.ok(mesh.geometry.getAttribute("prt_cluster").array instanceof Uint32Array);
-  assert.equal(gltf.userData.prtkit.bytesPerVertex, 2);
+  assert.equal(gltf.userData.prtkit.bytesPerVertex, 4 + 4); // a word, and one weight in a vector of four
+});
+
+test("bytes of a vertex are those of the attributes that are bound", async () => {
+  const { packing, ...extension } = { ...packed, components: [5], bases: { bufferView: 0, componentType: 5126 } };
+  const attributes = {
+    _prt_weights_0: new BufferAttribute(new Int16Array(8), 4, true),
+    _prt_weights_1: new BufferAttribute(new Int16Array(8), 4, true),
+    _prt_cluster: new BufferAttribute(new Uint8Array([0, 0]), 1),
+  };
+  const { gltf, parser, mesh } = scene(attributes, extension);
+  parser.getDependency = async () => bytesOf(...new Array(6).fill(1)); // mean and five directions
+  await new PrtkitPlugin(parser).afterRoot(gltf);
+  const names = ["prt_cluster", "prt_weights_0", "prt_weights_1"];
+  const bound = names.map((name) => mesh.geometry.getAttribute(name).array.byteLength);
+  assert.equal(gltf.userData.prtkit.bytesPerVertex, bound.reduce((a, b) => a + b) / 2);
+  assert.equal(gltf.userData.prtkit.bytesPerVertex, 4 + 2 * 4 * 2);
 });
 
 test("files without the extension are left alone", async () => {
