@@ -206,7 +206,8 @@ private:
         double most = 0, likely = 0;
         for (const auto& [rays, members] : by_rays)
             most += static_cast<double>(members.size()) * rays * GatherOperator::kMostBytesPerRay;
-        if (memory_needed() + most <= memory_there())
+        // Through blended surfaces a ray meets any number.
+        if (!surfaces_.has_alpha() && memory_needed() + most <= memory_there())
             return;
         for (const auto& [rays, members] : by_rays)
             likely += estimate_gather(members, static_cast<int>(rays), options);
@@ -331,8 +332,9 @@ private:
         if (options_.inside == Inside::refill)
             operators_.refill = Refill(neighbours(), marked);
         statistics().refilled = operators_.refill.size();
-        note("{} receivers are sealed in by backs of faces; {} of them take the light of their neighbours",
-             statistics().sealed, statistics().refilled);
+        note("{} receivers are sealed in by backs of faces; {} of them take the light of their neighbours{}",
+             statistics().sealed, statistics().refilled,
+             statistics().refilled < statistics().sealed ? ", the others stay dark" : "");
     }
 
     /// Exit transfer of the scene's receivers, all bounces and subsurface scattering in it.
@@ -369,8 +371,9 @@ private:
             options_.storage == Storage::float16 || (options_.storage == Storage::automatic && small);
         baked.storage = half ? TransferStorage::float16 : TransferStorage::float32;
         if (half && options_.storage == Storage::automatic)
-            note("stored as float16: its rounding, {:.2g}, is below a tenth of the sampling error, {:.2g}",
-                 statistics().rounding_error, statistics().sampling_error);
+            note(
+                "stored as float16: its rounding, {:.2g} %, is below a tenth of the sampling error, {:.2g} %",
+                100 * statistics().rounding_error, 100 * statistics().sampling_error);
         BakeRecord& record = baked.record;
         record.rays = mean_rays_;
         record.seed = options_.seed;

@@ -35,29 +35,21 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
         operators.gather->apply(order, from, to, threads);
         exit_from_incident(operators, order, channels, to, threads);
     };
-    const auto residual = [&operators, apply, order, channels,
+    const auto residual = [&operators, order, channels,
                            threads](std::span<const float> b, std::span<const float> x, std::span<float> r) {
-        if (operators.diffusion.empty()) {
-            std::vector<double> incident(x.size());
-            operators.gather->apply_in_double(order, x, incident, threads);
-            operators.refill.apply(std::span<double>(incident),
-                                   static_cast<std::size_t>(channels * coefficient_count(order)));
-            for (std::size_t i = 0; i < r.size(); ++i)
-                r[i] =
-                    static_cast<float>(static_cast<double>(b[i]) - static_cast<double>(x[i]) + incident[i]);
-        } else { // media mix light so well that nothing is slow
-            std::vector<float> from(x.begin(), x.end());
-            apply(from, r);
-            for (std::size_t i = 0; i < r.size(); ++i)
-                r[i] += b[i] - x[i];
-        }
+        std::vector<double> incident(x.size());
+        operators.gather->apply_in_double(order, x, incident, threads);
+        operators.refill.apply(std::span<double>(incident),
+                               static_cast<std::size_t>(channels * coefficient_count(order)));
+        for (std::size_t i = 0; i < r.size(); ++i)
+            r[i] = static_cast<float>(static_cast<double>(b[i]) - static_cast<double>(x[i]) + incident[i]);
     };
     return {apply, residual};
 }
 
-/// Adds bounce after bounce.
-BounceResult bounce_often(Transfer& transfer, const TransportOperators& operators, int bounces, int threads,
-                          const Progress& progress) {
+/// Adds bounce after bounce, until so little remains.
+BounceResult bounce_often(Transfer& transfer, const TransportOperators& operators, int bounces,
+                          double least_remaining, int threads, const Progress& progress) {
     const ColumnOperator bounce = bounce_operator(operators, transfer.order, transfer.channels, threads);
     const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.order));
     BounceResult result;
@@ -76,8 +68,11 @@ BounceResult bounce_often(Transfer& transfer, const TransportOperators& operator
                            : ratio < 1               ? energy * ratio / (1 - ratio) / total
                                                      : 1;
         before = energy;
+        if (result.remaining < least_remaining)
+            return result;
         progress.update(static_cast<double>(result.bounces) / bounces);
     }
+    result.converged = least_remaining == 0;
     return result;
 }
 
@@ -127,8 +122,14 @@ BounceResult propagate(Transfer& transfer, const TransportOperators& operators, 
     exit_from_incident(operators, transfer.order, transfer.channels, transfer.vectors, threads);
     if (!operators.gather || bounces == 0)
         return {};
-    return bounces == kEndlessBounces ? bounce_endlessly(transfer, operators, threads, progress)
-                                      : bounce_often(transfer, operators, bounces, threads, progress);
+    if (bounces != kEndlessBounces)
+        return bounce_often(transfer, operators, bounces, 0, threads, progress);
+    // Media may return more light than they took (docs/math.md, section 8): a solution of the equation need
+    // then be no sum over bounces, so that the sum itself is taken.
+    constexpr int kMostBounces = 10000;
+    return operators.diffusion.empty()
+               ? bounce_endlessly(transfer, operators, threads, progress)
+               : bounce_often(transfer, operators, kMostBounces, 1e-5, threads, progress);
 }
 
 void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers) {

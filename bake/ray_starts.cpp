@@ -13,7 +13,7 @@ namespace prt {
 namespace {
 
 /// Least height of a start above a face, and how far it goes along the surface, in surface offsets. Four
-/// reach into a wedge of 15 degrees between a face and one that meets it at the vertex.
+/// reach into a wedge of 20 degrees between a face and one that meets it at the vertex, also at its corners.
 constexpr double kLeastHeight = 0.5, kAlong = 4;
 /// Longest way off the position: what a spike whose faces are 3 degrees off its axis needs.
 constexpr double kLongest = 16;

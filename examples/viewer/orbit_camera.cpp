@@ -9,8 +9,8 @@
 namespace viewer {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kSteepest = 0.49f * kPi; ///< `up` must not point along the view
+constexpr float kHalfTurn = std::numbers::pi_v<float>;
+constexpr float kSteepest = 0.49f * kHalfTurn; ///< `up` must not point along the view
 
 } // namespace
 
@@ -23,8 +23,8 @@ OrbitCamera::OrbitCamera(const prt::Camera& camera)
 }
 
 void OrbitCamera::orbit(const glm::vec2& turns) {
-    yaw_ = std::remainder(yaw_ - kPi * turns.x, 2 * kPi);
-    pitch_ = std::clamp(pitch_ + kPi * turns.y, -kSteepest, kSteepest);
+    yaw_ = std::remainder(yaw_ - kHalfTurn * turns.x, 2 * kHalfTurn);
+    pitch_ = std::clamp(pitch_ + kHalfTurn * turns.y, -kSteepest, kSteepest);
 }
 
 void OrbitCamera::pan(const glm::vec2& way) {
