@@ -1,9 +1,10 @@
 #include "inputs.h"
 
+#include "light_file.h"
 #include "outputs.h"
 #include "prt/error.h"
 #include "prt/reorder.h"
-#include "report.h"
+#include "session.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>

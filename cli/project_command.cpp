@@ -1,6 +1,7 @@
 #include "commands.h"
 
 #include "inputs.h"
+#include "light_file.h"
 #include "outputs.h"
 #include "prt/error.h"
 #include "prt/sh.h"
@@ -63,6 +64,8 @@ void run(const ProjectArguments& a, Interrupt& interrupt) {
     // A light file is known by its name.
     check_outputs({{a.output, "--output", {".json"}, true}, {a.json, "--json", {".json"}}}, {a.environment});
     check_order(a.order);
+    if (a.suns > 0 && suffix_of(a.environment) == ".json")
+        throw Error(a.environment.string() + ": is a light file, and suns are fitted to images");
     const Stopwatch stopwatch;
     LoadedLight loaded =
         load_light(a.environment, a.suns > 0 ? kMaxOrder : a.order,

@@ -27,10 +27,4 @@ void publish(const Report& report, const ReportFiles& files, Interrupt& interrup
 /// How a bake was made.
 Json bake_record_json(const BakeRecord& record);
 
-/// The light file of docs/format.md.
-Json light_json(const Light& light);
-
-/// Reads a light file: its coefficients with its lights added. Throws `Error` that names it.
-Light read_light_json(const std::filesystem::path& path);
-
 } // namespace prt::cli

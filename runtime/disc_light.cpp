@@ -27,14 +27,23 @@ struct EllipticCone {
     double wide, narrow; ///< tangents of its half angles, wide >= narrow
 };
 
+/// Of the disc's centre from the foot of the origin on its plane: the direction in the plane, and how far.
+/// Where the centre is next to the foot the difference of the two is rounding, of any direction, and it
+/// leaves the plane. So what leaves it is taken out, and what only rounding can be is no offset.
+std::pair<glm::dvec3, double> sideways(const glm::dvec3& centre, const glm::dvec3& normal, double height) {
+    constexpr double kRounding = 1e-12; // of the height, and 1000 times that of doubles
+    const auto in_plane = [&](const glm::dvec3& v) { return v - glm::dot(v, normal) * normal; };
+    const glm::dvec3 lateral = in_plane(centre + height * normal);
+    const double offset = glm::length(lateral);
+    if (offset > kRounding * height)
+        return {glm::normalize(in_plane(lateral / offset)), offset};
+    const glm::dvec3 other = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    return {glm::normalize(glm::cross(other, normal)), 0};
+}
+
 /// `normal` points from the disc to the side of the origin, which is `height` > 0 above it.
 EllipticCone cone_through(const glm::dvec3& centre, const glm::dvec3& normal, double height, double radius) {
-    const glm::dvec3 lateral = centre + height * normal;
-    const double offset = glm::length(lateral);
-    const glm::dvec3 side =
-        offset > 0 ? lateral / offset
-                   : glm::normalize(glm::cross(
-                         std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0), normal));
+    const auto [side, offset] = sideways(centre, normal, height);
     // In the plane of symmetry the rim's nearest and farthest points are seen at angles a1 and a2 from the
     // direction straight down, tan a = (offset -+ radius) / height. Of their difference and sum, without
     // cancellation:

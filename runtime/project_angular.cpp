@@ -209,8 +209,8 @@ ProjectedColours project_angular(const Image& image, int order, int threads) {
             for (std::size_t i = 0; i < n; ++i) {
                 const std::size_t first = (j * n + i) * row.stride;
                 const double left = map.cell(0).at(inner.nodes[i]), step = 2.0 / size;
-                for (std::size_t x = 0; x < row.stride; ++x)
-                    s[x] = static_cast<float>(left + step * static_cast<double>(x));
+                for (std::size_t x = 0; x < row.stride; ++x) // beyond the image, where the series blow up, 1
+                    s[x] = static_cast<float>(std::min(1.0, left + step * static_cast<double>(x)));
                 std::ranges::fill(t, static_cast<float>(map.cell(y).at(inner.nodes[j])));
                 put_disc_nodes(s.data(), t.data(), row.stride, &row.directions[first], &row.weights[first]);
                 const auto area = static_cast<float>(inner.weights[i] * inner.weights[j] / size / size);

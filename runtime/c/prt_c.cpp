@@ -10,11 +10,16 @@
 #include "prt/sh_vector.h"
 #include "prt/shader_source.h"
 
+#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstring>
+#include <limits>
 #include <new>
+#include <string>
 
 struct prt_model {
     prt::Scene scene;
@@ -73,6 +78,16 @@ void check_pointers(const Pointers*... pointers) {
         throw Error("a pointer is null");
 }
 
+/// Of an image that an array can hold.
+std::size_t pixel_count(int width, int height) {
+    constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(glm::vec3);
+    const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+    if (rows > kMost / columns)
+        throw Error("an image of " + std::to_string(width) + " x " + std::to_string(height) +
+                    " pixels is larger than memory can be");
+    return columns * rows;
+}
+
 std::size_t count_of(int order) {
     prt::check_order(order);
     return static_cast<std::size_t>(prt::coefficient_count(order));
@@ -80,6 +95,23 @@ std::size_t count_of(int order) {
 
 glm::vec3 vec3(const float* v) {
     return glm::make_vec3(v);
+}
+
+bool finite(const float* values, std::size_t count) {
+    return std::all_of(values, values + count, [](float value) { return std::isfinite(value); });
+}
+
+glm::vec3 colour(const float* rgb) {
+    if (!finite(rgb, 3))
+        throw Error("a colour of light must be finite");
+    return vec3(rgb);
+}
+
+glm::vec3 direction_of(const float* xyz) {
+    const double length = glm::length(glm::dvec3(vec3(xyz)));
+    if (!(length > 0 && std::isfinite(length)))
+        throw Error("a direction is wanted, not a vector of length " + std::to_string(length));
+    return vec3(xyz);
 }
 
 glm::vec3* colours(float* light) {
@@ -92,6 +124,8 @@ void put(const Light& light, float* to) {
 
 Light light_from(int order, const float* from) {
     const std::size_t count = count_of(order);
+    if (!finite(from, 3 * count))
+        throw Error("the coefficients of a light must be finite");
     const auto* first = reinterpret_cast<const glm::vec3*>(from);
     return {order, {first, first + count}};
 }
@@ -150,7 +184,7 @@ extern "C" {
 prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(direction, basis);
-        prt::evaluate_sh(order, vec3(direction), std::span(basis, count_of(order)));
+        prt::evaluate_sh(order, direction_of(direction), std::span(basis, count_of(order)));
     });
 }
 
@@ -175,7 +209,7 @@ prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, fl
 prt_status prt_light_constant(int order, const float radiance[3], float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(radiance, light);
-        put(prt::constant_light(order, vec3(radiance)), light);
+        put(prt::constant_light(order, colour(radiance)), light);
     });
 }
 
@@ -183,7 +217,7 @@ prt_status prt_light_directional(int order, const float towards[3], const float 
                                  prt_message* message) {
     return guarded(message, [&] {
         check_pointers(towards, irradiance, light);
-        put(prt::directional_light(order, vec3(towards), vec3(irradiance)), light);
+        put(prt::directional_light(order, vec3(towards), colour(irradiance)), light);
     });
 }
 
@@ -191,7 +225,7 @@ prt_status prt_light_cone(int order, const float axis[3], float half_angle, cons
                           float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(axis, radiance, light);
-        put(prt::cone_light(order, vec3(axis), static_cast<double>(half_angle), vec3(radiance)), light);
+        put(prt::cone_light(order, vec3(axis), static_cast<double>(half_angle), colour(radiance)), light);
     });
 }
 
@@ -199,7 +233,7 @@ prt_status prt_light_sphere(int order, const float centre[3], float radius, cons
                             float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(centre, radiance, light);
-        put(prt::sphere_light(order, vec3(centre), static_cast<double>(radius), vec3(radiance)), light);
+        put(prt::sphere_light(order, vec3(centre), static_cast<double>(radius), colour(radiance)), light);
     });
 }
 
@@ -207,7 +241,7 @@ prt_status prt_light_disc(int order, const float centre[3], const float normal[3
                           const float radiance[3], float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(centre, normal, radiance, light);
-        put(prt::disc_light(order, vec3(centre), vec3(normal), static_cast<double>(radius), vec3(radiance)),
+        put(prt::disc_light(order, vec3(centre), vec3(normal), static_cast<double>(radius), colour(radiance)),
             light);
     });
 }
@@ -216,7 +250,7 @@ prt_status prt_light_hemisphere(int order, const float up[3], const float top[3]
                                 float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(up, top, bottom, light);
-        put(prt::hemisphere_light(order, vec3(up), vec3(top), vec3(bottom)), light);
+        put(prt::hemisphere_light(order, vec3(up), colour(top), colour(bottom)), light);
     });
 }
 
@@ -229,10 +263,7 @@ prt_status prt_light_from_lat_long(int order, int width, int height, const float
         const auto* first = reinterpret_cast<const glm::vec3*>(pixels);
         prt::Environment environment;
         environment.centre = centre_of(center);
-        environment.image = {
-            width,
-            height,
-            {first, first + static_cast<std::size_t>(width) * static_cast<std::size_t>(height)}};
+        environment.image = {width, height, {first, first + pixel_count(width, height)}};
         prt::repair_pixels(environment.image, prt::BadPixels::error);
         put(prt::project(environment, order, threads), light);
     });

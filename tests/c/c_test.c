@@ -2,6 +2,7 @@
 
 #include "prt/prt.h"
 
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,6 +53,10 @@ static void test_sh(void) {
     const float mirror[9] = {-1, 0, 0, 0, 1, 0, 0, 0, 1};
     EXPECT(prt_sh_rotate(3, mirror, basis, rotated, &message) == PRT_BAD_ARGUMENT);
     EXPECT(strstr(message.text, "mirror") != NULL);
+    const float no_directions[3][3] = {{0, 0, 0}, {NAN, 0, 1}, {0, INFINITY, 0}};
+    for (int i = 0; i < 3; ++i)
+        EXPECT(prt_sh_evaluate(3, no_directions[i], basis, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(strstr(message.text, "direction") != NULL);
     EXPECT(prt_sh_evaluate(11, up, basis, &message) == PRT_BAD_ARGUMENT);
     EXPECT(prt_sh_evaluate(3, NULL, basis, NULL) == PRT_BAD_ARGUMENT);
 }
@@ -101,6 +106,30 @@ static void test_lights(void) {
     EXPECT(prt_light_from_lat_long(3, 0, 1, pixels, PRT_CENTER_Z, 1, light, &message) == PRT_BAD_ARGUMENT);
     EXPECT(prt_light_from_file(3, "no such file.exr", PRT_CENTER_Z, light, &message) == PRT_BAD_FILE);
     EXPECT(strstr(message.text, "no such file.exr") != NULL);
+}
+
+static void test_light_that_is_not_finite(void) {
+    float light[27];
+    const float white[3] = {1, 1, 1}, up[3] = {0, 1, 0}, down[3] = {0, -1, 0}, far_up[3] = {0, 4, 0};
+    const float bad[2][3] = {{1, NAN, 1}, {INFINITY, 1, 1}};
+    prt_message message;
+    for (int i = 0; i < 2; ++i) {
+        EXPECT(prt_light_constant(3, bad[i], light, &message) == PRT_BAD_ARGUMENT);
+        EXPECT(strstr(message.text, "finite") != NULL);
+        EXPECT(prt_light_directional(3, up, bad[i], light, NULL) == PRT_BAD_ARGUMENT);
+        EXPECT(prt_light_cone(3, up, 0.5f, bad[i], light, NULL) == PRT_BAD_ARGUMENT);
+        EXPECT(prt_light_sphere(3, far_up, 1, bad[i], light, NULL) == PRT_BAD_ARGUMENT);
+        EXPECT(prt_light_disc(3, far_up, down, 1, bad[i], light, NULL) == PRT_BAD_ARGUMENT);
+        EXPECT(prt_light_hemisphere(3, up, bad[i], white, light, NULL) == PRT_BAD_ARGUMENT);
+        EXPECT(prt_light_hemisphere(3, up, white, bad[i], light, NULL) == PRT_BAD_ARGUMENT);
+        prt_light_constant(3, white, light, NULL);
+        light[26] = bad[i][1 - i];
+        EXPECT(prt_light_dering(3, light, &message) == PRT_BAD_ARGUMENT);
+        EXPECT(strstr(message.text, "finite") != NULL);
+    }
+    EXPECT(prt_light_from_lat_long(6, INT_MAX, INT_MAX, white, PRT_CENTER_Z, 1, light, &message) ==
+           PRT_BAD_ARGUMENT);
+    EXPECT(strstr(message.text, "2147483647 x 2147483647") != NULL);
 }
 
 static void test_sky(const char* path) {
@@ -180,6 +209,7 @@ int main(int argc, char** argv) {
         return 2;
     test_sh();
     test_lights();
+    test_light_that_is_not_finite();
     test_model(argv[1]);
     test_sky(argv[2]);
     if (failures == 0)

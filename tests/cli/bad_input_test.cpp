@@ -6,6 +6,7 @@
 #include "support/temporary_folder.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -256,6 +257,76 @@ TEST_F(BadInput, EnvironmentsThatAreNone) {
     expect_refused(
         prt({"render", baked, "--env", (folder / "bad.json").string(), "-o", (folder / "p.png").string()}),
         "bad.json");
+}
+
+class BadLightFile : public BadInput {
+protected:
+    nlohmann::json light = {
+        {"prtkit_light", 1},
+        {"order", 1},
+        {"coefficients", {{"red", {1}}, {"green", {2}}, {"blue", {3}}}},
+        {"lights", {{{"towards", {0, 1, 0}}, {"irradiance", {1, 1, 1}}, {"half_angle_radians", 0}}}}};
+
+    Outcome project(const std::string& text, const std::vector<std::string>& options = {"--order", "1"}) {
+        std::vector<std::string> arguments = {"project", folder.file("bad.json", text).string(), "-o",
+                                              (folder / "out.json").string()};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return prt(arguments);
+    }
+    void refuse(const std::string& text, const std::string& wrong) {
+        const Outcome outcome = project(text);
+        expect_refused(outcome, "bad.json: ");
+        EXPECT_NE(outcome.err.find(wrong), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.err.find("json.exception"), std::string::npos) << outcome.err;
+    }
+    /// With `value` at `place`; null: without what is there.
+    void refuse_at(const std::string& place, const nlohmann::json& value, const std::string& wrong) {
+        nlohmann::json changed = light;
+        const nlohmann::json::json_pointer at(place);
+        if (value.is_null())
+            changed[at.parent_pointer()].erase(at.back());
+        else
+            changed[at] = value;
+        SCOPED_TRACE(place);
+        refuse(changed.dump(), wrong);
+    }
+};
+
+TEST_F(BadLightFile, SaysInPlainWordsWhatIsWrong) {
+    EXPECT_EQ(project(light.dump()).status, 0);
+    for (const char* key : {"order", "coefficients"})
+        refuse_at(std::string("/") + key, nullptr, std::string("\"") + key + "\" is missing");
+    refuse_at("/coefficients/green", nullptr, "\"green\" is missing");
+    refuse_at("/coefficients", 3, "\"red\" is missing");
+    refuse_at("/coefficients/blue", {1, 2}, "\"blue\" has 2 numbers and needs 1");
+    refuse_at("/coefficients/blue", nlohmann::json::array(), "\"blue\" has 0 numbers and needs 1");
+    refuse_at("/coefficients/blue", "much", "\"blue\" is no list");
+    refuse_at("/coefficients/blue/0", "much", "\"blue\" is no list");
+    refuse_at("/coefficients/blue/0", 1e300, "finite");
+    for (const nlohmann::json& order : {nlohmann::json(6.5), nlohmann::json(0), nlohmann::json(1e300)})
+        refuse_at("/order", order, "whole number in 1..10");
+    refuse_at("/order", "six", "\"order\" is no number");
+    refuse_at("/prtkit_light", "one", "no light of prt project");
+    refuse("[1]", "no light of prt project");
+    refuse("{\"prtkit_light\": 1,", "no JSON from byte");
+    refuse("{\"prtkit_light\": 1e999}", "beyond");
+}
+
+TEST_F(BadLightFile, ItsLightsAreCheckedOneByOne) {
+    refuse_at("/lights", nlohmann::json::object(), "\"lights\" is no list");
+    refuse_at("/lights/0", 3, "light 0 of \"lights\": \"towards\" is missing");
+    for (const char* key : {"towards", "irradiance", "half_angle_radians"})
+        refuse_at(std::string("/lights/0/") + key, nullptr, std::string("\"") + key + "\" is missing");
+    refuse_at("/lights/0/towards", {0, 1}, "has 2 numbers and needs 3");
+    refuse_at("/lights/0/towards", {0, 0, 0}, "no direction");
+    refuse_at("/lights/0/irradiance/1", -1, "\"irradiance\" is negative");
+    refuse_at("/lights/0/half_angle_radians", 2, "0..pi/2");
+}
+
+TEST_F(BadLightFile, SunsAreFittedToImagesAlone) {
+    const Outcome outcome = project(light.dump(), {"--order", "1", "--suns", "1"});
+    expect_refused(outcome, "bad.json: ");
+    EXPECT_NE(outcome.err.find("suns are fitted to images"), std::string::npos) << outcome.err;
 }
 
 TEST_F(BadInput, PlacesThatCannotBeWritten) {

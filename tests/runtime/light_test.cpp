@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <random>
 
 namespace prt {
 namespace {
@@ -129,10 +130,16 @@ TEST(Light, MoreBandsThanThereAreCannotBeHad) {
     EXPECT_EQ(truncated(constant_light(4, glm::vec3(1)), 3).coefficients.size(), 9u);
 }
 
+/// NaN where a coefficient is.
 double largest_difference(const Light& a, const Light& b) {
     double largest = 0;
-    for (std::size_t i = 0; i < a.coefficients.size(); ++i)
-        largest = std::max(largest, static_cast<double>(glm::distance(a.coefficients[i], b.coefficients[i])));
+    for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
+        const double difference = static_cast<double>(glm::distance(a.coefficients[i], b.coefficients[i]));
+        if (!(difference <= largest))
+            largest = difference;
+        if (std::isnan(largest))
+            break;
+    }
     return largest;
 }
 
@@ -208,6 +215,55 @@ TEST(Light, DiscThatFacesTheReceiverIsACone) {
     // As large as can be it covers half of the sphere.
     const Light wide = disc_light(4, {0, 0, 1e-3f}, {0, 0, -1}, 1000, {1, 1, 1});
     EXPECT_NEAR(wide.coefficients[0].r, 2 * std::numbers::pi * 0.2820948, 1e-5);
+}
+
+/// Off by `tilt` radians from the centre's direction, to any side.
+glm::vec3 tilted(const glm::vec3& centre, double tilt, std::mt19937& random) {
+    std::normal_distribution<double> gauss;
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(centre)),
+                     side = glm::normalize(
+                         glm::cross(axis, glm::dvec3(gauss(random), gauss(random), gauss(random))));
+    return glm::vec3(-std::cos(tilt) * axis + std::sin(tilt) * side);
+}
+
+/// To the rounding of their floats, which tilts them by some 1e-7.
+TEST(Light, DiscsThatFaceTheReceiverFromAnywhereAreCones) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> gauss;
+    std::uniform_real_distribution<double> uniform;
+    for (int i = 0; i < 3000; ++i) {
+        const auto c = glm::vec3(std::pow(10, 4 * uniform(random) - 2) *
+                                 glm::dvec3(gauss(random), gauss(random), gauss(random)));
+        const double radius = std::pow(10, 3 * uniform(random) - 2);
+        const std::array normals = {-c, -glm::normalize(c), -0.5f * c,
+                                    tilted(c, std::pow(10, -15 + 9 * uniform(random)), random)};
+        const Light cone = cone_light(6, c, std::atan(radius / glm::length(glm::dvec3(c))), glm::vec3(1));
+        Light disc;
+        ASSERT_NO_THROW(disc =
+                            disc_light(6, c, normals[static_cast<std::size_t>(i % 4)], radius, glm::vec3(1)))
+            << i;
+        ASSERT_LE(largest_difference(disc, cone), 1e-5 * static_cast<double>(cone.coefficients[0].r)) << i;
+    }
+}
+
+TEST(Light, DiscsThatNearlyFaceTheReceiverAgreeWithQuadrature) {
+    std::mt19937 random(7);
+    for (const double tilt : {0.0, 1e-15, 1e-9, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3})
+        for (const glm::vec3& c :
+             {glm::vec3(1, 2, 3), glm::vec3(-1.50307615e-05f, .0128540518f, -.00432413304f)}) {
+            const double radius = 1.5 * glm::length(glm::dvec3(c));
+            const glm::vec3 normal = tilted(c, tilt, random);
+            const Light disc = disc_light(6, c, normal, radius, glm::vec3(1));
+            const auto expected = disc_by_area(6, glm::dvec3(c), glm::normalize(glm::dvec3(normal)), radius);
+            for (std::size_t i = 0; i < expected.size(); ++i)
+                EXPECT_NEAR(static_cast<double>(disc.coefficients[i].r), expected[i], 2e-6)
+                    << tilt << ": " << i;
+        }
+    const glm::vec3 c(-1.50307615e-05f, .0128540518f, -.00432413304f);
+    EXPECT_LT(
+        largest_difference(disc_light(6, c, -c, .0522394, glm::vec3(1)),
+                           cone_light(6, c, std::atan(.0522394 / glm::length(glm::dvec3(c))), glm::vec3(1))),
+        1e-5);
 }
 
 TEST(Light, DiscIsDarkFromBehindAndRefusesNonsense) {

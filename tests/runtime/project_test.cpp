@@ -35,10 +35,16 @@ Environment cube(int size, const Radiance& radiance) {
     return environment;
 }
 
+/// NaN where a coefficient is.
 double largest_difference(const Light& a, const Light& b) {
     double largest = 0;
-    for (std::size_t i = 0; i < a.coefficients.size(); ++i)
-        largest = std::max(largest, static_cast<double>(glm::distance(a.coefficients[i], b.coefficients[i])));
+    for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
+        const double difference = static_cast<double>(glm::distance(a.coefficients[i], b.coefficients[i]));
+        if (!(difference <= largest))
+            largest = difference;
+        if (std::isnan(largest))
+            break;
+    }
     return largest;
 }
 

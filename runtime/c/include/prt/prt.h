@@ -23,9 +23,9 @@ extern "C" {
 
 typedef enum prt_status {
     PRT_OK = 0,
-    PRT_BAD_ARGUMENT =
-        1,            /* a null pointer, an order outside 1..10, a direction of length 0, a mirrored matrix */
-    PRT_BAD_FILE = 2, /* missing, damaged, or without what is wanted */
+    PRT_BAD_ARGUMENT = 1, /* a null pointer, an order outside 1..10, a direction of length 0, a mirrored
+                             matrix, what is not finite */
+    PRT_BAD_FILE = 2,     /* missing, damaged, or without what is wanted */
     PRT_NO_MEMORY = 3,
     PRT_TOO_SMALL = 4 /* the buffer; what it needs is written to *size */
 } prt_status;

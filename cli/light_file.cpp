@@ -1,0 +1,141 @@
+#include "light_file.h"
+
+#include "prt/error.h"
+#include "prt/file.h"
+#include "prt/sh.h"
+#include "prt/sun_fit.h"
+
+#include <glm/geometric.hpp>
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace prt::cli {
+namespace {
+
+constexpr const char* kChannels[3] = {"red", "green", "blue"};
+
+const Json& member(const Json& object, const char* key) {
+    if (!object.is_object() || !object.contains(key))
+        throw Error(fmt::format("\"{}\" is missing", key));
+    return object[key];
+}
+
+double number(const Json& object, const char* key) {
+    const Json& value = member(object, key);
+    if (!value.is_number())
+        throw Error(fmt::format("\"{}\" is no number", key));
+    return value.get<double>();
+}
+
+std::vector<float> numbers(const Json& object, const char* key, std::size_t count) {
+    const Json& list = member(object, key);
+    if (!list.is_array())
+        throw Error(fmt::format("\"{}\" is no list of numbers", key));
+    if (list.size() != count)
+        throw Error(fmt::format("\"{}\" has {} numbers and needs {}", key, list.size(), count));
+    std::vector<float> values;
+    for (const Json& value : list) {
+        if (!value.is_number())
+            throw Error(fmt::format("\"{}\" is no list of numbers", key));
+        values.push_back(value.get<float>());
+        if (!std::isfinite(values.back()))
+            throw Error(fmt::format("\"{}\" holds what is no finite float", key));
+    }
+    return values;
+}
+
+glm::vec3 vector_of(const Json& object, const char* key) {
+    const std::vector<float> values = numbers(object, key, 3);
+    return {values[0], values[1], values[2]};
+}
+
+FittedLight fitted_light(const Json& entry) {
+    FittedLight light;
+    light.towards = vector_of(entry, "towards");
+    light.irradiance = vector_of(entry, "irradiance");
+    light.half_angle = number(entry, "half_angle_radians");
+    const double length = glm::length(glm::dvec3(light.towards));
+    if (!(length > 0))
+        throw Error("\"towards\" is no direction");
+    for (int c = 0; c < 3; ++c)
+        if (light.irradiance[c] < 0)
+            throw Error("\"irradiance\" is negative");
+    if (!(light.half_angle >= 0 && light.half_angle <= 0.5 * detail::kPi))
+        throw Error("\"half_angle_radians\" is not in 0..pi/2");
+    light.towards = glm::vec3(glm::dvec3(light.towards) / length);
+    return light;
+}
+
+/// The lights that were fitted and stand apart from the coefficients.
+Light lights_of(const Json& list, int order) {
+    if (!list.is_array())
+        throw Error("\"lights\" is no list");
+    Light all = constant_light(order, glm::vec3(0));
+    for (std::size_t i = 0; i < list.size(); ++i)
+        try {
+            all = sum(all, as_light(fitted_light(list[i]), order));
+        } catch (const Error& error) {
+            throw Error(fmt::format("light {} of \"lights\": {}", i, error.what()));
+        }
+    return all;
+}
+
+int order_of(const Json& json) {
+    const double order = number(json, "order");
+    if (!(order >= 1 && order <= kMaxOrder && order == std::floor(order)))
+        throw Error(fmt::format("\"order\" is {}, no whole number in 1..{}", order, kMaxOrder));
+    return static_cast<int>(order);
+}
+
+Light coefficients_of(const Json& json) {
+    Light light{order_of(json), {}};
+    light.coefficients.resize(static_cast<std::size_t>(coefficient_count(light.order)));
+    const Json& coefficients = member(json, "coefficients");
+    for (int c = 0; c < 3; ++c) {
+        const std::vector<float> values = numbers(coefficients, kChannels[c], light.coefficients.size());
+        for (std::size_t i = 0; i < values.size(); ++i)
+            light.coefficients[i][c] = values[i];
+    }
+    return light;
+}
+
+/// In our words: those of the library name its inner parts.
+Json parsed(const std::vector<std::byte>& file) {
+    const char* begin = reinterpret_cast<const char*>(file.data());
+    try {
+        return Json::parse(begin, begin + file.size());
+    } catch (const Json::parse_error& error) {
+        throw Error(fmt::format("is no JSON from byte {} on", error.byte));
+    } catch (const Json::exception&) {
+        throw Error("holds a number beyond those of doubles");
+    }
+}
+
+} // namespace
+
+Json light_json(const Light& light) {
+    Json channels = Json::object();
+    for (int c = 0; c < 3; ++c)
+        for (const glm::vec3& coefficient : light.coefficients)
+            channels[kChannels[c]].push_back(coefficient[c]);
+    return {{"prtkit_light", 1}, {"order", light.order}, {"coefficients", channels}};
+}
+
+Light read_light_json(const std::filesystem::path& path) {
+    const std::vector<std::byte> file = read_file(path);
+    try {
+        const Json json = parsed(file);
+        if (!json.is_object() || !json.contains("prtkit_light") || json["prtkit_light"] != 1)
+            throw Error("is JSON, but no light of prt project");
+        const Light light = coefficients_of(json);
+        return json.contains("lights") ? sum(light, lights_of(json["lights"], light.order)) : light;
+    } catch (const Error& error) {
+        throw Error(path.string() + ": " + error.what());
+    }
+}
+
+} // namespace prt::cli
