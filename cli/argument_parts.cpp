@@ -19,6 +19,13 @@ const std::map<std::string, BadPixels> kBadPixels = {
 
 } // namespace
 
+void add_output(CLI::App* command, Path& output, const std::string& text) {
+    const auto empty = [](const std::string& name) {
+        return name.empty() ? std::string("the name of the file is empty") : std::string();
+    };
+    command->add_option("-o,--output", output, text)->required()->type_name("FILE")->check(empty);
+}
+
 void add_threads(CLI::App* command, int& threads) {
     command->add_option("--threads", threads, "number of threads, 0: all")
         ->capture_default_str()

@@ -27,6 +27,8 @@ CLI::Option* choice(CLI::App* command, const std::string& name, Target& target,
         ->default_str(otherwise);
 }
 
+/// -o, --output: the file that a command is for.
+void add_output(CLI::App* command, Path& output, const std::string& text);
 void add_threads(CLI::App* command, int& threads);
 void add_json(CLI::App* command, Path& json);
 void add_reports(CLI::App* command, Path& json, Path& html, Path& csv);

@@ -1,4 +1,5 @@
 #include "argument_parts.h"
+#include "known_names.h"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +7,7 @@
 #include <cstdio>
 #include <functional>
 #include <map>
-#include <numeric>
 #include <string>
-#include <string_view>
-#include <utility>
 
 namespace prt::cli {
 namespace {
@@ -143,7 +141,7 @@ void add_method(CLI::App* command, BakeOptions& options) {
 void add_bake(CLI::App& app, BakeArguments& a) {
     CLI::App* command = app.add_subcommand("bake", "Bake transfer vectors for every vertex of a glTF scene");
     command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required();
-    command->add_option("-o,--output", a.output, "baked .glb to write")->required()->type_name("FILE");
+    add_output(command, a.output, "baked .glb to write");
     command->add_option("--order", a.options.order, "SH order N, 1..10: N² coefficients")
         ->capture_default_str();
     CLI::Option* rays =
@@ -203,9 +201,9 @@ void add_evaluate(CLI::App& app, EvaluateArguments& a) {
     command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene");
     command
         ->add_option("--lights", a.lights,
-                     "environments (.exr, .hdr, .png, .jpg) or lights (.json); otherwise a uniform light, an "
-                     "overcast sky and "
-                     "a sun")
+                     "environment (.exr, .hdr, .png, .jpg) or light (.json), repeated for each of several; "
+                     "otherwise a uniform light, an overcast sky and a sun")
+        ->allow_extra_args(false) // one each time, so that the files may follow
         ->type_name("FILE");
     add_light_options(command, a.light_options);
     command->add_option("--rotations", a.rotations, "turn each light about +Y by this many equal angles")
@@ -225,7 +223,7 @@ void add_project(CLI::App& app, ProjectArguments& a) {
                      "environment map, .exr, .hdr, .png or .jpg; with {face} in its name six files px, nx, "
                      "py, ny, pz, nz")
         ->required();
-    command->add_option("-o,--output", a.output, "light to write, .json")->required()->type_name("FILE");
+    add_output(command, a.output, "light to write, .json");
     command->add_option("--order", a.order, "SH order N, 1..10")->capture_default_str();
     command
         ->add_option("--suns", a.suns,
@@ -259,9 +257,7 @@ void add_render(CLI::App& app, RenderArguments& a) {
     command->add_option("--env", a.environment, "environment (.exr, .hdr, .png, .jpg) or light (.json)")
         ->required()
         ->type_name("FILE");
-    command->add_option("-o,--output", a.output, "picture to write, .png or .exr")
-        ->required()
-        ->type_name("FILE");
+    add_output(command, a.output, "picture to write, .png or .exr");
     command
         ->add_option_function<std::string>(
             "--size",
@@ -309,7 +305,7 @@ void add_render(CLI::App& app, RenderArguments& a) {
 void add_shader(CLI::App& app, ShaderArguments& a) {
     CLI::App* command = app.add_subcommand("shader", "Write the shader that relights a compressed model");
     command->add_option("model", a.model, "output of prt compress")->required();
-    command->add_option("-o,--output", a.output, "GLSL to write")->required()->type_name("FILE");
+    add_output(command, a.output, "GLSL to write");
     choice(command, "--language", a.language, kLanguages,
            "vulkan is GLSL to compile to SPIR-V, and from there to HLSL", "glsl450");
     choice(command, "--constants", a.constants, kConstants,
@@ -331,31 +327,6 @@ void check_together(const RenderArguments& a) {
         throw CLI::ValidationError("--show error", "and --baked FILE go together");
 }
 
-/// Letters to change, add or leave out to make one word of the other (Levenshtein 1965).
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i + 1);
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({changed, row[j] + 1, diagonal + 1});
-        }
-    }
-    return row.back();
-}
-
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-    return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
-bool is_command(const CLI::App& app, const std::string& name) {
-    const auto all = commands_of(app);
-    return std::any_of(all.begin(), all.end(),
-                       [&](const CLI::App* command) { return command->get_name() == name; });
-}
-
 /// As a shell would take it.
 std::string command_line(int argc, char** argv) {
     std::string line = "prt";
@@ -366,20 +337,6 @@ std::string command_line(int argc, char** argv) {
         line += plain ? " " + word : " '" + word + "'";
     }
     return line;
-}
-
-/// "; did you mean bake?", or all commands where none is near.
-std::string suggestion(const CLI::App& app, const std::string& name) {
-    std::string all, nearest;
-    std::size_t least = 3;
-    for (const CLI::App* command : commands_of(app)) {
-        all += (all.empty() ? "" : ", ") + command->get_name();
-        if (const std::size_t distance = edit_distance(name, command->get_name()); distance < least) {
-            least = distance;
-            nearest = command->get_name();
-        }
-    }
-    return nearest.empty() ? "; there are " + all : "; did you mean " + nearest + "?";
 }
 
 } // namespace
@@ -409,12 +366,8 @@ std::variant<Arguments, int> parse_arguments(int argc, char** argv) {
         std::fputs("prt: error: which command? They are listed above\n", stderr);
         return 2;
     }
-    if (const std::string name = argv[1]; !name.starts_with("-") && !is_command(app, name)) {
-        std::fprintf(stderr, "prt: error: there is no command '%s'%s\n", name.c_str(),
-                     suggestion(app, name).c_str());
-        return 2;
-    }
     try {
+        check_names(app, {argv + 1, static_cast<std::size_t>(argc - 1)});
         app.parse(argc, argv);
         if (app.got_subcommand("render"))
             check_together(render);

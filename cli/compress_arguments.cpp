@@ -67,7 +67,7 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
 void add_compress(CLI::App& app, CompressArguments& a) {
     CLI::App* command = app.add_subcommand("compress", "Compress a bake by clustered PCA");
     command->add_option("baked", a.baked, "output of prt bake")->required();
-    command->add_option("-o,--output", a.output, "compressed .glb to write")->required()->type_name("FILE");
+    add_output(command, a.output, "compressed .glb to write");
     add_sizes(command, a.options);
     command->add_flag("--best-effort", a.best_effort, "write the nearest where nothing keeps the budget");
     CLI::Option* metric =
@@ -76,7 +76,9 @@ void add_compress(CLI::App& app, CompressArguments& a) {
     command
         ->add_option(
             "--lights", a.lights,
-            "compress for these environments (.exr, .hdr, .png, .jpg) or lights (.json), turned about +Y")
+            "compress for this environment (.exr, .hdr, .png, .jpg) or light (.json), turned about +Y; "
+            "repeat it for each of several")
+        ->allow_extra_args(false) // one each time, so that the bake may follow
         ->excludes(metric)
         ->type_name("FILE");
     add_light_options(command, a.light_options);
@@ -115,9 +117,13 @@ void resolve(const CLI::App& command, CompressArguments& a) {
         throw CLI::ValidationError("auto", "needs --max-error, --bytes-per-vertex or --shader-ops");
     if (!preset && !sizes && !given("--preset")) {
         take_sizes(preset_u32(), o.compress);
-    } else if (!preset && o.compress.weights != WeightFormat::packed && !given("--components")) {
-        o.compress.components = 8;
+        return;
     }
+    if (preset || o.compress.weights == WeightFormat::packed)
+        return;
+    if (!given("--components"))
+        o.compress.components = 8;
+    a.preset = !given("--clusters"); // as many as suit the mesh
 }
 
 } // namespace prt::cli

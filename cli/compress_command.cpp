@@ -116,8 +116,9 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
     const std::size_t constants = constant_rows(coded.bases) * sizeof(glm::vec4);
     fmt::print("{}: {} clusters x {:.2f} components\n", a.output.string(), s.clusters, s.mean_components);
     if (a.preset && !outcome.trials.empty())
-        fmt::print("  the mesh is small: clusters and bits are fitted to it, so that bases do not outweigh "
-                   "weights\n");
+        fmt::print("  the mesh is small: {} fitted to it, so that bases do not outweigh weights\n",
+                   options.compress.weights == WeightFormat::packed ? "clusters and bits are"
+                                                                    : "clusters are");
     fmt::print(
         "  expected error of the lit surface (lit_rms) {:.3f} %, of the transfer (relative L2) {:.3f} %\n",
         100 * s.lit_rms, 100 * l2);

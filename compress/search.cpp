@@ -1,17 +1,22 @@
 #include "prt/search.h"
 
 #include "prt/error.h"
+#include "prt/stopwatch.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <string>
 
 namespace prt {
 namespace {
 
-constexpr int kMostWords = 8; ///< of packed weights
+constexpr int kPatience = 2;     ///< steps that may make it worse before a search turns back
+constexpr double kNotKept = 1e6; ///< least cost of what does not keep the budget
+constexpr int kMostWords = 8;    ///< of packed weights
 constexpr double kBasesOverWeights =
     2; ///< bases of a preset take at most so many times the weights' bytes ..
 constexpr double kAlwaysForBases = 4096; ///< .. or so many bytes: a prop of some hundred vertices needs them
@@ -31,6 +36,7 @@ void check(const SearchOptions& o) {
 struct Line {
     int payload = 1; ///< packed: 32-bit words of a receiver; else groups of four weights
     bool bases_count = true;
+    int most_components = std::numeric_limits<int>::max(); ///< fewer where bytes are so few
     friend auto operator<=>(const Line&, const Line&) = default;
 };
 
@@ -38,6 +44,20 @@ struct Line {
 struct Known {
     double clusters = 0, value = 0;
 };
+
+/// Bytes of a receiver that a payload takes; where it is not packed, four of them hold the cluster.
+double payload_bytes(WeightFormat format, int payload) {
+    return format == WeightFormat::packed ? 4.0 * payload
+                                          : 4 + 4.0 * payload * static_cast<double>(bytes_per_weight(format));
+}
+
+/// Words of a preset, or the groups of four that its components take.
+int payload_of(const CompressOptions& preset, std::size_t dimension) {
+    if (preset.weights != WeightFormat::packed)
+        return (std::min(preset.components, static_cast<int>(dimension)) + 3) / 4;
+    const int bits = std::accumulate(preset.fixed_bits.begin(), preset.fixed_bits.end(), preset.cluster_bits);
+    return (bits + 31) / 32;
+}
 
 /// How hard a search tries.
 struct Effort {
@@ -91,6 +111,9 @@ public:
                 : packed() && best_trial_.bytes_per_vertex > effort_.both_ways * best_trial_.payload_bytes;
         if (other_way)
             search_payloads({best_payload_, ops.has_value()});
+        if (!result_.kept && options_.budget.bytes_per_vertex && options_.choose_components)
+            search_fewer_components();
+        result_.result.statistics.seconds = stopwatch_.seconds();
         return std::move(result_);
     }
 
@@ -99,12 +122,7 @@ private:
     int start() const;
     int least_payload() const { return options_.payload > 0 ? options_.payload : packed() ? 1 : 0; }
     int most_payload() const;
-    /// Bytes that the payload of a line takes, where the number of clusters does not count.
-    double payload_bytes(int payload) const {
-        return packed()
-                   ? 4.0 * payload
-                   : 1 + 4.0 * payload * static_cast<double>(bytes_per_weight(options_.compress.weights));
-    }
+    double payload_bytes(int payload) const { return prt::payload_bytes(options_.compress.weights, payload); }
     /// Bytes per receiver that a line may fill: the budget's, or, where bytes are not asked about, as much as
     /// a preset may.
     double most_bytes(const Line& line) const {
@@ -132,12 +150,13 @@ private:
                 off = std::max(off, t.bytes_per_vertex / *b.bytes_per_vertex);
             if (b.shader_ops)
                 off = std::max(off, t.mean_components / *b.shader_ops);
-            return 1e6 * off;
+            return kNotKept * off;
         }
         return b.max_error ? t.bytes_per_vertex : t.lit_rms;
     }
 
-    void search_payloads(const Line& start);
+    double search_payloads(const Line& start);
+    void search_fewer_components();
     /// The best number of clusters on a line: by bytes or by error. Returns its cost.
     double best_on(const Line& line);
     void fill_bytes(const Line& line);
@@ -159,6 +178,7 @@ private:
     std::map<std::pair<int, Line>, SearchTrial> tried_;
     std::map<Line, double> best_;
     SearchResult result_;
+    Stopwatch stopwatch_;
     bool any_ = false;
     SearchTrial best_trial_;
     int best_payload_ = 1;
@@ -178,6 +198,8 @@ CompressOptions Search::options_on(const Line& line, int clusters) const {
     } else if (options_.choose_components) {
         o.components = std::min(4 * line.payload, static_cast<int>(transfer_.dimension()));
     }
+    if (options_.choose_components)
+        o.components = std::min(o.components, line.most_components);
     return o;
 }
 
@@ -192,8 +214,9 @@ SearchTrial Search::attempt(int clusters, const Line& line) {
         part.report = [&, done](double share) { progress_.report(done + 0.1 * (1 - done) * share); };
     CompressResult result = compress(transfer_, areas_, edges_, options_on(line, clusters), part);
     const CompressStatistics& s = result.statistics;
-    const SearchTrial trial{clusters, static_cast<int>(s.bytes_per_receiver), s.lit_rms,
-                            s.bytes_with_bases(transfer_.receivers()), s.mean_components};
+    const SearchTrial trial{clusters,          static_cast<int>(s.bytes_per_receiver),
+                            s.lit_rms,         s.bytes_with_bases(transfer_.receivers()),
+                            s.mean_components, s.seconds};
     bytes_per_cluster_ = std::max(4.0, static_cast<double>(s.basis_bytes) / static_cast<double>(s.clusters));
     tried_[key] = trial;
     result_.trials.push_back(trial);
@@ -305,19 +328,34 @@ int Search::start() const {
     return std::clamp(static_cast<int>(std::lround(payload)), least_payload(), most_payload());
 }
 
-/// From the start both ways, until it got worse twice in a row.
-void Search::search_payloads(const Line& start) {
-    constexpr int kPatience = 2;
+/// From the start both ways, until it got worse twice in a row. Returns the least cost.
+double Search::search_payloads(const Line& start) {
+    double least = best_on(start);
     for (const int direction : {1, -1}) {
         double best = best_on(start);
         int worse = 0;
         for (int payload = start.payload + direction;
              payload >= least_payload() && payload <= most_payload() && worse < kPatience;
              payload += direction) {
-            const double found = best_on({payload, start.bases_count});
+            const double found = best_on({payload, start.bases_count, start.most_components});
             worse = found < best ? 0 : worse + 1;
             best = std::min(best, found);
         }
+        least = std::min(least, best);
+    }
+    return least;
+}
+
+/// Where even one cluster with all its directions takes too many bytes: from none of them on, as long as the
+/// budget is kept or comes nearer. A mean alone, of one cluster, is the least that there is.
+void Search::search_fewer_components() {
+    const int all = options_on({.payload = least_payload()}, 1).components;
+    double best = std::numeric_limits<double>::infinity();
+    int worse = 0;
+    for (int components = 0; components < std::max(all, 1) && worse < kPatience; ++components) {
+        const double found = search_payloads({.payload = least_payload(), .most_components = components});
+        worse = found < kNotKept || found < best ? 0 : worse + 1;
+        best = std::min(best, found);
     }
 }
 
@@ -333,23 +371,25 @@ SearchResult compress_within(const Transfer& transfer, std::span<const float> ar
 SearchResult compress_preset(const Transfer& transfer, std::span<const float> areas,
                              std::span<const Edge> edges, const CompressOptions& preset,
                              const Progress& progress) {
+    const Stopwatch stopwatch;
     SearchResult found;
     found.result = compress(transfer, areas, edges, preset, progress);
     const CompressStatistics& s = found.result.statistics;
     const auto receivers = static_cast<double>(transfer.receivers());
-    int bits = preset.cluster_bits;
-    for (const int b : preset.fixed_bits)
-        bits += b;
-    const int words = (bits + 31) / 32;
-    const double most_bases = std::max(kBasesOverWeights * 4 * words * receivers, kAlwaysForBases);
+    const int payload = payload_of(preset, transfer.dimension());
+    const double bound = payload_bytes(preset.weights, payload);
+    const double most_bases = std::max(kBasesOverWeights * bound * receivers, kAlwaysForBases);
     found.kept = static_cast<double>(s.basis_bytes) <= most_bases;
     if (found.kept)
         return found;
     SearchOptions options;
     options.compress = preset;
-    options.payload = words;
-    options.budget.bytes_per_vertex = 4 * words + most_bases / receivers;
-    return Search(transfer, areas, edges, options, progress, effort_of_preset(s)).run();
+    options.payload = payload;
+    options.choose_components = preset.weights == WeightFormat::packed;
+    options.budget.bytes_per_vertex = bound + most_bases / receivers;
+    found = Search(transfer, areas, edges, options, progress, effort_of_preset(s)).run();
+    found.result.statistics.seconds = stopwatch.seconds();
+    return found;
 }
 
 } // namespace prt

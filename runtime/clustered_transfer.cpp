@@ -101,7 +101,7 @@ std::size_t bytes_per_receiver(const ClusteredTransfer& transfer) {
     const ClusteredReceivers& receivers = transfer.receivers;
     if (receivers.format == WeightFormat::packed)
         return receivers.stride();
-    return (transfer.bases.clusters() > 256 ? 2 : 1) + receivers.stride();
+    return 4 + receivers.stride();
 }
 
 std::size_t bits_per_receiver(const ClusteredTransfer& transfer) {

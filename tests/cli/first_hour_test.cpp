@@ -101,6 +101,25 @@ TEST_F(FirstHour, CommandsThatAreMissingOrMisspeltAreNamed) {
         EXPECT_NE(alone.out.find(command), std::string::npos);
 }
 
+TEST_F(FirstHour, OptionsThatAreMisspeltAreNamedAlone) {
+    expect_line({"bake", "--ray", "5", at("t.glb"), "-o", at("o.glb")}, 2, "'--ray'; did you mean --rays?");
+    expect_line({"bake", at("t.glb"), "--ordre=5", "-o", at("o.glb")}, 2, "'--ordre'; did you mean --order?");
+    expect_line({"--versoin"}, 2, "'--versoin'; did you mean --version?");
+    expect_line({"bake", at("t.glb"), "-o", ""}, 2, "--output: the name of the file is empty");
+}
+
+TEST_F(FirstHour, OptionsMayStandBeforeTheFilesThatFollow) {
+    bake_and_compress();
+    write_png(folder / "sky.png", 4, 2, std::vector<glm::u8vec3>(8, glm::u8vec3(188)));
+    ASSERT_EQ(prt({"project", at("sky.png"), "-o", at("l.json")}).status, 0);
+    const Outcome evaluated = prt({"evaluate", "--lights", at("l.json"), "--lights", at("sky.png"), "--json",
+                                   at("e.json"), at("b.glb"), at("c.glb")});
+    EXPECT_EQ(evaluated.status, 0) << evaluated.err;
+    EXPECT_EQ(nlohmann::json::parse(text("e.json"))["lights"].size(), 4u); // suns and noise always are
+    const Outcome compressed = prt({"compress", "--lights", at("l.json"), at("b.glb"), "-o", at("q.glb")});
+    EXPECT_EQ(compressed.status, 0) << compressed.err;
+}
+
 TEST_F(FirstHour, ShadersTakeWhatTheirLanguageHas) {
     bake_and_compress();
     for (const char* language : {"essl300", "glsl330"}) {
@@ -144,6 +163,10 @@ TEST_F(FirstHour, SmallMeshesAreToldThatSizesAreFitted) {
     EXPECT_NE(outcome.out.find("fitted"), std::string::npos) << outcome.out;
     const auto json = nlohmann::json::parse(text("c.json"));
     EXPECT_LE(json["bytes_bases"], 4096u + 12u * json["receivers"].get<unsigned>());
+    const Outcome bytes =
+        prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "8", "--json", at("c.json")});
+    EXPECT_NE(bytes.out.find("clusters are fitted"), std::string::npos) << bytes.out;
+    EXPECT_GT(nlohmann::json::parse(text("c.json"))["components_mean"], 1);
 }
 
 TEST_F(FirstHour, AnEvaluationBeginsWithAVerdictAndEveryFileHoldsItsFigures) {

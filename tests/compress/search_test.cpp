@@ -252,6 +252,44 @@ TEST(Search, PresetsFitSmallMeshes) {
     EXPECT_EQ(whole.result.transfer.receivers.cluster_bits, 8);
 }
 
+TEST(Search, KeepsBudgetsThatOnlyFewerDirectionsKeep) {
+    const Tried prop(prop_transfer()), ten(10, 3, 9);
+    for (const Tried* scene : {&prop, &ten})
+        for (const int components : {0, 1, 3}) {
+            CompressOptions by_hand;
+            by_hand.clusters = 1;
+            by_hand.components = components;
+            const CompressResult hand = compress(scene->transfer, scene->areas, {}, by_hand);
+            const double bytes = 1.02 * bound_bytes(hand);
+            const SearchResult found = scene->within({{}, bytes, {}});
+            EXPECT_TRUE(found.kept) << components;
+            EXPECT_LE(bound_bytes(found.result), bytes);
+            // By hand 24 bits of a word are used, and coarser bases go with them.
+            EXPECT_LE(found.result.statistics.lit_rms, 1.35 * hand.statistics.lit_rms) << components;
+        }
+}
+
+TEST(Search, WeightsThatAreNotPackedFitSmallMeshesToo) {
+    const Tried prop(prop_transfer());
+    CompressOptions bytes;
+    bytes.weights = WeightFormat::snorm8;
+    bytes.components = 8;
+    const SearchResult found = compress_preset(prop.transfer, prop.areas, {}, bytes);
+    EXPECT_TRUE(found.kept);
+    EXPECT_LE(basis_bytes(found.result.transfer.bases), 12u * 2 * 232); // twice cluster and weights
+    EXPECT_GT(found.result.statistics.mean_components, 1);
+    EXPECT_LT(found.result.statistics.lit_rms, 0.03);
+}
+
+TEST(Search, TakesAsLongAsAllOfItsTries) {
+    const SearchResult found = Tried(300, 1, 10).within({{}, 12.0, {}});
+    double seconds = 0;
+    for (const SearchTrial& trial : found.trials)
+        seconds += trial.seconds;
+    EXPECT_GT(found.trials.size(), 1u);
+    EXPECT_GE(found.result.statistics.seconds, seconds);
+}
+
 TEST(Search, RefusesBudgetsThatMakeNoSense) {
     const Tried scene(50, 1, 1);
     EXPECT_THROW(scene.within({}), Error);

@@ -152,7 +152,7 @@ TEST(ClusteredTransfer, BytesPerReceiverAreThoseOfTheArraysThatAreBound) {
     bytes.receivers.components = 4; // three in use
     bytes.receivers.weights.assign(40, std::byte{0});
     EXPECT_EQ(10 * bytes_per_receiver(bytes),
-              bytes.receivers.weights.size() + 10); // the cluster takes one more
+              bytes.receivers.weights.size() + 40); // the cluster's byte is padded to four
     EXPECT_EQ(bits_per_receiver(bytes), 8u + 3 * 8);
 }
 

@@ -33,10 +33,12 @@ struct SearchTrial {
     double lit_rms = 0;
     double bytes_per_vertex = 0; ///< payload and bases
     double mean_components = 0;
+    double seconds = 0;
 };
 
 struct SearchResult {
-    CompressResult result; ///< the cheapest that keeps all of the budget, else the nearest to it
+    /// The cheapest that keeps all of the budget, else the nearest to it; its seconds are those of all tries.
+    CompressResult result;
     bool kept = false;
     std::vector<SearchTrial> trials;
 };
@@ -49,9 +51,10 @@ SearchResult compress_within(const Transfer& transfer, std::span<const float> ar
                              std::span<const Edge> edges, const SearchOptions& options,
                              const Progress& progress = {});
 
-/// A preset (`preset_u32`, `preset_u64`) that fits small meshes, too: as it is where its bases take at most
-/// twice the bytes of the weights, or 4 KB; else the clusters and bits that lose least in as many words and
-/// no more bytes of bases than that. `kept` is false where nothing is as small.
+/// A preset (`preset_u32`, `preset_u64`, or weights that are not packed) that fits small meshes, too: as it
+/// is where its bases take at most twice the bytes of the weights, or 4 KB; else the clusters and bits that
+/// lose least in as many words and no more bytes of bases than that. `kept` is false where nothing is as
+/// small.
 SearchResult compress_preset(const Transfer& transfer, std::span<const float> areas,
                              std::span<const Edge> edges, const CompressOptions& preset,
                              const Progress& progress = {});

@@ -59,8 +59,8 @@ void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLa
 void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& layout,
                 std::span<const std::uint32_t> values, std::span<std::uint32_t> words);
 
-/// Bytes that a game binds per receiver. Packed: whole 32-bit words. Else the cluster in one byte, two above
-/// 256 clusters, and the weights as vectors of four.
+/// Bytes that a game binds per receiver. Packed: whole 32-bit words. Else the cluster, padded to four bytes
+/// as glTF asks of vertex attributes, and the weights as vectors of four.
 std::size_t bytes_per_receiver(const ClusteredTransfer& transfer);
 
 /// Bits of them that are in use in the cluster that uses most: the rest is zeros, which
