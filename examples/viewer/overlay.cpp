@@ -15,7 +15,7 @@
 namespace viewer {
 namespace {
 
-constexpr float kFontPixels = 13;
+constexpr float kUnscaledFont = 13;
 constexpr ImU32 kWhite = IM_COL32(255, 255, 255, 255), kShade = IM_COL32(0, 0, 0, 150);
 
 /// From pixels of the picture, which may be finer.
@@ -141,7 +141,7 @@ void draw_side(const Viewer& viewer, ImDrawList& list, PictureKind kind, bool le
 } // namespace
 
 float scaled(float pixels) {
-    return pixels * ImGui::GetFontSize() / kFontPixels;
+    return pixels * ImGui::GetFontSize() / kUnscaledFont;
 }
 
 void draw_overlay(const Viewer& viewer) {
