@@ -266,7 +266,8 @@ TEST(LightMeter, MeasuresWhatTheModelShowsAndNotTheSky) {
     EXPECT_NEAR(meter.luminance(radiance), expected, 1e-4f * expected);
     EXPECT_NEAR(exposure_for(expected) * expected, 0.22f, 1e-6f);
     picture.camera.position = {0, 0, -10}; // nothing of it to be seen but the white sheet far behind
-    for (const std::uint32_t receiver : LightMeter(picture, RayScene(scene)).receivers())
+    const LightMeter from_behind(picture, RayScene(scene));
+    for (const std::uint32_t receiver : from_behind.receivers())
         EXPECT_GE(receiver, behind);
 }
 
