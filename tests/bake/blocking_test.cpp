@@ -89,7 +89,7 @@ TEST(OneSidedHull, HalfSunkInOneSidedTerrainErrsAsEstimated) {
                             .transform([](const glm::vec3& p) {
                                 return p + glm::vec3(0, 0.2f * std::sin(3 * p.x) * std::cos(2 * p.z), 0);
                             })
-                            .sphere({0, 0, 0}, 0.8f, 10)
+                            .sphere({0.01f, 0.03f, 0.02f}, 0.8f, 10) // no vertex of it on the terrain itself
                             .build();
     // What the hull covers of the terrain sees nothing but the hull's inside: these are sealed in.
     const BakeResult refilled = bake_kept(scene, Inside::refill);
@@ -151,6 +151,55 @@ TEST(Shell, OfAMaterialThatCastsNoShadowLetsAllLightIn) {
         EXPECT_EQ(dark.vectors[i], 0);
         EXPECT_EQ(lit.vectors[i], alone.vectors[i]);
     }
+}
+
+TEST(FootOfAWall, InTheMiddleOfAFloorSeesItsFront) {
+    // Vertices of the floor lie on the wall's lower edge, and floor goes on behind it: half of the sky is
+    // left, but for what lies past the wall's ends.
+    for (const bool closed : {false, true}) {
+        SceneBuilder builder;
+        builder.floor({0, 0, 0}, 2, 4).quad({0, 0, 50}, {0, 0, -50}, {0, 100, -50}, {0, 100, 50});
+        if (closed) // two sheets, back to back
+            builder.quad({0, 0, -50}, {0, 0, 50}, {0, 100, 50}, {0, 100, -50});
+        const Scene scene = builder.build();
+        const BakeResult result = bake_kept(scene);
+        int feet = 0;
+        for (std::size_t p = 0; p < 4 * 4 * 6; ++p) {
+            const glm::vec3& at = scene.vertex_arrays[0].positions[p];
+            if (at.x != 0 || std::abs(at.z) > 1.5f)
+                continue;
+            ++feet;
+            const auto visible = static_cast<double>(result.baked.transfer.vector(p)[0]) * std::sqrt(4 * pi);
+            EXPECT_NEAR(visible, 0.5, 0.03) << closed << " " << p;
+        }
+        EXPECT_EQ(feet, 3 * 6);
+    }
+}
+
+TEST(FootOfAWall, OfAGridThatSharesItsVerticesIsNotBlack) {
+    // The vertices' faces lie all round, so that nothing but the wall tells a side.
+    Scene scene = SceneBuilder().floor({0, 0, 0}, 2, 4).build();
+    VertexArray& vertices = scene.vertex_arrays[0];
+    for (glm::uvec3& t : scene.primitives[0].triangles)
+        for (int corner = 0; corner < 3; ++corner)
+            for (unsigned v = 0; v < t[corner]; ++v)
+                if (vertices.positions[v] == vertices.positions[t[corner]]) {
+                    t[corner] = v;
+                    break;
+                }
+    const Scene wall = SceneBuilder().quad({0, 0, 50}, {0, 0, -50}, {0, 100, -50}, {0, 100, 50}).build();
+    const Scene both = test::join({scene, wall});
+    const BakeResult result = bake_kept(both);
+    const std::vector<float> areas = receiver_areas(both);
+    int feet = 0;
+    for (std::size_t p = 0; p < vertices.size(); ++p)
+        if (areas[p] > 0 && vertices.positions[p].x == 0) {
+            ++feet;
+            EXPECT_NEAR(static_cast<double>(result.baked.transfer.vector(p)[0]) * std::sqrt(4 * pi), 0.5,
+                        0.03)
+                << p;
+        }
+    EXPECT_EQ(feet, 5);
 }
 
 /// A strip of cells along x, 1 wide; normals of the edge at z = 0 lean towards +z by `degrees`.

@@ -33,7 +33,8 @@ public:
     /// Replaces `ids` by the primIDs of the triangles whose boxes come as near as `distance` to `position`.
     void triangles_near(const glm::vec3& position, float distance, std::vector<unsigned>& ids) const;
 
-    /// Where the rays of receivers[index] start: off the surface by Receivers::starts.
+    /// Where the rays of receivers[index] start: off the surface by Receivers::starts. A start that lies on
+    /// another surface, as on a wall that stands in the middle of a floor, moves to the front of it.
     glm::vec3 ray_origin(const Receivers& receivers, std::uint32_t index) const;
 
     struct Triangle {
@@ -43,6 +44,8 @@ public:
     Triangle triangle(unsigned id) const { return triangles_[id]; }
 
 private:
+    /// In units, zero where `start` (in units from `position`) lies on no surface.
+    glm::vec3 way_off_surfaces(const glm::vec3& position, const glm::vec3& start, float unit) const;
     template <class Visit>
     void visit_near(const glm::vec3& position, float distance, Visit&& visit) const;
 
@@ -52,6 +55,8 @@ private:
     };
     std::unique_ptr<RTCDeviceTy, Release> device_;
     std::unique_ptr<RTCSceneTy, Release> scene_;
+    const glm::vec3* positions_ = nullptr; ///< Embree's copies: [vertices], [triangles]
+    const glm::uvec3* corners_ = nullptr;
     std::vector<Triangle> triangles_;
     std::vector<float> extents_; ///< per triangle its largest absolute coordinate
 };
