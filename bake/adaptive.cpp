@@ -12,6 +12,8 @@ namespace {
 
 constexpr std::uint32_t kFirstRays = 32;       ///< of each of the two scrambles that start
 constexpr std::size_t kCheckedReceivers = 128; ///< sampled again to see what came out
+/// Receivers that look dark and are asked with many rays.
+constexpr std::size_t kCheckedDark = 512, kDarkRays = 4096;
 /// One receiver of so many is sampled again to estimate the error of a bake, within these bounds.
 constexpr std::size_t kReceiversPerCheck = 32, kLeastChecked = 256, kMostChecked = 1024;
 constexpr std::uint64_t kSecondScramble = 0x9e3779b97f4a7c15;
@@ -26,11 +28,15 @@ double squared_distance(std::span<const float> a, std::span<const float> b) {
     return sum;
 }
 
-double squared_norm(std::span<const float> a) {
+double product(std::span<const float> a, std::span<const float> b) {
     double sum = 0;
-    for (const float v : a)
-        sum += static_cast<double>(v * v);
+    for (std::size_t k = 0; k < a.size(); ++k)
+        sum += static_cast<double>(a[k] * b[k]);
     return sum;
+}
+
+double squared_norm(std::span<const float> a) {
+    return product(a, a);
 }
 
 class AdaptiveSampler {
@@ -58,7 +64,7 @@ public:
         }
         result.transfer = std::move(transfer_);
         result.rays = rays_;
-        result.rays_checked += kFirstRays * indices_.size(); // of the second scramble
+        result.rays_checked += kFirstRays * indices_.size() + rays_on_dark_; // of the second scramble
         progress.update(1);
         return result;
     }
@@ -86,8 +92,9 @@ private:
         for (const std::uint32_t p : indices_) {
             rays_[p] = planned_[p] = kFirstRays;
             own[p] = 0.5 * squared_distance(transfer_.vector(p), second.vector(p));
-            norm_ += area(p) * squared_norm(transfer_.vector(p));
+            norm_ += area(p) * product(transfer_.vector(p), second.vector(p)); // without the noise of either
         }
+        add_missed_light(second, own);
         for (const std::uint32_t p : indices_) {
             double sum = own[p];
             int count = 1;
@@ -98,6 +105,37 @@ private:
                 }
             error_[p] = sum / count;
         }
+    }
+
+    /// Receivers that no light reached in either scramble agree on darkness, and in a room with a small
+    /// window all of them are wrong. Some of them, with many rays, tell what the others may have missed:
+    /// `errors` [receivers] of the dark ones.
+    void add_missed_light(const Transfer& second, std::vector<double>& errors) {
+        std::vector<std::uint32_t> dark;
+        for (const std::uint32_t p : indices_)
+            if (squared_norm(transfer_.vector(p)) + squared_norm(second.vector(p)) == 0)
+                dark.push_back(p);
+        std::vector<std::uint32_t> some;
+        const std::size_t count = std::min(kCheckedDark, dark.size());
+        for (std::size_t i = 0; i < count; ++i)
+            some.push_back(dark[i * dark.size() / count]);
+        TraceOptions options = options_;
+        options.rays = static_cast<int>(kDarkRays);
+        options.seed += 3 * kSecondScramble;
+        Transfer light = empty_transfer();
+        trace_receivers(tracer_, receivers_, some, options, light, progress_);
+        rays_on_dark_ = some.size() * kDarkRays;
+        double missed = 0, areas = 0;
+        for (const std::uint32_t p : some) {
+            missed += area(p) * squared_norm(light.vector(p));
+            areas += area(p);
+        }
+        double dark_norm = 0; // where next to nothing is lit, the first rays do not tell the norm
+        for (const std::uint32_t p : dark) {
+            errors[p] = missed > 0 ? missed / areas : 0;
+            dark_norm += area(p) * errors[p];
+        }
+        norm_ = std::max(norm_, dark_norm);
     }
 
     /// Doubles planned rays, those first that lower the error most per ray, until the predicted squared error
@@ -193,6 +231,7 @@ private:
     std::vector<std::uint32_t> rays_, planned_; ///< [receivers]
     std::vector<double> error_;                 ///< squared, predicted for kFirstRays, [receivers]
     double norm_ = 0, predicted_ = 0;           ///< squared, weighted by area
+    std::size_t rays_on_dark_ = 0;
     Transfer transfer_;
 };
 

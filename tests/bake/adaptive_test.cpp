@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include <cmath>
+#include <numbers>
 
 namespace prt {
 namespace {
@@ -65,6 +66,26 @@ TEST(TargetError, OfOpenReceiversTakesTheFirstRaysOnly) {
     const BakeResult result = bake(test::SceneBuilder().floor({0, 0, 0}, 1, 4).build(), options);
     EXPECT_EQ(result.statistics.sampling_error, 0);
     EXPECT_EQ(result.statistics.rays, 64 * result.statistics.traced);
+}
+
+TEST(TargetError, FindsTheWindowOfADarkRoom) {
+    // A bowl that is closed but for its first ring: one ray in a hundred finds the sky, and of most receivers
+    // none of the first 64.
+    constexpr int kRows = 16;
+    const Scene scene = test::SceneBuilder().bowl({0, 0, 0}, 1, kRows, 1).build();
+    const double open = (1 - std::cos(std::numbers::pi / kRows)) / 2;
+    BakeOptions options = cpu_options();
+    options.order = 3;
+    options.target_error = 0.1;
+    const BakeResult result = bake(scene, options);
+    EXPECT_NEAR(result.statistics.mean_visibility, open, 0.05 * open);
+    options.target_error.reset();
+    options.rays = 1 << 16;
+    options.seed = 99;
+    const double error =
+        relative_l2(bake(scene, options).baked.transfer, result.baked.transfer, receiver_areas(scene));
+    EXPECT_LT(error, 0.12); // the reference has some of its own
+    EXPECT_NEAR(result.statistics.sampling_error, error, 0.35 * error);
 }
 
 TEST(TargetError, WorksWithBounces) {
