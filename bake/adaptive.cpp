@@ -280,7 +280,8 @@ double sampling_error(Tracer& tracer, const Receivers& receivers, const TraceOpt
     double error = 0;
     for (const auto& [p, weight] : weights) // both have the error
         error += weight * area(p) * squared_distance(transfer.vector(p), again.vector(p)) / 2;
-    return std::sqrt(error / norm);
+    // The norm of what was sampled has the error in it, which counts where hardly a ray finds the light.
+    return std::sqrt(error / std::max(norm - error, 0.1 * norm));
 }
 
 } // namespace prt
