@@ -2,8 +2,8 @@
 
 // Rays where they are needed.
 
-#include "mesh_neighbours.h"
 #include "prt/bake.h"
+#include "scene/mesh_neighbours.h"
 
 namespace prt {
 

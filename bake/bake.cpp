@@ -2,17 +2,17 @@
 
 #include "adaptive.h"
 #include "available_memory.h"
-#include "gather.h"
-#include "light_transport.h"
-#include "material_notices.h"
-#include "mesh_neighbours.h"
 #include "prt/embree_tracer.h"
-#include "prt/error.h"
 #include "prt/make_tracer.h"
 #include "prt/sh.h"
-#include "prt/stopwatch.h"
-#include "sealed.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
+#include "scene/material_notices.h"
+#include "scene/mesh_neighbours.h"
+#include "scene/sealed.h"
 #include "storage.h"
+#include "transport/gather.h"
+#include "transport/light_transport.h"
 
 #include <fmt/core.h>
 

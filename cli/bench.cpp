@@ -1,10 +1,10 @@
 #include "bench.h"
 
 #include "prt/embree_tracer.h"
-#include "prt/error.h"
 #include "prt/error_measures.h"
 #include "prt/make_tracer.h"
-#include "prt/stopwatch.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
 
 #include <fmt/core.h>
 

@@ -2,8 +2,8 @@
 
 #include "light_file.h"
 #include "outputs.h"
-#include "prt/error.h"
 #include "prt/reorder.h"
+#include "prt/support/error.h"
 #include "session.h"
 
 #include <glm/geometric.hpp>

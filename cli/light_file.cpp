@@ -1,9 +1,9 @@
 #include "light_file.h"
 
-#include "prt/error.h"
-#include "prt/file.h"
 #include "prt/sh.h"
 #include "prt/sun_fit.h"
+#include "prt/support/error.h"
+#include "prt/support/file.h"
 
 #include <glm/geometric.hpp>
 

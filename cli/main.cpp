@@ -1,5 +1,5 @@
-#include "commands.h"
-#include "prt/error.h"
+#include "commands/commands.h"
+#include "prt/support/error.h"
 
 #include <fmt/core.h>
 

@@ -1,7 +1,7 @@
 #include "outputs.h"
 
-#include "prt/error.h"
-#include "prt/file.h"
+#include "prt/support/error.h"
+#include "prt/support/file.h"
 
 #include <fmt/core.h>
 #include <fmt/ranges.h>

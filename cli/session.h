@@ -1,6 +1,6 @@
 #pragma once
 
-#include "prt/progress.h"
+#include "prt/support/progress.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,12 +1,12 @@
 #include "prt/compress.h"
 
-#include "clustering.h"
-#include "encode.h"
-#include "prt/error.h"
+#include "clusters/clustering.h"
+#include "coding/encode.h"
+#include "coding/seams.h"
+#include "metric/receiver_weights.h"
 #include "prt/sh.h"
-#include "prt/stopwatch.h"
-#include "receiver_weights.h"
-#include "seams.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
 
 #include <algorithm>
 #include <cmath>

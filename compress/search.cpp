@@ -1,7 +1,7 @@
 #include "prt/search.h"
 
-#include "prt/error.h"
-#include "prt/stopwatch.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
-#include "html.h"
-#include "report.h"
-#include "report_page.h"
+#include "report/html.h"
+#include "report/report.h"
+#include "report/report_page.h"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
-#include "report_page.h"
+#include "report/report_page.h"
 
-#include "report_files.h"
+#include "report/report_files.h"
 
 namespace prt::cli {
 

@@ -1,11 +1,11 @@
 #include "measure.h"
 
-#include "frame_renderer.h"
+#include "gpu/frame_renderer.h"
 
 #include "prt/bake.h"
 #include "prt/path_tracer.h"
 #include "prt/search.h"
-#include "prt/stopwatch.h"
+#include "prt/support/stopwatch.h"
 #include "prt/tone_map.h"
 
 #include <epoxy/gl.h>

@@ -1,7 +1,7 @@
 // prt-viewer: precomputed radiance transfer to look at.
 
-#include "script.h"
-#include "window.h"
+#include "script/script.h"
+#include "ui/window.h"
 
 #include <CLI/CLI.hpp>
 

@@ -2,13 +2,13 @@
 
 #include "prt/constant_former.h"
 #include "prt/environment.h"
-#include "prt/error.h"
 #include "prt/gltf.h"
 #include "prt/image_file.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
 #include "prt/sh_vector.h"
 #include "prt/shader_source.h"
+#include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>

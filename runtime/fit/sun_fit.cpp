@@ -1,7 +1,7 @@
 #include "prt/sun_fit.h"
 
-#include "prt/error.h"
 #include "prt/sh.h"
+#include "prt/support/error.h"
 
 #include <ceres/ceres.h>
 #include <glm/geometric.hpp>

@@ -1,9 +1,9 @@
 #include "exr.h"
 
 #include "image_limits.h"
-#include "prt/error.h"
-#include "prt/file.h"
 #include "prt/image_file.h"
+#include "prt/support/error.h"
+#include "prt/support/file.h"
 
 #include <ImathBox.h>
 #include <ImathMatrix.h>

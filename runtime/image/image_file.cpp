@@ -2,9 +2,9 @@
 
 #include "exr.h"
 #include "image_limits.h"
-#include "prt/error.h"
-#include "prt/file.h"
 #include "prt/srgb.h"
+#include "prt/support/error.h"
+#include "prt/support/file.h"
 
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>

@@ -1,6 +1,6 @@
 #include "prt/camera.h"
 
-#include "prt/error.h"
+#include "prt/support/error.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 #include "prt/texture.h"
 
-#include "prt/error.h"
+#include "prt/support/error.h"
 #include "prt/tone_map.h"
 
 #include <glm/common.hpp>

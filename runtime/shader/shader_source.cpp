@@ -1,7 +1,7 @@
 #include "prt/shader_source.h"
 
 #include "embedded_files.h"
-#include "prt/error.h"
+#include "prt/support/error.h"
 
 #include <algorithm>
 #include <set>

@@ -1,6 +1,6 @@
 #include "prt/bake.h"
 
-#include "prt/error.h"
+#include "prt/support/error.h"
 #include "support/scene_builder.h"
 
 #include <gtest/gtest.h>

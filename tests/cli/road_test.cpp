@@ -1,8 +1,8 @@
 // The whole road through the program: scene, bake, compress, evaluate, render.
 
 #include "program.h"
-#include "prt/file.h"
 #include "prt/image_file.h"
+#include "prt/support/file.h"
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 

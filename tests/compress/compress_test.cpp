@@ -1,7 +1,7 @@
 #include "prt/compress.h"
 
-#include "prt/error.h"
 #include "prt/error_measures.h"
+#include "prt/support/error.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 #include "prt/search.h"
 
 #include "prt/baselines.h"
-#include "prt/error.h"
 #include "prt/error_measures.h"
+#include "prt/support/error.h"
 
 #include "prt/sh.h"
 

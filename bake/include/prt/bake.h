@@ -3,8 +3,8 @@
 // The baker: transfer vectors of every receiver of a scene.
 
 #include "prt/gltf.h"
-#include "prt/progress.h"
 #include "prt/subsurface.h"
+#include "prt/support/progress.h"
 #include "prt/texture.h"
 #include "prt/tracer.h"
 

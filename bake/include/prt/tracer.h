@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/progress.h"
 #include "prt/receivers.h"
+#include "prt/support/progress.h"
 
 #include <cstdint>
 #include <functional>

@@ -3,7 +3,7 @@
 // What this compressor is measured against: the methods of the literature and of the tools of their time. For
 // reports; nothing else uses them.
 
-#include "prt/progress.h"
+#include "prt/support/progress.h"
 #include "prt/transfer.h"
 
 #include <cstddef>

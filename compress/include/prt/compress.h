@@ -12,7 +12,7 @@
 #include "prt/clustered_transfer.h"
 #include "prt/light_metric.h"
 #include "prt/mesh_edges.h"
-#include "prt/progress.h"
+#include "prt/support/progress.h"
 
 #include <cstdint>
 #include <optional>

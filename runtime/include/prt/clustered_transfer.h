@@ -8,8 +8,8 @@
 //     R = constants[first_k] + sum_j w_j constants[first_k + 1 + j]   // docs/math.md, eq. 14
 
 #include "prt/clustered_bases.h"
-#include "prt/glm_layout.h"
 #include "prt/light.h"
+#include "prt/support/glm_layout.h"
 #include "prt/transfer.h"
 
 #include <glm/vec3.hpp>

@@ -11,7 +11,7 @@
 // in the lighting: those of two lightings can be blended instead of formed anew.
 
 #include "prt/clustered_transfer.h"
-#include "prt/glm_layout.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>

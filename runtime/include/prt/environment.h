@@ -2,8 +2,8 @@
 
 // Environment maps in memory and their projection into SH. Layouts: docs/math.md, section 3.
 
-#include "prt/glm_layout.h"
 #include "prt/light.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

@@ -2,7 +2,7 @@
 
 // Lighting as SH coefficients: L_c[i] = ∫ L_c(w) Y_i(w) dw, colours linear Rec. 709.
 
-#include "prt/glm_layout.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/vec3.hpp>
 

@@ -4,8 +4,8 @@
 // rotation. Conventions: docs/math.md, section 1. Everything here is thread-safe and allocates nothing unless
 // it returns a container.
 
-#include "prt/glm_layout.h"
 #include "prt/sh_basis.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/vec3.hpp>
 

@@ -2,8 +2,8 @@
 
 // Rotation of spherical harmonics.
 
-#include "prt/glm_layout.h"
 #include "prt/sh_basis.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/ext/matrix_double3x3.hpp>
 #include <glm/ext/quaternion_double.hpp>

@@ -4,8 +4,8 @@
 // For float and double. Everything is thread-safe and allocates
 // nothing, but for tables of `sh_product`. Nothing is checked but by assert.
 
-#include "prt/glm_layout.h"
 #include "prt/sh_basis.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/vec3.hpp>
 

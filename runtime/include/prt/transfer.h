@@ -2,9 +2,9 @@
 
 // Raw transfer vectors, as the baker makes them.
 
-#include "prt/glm_layout.h"
 #include "prt/light.h"
 #include "prt/sh_basis.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/vec3.hpp>
 

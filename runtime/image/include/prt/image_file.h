@@ -3,7 +3,7 @@
 // Reading and writing images: OpenEXR, Radiance HDR, PNG; PNG and JPEG textures.
 
 #include "prt/environment.h"
-#include "prt/glm_layout.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/gtc/type_precision.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "prt/glm_layout.h"
 #include "prt/scene.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>

@@ -2,9 +2,9 @@
 
 // Textures of materials: a mip chain that OpenGL can take as it is, and the same filtering on the CPU.
 
-#include "prt/glm_layout.h"
 #include "prt/image_file.h"
 #include "prt/scene.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>

@@ -1,10 +1,10 @@
 #pragma once
 
 #include "prt/environment.h"
-#include "prt/glm_layout.h"
 #include "prt/light.h"
 #include "prt/sh_basis.h"
 #include "prt/srgb.h"
+#include "prt/support/glm_layout.h"
 
 #include <glm/gtc/type_precision.hpp>
 

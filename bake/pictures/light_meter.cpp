@@ -1,0 +1,62 @@
+#include "prt/light_meter.h"
+
+#include "pictures/primary_rays.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+
+namespace prt {
+namespace {
+
+constexpr int kMostRays = 48; ///< along each axis
+/// Above the middle grey of photographs (0.18), at which plaster looks grey.
+constexpr float kMeanShown = 0.22f;
+constexpr glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
+
+} // namespace
+
+LightMeter::LightMeter(const Picture& picture, const RayScene& ray_scene) {
+    const PrimaryRays rays(picture, ray_scene, std::min(picture.width, kMostRays),
+                           std::min(picture.height, kMostRays));
+    struct Reading {
+        std::uint32_t receiver;
+        glm::vec3 weight;
+    };
+    std::vector<Reading> readings;
+    float covered = 0;
+    for (int y = 0; y < rays.rows(); ++y)
+        for (int x = 0; x < rays.columns(); ++x)
+            rays.walk(x, y, [&](const SeenSurface& surface, float transmittance) {
+                const float share = transmittance * surface.base.a;
+                const glm::vec2 uv = glm::clamp(surface.barycentrics, 0.0f, 1.0f);
+                const glm::vec3 corners(std::max(0.0f, 1 - uv.x - uv.y), uv.x, uv.y);
+                for (int corner = 0; corner < 3; ++corner)
+                    readings.push_back({surface.receivers[corner],
+                                        share * corners[corner] * kLuminance * glm::vec3(surface.base)});
+                covered += share;
+            });
+    std::stable_sort(readings.begin(), readings.end(),
+                     [](const Reading& a, const Reading& b) { return a.receiver < b.receiver; });
+    for (const Reading& reading : readings) {
+        if (receivers_.empty() || receivers_.back() != reading.receiver) {
+            receivers_.push_back(reading.receiver);
+            weights_.emplace_back(0);
+        }
+        weights_.back() += reading.weight / covered;
+    }
+}
+
+float LightMeter::luminance(std::span<const glm::vec3> radiance) const {
+    float sum = 0;
+    for (std::size_t i = 0; i < weights_.size(); ++i)
+        sum += glm::dot(weights_[i], glm::max(radiance[i], glm::vec3(0)));
+    return sum;
+}
+
+float exposure_for(float luminance) {
+    return luminance > 0 ? kMeanShown / luminance : 1.0f;
+}
+
+} // namespace prt

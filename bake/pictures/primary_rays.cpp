@@ -1,0 +1,130 @@
+#include "pictures/primary_rays.h"
+
+#include "scene/interpolated.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace prt {
+namespace {
+
+struct Corners {
+    glm::vec3 a, b, c;
+};
+
+/// Barycentric coordinates (of b and c) where the line through `origin` along `direction` meets the plane of
+/// the triangle.
+glm::vec2 plane_barycentrics(const Corners& t, const glm::vec3& origin, const glm::vec3& direction) {
+    const glm::dvec3 ab(t.b - t.a), ac(t.c - t.a), d(direction), s(origin - t.a);
+    const glm::dvec3 p = glm::cross(d, ac), q = glm::cross(s, ab);
+    const double determinant = glm::dot(ab, p);
+    return {static_cast<float>(glm::dot(s, p) / determinant),
+            static_cast<float>(glm::dot(d, q) / determinant)};
+}
+
+/// Filtered by the footprint of one sample: neighbouring rays meet the triangle's plane, as dFdx and dFdy do.
+/// `across` and `down` are the directions of those rays.
+std::optional<glm::vec4> base_color_texel(const Picture& picture, const VertexArray& vertices,
+                                          const TextureUse& use, const Corners& corners, const glm::uvec3& t,
+                                          const glm::vec2& uv, const glm::vec3& across,
+                                          const glm::vec3& down) {
+    if (use.image < 0 || static_cast<std::size_t>(use.texcoord) >= vertices.texcoords.size())
+        return std::nullopt;
+    const auto& set = vertices.texcoords[static_cast<std::size_t>(use.texcoord)];
+    const Texture& texture = picture.textures[static_cast<std::size_t>(use.image)];
+    const glm::vec3& origin = picture.camera.position;
+    const auto coordinate = [&](const glm::vec2& barycentrics) {
+        return use.transform * glm::vec3(interpolated(set, t, barycentrics), 1);
+    };
+    const glm::vec2 size(texture.levels[0].width, texture.levels[0].height);
+    const glm::vec2 at = coordinate(uv);
+    const glm::vec2 dx = (coordinate(plane_barycentrics(corners, origin, across)) - at) * size;
+    const glm::vec2 dy = (coordinate(plane_barycentrics(corners, origin, down)) - at) * size;
+    const float lod = 0.5f * std::log2(std::max(glm::dot(dx, dx), glm::dot(dy, dy)));
+    return sample(texture, use, at, std::isfinite(lod) ? lod : 0.0f);
+}
+
+} // namespace
+
+/// What the filter of one ray needs; Embree hands back the address of its first member.
+struct PrimaryRays::Query {
+    RTCIntersectContext context;
+    const PrimaryRays* rays;
+    glm::vec3 along;
+    int x, y;
+};
+
+PrimaryRays::PrimaryRays(const Picture& picture, const RayScene& rays, int columns, int rows)
+    : picture_(picture), rays_(rays), frame_(camera_frame(picture.camera)), columns_(columns), rows_(rows) {}
+
+glm::vec3 PrimaryRays::direction(double x, double y) const {
+    const double aspect = static_cast<double>(picture_.width) / picture_.height;
+    return glm::vec3(frame_.forward +
+                     frame_.right * (frame_.half_height * aspect * (2 * (x + 0.5) / columns_ - 1)) +
+                     frame_.up * (frame_.half_height * (1 - 2 * (y + 0.5) / rows_)));
+}
+
+void PrimaryRays::filter(const RTCFilterFunctionNArguments* arguments) {
+    const auto& query = *reinterpret_cast<const Query*>(arguments->context);
+    const unsigned id = RTCHitN_primID(arguments->hit, arguments->N, 0);
+    if (query.rays->surface_at(id, query.along, query.x, query.y).base.a <= 0)
+        arguments->valid[0] = 0;
+}
+
+bool PrimaryRays::next(const glm::vec3& along, int x, int y, float& from, SeenSurface& surface) const {
+    Query query{{}, this, along, x, y};
+    rtcInitIntersectContext(&query.context);
+    query.context.filter = filter;
+    const glm::vec3& origin = picture_.camera.position;
+    RTCRayHit hit{};
+    hit.ray = {origin.x, origin.y, origin.z,
+               from,     along.x,  along.y,
+               along.z,  0,        std::numeric_limits<float>::infinity(),
+               ~0u,      0,        0};
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(rays_.handle(), &query.context, &hit);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return false;
+    surface = surface_at(hit.hit.primID, along, x, y);
+    from = std::nextafter(hit.ray.tfar, std::numeric_limits<float>::infinity());
+    return true;
+}
+
+SeenSurface PrimaryRays::surface_at(unsigned id, const glm::vec3& along, int x, int y) const {
+    const RayScene::Triangle at = rays_.triangle(id);
+    const Scene& scene = *picture_.scene;
+    const Primitive& primitive = scene.primitives[at.primitive];
+    const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+    const Material& material = scene.materials[primitive.material];
+    const glm::uvec3& t = primitive.triangles[at.triangle];
+    const Corners corners{vertices.positions[t.x], vertices.positions[t.y], vertices.positions[t.z]};
+    SeenSurface surface{t + static_cast<unsigned>(vertices.first_receiver), {}, glm::vec4(1)};
+    const glm::vec3 normal = glm::cross(corners.b - corners.a, corners.c - corners.a);
+    if (!material.double_sided && glm::dot(normal, along) >= 0) {
+        surface.base.a = 0;
+        return surface;
+    }
+    surface.barycentrics = plane_barycentrics(corners, picture_.camera.position, along);
+    if (!picture_.textured)
+        return surface;
+    glm::vec4& base = surface.base;
+    base = material.base_color;
+    if (!vertices.colors.empty())
+        base *= interpolated(vertices.colors, t, surface.barycentrics);
+    if (const auto texel = base_color_texel(picture_, vertices, material.base_color_texture, corners, t,
+                                            surface.barycentrics, direction(x + 1, y), direction(x, y + 1)))
+        base *= *texel;
+    if (material.alpha_mode == AlphaMode::opaque)
+        base.a = 1;
+    else if (material.alpha_mode == AlphaMode::mask)
+        base.a = base.a < material.alpha_cutoff ? 0.0f : 1.0f;
+    base.a = std::clamp(base.a, 0.0f, 1.0f);
+    return surface;
+}
+
+} // namespace prt

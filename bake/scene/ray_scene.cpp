@@ -1,0 +1,137 @@
+#include "prt/ray_scene.h"
+
+#include "prt/support/error.h"
+#include "prt/support/parallel.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <tuple>
+#include <type_traits>
+
+namespace prt {
+namespace {
+
+/// 32 units of rounding.
+constexpr float kOffset = 32 * std::numeric_limits<float>::epsilon() / 2;
+
+float largest_coordinate(const glm::vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+} // namespace
+
+RayScene::RayScene(const Scene& scene, int threads) {
+    device_.reset(rtcNewDevice(("threads=" + std::to_string(thread_count(threads))).c_str()));
+    if (!device_)
+        throw Error("Embree cannot be started");
+    scene_.reset(rtcNewScene(device_.get()));
+    // Robust: the triangle test does not depend on the tree round it, so results do not depend on the build.
+    // Filters belong to queries: the bake's have none.
+    rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
+    rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
+
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<glm::vec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), scene.receivers()));
+    auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), scene.triangles()));
+    if (!vertices || !indices)
+        throw Error("there is not enough memory for the triangles");
+    positions_ = vertices;
+    corners_ = indices;
+    for (const VertexArray& array : scene.vertex_arrays)
+        vertices = std::copy(array.positions.begin(), array.positions.end(), vertices);
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
+        const Primitive& primitive = scene.primitives[p];
+        const VertexArray& array = scene.vertex_arrays[primitive.vertices];
+        for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
+            const glm::uvec3& triangle = primitive.triangles[t];
+            // No ray meets a triangle without area; the numbers of the others stay what they are.
+            *indices++ =
+                (scene.materials[primitive.material].casts_shadow ? triangle : glm::uvec3(triangle.x)) +
+                static_cast<unsigned>(array.first_receiver);
+            triangles_.push_back({static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(t)});
+            extents_.push_back(std::max({largest_coordinate(array.positions[triangle.x]),
+                                         largest_coordinate(array.positions[triangle.y]),
+                                         largest_coordinate(array.positions[triangle.z])}));
+        }
+    }
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_.get(), geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_.get());
+    if (rtcGetDeviceError(device_.get()) != RTC_ERROR_NONE)
+        throw Error("the bounding volume hierarchy cannot be built: not enough memory");
+}
+
+template <class Visit>
+void RayScene::visit_near(const glm::vec3& position, float distance, Visit&& visit) const {
+    RTCPointQuery query{position.x, position.y, position.z, 0, distance};
+    RTCPointQueryContext context;
+    rtcInitPointQueryContext(&context);
+    rtcPointQuery(
+        scene_.get(), &query, &context,
+        [](RTCPointQueryFunctionArguments* arguments) {
+            (*static_cast<std::remove_reference_t<Visit>*>(arguments->userPtr))(arguments->primID);
+            return false; // the radius stays
+        },
+        &visit);
+}
+
+float RayScene::surface_offset(const glm::vec3& position) const {
+    float largest = largest_coordinate(position);
+    visit_near(position, std::max(largest * 1e-6f, std::numeric_limits<float>::min()),
+               [&](unsigned id) { largest = std::max(largest, extents_[id]); });
+    return kOffset * largest;
+}
+
+void RayScene::triangles_near(const glm::vec3& position, float distance, std::vector<unsigned>& ids) const {
+    ids.clear();
+    visit_near(position, distance, [&](unsigned id) { ids.push_back(id); });
+}
+
+float RayScene::triangle_offset(unsigned id) const {
+    return kOffset * extents_[id];
+}
+
+glm::vec3 RayScene::ray_origin(const Receivers& receivers, std::uint32_t index) const {
+    const glm::vec3& position = receivers.positions[index];
+    const auto& starts = receivers.starts.empty() ? receivers.normals : receivers.starts;
+    const float unit = surface_offset(position);
+    return position + (starts[index] + way_off_surfaces(position, starts[index], unit)) * unit;
+}
+
+glm::vec3 RayScene::way_off_surfaces(const glm::vec3& position, const glm::vec3& start, float unit) const {
+    constexpr double kOnIt = 0.25, kAway = 0.5; // units
+    const glm::dvec3 point = glm::dvec3(position) + static_cast<double>(unit) * glm::dvec3(start);
+    glm::dvec3 way(0), largest(-2);
+    visit_near(position, 2 * unit, [&](unsigned id) {
+        const glm::uvec3& t = corners_[id];
+        const glm::dvec3 a(positions_[t.x]), b(positions_[t.y]), c(positions_[t.z]);
+        const glm::dvec3 area = glm::cross(b - a, c - a);
+        const double doubled = glm::length(area);
+        if (!(doubled > 0))
+            return;
+        const glm::dvec3 normal = area / doubled;
+        const double height = glm::dot(normal, point - a) / static_cast<double>(unit);
+        const bool above_it = glm::dot(glm::cross(b - a, point - a), normal) >= 0 &&
+                              glm::dot(glm::cross(c - b, point - b), normal) >= 0 &&
+                              glm::dot(glm::cross(a - c, point - c), normal) >= 0;
+        if (!above_it || std::abs(height) >= kOnIt)
+            return;
+        way += normal * (kAway - height);
+        if (std::tie(largest.x, largest.y, largest.z) < std::tie(normal.x, normal.y, normal.z))
+            largest = normal;
+    });
+    if (largest.x < -1)
+        return glm::vec3(0);
+    // The sides of a closed sheet cancel: then one of them, whatever the order that they were found in.
+    return glm::vec3(glm::length(way) < kOnIt ? kAway * largest : way);
+}
+
+} // namespace prt

@@ -1,0 +1,37 @@
+#pragma once
+
+// The two vectorised loops of the CPU baker. They run on whatever vector width the processor has.
+
+#include "trace/sample_sequence.h"
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <span>
+
+namespace prt {
+
+/// World directions of one chunk of rays.
+struct alignas(64) ChunkDirections {
+    std::array<float, kChunk> x, y, z;
+};
+
+struct TangentFrame {
+    glm::vec3 tangent, bitangent, normal;
+};
+
+/// An orthonormal frame about unit `normal` (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
+TangentFrame tangent_frame(const glm::vec3& normal);
+
+/// Directions of `chunk` shifted by `offset`, scrambled by `seed`, distributed as the cosine about the normal
+/// of `frame`. Scrambling: Owen's by the hash of Laine and Karras (2011) in the form of Vegdahl (2021); the
+/// disk by the concentric map of Shirley and Chiu (1997).
+void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint32_t seed,
+                         const TangentFrame& frame, ChunkDirections& directions);
+
+/// Adds the basis in directions[0..count), each times its weight (null: 1), to `sums` [order²]. `count` is at
+/// most kChunk; entries up to the next multiple of kPacket are read and ignored.
+void add_basis(int order, const ChunkDirections& directions, int count, const float* weights,
+               std::span<double> sums);
+
+} // namespace prt

@@ -1,0 +1,198 @@
+#include "trace/gpu/gpu_scene.h"
+
+#include "prt/support/error.h"
+#include "shared_layout.h"
+#include "trace/gpu/wide_bvh.h"
+
+#include <epoxy/gl.h>
+#include <glm/geometric.hpp>
+
+#include <bit>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+// As in shaders/bake_alpha.glsl.
+struct AlphaTriangle {
+    glm::vec2 texcoord[3];
+    float vertex_alpha[3];
+    std::uint32_t material;
+    float texel_density;
+    std::uint32_t next;
+};
+static_assert(sizeof(AlphaTriangle) == 48);
+struct AlphaMaterial {
+    std::uint32_t mode;
+    float cutoff, factor;
+    std::uint32_t texels;
+    std::int32_t width, height, levels;
+    std::uint32_t wrap;
+};
+static_assert(sizeof(AlphaMaterial) == 32);
+
+constexpr std::uint32_t kNoTexels = ~0u;
+constexpr std::uint32_t kGlassMode = 3; ///< beside those of AlphaMode
+
+/// Tables for triangles that are not opaque.
+struct AlphaTables {
+    std::vector<std::uint32_t> index;     ///< [triangles], counting from 1; 0: opaque
+    std::vector<AlphaTriangle> triangles; ///< [triangles that are not opaque][layers]
+    std::vector<AlphaMaterial> materials; ///< [primitives][layers]
+    std::vector<std::uint8_t> texels;
+};
+
+/// One of the things that decide how much of a ray a surface stops.
+struct AlphaLayer {
+    std::uint32_t mode;
+    float cutoff, factor;
+    const TextureUse* use;
+    int channel;       ///< of the texture
+    bool vertex_alpha; ///< times that of the vertices
+};
+
+/// Glass first, whose mode says that the surface stops rays in part.
+std::vector<AlphaLayer> alpha_layers(const Material& m) {
+    std::vector<AlphaLayer> layers;
+    if (m.glass.factor > 0)
+        layers.push_back({kGlassMode, 0, glass_transmittance(m), &m.glass.texture, 0, false});
+    if (m.alpha_mode != AlphaMode::opaque)
+        layers.push_back({static_cast<std::uint32_t>(m.alpha_mode), m.alpha_cutoff, m.base_color.a,
+                          &m.base_color_texture, 3, true});
+    return layers;
+}
+
+AlphaMaterial alpha_material(const AlphaLayer& layer, const Surfaces& surfaces, const VertexArray& vertices,
+                             const std::vector<Texture>& textures, std::vector<std::uint8_t>& texels) {
+    const TextureUse& use = *layer.use;
+    AlphaMaterial result{layer.mode,
+                         layer.cutoff,
+                         layer.factor,
+                         kNoTexels,
+                         1,
+                         1,
+                         1,
+                         static_cast<std::uint32_t>(use.wrap_u) | static_cast<std::uint32_t>(use.wrap_v)
+                                                                      << 8};
+    if (!surfaces.has_texture(vertices, use))
+        return result;
+    const Texture& texture = textures[static_cast<std::size_t>(use.image)];
+    result.texels = static_cast<std::uint32_t>(texels.size());
+    result.width = texture.levels[0].width;
+    result.height = texture.levels[0].height;
+    result.levels = static_cast<std::int32_t>(texture.levels.size());
+    for (const Image8& level : texture.levels)
+        for (const glm::u8vec4& texel : level.pixels)
+            texels.push_back(texel[layer.channel]);
+    return result;
+}
+
+AlphaTriangle alpha_triangle(const AlphaLayer& layer, std::uint32_t index, const AlphaMaterial& m,
+                             const VertexArray& vertices, const glm::uvec3& corners) {
+    AlphaTriangle triangle{{}, {1, 1, 1}, index, 0, 0};
+    for (int i = 0; i < 3; ++i) {
+        if (m.texels != kNoTexels)
+            triangle.texcoord[i] =
+                layer.use->transform *
+                glm::vec3(vertices.texcoords[static_cast<std::size_t>(layer.use->texcoord)][corners[i]], 1);
+        if (layer.vertex_alpha && !vertices.colors.empty())
+            triangle.vertex_alpha[i] = vertices.colors[corners[i]].a;
+    }
+    const glm::vec2 size(m.width, m.height);
+    const glm::vec2 ab = (triangle.texcoord[1] - triangle.texcoord[0]) * size,
+                    ac = (triangle.texcoord[2] - triangle.texcoord[0]) * size;
+    const glm::vec3& a = vertices.positions[corners.x];
+    const float area =
+        glm::length(glm::cross(vertices.positions[corners.y] - a, vertices.positions[corners.z] - a));
+    const float density = std::abs(ab.x * ac.y - ab.y * ac.x) / area;
+    triangle.texel_density = std::isfinite(density) ? density : 0;
+    return triangle;
+}
+
+AlphaTables make_alpha_tables(const Scene& scene, const Surfaces& surfaces,
+                              const std::vector<Texture>& textures) {
+    AlphaTables tables;
+    tables.index.resize(surfaces.triangles());
+    std::vector<std::uint32_t> material_of(scene.primitives.size(), kNoTexels); // of the first layer
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
+        if (surfaces.opaque(t))
+            continue;
+        const Primitive& primitive = scene.primitives[surfaces.primitive(t)];
+        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+        const std::vector<AlphaLayer> layers = alpha_layers(scene.materials[primitive.material]);
+        std::uint32_t& first = material_of[surfaces.primitive(t)];
+        if (first == kNoTexels) {
+            first = static_cast<std::uint32_t>(tables.materials.size());
+            for (const AlphaLayer& layer : layers)
+                tables.materials.push_back(
+                    alpha_material(layer, surfaces, vertices, textures, tables.texels));
+        }
+        const glm::uvec3 corners = surfaces.corners(t) - static_cast<unsigned>(vertices.first_receiver);
+        tables.index[t] = static_cast<std::uint32_t>(tables.triangles.size()) + 1;
+        for (std::uint32_t l = 0; l < layers.size(); ++l) {
+            tables.triangles.push_back(
+                alpha_triangle(layers[l], first + l, tables.materials[first + l], vertices, corners));
+            if (l + 1 < layers.size())
+                tables.triangles.back().next = static_cast<std::uint32_t>(tables.triangles.size()) + 1;
+        }
+    }
+    tables.texels.resize((tables.texels.size() + 3) / 4 * 4);
+    return tables;
+}
+
+template <class T>
+GlObject storage_buffer(const std::vector<T>& values, const char* what) {
+    GLint64 largest = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
+    if (static_cast<GLint64>(values.size() * sizeof(T)) > largest)
+        throw Error(std::string("the scene is too large for this GPU: ") + what + " take " +
+                    std::to_string(values.size() * sizeof(T) >> 20) + " MB, and a buffer holds " +
+                    std::to_string(largest >> 20) + " MB");
+    return make_buffer(std::as_bytes(std::span(values)));
+}
+
+} // namespace
+
+GpuScene::GpuScene(const Scene& scene, const Surfaces& surfaces, const std::vector<Texture>& textures,
+                   int threads)
+    : triangles_(surfaces.triangles()), has_alpha_(surfaces.has_alpha()) {
+    std::vector<glm::vec3> positions;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        positions.insert(positions.end(), vertices.positions.begin(), vertices.positions.end());
+    std::vector<glm::uvec3> indices(surfaces.triangles());
+    for (std::uint32_t t = 0; t < indices.size(); ++t)
+        indices[t] =
+            surfaces.material(t).casts_shadow ? surfaces.corners(t) : glm::uvec3(surfaces.corners(t).x);
+    const WideBvh bvh = build_wide_bvh(positions, indices, threads);
+    const AlphaTables alpha = make_alpha_tables(scene, surfaces, textures);
+
+    std::vector<glm::vec4> corners;
+    corners.reserve(3 * bvh.triangles.size());
+    for (const std::uint32_t t : bvh.triangles) {
+        const float tags[3] = {std::bit_cast<float>(t), std::bit_cast<float>(alpha.index[t]), 0};
+        for (int i = 0; i < 3; ++i)
+            corners.emplace_back(positions[indices[t][i]], tags[i]);
+    }
+    nodes_ = storage_buffer(bvh.nodes, "the nodes");
+    corners_ = storage_buffer(corners, "the triangles");
+    alpha_triangles_ = storage_buffer(alpha.triangles, "the cut-out triangles");
+    alpha_materials_ = storage_buffer(alpha.materials, "the cut-out materials");
+    alpha_texels_ = storage_buffer(alpha.texels, "the cut-out textures");
+    // On every level at most seven siblings wait besides the child that is visited.
+    stack_size_ = 7 * bvh.depth + 2;
+}
+
+std::string GpuScene::defines() const {
+    return "#define PRT_STACK_SIZE " + std::to_string(stack_size_) + "\n" +
+           (has_alpha_ ? "#define PRT_ALPHA\n" : "");
+}
+
+void GpuScene::bind() const {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_NODES, nodes_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CORNERS, corners_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_ALPHA_TRIANGLES, alpha_triangles_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_ALPHA_MATERIALS, alpha_materials_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_ALPHA_TEXELS, alpha_texels_.name());
+}
+
+} // namespace prt

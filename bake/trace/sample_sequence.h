@@ -1,0 +1,68 @@
+#pragma once
+
+// The samples of a receiver: cosine-distributed directions from Owen-scrambled Sobol points.
+
+#include "prt/support/vector_lanes.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace prt {
+
+/// Rays are generated and traced in chunks of this many, each an aligned part of the Sobol sequence.
+inline constexpr int kChunk = 1024;
+/// Rays that are traced together.
+inline constexpr int kPacket = kLaneCount;
+
+/// The first two dimensions of the Sobol sequence, bits reversed, for one chunk of `rays` points. The points
+/// are ordered by cell of a grid with about kPacket points each: a net has equally many points in each cell,
+/// nested scrambling takes cells to cells, and so packets of consecutive points stay narrow beams for every
+/// scramble.
+struct SobolChunk {
+    std::vector<std::uint32_t> x, y; ///< padded to a multiple of kPacket by repeating the last
+    int rays = 0;
+    int followed = 0; ///< the first so many are an even sample of all: every `stride`-th
+
+    explicit SobolChunk(int rays, int stride = 1);
+};
+
+/// Sobol points are linear over GF(2): point (first + j) is point j XOR this, where `first` is a multiple of
+/// a power of two above j.
+struct SobolOffset {
+    std::uint32_t x, y;
+};
+SobolOffset sobol_offset(std::uint32_t first);
+
+/// A well-mixed 32-bit hash (Jarzynski and Olano 2020, pcg).
+constexpr std::uint32_t pcg_hash(std::uint32_t v) {
+    const std::uint32_t state = v * 747796405u + 2891336453u;
+    const std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
+    return (word >> 22) ^ word;
+}
+
+/// Owen's scrambling of a bit-reversed point, by the hash of Laine and Karras (2011) in the form of Vegdahl
+/// (2021).
+[[gnu::always_inline]] inline std::uint32_t laine_karras(std::uint32_t v, std::uint32_t seed) {
+    v ^= v * 0x3d20adeau;
+    v += seed;
+    v *= (seed >> 16) | 1u;
+    v ^= v * 0x05526c56u;
+    v ^= v * 0x53a22864u;
+    return v;
+}
+
+[[gnu::always_inline]] inline std::uint32_t reverse_bits(std::uint32_t v) {
+    v = (v >> 16) | (v << 16);
+    v = ((v & 0x00ff00ffu) << 8) | ((v >> 8) & 0x00ff00ffu);
+    v = ((v & 0x0f0f0f0fu) << 4) | ((v >> 4) & 0x0f0f0f0fu);
+    v = ((v & 0x33333333u) << 2) | ((v >> 2) & 0x33333333u);
+    return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
+}
+
+/// Seed of the samples of a receiver.
+constexpr std::uint32_t receiver_seed(std::uint32_t receiver, std::uint64_t seed) {
+    const auto low = static_cast<std::uint32_t>(seed), high = static_cast<std::uint32_t>(seed >> 32);
+    return pcg_hash(receiver ^ pcg_hash(low ^ pcg_hash(high)));
+}
+
+} // namespace prt

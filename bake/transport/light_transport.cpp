@@ -1,0 +1,164 @@
+#include "transport/light_transport.h"
+
+#include "prt/bake.h"
+#include "transport/krylov.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+/// Largest norm of a receiver's vector of one channel.
+double largest_norm(std::span<const float> vectors, std::size_t coefficients) {
+    double largest = 0;
+    for (std::size_t begin = 0; begin < vectors.size(); begin += coefficients) {
+        float sum = 0;
+        for (std::size_t k = 0; k < coefficients; ++k)
+            sum += vectors[begin + k] * vectors[begin + k];
+        largest = std::max(largest, static_cast<double>(sum));
+    }
+    return std::sqrt(largest);
+}
+
+void exit_from_incident(const TransportOperators& operators, int order, int channels,
+                        std::span<float> vectors, int threads) {
+    const int coefficients = coefficient_count(order);
+    operators.refill.apply(vectors, static_cast<std::size_t>(channels * coefficients));
+    for (const DiffusionOperator& diffusion : operators.diffusion)
+        diffusion.apply(channels, order, vectors, threads);
+}
+
+/// One bounce: exit transfer from exit transfer.
+ColumnOperator bounce_operator(const TransportOperators& operators, int order, int channels, int threads) {
+    const auto apply = [&operators, order, channels, threads](std::span<float> from, std::span<float> to) {
+        operators.gather->apply(order, from, to, threads);
+        exit_from_incident(operators, order, channels, to, threads);
+    };
+    const auto residual = [&operators, order, channels,
+                           threads](std::span<const float> b, std::span<const float> x, std::span<float> r) {
+        std::vector<double> incident(x.size());
+        operators.gather->apply_in_double(order, x, incident, threads);
+        operators.refill.apply(std::span<double>(incident),
+                               static_cast<std::size_t>(channels * coefficient_count(order)));
+        for (std::size_t i = 0; i < r.size(); ++i)
+            r[i] = static_cast<float>(static_cast<double>(b[i]) - static_cast<double>(x[i]) + incident[i]);
+    };
+    return {apply, residual};
+}
+
+/// Adds bounce after bounce, until so little remains.
+BounceResult bounce_often(Transfer& transfer, const TransportOperators& operators, int bounces,
+                          double least_remaining, int threads, const Progress& progress) {
+    const ColumnOperator bounce = bounce_operator(operators, transfer.order, transfer.channels, threads);
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.order));
+    BounceResult result;
+    std::vector<float> now = transfer.vectors, next(now.size());
+    double before = largest_norm(now, coefficients);
+    while (result.bounces < bounces) {
+        bounce.apply(now, next);
+        for (std::size_t i = 0; i < next.size(); ++i)
+            transfer.vectors[i] += next[i];
+        std::swap(now, next);
+        ++result.bounces;
+        const double energy = largest_norm(now, coefficients);
+        const double ratio = before > 0 ? energy / before : 0;
+        const double total = largest_norm(transfer.vectors, coefficients);
+        result.remaining = energy == 0 || total == 0 ? 0
+                           : ratio < 1               ? energy * ratio / (1 - ratio) / total
+                                                     : 1;
+        before = energy;
+        if (result.remaining < least_remaining)
+            return result;
+        progress.update(static_cast<double>(result.bounces) / bounces);
+    }
+    result.converged = least_remaining == 0;
+    return result;
+}
+
+/// The sum over all bounces (docs/math.md, eq. 21).
+BounceResult bounce_endlessly(Transfer& transfer, const TransportOperators& operators, int threads,
+                              const Progress& progress) {
+    // A few coefficients at a time, since the solver keeps a vector for each of its steps.
+    const int order = std::min(transfer.order, 3), width = coefficient_count(order),
+              coefficients = coefficient_count(transfer.order), channels = transfer.channels;
+    const auto columns = static_cast<std::size_t>(channels * width);
+    std::vector<float> some(transfer.receivers() * columns);
+    const ColumnOperator bounce = bounce_operator(operators, order, channels, threads);
+    BounceResult result;
+    for (int first = 0; first < coefficients; first += width) {
+        progress.update(static_cast<double>(first) / coefficients);
+        const auto exchange = [&](auto&& visit) { // the last ones may be fewer
+            for (std::size_t p = 0; p < transfer.receivers(); ++p)
+                for (int c = 0; c < channels; ++c)
+                    for (int k = 0; k < width; ++k)
+                        visit(
+                            some[p * columns + static_cast<std::size_t>(c * width + k)],
+                            first + k < coefficients
+                                ? &transfer.vector(p)[static_cast<std::size_t>(c * coefficients + first + k)]
+                                : nullptr);
+        };
+        exchange([](float& here, const float* there) { here = there ? *there : 0.0f; });
+        const KrylovResult solved =
+            solve_fixed_point(bounce, some, {.columns = columns, .threads = threads, .check = [&] {
+                                                 if (progress.stop.stop_requested())
+                                                     throw Cancelled();
+                                             }});
+        exchange([](float here, float* there) {
+            if (there)
+                *there = here;
+        });
+        result.bounces = std::max(result.bounces, solved.applications);
+        result.remaining = std::max(result.remaining, solved.remaining);
+        result.converged = result.converged && solved.converged;
+    }
+    return result;
+}
+
+} // namespace
+
+BounceResult propagate(Transfer& transfer, const TransportOperators& operators, int bounces, int threads,
+                       const Progress& progress) {
+    exit_from_incident(operators, transfer.order, transfer.channels, transfer.vectors, threads);
+    if (!operators.gather || bounces == 0)
+        return {};
+    if (bounces != kEndlessBounces)
+        return bounce_often(transfer, operators, bounces, 0, threads, progress);
+    // Media may return more light than they took (docs/math.md, section 8): a solution of the equation need
+    // then be no sum over bounces, so that the sum itself is taken.
+    constexpr int kMostBounces = 10000;
+    return operators.diffusion.empty()
+               ? bounce_endlessly(transfer, operators, threads, progress)
+               : bounce_often(transfer, operators, kMostBounces, 1e-5, threads, progress);
+}
+
+void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers) {
+    // Where the base colour is nearly black, no finite transfer can say what passes: it is taken as 1/255.
+    constexpr float kLeastBase = 1.0f / 255;
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.order));
+    std::vector<bool> done(receivers.fronts);
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
+        if (!surfaces.transmits(t))
+            continue;
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::uint32_t front = surfaces.corners(t)[corner];
+            if (done[front])
+                continue;
+            done[front] = true;
+            const glm::vec2 uv(corner == 1 ? 1 : 0, corner == 2 ? 1 : 0);
+            const SurfacePoint point{t, uv, receivers.receivers.areas[front]};
+            const Scattering s = surfaces.scattering(point);
+            const glm::vec3 base = surfaces.base_color(point);
+            const std::span<float> to = transfer.vector(front);
+            const std::span<const float> from = transfer.vector(receivers.back_of(front));
+            for (int c = 0; c < transfer.channels; ++c) {
+                const float scale = 1 / std::max(base[c], kLeastBase);
+                for (std::size_t i = static_cast<std::size_t>(c) * coefficients;
+                     i < static_cast<std::size_t>(c + 1) * coefficients; ++i)
+                    to[i] = scale * (s.reflected[c] * to[i] + s.transmitted[c] * from[i]);
+            }
+        }
+    }
+}
+
+} // namespace prt

@@ -1,0 +1,120 @@
+#include "report/sweep_report.h"
+
+#include "report/log_chart.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace prt::cli {
+namespace {
+
+std::vector<std::string> methods_of(const std::vector<SweepPoint>& points) {
+    std::vector<std::string> methods;
+    for (const SweepPoint& point : points)
+        if (std::find(methods.begin(), methods.end(), point.method) == methods.end())
+            methods.push_back(point.method);
+    if (std::find(methods.begin(), methods.end(), kOurs) == methods.end())
+        methods.push_back(kOurs);
+    return methods;
+}
+
+/// The points of a method than which none is cheaper and better, from the cheapest on.
+template <class Cost>
+std::vector<SweepPoint> frontier(const std::vector<SweepPoint>& points, const std::string& method,
+                                 Cost&& cost) {
+    std::vector<SweepPoint> own;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(own),
+                 [&](const SweepPoint& p) { return p.method == method; });
+    std::stable_sort(own.begin(), own.end(),
+                     [&](const SweepPoint& a, const SweepPoint& b) { return cost(a) < cost(b); });
+    std::vector<SweepPoint> result;
+    for (const SweepPoint& point : own)
+        if (result.empty() || point.lit_rms < result.back().lit_rms)
+            result.push_back(point);
+    return result;
+}
+
+template <class Cost>
+std::string chart(const std::vector<SweepPoint>& points, const char* x_title, Cost&& cost) {
+    std::vector<ChartSeries> series;
+    for (const std::string& method : methods_of(points)) {
+        ChartSeries curve{method, {}, method == kOurs};
+        for (const SweepPoint& p : frontier(points, method, cost))
+            curve.points.push_back({cost(p), 100 * p.lit_rms,
+                                    fmt::format("{}: {:.2f} bytes, {:.2f} operations, {:.3f} %", p.setting,
+                                                p.bytes(), p.shader_ops, 100 * p.lit_rms)});
+        series.push_back(std::move(curve));
+    }
+    return log_chart(series, x_title, "lit_rms, %");
+}
+
+using Best = const SweepPoint* (*)(const Sweep&, const std::string&, double);
+
+/// The best of every method for each limit; ours has its row even where it has no point.
+template <class Limits>
+Table best_table(const Sweep& sweep, const std::vector<SweepPoint>& points, const Limits& limits,
+                 const char* unit, Best best) {
+    Table table;
+    table.columns.push_back({"method", "lit_rms at most", Unit::plain});
+    for (const auto limit : limits)
+        table.columns.push_back(
+            {"", fmt::format("{:g} {}", static_cast<double>(limit), unit), Unit::percent});
+    for (const std::string& method : methods_of(points)) {
+        std::vector<Json> row = {method};
+        for (const auto limit : limits) {
+            const SweepPoint* p = best(sweep, method, static_cast<double>(limit));
+            row.push_back(p ? Json(p->lit_rms) : Json());
+        }
+        table.rows.push_back(std::move(row));
+    }
+    table.audience = Audience::people;
+    return table;
+}
+
+/// Every point, for files.
+Table points_table(const char* key, const std::vector<SweepPoint>& points) {
+    Table table{key, "", "", {}, {}};
+    for (const char* column : {"method", "setting", "payload_bytes_per_vertex", "table_bytes_per_vertex",
+                               "bytes_per_vertex", "shader_operations", "lit_rms", "relative_l2", "seconds"})
+        table.columns.push_back({column, ""});
+    for (const SweepPoint& p : points)
+        table.rows.push_back({p.method, p.setting, p.payload_bytes, p.table_bytes, p.bytes(), p.shader_ops,
+                              p.lit_rms, p.relative_l2, p.seconds});
+    table.audience = Audience::files;
+    return table;
+}
+
+double ops_of(const SweepPoint& p) {
+    return p.shader_ops;
+}
+double bytes_of(const SweepPoint& p) {
+    return p.bytes();
+}
+
+} // namespace
+
+void add_sweep(const Sweep& sweep, Report& report) {
+    Table bytes = best_table(sweep, sweep.by_bytes, kSweepBytes, "bytes", best_by_bytes);
+    bytes.title = "Error at equal bytes";
+    bytes.about =
+        "Bytes per vertex: payload as a game binds it, in whole 32-bit words, and all tables over the "
+        "vertices. All methods are counted alike.";
+    bytes.chart = chart(sweep.by_bytes, "bytes per vertex, bases counted in", bytes_of);
+    Table ops = best_table(sweep, sweep.by_ops, kSweepOps, "operations", best_by_ops);
+    ops.title = "Error at equal shader operations";
+    ops.about =
+        fmt::format("Multiply-adds of a colour per vertex, on average. Clustered methods of the literature "
+                    "have {} clusters; prtkit has as many as take no more bytes than classic CPCA at the "
+                    "same operations.",
+                    kSweepClusters);
+    ops.chart = chart(sweep.by_ops, "multiply-adds per vertex", ops_of);
+    report.tables.push_back(std::move(bytes));
+    report.tables.push_back(std::move(ops));
+    report.tables.push_back(points_table("sweep/equal_bytes", sweep.by_bytes));
+    report.tables.push_back(points_table("sweep/equal_shader_operations", sweep.by_ops));
+    for (const std::string& missing : sweep.left_out)
+        report.notes.push_back(std::string(kOurs) + ": " + missing);
+}
+
+} // namespace prt::cli

@@ -1,0 +1,193 @@
+#include "clusters/cluster_moments.h"
+
+#include "prt/support/parallel.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace prt {
+namespace {
+
+/// A point that enters (+1) or leaves (-1) a cluster.
+struct Change {
+    std::uint32_t point;
+    double sign;
+};
+
+} // namespace
+
+ClusterMoments::ClusterMoments(std::size_t clusters, std::size_t dimension)
+    : dimension_(dimension), stride_(1 + dimension + dimension * (dimension + 1) / 2),
+      values_(clusters * stride_, 0) {}
+
+void ClusterMoments::add(const float* point, double weight, std::span<double> moments) {
+    const std::size_t dimension =
+        static_cast<std::size_t>((std::sqrt(8.0 * static_cast<double>(moments.size()) + 1) - 3) / 2 + 0.5);
+    double* sums = &moments[1];
+    double* products = sums + dimension;
+    moments[0] += weight;
+    for (std::size_t i = 0; i < dimension; ++i) {
+        const double scaled = weight * static_cast<double>(point[i]);
+        sums[i] += scaled;
+        for (std::size_t j = 0; j <= i; ++j)
+            products[j] += scaled * static_cast<double>(point[j]);
+        products += i + 1;
+    }
+}
+
+void ClusterMoments::build(const PointBlocks& points, std::span<const float> weights,
+                           std::span<const std::uint32_t> clusters, int threads) {
+    std::fill(values_.begin(), values_.end(), 0);
+    const std::vector<std::uint32_t> nowhere(points.count, ~0u);
+    update(points, weights, nowhere, clusters, threads);
+}
+
+void ClusterMoments::update(const PointBlocks& points, std::span<const float> weights,
+                            std::span<const std::uint32_t> before, std::span<const std::uint32_t> after,
+                            int threads) {
+    const std::size_t count = values_.size() / stride_;
+    std::vector<std::vector<Change>> changes(count);
+    for (std::uint32_t p = 0; p < points.count; ++p) {
+        if (before[p] == after[p] || !(weights[p] > 0))
+            continue;
+        if (before[p] < count)
+            changes[before[p]].push_back({p, -1});
+        if (after[p] < count)
+            changes[after[p]].push_back({p, 1});
+    }
+    parallel_for(count, 1, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> point(dimension_);
+        for (std::size_t k = begin; k < end; ++k)
+            for (const Change& change : changes[k]) {
+                points.copy_point(change.point, point.data());
+                add(point.data(), change.sign * static_cast<double>(weights[change.point]),
+                    std::span(values_).subspan(k * stride_, stride_));
+            }
+    });
+}
+
+namespace {
+
+// Of points that came and went rounding stays behind: nothing below a millionth of a millionth counts.
+constexpr double kLeastWeight = 1e-14;
+
+struct Covariance {
+    Eigen::VectorXd mean;
+    Eigen::MatrixXd matrix; ///< lower triangle
+};
+
+Covariance covariance_of(const ClusterMoments::View& moments) {
+    const auto d = static_cast<Eigen::Index>(moments.dimension);
+    Covariance result{Eigen::Map<const Eigen::VectorXd>(&moments.values[1], d) / moments.weight(),
+                      Eigen::MatrixXd::Zero(d, d)};
+    const double* product = moments.values.data() + 1 + d;
+    for (Eigen::Index i = 0; i < d; ++i)
+        for (Eigen::Index j = 0; j <= i; ++j)
+            result.matrix(i, j) = *product++ / moments.weight() - result.mean[i] * result.mean[j];
+    return result;
+}
+
+/// What float rounding of the points alone can make along one direction: (2^-24)² of their squared size, with
+/// a margin of 4.
+double rounding_floor(const Covariance& covariance) {
+    return 4 * 0x1p-48 * (covariance.mean.squaredNorm() + covariance.matrix.trace());
+}
+
+/// L with covariance = L L^T, where its rank is at most half of the dimension: pivoted Cholesky until nothing
+/// is left but rounding. Clusters of few points have few columns, and their axes cost a hundredth of a full
+/// decomposition.
+std::optional<Eigen::MatrixXd> low_rank_factor(const Eigen::MatrixXd& lower, double nothing) {
+    const Eigen::Index d = lower.rows();
+    Eigen::VectorXd left = lower.diagonal();
+    Eigen::MatrixXd factor(d, d / 2);
+    for (Eigen::Index rank = 0;; ++rank) {
+        Eigen::Index pivot = 0;
+        const double largest = left.maxCoeff(&pivot);
+        if (!(largest > nothing))
+            return factor.leftCols(rank).eval();
+        if (rank == d / 2)
+            return std::nullopt;
+        auto column = factor.col(rank);
+        for (Eigen::Index i = 0; i < d; ++i)
+            column[i] = i < pivot ? lower(pivot, i) : lower(i, pivot);
+        column.noalias() -= factor.leftCols(rank) * factor.row(pivot).head(rank).transpose();
+        column /= std::sqrt(largest);
+        left -= column.cwiseAbs2();
+        left[pivot] = 0;
+    }
+}
+
+/// Principal axes: variances, descending, and where they are wanted directions, as many as have variance.
+struct Spectrum {
+    std::vector<double> variances; ///< [dimension]; what is only rounding is 0
+    Eigen::MatrixXd directions;    ///< columns
+};
+
+Spectrum spectrum_of(const Covariance& covariance, bool with_directions) {
+    const int what = with_directions ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly;
+    const double floor = rounding_floor(covariance);
+    const auto d = covariance.matrix.rows();
+    Spectrum spectrum{std::vector<double>(static_cast<std::size_t>(d), 0.0), {}};
+    const auto take = [&](const Eigen::VectorXd& ascending) {
+        Eigen::Index kept = 0;
+        for (Eigen::Index i = ascending.size() - 1; i >= 0 && ascending[i] > floor; --i)
+            spectrum.variances[static_cast<std::size_t>(kept++)] = ascending[i];
+        return kept;
+    };
+    if (const auto factor = low_rank_factor(covariance.matrix, 0.25 * floor)) {
+        if (factor->cols() == 0)
+            return spectrum;
+        const Eigen::MatrixXd gram = factor->transpose() * *factor;
+        const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gram, what);
+        const Eigen::Index kept = take(solver.eigenvalues());
+        if (with_directions)
+            spectrum.directions =
+                (*factor * solver.eigenvectors().rowwise().reverse().leftCols(kept)).colwise().normalized();
+        return spectrum;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance.matrix, what);
+    const Eigen::Index kept = take(solver.eigenvalues());
+    if (with_directions)
+        spectrum.directions = solver.eigenvectors().rowwise().reverse().leftCols(kept);
+    return spectrum;
+}
+
+} // namespace
+
+ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending) {
+    ClusterFit fit{std::vector<float>(moments.dimension, 0.0f), {}, {}, {}, 0};
+    if (!(moments.weight() > kLeastWeight))
+        return fit;
+    fit.weight = moments.weight();
+    if (moments.dimension == 0)
+        return fit;
+    const Covariance covariance = covariance_of(moments);
+    std::transform(covariance.mean.begin(), covariance.mean.end(), fit.mean.begin(),
+                   [](double v) { return static_cast<float>(v); });
+    Spectrum spectrum = spectrum_of(covariance, true);
+    fit.variances = std::move(spectrum.variances);
+    fit.plan = plan_components(fit.variances, fit.weight, spending);
+    for (std::size_t j = 0; j < fit.plan.bits.size(); ++j) {
+        Eigen::VectorXd direction = spectrum.directions.col(static_cast<Eigen::Index>(j));
+        Eigen::Index largest = 0; // the sign of an eigenvector is arbitrary; fix it
+        direction.cwiseAbs().maxCoeff(&largest);
+        if (direction[largest] < 0)
+            direction = -direction;
+        for (const double v : direction)
+            fit.directions.push_back(static_cast<float>(v));
+    }
+    return fit;
+}
+
+double cluster_cost(const ClusterMoments::View& moments, const Spending& spending) {
+    if (!(moments.weight() > kLeastWeight) || moments.dimension == 0)
+        return 0;
+    const Covariance covariance = covariance_of(moments);
+    return cost_of(plan_components(spectrum_of(covariance, false).variances, moments.weight(), spending),
+                   moments.weight(), spending);
+}
+
+} // namespace prt

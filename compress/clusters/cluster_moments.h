@@ -1,0 +1,54 @@
+#pragma once
+
+#include "clusters/component_plan.h"
+#include "clusters/points.h"
+
+namespace prt {
+
+/// Weighted moments of every cluster's points, in double: what a local PCA needs. Points that change their
+/// cluster are subtracted here and added there, so that a round costs what has moved.
+class ClusterMoments {
+public:
+    ClusterMoments(std::size_t clusters, std::size_t dimension);
+
+    /// Sums over all points from nothing.
+    void build(const PointBlocks& points, std::span<const float> weights,
+               std::span<const std::uint32_t> clusters, int threads);
+    /// Takes `before` to `after`.
+    void update(const PointBlocks& points, std::span<const float> weights,
+                std::span<const std::uint32_t> before, std::span<const std::uint32_t> after, int threads);
+
+    /// A cluster's moments: weight, sums [dimension], lower triangle of products by rows.
+    struct View {
+        std::size_t dimension;
+        std::span<const double> values;
+        double weight() const { return values[0]; }
+    };
+    View view(std::size_t k) const { return {dimension_, std::span(values_).subspan(k * stride_, stride_)}; }
+    std::size_t stride() const { return stride_; }
+    static void add(const float* point, double weight, std::span<double> moments);
+
+private:
+    std::size_t dimension_, stride_;
+    std::vector<double> values_; ///< [clusters][stride]
+};
+
+/// Mean, principal axes and plan of one set of points.
+struct ClusterFit {
+    std::vector<float> mean;       ///< [dimension]
+    std::vector<float> directions; ///< [components][dimension], orthonormal
+    std::vector<double> variances; ///< [dimension] along all principal axes, descending
+    ComponentPlan plan;
+    double weight = 0;
+
+    /// Of all points of the cluster, prices included.
+    double cost(const Spending& spending) const { return cost_of(plan, weight, spending); }
+};
+
+/// Local PCA from moments. Directions without variance beyond the rounding of the points are left out.
+ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending);
+
+/// The cost that such a fit would have, without its directions: five times as fast.
+double cluster_cost(const ClusterMoments::View& moments, const Spending& spending);
+
+} // namespace prt

@@ -1,0 +1,203 @@
+#include "coding/encode.h"
+
+#include "prt/support/parallel.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+
+namespace prt {
+namespace {
+
+constexpr std::int32_t kLargestValue = (1 << (kMostRowBits - 1)) - 1;
+
+template <class Stored>
+void store(std::byte* to, Stored value) {
+    std::memcpy(to, &value, sizeof value);
+}
+
+/// Rows of all clusters over the axes of the frame, in units of the step.
+std::vector<std::int32_t> integer_rows(const QuantisedModels& models, double step, std::size_t axes) {
+    std::vector<std::int32_t> values;
+    const auto put = [&](const float* row, double unit) {
+        for (std::size_t i = 0; i < axes; ++i)
+            values.push_back(static_cast<std::int32_t>(std::lround(static_cast<double>(row[i]) / unit)));
+    };
+    for (std::size_t k = 0; k < models.clusters(); ++k) {
+        put(models.mean(k), step);
+        for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[k]); ++j)
+            put(models.row(k, j), 2 * step);
+    }
+    return values;
+}
+
+/// Axes up to the last that any row uses.
+std::size_t axes_in_use(const QuantisedModels& models, double step) {
+    const std::vector<std::int32_t> values = integer_rows(models, step, models.dimension);
+    std::size_t used = 0;
+    for (std::size_t v = 0; v < values.size(); ++v)
+        if (values[v] != 0)
+            used = std::max(used, v % models.dimension + 1);
+    return used;
+}
+
+/// Axis i times the deviation of the points along it, in units of `unit`.
+std::vector<std::int32_t> integer_axes(const Frame& frame, std::size_t axes, double unit) {
+    std::vector<std::int32_t> values;
+    for (std::size_t i = 0; i < axes; ++i)
+        for (std::size_t a = 0; a < frame.full(); ++a)
+            values.push_back(static_cast<std::int32_t>(
+                std::lround(std::sqrt(frame.variances[i]) * frame.synthesis[i * frame.full() + a] / unit)));
+    return values;
+}
+
+ClusteredBases make_bases(const Frame& frame, const QuantisedModels& models, const CodedBases& coded_frame,
+                          double step) {
+    ClusteredBases bases;
+    bases.order = frame.order;
+    bases.channels = frame.channels;
+    bases.components = models.components;
+    if (step > 0) {
+        const std::size_t axes = axes_in_use(models, step);
+        bases.coded = coded_frame;
+        bases.coded.step = static_cast<float>(step);
+        bases.coded.scales.resize(axes);
+        const std::vector<std::int32_t> all = decode_rows(coded_frame.axes, coded_frame.scales.size());
+        bases.coded.axes = encode_rows(std::span(all).first(axes * frame.full()), frame.full());
+        bases.coded.values = encode_rows(integer_rows(models, step, axes), axes);
+        bases.rows = decode_bases(bases.coded, bases.components);
+        return bases;
+    }
+    const auto full = static_cast<Eigen::Index>(frame.full()),
+               kept = static_cast<Eigen::Index>(frame.dimension);
+    const Eigen::Map<const Eigen::MatrixXd> synthesis(frame.synthesis.data(), full, kept);
+    const Eigen::Map<const Eigen::VectorXd> origin(frame.origin.data(), full);
+    const auto put = [&](const float* row, bool mean) {
+        Eigen::VectorXd vector = Eigen::VectorXd::Zero(full);
+        if (kept > 0)
+            vector = synthesis * Eigen::Map<const Eigen::VectorXf>(row, kept).cast<double>();
+        if (mean)
+            vector += origin;
+        for (const double v : vector)
+            bases.rows.push_back(static_cast<float>(v));
+    };
+    for (std::size_t k = 0; k < models.clusters(); ++k) {
+        put(models.mean(k), true);
+        for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[k]); ++j)
+            put(models.row(k, j), false);
+    }
+    return bases;
+}
+
+void pack(const QuantisedModels& models, const Codes& codes, const Encoding& encoding,
+          ClusteredTransfer& result) {
+    ClusteredBases& bases = result.bases;
+    ClusteredReceivers& receivers = result.receivers;
+    receivers.cluster_bits = encoding.cluster_bits > 0
+                                 ? encoding.cluster_bits
+                                 : static_cast<int>(std::bit_width(models.clusters() - 1));
+    int most = 0;
+    for (std::size_t k = 0; k < models.clusters(); ++k) {
+        int total = receivers.cluster_bits;
+        for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[k]); ++j) {
+            const float half = models.halves[k * models.max_components + j];
+            bases.bits.push_back(static_cast<std::uint8_t>(std::bit_width(static_cast<unsigned>(2 * half))));
+            total += bases.bits.back();
+        }
+        most = std::max(most, total);
+    }
+    receivers.words = std::max(1, (most + 31) / 32);
+    receivers.weights.resize(codes.clusters.size() * receivers.stride());
+    const std::vector<ClusterLayout> layouts = cluster_layouts(bases);
+    std::vector<std::uint32_t> words(static_cast<std::size_t>(receivers.words)),
+        values(models.max_components);
+    for (std::size_t p = 0; p < codes.clusters.size(); ++p) {
+        const std::uint32_t k = codes.clusters[p];
+        for (std::size_t j = 0; j < layouts[k].components; ++j)
+            values[j] = static_cast<std::uint32_t>(
+                std::lround((codes.of(p)[j] + 1) * models.halves[k * models.max_components + j]));
+        pack_words(k, receivers.cluster_bits, layouts[k], values, words);
+        std::memcpy(&receivers.weights[p * receivers.stride()], words.data(), receivers.stride());
+    }
+}
+
+void store_weight(std::byte* to, float weight, WeightFormat format) {
+    switch (format) {
+    case WeightFormat::snorm16:
+        return store(to, static_cast<std::int16_t>(std::lround(weight * 32767)));
+    case WeightFormat::snorm8:
+        return store(to, static_cast<std::int8_t>(std::lround(weight * 127)));
+    case WeightFormat::float32:
+    case WeightFormat::packed:
+        return store(to, weight);
+    }
+}
+
+} // namespace
+
+CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error) {
+    const auto full = static_cast<Eigen::Index>(frame.full()),
+               kept = static_cast<Eigen::Index>(frame.dimension);
+    const auto count = static_cast<Eigen::Index>(metric.order * metric.order);
+    Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(full, full);
+    for (int c = 0; c < metric.channels; ++c)
+        moments.block(c * count, c * count, count, count) = Eigen::Map<const Eigen::MatrixXd>(
+            &metric.moments[static_cast<std::size_t>(c * count * count)], count, count);
+    moments *= frame.scale * frame.scale;
+
+    // Rounding every value of every axis to `unit` adds axes · trace · unit² / 12.
+    double unit =
+        std::sqrt(12 * most_error / (static_cast<double>(std::max<Eigen::Index>(kept, 1)) * moments.trace()));
+    double largest = 0;
+    for (std::size_t i = 0; i < frame.dimension; ++i)
+        for (std::size_t a = 0; a < frame.full(); ++a)
+            largest = std::max(largest, std::sqrt(frame.variances[i]) *
+                                            std::abs(frame.synthesis[i * frame.full() + a]));
+    unit = std::max(unit, largest / kLargestValue);
+
+    CodedBases coded;
+    for (double& v : frame.origin) {
+        coded.origin.push_back(static_cast<float>(v));
+        v = static_cast<double>(coded.origin.back());
+    }
+    const std::vector<std::int32_t> values = integer_axes(frame, frame.dimension, unit);
+    coded.axes = encode_rows(values, frame.full());
+    for (std::size_t i = 0; i < frame.dimension; ++i) {
+        coded.scales.push_back(static_cast<float>(unit / std::sqrt(frame.variances[i])));
+        for (std::size_t a = 0; a < frame.full(); ++a)
+            frame.synthesis[i * frame.full() + a] =
+                static_cast<double>(coded.scales[i]) * values[i * frame.full() + a];
+    }
+    if (kept == 0) // all receivers alike
+        return coded;
+    // Coordinates over the rounded axes are those that come nearest in the metric.
+    const Eigen::Map<const Eigen::MatrixXd> axes(frame.synthesis.data(), full, kept);
+    Eigen::Map<Eigen::MatrixXd>(frame.analysis.data(), full, kept) =
+        (axes.transpose() * moments * axes).ldlt().solve(axes.transpose() * moments).transpose();
+    return coded;
+}
+
+ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedModels& models,
+                         const Codes& codes, const Encoding& encoding) {
+    ClusteredTransfer result;
+    result.bases = make_bases(frame, models, coded_frame, encoding.step);
+    ClusteredReceivers& receivers = result.receivers;
+    receivers.format = encoding.format;
+    receivers.clusters.assign(codes.clusters.begin(), codes.clusters.end());
+    if (encoding.format == WeightFormat::packed) {
+        pack(models, codes, encoding, result);
+        return result;
+    }
+    receivers.components = (result.bases.max_components() + 3) / 4 * 4;
+    const std::size_t size = bytes_per_weight(encoding.format), stride = receivers.stride();
+    receivers.weights.assign(codes.clusters.size() * stride, std::byte{0});
+    for (std::size_t p = 0; p < codes.clusters.size(); ++p)
+        for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[codes.clusters[p]]); ++j)
+            store_weight(&receivers.weights[p * stride + j * size], codes.of(p)[j], encoding.format);
+    return result;
+}
+
+} // namespace prt

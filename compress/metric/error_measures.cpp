@@ -1,0 +1,176 @@
+#include "prt/error_measures.h"
+
+#include "prt/support/error.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace prt {
+namespace {
+
+double ratio(double error, double reference) {
+    if (reference > 0)
+        return error / reference;
+    return error > 0 ? std::numeric_limits<double>::infinity() : 0;
+}
+
+} // namespace
+
+double relative_l2(const Transfer& reference, const Transfer& approximation, std::span<const float> areas) {
+    if (reference.order != approximation.order || reference.receivers() != approximation.receivers())
+        throw Error("the transfers have different orders or numbers of receivers");
+    const int channels = std::max(reference.channels, approximation.channels);
+    const auto count = static_cast<std::size_t>(coefficient_count(reference.order));
+    double error = 0, norm = 0;
+    for (std::size_t p = 0; p < reference.receivers(); ++p) {
+        double receiver_error = 0, receiver_norm = 0;
+        for (int c = 0; c < channels; ++c) {
+            const float* t =
+                &reference.vector(p)[count * static_cast<std::size_t>(std::min(c, reference.channels - 1))];
+            const float* a = &approximation.vector(
+                p)[count * static_cast<std::size_t>(std::min(c, approximation.channels - 1))];
+            for (std::size_t i = 0; i < count; ++i) {
+                const double difference = static_cast<double>(t[i]) - static_cast<double>(a[i]);
+                receiver_error += difference * difference;
+                receiver_norm += static_cast<double>(t[i]) * static_cast<double>(t[i]);
+            }
+        }
+        error += static_cast<double>(areas[p]) * receiver_error;
+        norm += static_cast<double>(areas[p]) * receiver_norm;
+    }
+    return std::sqrt(ratio(error, norm));
+}
+
+namespace {
+
+double largest_of(const glm::dvec3& v) {
+    const glm::dvec3 a = glm::abs(v);
+    return std::max({a.x, a.y, a.z});
+}
+
+/// The value below which a share of the `values` lie.
+double percentile(std::vector<double>& values, double share) {
+    if (values.empty())
+        return 0;
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+double darker_half(std::span<const glm::vec3> reference, std::span<const glm::dvec3> differences,
+                   std::span<const float> areas, double area) {
+    std::vector<std::uint32_t> order(reference.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return reference[a].x + reference[a].y + reference[a].z <
+               reference[b].x + reference[b].y + reference[b].z;
+    });
+    double error = 0, norm = 0, seen = 0;
+    for (const std::uint32_t p : order) {
+        const double a = static_cast<double>(areas[p]);
+        if (seen >= 0.5 * area)
+            break;
+        seen += a;
+        error += a * glm::dot(differences[p], differences[p]);
+        norm += a * glm::dot(glm::dvec3(reference[p]), glm::dvec3(reference[p]));
+    }
+    return std::sqrt(ratio(error, norm));
+}
+
+/// Collects jumps, then says what they are like.
+class JumpCollector {
+public:
+    void add(const Edge& edge, double jump) {
+        if (jumps_.empty() || jump > jumps_of_.max) {
+            jumps_of_.max = jump;
+            jumps_of_.worst = edge;
+        }
+        squares_ += jump * jump;
+        jumps_.push_back(jump);
+    }
+    EdgeJumps over(double mean) {
+        jumps_of_.edges = jumps_.size();
+        if (jumps_.empty())
+            return jumps_of_;
+        jumps_of_.rms = ratio(std::sqrt(squares_ / static_cast<double>(jumps_.size())), mean);
+        jumps_of_.percentile_99 = ratio(percentile(jumps_, 0.99), mean);
+        jumps_of_.max = ratio(jumps_of_.max, mean);
+        return jumps_of_;
+    }
+
+private:
+    std::vector<double> jumps_;
+    double squares_ = 0;
+    EdgeJumps jumps_of_;
+};
+
+} // namespace
+
+double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
+               std::span<const float> areas) {
+    double error = 0, norm = 0;
+    for (std::size_t p = 0; p < reference.size(); ++p) {
+        const double a = static_cast<double>(areas[p]);
+        const glm::dvec3 r(reference[p]), d = r - glm::dvec3(approximation[p]);
+        error += a * glm::dot(d, d);
+        norm += a * glm::dot(r, r);
+    }
+    return std::sqrt(ratio(error, norm));
+}
+
+LitScale lit_scale(std::span<const glm::vec3> reference, std::span<const float> areas) {
+    LitScale scale;
+    double area = 0;
+    for (std::size_t p = 0; p < reference.size(); ++p) {
+        const double a = static_cast<double>(areas[p]);
+        const glm::dvec3 r(reference[p]);
+        scale.mean_square += a * glm::dot(r, r);
+        scale.mean += a * (r.x + r.y + r.z) / 3;
+        area += a;
+    }
+    return {ratio(scale.mean_square, area), ratio(scale.mean, area)};
+}
+
+LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
+                   std::span<const float> areas, std::span<const Edge> edges,
+                   std::optional<std::span<const std::uint16_t>> clusters,
+                   const std::optional<LitScale>& scale) {
+    double area = 0, largest = 0, squares = 0;
+    std::vector<glm::dvec3> differences(reference.size());
+    std::vector<double> sizes;
+    for (std::size_t p = 0; p < reference.size(); ++p) {
+        const double a = static_cast<double>(areas[p]);
+        differences[p] = glm::dvec3(reference[p]) - glm::dvec3(approximation[p]);
+        squares += a * glm::dot(differences[p], differences[p]);
+        area += a;
+        if (a > 0) {
+            sizes.push_back(largest_of(differences[p]));
+            largest = std::max(largest, sizes.back());
+        }
+    }
+    const LitScale own = lit_scale(reference, areas), in = scale.value_or(own);
+    LitError result;
+    result.rms = std::sqrt(ratio(ratio(squares, area), in.mean_square));
+    result.mean = own.mean;
+    const double mean = std::abs(in.mean);
+    result.max = ratio(largest, mean);
+    result.percentile_999 = ratio(percentile(sizes, 0.999), mean);
+    result.darker_half_rms = darker_half(reference, differences, areas, area);
+    if (!clusters)
+        return result;
+    JumpCollector crossing, inner;
+    for (const Edge& edge : edges) {
+        const double jump = largest_of(differences[edge.first] - differences[edge.second]);
+        ((*clusters)[edge.first] != (*clusters)[edge.second] ? crossing : inner).add(edge, jump);
+    }
+    result.crossing = crossing.over(mean);
+    result.inner = inner.over(mean);
+    return result;
+}
+
+} // namespace prt

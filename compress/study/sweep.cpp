@@ -1,0 +1,243 @@
+#include "prt/sweep.h"
+
+#include "prt/baselines.h"
+#include "prt/error_measures.h"
+#include "prt/search.h"
+#include "prt/support/stopwatch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <set>
+#include <sstream>
+
+namespace prt {
+namespace {
+
+/// "7", "3.25"
+std::string short_number(double value) {
+    std::ostringstream text;
+    text << std::setprecision(3) << value;
+    return text.str();
+}
+
+class Sweeper {
+public:
+    Sweeper(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
+            std::span<const Light> lights, const CompressOptions& options, const Progress& progress)
+        : transfer_(transfer), areas_(areas), edges_(edges), lights_(lights), options_(options),
+          progress_(progress) {
+        for (const Light& light : lights)
+            references_.push_back(exit_radiance(transfer, light, options.threads));
+    }
+
+    Sweep run(std::span<const SweepCandidate> others) {
+        truncations();
+        for (const SweepCandidate& other : others) {
+            progress_.update(0.01);
+            const Stopwatch stopwatch;
+            const BaselineResult r = other.run();
+            const SweepPoint point = measured(other.method, other.setting, r, stopwatch.seconds());
+            sweep_.by_bytes.push_back(point);
+            sweep_.by_ops.push_back(point);
+        }
+        plain_pca();
+        clustered();
+        ours();
+        progress_.update(1);
+        return std::move(sweep_);
+    }
+
+private:
+    SweepPoint measured(const std::string& method, const std::string& setting,
+                        const Transfer& decoded) const {
+        SweepPoint point{method, setting};
+        double sum = 0;
+        for (std::size_t l = 0; l < lights_.size(); ++l) {
+            const auto lit = exit_radiance(decoded, lights_[l], options_.threads);
+            const double rms = lit_rms(references_[l], lit, areas_);
+            sum += rms * rms;
+        }
+        point.lit_rms = lights_.empty() ? 0 : std::sqrt(sum / static_cast<double>(lights_.size()));
+        point.relative_l2 = relative_l2(transfer_, decoded, areas_);
+        return point;
+    }
+
+    SweepPoint measured(const std::string& method, const std::string& setting, const BaselineResult& r,
+                        double seconds) const {
+        SweepPoint point = measured(method, setting, r.decoded);
+        point.payload_bytes = r.payload_bytes;
+        point.table_bytes = r.table_bytes / static_cast<double>(transfer_.receivers());
+        point.shader_ops = r.shader_ops;
+        point.seconds = seconds;
+        return point;
+    }
+
+    SweepPoint measured(const std::string& setting, const CompressResult& r) const {
+        SweepPoint point = measured(kOurs, setting, decode(r.transfer, options_.threads));
+        point.payload_bytes = static_cast<double>(r.statistics.bytes_per_receiver);
+        point.table_bytes =
+            static_cast<double>(r.statistics.basis_bytes) / static_cast<double>(transfer_.receivers());
+        point.shader_ops = r.statistics.mean_components;
+        point.seconds = r.statistics.seconds;
+        return point;
+    }
+
+    Progress part(double from, double to) const {
+        Progress p{{}, progress_.stop};
+        if (progress_.report)
+            p.report = [this, from, to](double share) { progress_.report(from + (to - from) * share); };
+        return p;
+    }
+
+    void truncations() {
+        for (int bands = 1; bands <= transfer_.order; ++bands) {
+            const SweepPoint point =
+                measured("truncated SH", "order " + std::to_string(bands), truncated_sh(transfer_, bands), 0);
+            sweep_.by_bytes.push_back(point);
+            sweep_.by_ops.push_back(point);
+        }
+    }
+
+    SweepPoint classic(const std::string& method, int clusters, int components, bool iterate,
+                       const Progress& progress) const {
+        const Stopwatch stopwatch;
+        const BaselineResult r = classic_cpca(
+            transfer_, areas_, {clusters, components, iterate, options_.seed, options_.threads}, progress);
+        return measured(method, std::to_string(clusters) + " x " + std::to_string(components), r,
+                        stopwatch.seconds());
+    }
+
+    void plain_pca() {
+        for (const int components : {2, 4, 8, 12, 16, 24, 32}) {
+            if (static_cast<std::size_t>(components) > transfer_.dimension())
+                break;
+            const SweepPoint point = classic("plain PCA", 1, components, true, part(0.01, 0.03));
+            sweep_.by_bytes.push_back(point);
+            sweep_.by_ops.push_back(point);
+        }
+    }
+
+    /// The most components that K clusters can have in `bytes`, with rows as float16; -1: not even none.
+    int classic_components(int clusters, double bytes) const {
+        const auto row = static_cast<double>(clusters) * static_cast<double>(2 * transfer_.dimension()) /
+                         static_cast<double>(transfer_.receivers());
+        const double scale = 4.0 * clusters / static_cast<double>(transfer_.receivers());
+        const std::size_t index = clusters > 256 ? 2 : 1;
+        std::size_t count = 0; // that fit, and none is one of them
+        while (count <= transfer_.dimension() &&
+               bound_bytes(index + count) + row + static_cast<double>(count) * (row + scale) <= bytes)
+            ++count;
+        return static_cast<int>(count) - 1;
+    }
+
+    void clustered() {
+        const int most_clusters = static_cast<int>(std::min<std::size_t>(1024, transfer_.receivers()));
+        double done = 0.03;
+        for (int clusters = 4; clusters <= most_clusters; clusters *= 2) {
+            std::set<int> components; // fewer than fit are never better
+            for (const double bytes : kSweepBytes)
+                components.insert(classic_components(clusters, bytes));
+            for (const int m : components) {
+                done += 0.02 * (0.5 - done);
+                if (m < 1)
+                    continue;
+                sweep_.by_bytes.push_back(classic("static CPCA", clusters, m, false, part(done, done)));
+                sweep_.by_bytes.push_back(classic(kClassic, clusters, m, true, part(done, done)));
+            }
+            if (*components.rbegin() >= 0)
+                sweep_.by_bytes.push_back(
+                    classic("vector quantisation", clusters, 0, false, part(done, done)));
+        }
+        const int clusters = std::min(kSweepClusters, most_clusters);
+        for (const int m : kSweepOps) {
+            if (static_cast<std::size_t>(m) > transfer_.dimension())
+                break;
+            sweep_.by_ops.push_back(classic("static CPCA", clusters, m, false, part(0.5, 0.5)));
+            sweep_.by_ops.push_back(classic(kClassic, clusters, m, true, part(0.5, 0.5)));
+        }
+        sweep_.by_ops.push_back(classic("vector quantisation", clusters, 0, false, part(0.5, 0.5)));
+    }
+
+    void ours() {
+        double done = 0.5;
+        for (const double bytes : kSweepBytes) {
+            Budget budget;
+            budget.bytes_per_vertex = bytes;
+            within(budget, short_number(bytes) + " bytes", part(done, done + 0.07), sweep_.by_bytes);
+            done += 0.07;
+        }
+        // The operations of the classic way, in no more bytes than it takes.
+        for (const SweepPoint& reference : std::vector<SweepPoint>(sweep_.by_ops)) {
+            if (reference.method != kClassic)
+                continue;
+            if (!(reference.shader_ops > 0)) {
+                sweep_.left_out.push_back(
+                    "nothing at the operations of classic CPCA with " + reference.setting +
+                    ": it has a cluster for every receiver there, or they are all alike");
+                continue;
+            }
+            Budget budget;
+            budget.bytes_per_vertex = reference.bytes();
+            budget.shader_ops = reference.shader_ops;
+            within(budget,
+                   short_number(reference.shader_ops) + " operations and " + short_number(reference.bytes()) +
+                       " bytes",
+                   part(done, done + 0.01), sweep_.by_ops);
+            done += 0.01;
+        }
+    }
+
+    /// Ours within a budget, or why not.
+    void within(const Budget& budget, const std::string& words, const Progress& progress,
+                std::vector<SweepPoint>& points) {
+        SearchOptions o;
+        o.compress = options_;
+        o.budget = budget;
+        const SearchResult found = compress_within(transfer_, areas_, edges_, o, progress);
+        const CompressStatistics& s = found.result.statistics;
+        if (found.kept)
+            points.push_back(measured(std::to_string(s.clusters) + " clusters", found.result));
+        else
+            sweep_.left_out.push_back("nothing keeps " + words + ", the nearest has " +
+                                      short_number(s.bytes_with_bases(transfer_.receivers())) +
+                                      " bytes and " + short_number(s.mean_components) + " operations");
+    }
+
+    const Transfer& transfer_;
+    std::span<const float> areas_;
+    std::span<const Edge> edges_;
+    std::span<const Light> lights_;
+    const CompressOptions& options_;
+    const Progress& progress_;
+    std::vector<std::vector<glm::vec3>> references_;
+    Sweep sweep_;
+};
+
+template <class Cost>
+const SweepPoint* best(const std::vector<SweepPoint>& points, const std::string& method, double most,
+                       Cost&& cost) {
+    const SweepPoint* found = nullptr;
+    for (const SweepPoint& point : points)
+        if (point.method == method && cost(point) <= most && (!found || point.lit_rms < found->lit_rms))
+            found = &point;
+    return found;
+}
+
+} // namespace
+
+Sweep sweep(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
+            std::span<const Light> lights, const CompressOptions& options,
+            std::span<const SweepCandidate> others, const Progress& progress) {
+    return Sweeper(transfer, areas, edges, lights, options, progress).run(others);
+}
+
+const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, double bytes) {
+    return best(sweep.by_bytes, method, bytes, [](const SweepPoint& p) { return p.bytes(); });
+}
+
+const SweepPoint* best_by_ops(const Sweep& sweep, const std::string& method, double ops) {
+    return best(sweep.by_ops, method, ops, [](const SweepPoint& p) { return p.shader_ops; });
+}
+
+} // namespace prt

@@ -1,0 +1,69 @@
+#include "core/hovered.h"
+
+#include <limits>
+
+namespace viewer {
+namespace {
+
+std::optional<std::uint32_t> receiver_at(const Model& model, const Screen& screen, const glm::vec2& pixel) {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    const glm::vec3 o = screen.camera.position, d = direction_through(screen, pixel);
+    RTCRayHit ray{};
+    ray.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, std::numeric_limits<float>::infinity(), ~0u, 0, 0};
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(model.rays->handle(), &context, &ray);
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return std::nullopt;
+    const glm::uvec3& corners = model.surfaces->corners(ray.hit.primID);
+    const float u = ray.hit.u, v = ray.hit.v, w = 1 - u - v;
+    return w >= u && w >= v ? corners.x : u >= v ? corners.y : corners.z;
+}
+
+glm::vec3 position_of(const prt::Scene& scene, std::uint32_t receiver) {
+    for (const prt::VertexArray& vertices : scene.vertex_arrays)
+        if (receiver >= vertices.first_receiver && receiver < vertices.first_receiver + vertices.size())
+            return vertices.positions[receiver - vertices.first_receiver];
+    return glm::vec3(0);
+}
+
+/// mean + sum_j w_j direction_j, of the first channel.
+std::vector<float> decoded(const prt::ClusteredBases& bases, std::size_t cluster,
+                           const std::vector<float>& weights) {
+    const auto count = static_cast<std::size_t>(prt::coefficient_count(bases.order));
+    const float* row = &bases.rows[bases.first_rows()[cluster] * bases.dimension()];
+    std::vector<float> vector(row, row + count);
+    for (std::size_t j = 0; j < weights.size(); ++j)
+        for (std::size_t i = 0; i < count; ++i)
+            vector[i] += weights[j] * row[(1 + j) * bases.dimension() + i];
+    return vector;
+}
+
+} // namespace
+
+std::optional<Hovered> find_hovered(const Model& model, const prt::Transfer* raw,
+                                    const prt::ClusteredTransfer* compressed, bool prefer_raw,
+                                    const Screen& screen, const glm::vec2& pixel) {
+    const auto receiver = receiver_at(model, screen, pixel);
+    if (!receiver)
+        return std::nullopt;
+    Hovered found;
+    found.receiver = *receiver;
+    found.position = position_of(model.scene, *receiver);
+    if (compressed) {
+        found.cluster = compressed->receivers.clusters[*receiver];
+        const auto layouts = prt::cluster_layouts(compressed->bases);
+        found.weights.resize(layouts[static_cast<std::size_t>(found.cluster)].components);
+        prt::decode_weights(*compressed, layouts, *receiver, found.weights);
+        found.order = compressed->bases.order;
+        found.vector = decoded(compressed->bases, static_cast<std::size_t>(found.cluster), found.weights);
+    }
+    if (raw && (!compressed || prefer_raw)) {
+        const auto vector = raw->vector(*receiver);
+        found.order = raw->order;
+        found.vector.assign(vector.begin(), vector.begin() + prt::coefficient_count(raw->order));
+    }
+    return found;
+}
+
+} // namespace viewer

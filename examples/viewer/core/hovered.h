@@ -1,0 +1,29 @@
+#pragma once
+
+#include "core/model.h"
+#include "gpu/screen.h"
+
+#include <glm/vec2.hpp>
+
+#include <optional>
+#include <vector>
+
+namespace viewer {
+
+/// The receiver under the pointer.
+struct Hovered {
+    std::uint32_t receiver = 0;
+    glm::vec3 position{0};
+    std::vector<float> vector; ///< transfer, [order²] of the first channel; empty where there is none
+    int order = 0;
+    int cluster = -1;           ///< where it is compressed
+    std::vector<float> weights; ///< the cluster's
+};
+
+/// The nearest vertex of the triangle at `pixel`. Its vector is the compressed one where there is one, unless
+/// `prefer_raw`; `raw` and `compressed` may be null.
+std::optional<Hovered> find_hovered(const Model& model, const prt::Transfer* raw,
+                                    const prt::ClusteredTransfer* compressed, bool prefer_raw,
+                                    const Screen& screen, const glm::vec2& pixel);
+
+} // namespace viewer

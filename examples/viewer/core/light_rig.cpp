@@ -1,0 +1,219 @@
+#include "core/light_rig.h"
+
+#include "prt/image_file.h"
+#include "prt/sh_basis.h"
+#include "prt/sky.h"
+#include "prt/tone_map.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace viewer {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
+const glm::vec3 kGround(0.24f, 0.2f, 0.15f);
+
+glm::dvec3 sun_at(double hour) {
+    const double angle = (hour - 12) / 12 * kPi, latitude = kPi / 4;
+    return {std::sin(angle), std::cos(angle) * std::cos(latitude), std::cos(angle) * std::sin(latitude)};
+}
+
+LoadedEnvironment ready(std::string name, const prt::Environment& environment) {
+    LoadedEnvironment result;
+    result.name = std::move(name);
+    result.light = prt::project(environment, prt::kMaxOrder);
+    result.lat_long = prt::resampled_lat_long(environment);
+    result.mean = 0.25f / prt::automatic_exposure(result.light);
+    return result;
+}
+
+/// The sky of the model over a ground that reflects it; dusk fades.
+prt::Image day_image(const Day& day, const glm::dvec3& sun) {
+    constexpr int kWidth = 128, kHeight = 64;
+    const glm::dvec3 above = glm::normalize(glm::dvec3(sun.x, std::max(sun.y, 0.02), sun.z));
+    const prt::PreethamSky sky(day.turbidity, above);
+    const auto fade = static_cast<float>(std::clamp(1 + sun.y / 0.15, 0.02, 1.0));
+    prt::Image image{kWidth, kHeight, {}};
+    image.pixels.reserve(std::size_t{kWidth} * kHeight);
+    glm::dvec3 irradiance(0);
+    for (int y = 0; y < kHeight; ++y)
+        for (int x = 0; x < kWidth; ++x) {
+            const glm::dvec3 d = prt::lat_long_direction(kWidth, kHeight, x + 0.5, y + 0.5);
+            glm::dvec3 pixel = irradiance * glm::dvec3(kGround) / kPi; // the upper rows came first
+            if (d.y > 0) {
+                pixel = glm::max(sky.radiance(d), 0.0);
+                irradiance += pixel * (d.y * 2 * kPi / kWidth * kPi / kHeight * std::sqrt(1 - d.y * d.y));
+            }
+            image.pixels.push_back(fade * glm::vec3(pixel));
+        }
+    return image;
+}
+
+/// About `axis`, filled up to the solid angle that it has.
+void add_cone(prt::Image& image, const glm::vec3& axis, double half_angle, const glm::vec3& radiance) {
+    const double wanted = 2 * kPi * (1 - std::cos(half_angle));
+    std::vector<std::size_t> inside;
+    double covered = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const glm::dvec3 d = prt::lat_long_direction(image.width, image.height, x + 0.5, y + 0.5);
+            if (glm::dot(d, glm::dvec3(axis)) < std::cos(half_angle))
+                continue;
+            inside.push_back(static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
+                             static_cast<std::size_t>(x));
+            covered += 2 * kPi / image.width *
+                       (std::cos(kPi * y / image.height) - std::cos(kPi * (y + 1) / image.height));
+        }
+    for (const std::size_t i : inside)
+        image.pixels[i] += radiance * static_cast<float>(wanted / covered);
+}
+
+double sphere_half_angle(const RigLight& light) {
+    return std::asin(std::clamp(static_cast<double>(light.size / light.distance), 0.0, 0.99));
+}
+
+} // namespace
+
+RigLight make_light(LightKind kind) {
+    RigLight light;
+    light.kind = kind;
+    light.direction = glm::normalize(glm::vec3(0.6f, 0.7f, 0.5f));
+    if (kind == LightKind::hemisphere)
+        light = {kind, true, {0, 1, 0}, 2, 0.4f, {0.6f, 0.75f, 1}, 1};
+    return light;
+}
+
+LoadedEnvironment load_environment(const std::string& path) {
+    return ready(std::filesystem::path(path).filename().string(), prt::load_environment(path).environment);
+}
+
+LightRig::LightRig() {
+    LightSettings settings = settings_;
+    settings.time.hour = 9.5;
+    set(settings);
+}
+
+void LightRig::set(const LightSettings& settings) {
+    if (settings == settings_ && !day_.lat_long.pixels.empty())
+        return;
+    const bool another_day = settings.time != settings_.time || day_.lat_long.pixels.empty();
+    if (another_day || settings.day != settings_.day || settings.environment_on != settings_.environment_on)
+        ++background_version_;
+    settings_ = settings;
+    ++version_;
+    if (!another_day)
+        return;
+    const glm::dvec3 sun = sun_at(settings.time.hour);
+    day_ = ready("day", {day_image(settings.time, sun), prt::EnvironmentLayout::lat_long});
+    day_sun_ = glm::vec3(sun);
+    // Four times the sky's irradiance at noon; yellow, then red, towards the horizon.
+    const auto height = static_cast<float>(std::clamp(sun.y, 0.0, 1.0));
+    day_sun_irradiance_ = height <= 0
+                              ? glm::vec3(0)
+                              : glm::vec3(14, 14 * std::pow(height, 0.15f), 12 * std::pow(height, 0.4f)) *
+                                    std::min(1.0f, 8 * height);
+}
+
+void LightRig::set_environment(std::shared_ptr<const LoadedEnvironment> environment) {
+    environment_ = std::move(environment);
+    settings_.day = false;
+    settings_.environment_on = true;
+    ++version_;
+    ++background_version_;
+}
+
+const LoadedEnvironment* LightRig::base() const {
+    if (settings_.day)
+        return &day_;
+    return settings_.environment_on ? environment_.get() : nullptr;
+}
+
+float LightRig::unit() const {
+    const LoadedEnvironment* environment = base();
+    return environment ? environment->mean : 1;
+}
+
+std::vector<prt::Sun> LightRig::suns() const {
+    std::vector<prt::Sun> suns;
+    if (settings_.day && day_sun_irradiance_ != glm::vec3(0)) {
+        const float c = std::cos(settings_.rotation), s = std::sin(settings_.rotation);
+        suns.push_back({{c * day_sun_.x + s * day_sun_.z, day_sun_.y, c * day_sun_.z - s * day_sun_.x},
+                        day_sun_irradiance_});
+    }
+    for (const RigLight& light : settings_.lights)
+        if (light.on && light.kind == LightKind::sun)
+            suns.push_back(
+                {light.direction, light.color * (light.strength * unit() * static_cast<float>(kPi))});
+    return suns;
+}
+
+prt::Light LightRig::light(int order) const {
+    prt::Light sum = prt::constant_light(order, glm::vec3(0));
+    if (const LoadedEnvironment* environment = base())
+        sum = prt::sum(sum, prt::rotated_about_y(prt::truncated(environment->light, order),
+                                                 static_cast<double>(settings_.rotation)));
+    for (const prt::Sun& sun : suns())
+        sum = prt::sum(sum, prt::directional_light(order, sun.towards, sun.irradiance));
+    for (const RigLight& light : settings_.lights) {
+        if (!light.on)
+            continue;
+        const glm::vec3 radiance = light.color * (light.strength * unit());
+        if (light.kind == LightKind::cone)
+            sum = prt::sum(
+                sum, prt::cone_light(order, light.direction, static_cast<double>(light.size), radiance));
+        else if (light.kind == LightKind::sphere)
+            sum = prt::sum(sum, prt::cone_light(order, light.direction, sphere_half_angle(light), radiance));
+        else if (light.kind == LightKind::hemisphere)
+            sum = prt::sum(sum, prt::hemisphere_light(order, light.direction, radiance, glm::vec3(0)));
+    }
+    return prt::windowed(sum, settings_.window);
+}
+
+prt::DistantLight LightRig::distant_light() const {
+    const LoadedEnvironment* environment = base();
+    const bool plain = environment && settings_.rotation == 0 &&
+                       std::none_of(settings_.lights.begin(), settings_.lights.end(),
+                                    [](const RigLight& l) { return l.on && l.kind != LightKind::sun; });
+    if (plain)
+        return prt::DistantLight(environment->lat_long, suns());
+    // All in one image, in the axes of the world.
+    prt::Image image{1024, 512, std::vector<glm::vec3>(std::size_t{1024} * 512, glm::vec3(0))};
+    if (environment) {
+        const float c = std::cos(settings_.rotation), s = std::sin(settings_.rotation);
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x) {
+                const glm::vec3 d(prt::lat_long_direction(image.width, image.height, x + 0.5, y + 0.5));
+                image.at(x, y) =
+                    prt::sample_lat_long(environment->lat_long, {c * d.x - s * d.z, d.y, s * d.x + c * d.z});
+            }
+    }
+    for (const RigLight& light : settings_.lights) {
+        if (!light.on)
+            continue;
+        const glm::vec3 radiance = light.color * (light.strength * unit());
+        if (light.kind == LightKind::cone)
+            add_cone(image, light.direction, static_cast<double>(light.size), radiance);
+        else if (light.kind == LightKind::sphere)
+            add_cone(image, light.direction, sphere_half_angle(light), radiance);
+        else if (light.kind == LightKind::hemisphere)
+            for (int y = 0; y < image.height; ++y)
+                for (int x = 0; x < image.width; ++x) {
+                    const glm::vec3 d(prt::lat_long_direction(image.width, image.height, x + 0.5, y + 0.5));
+                    image.at(x, y) += radiance * (0.5f + 0.5f * glm::dot(d, light.direction));
+                }
+    }
+    return prt::DistantLight(std::move(image), suns());
+}
+
+const prt::Image* LightRig::background() const {
+    const LoadedEnvironment* environment = base();
+    return environment ? &environment->lat_long : nullptr;
+}
+
+} // namespace viewer

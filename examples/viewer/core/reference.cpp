@@ -1,0 +1,84 @@
+#include "core/reference.h"
+
+#include "prt/support/parallel.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace viewer {
+namespace {
+
+constexpr int kCoarser = 4; ///< the first picture has so many times fewer pixels along each axis
+
+} // namespace
+
+Reference::~Reference() {
+    stop();
+}
+
+void Reference::stop() {
+    version_ = 0;
+    if (!job_.shared)
+        return;
+    job_.thread.request_stop();
+    retired_.push_back(std::exchange(job_, {}));
+}
+
+void Reference::show(Subject subject) {
+    if (subject.version == version_)
+        return;
+    stop();
+    version_ = subject.version;
+    auto shared = std::make_shared<Shared>();
+    job_.shared = shared;
+    job_.thread = std::jthread([shared, subject = std::move(subject)](const std::stop_token& token) {
+        try {
+            trace(subject, *shared, token);
+        } catch (const prt::Cancelled&) {
+            // another picture is wanted
+        }
+        const std::lock_guard lock(shared->mutex);
+        shared->done = true;
+    });
+}
+
+void Reference::trace(const Subject& subject, Shared& shared, const std::stop_token& stop) {
+    const Model& model = *subject.model;
+    // One thread is left to draw.
+    const int threads = std::max(1, prt::thread_count(0) - 1);
+    const prt::DistantLight light = subject.light();
+    prt::PathTraceOptions coarse = subject.options;
+    coarse.width = std::max(1, coarse.width / kCoarser);
+    coarse.height = std::max(1, coarse.height / kCoarser);
+    for (const prt::PathTraceOptions& options : {coarse, subject.options}) {
+        const bool fine = options.width == subject.options.width;
+        prt::PathTracer tracer(*model.rays, model.scene, *model.surfaces, light, options);
+        const std::vector<bool> surfaces = tracer.surface_mask();
+        for (int pass = 0; pass < (fine ? kMostPasses : 4); ++pass) {
+            tracer.add_pass(threads, stop);
+            const std::lock_guard lock(shared.mutex);
+            shared.result = Result{tracer.image(), surfaces, fine ? tracer.passes() : 0};
+            shared.passes = fine ? tracer.passes() : 0;
+        }
+    }
+}
+
+std::optional<Reference::Result> Reference::take() {
+    std::erase_if(retired_, [](const Job& job) {
+        const std::lock_guard lock(job.shared->mutex);
+        return job.shared->done;
+    });
+    if (!job_.shared)
+        return std::nullopt;
+    const std::lock_guard lock(job_.shared->mutex);
+    return std::exchange(job_.shared->result, std::nullopt);
+}
+
+int Reference::passes() const {
+    if (!job_.shared)
+        return 0;
+    const std::lock_guard lock(job_.shared->mutex);
+    return job_.shared->passes;
+}
+
+} // namespace viewer

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/lobe.h"
+
+#include "prt/gl_objects.h"
+
+#include <glm/mat4x4.hpp>
+
+namespace viewer {
+
+/// Draws coloured meshes in front of what is there.
+class MeshRenderer {
+public:
+    MeshRenderer();
+    void draw(const ColoredMesh& mesh, const glm::mat4& view_projection, std::uint32_t framebuffer) const;
+
+private:
+    prt::GlObject program_;
+};
+
+} // namespace viewer

@@ -1,0 +1,377 @@
+#include "ui/panels.h"
+
+#include "ui/controls.h"
+#include "ui/overlay.h"
+
+#include <fmt/core.h>
+#include <imgui.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <array>
+#include <cfloat>
+#include <string>
+
+namespace viewer {
+namespace {
+
+/// Explains the control before it to a pointer that rests on it.
+void tip(const char* text) {
+    constexpr float kRest = 0.35f; // seconds
+    if (!ImGui::IsItemHovered() || ImGui::GetCurrentContext()->HoveredIdTimer < kRest)
+        return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(scaled(320));
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void line(const char* name, const std::string& value, const char* what = nullptr) {
+    ImGui::TextDisabled("%s", name);
+    if (what && ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", what);
+    ImGui::SameLine(scaled(150));
+    ImGui::TextUnformatted(value.c_str());
+}
+
+void check(const char* label, bool& value, const char* what) {
+    ImGui::Checkbox(label, &value);
+    tip(what);
+}
+
+void choose_picture(const char* label, PictureKind& kind, const Viewer& viewer) {
+    const bool open = ImGui::BeginCombo(label, name_of(kind).title, ImGuiComboFlags_HeightLarge);
+    if (!open)
+        tip("What this side of the line shows. Keys 1 and 2 take the next.");
+    if (open) {
+        for (const PictureName& name : kPictures)
+            if (ImGui::Selectable(name.title, name.kind == kind))
+                kind = name.kind;
+        ImGui::EndCombo();
+    }
+    const std::string note = viewer.shown(kind).note;
+    if (!note.empty())
+        ImGui::TextWrapped("%s", note.c_str());
+}
+
+bool shows_ssao(const Settings& s) {
+    const auto is = [](PictureKind kind) {
+        return kind == PictureKind::ssao || kind == PictureKind::ssao_normals;
+    };
+    return is(s.left) || is(s.right);
+}
+
+void ssao_controls(SsaoSettings& ssao) {
+    ImGui::SliderFloat("AO radius", &ssao.radius, 0.005f, 0.5f, "%.3f", ImGuiSliderFlags_Logarithmic);
+    tip("How far screen-space occlusion looks, as a share of the radius of the scene.");
+    ImGui::SliderFloat("AO bias", &ssao.bias, 0, 0.2f);
+    tip("How much nearer a surface must be to count, as a share of that radius; hides acne on flat walls.");
+    ImGui::SliderFloat("AO intensity", &ssao.intensity, 0.25f, 4);
+    tip("Exponent of the occlusion: above 1 darker.");
+    ImGui::SliderInt("AO samples", &ssao.samples, 2, 64);
+    tip("Depths that are read for each pixel.");
+}
+
+void picture_panel(Viewer& viewer) {
+    Settings& s = viewer.settings;
+    choose_picture("left", s.left, viewer);
+    choose_picture("right", s.right, viewer);
+    check("difference", s.difference, "How far the two pictures are apart, as heat, with its figure. Key D.");
+    ImGui::SameLine();
+    check("wireframe", s.wireframe, "The triangles over both pictures. Key W.");
+    ImGui::SameLine();
+    check("lobe", s.lobe,
+          "The transfer vector of the vertex under the pointer: red adds light, blue takes it. Key L.");
+    if (s.difference) {
+        ImGui::SliderFloat("white", &s.white, 0.01f, 2, "%.2f of the mean", ImGuiSliderFlags_Logarithmic);
+        tip("The difference that is shown white, over the mean radiance of the right picture.");
+    }
+    ImGui::SliderFloat("exposure", &s.exposure_stops, -6, 6, "%+.2f stops");
+    tip("Brighter or darker than what is metered on the model. Keys [ and ].");
+    line("metered", fmt::format("{:+.2f} stops", viewer.automatic_stops()),
+         "What exposure 0 stands for: prt render --exposure takes the sum.");
+    check("background", s.background, "The sky behind the model. Key B.");
+    ImGui::SameLine();
+    check("base colour", s.textured, "Textures and colours; off shows light alone. Key T.");
+    check("deferred", s.deferred, "Through a G-buffer, as many games draw. Key G.");
+    ImGui::SameLine();
+    check("dithered AO", s.dithered, "Hides the steps of five bits of occlusion in the G-buffer.");
+    ImGui::SameLine();
+    check("culling", s.culling, "Leaves out clusters of triangles outside the view. Key C.");
+    if (ImGui::SmallButton("reset camera"))
+        viewer.reset_camera();
+    tip("The whole model, from where it was first seen. Key R.");
+    if (shows_ssao(s))
+        ssao_controls(s.ssao);
+}
+
+std::string sky_name(const Viewer& viewer) {
+    if (viewer.lights.day)
+        return "a clear day";
+    return viewer.lights.environment_on && !viewer.environment_name().empty() ? viewer.environment_name()
+                                                                              : "none";
+}
+
+void choose_sky(Viewer& viewer) {
+    LightSettings& l = viewer.lights;
+    const std::string current = sky_name(viewer);
+    const bool open = ImGui::BeginCombo("sky", current.c_str(), ImGuiComboFlags_HeightLarge);
+    if (!open)
+        tip("A day whose hour can be set, no sky, or an environment map. Drop .hdr and .exr files to add "
+            "some. Key N.");
+    if (!open)
+        return;
+    if (ImGui::Selectable("a clear day", l.day))
+        l.day = true;
+    if (ImGui::Selectable("none", !l.day && !l.environment_on))
+        l.day = l.environment_on = false;
+    const auto& environments = viewer.environments();
+    for (std::size_t i = 0; i < environments.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i)); // files of one name
+        if (ImGui::Selectable(environments[i]->name.c_str(), !l.day && environments[i]->name == current))
+            viewer.use_environment(i);
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
+struct WindowName {
+    const char *title, *what;
+    prt::Window window;
+};
+constexpr std::array<WindowName, 4> kWindows = {
+    {{"auto: no negative light", "The least filter of the bands under which no light is negative.",
+      prt::Window::automatic},
+     {"none", "The bands as they are: sharpest, with dark and coloured rings about strong lights.",
+      prt::Window::none},
+     {"Hann", "Fades the bands out by a raised cosine, whatever the light.", prt::Window::hann},
+     {"Lanczos", "Fades the bands out by a sinc, whatever the light.", prt::Window::lanczos}}};
+
+void choose_window(prt::Window& window) {
+    const auto current = std::find_if(kWindows.begin(), kWindows.end(),
+                                      [&](const WindowName& w) { return w.window == window; });
+    const bool open = ImGui::BeginCombo("window", current->title);
+    if (!open)
+        tip("Spherical harmonics ring about strong lights; a window over their bands tames that. The "
+            "reference needs none.");
+    if (!open)
+        return;
+    for (const WindowName& name : kWindows) {
+        if (ImGui::Selectable(name.title, name.window == window))
+            window = name.window;
+        tip(name.what);
+    }
+    ImGui::EndCombo();
+}
+
+constexpr std::array<std::pair<const char*, LightKind>, 4> kLightKinds = {
+    {{"sun", LightKind::sun},
+     {"cone", LightKind::cone},
+     {"sphere", LightKind::sphere},
+     {"hemisphere", LightKind::hemisphere}}};
+
+/// False where it is to be removed.
+bool light_controls(RigLight& light) {
+    ImGui::Separator();
+    check(kLightKinds[static_cast<std::size_t>(light.kind)].first, light.on,
+          "On or off. Drag its handle to move it.");
+    ImGui::SameLine();
+    ImGui::ColorEdit3("##colour", &light.color.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
+    ImGui::SameLine();
+    const bool remove = ImGui::SmallButton("remove");
+    tip("Takes this light out.");
+    ImGui::SliderFloat("strength", &light.strength, 0, 30, "%.2f", ImGuiSliderFlags_Logarithmic);
+    tip("Over the mean radiance of the sky.");
+    if (light.kind == LightKind::cone) {
+        ImGui::SliderAngle("half angle", &light.size, 1, 90);
+        tip("From the middle of the cone to its edge, seen from the model.");
+    }
+    if (light.kind == LightKind::sphere) {
+        ImGui::SliderFloat("radius", &light.size, 0.02f, 1.5f);
+        tip("Of the sphere, in radii of the scene.");
+        ImGui::SliderFloat("distance", &light.distance, 1.6f, 8);
+        tip("To its centre, in radii of the scene. It lights as from afar: every vertex sees it in one "
+            "direction.");
+    }
+    return !remove;
+}
+
+void light_panel(Viewer& viewer) {
+    LightSettings& l = viewer.lights;
+    choose_sky(viewer);
+    if (l.day) {
+        auto hour = static_cast<float>(l.time.hour), turbidity = static_cast<float>(l.time.turbidity);
+        if (ImGui::SliderFloat("hour", &hour, 0, 24, "%.1f"))
+            l.time.hour = static_cast<double>(hour);
+        tip("Of the equinox at 45 degrees north; the sun is in the south, +Z, at 12.");
+        if (ImGui::SliderFloat("haze", &turbidity, 2, 10, "%.1f"))
+            l.time.turbidity = static_cast<double>(turbidity);
+        tip("Turbidity of the air: 2 clear, 10 hazy.");
+        check("let the day run", viewer.day_runs, "An hour a second. Space.");
+    }
+    choose_window(l.window);
+    ImGui::SliderAngle("turned", &l.rotation, -180, 180);
+    tip("The sky about the vertical. Drag the picture with the right button.");
+    ImGui::TextDisabled("add");
+    for (const auto& [name, kind] : kLightKinds) {
+        ImGui::SameLine();
+        if (ImGui::SmallButton(name))
+            l.lights.push_back(make_light(kind));
+        tip("Adds a distant light of this shape, to be dragged by its handle.");
+    }
+    for (std::size_t i = 0; i < l.lights.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        const bool stays = light_controls(l.lights[i]);
+        ImGui::PopID();
+        if (!stays) {
+            l.lights.erase(l.lights.begin() + static_cast<std::ptrdiff_t>(i));
+            break;
+        }
+    }
+}
+
+void compression_controls(Viewer& viewer) {
+    if (viewer.busy())
+        ImGui::ProgressBar(static_cast<float>(viewer.share()), {-1, 0}, viewer.stage().c_str());
+    if (!viewer.busy() && viewer.has_model()) {
+        if (ImGui::SmallButton("bake anew"))
+            viewer.bake_anew();
+        tip("Traces the model again with three bounces, though its file holds transfer.");
+    }
+    if (viewer.can_save()) {
+        if (!viewer.busy())
+            ImGui::SameLine();
+        if (ImGui::SmallButton("save"))
+            viewer.save();
+        tip("Writes the model with its compressed transfer beside its file, as NAME.shipped.glb; nothing is "
+            "overwritten. "
+            "Key S.");
+    }
+    if (!viewer.has_raw())
+        return;
+    ImGui::SliderInt("order", &viewer.compression.order, 1, viewer.raw_order());
+    tip("Bands of spherical harmonics that are kept: more show sharper shadows.");
+    ImGui::SliderInt("clusters", &viewer.compression.clusters, 1, 1024, "%d", ImGuiSliderFlags_Logarithmic);
+    tip("Groups of vertices with a basis of their own: more are closer, and larger in the file and per "
+        "frame. 256 with 4 components is the preset u32, which gives small models fewer.");
+    ImGui::SliderInt("components", &viewer.compression.components, 0, 16);
+    tip("Weights per vertex: more are closer, and take more bytes and shader time.");
+}
+
+void figure_lines(const Figures& f) {
+    line("frame",
+         fmt::format("{:.1f} ms, {:.0f}/s", f.frame_milliseconds, 1e3 / std::max(f.frame_milliseconds, 1e-3)),
+         "From one frame to the next.");
+    line("GPU, frame", fmt::format("{:.2f} ms", f.gpu_milliseconds), "Both pictures and what is over them.");
+    line("GPU, vertices", fmt::format("{:.3f} ms", f.vertex_milliseconds),
+         "The vertex stage of the right picture.");
+    line("constants", fmt::format("{:.3f} ms", f.constants_milliseconds),
+         "Forming and uploading the constants of all clusters when the light changes.");
+    line("vertices", fmt::format("{}", f.receivers));
+    line("triangles", fmt::format("{} of {}", f.triangles_drawn, f.triangles));
+    if (f.bytes_per_vertex > 0)
+        line("bytes per vertex",
+             fmt::format("{:.0f}, {:.2f} with bases", f.bytes_per_vertex, f.bytes_with_bases),
+             "Of compressed transfer, without and with what all vertices share.");
+    if (f.clusters > 0)
+        line("clusters in use", fmt::format("{}", f.clusters));
+    if (f.raw_bytes > 0)
+        line("uncompressed", fmt::format("{:.0f} a vertex", static_cast<double>(f.raw_bytes) /
+                                                                static_cast<double>(f.receivers)));
+    if (f.reference_passes > 0)
+        line("reference", fmt::format("{} paths per pixel", f.reference_passes));
+}
+
+void transfer_panel(Viewer& viewer) {
+    compression_controls(viewer);
+    figure_lines(viewer.figures());
+}
+
+void lobe_panel(const Viewer& viewer) {
+    const auto& hovered = viewer.hovered();
+    if (!hovered)
+        return;
+    line("vertex", fmt::format("{}", hovered->receiver));
+    if (hovered->cluster >= 0) {
+        line("cluster", fmt::format("{}", hovered->cluster));
+        if (!hovered->weights.empty())
+            ImGui::PlotHistogram("weights", hovered->weights.data(),
+                                 static_cast<int>(hovered->weights.size()), 0, nullptr, -1, 1,
+                                 {0, scaled(50)});
+    }
+    if (!hovered->vector.empty())
+        ImGui::PlotHistogram("transfer", hovered->vector.data(), static_cast<int>(hovered->vector.size()), 0,
+                             nullptr, -0.5f, 0.5f, {0, scaled(60)});
+}
+
+void help_window(bool& open) {
+    ImGui::SetNextWindowPos({scaled(340), scaled(40)}, ImGuiCond_FirstUseEver);
+    if (ImGui::Begin("Help", &open, ImGuiWindowFlags_AlwaysAutoResize)) {
+        line("left drag", "turn; on a light or the split: move it");
+        line("right drag", "turn the environment");
+        line("middle drag, wheel", "move, zoom");
+        line("drop files", "models and environments");
+        line("Escape", "closes what is open");
+        for (const KeyHelp& key : kKeys)
+            line(key.key == ' ' ? "Space" : std::string(1, key.key).c_str(), key.what);
+    }
+    ImGui::End();
+}
+
+void message_window(Viewer& viewer) {
+    if (viewer.messages().empty())
+        return;
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({size.x / 2, scaled(20)}, ImGuiCond_Always, {0.5f, 0});
+    ImGui::SetNextWindowSize({std::min(scaled(620), size.x - scaled(20)), 0});
+    ImGui::Begin("Message", nullptr, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings);
+    for (const std::string& text : viewer.messages())
+        ImGui::TextWrapped("%s", text.c_str());
+    if (ImGui::Button("OK"))
+        viewer.messages().clear();
+    ImGui::End();
+}
+
+} // namespace
+
+void close_topmost(Viewer& viewer) {
+    if (!ImGui::GetCurrentContext()->OpenPopupStack.empty())
+        ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
+    else if (!viewer.messages().empty())
+        viewer.messages().clear();
+    else
+        viewer.settings.help = false;
+}
+
+void draw_panels(Viewer& viewer) {
+    draw_overlay(viewer);
+    if (viewer.settings.panels) {
+        const float margin = scaled(10), width = scaled(310);
+        ImGui::SetNextWindowPos({margin, margin}, ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSize({width, 0}, ImGuiCond_FirstUseEver);
+        ImGui::SetNextWindowSizeConstraints(
+            {0, 0}, {FLT_MAX, std::max(scaled(60), ImGui::GetIO().DisplaySize.y - 2 * margin)});
+        const std::string title = viewer.has_model() ? viewer.model_name() : "prtkit";
+        if (ImGui::Begin((title + "###main").c_str())) {
+            if (!viewer.has_model())
+                ImGui::TextWrapped(
+                    "Drop a model (.glb, .gltf) on this window, and an environment map (.hdr, .exr).");
+            if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen))
+                picture_panel(viewer);
+            if (ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen))
+                light_panel(viewer);
+            if (ImGui::CollapsingHeader("Transfer", ImGuiTreeNodeFlags_DefaultOpen))
+                transfer_panel(viewer);
+            if (viewer.settings.lobe)
+                lobe_panel(viewer);
+            ImGui::TextDisabled("H: help   Tab: hide");
+        }
+        ImGui::End();
+    }
+    if (viewer.settings.help)
+        help_window(viewer.settings.help);
+    message_window(viewer);
+}
+
+} // namespace viewer

@@ -1,0 +1,137 @@
+// Seen from the origin a disc fills an elliptic cone. About the axis of that cone its coefficients are
+// integrals over a quarter of an ellipse, of something smooth (docs/math.md, eq. 34).
+
+#include "prt/light.h"
+#include "prt/sh.h"
+#include "prt/sh_rotation.h"
+#include "prt/support/error.h"
+#include "sh/gauss_legendre.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace prt {
+namespace {
+
+using detail::kPi;
+using Coefficients = std::array<double, kMaxOrder * kMaxOrder>;
+
+/// { z > 0, (x / wide)² + (y / narrow)² <= z² } in a frame whose axes are the columns of `frame`.
+struct EllipticCone {
+    glm::dmat3 frame;
+    double wide, narrow; ///< tangents of its half angles, wide >= narrow
+};
+
+/// Of the disc's centre from the foot of the origin on its plane: the direction in the plane, and how far.
+/// Where the centre is next to the foot the difference of the two is rounding, of any direction, and it
+/// leaves the plane. So what leaves it is taken out, and what only rounding can be is no offset.
+std::pair<glm::dvec3, double> sideways(const glm::dvec3& centre, const glm::dvec3& normal, double height) {
+    constexpr double kRounding = 1e-12; // of the height, and 1000 times that of doubles
+    const auto in_plane = [&](const glm::dvec3& v) { return v - glm::dot(v, normal) * normal; };
+    const glm::dvec3 lateral = in_plane(centre + height * normal);
+    const double offset = glm::length(lateral);
+    if (offset > kRounding * height)
+        return {glm::normalize(in_plane(lateral / offset)), offset};
+    const glm::dvec3 other = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    return {glm::normalize(glm::cross(other, normal)), 0};
+}
+
+/// `normal` points from the disc to the side of the origin, which is `height` > 0 above it.
+EllipticCone cone_through(const glm::dvec3& centre, const glm::dvec3& normal, double height, double radius) {
+    const auto [side, offset] = sideways(centre, normal, height);
+    // In the plane of symmetry the rim's nearest and farthest points are seen at angles a1 and a2 from the
+    // direction straight down, tan a = (offset -+ radius) / height. Of their difference and sum, without
+    // cancellation:
+    const double beyond = (offset - radius) * (offset + radius);
+    const double half_angle = 0.5 * std::atan2(2 * radius * height, beyond + height * height);
+    const double elevation = 0.5 * std::atan2(2 * offset * height, beyond - height * height); // of the axis
+    const double sine = std::sin(elevation), cosine = std::cos(elevation);
+    // Where the axis meets the disc's plane, half of the chord across, from the two pieces of the diameter.
+    const double meets = height * cosine / sine;
+    const double chord = std::sqrt(std::max(0.0, (meets - (offset - radius)) * (offset + radius - meets)));
+    const double in_plane = std::tan(half_angle), across = chord * sine / height;
+    const glm::dvec3 axis = cosine * side - sine * normal, in = sine * side + cosine * normal,
+                     out = glm::cross(axis, in);
+    if (in_plane >= across)
+        return {glm::dmat3(in, out, axis), in_plane, across};
+    return {glm::dmat3(out, -in, axis), across, in_plane};
+}
+
+/// Adds the integral over the angles from 0 to where the rim is at parameter `t`, times `weight`, of the
+/// functions that do not change sign from quarter to quarter: those of even m >= 0. The rim is
+/// (wide cos t, narrow sin t, 1), and the azimuth's share of dt is wide narrow / distance².
+void add_ray(const EllipticCone& cone, double t, double weight, const GaussLegendre& nodes,
+             Coefficients& sum) {
+    const double x = cone.wide * std::cos(t), y = cone.narrow * std::sin(t), distance = std::hypot(x, y);
+    if (!(distance > 0))
+        return;
+    const double azimuth_share = (cone.wide / distance) * (cone.narrow / distance);
+    const double angle = std::atan(distance);
+    std::array<double, kMaxOrder * kMaxOrder> basis;
+    for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
+        const double theta = 0.5 * angle * (1 + nodes.nodes[k]), sine = std::sin(theta);
+        evaluate_sh(kMaxOrder, glm::dvec3(sine * x / distance, sine * y / distance, std::cos(theta)),
+                    std::span<double>(basis));
+        const double share = weight * azimuth_share * 0.5 * angle * nodes.weights[k] * sine;
+        for (int l = 0; l < kMaxOrder; ++l)
+            for (int m = 0; m <= l; m += 2)
+                sum[static_cast<std::size_t>(sh_index(l, m))] +=
+                    share * basis[static_cast<std::size_t>(sh_index(l, m))];
+    }
+}
+
+/// About the axis of the cone. Where it is wide in one direction the integrand changes within
+/// max(narrow, 1) / wide of t = pi/2, so that intervals halve towards it as often as that takes.
+Coefficients covered(const EllipticCone& cone) {
+    constexpr int kMostHalvings = 50; // beyond, less than rounding is left
+    static const GaussLegendre nodes(16);
+    const double width = std::max(cone.narrow, 1.0) / cone.wide;
+    const int halvings =
+        width < 1 ? std::clamp(static_cast<int>(std::ceil(-std::log2(width))), 0, kMostHalvings) : 0;
+    Coefficients sum{};
+    for (int interval = 0; interval <= halvings + 1; ++interval) {
+        // Distances from pi/2.
+        const double far = 0.5 * kPi * std::exp2(-interval), near = interval == halvings + 1 ? 0 : 0.5 * far;
+        for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
+            const double from_end = near + 0.5 * (far - near) * (1 + nodes.nodes[k]);
+            add_ray(cone, 0.5 * kPi - from_end, 4 * 0.5 * (far - near) * nodes.weights[k], nodes, sum);
+        }
+    }
+    return sum;
+}
+
+} // namespace
+
+Light disc_light(int order, const glm::vec3& centre, const glm::vec3& normal, double radius,
+                 const glm::vec3& radiance) {
+    check_order(order);
+    if (!(radius > 0 && std::isfinite(radius)))
+        throw Error("the radius of a disc light must be positive and finite");
+    const double length = glm::length(glm::dvec3(normal));
+    if (!(length > 0 && std::isfinite(length)))
+        throw Error("a disc light needs a normal, not a vector of length " + std::to_string(length));
+    const glm::dvec3 n = glm::dvec3(normal) / length, c(centre);
+    const double height = -glm::dot(n, c);
+    if (!std::isfinite(height))
+        throw Error("the centre of a disc light must be finite");
+    Light light{order,
+                std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)), glm::vec3(0))};
+    if (!(height > 0)) // the origin is behind it
+        return light;
+    const EllipticCone cone = cone_through(c, n, height, radius);
+    if (!(cone.narrow > 0)) // edge on, to rounding
+        return light;
+    const Coefficients about_axis = covered(cone);
+    Coefficients sum{};
+    ShRotation(kMaxOrder, cone.frame).apply(std::span<const double>(about_axis), std::span<double>(sum));
+    for (std::size_t i = 0; i < light.coefficients.size(); ++i)
+        light.coefficients[i] = glm::vec3(glm::dvec3(radiance) * sum[i]);
+    return light;
+}
+
+} // namespace prt

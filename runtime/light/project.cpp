@@ -1,0 +1,208 @@
+// Projection of environment maps into SH (docs/math.md, section 3).
+//
+// A lat-long image is a product of rows and columns about its own poles, so its integral separates: per row a
+// short Fourier sum of the pixels, then the associated Legendre functions integrated over the row. That costs
+// 2N-1 instead of N² multiply-adds per pixel and channel. The image's pole is +Y and the basis's is +Z, hence
+// one exact rotation at the end.
+
+#include "light/projection.h"
+#include "prt/environment.h"
+#include "prt/sh.h"
+#include "prt/sh_rotation.h"
+#include "prt/support/error.h"
+#include "prt/support/parallel.h"
+#include "prt/support/vector_lanes.h"
+#include "sh/gauss_legendre.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace prt {
+
+using detail::kPi;
+
+namespace {
+
+/// Per row of a lat-long image, Fourier sums over its pixels, exact for pixels of constant colour:
+/// sum over pixels of L(pixel) ∫ cos(m phi) dphi, and the same with sin.
+struct RowFourier {
+    std::array<glm::dvec3, kMaxOrder> cosine{}, sine{};
+};
+
+/// The azimuth in the image's polar frame (x', y', z') = (z, x, y) equals the longitude. Holds for each m and
+/// column cos(m phi) and sin(m phi) at the column's centre. Where the width is a multiple of four, columns at
+/// phi, -phi, pi - phi and phi - pi share them up to signs: a quarter of the columns will do.
+struct ColumnTables {
+    bool folded;
+    std::size_t columns;
+    std::vector<double> cosine, sine; ///< [m][columns]
+
+    ColumnTables(int order, int width)
+        : folded(width % 4 == 0), columns(static_cast<std::size_t>(folded ? width / 4 : width)) {
+        for (int m = 0; m < order; ++m)
+            for (std::size_t x = 0; x < columns; ++x) {
+                const double phi = 2 * kPi * (0.5 - (static_cast<double>(x) + 0.5) / width);
+                cosine.push_back(std::cos(m * phi));
+                sine.push_back(std::sin(m * phi));
+            }
+    }
+};
+
+/// What is multiplied with the cosines and sines of even and of odd m: [part][channel][columns].
+enum Part { even_cosine, odd_cosine, even_sine, odd_sine, kParts };
+using Wide [[gnu::vector_size(sizeof(double) * 8)]] = double;
+using WideInMemory [[gnu::vector_size(sizeof(double) * 8), gnu::aligned(8), gnu::may_alias]] = double;
+
+/// Sum of `values` times `factors` for three channels `stride` apart.
+[[gnu::always_inline]] inline glm::dvec3 weighted_sum(const double* values, std::size_t stride,
+                                                      const double* factors, std::size_t count) {
+    Wide wide[3] = {};
+    std::size_t x = 0;
+    for (; x + 8 <= count; x += 8) {
+        const Wide f = *reinterpret_cast<const WideInMemory*>(factors + x);
+        for (std::size_t c = 0; c < 3; ++c)
+            wide[c] += f * *reinterpret_cast<const WideInMemory*>(values + c * stride + x);
+    }
+    glm::dvec3 sum(0);
+    for (int c = 0; c < 3; ++c)
+        for (int lane = 0; lane < 8; ++lane)
+            sum[c] += wide[c][lane];
+    for (; x < count; ++x)
+        for (int c = 0; c < 3; ++c)
+            sum[c] += values[static_cast<std::size_t>(c) * stride + x] * factors[x];
+    return sum;
+}
+
+/// `parts` [kParts][3][columns] of a row of pixels.
+[[gnu::always_inline]] inline void fold_row(const glm::vec3* row, const ColumnTables& tables, double* parts) {
+    const std::size_t n = tables.columns;
+    for (std::size_t x = 0; x < n; ++x)
+        for (int channel = 0; channel < 3; ++channel) {
+            const auto at = [&](std::size_t column) { return static_cast<double>(row[column][channel]); };
+            double* to = parts + static_cast<std::size_t>(channel) * n + x;
+            double value[kParts];
+            if (tables.folded) {
+                const double ahead = at(x) + at(4 * n - 1 - x), behind = at(2 * n - 1 - x) + at(2 * n + x);
+                const double left = at(x) - at(4 * n - 1 - x), right = at(2 * n - 1 - x) - at(2 * n + x);
+                value[even_cosine] = ahead + behind;
+                value[odd_cosine] = ahead - behind;
+                value[even_sine] = left - right;
+                value[odd_sine] = left + right;
+            } else {
+                std::fill_n(value, kParts, at(x));
+            }
+            for (std::size_t part = 0; part < kParts; ++part)
+                to[part * 3 * n] = value[part];
+        }
+}
+
+/// `parts` is room for a folded row.
+PRT_TARGET_CLONES
+void row_fourier(const glm::vec3* row, int width, int order, const ColumnTables& tables, double* parts,
+                 RowFourier& result) {
+    fold_row(row, tables, parts);
+    const std::size_t n = tables.columns;
+    for (std::size_t m = 0; m < static_cast<std::size_t>(order); ++m) {
+        // ∫ over a column of width d about phi: cos(m phi) 2 sin(m d / 2) / m.
+        const double d = 2 * kPi / width, md = static_cast<double>(m);
+        const double extent = m == 0 ? d : 2 * std::sin(0.5 * md * d) / md;
+        const std::size_t odd = m % 2;
+        result.cosine[m] =
+            extent * weighted_sum(parts + (even_cosine + odd) * 3 * n, n, &tables.cosine[m * n], n);
+        result.sine[m] = extent * weighted_sum(parts + (even_sine + odd) * 3 * n, n, &tables.sine[m * n], n);
+    }
+}
+
+/// ∫ over the row of Q_l^m(cos theta) sin^m(theta) sin(theta) dtheta, at [sh_index(l, m)], m >= 0: the basis
+/// at azimuth 0 holds the Legendre part.
+std::array<double, kMaxOrder * kMaxOrder> row_legendre(int order, double theta0, double theta1,
+                                                       const GaussLegendre& quadrature) {
+    std::array<double, kMaxOrder * kMaxOrder> sum{}, basis{};
+    for (std::size_t q = 0; q < quadrature.nodes.size(); ++q) {
+        const double theta = 0.5 * (theta0 + theta1) + 0.5 * (theta1 - theta0) * quadrature.nodes[q];
+        const double weight = 0.5 * (theta1 - theta0) * quadrature.weights[q] * std::sin(theta);
+        evaluate_sh(order, glm::dvec3(std::sin(theta), 0, std::cos(theta)), std::span<double>(basis));
+        for (std::size_t i = 0; i < sum.size(); ++i)
+            sum[i] += weight * basis[i];
+    }
+    return sum;
+}
+
+ProjectedColours project_lat_long(const Environment& environment, int order, int threads) {
+    const Image& image = environment.image;
+    const ColumnTables tables(order, image.width);
+    const GaussLegendre quadrature(kPi / image.height > 0.2 ? 24 : 3); // as in points_for
+    const auto height = static_cast<std::size_t>(image.height);
+    std::vector<ProjectedColours> rows(height);
+    parallel_for(height, 8, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<double> parts(kParts * 3 * tables.columns);
+        for (std::size_t y = begin; y < end; ++y) {
+            RowFourier fourier;
+            row_fourier(&image.pixels[y * static_cast<std::size_t>(image.width)], image.width, order, tables,
+                        parts.data(), fourier);
+            const double row = static_cast<double>(y);
+            const auto legendre =
+                row_legendre(order, kPi * row / image.height, kPi * (row + 1) / image.height, quadrature);
+            for (int l = 0; l < order; ++l) {
+                for (int m = 0; m <= l; ++m) {
+                    const auto i = static_cast<std::size_t>(sh_index(l, m));
+                    rows[y][i] = legendre[i] * fourier.cosine[static_cast<std::size_t>(m)];
+                    if (m > 0)
+                        rows[y][static_cast<std::size_t>(sh_index(l, -m))] =
+                            legendre[i] * fourier.sine[static_cast<std::size_t>(m)];
+                }
+            }
+        }
+    });
+    ProjectedColours polar{};
+    for (const ProjectedColours& row : rows)
+        for (std::size_t i = 0; i < polar.size(); ++i)
+            polar[i] += row[i];
+
+    // From the image's polar frame to ours: columns are the images of x', where the centre looks, y' to its
+    // left and z' up.
+    const glm::dmat3 frame = environment.centre == LatLongCentre::z
+                                 ? glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0))
+                                 : glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0));
+    const ShRotation to_world(order, frame);
+    ProjectedColours result{};
+    for (int channel = 0; channel < 3; ++channel) {
+        std::array<double, kMaxOrder * kMaxOrder> in{}, out{};
+        for (std::size_t i = 0; i < in.size(); ++i)
+            in[i] = polar[i][channel];
+        to_world.apply(std::span<const double>(in), std::span<double>(out));
+        for (std::size_t i = 0; i < in.size(); ++i)
+            result[i][channel] = out[i];
+    }
+    return result;
+}
+
+ProjectedColours project_layout(const Environment& environment, int order, int threads) {
+    switch (environment.layout) {
+    case EnvironmentLayout::cube:
+    case EnvironmentLayout::cube_faces:
+        return project_cube(environment, order, threads);
+    case EnvironmentLayout::angular:
+        return project_angular(environment.image, order, threads);
+    case EnvironmentLayout::lat_long:
+        break;
+    }
+    return project_lat_long(environment, order, threads);
+}
+
+} // namespace
+
+Light project(const Environment& environment, int order, int threads) {
+    check_order(order);
+    check_environment(environment);
+    const ProjectedColours coefficients = project_layout(environment, order, threads);
+    Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)))};
+    for (std::size_t i = 0; i < light.coefficients.size(); ++i)
+        light.coefficients[i] = glm::vec3(coefficients[i]);
+    return light;
+}
+
+} // namespace prt

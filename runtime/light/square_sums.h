@@ -1,0 +1,144 @@
+#pragma once
+
+// Sums over square images: the faces of a cube, and angular maps (docs/math.md, section 3).
+//
+// In the frame of a square (x right, y down, z where its centre looks) the basis functions are even or odd in
+// x and in y. So the basis is integrated over the texels of a quarter, once for all faces, and four mirrored
+// pixels are added up with their signs before they are multiplied with it. A rotation per face ends it.
+
+#include "light/projection.h"
+#include "prt/support/parallel.h"
+#include "prt/support/vector_lanes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace prt {
+
+/// A stretch along one axis, in coordinates [-1, 1] of a square.
+struct Cell {
+    double begin, end;
+
+    double at(double node) const { return 0.5 * (begin + end + (end - begin) * node); }
+    double half() const { return 0.5 * (end - begin); }
+};
+
+inline Cell even_cell(int size, int i) {
+    return {2.0 * i / size - 1, 2.0 * (i + 1) / size - 1};
+}
+
+/// A direction in the frame of the square, and its share of the solid angle.
+struct Node {
+    glm::dvec3 direction;
+    double weight;
+};
+
+/// The basis integrated over the texels of half a row; the stride is a multiple of the lanes.
+struct RowOfTexels {
+    std::size_t count, stride, points;
+    std::vector<glm::vec3> directions; ///< [points][stride]
+    std::vector<float> weights;        ///< [points][stride]
+    std::vector<float> basis;          ///< [order²][points][stride]
+    std::vector<float> texels;         ///< [order²][stride]
+
+    RowOfTexels(int order, std::size_t texels_of_row, std::size_t points_of_texel)
+        : count(texels_of_row), stride((count + kLaneCount - 1) / kLaneCount * kLaneCount),
+          points(points_of_texel), directions(points * stride, glm::vec3(0, 0, 1)),
+          weights(points * stride, 0.0f),
+          basis(static_cast<std::size_t>(coefficient_count(order)) * points * stride),
+          texels(static_cast<std::size_t>(coefficient_count(order)) * stride) {}
+
+    void put(std::size_t texel, std::size_t point, const Node& node) {
+        directions[point * stride + texel] = glm::vec3(node.direction);
+        weights[point * stride + texel] = static_cast<float>(node.weight);
+    }
+    /// From directions and weights to `texels`.
+    void integrate(int order);
+};
+
+/// Sums of four mirrored pixels of rows `row` and size - 1 - row: even or odd in x, even or odd in y.
+/// [2 y + x][channel][stride]
+void fold(const glm::vec3* above, const glm::vec3* below, int size, int row, std::size_t stride,
+          float* parts);
+
+/// Sums of the products of functions and pixels that have not been added up yet, lane by lane.
+inline constexpr std::size_t kSumLanes = 8;
+struct LaneSums {
+    float at[kMaxOrder * kMaxOrder][3][kSumLanes] = {};
+};
+
+/// Indices of the functions, those of the same signs in x and in y next to one another. cos(m phi) is even in
+/// y and, where m is even, in x; sin(m phi) is odd in y and, where m is odd, even in x.
+struct BySigns {
+    std::array<std::size_t, kMaxOrder * kMaxOrder> index;
+    std::array<std::size_t, 5> first{}; ///< of part 2 odd_y + odd_x
+
+    explicit BySigns(int order) {
+        std::size_t count = 0;
+        for (std::size_t part = 0; part < 4; ++part) {
+            for (int l = 0; l < order; ++l)
+                for (int m = -l; m <= l; ++m) {
+                    const bool odd_y = m < 0, odd_x = (m % 2 != 0) != odd_y;
+                    if (part == std::size_t{2} * odd_y + odd_x)
+                        index[count++] = static_cast<std::size_t>(sh_index(l, m));
+                }
+            first[part + 1] = count;
+        }
+    }
+};
+
+/// Adds the products of every function with the part that has its signs.
+void multiply_parts(const BySigns& functions, std::size_t stride, const float* texels, const float* parts,
+                    LaneSums& sums);
+
+/// Adds the products of all functions with one part.
+void multiply_all(const BySigns& functions, std::size_t stride, const float* texels, const float* part,
+                  LaneSums& sums);
+
+void add_lanes(std::size_t functions, const LaneSums& sums, ProjectedColours& result);
+
+/// Adds `square`, whose axes are `right`, `down` and `outward`, to `result`.
+void add_square(const ProjectedColours& square, const glm::dvec3& right, const glm::dvec3& down,
+                const glm::dvec3& outward, int order, ProjectedColours& result);
+
+/// Rows whose sums are added up in float, and blocks of them that share their memory.
+inline constexpr std::size_t kRowsOfBlock = 8, kBlocksOfTask = 2;
+
+/// Projects the squares of `size` pixels that lie in a column, each in its own frame. `put_row(row, texels)`
+/// fills in directions and weights; `fold_row(square, row, stride, parts)` folds pixels.
+template <class PutRow, class FoldRow>
+std::vector<ProjectedColours> project_squares(int size, int squares, std::size_t points, int order,
+                                              int threads, PutRow&& put_row, FoldRow&& fold_row) {
+    const auto half = static_cast<std::size_t>((size + 1) / 2), columns = static_cast<std::size_t>(squares);
+    const auto functions = static_cast<std::size_t>(coefficient_count(order));
+    const std::size_t blocks = (half + kRowsOfBlock - 1) / kRowsOfBlock;
+    const BySigns by_signs(order);
+    std::vector<ProjectedColours> sums(blocks * columns);
+    parallel_for(blocks, kBlocksOfTask, threads, [&](std::size_t begin, std::size_t end) {
+        RowOfTexels row(order, half, points);
+        std::vector<float> parts(12 * row.stride, 0.0f);
+        for (std::size_t block = begin; block < end; ++block) {
+            std::vector<LaneSums> lanes(columns);
+            for (std::size_t y = block * kRowsOfBlock; y < std::min(half, (block + 1) * kRowsOfBlock); ++y) {
+                put_row(static_cast<int>(y), row);
+                row.integrate(order);
+                for (std::size_t square = 0; square < columns; ++square) {
+                    fold_row(static_cast<int>(square), static_cast<int>(y), row.stride, parts.data());
+                    multiply_parts(by_signs, row.stride, row.texels.data(), parts.data(), lanes[square]);
+                }
+            }
+            for (std::size_t square = 0; square < columns; ++square)
+                add_lanes(functions, lanes[square], sums[block * columns + square]);
+        }
+    });
+    std::vector<ProjectedColours> result(columns);
+    for (std::size_t block = 0; block < blocks; ++block)
+        for (std::size_t square = 0; square < columns; ++square)
+            for (std::size_t i = 0; i < functions; ++i)
+                result[square][i] += sums[block * columns + square][i];
+    return result;
+}
+
+} // namespace prt

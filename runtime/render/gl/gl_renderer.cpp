@@ -1,0 +1,150 @@
+#include "prt/gl_renderer.h"
+
+#include "prt/gl_scene.h"
+#include "prt/support/error.h"
+#include "shared_layout.h"
+
+#include <epoxy/gl.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+namespace prt {
+namespace {
+
+/// Colour and depth, both float, as large as the samples of the picture.
+struct Target {
+    GlObject color, depth, framebuffer;
+    int width, height;
+
+    explicit Target(const Picture& picture)
+        : width(picture.width * picture.samples), height(picture.height * picture.samples) {
+        GLint largest = 0;
+        glGetIntegerv(GL_MAX_TEXTURE_SIZE, &largest);
+        if (width > largest || height > largest)
+            throw Error("the picture with its samples is " + std::to_string(width) + " x " +
+                        std::to_string(height) + ", but this device draws at most " +
+                        std::to_string(largest) + " x " + std::to_string(largest));
+        color = make_texture_2d(1, GL_RGBA32F, width, height);
+        depth = make_texture_2d(1, GL_DEPTH_COMPONENT32F, width, height);
+        GLuint name = 0;
+        glCreateFramebuffers(1, &name);
+        framebuffer = GlObject(GlKind::framebuffer, name);
+        glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, color.name(), 0);
+        glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth.name(), 0);
+        if (glCheckNamedFramebufferStatus(name, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+            throw Error("this device cannot draw into float textures");
+    }
+
+    Image read() const {
+        Image image{width, height, {}};
+        image.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer.name());
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glReadPixels(0, 0, width, height, GL_RGB, GL_FLOAT, image.pixels.data());
+        check_gl("reading the picture back");
+        for (int y = 0; y < height / 2; ++y) // OpenGL's rows start at the bottom
+            std::swap_ranges(&image.at(0, y), &image.at(0, y) + width, &image.at(0, height - 1 - y));
+        return image;
+    }
+};
+
+class GlRenderer {
+public:
+    explicit GlRenderer(const Picture& picture)
+        : picture_(picture), target_(picture), scene_(*picture.scene, picture.textures),
+          arrays_(scene_.make_vertex_arrays()) {
+        if (picture.transfer) {
+            transfer_.emplace(*picture.transfer);
+            transfer_->set_light(*picture.light);
+            for (std::size_t i = 0; i < arrays_.size(); ++i)
+                transfer_->attach(arrays_[i].name(), picture.scene->vertex_arrays[i].first_receiver);
+        } else {
+            radiance_ = make_buffer(picture.radiance);
+            scene_.attach_receivers(arrays_, radiance_, PRT_LOCATION_RADIANCE, 3);
+        }
+        program_ = make_program("scene.vert", "scene.frag", transfer_ ? transfer_->defines() : "");
+    }
+
+    Image render() {
+        glBindFramebuffer(GL_FRAMEBUFFER, target_.framebuffer.name());
+        glViewport(0, 0, target_.width, target_.height);
+        constexpr float kBlack[4] = {0, 0, 0, 1}, kFar = 1;
+        glClearNamedFramebufferfv(target_.framebuffer.name(), GL_COLOR, 0, kBlack);
+        glClearNamedFramebufferfv(target_.framebuffer.name(), GL_DEPTH, 0, &kFar);
+        draw_background();
+        set_common_uniforms();
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_LESS);
+        draw_primitives();
+        check_gl("drawing");
+        return target_.read();
+    }
+
+private:
+    void draw_background() const {
+        if (!picture_.background)
+            return;
+        const GlObject texture = make_background(*picture_.background);
+        const GlObject program = make_program("background.vert", "background.frag");
+        const CameraFrame frame = camera_frame(picture_.camera);
+        const double aspect = static_cast<double>(picture_.width) / picture_.height;
+        const glm::vec3 forward(frame.forward), right(frame.right * (frame.half_height * aspect)),
+            up(frame.up * frame.half_height);
+        glUseProgram(program.name());
+        glUniform3fv(uniform(program, "forward"), 1, glm::value_ptr(forward));
+        glUniform3fv(uniform(program, "right"), 1, glm::value_ptr(right));
+        glUniform3fv(uniform(program, "up"), 1, glm::value_ptr(up));
+        glUniform1f(uniform(program, "rotation"), picture_.background_rotation);
+        glBindTextureUnit(PRT_UNIT_BACKGROUND, texture.name());
+        GLuint empty = 0;
+        glCreateVertexArrays(1, &empty);
+        const GlObject vertex_array(GlKind::vertex_array, empty);
+        glBindVertexArray(empty);
+        glDisable(GL_DEPTH_TEST);
+        glDisable(GL_CULL_FACE);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
+
+    void set_common_uniforms() const {
+        glUseProgram(program_.name());
+        const float aspect = static_cast<float>(picture_.width) / static_cast<float>(picture_.height);
+        const glm::mat4 matrix = view_projection(picture_.camera, bounds(*picture_.scene), aspect);
+        glUniformMatrix4fv(uniform(program_, "view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
+        glUniform1i(uniform(program_, "textured"), picture_.textured);
+        if (transfer_)
+            transfer_->use();
+    }
+
+    void draw_primitives() {
+        for (std::size_t p = 0; p < picture_.scene->primitives.size(); ++p)
+            if (!picture_.textured || !scene_.is_blended(picture_.scene->primitives[p]))
+                scene_.draw(program_, arrays_, p);
+        if (!picture_.textured)
+            return;
+        glEnable(GL_BLEND);
+        glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+        glDepthMask(GL_FALSE);
+        for (const std::size_t p : scene_.blended_from_far(picture_.camera.position))
+            scene_.draw(program_, arrays_, p);
+        glDepthMask(GL_TRUE);
+        glDisable(GL_BLEND);
+    }
+
+    const Picture& picture_;
+    Target target_;
+    GlScene scene_;
+    GlVertexArrays arrays_;
+    std::optional<GlTransfer> transfer_;
+    GlObject radiance_, program_;
+};
+
+} // namespace
+
+Image render_gl(const Picture& picture, const GlContext&) {
+    return GlRenderer(picture).render();
+}
+
+} // namespace prt

@@ -1,0 +1,64 @@
+#pragma once
+
+// OpenGL objects that delete themselves, and programs from the shaders of prtkit. A context must be current.
+
+#include "prt/support/error.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <utility>
+
+namespace prt {
+
+enum class GlKind { buffer, texture, framebuffer, vertex_array, program };
+
+/// A name of OpenGL and the duty to delete it.
+class GlObject {
+public:
+    GlObject() = default;
+    GlObject(GlKind kind, std::uint32_t name) : kind_(kind), name_(name) {}
+    GlObject(GlObject&& other) noexcept : kind_(other.kind_), name_(std::exchange(other.name_, 0)) {}
+    GlObject& operator=(GlObject&& other) noexcept {
+        std::swap(kind_, other.kind_);
+        std::swap(name_, other.name_);
+        return *this;
+    }
+    ~GlObject();
+
+    std::uint32_t name() const { return name_; }
+
+private:
+    GlKind kind_ = GlKind::buffer;
+    std::uint32_t name_ = 0;
+};
+
+/// An immutable buffer with `bytes`. Throws `Error` when the device has no room for it.
+GlObject make_buffer(std::span<const std::byte> bytes);
+template <class T>
+GlObject make_buffer(std::span<const T> values) {
+    return make_buffer(std::as_bytes(values));
+}
+
+/// A program of two files of shaders/, with lines of `defines` before them. `captured`: an output of the
+/// vertex shader that transform feedback records. Throws `Error` with the compiler's words when the driver
+/// refuses it.
+GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines = "",
+                      const char* captured = nullptr);
+
+/// A compute program of a file of shaders/.
+GlObject make_compute_program(const std::string& compute, const std::string& defines = "");
+
+/// Where `program` has the uniform `name`; -1 where it has none, which OpenGL ignores when it is set.
+int uniform(const GlObject& program, const char* name);
+
+/// Work that is cut smaller may still fit.
+struct GpuOutOfMemory : Error {
+    using Error::Error;
+};
+
+/// Throws `Error` naming `what` when OpenGL has noted an error, such as memory running out.
+void check_gl(const char* what);
+
+} // namespace prt

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "prt/constant_former.h"
+#include "prt/gl_context.h"
+#include "prt/gl_objects.h"
+#include "prt/support/glm_layout.h"
+
+#include <glm/vec3.hpp>
+
+#include <string>
+#include <vector>
+
+namespace prt {
+
+/// Compressed transfer on the GPU: the program's view of `shaders/prt_exit_radiance.glsl`.
+class GlTransfer {
+public:
+    /// Uploads clusters and weights. Throws `Error` where they do not fit the attributes of a vertex.
+    explicit GlTransfer(const ClusteredTransfer& transfer);
+
+    /// Defines for shaders that include prt_exit_radiance.glsl.
+    const std::string& defines() const { return defines_; }
+    /// Forms the constants for `light` and uploads them.
+    void set_light(const Light& light);
+    /// Points the attributes of `vertex_array` at the receivers from `first` on.
+    void attach(std::uint32_t vertex_array, std::size_t first) const;
+    /// Binds the constants and the table of clusters.
+    void use() const;
+    /// Bytes that it takes on the GPU.
+    std::size_t bytes() const { return bytes_; }
+
+private:
+    WeightFormat format_;
+    int weight_vectors_ = 0, words_ = 0;
+    std::string defines_;
+    ConstantFormer former_;
+    std::vector<glm::vec4> formed_;
+    GlObject clusters_, weights_, layouts_, constants_;
+    std::size_t bytes_ = 0;
+};
+
+/// The exit radiance that the vertex shader computes, read back: [receivers].
+std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Light& light,
+                                        const GlContext& context);
+
+} // namespace prt

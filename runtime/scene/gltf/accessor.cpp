@@ -1,0 +1,187 @@
+#include "gltf/accessor.h"
+
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <string>
+
+namespace prt {
+namespace {
+
+/// Without a buffer view an accessor is zeros, so nothing but this bounds what its count makes us allocate.
+constexpr std::size_t kMostElementsWithoutData = std::size_t{1} << 26;
+
+std::string accessor_name(int accessor) {
+    return "accessor " + std::to_string(accessor);
+}
+
+template <class Value>
+Value load(const std::byte* from) {
+    Value value;
+    std::memcpy(&value, from, sizeof value);
+    return value;
+}
+
+/// Copies `count` elements of `size` bytes that lie `stride` apart from `offset` on. Throws when they do not
+/// fit.
+void copy_strided(std::span<const unsigned char> from, std::size_t offset, std::size_t stride,
+                  std::size_t size, std::size_t count, std::byte* to, const std::string& name) {
+    if (count == 0)
+        return;
+    if (offset > from.size() || size > from.size() - offset ||
+        (count - 1) > (from.size() - offset - size) / stride)
+        throw Error(name + " reaches outside its buffer view: " + std::to_string(count) + " elements of " +
+                    std::to_string(size) + " bytes from " + std::to_string(offset) + " on, in " +
+                    std::to_string(from.size()) + " bytes");
+    for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(to + i * size, from.data() + offset + i * stride, size);
+}
+
+const tinygltf::Accessor& get_accessor(const tinygltf::Model& model, int index) {
+    if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size())
+        throw Error(accessor_name(index) + " is not there");
+    return model.accessors[static_cast<std::size_t>(index)];
+}
+
+std::size_t element_bytes(const tinygltf::Accessor& accessor) {
+    return component_bytes(accessor.componentType) * static_cast<std::size_t>(component_count(accessor.type));
+}
+
+void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
+                  std::vector<std::byte>& elements, const std::string& name) {
+    const auto& sparse = accessor.sparse;
+    if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count)
+        throw Error(name + " replaces more elements than it has");
+    const auto count = static_cast<std::size_t>(sparse.count);
+    const std::size_t size = element_bytes(accessor);
+    const std::size_t index_size = component_bytes(sparse.indices.componentType);
+    std::vector<std::byte> indices(count * index_size), values(count * size);
+    copy_strided(buffer_view_bytes(model, sparse.indices.bufferView),
+                 static_cast<std::size_t>(std::max(0, sparse.indices.byteOffset)), index_size, index_size,
+                 count, indices.data(), name);
+    copy_strided(buffer_view_bytes(model, sparse.values.bufferView),
+                 static_cast<std::size_t>(std::max(0, sparse.values.byteOffset)), size, size, count,
+                 values.data(), name);
+    with_component_type(sparse.indices.componentType, [&](auto type) {
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto index = static_cast<std::size_t>(load<decltype(type)>(&indices[i * sizeof type]));
+            if (index >= accessor.count)
+                throw Error(name + " replaces element " + std::to_string(index) + " of " +
+                            std::to_string(accessor.count));
+            std::memcpy(&elements[index * size], &values[i * size], size);
+        }
+    });
+}
+
+void check_components(const tinygltf::Accessor& accessor, int components, const std::string& name) {
+    if (component_count(accessor.type) != components)
+        throw Error(name + " has " + std::to_string(component_count(accessor.type)) + " components, " +
+                    std::to_string(components) + " are needed");
+}
+
+template <class Stored>
+float normalised(Stored value, bool is_normalised) {
+    if constexpr (std::is_same_v<Stored, float>)
+        return value;
+    const auto number = static_cast<float>(value);
+    return is_normalised ? std::max(number / static_cast<float>(std::numeric_limits<Stored>::max()), -1.0f)
+                         : number;
+}
+
+} // namespace
+
+std::size_t component_bytes(int component_type) {
+    std::size_t bytes = 0;
+    with_component_type(component_type, [&](auto type) { bytes = sizeof type; });
+    return bytes;
+}
+
+int component_count(int type) {
+    const int count = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
+    if (count < 1)
+        throw Error("unknown accessor type");
+    return count;
+}
+
+std::span<const unsigned char> buffer_view_bytes(const tinygltf::Model& model, int view) {
+    const std::string name = "buffer view " + std::to_string(view);
+    if (view < 0 || static_cast<std::size_t>(view) >= model.bufferViews.size())
+        throw Error(name + " is not there");
+    const tinygltf::BufferView& v = model.bufferViews[static_cast<std::size_t>(view)];
+    if (v.buffer < 0 || static_cast<std::size_t>(v.buffer) >= model.buffers.size())
+        throw Error(name + " names buffer " + std::to_string(v.buffer) + ", which is not there");
+    const auto& data = model.buffers[static_cast<std::size_t>(v.buffer)].data;
+    if (v.byteOffset > data.size() || v.byteLength > data.size() - v.byteOffset)
+        throw Error(name + " reaches outside buffer " + std::to_string(v.buffer) + ", which has " +
+                    std::to_string(data.size()) + " bytes");
+    return std::span(data).subspan(v.byteOffset, v.byteLength);
+}
+
+std::vector<std::byte> read_elements(const tinygltf::Model& model, int index) {
+    const tinygltf::Accessor& accessor = get_accessor(model, index);
+    const std::string name = accessor_name(index);
+    const std::size_t size = element_bytes(accessor);
+    std::vector<std::byte> elements;
+    if (accessor.bufferView >= 0) {
+        const auto bytes = buffer_view_bytes(model, accessor.bufferView);
+        const std::size_t stated =
+            model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
+        const std::size_t stride = stated > 0 ? stated : size;
+        if (accessor.count > bytes.size()) // even elements of one byte would not fit
+            throw Error(name + " reaches outside its buffer view: " + std::to_string(accessor.count) +
+                        " elements in " + std::to_string(bytes.size()) + " bytes");
+        elements.resize(accessor.count * size);
+        copy_strided(bytes, accessor.byteOffset, stride, size, accessor.count, elements.data(), name);
+    } else {
+        if (accessor.count > kMostElementsWithoutData)
+            throw Error(name + " claims " + std::to_string(accessor.count) + " elements without data");
+        elements.resize(accessor.count * size);
+    }
+    if (accessor.sparse.isSparse)
+        apply_sparse(model, accessor, elements, name);
+    return elements;
+}
+
+std::vector<float> read_floats(const tinygltf::Model& model, int index, int components) {
+    const tinygltf::Accessor& accessor = get_accessor(model, index);
+    check_components(accessor, components, accessor_name(index));
+    const std::vector<std::byte> elements = read_elements(model, index);
+    std::vector<float> values(accessor.count * static_cast<std::size_t>(components));
+    with_component_type(accessor.componentType, [&](auto type) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = normalised(load<decltype(type)>(&elements[i * sizeof type]), accessor.normalized);
+    });
+    return values;
+}
+
+std::vector<std::uint32_t> read_unsigned(const tinygltf::Model& model, int index, int components) {
+    const tinygltf::Accessor& accessor = get_accessor(model, index);
+    check_components(accessor, components, accessor_name(index));
+    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+        accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+        accessor.componentType != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+        throw Error(accessor_name(index) + " holds no unsigned integers");
+    const std::vector<std::byte> elements = read_elements(model, index);
+    std::vector<std::uint32_t> values(accessor.count * static_cast<std::size_t>(components));
+    with_component_type(accessor.componentType, [&](auto type) {
+        for (std::size_t i = 0; i < values.size(); ++i)
+            values[i] = static_cast<std::uint32_t>(load<decltype(type)>(&elements[i * sizeof type]));
+    });
+    return values;
+}
+
+int tinygltf_type(const std::string& name) {
+    if (name == "SCALAR")
+        return TINYGLTF_TYPE_SCALAR;
+    for (const auto& [text, type] :
+         {std::pair("VEC2", TINYGLTF_TYPE_VEC2), std::pair("VEC3", TINYGLTF_TYPE_VEC3),
+          std::pair("VEC4", TINYGLTF_TYPE_VEC4), std::pair("MAT2", TINYGLTF_TYPE_MAT2),
+          std::pair("MAT3", TINYGLTF_TYPE_MAT3), std::pair("MAT4", TINYGLTF_TYPE_MAT4)})
+        if (name == text)
+            return type;
+    throw Error("unknown accessor type '" + name + "'");
+}
+
+} // namespace prt

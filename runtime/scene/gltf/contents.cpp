@@ -1,0 +1,309 @@
+#include "gltf/contents.h"
+
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <functional>
+#include <new>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+namespace prt {
+namespace {
+
+void pad_to(std::vector<unsigned char>& bytes, std::size_t alignment) {
+    bytes.resize((bytes.size() + alignment - 1) / alignment * alignment);
+}
+
+/// Calls `visit` with every object outside `extras`.
+void for_each_object(Json& json, const std::function<void(Json&)>& visit) {
+    if (json.is_object())
+        visit(json);
+    if (json.is_structured())
+        for (auto it = json.begin(); it != json.end(); ++it)
+            if (!json.is_object() || it.key() != "extras")
+                for_each_object(*it, visit);
+}
+
+/// Removes elements of the array `name`; returns the new index of each that stays.
+std::vector<std::size_t> remove_elements(Json& json, const char* name, const std::set<std::size_t>& removed) {
+    Json kept = Json::array();
+    std::vector<std::size_t> new_index;
+    for (std::size_t i = 0; i < json[name].size(); ++i) {
+        new_index.push_back(kept.size());
+        if (!removed.contains(i))
+            kept.push_back(std::move(json[name][i]));
+    }
+    if (kept.empty())
+        json.erase(name);
+    else
+        json[name] = std::move(kept);
+    return new_index;
+}
+
+void renumber(Json& value, const std::vector<std::size_t>& new_index) {
+    if (value.is_number_unsigned() && value.get<std::size_t>() < new_index.size())
+        value = new_index[value.get<std::size_t>()];
+}
+
+/// Calls `visit` with everything in core glTF that refers to an accessor by index.
+void for_each_accessor_reference(Json& json, const std::function<void(Json&)>& visit) {
+    const auto all_of = [&](Json& attributes) {
+        for (Json& accessor : attributes)
+            visit(accessor);
+    };
+    for (Json& mesh : member(json, "meshes", Json::value_t::array)) {
+        for (Json& primitive : mesh["primitives"]) {
+            all_of(primitive["attributes"]);
+            if (primitive.contains("indices"))
+                visit(primitive["indices"]);
+            if (primitive.contains("targets"))
+                for (Json& target : primitive["targets"])
+                    all_of(target);
+        }
+    }
+    if (json.contains("skins"))
+        for (Json& skin : json["skins"])
+            if (skin.contains("inverseBindMatrices"))
+                visit(skin["inverseBindMatrices"]);
+    if (json.contains("animations"))
+        for (Json& animation : json["animations"])
+            for (Json& sampler : animation["samplers"])
+                for (const char* key : {"input", "output"})
+                    visit(sampler[key]);
+    if (json.contains("nodes"))
+        for (Json& node : json["nodes"])
+            if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing"))
+                all_of(node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]);
+}
+
+struct ByteRange {
+    std::size_t begin, end;
+};
+
+ByteRange range_of(const Json& view) {
+    const std::size_t begin = view.value("byteOffset", std::size_t{0});
+    return {begin, begin + view.value("byteLength", std::size_t{0})};
+}
+
+/// Parts of the buffer that stay, in order and apart, and where they go.
+class KeptRanges {
+public:
+    void add(ByteRange range) { ranges_.push_back(range); }
+    /// To whole groups of 8 bytes, so that every kept view keeps its alignment.
+    void finish(std::size_t size) {
+        for (ByteRange& range : ranges_)
+            range = {range.begin / 8 * 8, std::min((range.end + 7) / 8 * 8, size)};
+        std::sort(ranges_.begin(), ranges_.end(), [](ByteRange a, ByteRange b) { return a.begin < b.begin; });
+        std::vector<ByteRange> merged;
+        for (const ByteRange& range : ranges_) {
+            if (!merged.empty() && range.begin <= merged.back().end)
+                merged.back().end = std::max(merged.back().end, range.end);
+            else if (range.begin < range.end)
+                merged.push_back(range);
+        }
+        ranges_ = std::move(merged);
+        std::size_t to = 0;
+        for (const ByteRange& range : ranges_) {
+            places_.push_back(to);
+            to += range.end - range.begin;
+        }
+    }
+    /// New place of a byte that stays; of others anywhere.
+    std::size_t place(std::size_t offset) const {
+        const auto after =
+            std::upper_bound(ranges_.begin(), ranges_.end(), offset,
+                             [](std::size_t o, const ByteRange& range) { return o < range.begin; });
+        if (after == ranges_.begin())
+            return 0;
+        const auto at = static_cast<std::size_t>(after - ranges_.begin()) - 1;
+        return places_[at] + std::min(offset, ranges_[at].end) - ranges_[at].begin;
+    }
+    void move_bytes(std::vector<unsigned char>& bytes) const {
+        std::size_t size = 0;
+        for (std::size_t r = 0; r < ranges_.size(); ++r) { // always towards the front
+            std::copy(bytes.begin() + static_cast<std::ptrdiff_t>(ranges_[r].begin),
+                      bytes.begin() + static_cast<std::ptrdiff_t>(ranges_[r].end),
+                      bytes.begin() + static_cast<std::ptrdiff_t>(places_[r]));
+            size = places_[r] + ranges_[r].end - ranges_[r].begin;
+        }
+        bytes.resize(size);
+        bytes.shrink_to_fit();
+    }
+
+private:
+    std::vector<ByteRange> ranges_;
+    std::vector<std::size_t> places_;
+};
+
+/// Cuts out of the buffer what only removed views, or none, refer to.
+void cut_bytes(GltfContents& contents, const std::set<std::size_t>& removed) {
+    KeptRanges kept;
+    Json& views = contents.json["bufferViews"];
+    for (std::size_t i = 0; i < views.size(); ++i)
+        if (!removed.contains(i))
+            kept.add(range_of(views[i]));
+    kept.finish(contents.binary().size());
+    for (Json& view : views)
+        view["byteOffset"] = kept.place(range_of(view).begin);
+    for (tinygltf::BufferView& view : contents.model.bufferViews)
+        view.byteOffset = kept.place(view.byteOffset);
+    kept.move_bytes(contents.binary());
+}
+
+void erase_accessors(GltfContents& contents, const std::set<std::size_t>& accessors) {
+    Json& json = contents.json;
+    if (accessors.empty() || !json.contains("accessors"))
+        return;
+    const auto new_index = remove_elements(json, "accessors", accessors);
+    for_each_accessor_reference(json, [&](Json& accessor) { renumber(accessor, new_index); });
+}
+
+void erase_views(GltfContents& contents, const std::set<std::size_t>& views) {
+    Json& json = contents.json;
+    if (views.empty() || !json.contains("bufferViews"))
+        return;
+    cut_bytes(contents, views);
+    const auto new_index = remove_elements(json, "bufferViews", views);
+    for_each_object(json, [&](Json& object) {
+        if (object.contains("bufferView"))
+            renumber(object["bufferView"], new_index);
+    });
+}
+
+} // namespace
+
+Json& member(Json& object, const char* key, Json::value_t type) {
+    if (!object.contains(key))
+        object[key] = Json(type);
+    return object[key];
+}
+
+std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std::size_t stride,
+                                          bool vertices) {
+    static constexpr std::byte kNothing[4] = {}; // glTF knows no empty views
+    if (bytes.empty())
+        bytes = kNothing;
+    std::vector<unsigned char>& buffer = binary();
+    pad_to(buffer, 8);
+    Json view = {{"buffer", 0}, {"byteOffset", buffer.size()}, {"byteLength", bytes.size()}};
+    if (stride > 0)
+        view["byteStride"] = stride;
+    if (vertices)
+        view["target"] = TINYGLTF_TARGET_ARRAY_BUFFER;
+    const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
+    buffer.insert(buffer.end(), begin, begin + bytes.size());
+    pad_to(buffer, 8);
+    Json& views = member(json, "bufferViews", Json::value_t::array);
+    views.push_back(std::move(view));
+    return views.size() - 1;
+}
+
+std::size_t GltfContents::add_accessor(Json accessor) {
+    Json& accessors = member(json, "accessors", Json::value_t::array);
+    accessors.push_back(std::move(accessor));
+    return accessors.size() - 1;
+}
+
+void GltfContents::use_extension(const std::string& name) {
+    Json& used = member(json, "extensionsUsed", Json::value_t::array);
+    if (std::find(used.begin(), used.end(), name) == used.end())
+        used.push_back(name);
+}
+
+void GltfContents::drop_extension(const std::string& name) {
+    for (const char* list : {"extensionsUsed", "extensionsRequired"}) {
+        if (!json.contains(list))
+            continue;
+        Json kept = Json::array();
+        for (const Json& other : json[list])
+            if (other != name)
+                kept.push_back(other);
+        if (kept.empty())
+            json.erase(list);
+        else
+            json[list] = std::move(kept);
+    }
+}
+
+void GltfContents::cut_unused_bytes() {
+    if (json.contains("bufferViews"))
+        cut_bytes(*this, {});
+}
+
+void GltfContents::remove_transfer() {
+    std::set<std::size_t> views, accessors;
+    const auto take_view = [&](Json& object) {
+        if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
+            views.insert(object["bufferView"].get<std::size_t>());
+    };
+    const auto take_extensions = [&](Json& owner) {
+        if (!owner.contains("extensions"))
+            return;
+        for (const char* name : {kTransferExtension, kClusteredExtension}) {
+            if (!owner["extensions"].contains(name))
+                continue;
+            for_each_object(owner["extensions"][name], take_view);
+            owner["extensions"].erase(name);
+        }
+        if (owner["extensions"].empty())
+            owner.erase("extensions");
+    };
+    for (Json& mesh : member(json, "meshes", Json::value_t::array)) {
+        for (Json& primitive : mesh["primitives"]) {
+            take_extensions(primitive);
+            Json kept = Json::object();
+            for (auto it = primitive["attributes"].begin(); it != primitive["attributes"].end(); ++it) {
+                if (it.key().starts_with("_PRT_"))
+                    accessors.insert(it->get<std::size_t>());
+                else
+                    kept[it.key()] = *it;
+            }
+            primitive["attributes"] = std::move(kept);
+        }
+    }
+    take_extensions(json);
+    for (const std::size_t accessor : accessors)
+        if (json.contains("accessors") && accessor < json["accessors"].size())
+            take_view(json["accessors"][accessor]);
+
+    erase_accessors(*this, accessors);
+    erase_views(*this, views);
+    for (const char* name : {kTransferExtension, kClusteredExtension})
+        drop_extension(name);
+}
+
+void GltfContents::remove_replaced(std::set<std::size_t> accessors) {
+    for_each_accessor_reference(json, [&](Json& accessor) {
+        if (accessor.is_number_unsigned())
+            accessors.erase(accessor.get<std::size_t>());
+    });
+    std::set<std::size_t> views;
+    for (const std::size_t a : accessors)
+        if (a < json["accessors"].size())
+            for_each_object(json["accessors"][a], [&](Json& object) {
+                if (object.contains("bufferView"))
+                    views.insert(object["bufferView"].get<std::size_t>());
+            });
+    erase_accessors(*this, accessors);
+    for_each_object(json, [&](Json& object) {
+        if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
+            views.erase(object["bufferView"].get<std::size_t>());
+    });
+    erase_views(*this, views);
+}
+
+std::string in_plain_words(const std::exception& error) {
+    const std::string what = one_line(error.what());
+    if (dynamic_cast<const nlohmann::json::exception*>(
+            &error)) // "[json.exception.type_error.302] type must be .."
+        return "is damaged glTF: " + what.substr(what.starts_with("[json") ? what.find("] ") + 2 : 0);
+    if (dynamic_cast<const std::out_of_range*>(&error))
+        return "is damaged glTF: an index points outside of what the file holds";
+    if (dynamic_cast<const std::bad_alloc*>(&error))
+        return "there is not enough memory to read it";
+    return what;
+}
+
+} // namespace prt

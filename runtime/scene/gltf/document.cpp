@@ -1,0 +1,308 @@
+#include "prt/gltf.h"
+
+#include "gltf/accessor.h"
+#include "gltf/contents.h"
+#include "gltf/draco_primitives.h"
+#include "gltf/glb.h"
+#include "gltf/instances.h"
+#include "gltf/meshopt_views.h"
+#include "prt/support/error.h"
+#include "prt/support/file.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <climits>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace prt {
+namespace {
+
+/// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
+/// base colour is used. Textures of other formats are missed only where they are needed.
+constexpr std::array<std::string_view, 30> kSupportedExtensions = {
+    kTransferExtension,
+    kClusteredExtension,
+    kMeshoptExtension,
+    kDracoExtension,
+    "EXT_mesh_gpu_instancing",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
+    "EXT_texture_avif",
+    "EXT_texture_webp",
+    "KHR_texture_basisu",
+    "MSFT_texture_dds",
+    "KHR_texture_transform",
+    "KHR_lights_punctual",
+    "KHR_animation_pointer",
+    "KHR_xmp_json_ld",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "EXT_lights_image_based",
+};
+
+/// What other formats for scenes are called, by suffix.
+std::string_view other_format(const std::filesystem::path& path) {
+    static constexpr std::pair<std::string_view, std::string_view> kFormats[] = {
+        {".obj", "Wavefront OBJ"}, {".ply", "PLY"},       {".fbx", "FBX"}, {".stl", "STL"},
+        {".dae", "COLLADA"},       {".blend", "Blender"}, {".usd", "USD"}, {".usda", "USD"},
+        {".usdc", "USD"},          {".usdz", "USD"},      {".3ds", "3ds"}, {".abc", "Alembic"},
+        {".max", "3ds Max"},       {".ma", "Maya"},       {".mb", "Maya"}, {".x", "DirectX"},
+        {".gltf2", "glTF"}};
+    std::string suffix = path.extension().string();
+    std::transform(suffix.begin(), suffix.end(), suffix.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    for (const auto& [end, name] : kFormats)
+        if (suffix == end)
+            return name;
+    return {};
+}
+
+/// Refuses what is no glTF before any parser sees it.
+void check_is_gltf(std::span<const std::byte> file, const std::filesystem::path& path) {
+    if (is_glb(file))
+        return;
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    const std::size_t first = text.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    if (first != std::string_view::npos && text[first] == '{')
+        return;
+    const std::string_view format = other_format(path);
+    throw Error((format.empty() ? std::string("is no glTF") : "is " + std::string(format) + ", not glTF") +
+                ": export the scene as glTF 2.0 (.glb)");
+}
+
+/// Line and column of a byte of the file, both from 1.
+std::string place_of(std::string_view text, std::size_t byte) {
+    const std::string_view before = text.substr(0, std::min(byte, text.size()));
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t start = before.find_last_of('\n');
+    return "line " + std::to_string(line) + ", column " +
+           std::to_string(before.size() - (start == std::string_view::npos ? 0 : start + 1));
+}
+
+Json parse_json(std::string_view text) {
+    try {
+        Json json = Json::parse(text);
+        if (!json.is_object() || !json.contains("asset") || !json["asset"].is_object())
+            throw Error("is JSON, but no glTF: it has no asset");
+        const std::string version = json["asset"].value("version", "");
+        if (!version.starts_with("2."))
+            throw Error("is glTF of version '" + version + "', only 2 is supported");
+        return json;
+    } catch (const nlohmann::json::parse_error& error) {
+        throw Error("is damaged: its JSON cannot be read at " + place_of(text, error.byte));
+    }
+}
+
+void check_required_extensions(const Json& json) {
+    if (!json.contains("extensionsRequired"))
+        return;
+    for (const Json& name : json["extensionsRequired"])
+        if (!name.is_string() || std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(),
+                                           name.get<std::string>()) == kSupportedExtensions.end())
+            throw Error("requires the glTF extension " +
+                        (name.is_string() ? name.get<std::string>() : name.dump()) +
+                        ", which is not supported");
+}
+
+/// Keeps the file of an image that stands in a URI. Images in buffer views are taken later, with bounds
+/// checked.
+bool keep_encoded(tinygltf::Image* image, const int index, std::string*, std::string*, int, int,
+                  const unsigned char* bytes, int size, void* user) {
+    auto& images = *static_cast<std::vector<std::vector<std::byte>>*>(user);
+    const auto i = static_cast<std::size_t>(index);
+    if (images.size() <= i)
+        images.resize(i + 1);
+    if (image->bufferView < 0) {
+        const auto* begin = reinterpret_cast<const std::byte*>(bytes);
+        images[i].assign(begin, begin + size);
+    }
+    return true;
+}
+
+void load_model(GltfContents& contents, std::span<const std::byte> file, std::string_view text, bool binary,
+                MissingImages missing) {
+    if (file.size() > UINT_MAX)
+        throw Error("is larger than 4 GB");
+    tinygltf::TinyGLTF loader;
+    loader.SetImageLoader(keep_encoded, &contents.images);
+    std::string error, warning, folder = contents.path.parent_path().string();
+    if (folder.empty())
+        folder = ".";
+    const bool loaded = binary
+                            ? loader.LoadBinaryFromMemory(&contents.model, &error, &warning,
+                                                          reinterpret_cast<const unsigned char*>(file.data()),
+                                                          static_cast<unsigned>(file.size()), folder)
+                            : loader.LoadASCIIFromString(&contents.model, &error, &warning, text.data(),
+                                                         static_cast<unsigned>(text.size()), folder);
+    if (!loaded)
+        throw Error(one_line(error.empty() ? warning : error));
+    contents.images.resize(contents.model.images.size());
+    for (std::size_t i = 0; i < contents.images.size(); ++i) {
+        const tinygltf::Image& image = contents.model.images[i];
+        if (image.bufferView >= 0) {
+            const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, image.bufferView));
+            contents.images[i].assign(bytes.begin(), bytes.end());
+        }
+        if (contents.images[i].empty() && missing == MissingImages::error)
+            throw Error("image " + std::to_string(i) +
+                        (image.uri.empty() ? " is empty" : " '" + image.uri + "' cannot be read"));
+    }
+}
+
+/// Joins all buffers into the first and lets the buffer views point there.
+void join_buffers(GltfContents& contents) {
+    std::vector<tinygltf::Buffer>& buffers = contents.model.buffers;
+    if (buffers.empty())
+        buffers.emplace_back();
+    std::vector<std::size_t> begin(1, 0);
+    std::vector<unsigned char>& all = buffers.front().data;
+    for (std::size_t b = 1; b < buffers.size(); ++b) {
+        all.resize((all.size() + 7) / 8 * 8);
+        begin.push_back(all.size());
+        all.insert(all.end(), buffers[b].data.begin(), buffers[b].data.end());
+    }
+    for (tinygltf::BufferView& view : contents.model.bufferViews) {
+        const auto buffer = static_cast<std::size_t>(view.buffer);
+        if (view.buffer < 0 || buffer >= begin.size())
+            throw Error("a buffer view names buffer " + std::to_string(view.buffer) + ", which is not there");
+        view.byteOffset += begin[buffer];
+        view.buffer = 0;
+    }
+    if (contents.json.contains("bufferViews"))
+        for (Json& view : contents.json["bufferViews"]) {
+            view["byteOffset"] =
+                view.value("byteOffset", std::size_t{0}) + begin.at(view.value("buffer", std::size_t{0}));
+            view["buffer"] = 0;
+        }
+    buffers.resize(1);
+    contents.json.erase("buffers");
+}
+
+/// The media type of an encoded image, by its first bytes.
+const char* mime_type(std::span<const std::byte> bytes) {
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    if (text.starts_with("\x89PNG"))
+        return "image/png";
+    if (text.starts_with("\xABKTX 20"))
+        return "image/ktx2";
+    if (text.starts_with("RIFF") && text.substr(0, 12).ends_with("WEBP"))
+        return "image/webp";
+    if (text.substr(0, 12).ends_with("ftypavif"))
+        return "image/avif";
+    if (text.starts_with("DDS "))
+        return "image/vnd-ms.dds";
+    return "image/jpeg";
+}
+
+/// Images from files beside the glTF move inside.
+void embed_images(GltfContents& contents) {
+    for (std::size_t i = 0; i < contents.images.size(); ++i) {
+        Json& image = contents.json["images"][i];
+        const std::string uri = image.value("uri", "");
+        const auto& bytes = contents.images[i];
+        if (uri.empty() || uri.starts_with("data:") || bytes.empty())
+            continue;
+        image.erase("uri");
+        image["mimeType"] = mime_type(bytes);
+        image["bufferView"] = contents.add_buffer_view(bytes);
+        if (!image.contains("name"))
+            image["name"] = std::filesystem::path(uri).stem().string();
+    }
+}
+
+} // namespace
+
+GltfDocument::GltfDocument(std::unique_ptr<GltfContents> contents) : contents_(std::move(contents)) {}
+GltfDocument::GltfDocument(GltfDocument&&) noexcept = default;
+GltfDocument& GltfDocument::operator=(GltfDocument&&) noexcept = default;
+GltfDocument::~GltfDocument() = default;
+
+GltfDocument load_gltf(const std::filesystem::path& path, MissingImages missing) {
+    return parse_gltf(read_file(path), path, missing);
+}
+
+GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::path& path,
+                        MissingImages missing) {
+    auto contents = std::make_unique<GltfContents>();
+    contents->path = path;
+    try {
+        check_is_gltf(file, path);
+        const bool binary = is_glb(file);
+        const std::string_view text =
+            binary ? glb_json(file)
+                   : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
+        contents->json = parse_json(text);
+        check_required_extensions(contents->json);
+        const bool meshopt = has_meshopt_views(contents->json), draco = has_draco_primitives(contents->json);
+        if (meshopt || draco) {
+            Json plain = meshopt ? without_meshopt(contents->json) : contents->json;
+            if (draco)
+                plain = without_draco_indices(std::move(plain));
+            const std::string plain_text = plain.dump();
+            const std::vector<std::byte> rebuilt =
+                binary ? make_glb(plain_text, glb_binary(file)) : std::vector<std::byte>{};
+            load_model(*contents, rebuilt, plain_text, binary, missing);
+        } else {
+            load_model(*contents, file, text, binary, missing);
+        }
+        if (meshopt)
+            decompress_views(*contents);
+        if (draco)
+            decompress_primitives(*contents);
+        join_buffers(*contents);
+        if (draco)
+            contents->cut_unused_bytes();
+        expand_instances(*contents);
+        embed_images(*contents);
+    } catch (const Error& error) {
+        throw Error(path.string() + ": " + one_line(error.what()));
+    } catch (const std::exception& error) {
+        throw Error(path.string() + ": " + in_plain_words(error));
+    }
+    return GltfDocument(std::move(contents));
+}
+
+void save_glb(const GltfDocument& document, const std::filesystem::path& path,
+              BufferCompression compression) {
+    const GltfContents& contents = document.contents();
+    CompressedGlb glb;
+    std::span<const std::byte> binary = contents.binary();
+    if (compression == BufferCompression::meshopt) {
+        glb = compress_views(contents);
+        binary = glb.binary;
+    } else {
+        glb.json = contents.json;
+    }
+    if (!binary.empty() && !glb.json.contains("buffers"))
+        glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
+    OutputFile output(path);
+    std::vector<std::byte> file;
+    try {
+        file = make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
+    } catch (const Error& error) {
+        throw Error(path.string() + ": " + error.what());
+    }
+    output.write(file);
+    output.commit();
+}
+
+void discard_transfer(GltfDocument& document) {
+    document.contents().remove_transfer();
+}
+
+} // namespace prt

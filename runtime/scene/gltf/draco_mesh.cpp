@@ -1,0 +1,136 @@
+#include "gltf/draco_mesh.h"
+
+#include "gltf/accessor.h"
+#include "prt/support/error.h"
+
+#include <draco/compression/decode.h>
+#include <draco/compression/point_cloud/point_cloud_decoder.h>
+#include <draco/core/varint_decoding.h>
+#include <draco/metadata/metadata_decoder.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+namespace prt {
+namespace {
+
+/// A number of the header: versions before 2.2 wrote 32 bits.
+bool decode_number(draco::DecoderBuffer& buffer, std::uint32_t& number) {
+    return buffer.bitstream_version() < DRACO_BITSTREAM_VERSION(2, 2) ? buffer.Decode(&number)
+                                                                      : draco::DecodeVarint(&number, &buffer);
+}
+
+/// The triangles that the data says it has; 0 where its beginning cannot be read. After the Draco bitstream
+/// specification, sections 3 to 5.
+std::uint32_t claimed_triangles(std::span<const unsigned char> bytes) {
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    draco::DracoHeader header;
+    if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok())
+        return 0;
+    buffer.set_bitstream_version(
+        static_cast<std::uint16_t>(DRACO_BITSTREAM_VERSION(header.version_major, header.version_minor)));
+    draco::GeometryMetadata metadata;
+    if ((header.flags & METADATA_FLAG_MASK) != 0 &&
+        !draco::MetadataDecoder().DecodeGeometryMetadata(&buffer, &metadata))
+        return 0;
+    std::uint8_t traversal = 0;
+    std::uint32_t vertices = 0, triangles = 0;
+    if (header.encoder_method == draco::MESH_EDGEBREAKER_ENCODING) {
+        const bool old = buffer.bitstream_version() < DRACO_BITSTREAM_VERSION(2, 2);
+        if (!buffer.Decode(&traversal) || (old && !decode_number(buffer, vertices)) ||
+            !decode_number(buffer, vertices))
+            return 0;
+    }
+    return decode_number(buffer, triangles) ? triangles : 0;
+}
+
+/// The decoder takes memory for all triangles before it looks for them.
+void check_claims(std::span<const unsigned char> bytes) {
+    constexpr std::size_t kAlwaysFits = std::size_t{1} << 20;
+    // The most that was measured is 194: a flat grid of 131 072, its corners at steps of the quantisation.
+    constexpr std::size_t kMostTrianglesPerByte = 1024;
+    const std::size_t triangles = claimed_triangles(bytes);
+    if (triangles > std::max(kAlwaysFits, kMostTrianglesPerByte * bytes.size()))
+        throw Error("its Draco data claims " + std::to_string(triangles) + " triangles in " +
+                    std::to_string(bytes.size()) + " bytes");
+}
+
+/// Puts `value` at the end of `to`.
+template <class Value>
+void append(std::vector<std::byte>& to, Value value) {
+    const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+    to.insert(to.end(), bytes, bytes + sizeof value);
+}
+
+/// Throws unless every point has a value.
+void check_values(const draco::Mesh& mesh, const draco::PointAttribute& attribute) {
+    const bool mapped = attribute.is_mapping_identity() || attribute.indices_map_size() >= mesh.num_points();
+    for (draco::PointIndex point(0); mapped && point < mesh.num_points(); ++point)
+        if (attribute.mapped_index(point).value() >= attribute.size())
+            throw Error("its Draco data has points without values");
+    if (!mapped)
+        throw Error("its Draco data has points without values");
+}
+
+} // namespace
+
+std::unique_ptr<draco::Mesh> decode_draco(std::span<const unsigned char> bytes) {
+    check_claims(bytes);
+    draco::DecoderBuffer buffer;
+    buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    draco::Decoder decoder;
+    auto mesh = decoder.DecodeMeshFromBuffer(&buffer);
+    if (!mesh.ok())
+        throw Error("its Draco data is damaged: " + mesh.status().error_msg_string());
+    return std::move(mesh).value();
+}
+
+std::vector<std::byte> draco_indices(const draco::Mesh& mesh, int component_type) {
+    std::vector<std::byte> bytes;
+    for (draco::FaceIndex face(0); face < mesh.num_faces(); ++face)
+        for (const draco::PointIndex& point : mesh.face(face)) {
+            if (component_type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+                append(bytes, static_cast<std::uint16_t>(point.value()));
+            else
+                append(bytes, point.value());
+        }
+    return bytes;
+}
+
+DracoAttribute draco_attribute(const draco::Mesh& mesh, int id, int component_type, int components) {
+    const draco::PointAttribute* attribute =
+        id < 0 ? nullptr : mesh.GetAttributeByUniqueId(static_cast<std::uint32_t>(id));
+    if (!attribute)
+        throw Error("its Draco data has no attribute " + std::to_string(id));
+    if (attribute->num_components() != components)
+        throw Error("its Draco data has " + std::to_string(attribute->num_components()) +
+                    " components of attribute " + std::to_string(id) + ", the accessor " +
+                    std::to_string(components));
+    check_values(mesh, *attribute);
+    DracoAttribute data;
+    with_component_type(component_type, [&](auto type) {
+        std::vector<decltype(type)> element(static_cast<std::size_t>(components));
+        data.stride = (element.size() * sizeof type + 3) / 4 * 4;
+        data.bytes.reserve(data.stride * mesh.num_points());
+        for (draco::PointIndex point(0); point < mesh.num_points(); ++point) {
+            if (!attribute->ConvertValue(attribute->mapped_index(point), static_cast<std::int8_t>(components),
+                                         element.data()))
+                throw Error("its Draco data does not fit the accessor of attribute " + std::to_string(id));
+            for (const auto value : element)
+                append(data.bytes, value);
+            data.bytes.resize((data.bytes.size() + 3) / 4 * 4);
+            const std::vector<double> values(element.begin(), element.end());
+            if (data.low.empty())
+                data.low = data.high = values;
+            for (std::size_t c = 0; c < values.size(); ++c) {
+                data.low[c] = std::min(data.low[c], values[c]);
+                data.high[c] = std::max(data.high[c], values[c]);
+            }
+        }
+    });
+    return data;
+}
+
+} // namespace prt

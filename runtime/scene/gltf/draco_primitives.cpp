@@ -1,0 +1,221 @@
+#include "gltf/draco_primitives.h"
+
+#include "gltf/accessor.h"
+#include "gltf/draco_mesh.h"
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace prt {
+namespace {
+
+constexpr int kIndices = -1; ///< in place of an attribute's id
+
+/// One compressed primitive, as JSON and as tinygltf read it.
+struct Place {
+    Json& json;
+    tinygltf::Primitive& model;
+    Json attributes; ///< names and ids in the compressed mesh
+    std::string name;
+};
+
+const Json* draco_extension(const Json& primitive) {
+    if (!primitive.contains("extensions") || !primitive["extensions"].contains(kDracoExtension))
+        return nullptr;
+    return &primitive["extensions"][kDracoExtension];
+}
+
+void erase_draco_extension(Json& primitive) {
+    primitive["extensions"].erase(kDracoExtension);
+    if (primitive["extensions"].empty())
+        primitive.erase("extensions");
+}
+
+/// All that is compressed is there without compression, too.
+bool has_plain_data(const GltfContents& contents, const Json& primitive) {
+    const auto is_plain = [&](const Json& reference) {
+        return contents.model.accessors.at(reference.get<std::size_t>()).bufferView >= 0;
+    };
+    const Json& compressed = draco_extension(primitive)->at("attributes");
+    return primitive.contains("indices") && is_plain(primitive["indices"]) &&
+           std::all_of(compressed.items().begin(), compressed.items().end(),
+                       [&](const auto& item) { return is_plain(primitive.at("attributes").at(item.key())); });
+}
+
+class Decompressor {
+public:
+    explicit Decompressor(GltfContents& contents) : contents_(contents) {}
+
+    /// Decodes `view` once for all `places` that use it.
+    void decompress(std::size_t view, std::vector<Place>& places) {
+        std::string name = places.front().name;
+        try {
+            const auto mesh = decode_draco(buffer_view_bytes(contents_.model, static_cast<int>(view)));
+            const bool small = mesh->num_points() <= 65535; // the last index means a restart
+            index_type_ =
+                small ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT : TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+            set_view(view, draco_indices(*mesh, index_type_), 0);
+            for (Place& place : places) {
+                name = place.name;
+                decompress(view, *mesh, place);
+            }
+        } catch (const std::exception& error) { // ours, bad_alloc, and those of the JSON library
+            throw Error(name + ": " + error.what());
+        }
+    }
+
+private:
+    void decompress(std::size_t view, const draco::Mesh& mesh, Place& place) {
+        Json indices = place.json.value("indices", Json());
+        set_accessor(indices, {view, kIndices}, [&](Json& accessor) {
+            accessor["bufferView"] = view;
+            accessor["componentType"] = index_type_;
+            accessor["count"] = 3 * std::size_t{mesh.num_faces()};
+            accessor["type"] = "SCALAR";
+            accessor.erase("min");
+            accessor.erase("max");
+        });
+        place.json["indices"] = indices;
+        place.model.indices = indices.get<int>();
+        place.json.erase("mode"); // strips come back as triangles
+        place.model.mode = TINYGLTF_MODE_TRIANGLES;
+        for (const auto& item : place.attributes.items()) {
+            Json& reference = place.json.at("attributes").at(item.key());
+            const int id = item.value().get<int>();
+            set_accessor(reference, {view, id}, [&](Json& accessor) { fill(accessor, mesh, id); });
+            place.model.attributes[item.key()] = reference.get<int>();
+        }
+        check_counts(mesh.num_points(), place);
+    }
+
+    void fill(Json& accessor, const draco::Mesh& mesh, int id) {
+        const DracoAttribute data = draco_attribute(mesh, id, accessor.at("componentType").get<int>(),
+                                                    component_count(tinygltf_type(accessor.at("type"))));
+        accessor["bufferView"] = contents_.json["bufferViews"].size();
+        accessor["count"] = mesh.num_points();
+        if (accessor.contains("min") || accessor.contains("max")) {
+            accessor["min"] = data.low;
+            accessor["max"] = data.high;
+        }
+        contents_.json["bufferViews"].push_back(Json::object());
+        contents_.model.bufferViews.emplace_back();
+        set_view(contents_.json["bufferViews"].size() - 1, data.bytes, data.stride);
+    }
+
+    /// Lets `change` fill the accessor of `reference` from `source`; a new one where there is none, or where
+    /// it holds other data of this kind already.
+    template <class Change>
+    void set_accessor(Json& reference, std::pair<std::size_t, int> source, const Change& change) {
+        Json& accessors = member(contents_.json, "accessors", Json::value_t::array);
+        const bool given = !reference.is_null();
+        const Json before = given ? accessors.at(reference.get<std::size_t>()) : Json::object();
+        if (!given || !filled_.try_emplace(reference.get<std::size_t>(), source).second) {
+            if (given && filled_.at(reference.get<std::size_t>()) == source)
+                return;
+            reference = accessors.size();
+            filled_.emplace(accessors.size(), source);
+            accessors.push_back(before);
+            contents_.model.accessors.emplace_back();
+        }
+        const auto index = reference.get<std::size_t>();
+        Json& accessor = accessors[index];
+        change(accessor);
+        accessor.erase("byteOffset");
+        accessor.erase("sparse");
+        tinygltf::Accessor& model = contents_.model.accessors.at(index);
+        model.bufferView = accessor["bufferView"].get<int>();
+        model.byteOffset = 0;
+        model.componentType = accessor["componentType"].get<int>();
+        model.normalized = accessor.value("normalized", false);
+        model.count = accessor["count"].get<std::size_t>();
+        model.type = tinygltf_type(accessor["type"]);
+        model.sparse.isSparse = false;
+    }
+
+    /// Puts `bytes` into a buffer of their own, and makes `view` one of all of it.
+    void set_view(std::size_t view, std::vector<std::byte> bytes, std::size_t stride) {
+        bytes.resize(std::max<std::size_t>(bytes.size(), 4)); // glTF knows no empty views
+        Json& json = contents_.json["bufferViews"].at(view);
+        json["buffer"] = contents_.model.buffers.size();
+        json["byteOffset"] = 0;
+        json["byteLength"] = bytes.size();
+        json["target"] = stride > 0 ? TINYGLTF_TARGET_ARRAY_BUFFER : TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+        if (stride > 0)
+            json["byteStride"] = stride;
+        else
+            json.erase("byteStride");
+        tinygltf::BufferView& model = contents_.model.bufferViews.at(view);
+        model.buffer = static_cast<int>(contents_.model.buffers.size());
+        model.byteOffset = 0;
+        model.byteLength = bytes.size();
+        model.byteStride = stride;
+        const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
+        contents_.model.buffers.emplace_back().data.assign(begin, begin + bytes.size());
+    }
+
+    /// What is not compressed goes with the vertices as they were before, so at least their number must be
+    /// the same.
+    void check_counts(std::size_t points, const Place& place) const {
+        const auto check = [&](const Json& attributes) {
+            for (const auto& item : attributes.items()) {
+                const std::size_t count = contents_.model.accessors.at(item.value().get<std::size_t>()).count;
+                if (count != points)
+                    throw Error("its Draco data has " + std::to_string(points) + " vertices, and " +
+                                item.key() + " beside it " + std::to_string(count));
+            }
+        };
+        check(place.json.at("attributes"));
+        for (const Json& target : place.json.value("targets", Json::array()))
+            check(target);
+    }
+
+    GltfContents& contents_;
+    std::map<std::size_t, std::pair<std::size_t, int>> filled_; ///< accessor: compressed view, attribute
+    int index_type_ = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+};
+
+} // namespace
+
+bool has_draco_primitives(const Json& json) {
+    for (const Json& mesh : json.value("meshes", Json::array()))
+        for (const Json& primitive : mesh.value("primitives", Json::array()))
+            if (draco_extension(primitive))
+                return true;
+    return false;
+}
+
+Json without_draco_indices(Json json) {
+    for (Json& mesh : json["meshes"])
+        for (Json& primitive : mesh.at("primitives"))
+            if (draco_extension(primitive) && primitive.contains("indices") &&
+                !json.at("accessors").at(primitive["indices"].get<std::size_t>()).contains("bufferView"))
+                primitive.erase("indices");
+    return json;
+}
+
+void decompress_primitives(GltfContents& contents) {
+    const Json required = contents.json.value("extensionsRequired", Json::array());
+    const bool is_required = std::find(required.begin(), required.end(), kDracoExtension) != required.end();
+    std::map<std::size_t, std::vector<Place>> places; // by compressed view
+    for (std::size_t m = 0; m < contents.model.meshes.size(); ++m)
+        for (std::size_t p = 0; p < contents.model.meshes[m].primitives.size(); ++p) {
+            Json& primitive = contents.json.at("meshes").at(m).at("primitives").at(p);
+            const Json* extension = draco_extension(primitive);
+            if (!extension)
+                continue;
+            if (is_required || !has_plain_data(contents, primitive))
+                places[extension->at("bufferView").get<std::size_t>()].push_back(
+                    {primitive, contents.model.meshes[m].primitives[p], extension->at("attributes"),
+                     "mesh " + std::to_string(m) + " primitive " + std::to_string(p)});
+            erase_draco_extension(primitive);
+        }
+    Decompressor decompressor(contents);
+    for (auto& [view, users] : places)
+        decompressor.decompress(view, users);
+    contents.drop_extension(kDracoExtension);
+}
+
+} // namespace prt

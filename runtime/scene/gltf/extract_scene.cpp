@@ -1,0 +1,308 @@
+#include "prt/gltf.h"
+
+#include "flat_normals.h"
+#include "gltf/accessor.h"
+#include "gltf/contents.h"
+#include "gltf/material.h"
+#include "gltf/node_transforms.h"
+#include "gltf/skinning.h"
+#include "gltf/triangles.h"
+#include "prt/support/error.h"
+#include "triangle_normal.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <map>
+#include <string>
+#include <tuple>
+
+namespace prt {
+namespace {
+
+template <class Vector>
+std::vector<Vector> read_vectors(const tinygltf::Model& model, int accessor) {
+    const std::vector<float> floats = read_floats(model, accessor, Vector::length());
+    std::vector<Vector> vectors(floats.size() / static_cast<std::size_t>(Vector::length()));
+    if (!vectors.empty())
+        std::memcpy(vectors.data(), floats.data(), floats.size() * sizeof(float));
+    return vectors;
+}
+
+void check_count(std::size_t count, std::size_t vertices, const char* attribute) {
+    if (count != vertices)
+        throw Error(std::string(attribute) + " has " + std::to_string(count) + " elements for " +
+                    std::to_string(vertices) + " vertices");
+}
+
+int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
+    const auto found = primitive.attributes.find(name);
+    return found == primitive.attributes.end() ? -1 : found->second;
+}
+
+void read_texcoords(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                    VertexArray& vertices) {
+    for (int set = 0;; ++set) {
+        const int accessor = attribute(primitive, "TEXCOORD_" + std::to_string(set));
+        if (accessor < 0)
+            return;
+        vertices.texcoords.push_back(read_vectors<glm::vec2>(model, accessor));
+        check_count(vertices.texcoords.back().size(), vertices.size(), "TEXCOORD");
+    }
+}
+
+void read_colors(const tinygltf::Model& model, const tinygltf::Primitive& primitive, VertexArray& vertices) {
+    const int accessor = attribute(primitive, "COLOR_0");
+    if (accessor < 0)
+        return;
+    if (model.accessors.at(static_cast<std::size_t>(accessor)).type == TINYGLTF_TYPE_VEC4)
+        vertices.colors = read_vectors<glm::vec4>(model, accessor);
+    else
+        for (const glm::vec3& rgb : read_vectors<glm::vec3>(model, accessor))
+            vertices.colors.emplace_back(rgb, 1);
+    check_count(vertices.colors.size(), vertices.size(), "COLOR_0");
+}
+
+/// Adds the morph targets at the weights that mesh or node give (glTF 2.0, 3.7.2.2).
+void apply_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                         const std::vector<double>& weights, VertexArray& vertices) {
+    for (std::size_t t = 0; t < primitive.targets.size() && t < weights.size(); ++t) {
+        const auto weight = static_cast<float>(weights[t]);
+        if (weight == 0)
+            continue;
+        const auto add = [&](const char* name, std::vector<glm::vec3>& to) {
+            const auto found = primitive.targets[t].find(name);
+            if (found == primitive.targets[t].end() || to.empty())
+                return;
+            const auto deltas = read_vectors<glm::vec3>(model, found->second);
+            check_count(deltas.size(), to.size(), "a morph target");
+            for (std::size_t i = 0; i < to.size(); ++i)
+                to[i] += weight * deltas[i];
+        };
+        add("POSITION", vertices.positions);
+        add("NORMAL", vertices.normals);
+    }
+}
+
+/// Normals transform with the cofactors of the matrix: its inverse transposed, times the determinant, which
+/// also exists where the inverse does not.
+glm::dmat3 cofactors(const glm::dmat3& m) {
+    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
+}
+
+glm::vec3 transformed_normal(const glm::vec3& normal, const glm::dmat4& matrix) {
+    const glm::dmat3 linear(matrix);
+    const double side = glm::determinant(linear) < 0 ? -1 : 1;
+    return unit_or_zero(side * (cofactors(linear) * glm::dvec3(normal)));
+}
+
+class SceneExtractor {
+public:
+    explicit SceneExtractor(const GltfContents& contents) : model_(contents.model) {
+        for (std::size_t i = 0; i < contents.images.size(); ++i) {
+            const tinygltf::Image& image = model_.images[i];
+            const std::string name = !image.uri.empty() ? image.uri : image.name;
+            scene_.images.push_back(
+                {"image " + std::to_string(i) + (name.empty() ? "" : " '" + name + "'"), contents.images[i]});
+        }
+        read_materials(model_, scene_, range_);
+        scene_.notices = contents.notices;
+    }
+
+    Scene extract() {
+        const std::vector<NodeTransform> nodes = world_transforms(model_);
+        for (const NodeTransform& node : nodes)
+            add_node(node, nodes);
+        if (scene_.triangles() == 0)
+            throw Error("the scene has no triangles");
+        place_about_middle();
+        make_flat_normals();
+        add_notices();
+        std::size_t first = 0;
+        for (VertexArray& vertices : scene_.vertex_arrays) {
+            vertices.first_receiver = first;
+            first += vertices.size();
+        }
+        return std::move(scene_);
+    }
+
+private:
+    void add_node(const NodeTransform& transform, const std::vector<NodeTransform>& all) {
+        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(transform.node)];
+        if (node.mesh < 0)
+            return;
+        if (!transform.visible) {
+            ++hidden_nodes_;
+            return;
+        }
+        if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size())
+            throw Error("node " + std::to_string(transform.node) + " names mesh " +
+                        std::to_string(node.mesh) + ", which is not there");
+        const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
+        for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+            try {
+                add_primitive(transform, all, static_cast<int>(i));
+            } catch (const Error& error) {
+                throw Error("mesh " + std::to_string(node.mesh) + " primitive " + std::to_string(i) + ": " +
+                            error.what());
+            }
+        }
+    }
+
+    bool has_vertices(const tinygltf::Primitive& file) const {
+        const int position = attribute(file, "POSITION");
+        const auto index = static_cast<std::size_t>(position);
+        return position >= 0 && (index >= model_.accessors.size() || model_.accessors[index].count > 0);
+    }
+
+    void add_primitive(const NodeTransform& transform, const std::vector<NodeTransform>& all, int index) {
+        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(transform.node)];
+        const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
+        const tinygltf::Primitive& file = mesh.primitives[static_cast<std::size_t>(index)];
+        if (!is_triangle_mode(file.mode) || !has_vertices(file)) {
+            ++skipped_primitives_;
+            return;
+        }
+        Primitive primitive{transform.node, node.mesh, index, 0, material_index(file.material), false, {}};
+        // Flat normals depend on the triangles, so such a primitive shares its vertices with none.
+        const int alone = attribute(file, "NORMAL") < 0 ? index : -1;
+        const auto [found, is_new] = shared_.try_emplace(
+            std::tuple(transform.node, alone, file.attributes, file.targets), scene_.vertex_arrays.size());
+        primitive.vertices = found->second;
+        if (is_new)
+            add_vertices(transform, all, file, mesh);
+        VertexArray& vertices = scene_.vertex_arrays[primitive.vertices];
+
+        primitive.triangles = read_triangles(model_, file, vertices.size());
+        primitive.mirrored = node.skin < 0 && glm::determinant(glm::dmat3(transform.world)) < 0;
+        if (primitive.mirrored)
+            for (glm::uvec3& t : primitive.triangles)
+                std::swap(t.y, t.z);
+        scene_.primitives.push_back(std::move(primitive));
+    }
+
+    void add_vertices(const NodeTransform& node_transform, const std::vector<NodeTransform>& all,
+                      const tinygltf::Primitive& file, const tinygltf::Mesh& mesh) {
+        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(node_transform.node)];
+        VertexArray vertices;
+        vertices.positions = read_vectors<glm::vec3>(model_, attribute(file, "POSITION"));
+        if (const int normals = attribute(file, "NORMAL"); normals >= 0) {
+            vertices.normals = read_vectors<glm::vec3>(model_, normals);
+            check_count(vertices.normals.size(), vertices.size(), "NORMAL");
+        }
+        read_texcoords(model_, file, vertices);
+        read_colors(model_, file, vertices);
+        for (glm::vec4& color : vertices.colors)
+            range_.clamp(color, "COLOR_0 of vertices");
+        has_morphs_ |= !file.targets.empty();
+        apply_morph_targets(model_, file, node.weights.empty() ? mesh.weights : node.weights, vertices);
+
+        std::vector<glm::dmat4> skin;
+        if (node.skin >= 0) {
+            has_skins_ = true;
+            skin = skin_matrices(model_, node.skin, file, vertices.size(), all);
+        }
+        std::vector<glm::dvec3> places;
+        places.reserve(vertices.size());
+        for (std::size_t i = 0; i < vertices.size(); ++i) {
+            const glm::dmat4& matrix = skin.empty() ? node_transform.world : skin[i];
+            places.emplace_back(matrix * glm::dvec4(vertices.positions[i], 1));
+            const glm::vec3 as_float(places[i]);
+            for (int axis = 0; axis < 3; ++axis)
+                if (!std::isfinite(as_float[axis]))
+                    throw Error("the position of vertex " + std::to_string(i) + " is not finite");
+            if (!vertices.normals.empty())
+                vertices.normals[i] = transformed_normal(vertices.normals[i], matrix);
+        }
+        places_.push_back(std::move(places));
+        scene_.vertex_arrays.push_back(std::move(vertices));
+    }
+
+    /// Positions of the file become those in the world, seen from the middle of the triangles' box. They are
+    /// rounded to floats only here.
+    void place_about_middle() {
+        glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
+        for (const Primitive& primitive : scene_.primitives)
+            for (const glm::uvec3& t : primitive.triangles)
+                for (int corner = 0; corner < 3; ++corner) {
+                    low = glm::min(low, places_[primitive.vertices][t[corner]]);
+                    high = glm::max(high, places_[primitive.vertices][t[corner]]);
+                }
+        scene_.origin = low + 0.5 * (high - low);
+        for (std::size_t array = 0; array < places_.size(); ++array)
+            std::transform(places_[array].begin(), places_[array].end(),
+                           scene_.vertex_arrays[array].positions.begin(),
+                           [&](const glm::dvec3& place) { return glm::vec3(place - scene_.origin); });
+        places_.clear();
+    }
+
+    void make_flat_normals() {
+        for (Primitive& primitive : scene_.primitives) {
+            VertexArray& vertices = scene_.vertex_arrays[primitive.vertices];
+            if (!vertices.normals.empty())
+                continue;
+            split_for_flat_normals(vertices, primitive.triangles);
+            ++flat_primitives_;
+        }
+    }
+
+    std::size_t material_index(int material) const {
+        if (material < 0)
+            return scene_.materials.size() - 1;
+        if (static_cast<std::size_t>(material) + 1 >= scene_.materials.size())
+            throw Error("material " + std::to_string(material) + " is not there");
+        return static_cast<std::size_t>(material);
+    }
+
+    void add_notices() {
+        if (has_skins_)
+            scene_.notices.emplace_back("skinned meshes are taken in the pose of the file");
+        if (has_morphs_)
+            scene_.notices.emplace_back("morph targets are taken at the weights of the file");
+        if (flat_primitives_ > 0)
+            scene_.notices.emplace_back(std::to_string(flat_primitives_) +
+                                        " primitives have no normals and get flat ones");
+        if (skipped_primitives_ > 0)
+            scene_.notices.emplace_back(std::to_string(skipped_primitives_) +
+                                        " primitives of points, lines or nothing are left as they are");
+        if (hidden_nodes_ > 0)
+            scene_.notices.emplace_back(std::to_string(hidden_nodes_) +
+                                        " meshes are hidden (KHR_node_visibility) and left out");
+        if (!range_.notice().empty())
+            scene_.notices.push_back(range_.notice());
+        for (std::string& notice : unread_material_notices(model_, scene_))
+            scene_.notices.push_back(std::move(notice));
+        std::size_t zero_normals = 0;
+        for (VertexArray& vertices : scene_.vertex_arrays)
+            zero_normals += replace_zero_normals(scene_, vertices);
+        if (zero_normals > 0)
+            scene_.notices.emplace_back(std::to_string(zero_normals) +
+                                        " vertices have no usable normal and get that of their triangles");
+    }
+
+    const tinygltf::Model& model_;
+    Scene scene_;
+    std::vector<std::vector<glm::dvec3>> places_; ///< [vertex arrays][vertices] in the world
+    using Attributes = std::map<std::string, int>;
+    /// Vertex arrays by node, primitive (where it matters), attributes and morph targets.
+    std::map<std::tuple<int, int, Attributes, std::vector<Attributes>>, std::size_t> shared_;
+    UnitRange range_;
+    std::size_t flat_primitives_ = 0, skipped_primitives_ = 0, hidden_nodes_ = 0;
+    bool has_skins_ = false, has_morphs_ = false;
+};
+
+} // namespace
+
+Scene extract_scene(const GltfDocument& document) {
+    try {
+        return SceneExtractor(document.contents()).extract();
+    } catch (const Error& error) {
+        throw Error(document.contents().path.string() + ": " + error.what());
+    }
+}
+
+} // namespace prt

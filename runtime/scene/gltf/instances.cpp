@@ -1,0 +1,113 @@
+#include "gltf/instances.h"
+
+#include "gltf/accessor.h"
+#include "prt/support/error.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace prt {
+namespace {
+
+constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
+/// Nodes take half a kilobyte each, and accessors without data claim any number.
+constexpr std::size_t kMostInstances = 1'000'000;
+
+/// Part of the transform of every instance: [instance][component]; empty: not given.
+struct Attribute {
+    const char* name; ///< in the extension
+    const char* key;  ///< of a node
+    std::size_t components;
+    std::vector<double> tinygltf::Node::*member;
+    std::vector<float> values = {};
+};
+
+std::vector<Attribute> read_attributes(const GltfContents& contents, const Json& references,
+                                       std::size_t& count) {
+    std::vector<Attribute> attributes = {{"TRANSLATION", "translation", 3, &tinygltf::Node::translation},
+                                         {"ROTATION", "rotation", 4, &tinygltf::Node::rotation},
+                                         {"SCALE", "scale", 3, &tinygltf::Node::scale}};
+    bool first = true;
+    for (const auto& item : references.items()) {
+        const auto index = item.value().get<std::size_t>();
+        if (index >= contents.model.accessors.size())
+            throw Error("accessor " + std::to_string(index) + " of its instances is not there");
+        if (!std::exchange(first, false) && contents.model.accessors[index].count != count)
+            throw Error("its instances have attributes of different length");
+        count = contents.model.accessors[index].count;
+    }
+    if (count > kMostInstances)
+        throw Error("has " + std::to_string(count) + " instances, and at most " +
+                    std::to_string(kMostInstances) + " can be");
+    for (Attribute& attribute : attributes)
+        if (references.contains(attribute.name))
+            attribute.values = read_floats(contents.model, references[attribute.name].get<int>(),
+                                           static_cast<int>(attribute.components));
+    return attributes;
+}
+
+/// Takes the mesh from node `n` and gives it to one new child for each instance; returns how many.
+std::size_t expand(GltfContents& contents, std::size_t n) {
+    Json& nodes = contents.json["nodes"];
+    std::size_t count = 0;
+    const auto attributes =
+        read_attributes(contents, nodes[n]["extensions"][kInstancing].at("attributes"), count);
+    nodes[n]["extensions"].erase(kInstancing);
+    if (nodes[n]["extensions"].empty())
+        nodes[n].erase("extensions");
+    Json common = Json::object();
+    for (const char* key : {"mesh", "skin", "weights"})
+        if (nodes[n].contains(key)) {
+            common[key] = nodes[n][key];
+            nodes[n].erase(key);
+        }
+    tinygltf::Node common_model;
+    common_model.mesh = std::exchange(contents.model.nodes[n].mesh, -1);
+    common_model.skin = std::exchange(contents.model.nodes[n].skin, -1);
+    common_model.weights = std::exchange(contents.model.nodes[n].weights, {});
+    for (std::size_t i = 0; i < count; ++i) {
+        Json child = common;
+        tinygltf::Node model = common_model;
+        for (const Attribute& attribute : attributes) {
+            if (attribute.values.empty())
+                continue;
+            const float* values = &attribute.values[i * attribute.components];
+            model.*attribute.member = {values, values + attribute.components};
+            child[attribute.key] = model.*attribute.member;
+        }
+        member(nodes[n], "children", Json::value_t::array).push_back(nodes.size());
+        contents.model.nodes[n].children.push_back(static_cast<int>(nodes.size()));
+        nodes.push_back(std::move(child));
+        contents.model.nodes.push_back(std::move(model));
+    }
+    return count;
+}
+
+} // namespace
+
+void expand_instances(GltfContents& contents) {
+    std::size_t instances = 0;
+    bool found = false;
+    const std::size_t before = contents.model.nodes.size();
+    for (std::size_t n = 0; n < before; ++n) {
+        const Json& node = contents.json["nodes"][n];
+        if (!node.contains("extensions") || !node["extensions"].contains(kInstancing))
+            continue;
+        try {
+            instances += expand(contents, n);
+            found = true;
+        } catch (const std::exception& error) { // ours, and those of the JSON library
+            throw Error("node " + std::to_string(n) + ": " + error.what());
+        }
+        if (instances > kMostInstances)
+            throw Error("has more than " + std::to_string(kMostInstances) + " instances of meshes");
+    }
+    if (!found)
+        return;
+    contents.drop_extension(kInstancing);
+    contents.notices.push_back("its " + std::to_string(instances) +
+                               " instances (EXT_mesh_gpu_instancing) become nodes of their own");
+}
+
+} // namespace prt

@@ -1,0 +1,227 @@
+#include "gltf/material.h"
+
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+namespace prt {
+namespace {
+
+Wrap wrap_mode(int mode) {
+    if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE)
+        return Wrap::clamp;
+    return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
+}
+
+glm::vec2 vec2_member(const tinygltf::Value& object, const char* name, const glm::vec2& otherwise) {
+    if (!object.Has(name) || object.Get(name).ArrayLen() < 2)
+        return otherwise;
+    return {static_cast<float>(object.Get(name).Get(0).GetNumberAsDouble()),
+            static_cast<float>(object.Get(name).Get(1).GetNumberAsDouble())};
+}
+
+/// KHR_texture_transform: uv' = translation · rotation · scale · uv.
+glm::mat3x2 texture_transform(const tinygltf::Value& extension) {
+    const glm::vec2 offset = vec2_member(extension, "offset", glm::vec2(0));
+    const glm::vec2 scale = vec2_member(extension, "scale", glm::vec2(1));
+    const auto rotation =
+        extension.Has("rotation") ? static_cast<float>(extension.Get("rotation").GetNumberAsDouble()) : 0.0f;
+    const float c = std::cos(rotation), s = std::sin(rotation);
+    return {c * scale.x, -s * scale.x, s * scale.y, c * scale.y, offset.x, offset.y};
+}
+
+/// The image of a texture: the plain one, else one of a format that an extension brings, which may be beyond
+/// this program, but is asked for only where it is needed. -1: none.
+int image_of(const tinygltf::Texture& texture) {
+    if (texture.source >= 0)
+        return texture.source;
+    for (const char* name :
+         {"KHR_texture_basisu", "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds"})
+        if (const auto found = texture.extensions.find(name);
+            found != texture.extensions.end() && found->second.Has("source"))
+            return found->second.Get("source").GetNumberAsInt();
+    return -1;
+}
+
+float number_member(const tinygltf::Value& object, const char* name, float otherwise) {
+    return object.Has(name) && object.Get(name).IsNumber()
+               ? static_cast<float>(object.Get(name).GetNumberAsDouble())
+               : otherwise;
+}
+
+/// White where it is not there.
+template <class Vector>
+Vector color_member(const tinygltf::Value& object, const char* name) {
+    Vector color(1);
+    if (object.Has(name) && object.Get(name).ArrayLen() >= static_cast<std::size_t>(Vector::length()))
+        for (int c = 0; c < Vector::length(); ++c)
+            color[c] = static_cast<float>(object.Get(name).Get(c).GetNumberAsDouble());
+    return color;
+}
+
+Volume read_volume(const tinygltf::Value& extension) {
+    Volume volume;
+    volume.thickness = number_member(extension, "thicknessFactor", 0);
+    volume.attenuation_distance =
+        number_member(extension, "attenuationDistance", volume.attenuation_distance);
+    volume.attenuation_color = color_member<glm::vec3>(extension, "attenuationColor");
+    return volume;
+}
+
+class MaterialReader {
+public:
+    MaterialReader(const tinygltf::Model& model, Scene& scene, UnitRange& range)
+        : model_(model), scene_(scene), range_(range) {}
+
+    Material read(const tinygltf::Material& file) {
+        Material material;
+        material.name = file.name;
+        read_reflection(file, material);
+        if (file.alphaMode == "MASK")
+            material.alpha_mode = AlphaMode::mask;
+        else if (file.alphaMode == "BLEND")
+            material.alpha_mode = AlphaMode::blend;
+        material.alpha_cutoff = static_cast<float>(file.alphaCutoff);
+        material.double_sided = file.doubleSided;
+        const auto& extensions = file.extensions;
+        if (const auto e = extensions.find("KHR_materials_diffuse_transmission"); e != extensions.end())
+            material.transmission = read_transmission(e->second);
+        if (const auto e = extensions.find("KHR_materials_transmission"); e != extensions.end())
+            material.glass = read_glass(e->second, material);
+        if (const auto e = extensions.find("KHR_materials_volume"); e != extensions.end())
+            material.volume = read_volume(e->second);
+        return material;
+    }
+
+private:
+    void read_reflection(const tinygltf::Material& file, Material& material) {
+        const auto glossy = file.extensions.find("KHR_materials_pbrSpecularGlossiness");
+        if (glossy != file.extensions.end()) { // goes before what stands beside it
+            material.base_color = color_member<glm::vec4>(glossy->second, "diffuseFactor");
+            material.base_color_texture = texture_member(glossy->second, "diffuseTexture");
+            range_.clamp(material.base_color, "diffuseFactor of materials");
+            return;
+        }
+        const tinygltf::PbrMetallicRoughness& pbr = file.pbrMetallicRoughness;
+        for (std::size_t c = 0; c < 4 && c < pbr.baseColorFactor.size(); ++c)
+            material.base_color[static_cast<int>(c)] = static_cast<float>(pbr.baseColorFactor[c]);
+        material.base_color_texture = texture_use(pbr.baseColorTexture);
+        material.metallic = static_cast<float>(pbr.metallicFactor);
+        material.roughness = static_cast<float>(pbr.roughnessFactor);
+        material.metallic_roughness_texture = texture_use(pbr.metallicRoughnessTexture);
+        range_.clamp(material.base_color, "baseColorFactor of materials");
+        range_.clamp(material.metallic, "metallicFactor of materials");
+        range_.clamp(material.roughness, "roughnessFactor of materials");
+    }
+
+    DiffuseTransmission read_transmission(const tinygltf::Value& extension) {
+        DiffuseTransmission transmission{number_member(extension, "diffuseTransmissionFactor", 0),
+                                         texture_member(extension, "diffuseTransmissionTexture"),
+                                         color_member<glm::vec3>(extension, "diffuseTransmissionColorFactor"),
+                                         texture_member(extension, "diffuseTransmissionColorTexture")};
+        range_.clamp(transmission.factor, "diffuseTransmissionFactor of materials");
+        range_.clamp(transmission.color, "diffuseTransmissionColorFactor of materials");
+        return transmission;
+    }
+
+    Glass read_glass(const tinygltf::Value& extension, const Material& material) {
+        Glass glass{number_member(extension, "transmissionFactor", 0),
+                    texture_member(extension, "transmissionTexture")};
+        range_.clamp(glass.factor, "transmissionFactor of materials");
+        if (material.metallic_roughness_texture.image < 0) // else its dielectric parts are what is glass
+            glass.factor *= 1 - material.metallic;
+        return glass;
+    }
+
+    TextureUse texture_use(int index, int texcoord, const tinygltf::Value* transform) {
+        TextureUse use;
+        if (index < 0)
+            return use;
+        if (static_cast<std::size_t>(index) >= model_.textures.size())
+            throw Error("texture " + std::to_string(index) + " is not there");
+        const tinygltf::Texture& texture = model_.textures[static_cast<std::size_t>(index)];
+        use.image = image_of(texture);
+        if (use.image < 0) { // a stand-in that can be missed where it is needed
+            use.image = static_cast<int>(scene_.images.size());
+            scene_.images.push_back({"the image of texture " + std::to_string(index), {}});
+        } else if (static_cast<std::size_t>(use.image) >= model_.images.size()) {
+            throw Error("texture " + std::to_string(index) + " names image " + std::to_string(use.image) +
+                        ", which is not there");
+        }
+        use.texcoord = texcoord;
+        if (texture.sampler >= 0 && static_cast<std::size_t>(texture.sampler) < model_.samplers.size()) {
+            const tinygltf::Sampler& sampler = model_.samplers[static_cast<std::size_t>(texture.sampler)];
+            use.wrap_u = wrap_mode(sampler.wrapS);
+            use.wrap_v = wrap_mode(sampler.wrapT);
+        }
+        if (transform) {
+            use.transform = texture_transform(*transform);
+            if (transform->Has("texCoord"))
+                use.texcoord = transform->Get("texCoord").GetNumberAsInt();
+        }
+        return use;
+    }
+
+    TextureUse texture_use(const tinygltf::TextureInfo& info) {
+        const auto transform = info.extensions.find("KHR_texture_transform");
+        return texture_use(info.index, info.texCoord,
+                           transform == info.extensions.end() ? nullptr : &transform->second);
+    }
+
+    /// A texture reference inside an extension.
+    TextureUse texture_member(const tinygltf::Value& object, const char* name) {
+        if (!object.Has(name))
+            return {};
+        const tinygltf::Value& value = object.Get(name);
+        const bool transformed =
+            value.Has("extensions") && value.Get("extensions").Has("KHR_texture_transform");
+        return texture_use(value.Has("index") ? value.Get("index").GetNumberAsInt() : -1,
+                           value.Has("texCoord") ? value.Get("texCoord").GetNumberAsInt() : 0,
+                           transformed ? &value.Get("extensions").Get("KHR_texture_transform") : nullptr);
+    }
+
+    const tinygltf::Model& model_;
+    Scene& scene_;
+    UnitRange& range_;
+};
+
+std::string counted(std::size_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+} // namespace
+
+void read_materials(const tinygltf::Model& model, Scene& scene, UnitRange& range) {
+    MaterialReader reader(model, scene, range);
+    for (const tinygltf::Material& file : model.materials)
+        scene.materials.push_back(reader.read(file));
+    scene.materials.emplace_back(); // a rough metal by the letter, and bounces take that as diffuse
+}
+
+std::vector<std::string> unread_material_notices(const tinygltf::Model& model, const Scene& scene) {
+    std::set<std::size_t> used;
+    for (const Primitive& primitive : scene.primitives)
+        used.insert(primitive.material);
+    std::size_t bumpy = 0, shining = 0;
+    for (const std::size_t m : used) {
+        if (m >= model.materials.size())
+            continue;
+        const tinygltf::Material& file = model.materials[m];
+        bumpy += file.normalTexture.index >= 0;
+        shining += std::any_of(file.emissiveFactor.begin(), file.emissiveFactor.end(),
+                               [](double factor) { return factor > 0; });
+    }
+    std::vector<std::string> notices;
+    if (bumpy > 0)
+        notices.push_back(counted(bumpy, "material has a normal map", "materials have normal maps") +
+                          ": light is baked for the normals of the vertices");
+    if (shining > 0)
+        notices.push_back(counted(shining, "material shines", "materials shine") +
+                          ": emission is drawn by the renderer and lights nothing in a bake");
+    return notices;
+}
+
+} // namespace prt

@@ -1,0 +1,279 @@
+#include "gltf/meshopt_views.h"
+
+#include "gltf/accessor.h"
+#include "prt/support/error.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <string>
+
+namespace prt {
+namespace {
+
+constexpr const char* kFallback = "data:application/octet-stream;base64,AAAA";
+
+const Json* extension_of(const Json& object) {
+    if (!object.contains("extensions") || !object["extensions"].contains(kMeshoptExtension))
+        return nullptr;
+    return &object["extensions"][kMeshoptExtension];
+}
+
+void erase_extension(Json& object) {
+    object["extensions"].erase(kMeshoptExtension);
+    if (object["extensions"].empty())
+        object.erase("extensions");
+}
+
+void erase_name(Json& json, const char* list) {
+    if (!json.contains(list))
+        return;
+    Json kept = Json::array();
+    for (const Json& name : json[list])
+        if (name != kMeshoptExtension)
+            kept.push_back(name);
+    if (kept.empty())
+        json.erase(list);
+    else
+        json[list] = kept;
+}
+
+std::vector<unsigned char> decompressed(const Json& extension, std::span<const unsigned char> source) {
+    const auto count = extension.at("count").get<std::size_t>();
+    const auto stride = extension.at("byteStride").get<std::size_t>();
+    const std::string mode = extension.at("mode"), filter = extension.value("filter", "NONE");
+    const bool attributes = mode == "ATTRIBUTES";
+    if (attributes ? stride == 0 || stride > 256 || stride % 4 != 0 : stride != 2 && stride != 4)
+        throw Error("has a stride of " + std::to_string(stride) + " bytes");
+    if (!attributes && mode != "TRIANGLES" && mode != "INDICES")
+        throw Error("has the unknown mode '" + mode + "'");
+    if (mode == "TRIANGLES" && count % 3 != 0)
+        throw Error("holds " + std::to_string(count) + " indices of triangles");
+    // Every 16 elements of a byte each take at least a bit or two: a count far beyond is no data.
+    if (count > source.size() * 1024)
+        throw Error("claims " + std::to_string(count) + " elements in " + std::to_string(source.size()) +
+                    " bytes");
+    std::vector<unsigned char> result(count * stride);
+    const int status =
+        attributes ? meshopt_decodeVertexBuffer(result.data(), count, stride, source.data(), source.size())
+        : mode == "TRIANGLES"
+            ? meshopt_decodeIndexBuffer(result.data(), count, stride, source.data(), source.size())
+            : meshopt_decodeIndexSequence(result.data(), count, stride, source.data(), source.size());
+    if (status != 0)
+        throw Error("is damaged");
+    if (filter == "OCTAHEDRAL" && (stride == 4 || stride == 8))
+        meshopt_decodeFilterOct(result.data(), count, stride);
+    else if (filter == "QUATERNION" && stride == 8)
+        meshopt_decodeFilterQuat(result.data(), count, stride);
+    else if (filter == "EXPONENTIAL" && stride % 4 == 0)
+        meshopt_decodeFilterExp(result.data(), count, stride);
+    else if (filter != "NONE")
+        throw Error("has the filter '" + filter + "', which does not go with it");
+    return result;
+}
+
+/// What a view holds, as far as the extension can compress it.
+struct ViewUse {
+    bool vertices = false, indices = false, triangles = true, other = false;
+    std::size_t element = 0; ///< bytes
+};
+
+std::vector<ViewUse> view_uses(const Json& json) {
+    std::vector<ViewUse> uses(json.value("bufferViews", Json::array()).size());
+    std::vector<ViewUse> by_accessor(json.value("accessors", Json::array()).size());
+    if (json.contains("meshes"))
+        for (const Json& mesh : json["meshes"])
+            for (const Json& primitive : mesh["primitives"]) {
+                const auto vertices = [&](const Json& attributes) {
+                    for (const auto& item : attributes.items())
+                        by_accessor.at(item.value().get<std::size_t>()).vertices = true;
+                };
+                vertices(primitive.at("attributes"));
+                if (primitive.contains("targets"))
+                    for (const Json& target : primitive["targets"])
+                        vertices(target);
+                if (primitive.contains("indices")) {
+                    ViewUse& use = by_accessor.at(primitive["indices"].get<std::size_t>());
+                    use.indices = true;
+                    use.triangles = use.triangles && primitive.value("mode", 4) == 4;
+                }
+            }
+    for (std::size_t a = 0; a < by_accessor.size(); ++a) {
+        const Json& accessor = json["accessors"][a];
+        if (accessor.contains("sparse"))
+            for (const char* part : {"indices", "values"})
+                uses.at(accessor["sparse"][part].at("bufferView").get<std::size_t>()).other = true;
+        if (!accessor.contains("bufferView"))
+            continue;
+        ViewUse& use = uses.at(accessor["bufferView"].get<std::size_t>());
+        const std::size_t element =
+            component_bytes(accessor.at("componentType").get<int>()) *
+            static_cast<std::size_t>(component_count(tinygltf_type(accessor.at("type"))));
+        use.other = use.other || (!by_accessor[a].vertices && !by_accessor[a].indices) ||
+                    (use.element != 0 && use.element != element &&
+                     !json["bufferViews"][accessor["bufferView"].get<std::size_t>()].contains("byteStride"));
+        use.vertices = use.vertices || by_accessor[a].vertices;
+        use.indices = use.indices || by_accessor[a].indices;
+        use.triangles = use.triangles && by_accessor[a].triangles;
+        use.element = element;
+    }
+    return uses;
+}
+
+/// Compressed bytes and the extension object that describes them; nothing where the view does not qualify.
+struct CompressedView {
+    std::vector<unsigned char> bytes;
+    Json extension;
+};
+
+std::optional<CompressedView> compressed(const Json& view, const ViewUse& use,
+                                         std::span<const std::byte> bytes) {
+    if (use.other || use.vertices == use.indices)
+        return std::nullopt;
+    const std::size_t stride = use.vertices ? view.value("byteStride", use.element) : use.element;
+    if (stride == 0 || bytes.size() % stride != 0 || bytes.empty())
+        return std::nullopt;
+    const std::size_t count = bytes.size() / stride;
+    CompressedView result;
+    std::string mode = "ATTRIBUTES";
+    if (use.vertices) {
+        if (stride % 4 != 0 || stride > 256)
+            return std::nullopt;
+        result.bytes.resize(meshopt_encodeVertexBufferBound(count, stride));
+        meshopt_encodeVertexVersion(0); // what the extension asks for
+        result.bytes.resize(meshopt_encodeVertexBuffer(result.bytes.data(), result.bytes.size(), bytes.data(),
+                                                       count, stride));
+    } else {
+        if (stride != 2 && stride != 4)
+            return std::nullopt;
+        std::vector<unsigned> indices(count);
+        unsigned most = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            std::memcpy(&indices[i], &bytes[i * stride], stride); // little-endian, as glTF is
+            most = std::max(most, indices[i]);
+        }
+        const bool triangles = use.triangles && count % 3 == 0;
+        mode = triangles ? "TRIANGLES" : "INDICES";
+        meshopt_encodeIndexVersion(1); // what the extension asks for
+        result.bytes.resize(triangles ? meshopt_encodeIndexBufferBound(count, most + std::size_t{1})
+                                      : meshopt_encodeIndexSequenceBound(count, most + std::size_t{1}));
+        result.bytes.resize(triangles ? meshopt_encodeIndexBuffer(result.bytes.data(), result.bytes.size(),
+                                                                  indices.data(), count)
+                                      : meshopt_encodeIndexSequence(result.bytes.data(), result.bytes.size(),
+                                                                    indices.data(), count));
+    }
+    if (result.bytes.size() >= bytes.size())
+        return std::nullopt;
+    result.extension = {
+        {"buffer", 0}, {"byteLength", result.bytes.size()}, {"byteStride", stride}, {"count", count}};
+    result.extension["mode"] = mode;
+    return result;
+}
+
+std::size_t append(std::vector<std::byte>& to, std::span<const std::byte> bytes) {
+    to.resize((to.size() + 7) / 8 * 8);
+    const std::size_t begin = to.size();
+    to.insert(to.end(), bytes.begin(), bytes.end());
+    return begin;
+}
+
+} // namespace
+
+bool has_meshopt_views(const Json& json) {
+    const auto views = json.find("bufferViews");
+    return views != json.end() && std::any_of(views->begin(), views->end(), extension_of);
+}
+
+Json without_meshopt(Json json) {
+    for (Json& view : json["bufferViews"])
+        if (const Json* extension = extension_of(view)) {
+            const Json source = *extension;
+            view = {{"buffer", source.at("buffer")},
+                    {"byteOffset", source.value("byteOffset", 0)},
+                    {"byteLength", source.at("byteLength")}};
+        }
+    if (json.contains("buffers"))
+        for (std::size_t b = 0; b < json["buffers"].size(); ++b) {
+            Json& buffer = json["buffers"][b];
+            if (const Json* extension = extension_of(buffer);
+                extension && extension->value("fallback", false))
+                buffer = {{"byteLength", 3}, {"uri", kFallback}};
+        }
+    erase_name(json, "extensionsRequired");
+    return json;
+}
+
+void decompress_views(GltfContents& contents) {
+    Json& views = contents.json["bufferViews"];
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        const Json* extension = extension_of(views[v]);
+        if (!extension)
+            continue;
+        try {
+            const auto source = buffer_view_bytes(contents.model, static_cast<int>(v));
+            tinygltf::Buffer buffer;
+            buffer.data = decompressed(*extension, source);
+            const std::size_t length = views[v].value("byteLength", buffer.data.size());
+            if (length > buffer.data.size())
+                throw Error("has fewer bytes than it says");
+            tinygltf::BufferView& view = contents.model.bufferViews[v];
+            view.buffer = static_cast<int>(contents.model.buffers.size());
+            view.byteOffset = 0;
+            view.byteLength = length;
+            view.byteStride = views[v].value("byteStride", std::size_t{0});
+            views[v]["buffer"] = contents.model.buffers.size();
+            views[v]["byteOffset"] = 0;
+            contents.model.buffers.push_back(std::move(buffer));
+            erase_extension(views[v]);
+        } catch (const std::exception& error) {
+            throw Error("compressed buffer view " + std::to_string(v) + " " + in_plain_words(error));
+        }
+    }
+    // What was compressed is not needed any more.
+    std::vector<bool> used(contents.model.buffers.size(), false);
+    for (const tinygltf::BufferView& view : contents.model.bufferViews)
+        if (view.buffer >= 0 && static_cast<std::size_t>(view.buffer) < used.size())
+            used[static_cast<std::size_t>(view.buffer)] = true;
+    for (std::size_t b = 0; b < used.size(); ++b)
+        if (!used[b])
+            contents.model.buffers[b].data.clear();
+    contents.drop_extension(kMeshoptExtension);
+}
+
+CompressedGlb compress_views(const GltfContents& contents) {
+    const auto uncompressed = [&] {
+        return CompressedGlb{contents.json, {contents.binary().begin(), contents.binary().end()}};
+    };
+    CompressedGlb result{contents.json, {}};
+    if (!contents.json.contains("bufferViews"))
+        return uncompressed();
+    const std::vector<ViewUse> uses = view_uses(contents.json);
+    std::size_t fallback = 0;
+    for (std::size_t v = 0; v < uses.size(); ++v) {
+        Json& view = result.json["bufferViews"][v];
+        const auto bytes = contents.binary().subspan(view.value("byteOffset", std::size_t{0}),
+                                                     view.at("byteLength").get<std::size_t>());
+        auto packed = compressed(view, uses[v], bytes);
+        if (!packed) {
+            view["byteOffset"] = append(result.binary, bytes);
+            continue;
+        }
+        packed->extension["byteOffset"] = append(result.binary, std::as_bytes(std::span(packed->bytes)));
+        view["buffer"] = 1;
+        view["byteOffset"] = fallback;
+        view["extensions"][kMeshoptExtension] = packed->extension;
+        fallback += (bytes.size() + 7) / 8 * 8;
+    }
+    if (fallback == 0)
+        return uncompressed();
+    Json stand_in = {{"byteLength", fallback}};
+    stand_in["extensions"][kMeshoptExtension] = {{"fallback", true}};
+    result.json["buffers"] = Json::array({Json{{"byteLength", result.binary.size()}}, stand_in});
+    for (const char* list : {"extensionsUsed", "extensionsRequired"})
+        member(result.json, list, Json::value_t::array).push_back(kMeshoptExtension);
+    return result;
+}
+
+} // namespace prt

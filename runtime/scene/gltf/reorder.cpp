@@ -1,0 +1,162 @@
+#include "prt/reorder.h"
+
+#include "gltf/accessor.h"
+#include "gltf/contents.h"
+#include "gltf/gather.h"
+#include "gltf/unshare.h"
+#include "prt/support/error.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <map>
+#include <numeric>
+
+namespace prt {
+namespace {
+
+std::size_t new_indices(GltfContents& contents, const std::vector<std::uint32_t>& indices) {
+    const std::size_t view = contents.add_buffer_view(std::as_bytes(std::span(indices)));
+    contents.json["bufferViews"][view]["target"] = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+    return contents.add_accessor({{"bufferView", view},
+                                  {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
+                                  {"count", indices.size()},
+                                  {"type", "SCALAR"}});
+}
+
+/// Vertex array, position and normal, bit by bit.
+using Key = std::array<std::uint32_t, 7>;
+
+std::vector<Key> keys_of(const Scene& scene) {
+    std::vector<Key> keys;
+    for (std::uint32_t a = 0; a < scene.vertex_arrays.size(); ++a) {
+        const VertexArray& vertices = scene.vertex_arrays[a];
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            const glm::vec3 &p = vertices.positions[v], &n = vertices.normals[v];
+            keys.push_back({a, std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
+                            std::bit_cast<std::uint32_t>(p.z), std::bit_cast<std::uint32_t>(n.x),
+                            std::bit_cast<std::uint32_t>(n.y), std::bit_cast<std::uint32_t>(n.z)});
+        }
+    }
+    return keys;
+}
+
+/// Equal ones stay in their order.
+std::vector<std::uint32_t> sorted(const std::vector<Key>& keys) {
+    std::vector<std::uint32_t> order(keys.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return keys[a] < keys[b]; });
+    return order;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> order_by_cluster(const Scene& scene, const ClusteredReceivers& receivers) {
+    std::vector<std::uint32_t> order(receivers.size());
+    std::iota(order.begin(), order.end(), 0u);
+    for (const VertexArray& vertices : scene.vertex_arrays) {
+        const auto begin = order.begin() + static_cast<std::ptrdiff_t>(vertices.first_receiver);
+        std::stable_sort(
+            begin, begin + static_cast<std::ptrdiff_t>(vertices.size()),
+            [&](std::uint32_t a, std::uint32_t b) { return receivers.clusters[a] < receivers.clusters[b]; });
+    }
+    return order;
+}
+
+ClusteredReceivers reordered(const ClusteredReceivers& receivers, std::span<const std::uint32_t> order) {
+    ClusteredReceivers result = receivers;
+    const std::size_t stride = receivers.stride();
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        result.clusters[i] = receivers.clusters[order[i]];
+        if (stride > 0)
+            std::memcpy(&result.weights[i * stride], &receivers.weights[order[i] * stride], stride);
+    }
+    return result;
+}
+
+void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<const std::uint32_t> order) {
+    GltfContents& contents = document.contents();
+    const std::vector<Json*> primitives = unshare(contents, scene);
+    std::set<std::size_t> replaced;
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t>
+        moved; // accessor and vertex array: its new accessor
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        Json& primitive = *primitives[i];
+        const std::size_t array = scene.primitives[i].vertices;
+        const VertexArray& vertices = scene.vertex_arrays[array];
+        std::vector<std::uint32_t> source(vertices.size()), place(vertices.size());
+        for (std::uint32_t v = 0; v < source.size(); ++v) {
+            source[v] =
+                order[vertices.first_receiver + v] - static_cast<std::uint32_t>(vertices.first_receiver);
+            place[source[v]] = v;
+        }
+        const auto move_all = [&](Json& attributes) {
+            for (Json& accessor : attributes) {
+                const auto old = accessor.get<std::size_t>();
+                const auto [entry, is_new] = moved.try_emplace({old, array}, 0);
+                if (is_new)
+                    entry->second = gather(contents, accessor, source);
+                replaced.insert(old);
+                accessor = entry->second;
+            }
+        };
+        move_all(primitive["attributes"]);
+        if (primitive.contains("targets"))
+            for (Json& target : primitive["targets"])
+                move_all(target);
+        std::vector<std::uint32_t> indices(vertices.size());
+        std::iota(indices.begin(), indices.end(), 0u);
+        if (primitive.contains("indices")) {
+            indices = read_unsigned(contents.model, primitive["indices"].get<int>(), 1);
+            replaced.insert(primitive["indices"].get<std::size_t>());
+        }
+        for (std::uint32_t& index : indices)
+            index = place.at(index);
+        primitive["indices"] = new_indices(contents, indices);
+    }
+    contents.remove_replaced(std::move(replaced));
+}
+
+std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& other) {
+    const std::vector<Key> keys = keys_of(scene), other_keys = keys_of(other);
+    std::vector<std::uint32_t> match(keys.size());
+    std::iota(match.begin(), match.end(), 0u);
+    if (keys == other_keys)
+        return match;
+    const std::vector<std::uint32_t> order = sorted(keys), other_order = sorted(other_keys);
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        if (i >= other_order.size() || keys[order[i]] != other_keys[other_order[i]])
+            throw Error("the scenes do not hold the same receivers");
+        match[order[i]] = other_order[i];
+    }
+    return match;
+}
+
+Transfer in_order_of(const Scene& scene, const Scene& other, const Transfer& transfer) {
+    const std::vector<std::uint32_t> match = matching_receivers(scene, other);
+    Transfer ordered = zero_transfer(transfer.order, transfer.channels, transfer.receivers());
+    for (std::size_t p = 0; p < match.size(); ++p)
+        std::copy_n(transfer.vector(match[p]).begin(), transfer.dimension(), ordered.vector(p).begin());
+    return ordered;
+}
+
+VertexReuse vertex_reuse(const Scene& scene) {
+    std::vector<unsigned> indices;
+    for (const Primitive& primitive : scene.primitives) {
+        const auto first = static_cast<unsigned>(scene.vertex_arrays[primitive.vertices].first_receiver);
+        for (const glm::uvec3& t : primitive.triangles)
+            indices.insert(indices.end(), {first + t.x, first + t.y, first + t.z});
+    }
+    constexpr unsigned kCache = 16;
+    const auto cache =
+        meshopt_analyzeVertexCache(indices.data(), indices.size(), scene.receivers(), kCache, 0, 0);
+    const auto fetch =
+        meshopt_analyzeVertexFetch(indices.data(), indices.size(), scene.receivers(), sizeof(glm::vec3));
+    return {static_cast<double>(cache.acmr), static_cast<double>(fetch.overfetch)};
+}
+
+} // namespace prt

@@ -1,0 +1,66 @@
+// Raw transfer in glTF files: PRTKIT_transfer of docs/format.md.
+
+#include "prt/gltf.h"
+
+#include "gltf/transfer_json.h"
+#include "gltf/unshare.h"
+
+#include <algorithm>
+
+namespace prt {
+namespace {
+
+constexpr int kVersion = 1;
+
+} // namespace
+
+void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked) {
+    GltfContents& contents = document.contents();
+    const std::vector<Json*> primitives = unshare(contents, scene);
+    contents.remove_transfer();
+    const Transfer& transfer = baked.transfer;
+    std::vector<Json> views;
+    const auto write = baked.storage == TransferStorage::float16 ? write_half_view : write_float_view;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        views.push_back(write(contents, std::span(transfer.vectors)
+                                            .subspan(vertices.first_receiver * transfer.dimension(),
+                                                     vertices.size() * transfer.dimension())));
+    for (std::size_t i = 0; i < primitives.size(); ++i)
+        (*primitives[i])["extensions"][kTransferExtension] = {
+            {"vectors", views[scene.primitives[i].vertices]}};
+    contents.json["extensions"][kTransferExtension] = {{"version", kVersion},
+                                                       {"order", transfer.order},
+                                                       {"channels", transfer.channels},
+                                                       {"bake", record_json(baked.record)}};
+    contents.use_extension(kTransferExtension);
+}
+
+std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene) {
+    return named(document, [&](const GltfContents& contents) -> std::optional<BakedTransfer> {
+        const Json* extension = find_extension(contents, kTransferExtension, kVersion);
+        if (!extension)
+            return std::nullopt;
+        BakedTransfer baked;
+        Transfer& transfer = baked.transfer;
+        read_shape(*extension, transfer.order, transfer.channels);
+        baked.record = read_record(extension->value("bake", Json::object()));
+        transfer.vectors.resize(scene.receivers() * transfer.dimension());
+        for (const Primitive& primitive : scene.primitives) {
+            const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+            const Json& json = primitive_json(contents, primitive);
+            if (!json.contains("extensions") || !json["extensions"].contains(kTransferExtension))
+                throw Error(primitive_name(primitive) + " has no " + kTransferExtension);
+            const Json& view = json["extensions"][kTransferExtension].at("vectors");
+            if (is_half(view))
+                baked.storage = TransferStorage::float16;
+            read_float_view(contents, view,
+                            std::span(transfer.vectors)
+                                .subspan(vertices.first_receiver * transfer.dimension(),
+                                         vertices.size() * transfer.dimension()),
+                            "the vectors of " + primitive_name(primitive));
+        }
+        return baked;
+    });
+}
+
+} // namespace prt

@@ -1,0 +1,19 @@
+#include "gltf/unit_range.h"
+
+namespace prt {
+
+bool UnitRange::clamp_component(float& value) {
+    if (value >= 0 && value <= 1)
+        return false;
+    value = value > 1 ? 1.0f : 0.0f; // NaN as well
+    return true;
+}
+
+std::string UnitRange::notice() const {
+    std::string text;
+    for (const auto& [name, count] : clamped_)
+        text += (text.empty() ? "clamped to 0..1: " : ", ") + name + " (" + std::to_string(count) + ")";
+    return text;
+}
+
+} // namespace prt

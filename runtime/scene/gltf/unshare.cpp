@@ -1,0 +1,112 @@
+#include "gltf/unshare.h"
+
+#include "gltf/accessor.h"
+#include "gltf/gather.h"
+#include "triangle_normal.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <set>
+
+namespace prt {
+namespace {
+
+/// Copies of meshes that more than one node uses: index of the mesh of each node afterwards.
+std::map<int, std::size_t> unshare_meshes(Json& json, const Scene& scene) {
+    std::map<int, std::size_t> mesh_of_node;
+    std::set<int> taken;
+    for (const Primitive& primitive : scene.primitives) {
+        if (mesh_of_node.contains(primitive.node))
+            continue;
+        auto mesh = static_cast<std::size_t>(primitive.mesh);
+        if (!taken.insert(primitive.mesh).second) {
+            Json copy = json["meshes"][mesh];
+            mesh = json["meshes"].size();
+            json["meshes"].push_back(std::move(copy));
+            json["nodes"][static_cast<std::size_t>(primitive.node)]["mesh"] = mesh;
+        }
+        mesh_of_node[primitive.node] = mesh;
+    }
+    return mesh_of_node;
+}
+
+/// Face normals in the mesh's own frame. Triangles without area get an arbitrary unit normal, since glTF has
+/// no zero normals.
+std::vector<glm::vec3> flat_normals(const GltfContents& contents, const Json& position, const Scene& scene,
+                                    const Primitive& primitive) {
+    const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+    const std::vector<float> p = read_floats(contents.model, position.get<int>(), 3);
+    const auto at = [&](std::uint32_t vertex) {
+        const std::size_t i = 3 * std::size_t{vertices.source[vertex]};
+        return glm::dvec3(p[i], p[i + 1], p[i + 2]);
+    };
+    std::vector<glm::vec3> normals(vertices.size(), glm::vec3(0, 0, 1));
+    for (const glm::uvec3& t : primitive.triangles) {
+        const glm::vec3 normal =
+            unit_or_zero(area_normal(at(t.x), at(t.y), at(t.z)) * (primitive.mirrored ? -1.0 : 1.0));
+        if (normal != glm::vec3(0))
+            for (int corner = 0; corner < 3; ++corner)
+                normals[t[corner]] = normal;
+    }
+    return normals;
+}
+
+void write_split_vertices(GltfContents& contents, Json& primitive_json, const Scene& scene,
+                          const Primitive& primitive) {
+    const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+    const Json old_attributes = primitive_json["attributes"];
+    const std::vector<glm::vec3> normals =
+        flat_normals(contents, old_attributes["POSITION"], scene, primitive);
+
+    Json attributes = Json::object();
+    for (auto it = old_attributes.begin(); it != old_attributes.end(); ++it)
+        if (it.key() != "TANGENT") // meaningless without the normals it was made for
+            attributes[it.key()] = gather(contents, *it, vertices.source);
+    const std::size_t view =
+        contents.add_buffer_view(std::as_bytes(std::span(normals)), sizeof(glm::vec3), true);
+    attributes["NORMAL"] = contents.add_accessor({{"bufferView", view},
+                                                  {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
+                                                  {"count", normals.size()},
+                                                  {"type", "VEC3"}});
+    primitive_json["attributes"] = std::move(attributes);
+    if (primitive_json.contains("targets"))
+        for (Json& target : primitive_json["targets"]) {
+            const Json old_target = target;
+            target = Json::object();
+            for (auto it = old_target.begin(); it != old_target.end(); ++it)
+                if (it.key() != "NORMAL" && it.key() != "TANGENT") // deltas of what the file did not have
+                    target[it.key()] = gather(contents, *it, vertices.source);
+        }
+
+    std::vector<std::uint32_t> indices;
+    for (const glm::uvec3& t : primitive.triangles)
+        indices.insert(indices.end(), {t.x, primitive.mirrored ? t.z : t.y, primitive.mirrored ? t.y : t.z});
+    const std::size_t index_view = contents.add_buffer_view(std::as_bytes(std::span(indices)));
+    contents.json["bufferViews"][index_view]["target"] = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+    primitive_json["indices"] =
+        contents.add_accessor({{"bufferView", index_view},
+                               {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
+                               {"count", indices.size()},
+                               {"type", "SCALAR"}});
+    primitive_json.erase("mode");
+}
+
+} // namespace
+
+std::vector<Json*> unshare(GltfContents& contents, const Scene& scene) {
+    const std::map<int, std::size_t> mesh_of_node = unshare_meshes(contents.json, scene);
+    std::vector<Json*> result;
+    for (const Primitive& primitive : scene.primitives) {
+        Json& json = contents.json["meshes"][mesh_of_node.at(primitive.node)]["primitives"]
+                                  [static_cast<std::size_t>(primitive.primitive)];
+        if (!scene.vertex_arrays[primitive.vertices].source.empty())
+            write_split_vertices(contents, json, scene, primitive);
+        result.push_back(&json);
+    }
+    return result;
+}
+
+} // namespace prt

@@ -1,0 +1,83 @@
+#include "sh/checked_rotation.h"
+
+#include "prt/sh_rotation.h"
+#include "prt/support/error.h"
+#include "prt/support/vector_lanes.h"
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+[[gnu::always_inline]] inline double product(const glm::dvec3& a, const glm::dvec3& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+[[gnu::always_inline]] inline glm::dvec3 cross(const glm::dvec3& a, const glm::dvec3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// What the elements of R^T R - 1 are.
+struct Deviation {
+    double xx, yy, zz, xy, yz, xz;
+
+    explicit Deviation(const glm::dmat3& r)
+        : xx(product(r[0], r[0]) - 1), yy(product(r[1], r[1]) - 1), zz(product(r[2], r[2]) - 1),
+          xy(product(r[0], r[1])), yz(product(r[1], r[2])), xz(product(r[0], r[2])) {}
+
+    bool within(double allowed) const {
+        return std::ranges::all_of(std::array{xx, yy, zz, xy, yz, xz},
+                                   [&](double off) { return std::abs(off) <= allowed; }); // nor is NaN
+    }
+};
+
+/// A step of Newton's iteration for the polar decomposition, R (3 - R^T R) / 2, which squares what is off.
+glm::dmat3 nearer_rotation(const glm::dmat3& r, const Deviation& d) {
+    const glm::dvec3 &x = r[0], &y = r[1], &z = r[2];
+    return {x - 0.5 * (d.xx * x + d.xy * y + d.xz * z), y - 0.5 * (d.xy * x + d.yy * y + d.yz * z),
+            z - 0.5 * (d.xz * x + d.yz * y + d.zz * z)};
+}
+
+/// Squares of what is off that a matrix of doubles has by rounding, and that one of floats has.
+constexpr double kDoubleRounding = 1e-28, kFloatRounding = 1e-13;
+
+/// Makes `result`, a copy of `r`, a rotation where `r` is off by no more than the rounding of floats; else
+/// returns false. Of a rotation the first two columns are orthonormal and the third is their product.
+PRT_TWO_CLONES
+bool made_rotation(const glm::dmat3& r, glm::dmat3& result) {
+    const glm::dvec3 &x = r[0], &y = r[1];
+    const double xx = product(x, x) - 1, yy = product(y, y) - 1, xy = product(x, y);
+    const glm::dvec3 off = r[2] - cross(x, y);
+    const double squares = (xx * xx + yy * yy) + (xy * xy + product(off, off));
+    if (!(squares < kFloatRounding)) // nor is NaN
+        return false;
+    if (squares >= kDoubleRounding) {
+        result[0] = x - 0.5 * (xx * x + xy * y);
+        result[1] = y - 0.5 * (xy * x + yy * y);
+        result[2] = cross(result[0], result[1]);
+    }
+    return true;
+}
+
+} // namespace
+
+void make_rotation(const glm::dmat3& r, glm::dmat3& result) {
+    if (made_rotation(r, result))
+        return;
+    if (!Deviation(r).within(kRotationTolerance))
+        throw Error("a matrix that scales, shears or is not finite is no rotation of lighting");
+    if (glm::dot(glm::cross(r[0], r[1]), r[2]) < 0)
+        throw Error(
+            "a mirrored matrix is no rotation: take the mirroring out of it, and bake the mirrored mesh");
+    do {
+        const glm::dmat3 before = result;
+        result = nearer_rotation(before, Deviation(before));
+    } while (!made_rotation(glm::dmat3(result), result));
+}
+
+} // namespace prt

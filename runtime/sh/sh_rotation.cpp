@@ -1,0 +1,355 @@
+#include "prt/sh_rotation.h"
+
+#include "prt/sh.h"
+#include "prt/support/error.h"
+#include "prt/support/vector_lanes.h"
+#include "sh/checked_rotation.h"
+#include "sh/quarter_turn.h"
+#include "sh/sh_rotation_lanes.h"
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <utility>
+
+namespace prt {
+namespace {
+
+using Turn = ShRotation::Turn;
+using Turns = ShRotation::Turns;
+
+/// Three channels and one that is idle.
+using Channels [[gnu::vector_size(sizeof(double) * 4)]] = double;
+
+/// Band l about z; `c` points at its coefficient of m = 0.
+template <class Value>
+[[gnu::always_inline]] inline void turn_about_z(int l, const Turn& turn, Value* c) {
+#pragma GCC unroll 5
+    for (int m = 1; m <= l; ++m) {
+        const double cosine = turn.cosine[Turn::kZero + static_cast<std::size_t>(m)],
+                     sine = turn.sine[Turn::kZero + static_cast<std::size_t>(m)];
+        const Value turned = c[m] * cosine - c[-m] * sine;
+        c[-m] = c[m] * sine + c[-m] * cosine;
+        c[m] = turned;
+    }
+}
+
+/// Row `Row` of a band's quarter turn about x, or of its inverse, times `c`. Zeros take no time.
+template <bool Inverse, std::size_t L, std::size_t Row, class Value, std::size_t... Column>
+[[gnu::always_inline]] inline Value turned_row(const Value* c, std::index_sequence<Column...>) {
+    Value sum{};
+    const auto add = [&]<std::size_t I>() __attribute__((always_inline)) {
+        constexpr double factor = Inverse ? kQuarterTurn.at(L, I, Row) : kQuarterTurn.at(L, Row, I);
+        if constexpr (factor != 0)
+            sum += factor * c[I];
+    };
+    (add.template operator()<Column>(), ...);
+    return sum;
+}
+
+template <bool Inverse, std::size_t L, class Value, std::size_t... Row>
+[[gnu::always_inline]] inline void quarter_turn(Value* c, std::index_sequence<Row...> all) {
+    const Value turned[] = {turned_row<Inverse, L, Row>(c, all)...};
+    ((c[Row] = turned[Row]), ...);
+}
+
+template <std::size_t L, class Value>
+[[gnu::always_inline]] inline void rotate_band(const Turns& turns, Value* c) {
+    constexpr auto all = std::make_index_sequence<2 * L + 1>();
+    constexpr int l = static_cast<int>(L);
+    turn_about_z(l, turns.first, c + L);
+    if (!turns.tilted)
+        return;
+    quarter_turn<false, L>(c, all);
+    turn_about_z(l, turns.tilt, c + L);
+    quarter_turn<true, L>(c, all);
+    turn_about_z(l, turns.last, c + L);
+}
+
+/// The quarter turns of the bands that games hardly use, element by element: their code would be as long as
+/// that of the whole rest.
+constexpr int kFirstListedBand = 6;
+/// Those below come from the elements of the matrix.
+constexpr int kFirstTurnedBand = 3;
+
+struct Element {
+    std::uint8_t row, column;
+    double value;
+};
+
+consteval std::size_t listed_elements() {
+    std::size_t count = 0;
+    for (std::size_t l = kFirstListedBand; l < kMaxOrder; ++l)
+        for (std::size_t row = 0; row <= 2 * l; ++row)
+            for (std::size_t column = 0; column <= 2 * l; ++column)
+                count += kQuarterTurn.at(l, row, column) != 0;
+    return count;
+}
+
+/// The elements that are not zero of bands kFirstListedBand to kMaxOrder - 1, and where each band starts.
+struct ElementList {
+    std::array<Element, listed_elements()> elements{};
+    std::array<std::size_t, kMaxOrder + 1> first{};
+
+    consteval ElementList() {
+        std::size_t count = 0;
+        for (std::size_t l = kFirstListedBand; l < kMaxOrder; ++l) {
+            first[l] = count;
+            for (std::size_t row = 0; row <= 2 * l; ++row)
+                for (std::size_t column = 0; column <= 2 * l; ++column)
+                    if (const double value = kQuarterTurn.at(l, row, column); value != 0)
+                        elements[count++] = {static_cast<std::uint8_t>(row),
+                                             static_cast<std::uint8_t>(column), value};
+        }
+        first[kMaxOrder] = count;
+    }
+};
+constexpr ElementList kElements;
+
+template <bool Inverse, class Value>
+[[gnu::always_inline]] inline void listed_quarter_turn(int l, Value* c) {
+    Value turned[2 * kMaxOrder - 1] = {};
+    const auto band = static_cast<std::size_t>(l);
+    for (std::size_t e = kElements.first[band]; e < kElements.first[band + 1]; ++e) {
+        const Element& element = kElements.elements[e];
+        turned[Inverse ? element.column : element.row] +=
+            element.value * c[Inverse ? element.row : element.column];
+    }
+    std::copy_n(turned, 2 * l + 1, c);
+}
+
+template <class Value>
+[[gnu::always_inline]] inline void rotate_listed_band(int l, const Turns& turns, Value* c) {
+    turn_about_z(l, turns.first, c + l);
+    if (!turns.tilted)
+        return;
+    listed_quarter_turn<false>(l, c);
+    turn_about_z(l, turns.tilt, c + l);
+    listed_quarter_turn<true>(l, c);
+    turn_about_z(l, turns.last, c + l);
+}
+
+/// Bands 1 and 2 from the elements of the matrix: a vector, and a quadratic form without a trace, in the
+/// frame that has been turned. `r` is column-major.
+template <class Value>
+[[gnu::always_inline]] inline void rotate_vector(const glm::dmat3& r, Value* c) {
+    const Value x = -c[3], y = -c[1], z = c[2];
+    c[3] = -(r[0][0] * x + r[1][0] * y + r[2][0] * z);
+    c[1] = -(r[0][1] * x + r[1][1] * y + r[2][1] * z);
+    c[2] = r[0][2] * x + r[1][2] * y + r[2][2] * z;
+}
+
+template <class Value>
+[[gnu::always_inline]] inline void rotate_form(const glm::dmat3& r, Value* c) {
+    constexpr double kThird = 0.57735026918962576451; // sqrt(1/3)
+    const Value xy = c[4], yz = -c[5], xz = -c[7], part = kThird * c[6], xx = c[8] - part, yy = -c[8] - part,
+                zz = 2 * part;
+    // Columns of Q R^T, of which R Q R^T needs no more than five elements.
+    Value q[3][3];
+#pragma GCC unroll 3
+    for (int i = 0; i < 3; ++i) {
+        q[0][i] = r[0][i] * xx + r[1][i] * xy + r[2][i] * xz;
+        q[1][i] = r[0][i] * xy + r[1][i] * yy + r[2][i] * yz;
+        q[2][i] = r[0][i] * xz + r[1][i] * yz + r[2][i] * zz;
+    }
+    const auto element = [&](int i, int j) __attribute__((always_inline)) {
+        return r[0][i] * q[0][j] + r[1][i] * q[1][j] + r[2][i] * q[2][j];
+    };
+    c[4] = element(0, 1);
+    c[5] = -element(1, 2);
+    c[7] = -element(0, 2);
+    const Value last = element(2, 2), first = element(0, 0);
+    c[6] = (1.5 * kThird) * last;
+    c[8] = first + 0.5 * last; // (xx - yy) / 2, the trace being 0
+}
+
+/// Band by band, so that every band's code is there once for all orders.
+template <class Value>
+[[gnu::always_inline]] inline void rotate_high_bands(int order, const Turns& turns, Value* c) {
+    for (int l = kFirstTurnedBand; l < std::min(order, kFirstListedBand); ++l)
+        with_order(
+            l, [&]<int L>() __attribute__((always_inline)) {
+                if constexpr (L >= kFirstTurnedBand && L < kFirstListedBand)
+                    rotate_band<static_cast<std::size_t>(L)>(turns, c + L * L);
+            });
+    for (int l = kFirstListedBand; l < order; ++l)
+        rotate_listed_band(l, turns, c + l * l);
+}
+
+PRT_TWO_CLONES
+void rotate(int order, const glm::dmat3& matrix, const Turns& turns, Channels* c) {
+    if (order > 1)
+        rotate_vector(matrix, c);
+    if (order > 2)
+        rotate_form(matrix, c);
+    rotate_high_bands(order, turns, c);
+}
+
+/// `in` and `out` hold all that the order has, and no less than 36 where it is above 3.
+template <class Real>
+[[gnu::always_inline]] inline void rotate_one_channel(int order, const glm::dmat3& matrix, const Turns& turns,
+                                                      const Real* in, Real* out) {
+    double c[9];
+    out[0] = in[0];
+    if (order > 1) {
+#pragma GCC unroll 8
+        for (int i = 1; i < 4; ++i)
+            c[i] = static_cast<double>(in[i]);
+        rotate_vector(matrix, c);
+#pragma GCC unroll 8
+        for (int i = 1; i < 4; ++i)
+            out[i] = static_cast<Real>(c[i]);
+    }
+    if (order == 3) {
+#pragma GCC unroll 8
+        for (int i = 4; i < 9; ++i)
+            c[i] = static_cast<double>(in[i]);
+        rotate_form(matrix, c);
+#pragma GCC unroll 8
+        for (int i = 4; i < 9; ++i)
+            out[i] = static_cast<Real>(c[i]);
+    } else if (order > 3) {
+        rotate_lanes(turns, in, out);
+    }
+}
+
+PRT_TWO_CLONES
+void rotate_floats(int order, const glm::dmat3& matrix, const Turns& turns, const float* in, float* out) {
+    rotate_one_channel(order, matrix, turns, in, out);
+}
+
+void rotate_low_bands(int order, const glm::dmat3& matrix, const Turns& turns, const float* in, float* out) {
+    rotate_floats(order, matrix, turns, in, out);
+}
+
+void rotate_low_bands(int order, const glm::dmat3& matrix, const Turns& turns, const double* in,
+                      double* out) {
+    rotate_one_channel(order, matrix, turns, in, out);
+}
+
+/// Where bands are missing, their lanes turn zeros.
+template <std::size_t Count, class Real>
+void rotate_padded(int order, const glm::dmat3& matrix, const Turns& turns, const Real* in, Real* out) {
+    Real padded[kLaneOrder * kLaneOrder] = {};
+    std::copy_n(in, Count, padded);
+    rotate_low_bands(order, matrix, turns, padded, padded);
+    std::copy_n(padded, Count, out);
+}
+
+template <class Real>
+void rotate_one(int order, const glm::dmat3& matrix, const Turns& turns, std::span<const Real> in,
+                std::span<Real> out) {
+    assert(std::min(in.size(), out.size()) >= static_cast<std::size_t>(coefficient_count(order)));
+    if (order == 4)
+        return rotate_padded<16>(order, matrix, turns, in.data(), out.data());
+    if (order == 5)
+        return rotate_padded<25>(order, matrix, turns, in.data(), out.data());
+    rotate_low_bands(order, matrix, turns, in.data(), out.data());
+    for (int l = kFirstListedBand; l < order; ++l) {
+        double c[2 * kMaxOrder - 1];
+        const auto width = static_cast<std::size_t>(2 * l + 1), first = static_cast<std::size_t>(l * l);
+        for (std::size_t i = 0; i < width; ++i)
+            c[i] = static_cast<double>(in[first + i]);
+        rotate_listed_band(l, turns, c);
+        for (std::size_t i = 0; i < width; ++i)
+            out[first + i] = static_cast<Real>(c[i]);
+    }
+}
+
+[[gnu::always_inline]] inline void set_turn(int order, double c, double s, Turn& turn) {
+    double *cosine = &turn.cosine[Turn::kZero], *sine = &turn.sine[Turn::kZero];
+#pragma GCC unroll 3
+    for (std::size_t i = 0; i < Turn::kZero; ++i)
+        turn.cosine[i] = turn.sine[i] = 0;
+    cosine[0] = 1;
+    sine[0] = 0;
+    cosine[1] = c;
+    sine[1] = s;
+    const auto add = [&](int m)
+        __attribute__((always_inline)) { // from the halves, which hardly wait for each other
+        const int a = m / 2, b = m - a;
+        cosine[m] = cosine[a] * cosine[b] - sine[a] * sine[b];
+        sine[m] = cosine[a] * sine[b] + sine[a] * cosine[b];
+    };
+#pragma GCC unroll 4
+    for (int m = 2; m < kLaneOrder; ++m)
+        add(m);
+    for (int m = kLaneOrder; m < order; ++m)
+        add(m);
+}
+
+/// Of a rotation that holds to rounding.
+PRT_TWO_CLONES
+void set_turns(int order, const glm::dmat3& r, Turns& turns) {
+    // GLM is column-major: r[column][row]. The last turn takes +y's tilt plane to where z went; the first is
+    // then read from the second row of what is left, which is well conditioned even where z hardly moved.
+    const double tilt = std::sqrt(r[2][0] * r[2][0] + r[2][1] * r[2][1]);
+    const double inverse = tilt > 0 ? 1 / tilt : 0, cosine = tilt > 0 ? r[2][0] * inverse : 1,
+                 sine = r[2][1] * inverse;
+    set_turn(order, cosine * r[1][1] - sine * r[1][0], cosine * r[0][1] - sine * r[0][0], turns.first);
+    set_turn(order, r[2][2], tilt, turns.tilt);
+    set_turn(order, cosine, sine, turns.last);
+    turns.tilted = tilt > 0 || r[2][2] < 0; // else last is the identity
+}
+
+glm::dmat3 matrix_of(const glm::dquat& q) {
+    if (!(std::abs(glm::dot(q, q) - 1) <= kRotationTolerance))
+        throw Error("a quaternion whose length is not 1 is no rotation");
+    return glm::mat3_cast(glm::normalize(q));
+}
+
+} // namespace
+
+ShRotation::ShRotation(int order, const glm::dmat3& rotation)
+    : order_((check_order(order), order)), matrix_(rotation) {
+    make_rotation(rotation, matrix_);
+    if (order > kFirstTurnedBand)
+        set_turns(order, matrix_, turns_);
+}
+
+ShRotation::ShRotation(int order, const glm::dquat& rotation) : ShRotation(order, matrix_of(rotation)) {}
+
+ShRotation ShRotation::about_x(int order, double angle) {
+    return ShRotation(order, glm::angleAxis(angle, glm::dvec3(1, 0, 0)));
+}
+
+ShRotation ShRotation::about_y(int order, double angle) {
+    return ShRotation(order, glm::angleAxis(angle, glm::dvec3(0, 1, 0)));
+}
+
+ShRotation ShRotation::about_z(int order, double angle) {
+    check_order(order);
+    const double cosine = std::cos(angle), sine = std::sin(angle);
+    ShRotation result(order, glm::dmat3(cosine, sine, 0, -sine, cosine, 0, 0, 0, 1));
+    set_turn(order, cosine, sine, result.turns_.first);
+    result.turns_.tilted = false;
+    return result;
+}
+
+void ShRotation::apply(std::span<const float> in, std::span<float> out) const {
+    rotate_one(order_, matrix_, turns_, in, out);
+}
+
+void ShRotation::apply(std::span<const double> in, std::span<double> out) const {
+    rotate_one(order_, matrix_, turns_, in, out);
+}
+
+void ShRotation::apply(std::span<glm::vec3> coefficients) const {
+    apply(coefficients, coefficients);
+}
+
+void ShRotation::apply(std::span<const glm::vec3> in, std::span<glm::vec3> out) const {
+    const auto count = static_cast<std::size_t>(coefficient_count(order_));
+    assert(in.size() >= count && out.size() >= count);
+    Channels c[kMaxOrder * kMaxOrder];
+    for (std::size_t i = 0; i < count; ++i)
+        c[i] = Channels{in[i].r, in[i].g, in[i].b, 0};
+    rotate(order_, matrix_, turns_, c);
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = {static_cast<float>(c[i][0]), static_cast<float>(c[i][1]), static_cast<float>(c[i][2])};
+}
+
+} // namespace prt

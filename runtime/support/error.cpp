@@ -1,0 +1,14 @@
+#include "prt/support/error.h"
+
+#include <algorithm>
+
+namespace prt {
+
+std::string one_line(std::string message) {
+    while (!message.empty() && (message.back() == '\n' || message.back() == ' '))
+        message.pop_back();
+    std::replace(message.begin(), message.end(), '\n', ' ');
+    return message;
+}
+
+} // namespace prt

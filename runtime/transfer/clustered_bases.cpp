@@ -1,0 +1,75 @@
+#include "prt/clustered_bases.h"
+
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace prt {
+
+int ClusteredBases::max_components() const {
+    return components.empty() ? 0 : *std::max_element(components.begin(), components.end());
+}
+
+std::vector<std::size_t> ClusteredBases::first_rows() const {
+    std::vector<std::size_t> first(clusters() + 1, 0);
+    for (std::size_t k = 0; k < clusters(); ++k)
+        first[k + 1] = first[k] + 1 + static_cast<std::size_t>(components[k]);
+    return first;
+}
+
+std::size_t coded_bytes(const CodedBases& coded) {
+    return (coded.origin.size() + coded.scales.size() + 1) * sizeof(float) + coded.axes.drops.size() +
+           coded.axes.bits.size() + coded.values.drops.size() + coded.values.bits.size();
+}
+
+std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components) {
+    const std::size_t axes = coded.scales.size(), dimension = coded.origin.size();
+    if (coded.axes.drops.size() != dimension || coded.values.drops.size() != axes)
+        throw Error("the code of the bases has columns of another number");
+    std::size_t rows = 0;
+    for (const int m : components)
+        rows += 1 + static_cast<std::size_t>(m);
+    const std::vector<std::int32_t> axis_values = decode_rows(coded.axes, axes),
+                                    values = decode_rows(coded.values, rows);
+    std::vector<float> result(rows * dimension, 0.0f);
+    std::size_t row = 0;
+    for (const int m : components)
+        for (int j = 0; j <= m; ++j, ++row) {
+            float* to = &result[row * dimension];
+            if (j == 0)
+                std::copy(coded.origin.begin(), coded.origin.end(), to);
+            const float step = j == 0 ? coded.step : 2 * coded.step;
+            for (std::size_t i = 0; i < axes; ++i) {
+                const float y = step * coded.scales[i] * static_cast<float>(values[row * axes + i]);
+                for (std::size_t a = 0; y != 0 && a < dimension; ++a)
+                    to[a] += y * static_cast<float>(axis_values[i * dimension + a]);
+            }
+        }
+    return result;
+}
+
+std::vector<ClusterLayout> cluster_layouts(const ClusteredBases& bases) {
+    const std::vector<std::size_t> first = bases.first_rows();
+    std::vector<ClusterLayout> layouts(bases.clusters());
+    for (std::size_t k = 0; k < bases.clusters(); ++k) {
+        ClusterLayout& layout = layouts[k];
+        layout.first_row = static_cast<std::uint32_t>(first[k]);
+        layout.components = static_cast<std::uint32_t>(bases.components[k]);
+        if (bases.bits.empty())
+            continue;
+        assert(bases.components[k] <= kMostPackedComponents);
+        for (std::size_t j = 0; j < layout.components; ++j)
+            layout.widths[j / 8] |= static_cast<std::uint32_t>(bases.bits[first[k] - k + j] - 1)
+                                    << (4 * (j % 8));
+    }
+    return layouts;
+}
+
+std::size_t basis_bytes(const ClusteredBases& bases) {
+    // A byte for each m_k, four bits for the width of each packed weight.
+    const std::size_t layout = bases.clusters() + (bases.bits.size() + 1) / 2;
+    return layout + (bases.is_coded() ? coded_bytes(bases.coded) : bases.rows.size() * sizeof(float));
+}
+
+} // namespace prt

@@ -1,0 +1,163 @@
+#include "prt/coded_rows.h"
+
+#include "prt/support/bits.h"
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cassert>
+#include <utility>
+
+namespace prt {
+namespace {
+
+constexpr int kLevelBits = 4;
+
+/// Bits of `value` in two's complement; 0 needs none.
+int width_of(std::int32_t value) {
+    if (value == 0)
+        return 0;
+    return 1 + static_cast<int>(std::bit_width(static_cast<std::uint32_t>(value < 0 ? ~value : value)));
+}
+
+/// Least level at which all values of a row have room.
+int level_of(std::span<const std::uint8_t> widths, std::span<const std::uint8_t> drops) {
+    int level = 0;
+    for (std::size_t i = 0; i < widths.size(); ++i)
+        if (widths[i] > 0)
+            level = std::max(level, widths[i] + drops[i]);
+    return level;
+}
+
+int row_bits(int level, std::span<const std::uint8_t> drops) {
+    int bits = kLevelBits;
+    for (const std::uint8_t drop : drops)
+        bits += std::max(0, level - drop);
+    return bits;
+}
+
+class Widths {
+public:
+    Widths(std::span<const std::int32_t> values, std::size_t columns) : columns_(columns) {
+        for (const std::int32_t value : values)
+            widths_.push_back(static_cast<std::uint8_t>(width_of(value)));
+    }
+    std::size_t rows() const { return columns_ == 0 ? 0 : widths_.size() / columns_; }
+    std::span<const std::uint8_t> row(std::size_t r) const {
+        return std::span(widths_).subspan(r * columns_, columns_);
+    }
+    /// Bits of all rows; infinite where a level would pass 15.
+    std::size_t total(std::span<const std::uint8_t> drops) const {
+        std::size_t bits = 0;
+        for (std::size_t r = 0; r < rows(); ++r) {
+            const int level = level_of(row(r), drops);
+            if (level > kMostRowBits)
+                return ~std::size_t{0};
+            bits += static_cast<std::size_t>(row_bits(level, drops));
+        }
+        return bits;
+    }
+
+private:
+    std::size_t columns_;
+    std::vector<std::uint8_t> widths_;
+};
+
+/// All columns from `first` on, each by as many bits narrower.
+std::vector<std::uint8_t> shifted(std::span<const std::uint8_t> drops, std::size_t first, int by) {
+    std::vector<std::uint8_t> result(drops.begin(), drops.end());
+    for (std::size_t i = first; i < result.size(); ++i)
+        result[i] = static_cast<std::uint8_t>(std::clamp(result[i] + by, 0, kMostRowBits));
+    return result;
+}
+
+/// What columns are narrower than the widest on average.
+std::vector<std::uint8_t> mean_drops(const Widths& widths, std::size_t columns) {
+    std::vector<double> means(columns, 0);
+    for (std::size_t r = 0; r < widths.rows(); ++r)
+        for (std::size_t i = 0; i < columns; ++i)
+            means[i] += widths.row(r)[i] / static_cast<double>(widths.rows());
+    const double widest = columns > 0 ? *std::max_element(means.begin(), means.end()) : 0;
+    std::vector<std::uint8_t> drops;
+    for (const double mean : means)
+        drops.push_back(static_cast<std::uint8_t>(std::clamp(widest - mean, 0.0, double{kMostRowBits})));
+    return drops;
+}
+
+/// Drops that make the code short: from the mean ones, or from none where those leave a row too wide, column
+/// by column a bit more or less, and all columns from some one on together, until nothing helps.
+std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) {
+    std::vector<std::uint8_t> drops = mean_drops(widths, columns);
+    std::size_t least = widths.total(drops);
+    if (least == ~std::size_t{0}) {
+        drops.assign(columns, 0);
+        least = widths.total(drops);
+    }
+    const auto better = [&](std::vector<std::uint8_t> tried) {
+        const std::size_t bits = tried == drops ? least : widths.total(tried);
+        if (bits >= least)
+            return false;
+        least = bits;
+        drops = std::move(tried);
+        return true;
+    };
+    for (bool moved = true; moved;) {
+        moved = false;
+        for (std::size_t i = 0; i < columns; ++i)
+            for (const int by : {1, -1}) {
+                std::vector<std::uint8_t> one = drops;
+                one[i] = static_cast<std::uint8_t>(std::clamp(one[i] + by, 0, kMostRowBits));
+                moved = better(std::move(one)) || moved;
+                moved = better(shifted(drops, i, by)) || moved;
+            }
+    }
+    return drops;
+}
+
+} // namespace
+
+RowCode encode_rows(std::span<const std::int32_t> values, std::size_t columns) {
+    const Widths widths(values, columns);
+    RowCode code{best_drops(widths, columns), {}};
+    BitWriter writer;
+    for (std::size_t r = 0; r < widths.rows(); ++r) {
+        const int level = level_of(widths.row(r), code.drops);
+        assert(level <= kMostRowBits);
+        writer.write(static_cast<std::uint32_t>(level), kLevelBits);
+        for (std::size_t i = 0; i < columns; ++i)
+            writer.write(static_cast<std::uint32_t>(values[r * columns + i]),
+                         std::max(0, level - code.drops[i]));
+    }
+    code.bits = writer.take();
+    return code;
+}
+
+std::size_t coded_bits(std::span<const std::int32_t> values, std::size_t columns) {
+    const Widths widths(values, columns);
+    return widths.total(best_drops(widths, columns));
+}
+
+std::vector<std::int32_t> decode_rows(const RowCode& code, std::size_t rows) {
+    std::vector<std::int32_t> values;
+    if (code.drops.empty()) // rows of no values take no bits
+        return values;
+    BitReader reader(code.bits);
+    const auto need = [&](int width) {
+        if (!reader.has(width))
+            throw Error("the coded rows end too early");
+        return reader.read(width);
+    };
+    for (std::size_t r = 0; r < rows; ++r) {
+        const int level = static_cast<int>(need(kLevelBits));
+        for (const std::uint8_t drop : code.drops) {
+            const int width = std::max(0, level - drop);
+            const std::uint32_t raw = need(width);
+            const bool negative = width > 0 && (raw >> (width - 1) & 1u);
+            values.push_back(static_cast<std::int32_t>(negative ? raw | ~0u << width : raw));
+        }
+    }
+    return values;
+}
+
+} // namespace prt

@@ -1,0 +1,71 @@
+#include "prt/error_measures.h"
+
+#include "prt/support/error.h"
+#include "support/scene_builder.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace prt {
+namespace {
+
+TEST(RelativeL2, WeightsByArea) {
+    const Transfer a{1, 1, {1, 2}}, b{1, 1, {1.5f, 2}};
+    // sqrt(3 · 0.25 / (3 · 1 + 1 · 4))
+    EXPECT_NEAR(relative_l2(a, b, std::vector<float>{3, 1}), std::sqrt(0.75 / 7), 1e-7);
+    EXPECT_EQ(relative_l2(a, a, std::vector<float>{3, 1}), 0);
+    EXPECT_EQ(relative_l2(a, b, std::vector<float>{0, 1}), 0);
+}
+
+TEST(RelativeL2, ComparesGreyWithColour) {
+    const Transfer grey{1, 1, {2}}, coloured{1, 3, {2, 2, 3}};
+    EXPECT_NEAR(relative_l2(grey, coloured, std::vector<float>{1}), std::sqrt(1.0 / 12), 1e-7);
+}
+
+TEST(RelativeL2, DifferentShapesAreRefused) {
+    EXPECT_THROW(relative_l2({1, 1, {2}}, {1, 1, {2, 3}}, std::vector<float>{1}), Error);
+    EXPECT_THROW(relative_l2({1, 1, {1, 2, 3, 4}}, {2, 1, {1, 2, 3, 4}}, std::vector<float>(4, 1)), Error);
+}
+
+TEST(LitError, HasTheDefinedMeasures) {
+    // A square of two triangles, receivers 0..5; the two in the second triangle lie in another cluster. Its
+    // corners are not shared, so no edge crosses; then one that does.
+    Scene scene = test::SceneBuilder().quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}).build();
+    const std::vector<float> areas(6, 1.0f);
+    const std::vector<glm::vec3> reference(6, glm::vec3(2)),
+        approximation = {glm::vec3(2), glm::vec3(2.1f, 2, 2), glm::vec3(2),
+                         glm::vec3(2), glm::vec3(1.7f),       glm::vec3(2)};
+    std::vector<std::uint16_t> clusters = {0, 0, 0, 1, 1, 1};
+    LitError error = lit_error(reference, approximation, areas, mesh_edges(scene), clusters);
+    EXPECT_NEAR(error.rms, std::sqrt((0.01 + 3 * 0.09) / (6 * 12)), 1e-6);
+    EXPECT_NEAR(error.max, 0.3 / 2, 1e-6);
+    EXPECT_NEAR(error.mean, 2, 1e-9);
+    EXPECT_EQ(error.crossing.edges, 0u);
+    EXPECT_EQ(error.inner.edges, 6u);
+    clusters[5] = 0; // now the edges 4-5 and 5-3 cross
+    error = lit_error(reference, approximation, areas, mesh_edges(scene), clusters);
+    EXPECT_EQ(error.crossing.edges, 2u);
+    EXPECT_NEAR(error.crossing.max, 0.3 / 2, 1e-6);
+    EXPECT_NEAR(error.crossing.rms, std::sqrt(0.09 / 2) / 2, 1e-6);
+    EXPECT_EQ(error.crossing.worst, (Edge{4, 5}));
+    EXPECT_NEAR(error.inner.max, 0.3 / 2, 1e-6); // 3-4
+}
+
+TEST(LitError, UnderALightThatReachesNothingIsOverTheScaleThatIsGiven) {
+    // A sun below the floor: nothing is lit, and an error of a thousandth is infinitely many times as much.
+    const std::vector<float> areas = {1, 3};
+    const std::vector<glm::vec3> dark(2, glm::vec3(0)), lit = {glm::vec3(2), glm::vec3(0.4f)},
+                                                        error(2, glm::vec3(0.001f));
+    EXPECT_TRUE(std::isinf(lit_error(dark, error, areas, {}, std::nullopt).rms));
+    const LitScale scale = lit_scale(lit, areas);
+    EXPECT_NEAR(scale.mean_square, (3 * 4.0 + 3 * 3 * 0.16) / 4, 1e-6);
+    EXPECT_NEAR(scale.mean, (2 + 3 * 0.4) / 4, 1e-6);
+    const LitError found = lit_error(dark, error, areas, {}, std::nullopt, scale);
+    EXPECT_NEAR(found.rms, std::sqrt(3e-6 / scale.mean_square), 1e-9);
+    EXPECT_NEAR(found.max, 0.001 / scale.mean, 1e-8);
+    EXPECT_EQ(found.mean, 0);
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,102 @@
+#include "prt/light_metric.h"
+
+#include "prt/error_measures.h"
+#include "prt/support/error.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace prt {
+namespace {
+
+Transfer random_transfer(std::size_t receivers, int order, int channels, unsigned seed) {
+    Transfer t = zero_transfer(order, channels, receivers);
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    for (float& v : t.vectors)
+        v = normal(random);
+    return t;
+}
+
+Light random_light(int order, std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    Light light{order, {}};
+    for (int i = 0; i < order * order; ++i)
+        light.coefficients.emplace_back(normal(random), normal(random), normal(random));
+    return light;
+}
+
+class Metric : public testing::TestWithParam<int> {}; // channels
+INSTANTIATE_TEST_SUITE_P(Channels, Metric, testing::Values(1, 3));
+
+TEST_P(Metric, OfLightsIsTheMeanOfWhatEachTurnOfEachCosts) {
+    // Against brute force: 360 turns of two lights, each weighed by its energy, and a hundredth of natural
+    // light.
+    const int channels = GetParam(), order = 4;
+    std::mt19937 random(7);
+    const std::vector<Light> lights = {random_light(order, random), random_light(order + 1, random)};
+    const Transfer a = random_transfer(20, order, channels, 1), b = random_transfer(20, order, channels, 2);
+    const std::vector<float> areas(20, 1.0f);
+    double error = 0, norm = 0;
+    for (const Light& given : lights) {
+        const Light light = truncated(given, order);
+        double energy = 0;
+        for (const glm::vec3& c : light.coefficients)
+            energy += static_cast<double>(glm::dot(c, c));
+        for (int turn = 0; turn < 360; ++turn) {
+            const Light turned = rotated_about_y(light, turn * M_PI / 180);
+            const auto ra = exit_radiance(a, turned), rb = exit_radiance(b, turned);
+            for (std::size_t p = 0; p < 20; ++p) {
+                error += static_cast<double>(glm::dot(ra[p] - rb[p], ra[p] - rb[p])) / energy;
+                norm += static_cast<double>(glm::dot(ra[p], ra[p])) / energy;
+            }
+        }
+    }
+    const double found = expected_lit_rms(a, b, areas, metric_of_lights(lights, order, channels));
+    EXPECT_NEAR(found, std::sqrt(error / norm), 0.01 * found); // the hundredth
+}
+
+TEST_P(Metric, NaturalLightIsTheMeanOverRandomLightOfThatPower) {
+    const int channels = GetParam(), order = 3;
+    std::mt19937 random(9);
+    const Transfer a = random_transfer(30, order, channels, 3), b = random_transfer(30, order, channels, 4);
+    const std::vector<float> areas(30, 1.0f);
+    double error = 0, norm = 0;
+    for (int i = 0; i < 4000; ++i) {
+        Light light = random_light(order, random);
+        for (int k = 1; k < order * order; ++k)
+            light.coefficients[static_cast<std::size_t>(k)] *=
+                std::sqrt(0.25f / std::floor(std::sqrt(static_cast<float>(k))));
+        const auto ra = exit_radiance(a, light), rb = exit_radiance(b, light);
+        for (std::size_t p = 0; p < 30; ++p) {
+            error += static_cast<double>(glm::dot(ra[p] - rb[p], ra[p] - rb[p]));
+            norm += static_cast<double>(glm::dot(ra[p], ra[p]));
+        }
+    }
+    const double found = expected_lit_rms(a, b, areas, natural_metric(order, channels));
+    EXPECT_NEAR(found, std::sqrt(error / norm), 0.02 * found); // 4000 lights: 1 to 2 %
+}
+
+TEST_P(Metric, PlainIsRelativeL2) {
+    const Transfer a = random_transfer(30, 5, GetParam(), 5), b = random_transfer(30, 5, GetParam(), 6);
+    std::vector<float> areas;
+    for (int p = 0; p < 30; ++p)
+        areas.push_back(static_cast<float>(p));
+    EXPECT_NEAR(expected_lit_rms(a, b, areas, plain_metric(5, GetParam())), relative_l2(a, b, areas), 1e-9);
+}
+
+TEST(LightMetric, RefusesWhatMakesNoSense) {
+    std::mt19937 random(1);
+    const std::vector<Light> low = {random_light(3, random)};
+    EXPECT_THROW(metric_of_lights(low, 4, 1), Error);
+    EXPECT_THROW(metric_of_lights(std::vector<Light>{constant_light(4, glm::vec3(0))}, 4, 1), Error);
+    EXPECT_THROW(metric_of_lights({}, 4, 1), Error);
+    const Transfer a = random_transfer(3, 4, 1, 1);
+    EXPECT_THROW(expected_lit_rms(a, a, std::vector<float>(3, 1.0f), natural_metric(5, 1)), Error);
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,89 @@
+// The comparison of methods: its measure of error, and a small run.
+
+#include "report.h"
+
+#include "prt/support/file.h"
+
+#include "support/glb_file.h"
+#include "support/scene_builder.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace comparison {
+namespace {
+
+TEST(ErrorAgainst, DoesNotCountTheNoiseOfTheReference) {
+    constexpr std::size_t kPixels = 200000;
+    std::mt19937 random(3);
+    std::normal_distribution<float> noise(0, 0.3f);
+    prt::Image picture{static_cast<int>(kPixels), 1, {}}, a = picture, b = picture;
+    for (std::size_t i = 0; i < kPixels; ++i) {
+        const glm::vec3 truth(1, 2, 0.5f);
+        picture.pixels.push_back(1.05f * truth);
+        a.pixels.push_back(truth + glm::vec3(noise(random), noise(random), noise(random)));
+        b.pixels.push_back(truth + glm::vec3(noise(random), noise(random), noise(random)));
+    }
+    const std::vector<bool> all(kPixels, true);
+    // The noise alone would be 0.3 sqrt(3) / |truth| = 23 %. Its product has a standard error of 1.4e-4
+    // in 2.5e-3.
+    EXPECT_NEAR(error_against(picture, a, b, all), 0.05, 0.004);
+    EXPECT_GT(error_against(picture, a, a, all), 0.2); // one reference alone counts its noise
+    std::vector<bool> none(kPixels, false);
+    none[7] = true;
+    picture.pixels[7] = a.pixels[7] = b.pixels[7] = glm::vec3(1);
+    EXPECT_EQ(error_against(picture, a, b, none), 0);
+}
+
+TEST(Comparison, MeasuresEveryMethodAndWritesItsPage) {
+    const prt::test::TemporaryFolder folder;
+    prt::test::scene_file(
+        prt::test::SceneBuilder().floor({0, -0.5f, 0}, 1.2f, 24).sphere({0, 0, 0}, 0.5f, 20).build())
+        .write(folder / "ball.glb");
+    prt::Image image{32, 16, {}};
+    for (int i = 0; i < 32 * 16; ++i)
+        image.pixels.emplace_back(i / 32 < 8 ? 1.5f : 0.1f, 1, i % 32 == 9 && i / 32 == 4 ? 30.0f : 0.5f);
+    prt::write_exr(folder / "sky.exr", image, prt::EnvironmentLayout::lat_long);
+    const std::vector<Sky> skies = {load_sky(folder / "sky.exr")};
+    Options options;
+    options.width = 96;
+    options.height = 54;
+    options.passes = 32;
+    options.bake_rays = 128;
+    options.frame_seconds = 0.01;
+    const auto context = prt::GlContext::create(prt::GlDevice::any);
+    ASSERT_TRUE(context);
+    const SceneResult result =
+        measure(folder / "ball.glb", skies, options, *context, [](const std::string&) {});
+    ASSERT_EQ(result.rows.size(), 12u);
+    const auto row = [&](const std::string& start) {
+        for (const Row& r : result.rows)
+            if (r.method.starts_with(start))
+                return r;
+        ADD_FAILURE() << start;
+        return Row{};
+    };
+    for (const Row& r : result.rows) {
+        EXPECT_GT(r.frame_milliseconds, 0) << r.method;
+        ASSERT_EQ(r.errors.size(), 1u);
+        EXPECT_LT(r.errors[0], 1) << r.method;
+    }
+    // A ball that shades a floor: whatever sees no shadow errs more.
+    EXPECT_LT(row("PRT, order 6").errors[0], 0.5 * row("unshadowed").errors[0]);
+    EXPECT_LT(row("PRT, order 6").errors[0], row("PRT, order 3").errors[0]);
+    EXPECT_EQ(row("PRT, order 6").bytes_per_vertex, 72);
+    EXPECT_LE(row("PRT, order 6, 8 bytes").bytes_per_vertex, 8);
+    EXPECT_NEAR(row("PRT, order 6, 16 bytes").errors[0], row("PRT, order 6").errors[0], 0.02);
+
+    const std::string page = report({result}, skies, options, "images", "Made by a test.");
+    for (const char* part :
+         {"## ball", "| baked AO | 1 |", "error, sky", "images/ball.png", "Made by a test.", "Mean error"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+    write_pictures({result}, options, folder / "images");
+    EXPECT_EQ(prt::decode_image(prt::read_file(folder / "images/ball.png")).width, 6 * 96);
+}
+
+} // namespace
+} // namespace comparison

@@ -1,0 +1,93 @@
+// Dragging, and the geometry behind it.
+
+#include "ui/controls.h"
+
+#include "prt/gl_context.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace viewer {
+namespace {
+
+const Screen kScreen{{{1, 2, 5}, {0, 0.5f, 0}, {0, 1, 0}, 0.7f}, {640, 360}};
+
+TEST(Screen, PixelsAndDirectionsAreInverse) {
+    for (const glm::vec2 pixel : {glm::vec2(0, 0), {320, 180}, {77, 300}, {639, 12}}) {
+        const glm::vec3 place = kScreen.camera.position + 3.0f * direction_through(kScreen, pixel);
+        const auto back = pixel_of(kScreen, place);
+        ASSERT_TRUE(back);
+        EXPECT_NEAR(back->x, pixel.x, 0.01f);
+        EXPECT_NEAR(back->y, pixel.y, 0.01f);
+    }
+    EXPECT_FALSE(pixel_of(kScreen, kScreen.camera.position + glm::vec3(0, 0, 1)));
+}
+
+TEST(Screen, DirectionsOnASphereMeetThePixel) {
+    const glm::vec3 centre(0.2f, 0.4f, 0);
+    for (const bool far_side : {false, true})
+        for (const glm::vec2 pixel : {glm::vec2(300, 170), {350, 200}, {320, 150}}) {
+            const glm::vec3 d = direction_on_sphere(kScreen, pixel, centre, 0.8f, far_side);
+            EXPECT_NEAR(glm::length(d), 1, 1e-5f);
+            const auto back = pixel_of(kScreen, centre + 0.8f * d);
+            ASSERT_TRUE(back);
+            EXPECT_LT(glm::distance(*back, pixel), 0.05f);
+            EXPECT_EQ(glm::dot(d, kScreen.camera.position - centre) > 0, !far_side);
+        }
+    // Beside the sphere: its outline.
+    const glm::vec3 d = direction_on_sphere(kScreen, {0, 180}, centre, 0.8f, false);
+    EXPECT_NEAR(glm::length(d), 1, 1e-5f);
+}
+
+TEST(OrbitCamera, TurnsAboutItsTarget) {
+    const prt::Camera before{{3, 2, 4}, {1, 1, 1}, {0, 1, 0}, 0.6f};
+    OrbitCamera orbit(before);
+    EXPECT_LT(glm::distance(orbit.camera().position, before.position), 1e-5f);
+    orbit.orbit({0.5f, 0}); // half a height: a quarter turn
+    const glm::vec3 a = before.position - before.target, b = orbit.camera().position - before.target;
+    EXPECT_NEAR(glm::length(b), glm::length(a), 1e-5f);
+    EXPECT_NEAR(b.x * a.x + b.z * a.z, 0, 1e-4f);
+    EXPECT_EQ(orbit.camera().target, before.target);
+    orbit.orbit({0, 10}); // never over the top
+    EXPECT_NO_THROW(prt::camera_frame(orbit.camera()));
+    orbit.zoom(5);
+    EXPECT_NEAR(glm::distance(orbit.camera().position, before.target), glm::length(a) / 2, 1e-4f);
+}
+
+TEST(OrbitCamera, PanMovesTheTargetWithThePointer) {
+    OrbitCamera orbit(kScreen.camera);
+    const auto before = pixel_of({orbit.camera(), kScreen.size}, {0, 0.5f, 0});
+    orbit.pan({36.0f / 360, -18.0f / 360});
+    const auto after = pixel_of({orbit.camera(), kScreen.size}, {0, 0.5f, 0});
+    EXPECT_NEAR(after->x - before->x, 36, 0.5f);
+    EXPECT_NEAR(after->y - before->y, -18, 0.5f);
+}
+
+TEST(Controls, EveryKeyOfTheHelpDoesSomething) {
+    const auto context = prt::GlContext::create(prt::GlDevice::any);
+    ASSERT_TRUE(context);
+    Viewer viewer;
+    Controls controls(viewer);
+    int calls = 0;
+    controls.screenshot = controls.quit = [&] { ++calls; };
+    for (const KeyHelp& help : kKeys) {
+        if (help.key == 'R') // without a model there is nothing to look at
+            continue;
+        viewer.messages().clear();
+        const Settings settings = viewer.settings;
+        const LightSettings lights = viewer.lights;
+        const bool day_runs = viewer.day_runs;
+        const int calls_before = calls;
+        EXPECT_TRUE(controls.key(help.key)) << help.key;
+        EXPECT_TRUE(!(viewer.settings == settings) || !(viewer.lights == lights) ||
+                    viewer.day_runs != day_runs || calls > calls_before || !viewer.messages().empty())
+            << help.key;
+    }
+    EXPECT_EQ(calls, 2);
+    EXPECT_FALSE(controls.key('\1'));
+}
+
+} // namespace
+} // namespace viewer

@@ -1,0 +1,167 @@
+// The light that spherical harmonics get against the light that rays meet.
+
+#include "core/light_rig.h"
+
+#include "prt/sh.h"
+#include "prt/sh_basis.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace viewer {
+namespace {
+
+constexpr int kOrder = 6;
+
+/// Projects what rays meet: the environment of `distant_light`, and its suns as directional lights.
+prt::Light projected(const prt::DistantLight& light) {
+    prt::Light sum = prt::project({light.environment(), prt::EnvironmentLayout::lat_long}, kOrder);
+    for (const prt::Sun& sun : light.suns())
+        sum = prt::sum(sum, prt::directional_light(kOrder, sun.towards, sun.irradiance));
+    return sum;
+}
+
+double relative_difference(const prt::Light& a, const prt::Light& b) {
+    double difference = 0, norm = 0;
+    for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
+        const glm::dvec3 d = glm::dvec3(a.coefficients[i]) - glm::dvec3(b.coefficients[i]);
+        difference += glm::dot(d, d);
+        norm += glm::dot(glm::dvec3(b.coefficients[i]), glm::dvec3(b.coefficients[i]));
+    }
+    return std::sqrt(difference / norm);
+}
+
+std::shared_ptr<LoadedEnvironment> gradient() {
+    prt::Image image{64, 32, {}};
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 64; ++x)
+            image.pixels.emplace_back(1 + std::cos(0.1f * static_cast<float>(x)),
+                                      2 - static_cast<float>(y) / 32, 0.5f);
+    auto environment = std::make_shared<LoadedEnvironment>();
+    environment->lat_long = image;
+    environment->light = prt::project({image, prt::EnvironmentLayout::lat_long}, prt::kMaxOrder);
+    environment->mean = 1;
+    return environment;
+}
+
+class RigLights : public testing::TestWithParam<LightKind> {};
+
+TEST_P(RigLights, AreTheSameForHarmonicsAndRays) {
+    LightRig rig;
+    rig.set_environment(gradient());
+    LightSettings settings = rig.settings();
+    settings.window = prt::Window::none; // rays have no bands
+    settings.lights = {make_light(GetParam())};
+    settings.lights[0].direction = glm::normalize(glm::vec3(1, 0.4f, -0.7f));
+    rig.set(settings);
+    // The image of 1024 x 512 resolves the rim of a cone to half a degree of its twenty and more.
+    EXPECT_LT(relative_difference(rig.light(kOrder), projected(rig.distant_light())), 0.005);
+    settings.environment_on = false;
+    rig.set(settings);
+    EXPECT_LT(relative_difference(rig.light(kOrder), projected(rig.distant_light())), 0.01);
+    settings.lights[0].on = false;
+    rig.set(settings);
+    for (const glm::vec3& c : rig.light(kOrder).coefficients)
+        EXPECT_EQ(c, glm::vec3(0));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, RigLights,
+                         testing::Values(LightKind::sun, LightKind::cone, LightKind::sphere,
+                                         LightKind::hemisphere));
+
+TEST(LightRig, TurnsTheEnvironmentForBoth) {
+    LightRig rig;
+    rig.set_environment(gradient());
+    LightSettings settings = rig.settings();
+    settings.window = prt::Window::none;
+    settings.rotation = 1.1f;
+    rig.set(settings);
+    EXPECT_LT(relative_difference(rig.light(kOrder), projected(rig.distant_light())), 0.005);
+    settings.rotation = 0;
+    const prt::Light turned = rig.light(kOrder);
+    rig.set(settings);
+    EXPECT_GT(relative_difference(rig.light(kOrder), turned), 0.05);
+}
+
+TEST(LightRig, LetsTheSunRiseInTheEastAndStandInTheSouthAtNoon) {
+    LightRig rig;
+    LightSettings settings = rig.settings();
+    settings.day = true;
+    settings.window = prt::Window::none;
+    const auto sun = [&](double hour) {
+        settings.time.hour = hour;
+        rig.set(settings);
+        EXPECT_LT(relative_difference(rig.light(kOrder), projected(rig.distant_light())), 0.005) << hour;
+        const auto suns = rig.distant_light().suns();
+        return suns.empty() ? glm::vec3(0) : suns[0].towards;
+    };
+    EXPECT_NEAR(sun(12).z, std::sqrt(0.5f), 1e-6f); // +Z is south
+    EXPECT_NEAR(sun(12).y, std::sqrt(0.5f), 1e-6f);
+    EXPECT_LT(sun(7).x, -0.9f); // looking south, east is on the left
+    EXPECT_GT(sun(17).x, 0.9f);
+    EXPECT_EQ(sun(0), glm::vec3(0)); // night
+}
+
+/// The least radiance of any channel on a grid of two degrees, over the mean of the channel.
+float least_over_mean(const prt::Light& light) {
+    std::vector<float> basis(static_cast<std::size_t>(prt::coefficient_count(light.order)));
+    float least = std::numeric_limits<float>::infinity();
+    for (int y = 0; y < 90; ++y)
+        for (int x = 0; x < 180; ++x) {
+            prt::evaluate_sh(light.order, glm::vec3(prt::lat_long_direction(180, 90, x + 0.5, y + 0.5)),
+                             basis);
+            glm::vec3 sum(0);
+            for (std::size_t i = 0; i < basis.size(); ++i)
+                sum += basis[i] * light.coefficients[i];
+            const glm::vec3 share = sum / (0.2820948f * light.coefficients[0]);
+            least = std::min({least, share.r, share.g, share.b});
+        }
+    return least;
+}
+
+TEST(LightRig, LightIsNowhereNegativeUnlessAWindowIsChosenThatLetsIt) {
+    LightRig rig; // a clear day
+    LightSettings settings = rig.settings();
+    for (const bool with_sun : {false, true}) {
+        if (with_sun)
+            settings.lights = {make_light(LightKind::sun)};
+        settings.rotation = with_sun ? 0.8f : 0.0f;
+        settings.window = prt::Window::automatic;
+        rig.set(settings);
+        for (const int order : {3, 6, 10})
+            EXPECT_GT(least_over_mean(rig.light(order)), -1e-4f) << order;
+        settings.window = prt::Window::none;
+        rig.set(settings);
+        EXPECT_LT(least_over_mean(rig.light(6)), -0.1f);
+    }
+    EXPECT_EQ(LightRig().settings().window, prt::Window::automatic);
+}
+
+TEST(LightRig, CountsItsChanges) {
+    LightRig rig;
+    const auto version = rig.version();
+    rig.set(rig.settings());
+    EXPECT_EQ(rig.version(), version);
+    LightSettings settings = rig.settings();
+    settings.rotation = 0.5f;
+    const auto background = rig.background_version();
+    rig.set(settings);
+    EXPECT_GT(rig.version(), version);
+    EXPECT_EQ(rig.background_version(), background); // turned by the shader
+    settings.time.hour += 1;
+    rig.set(settings);
+    EXPECT_GT(rig.background_version(), background);
+    EXPECT_TRUE(rig.background());
+    settings.day = settings.environment_on = false;
+    const auto day = rig.background_version();
+    rig.set(settings);
+    EXPECT_GT(rig.background_version(), day);
+    EXPECT_FALSE(rig.background());
+}
+
+} // namespace
+} // namespace viewer

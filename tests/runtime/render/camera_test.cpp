@@ -1,0 +1,76 @@
+#include "prt/camera.h"
+
+#include "prt/support/error.h"
+#include "prt/tone_map.h"
+#include "support/scene_builder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace prt {
+namespace {
+
+TEST(Camera, AutomaticCameraSeesTheWholeScene) {
+    for (const float scale : {1e-6f, 1.0f, 1e6f})
+        for (const float aspect : {0.5f, 1.0f, 2.4f}) {
+            const Scene scene =
+                test::SceneBuilder().floor({3 * scale, 0, 0}, scale).sphere({0, scale, 0}, scale, 8).build();
+            const glm::mat4 matrix =
+                view_projection(automatic_camera(scene, aspect, 0.6f), bounds(scene), aspect);
+            float widest = 0;
+            for (const glm::vec3& p : scene.vertex_arrays[0].positions) {
+                const glm::vec4 clip = matrix * glm::vec4(p, 1);
+                for (int axis = 0; axis < 3; ++axis)
+                    EXPECT_LE(std::abs(clip[axis]), clip.w) << scale << " " << aspect;
+                widest = std::max({widest, std::abs(clip.x) / clip.w, std::abs(clip.y) / clip.w});
+            }
+            EXPECT_GT(widest, 0.7f); // and not from afar
+        }
+}
+
+TEST(Camera, FrameAgreesWithTheMatrix) {
+    const Camera camera{{1, 2, 5}, {0.5f, 0, -1}, {0, 1, 0}, 0.8f};
+    const CameraFrame frame = camera_frame(camera);
+    const glm::mat4 matrix = view_projection(camera, {glm::vec3(-3), glm::vec3(3)}, 1.5f);
+    const glm::dvec3 point =
+        glm::dvec3(camera.position) + 3.0 * (frame.forward + frame.right * (frame.half_height * 1.5 * 0.25) -
+                                             frame.up * (frame.half_height * 0.5));
+    const glm::vec4 clip = matrix * glm::vec4(glm::vec3(point), 1);
+    EXPECT_NEAR(clip.x / clip.w, 0.25f, 1e-5f);
+    EXPECT_NEAR(clip.y / clip.w, -0.5f, 1e-5f);
+}
+
+TEST(Camera, LookingNowhereIsAnError) {
+    EXPECT_THROW(camera_frame({{1, 1, 1}, {1, 1, 1}, {0, 1, 0}, 1}), Error);
+    EXPECT_THROW(camera_frame({{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 1}), Error);
+}
+
+TEST(ToneMap, SrgbCurvesAreInverse) {
+    for (float v = 0; v <= 1; v += 0.01f)
+        EXPECT_NEAR(srgb_decode(srgb_encode(v)), v, 1e-5f);
+    EXPECT_NEAR(srgb_encode(0.5f), 0.7354f, 1e-3f);
+}
+
+TEST(ToneMap, AveragesSamplesAfterTheCurve) {
+    const Image image{2, 2, {glm::vec3(100), glm::vec3(0), glm::vec3(0), glm::vec3(0)}};
+    const auto pixels = tone_mapped(image, 2, 1, ToneMap::srgb);
+    ASSERT_EQ(pixels.size(), 1u);
+    EXPECT_EQ(pixels[0].r,
+              std::lround(255 * srgb_encode(0.25f))); // one of four is white, not 100 times white
+    EXPECT_NEAR(downsampled(image, 2).pixels[0].r, 25, 1e-4f);
+}
+
+TEST(ToneMap, FilmicRisesToWhite) {
+    std::uint8_t last = 0;
+    for (const float v : {0.0f, 0.01f, 0.1f, 0.5f, 1.0f, 4.0f, 100.0f, 1e20f}) {
+        const auto pixel = tone_mapped({1, 1, {glm::vec3(v)}}, 1, 1, ToneMap::filmic)[0];
+        EXPECT_GE(pixel.r, last);
+        last = pixel.r;
+    }
+    EXPECT_EQ(last, 255);
+}
+
+} // namespace
+} // namespace prt

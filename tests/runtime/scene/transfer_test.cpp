@@ -1,0 +1,336 @@
+#include "prt/gltf.h"
+
+#include "prt/support/error.h"
+#include "support/glb_file.h"
+#include "support/temporary_folder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <random>
+
+namespace prt {
+namespace {
+
+using test::GlbFile;
+
+/// JSON chunk of a written file.
+nlohmann::ordered_json json_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, 4);
+    return nlohmann::ordered_json::parse(bytes.substr(20, length));
+}
+
+BakedTransfer random_bake(const Scene& scene, int order, int channels) {
+    BakedTransfer baked{{order, channels, {}}, {2, 77, 12345678901, "trace", "cpu", receivers_id(scene)}};
+    std::mt19937 random(3);
+    std::normal_distribution<float> normal;
+    baked.transfer.vectors.resize(scene.receivers() * baked.transfer.dimension());
+    for (float& v : baked.transfer.vectors)
+        v = normal(random);
+    return baked;
+}
+
+/// Random code of as many rows as `bases` has, over four axes, and the rows that it stands for.
+void code_bases(ClusteredBases& bases, std::mt19937& random) {
+    CodedBases& coded = bases.coded;
+    const std::size_t axes = 4;
+    const auto integers = [&](std::size_t count) {
+        std::vector<std::int32_t> values(count);
+        for (std::int32_t& v : values)
+            v = static_cast<std::int32_t>(random() % 200) - 100;
+        return values;
+    };
+    coded.origin.assign(bases.dimension(), 0.5f);
+    coded.scales = {1, 0.5f, 0.25f, 0.125f};
+    coded.step = 0.01f;
+    coded.axes = encode_rows(integers(axes * bases.dimension()), bases.dimension());
+    coded.values = encode_rows(integers(bases.first_rows().back() * axes), axes);
+    bases.rows = decode_bases(coded, bases.components);
+}
+
+CompressedTransfer random_compressed(const Scene& scene, int clusters, WeightFormat format) {
+    CompressedTransfer c;
+    c.record = random_bake(scene, 3, 1).record;
+    ClusteredBases& b = c.transfer.bases;
+    b.order = 3;
+    b.channels = 3;
+    std::mt19937 random(4);
+    std::size_t rows = 0;
+    for (int k = 0; k < clusters; ++k) {
+        b.components.push_back(k % 6);
+        rows += static_cast<std::size_t>(1 + k % 6);
+    }
+    b.rows.resize(rows * b.dimension());
+    for (float& v : b.rows)
+        v = static_cast<float>(random() % 1000) / 100;
+    ClusteredReceivers& r = c.transfer.receivers;
+    r.format = format;
+    if (format == WeightFormat::packed) {
+        code_bases(b, random);
+        r.cluster_bits = std::bit_width(static_cast<unsigned>(clusters - 1));
+        r.words = std::max(1, (r.cluster_bits + 10 * b.max_components() + 31) / 32);
+        for (std::size_t i = 0; i < rows - static_cast<std::size_t>(clusters); ++i)
+            b.bits.push_back(10);
+        const std::vector<ClusterLayout> layouts = cluster_layouts(b);
+        for (std::size_t p = 0; p < scene.receivers(); ++p) {
+            const auto k = static_cast<std::uint32_t>(random() % static_cast<unsigned>(clusters));
+            r.clusters.push_back(static_cast<std::uint16_t>(k));
+            std::vector<std::uint32_t> words(static_cast<std::size_t>(r.words)), values(6);
+            for (std::uint32_t& v : values)
+                v = static_cast<std::uint32_t>(random() % 1024);
+            pack_words(k, r.cluster_bits, layouts[k], values, words);
+            const auto bytes = std::as_bytes(std::span(words));
+            r.weights.insert(r.weights.end(), bytes.begin(), bytes.end());
+        }
+        return c;
+    }
+    r.components = (b.max_components() + 3) / 4 * 4;
+    for (std::size_t p = 0; p < scene.receivers(); ++p)
+        r.clusters.push_back(static_cast<std::uint16_t>(random() % static_cast<unsigned>(clusters)));
+    r.weights.resize(scene.receivers() * static_cast<std::size_t>(r.components) * bytes_per_weight(format));
+    for (std::byte& v : r.weights)
+        v = static_cast<std::byte>(random() % 127); // any bytes are floats or integers
+    return c;
+}
+
+/// Two nodes share a mesh of two primitives; one has no normals and folds. There is data nobody knows.
+GlbFile demanding_file() {
+    GlbFile file = test::triangle_file();
+    const auto position =
+        file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 1}, test::kFloat, "VEC3", 3);
+    file.json["accessors"][position]["min"] = {0, 0, 0};
+    file.json["accessors"][position]["max"] = {1, 1, 1};
+    const auto colour =
+        file.accessor(std::vector<std::uint8_t>{9, 0, 0, 255, 8, 0, 0, 255, 7, 0, 0, 255, 6, 0, 0, 255},
+                      test::kUnsignedByte, "VEC4", 4, true);
+    const auto indices =
+        file.accessor(std::vector<std::uint8_t>{0, 1, 2, 0, 2, 3}, test::kUnsignedByte, "SCALAR", 1);
+    file.json["meshes"][0]["primitives"].push_back(
+        {{"attributes", {{"POSITION", position}, {"COLOR_0", colour}}},
+         {"indices", indices},
+         {"extras", {{"keep", 1}}}});
+    file.json["nodes"] = {{{"mesh", 0}, {"name", "first"}},
+                          {{"mesh", 0}, {"name", "mirrored"}, {"scale", {-1, 1, 1}}}};
+    file.json["scenes"][0]["nodes"] = {0, 1};
+    file.json["extensionsUsed"] = {"VENDOR_unknown"};
+    file.json["extensions"] = {{"VENDOR_unknown", {{"data", {1, 2, 3}}}}};
+    file.json["unknownMember"] = "stays";
+    return file;
+}
+
+struct OnDisk {
+    test::TemporaryFolder folder;
+    std::filesystem::path source = folder / "source.glb", written = folder / "written.glb";
+
+    explicit OnDisk(const GlbFile& file) { file.write(source); }
+};
+
+TEST(TransferInGltf, RawVectorsComeBackExactly) {
+    const OnDisk files(demanding_file());
+    GltfDocument document = load_gltf(files.source);
+    const Scene scene = extract_scene(document);
+    const BakedTransfer baked = random_bake(scene, 4, 3);
+    write_transfer(document, scene, baked);
+    save_glb(document, files.written);
+
+    const GltfDocument again = load_gltf(files.written);
+    const Scene scene_again = extract_scene(again);
+    ASSERT_EQ(scene_again.receivers(), scene.receivers());
+    EXPECT_EQ(scene_again.triangles(), scene.triangles());
+    const auto read = read_transfer(again, scene_again);
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->transfer.order, 4);
+    EXPECT_EQ(read->transfer.channels, 3);
+    EXPECT_EQ(read->transfer.vectors, baked.transfer.vectors);
+    EXPECT_EQ(read->record.seed, baked.record.seed);
+    EXPECT_EQ(read->record.rays, 77);
+    EXPECT_EQ(read->record.receivers, baked.record.receivers);
+    EXPECT_FALSE(read_clustered(again, scene_again));
+}
+
+TEST(TransferInGltf, ReceiversAreTheSamePointsAfterwards) {
+    const OnDisk files(demanding_file());
+    GltfDocument document = load_gltf(files.source);
+    const Scene scene = extract_scene(document);
+    write_transfer(document, scene, random_bake(scene, 1, 1));
+    save_glb(document, files.written);
+    const Scene again = extract_scene(load_gltf(files.written));
+    ASSERT_EQ(again.vertex_arrays.size(), scene.vertex_arrays.size());
+    for (std::size_t a = 0; a < scene.vertex_arrays.size(); ++a) {
+        const VertexArray &before = scene.vertex_arrays[a], &after = again.vertex_arrays[a];
+        ASSERT_EQ(before.size(), after.size());
+        EXPECT_TRUE(after.source.empty());
+        EXPECT_EQ(before.colors, after.colors);
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            EXPECT_EQ(before.positions[i], after.positions[i]);
+            EXPECT_LT(glm::distance(before.normals[i], after.normals[i]), 1e-6f) << a << " " << i;
+        }
+        EXPECT_EQ(scene.primitives[a].triangles, again.primitives[a].triangles);
+    }
+}
+
+TEST(TransferInGltf, WhatIsUnknownSurvives) {
+    const OnDisk files(demanding_file());
+    GltfDocument document = load_gltf(files.source);
+    const Scene scene = extract_scene(document);
+    write_transfer(document, scene, random_bake(scene, 2, 1));
+    save_glb(document, files.written);
+    const auto before = json_of(files.source), after = json_of(files.written);
+    EXPECT_EQ(after["unknownMember"], "stays");
+    EXPECT_EQ(after["extensions"]["VENDOR_unknown"], before["extensions"]["VENDOR_unknown"]);
+    EXPECT_EQ(after["meshes"].size(), 2u); // unshared
+    EXPECT_EQ(after["meshes"][1]["primitives"][1]["extras"]["keep"], 1);
+    EXPECT_EQ(after["nodes"][1]["name"], "mirrored");
+    EXPECT_EQ(after["extensionsUsed"].size(), 2u);
+}
+
+class Weights : public testing::TestWithParam<std::pair<WeightFormat, int>> {};
+INSTANTIATE_TEST_SUITE_P(
+    Formats, Weights,
+    testing::Values(std::pair{WeightFormat::float32, 3}, std::pair{WeightFormat::snorm16, 256},
+                    std::pair{WeightFormat::snorm8, 257}, std::pair{WeightFormat::snorm8, 1},
+                    std::pair{WeightFormat::packed, 1}, std::pair{WeightFormat::packed, 300}));
+
+TEST_P(Weights, CompressedTransferComesBackExactly) {
+    const auto [format, clusters] = GetParam();
+    const OnDisk files(demanding_file());
+    GltfDocument document = load_gltf(files.source);
+    const Scene scene = extract_scene(document);
+    const CompressedTransfer c = random_compressed(scene, clusters, format);
+    write_clustered(document, scene, c);
+    save_glb(document, files.written);
+    const GltfDocument again = load_gltf(files.written);
+    const auto read = read_clustered(again, extract_scene(again));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->transfer.bases.components, c.transfer.bases.components);
+    EXPECT_EQ(read->transfer.bases.rows, c.transfer.bases.rows);
+    EXPECT_EQ(read->transfer.bases.bits, c.transfer.bases.bits);
+    if (c.transfer.bases.max_components() > 0 || format == WeightFormat::packed) {
+        EXPECT_EQ(read->transfer.receivers.format, format); // without weights there is no format
+    }
+    EXPECT_EQ(read->transfer.receivers.words, c.transfer.receivers.words);
+    EXPECT_EQ(read->transfer.receivers.clusters, c.transfer.receivers.clusters);
+    EXPECT_EQ(read->transfer.receivers.weights, c.transfer.receivers.weights);
+    EXPECT_EQ(read->record.receivers, c.record.receivers);
+}
+
+TEST(TransferInGltf, CompressingTakesTheRawVectorsOut) {
+    const OnDisk files(demanding_file());
+    GltfDocument document = load_gltf(files.source);
+    const Scene scene = extract_scene(document);
+    write_transfer(document, scene, random_bake(scene, 10, 3));
+    save_glb(document, files.written);
+    const auto baked_size = std::filesystem::file_size(files.written);
+
+    GltfDocument baked = load_gltf(files.written);
+    const Scene baked_scene = extract_scene(baked);
+    write_clustered(baked, baked_scene, random_compressed(baked_scene, 2, WeightFormat::snorm8));
+    save_glb(baked, files.written);
+    EXPECT_LT(std::filesystem::file_size(files.written) + scene.receivers() * 1000, baked_size);
+    const auto json = json_of(files.written);
+    EXPECT_FALSE(json["extensions"].contains("PRTKIT_transfer"));
+    EXPECT_EQ(json["extensionsUsed"], (nlohmann::ordered_json{"VENDOR_unknown", "PRTKIT_clustered_pca"}));
+    const Scene again = extract_scene(load_gltf(files.written));
+    for (std::size_t a = 0; a < again.vertex_arrays.size(); ++a)
+        EXPECT_EQ(again.vertex_arrays[a].positions, baked_scene.vertex_arrays[a].positions);
+}
+
+TEST(TransferInGltf, WritingTwiceIsWritingOnce) {
+    const OnDisk files(demanding_file());
+    for (int time = 0; time < 3; ++time) {
+        GltfDocument document = load_gltf(time == 0 ? files.source : files.written);
+        const Scene scene = extract_scene(document);
+        if (time % 2 == 1)
+            write_clustered(document, scene, random_compressed(scene, 2, WeightFormat::snorm8));
+        write_transfer(document, scene, random_bake(scene, 3, 1));
+        save_glb(document, files.folder / ("size" + std::to_string(time)));
+        save_glb(document, files.written);
+    }
+    EXPECT_EQ(std::filesystem::file_size(files.folder / "size0"),
+              std::filesystem::file_size(files.folder / "size1"));
+    EXPECT_EQ(std::filesystem::file_size(files.folder / "size1"),
+              std::filesystem::file_size(files.folder / "size2"));
+}
+
+/// A file with compressed transfer whose JSON can be changed before it is read again.
+class Damage {
+public:
+    explicit Damage(WeightFormat format) : files_(test::triangle_file()) {
+        GltfDocument document = load_gltf(files_.source);
+        const Scene scene = extract_scene(document);
+        write_clustered(document, scene, random_compressed(scene, 2, format));
+        save_glb(document, files_.written);
+        good_ = json_of(files_.written);
+        std::ifstream file(files_.written, std::ios::binary);
+        bytes_.assign((std::istreambuf_iterator<char>(file)), {});
+    }
+    void operator()(const std::function<void(nlohmann::ordered_json&)>& change) const {
+        GlbFile changed;
+        changed.json = good_;
+        change(changed.json);
+        std::uint32_t length = 0;
+        std::memcpy(&length, bytes_.data() + 12, 4);
+        const auto* data = reinterpret_cast<const std::byte*>(bytes_.data());
+        changed.binary.assign(data + 28 + length, data + bytes_.size());
+        changed.write(files_.folder / "changed.glb");
+        const GltfDocument d = load_gltf(files_.folder / "changed.glb");
+        read_clustered(d, extract_scene(d));
+    }
+
+private:
+    OnDisk files_;
+    nlohmann::ordered_json good_;
+    std::string bytes_;
+};
+
+nlohmann::ordered_json& extension(nlohmann::ordered_json& json) {
+    return json["extensions"]["PRTKIT_clustered_pca"];
+}
+
+TEST(TransferInGltf, DamagedPackedTransferIsRefused) {
+    const Damage read_changed(WeightFormat::packed);
+    EXPECT_NO_THROW(read_changed([](auto&) {}));
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j).erase("packing"); }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["packing"]["clusterBits"] = 17; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = {9, 17}; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) {
+                     extension(j)["components"] = {0, 5};
+                 }),
+                 Error); // rows are missing
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["values"]["drops"].push_back(1); }),
+                 Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["axes"]["drops"].erase(0); }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"].erase("step"); }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["scales"]["bufferView"] = 99; }), Error);
+}
+
+TEST(TransferInGltf, DamagedTransferIsRefused) {
+    const Damage read_changed(WeightFormat::snorm8);
+    EXPECT_NO_THROW(read_changed([](auto&) {}));
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["version"] = 99; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["order"] = 11; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["channels"] = 2; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = {100}; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = nlohmann::ordered_json::array(); }),
+                 Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = {9, 9, 9}; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bases"]["bufferView"] = 77; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j).erase("bases"); }), Error);
+    EXPECT_THROW(
+        read_changed([&](auto& j) { j["meshes"][0]["primitives"][0]["attributes"].erase("_PRT_CLUSTER"); }),
+        Error);
+    EXPECT_THROW(
+        read_changed([&](auto& j) { j["meshes"][0]["primitives"][0]["attributes"]["_PRT_CLUSTER"] = 0; }),
+        Error);
+}
+
+} // namespace
+} // namespace prt

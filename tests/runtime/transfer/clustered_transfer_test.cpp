@@ -1,0 +1,206 @@
+#include "prt/clustered_transfer.h"
+
+#include "prt/support/error.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+namespace prt {
+namespace {
+
+struct Shape {
+    int order, channels;
+    WeightFormat format;
+};
+
+/// Random bases whose clusters have different numbers of components, and random receivers.
+ClusteredTransfer random_transfer(const Shape& shape, std::mt19937& random) {
+    ClusteredTransfer t;
+    t.bases.order = shape.order;
+    t.bases.channels = shape.channels;
+    t.bases.components = {3, 0, 5, 1};
+    std::normal_distribution<float> normal;
+    t.bases.rows.resize((4 + 9) * t.bases.dimension());
+    for (float& v : t.bases.rows)
+        v = normal(random);
+    t.receivers.format = shape.format;
+    if (shape.format == WeightFormat::packed) {
+        t.bases.bits = {7, 16, 5, 1, 9, 13, 16, 11, 3}; // some lie across two words
+        t.receivers.cluster_bits = 2;
+        t.receivers.words = 2;
+        const std::vector<ClusterLayout> layouts = cluster_layouts(t.bases);
+        for (std::size_t p = 0; p < 101; ++p) {
+            const auto k = static_cast<std::uint32_t>(random() % 4);
+            t.receivers.clusters.push_back(static_cast<std::uint16_t>(k));
+            std::vector<std::uint32_t> values, words(2);
+            const std::size_t first = t.bases.first_rows()[k] - k;
+            for (std::size_t j = 0; j < layouts[k].components; ++j)
+                values.push_back(static_cast<std::uint32_t>(random() % (1u << t.bases.bits[first + j])));
+            pack_words(k, 2, layouts[k], values, words);
+            const auto* bytes = reinterpret_cast<const std::byte*>(words.data());
+            t.receivers.weights.insert(t.receivers.weights.end(), bytes, bytes + 8);
+        }
+        return t;
+    }
+    t.receivers.components = 8;
+    for (std::size_t p = 0; p < 101; ++p) {
+        const auto cluster = static_cast<std::uint16_t>(random() % 4);
+        t.receivers.clusters.push_back(cluster);
+        for (int j = 0; j < 8; ++j) {
+            const bool used = j < t.bases.components[cluster];
+            const auto push = [&](auto value) {
+                const auto* bytes = reinterpret_cast<const std::byte*>(&value);
+                t.receivers.weights.insert(t.receivers.weights.end(), bytes, bytes + sizeof value);
+            };
+            switch (shape.format) {
+            case WeightFormat::float32:
+                push(used ? normal(random) : 0.0f);
+                break;
+            case WeightFormat::snorm16:
+                push(static_cast<std::int16_t>(used ? random() : 0));
+                break;
+            case WeightFormat::snorm8:
+                push(static_cast<std::int8_t>(used ? random() : 0));
+                break;
+            case WeightFormat::packed:
+                break;
+            }
+        }
+    }
+    return t;
+}
+
+class Clustered : public testing::TestWithParam<Shape> {};
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, Clustered,
+    testing::Values(Shape{1, 1, WeightFormat::float32}, Shape{3, 1, WeightFormat::snorm8},
+                    Shape{6, 3, WeightFormat::snorm16}, Shape{10, 3, WeightFormat::snorm8},
+                    Shape{4, 3, WeightFormat::float32}, Shape{6, 1, WeightFormat::packed},
+                    Shape{3, 3, WeightFormat::packed}));
+
+TEST_P(Clustered, RadianceThroughConstantsEqualsDecodedTransferTimesLight) {
+    std::mt19937 random(5);
+    const ClusteredTransfer transfer = random_transfer(GetParam(), random);
+    Light light{GetParam().order, {}};
+    std::normal_distribution<float> normal;
+    for (int i = 0; i < coefficient_count(light.order); ++i)
+        light.coefficients.emplace_back(normal(random), normal(random), normal(random));
+    const std::vector<glm::vec3> radiance = exit_radiance(transfer, light);
+    const std::vector<glm::vec3> expected = exit_radiance(decode(transfer), light);
+    ASSERT_EQ(radiance.size(), expected.size());
+    for (std::size_t p = 0; p < radiance.size(); ++p)
+        EXPECT_LT(glm::distance(radiance[p], expected[p]), 1e-5f * (50 + glm::length(expected[p]))) << p;
+}
+
+TEST(ClusteredTransfer, IntegersDecodeAsInOpenGl) {
+    ClusteredTransfer transfer;
+    transfer.bases.order = 1;
+    transfer.bases.components = {4};
+    ClusteredReceivers& receivers = transfer.receivers;
+    receivers.format = WeightFormat::snorm8;
+    receivers.components = 4;
+    receivers.clusters = {0};
+    receivers.weights = {std::byte{127}, std::byte{0x81}, std::byte{0x80}, std::byte{0}};
+    std::vector<float> weights(4);
+    decode_weights(transfer, cluster_layouts(transfer.bases), 0, weights);
+    EXPECT_EQ(weights, (std::vector<float>{1, -1, -1, 0})); // 127, -127, -128, 0
+}
+
+TEST(ClusteredTransfer, PackedWeightsLieWhereTheFormatSays) {
+    ClusteredTransfer transfer;
+    transfer.bases.order = 1;
+    transfer.bases.components = {0, 4};
+    transfer.bases.bits = {7, 6, 6, 5};
+    transfer.receivers.format = WeightFormat::packed;
+    transfer.receivers.cluster_bits = 8;
+    transfer.receivers.words = 1;
+    transfer.receivers.clusters = {1};
+    const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
+    std::vector<std::uint32_t> words(1);
+    pack_words(1, 8, layouts[1], std::vector<std::uint32_t>{127, 0, 21, 31}, words);
+    EXPECT_EQ(words[0], 1u | 127u << 8 | 21u << 21 | 31u << 27);
+    transfer.receivers.weights.resize(4);
+    std::memcpy(transfer.receivers.weights.data(), words.data(), 4);
+    std::vector<float> weights(4);
+    decode_weights(transfer, layouts, 0, weights);
+    EXPECT_EQ(weights[0], 1);
+    EXPECT_EQ(weights[1], -1);
+    EXPECT_FLOAT_EQ(weights[2], (2 * 21 - 63) / 63.0f);
+    EXPECT_EQ(weights[3], 1);
+    EXPECT_EQ(bytes_per_receiver(transfer), 4u);
+    EXPECT_EQ(bits_per_receiver(transfer), 32u);
+}
+
+TEST(ClusteredTransfer, BytesPerReceiverAreThoseOfTheArraysThatAreBound) {
+    std::mt19937 random(3);
+    ClusteredTransfer packed = random_transfer({2, 1, WeightFormat::float32}, random);
+    packed.receivers.format = WeightFormat::packed;
+    packed.receivers.cluster_bits = 9;
+    packed.receivers.words = 2; // 34 bits do not fit one
+    packed.bases.components = {2, 3};
+    packed.bases.bits = {8, 8, 9, 8, 8};
+    packed.receivers.clusters.assign(10, 0);
+    packed.receivers.weights.assign(80, std::byte{0});
+    EXPECT_EQ(10 * bytes_per_receiver(packed), packed.receivers.weights.size());
+    EXPECT_EQ(bits_per_receiver(packed), 34u);
+
+    ClusteredTransfer bytes = packed;
+    bytes.receivers.format = WeightFormat::snorm8;
+    bytes.receivers.components = 4; // three in use
+    bytes.receivers.weights.assign(40, std::byte{0});
+    EXPECT_EQ(10 * bytes_per_receiver(bytes),
+              bytes.receivers.weights.size() + 40); // the cluster's byte is padded to four
+    EXPECT_EQ(bits_per_receiver(bytes), 8u + 3 * 8);
+}
+
+TEST(ClusteredTransfer, ALightOfHigherOrderIsCutAndALowerOneRefused) {
+    std::mt19937 random(1);
+    const ClusteredTransfer transfer = random_transfer({3, 1, WeightFormat::float32}, random);
+    const Light light = cone_light(6, {0, 1, 0}, 1, glm::vec3(1));
+    const auto cut = exit_radiance(transfer, light), same = exit_radiance(transfer, truncated(light, 3));
+    EXPECT_EQ(cut, same);
+    EXPECT_THROW(exit_radiance(transfer, truncated(light, 2)), Error);
+}
+
+/// Runs of a cluster are evaluated sixteen at a time: against the definition, weight by weight.
+TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
+    std::mt19937 random(11);
+    std::normal_distribution<float> normal;
+    for (const int components : {0, 1, 5, 8, 12}) {
+        ClusteredTransfer t;
+        t.bases.order = 1;
+        t.bases.components = {components, components > 2 ? components - 2 : 0};
+        for (std::size_t i = 0; i < constant_rows(t.bases); ++i)
+            t.bases.rows.push_back(normal(random));
+        t.receivers.format = WeightFormat::snorm8;
+        t.receivers.components = (components + 3) / 4 * 4;
+        for (int p = 0; p < 100; ++p) // 40, then 33, then single ones
+            t.receivers.clusters.push_back(static_cast<std::uint16_t>(p < 40 ? 1 : p < 73 ? 0 : p % 2));
+        t.receivers.weights.resize(100 * t.receivers.stride());
+        for (std::byte& b : t.receivers.weights)
+            b = static_cast<std::byte>(random());
+        if (!t.receivers.weights.empty())
+            t.receivers.weights[0] = std::byte{0x80}; // -128 stands for -1 as -127 does
+        std::vector<glm::vec4> constants(constant_rows(t.bases));
+        for (glm::vec4& c : constants)
+            c = {normal(random), normal(random), normal(random), 0};
+        std::vector<glm::vec3> radiance(100, glm::vec3(-9));
+        evaluate(t, constants, radiance, 1);
+        const auto layouts = cluster_layouts(t.bases);
+        for (std::size_t p = 0; p < 100; ++p) {
+            std::vector<float> weights(12);
+            decode_weights(t, layouts, p, weights);
+            const ClusterLayout& layout = layouts[t.receivers.clusters[p]];
+            glm::vec3 expected(constants[layout.first_row]);
+            for (std::size_t j = 0; j < layout.components; ++j)
+                expected += weights[j] * glm::vec3(constants[layout.first_row + 1 + j]);
+            EXPECT_LT(glm::distance(radiance[p], expected), 1e-5f) << components << " " << p;
+        }
+    }
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,113 @@
+#include "prt/constant_former.h"
+
+#include "prt/support/error.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace prt {
+namespace {
+
+ClusteredTransfer random_transfer(int order, int channels, WeightFormat format) {
+    std::mt19937 random(3);
+    std::normal_distribution<float> normal;
+    ClusteredTransfer t;
+    t.bases.order = order;
+    t.bases.channels = channels;
+    t.bases.components = {3, 0, 7, 1, 9, 4};
+    t.receivers.format = format;
+    std::size_t rows = 0;
+    for (const int m : t.bases.components) {
+        rows += 1 + static_cast<std::size_t>(m);
+        for (int j = 0; format == WeightFormat::packed && j < m; ++j)
+            t.bases.bits.push_back(static_cast<std::uint8_t>(3 + j));
+    }
+    for (std::size_t i = 0; i < rows * t.bases.dimension(); ++i)
+        t.bases.rows.push_back(normal(random));
+    return t;
+}
+
+Light random_light(int order) {
+    std::mt19937 random(4);
+    std::normal_distribution<float> normal;
+    Light light{order, {}};
+    for (int i = 0; i < coefficient_count(order); ++i)
+        light.coefficients.emplace_back(normal(random), normal(random), normal(random));
+    return light;
+}
+
+struct Kind {
+    int order, channels;
+    WeightFormat format;
+};
+class Constants : public testing::TestWithParam<Kind> {};
+INSTANTIATE_TEST_SUITE_P(Kinds, Constants,
+                         testing::Values(Kind{1, 1, WeightFormat::float32}, Kind{6, 1, WeightFormat::snorm8},
+                                         Kind{6, 3, WeightFormat::snorm8}, Kind{6, 3, WeightFormat::packed},
+                                         Kind{10, 3, WeightFormat::packed}));
+
+TEST_P(Constants, AreDotProductsOfRowsAndLight) {
+    const auto [order, channels, format] = GetParam();
+    const ClusteredTransfer t = random_transfer(order, channels, format);
+    const Light light = random_light(order);
+    const ConstantFormer former(t);
+    ASSERT_EQ(former.rows(), constant_rows(t.bases));
+    std::vector<glm::vec4> constants(former.rows());
+    former.form(light.coefficients, constants);
+    std::size_t row = 0, bit = 0;
+    const auto product = [&](std::size_t r) {
+        return exit_radiance({&t.bases.rows[r * t.bases.dimension()], t.bases.dimension()}, channels, light);
+    };
+    for (const int m : t.bases.components) {
+        glm::vec3 mean = product(row);
+        const std::size_t first = row++;
+        for (int j = 0; j < m; ++j, ++row) {
+            glm::vec3 expected = product(row);
+            if (format ==
+                WeightFormat::packed) { // the shader multiplies the integer q: w = 2 q / largest - 1
+                mean -= expected;
+                expected *= 2 / static_cast<float>((1u << t.bases.bits[bit++]) - 1);
+            }
+            EXPECT_LT(glm::distance(glm::vec3(constants[row]), expected), 2e-5f);
+        }
+        EXPECT_LT(glm::distance(glm::vec3(constants[first]), mean), 2e-4f); // ten sums of 300 products
+        EXPECT_EQ(constants[first].w, 0);
+    }
+}
+
+TEST_P(Constants, FormedInPartsAreTheSame) {
+    const auto [order, channels, format] = GetParam();
+    const ConstantFormer former(random_transfer(order, channels, format));
+    const Light light = random_light(order);
+    std::vector<glm::vec4> whole(former.rows()), parts(former.rows(), glm::vec4(-7));
+    former.form(light.coefficients, whole);
+    former.form(light.coefficients, parts, 0, 16);
+    former.form(light.coefficients, parts, 16, former.rows());
+    EXPECT_EQ(whole, parts);
+}
+
+TEST(Constants, BlendAsTheLightsDo) {
+    const ClusteredTransfer t = random_transfer(4, 1, WeightFormat::snorm8);
+    const ConstantFormer former(t);
+    const Light a = random_light(4), b = constant_light(4, {1, 2, 3});
+    std::vector<glm::vec4> of_a(former.rows()), of_b(former.rows()), of_blend(former.rows()),
+        blend(former.rows());
+    former.form(a.coefficients, of_a);
+    former.form(b.coefficients, of_b);
+    former.form(blended(a, b, 0.3f).coefficients, of_blend);
+    blend_constants(of_a, of_b, 0.3f, blend);
+    for (std::size_t i = 0; i < blend.size(); ++i)
+        EXPECT_LT(glm::distance(blend[i], of_blend[i]), 1e-4f);
+}
+
+TEST(Constants, LightOfFewerBandsIsRefused) {
+    const ConstantFormer former(random_transfer(4, 1, WeightFormat::snorm8));
+    std::vector<glm::vec4> constants(former.rows());
+    EXPECT_THROW(former.form(constant_light(3, {1, 1, 1}).coefficients, constants), Error);
+    EXPECT_NO_THROW(former.form(constant_light(5, {1, 1, 1}).coefficients, constants)); // more do no harm
+}
+
+} // namespace
+} // namespace prt
