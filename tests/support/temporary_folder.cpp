@@ -26,7 +26,7 @@ std::size_t TemporaryFolder::files() const {
 }
 
 std::filesystem::path shared_file(std::string_view name) {
-    const std::filesystem::path path = std::filesystem::path(PRT_SHARED_DATA) / name;
+    const std::filesystem::path path = std::filesystem::path(PRT_TEST_DATA) / name;
     return std::filesystem::exists(path) ? path : std::filesystem::path();
 }
 
