@@ -1,9 +1,9 @@
 #include "prt/gl_objects.h"
-#include "prt/gl_tracer.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "shared_layout.h"
+#include "trace/gpu/gl_tracer.h"
 #include "trace/gpu/gpu_receivers.h"
 #include "trace/gpu/gpu_scene.h"
 #include "trace/gpu/touching_triangles.h"
@@ -71,13 +71,10 @@ GlObject make_framebuffer() {
 
 class GlRasterizer::Implementation {
 public:
-    Implementation(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                   const Surfaces& surfaces, const std::vector<Texture>& textures, int resolution,
-                   int threads)
-        : context_(std::move(context)), rays_(rays), surfaces_(surfaces),
-          scene_(scene, surfaces, textures, threads), blends_(has_blended(scene, surfaces)),
-          resolution_(resolution), threads_(threads) {
-        const Bounds box = bounds(scene);
+    Implementation(std::unique_ptr<GlContext> context, const TraceScene& scene, int resolution)
+        : context_(std::move(context)), rays_(scene.rays()), surfaces_(scene.surfaces()), scene_(scene),
+          blends_(has_blended(scene.scene(), surfaces_)), resolution_(resolution), threads_(scene.threads()) {
+        const Bounds box = bounds(scene.scene());
         centre_ = 0.5f * (box.low + box.high);
         // The sphere round the scene, a little larger so that nothing lies on the border.
         radius_ =
@@ -111,7 +108,8 @@ public:
     }
 
     void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-               const TraceOptions& options, std::span<float> vectors, TraceSeconds& seconds) {
+               const TraceOptions& options, std::span<float> vectors, TraceSeconds& seconds,
+               const Progress& progress) {
         const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
         Stopwatch transfer;
         const GlObject gpu_receivers = upload_receivers(rays_, receivers, indices, options.seed, threads_);
@@ -135,8 +133,7 @@ public:
         glBindTextureUnit(PRT_UNIT_OPAQUE_DEPTH, maps_.name());
         const std::vector<glm::vec3> directions = even_directions(options.rays, options.seed);
         for (std::size_t begin = 0; begin < directions.size(); begin += maps_at_once()) {
-            if (options.progress)
-                options.progress->update(static_cast<double>(begin) / static_cast<double>(directions.size()));
+            progress.update(static_cast<double>(begin) / static_cast<double>(directions.size()));
             const auto part =
                 std::span(directions).subspan(begin, std::min(maps_at_once(), directions.size() - begin));
             const Stopwatch maps;
@@ -313,11 +310,8 @@ private:
     std::map<std::pair<int, bool>, GlObject> programs_; ///< by order, and whether for peeling
 };
 
-GlRasterizer::GlRasterizer(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                           const Surfaces& surfaces, const std::vector<Texture>& textures, int resolution,
-                           int threads)
-    : implementation_(std::make_unique<Implementation>(std::move(context), scene, rays, surfaces, textures,
-                                                       resolution, threads)) {}
+GlRasterizer::GlRasterizer(std::unique_ptr<GlContext> context, const TraceScene& scene, int resolution)
+    : implementation_(std::make_unique<Implementation>(std::move(context), scene, resolution)) {}
 
 GlRasterizer::~GlRasterizer() = default;
 
@@ -330,10 +324,11 @@ std::size_t GlRasterizer::batch_size(const TraceOptions& options) const {
 }
 
 void GlRasterizer::trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-                         const TraceOptions& options, std::span<float> vectors, const HitSink& sink) {
+                         const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
+                         const Progress& progress) {
     if (sink)
         throw Error("depth maps do not tell what light would meet");
-    implementation_->trace(receivers, indices, options, vectors, seconds_);
+    implementation_->trace(receivers, indices, options, vectors, seconds_, progress);
 }
 
 } // namespace prt

@@ -1,4 +1,4 @@
-#include "prt/gl_tracer.h"
+#include "trace/gpu/gl_tracer.h"
 
 #include "prt/gl_objects.h"
 #include "prt/sh.h"
@@ -73,11 +73,9 @@ void set_uniform(const GlObject& program, const char* name, std::size_t value) {
 
 class GlTracer::Implementation {
 public:
-    Implementation(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                   const Surfaces& surfaces, const std::vector<Texture>& textures, int threads,
-                   std::size_t hit_bytes)
-        : context_(std::move(context)), rays_(rays), scene_(scene, surfaces, textures, threads),
-          threads_(threads), most_hits_(hit_bytes / sizeof(HitRecord)),
+    Implementation(std::unique_ptr<GlContext> context, const TraceScene& scene, std::size_t hit_bytes)
+        : context_(std::move(context)), rays_(scene.rays()), scene_(scene), threads_(scene.threads()),
+          most_hits_(hit_bytes / sizeof(HitRecord)),
           sh_factors_(make_buffer(std::span<const glm::vec4>(sh_factors()))) {}
 
     std::string device() const { return context_->renderer(); }
@@ -290,11 +288,8 @@ private:
     double hits_per_ray_ = 1; ///< through blended surfaces, a quarter more than measured
 };
 
-GlTracer::GlTracer(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                   const Surfaces& surfaces, const std::vector<Texture>& textures, int threads,
-                   std::size_t hit_bytes)
-    : implementation_(std::make_unique<Implementation>(std::move(context), scene, rays, surfaces, textures,
-                                                       threads, hit_bytes)) {}
+GlTracer::GlTracer(std::unique_ptr<GlContext> context, const TraceScene& scene, std::size_t hit_bytes)
+    : implementation_(std::make_unique<Implementation>(std::move(context), scene, hit_bytes)) {}
 
 GlTracer::~GlTracer() = default;
 
@@ -311,7 +306,8 @@ std::size_t GlTracer::batch_size(const TraceOptions& options) const {
 }
 
 void GlTracer::trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-                     const TraceOptions& options, std::span<float> vectors, const HitSink& sink) {
+                     const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
+                     const Progress&) {
     implementation_->trace(receivers, indices, options, vectors, sink, seconds_);
 }
 

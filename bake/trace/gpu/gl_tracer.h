@@ -3,8 +3,7 @@
 // The GPU baker: rays and depth maps in OpenGL 4.5.
 
 #include "prt/gl_context.h"
-#include "prt/ray_scene.h"
-#include "prt/surfaces.h"
+#include "prt/trace_scene.h"
 #include "prt/tracer.h"
 
 #include <memory>
@@ -16,17 +15,16 @@ namespace prt {
 /// hits as `hit_bytes` hold.
 class GlTracer final : public Tracer {
 public:
-    /// Keeps references to `rays` (for offsets off the surface) and `surfaces`; takes `context`, which stays
-    /// current. Throws `Error` when the scene does not fit the device.
-    GlTracer(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-             const Surfaces& surfaces, const std::vector<Texture>& textures, int threads = 0,
-             std::size_t hit_bytes = 96 << 20);
+    /// Keeps a reference to `scene` (for offsets off the surface); takes `context`, which stays current.
+    /// Throws `Error` when the scene does not fit the device.
+    GlTracer(std::unique_ptr<GlContext> context, const TraceScene& scene, std::size_t hit_bytes = 96 << 20);
     ~GlTracer() override;
-    std::string backend() const override { return "gpu"; }
+    Backend backend() const override { return Backend::gpu; }
     std::string device() const override;
     std::size_t batch_size(const TraceOptions& options) const override;
     void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-               const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {}) override;
+               const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
+               const Progress& progress = {}) override;
     /// Pieces that were traced again since their hits did not fit: only blended surfaces can make some, the
     /// first time that rays meet more of them than before.
     std::size_t traced_again() const;
@@ -41,17 +39,17 @@ private:
 /// its depth; blended surfaces are peeled layer by layer. Weights are normalised per receiver. No hits.
 class GlRasterizer final : public Tracer {
 public:
-    GlRasterizer(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                 const Surfaces& surfaces, const std::vector<Texture>& textures, int resolution,
-                 int threads = 0);
+    GlRasterizer(std::unique_ptr<GlContext> context, const TraceScene& scene, int resolution);
     ~GlRasterizer() override;
-    std::string backend() const override { return "gpu"; }
-    std::string method() const override { return "raster"; }
+    Backend backend() const override { return Backend::gpu; }
+    BakeMethod method() const override { return BakeMethod::raster; }
+    bool notes_hits() const override { return false; }
     std::string device() const override;
     /// All at once: the maps are drawn once for them.
     std::size_t batch_size(const TraceOptions& options) const override;
     void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-               const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {}) override;
+               const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
+               const Progress& progress = {}) override;
 
 private:
     class Implementation;
