@@ -377,8 +377,8 @@ private:
         BakeRecord& record = baked.record;
         record.rays = mean_rays_;
         record.seed = options_.seed;
-        record.method = tracer_->method();
-        record.backend = tracer_->backend();
+        record.method = options_.method;
+        record.backend = tracer_->backend() == "cpu" ? Backend::cpu : Backend::gpu;
         record.receivers = receivers_id(scene_);
         record.sampling_error = statistics().sampling_error;
         baked.transfer = std::move(transfer);

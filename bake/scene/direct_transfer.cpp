@@ -70,18 +70,4 @@ Transfer direct_transfer(Tracer& tracer, const Receivers& receivers, const Trace
     return transfer;
 }
 
-double mean_visibility(const Transfer& transfer, std::span<const float> areas) {
-    double sum = 0, area = 0;
-    const auto stride = static_cast<std::size_t>(coefficient_count(transfer.order));
-    for (std::size_t p = 0; p < areas.size(); ++p) {
-        for (int c = 0; c < transfer.channels; ++c)
-            sum += static_cast<double>(areas[p]) *
-                   static_cast<double>(transfer.vector(p)[static_cast<std::size_t>(c) * stride]) /
-                   transfer.channels;
-        area += static_cast<double>(areas[p]);
-    }
-    const double y00 = detail::kLegendre.sectoral[0];
-    return area > 0 ? sum / (area * y00) : 0;
-}
-
 } // namespace prt

@@ -2,7 +2,8 @@
 
 // The baker: transfer vectors of every receiver of a scene.
 
-#include "prt/gltf.h"
+#include "prt/baked_transfer.h"
+#include "prt/scene.h"
 #include "prt/subsurface.h"
 #include "prt/support/progress.h"
 #include "prt/texture.h"
@@ -11,17 +12,6 @@
 #include <optional>
 
 namespace prt {
-
-enum class Backend {
-    automatic, ///< a hardware GPU where there is one, else the CPU
-    cpu,
-    gpu, ///< any OpenGL 4.5
-};
-
-enum class BakeMethod {
-    trace,  ///< rays
-    raster, ///< depth maps from many directions (Hill 2004): direct light, GPU only
-};
 
 enum class Storage {
     automatic, ///< float16 where its rounding is less than a tenth of the sampling error
@@ -115,8 +105,5 @@ void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const
 
 /// Those with an area and a normal.
 std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers);
-
-/// Area-weighted mean of T_0 / Y_00 over all channels.
-double mean_visibility(const Transfer& transfer, std::span<const float> areas);
 
 } // namespace prt
