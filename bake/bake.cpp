@@ -376,8 +376,8 @@ private:
         BakeRecord& record = baked.record;
         record.rays = mean_rays_;
         record.seed = options_.seed;
-        record.method = to_string(tracer_->method());
-        record.backend = to_string(tracer_->backend());
+        record.method = tracer_->method();
+        record.backend = tracer_->backend();
         record.receivers = receivers_id(scene_);
         record.sampling_error = statistics().sampling_error;
         baked.transfer = std::move(transfer);

@@ -4,6 +4,7 @@
 #include "trace/sample_sequence.h"
 
 #include "prt/support/parallel.h"
+#include "prt/support/tangent_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -42,21 +43,11 @@ private:
     std::uint32_t seed_, reversed_, pair_ = 0;
 };
 
-struct Frame {
-    glm::vec3 x, y, z;
-};
-
-/// Right-handed about unit `z` (Duff et al. 2017).
-Frame frame_about(const glm::vec3& z) {
-    const float sign = std::copysign(1.0f, z.z), a = -1 / (sign + z.z), b = z.x * z.y * a;
-    return {{1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
-}
-
 glm::vec3 cosine_direction(const glm::vec3& normal, const glm::vec2& u) {
     const float radius = std::sqrt(u.x), angle = 2 * kPi * u.y;
-    const Frame frame = frame_about(normal);
-    return frame.x * (radius * std::cos(angle)) + frame.y * (radius * std::sin(angle)) +
-           frame.z * std::sqrt(std::max(0.0f, 1 - u.x));
+    const TangentFrame frame = tangent_frame(normal);
+    return frame.tangent * (radius * std::cos(angle)) + frame.bitangent * (radius * std::sin(angle)) +
+           frame.normal * std::sqrt(std::max(0.0f, 1 - u.x));
 }
 
 float largest(const glm::vec3& v) {
@@ -201,11 +192,8 @@ glm::vec3 Tracing::path(const glm::vec3& camera, const glm::vec3& view, PathSamp
     }
 }
 
-glm::vec3 view_direction(const CameraFrame& frame, const PathTraceOptions& options, double x, double y) {
-    const double aspect = static_cast<double>(options.width) / options.height;
-    return glm::vec3(glm::normalize(frame.forward +
-                                    frame.right * (frame.half_height * aspect * (2 * x / options.width - 1)) +
-                                    frame.up * (frame.half_height * (1 - 2 * y / options.height))));
+glm::vec3 unit_direction(const CameraFrame& frame, const PathTraceOptions& options, double x, double y) {
+    return glm::vec3(glm::normalize(view_direction(frame, options.width, options.height, x, y)));
 }
 
 } // namespace
@@ -228,7 +216,7 @@ void PathTracer::add_pass(int threads, std::stop_token stop) {
                 PathSamples samples(receiver_seed(static_cast<std::uint32_t>(i), options_.seed), pass);
                 const glm::dvec2 at = options_.antialiased ? glm::dvec2(samples.next()) : glm::dvec2(0.5);
                 const glm::vec3 view =
-                    view_direction(frame_, options_, x + at.x, static_cast<double>(y) + at.y);
+                    unit_direction(frame_, options_, x + at.x, static_cast<double>(y) + at.y);
                 sums_[i] += tracing.path(options_.camera.position, view, samples);
             }
             ++counts_[y];
@@ -250,7 +238,7 @@ std::vector<bool> PathTracer::surface_mask() const {
     std::vector<bool> mask;
     for (int y = 0; y < options_.height; ++y)
         for (int x = 0; x < options_.width; ++x) {
-            const glm::vec3 view = view_direction(frame_, options_, x + 0.5, y + 0.5);
+            const glm::vec3 view = unit_direction(frame_, options_, x + 0.5, y + 0.5);
             float from = 0;
             auto hit = tracing.nearest(options_.camera.position, view, from);
             while (hit && (!hit->scatters || scene_.surfaces().coverage(hit->point) < 0.5f)) {

@@ -48,7 +48,7 @@ void print_report(const BakeArguments& a, const BakeResult& result) {
                s.receivers, s.triangles, t.order, t.channels, t.channels == 1 ? "channel" : "channels",
                result.baked.record.rays, raster ? "directions" : "rays", result.baked.record.bounces);
     fmt::print("  {} on the {}: {}\n", raster ? "depth maps" : "rays",
-               result.baked.record.backend == "cpu" ? "CPU" : "GPU", s.device);
+               result.baked.record.backend == Backend::cpu ? "CPU" : "GPU", s.device);
     if (s.receivers > s.traced)
         fmt::print("  {} receivers are on no surface and have zero transfer\n", s.receivers - s.traced);
     for (const std::string& notice : s.notices)

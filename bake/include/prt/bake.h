@@ -2,8 +2,9 @@
 
 // The baker: transfer vectors of every receiver of a scene.
 
-#include "prt/gltf.h"
+#include "prt/baked_transfer.h"
 #include "prt/make_tracer.h"
+#include "prt/scene.h"
 #include "prt/subsurface.h"
 #include "prt/support/progress.h"
 #include "prt/texture.h"
@@ -87,8 +88,5 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 /// found by tracing some receivers.
 double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
                        int channels);
-
-/// Area-weighted mean of T_0 / Y_00 over all channels.
-double mean_visibility(const Transfer& transfer, std::span<const float> areas);
 
 } // namespace prt

@@ -270,7 +270,7 @@ TEST(GpuBake, OfEveryTransportIsTheCpus) {
     const std::vector<float> areas = receiver_areas(leaf);
     const auto difference = [&](const BakeOptions& o) {
         const BakeResult cpu = bake_on(Backend::cpu, leaf, o), gpu = bake_on(Backend::gpu, leaf, o);
-        EXPECT_EQ(gpu.baked.record.backend, "gpu");
+        EXPECT_EQ(gpu.baked.record.backend, Backend::gpu);
         EXPECT_EQ(cpu.baked.transfer.channels, 3);
         return relative_l2(cpu.baked.transfer, gpu.baked.transfer, areas);
     };
