@@ -1,6 +1,7 @@
 #include "prt/make_tracer.h"
 
 #include "prt/embree_tracer.h"
+#include "prt/gl_rasterizer.h"
 #include "prt/gl_tracer.h"
 #include "prt/support/error.h"
 
