@@ -1,6 +1,7 @@
 #include "adaptive.h"
 
 #include "prt/sh.h"
+#include "prt/trace_receivers.h"
 
 #include <algorithm>
 #include <cmath>

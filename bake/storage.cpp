@@ -1,6 +1,6 @@
 #include "storage.h"
 
-#include "prt/sh_basis.h"
+#include "prt/sh.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -22,6 +22,20 @@ double half_rounding_error(const Transfer& transfer, std::span<const float> area
         norm += static_cast<double>(areas[p]) * point_norm;
     }
     return norm > 0 ? std::sqrt(error / norm) : 0;
+}
+
+double mean_visibility(const Transfer& transfer, std::span<const float> areas) {
+    double sum = 0, area = 0;
+    const auto stride = static_cast<std::size_t>(coefficient_count(transfer.order));
+    for (std::size_t p = 0; p < areas.size(); ++p) {
+        for (int c = 0; c < transfer.channels; ++c)
+            sum += static_cast<double>(areas[p]) *
+                   static_cast<double>(transfer.vector(p)[static_cast<std::size_t>(c) * stride]) /
+                   transfer.channels;
+        area += static_cast<double>(areas[p]);
+    }
+    const double y00 = detail::kLegendre.sectoral[0];
+    return area > 0 ? sum / (area * y00) : 0;
 }
 
 double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,

@@ -87,26 +87,16 @@ struct Tracing {
     glm::vec3 path(const glm::vec3& origin, const glm::vec3& direction, PathSamples& samples) const;
 };
 
-RTCRayHit embree_ray(const glm::vec3& o, const glm::vec3& d, float from) {
-    RTCRayHit hit{};
-    hit.ray = {o.x, o.y, o.z, from, d.x, d.y, d.z, 0, kInfinity, ~0u, 0, 0};
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    return hit;
-}
-
 std::optional<SurfaceHit> Tracing::nearest(const glm::vec3& origin, const glm::vec3& direction,
                                            float from) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit ray = embree_ray(origin, direction, from);
-    rtcIntersect1(rays.handle(), &context, &ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    const std::optional<RayHit> met = rays.nearest({origin, direction, from});
+    if (!met)
         return std::nullopt;
     SurfaceHit hit;
-    hit.id = ray.hit.primID;
-    hit.distance = ray.ray.tfar;
-    hit.point = {ray.hit.primID, {ray.hit.u, ray.hit.v}, 0};
-    hit.position = origin + direction * ray.ray.tfar;
+    hit.id = met->triangle;
+    hit.distance = met->distance;
+    hit.point = {met->triangle, met->uv, 0};
+    hit.position = origin + direction * met->distance;
     const RayScene::Triangle triangle = rays.triangle(hit.id);
     const Primitive& primitive = scene.primitives[triangle.primitive];
     const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
@@ -123,20 +113,16 @@ std::optional<SurfaceHit> Tracing::nearest(const glm::vec3& origin, const glm::v
 }
 
 float Tracing::transmittance(const glm::vec3& origin, const glm::vec3& direction) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit ray = embree_ray(origin, direction, 0);
-    if (!surfaces.has_alpha()) {
-        rtcOccluded1(rays.handle(), &context, &ray.ray);
-        return ray.ray.tfar < 0 ? 0.0f : 1.0f;
-    }
+    Ray ray{origin, direction};
+    if (!surfaces.traits().alpha)
+        return rays.occluded(ray) ? 0.0f : 1.0f;
     float left = 1;
     while (left > 0) {
-        rtcIntersect1(rays.handle(), &context, &ray);
-        if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        const std::optional<RayHit> met = rays.nearest(ray);
+        if (!met)
             break;
-        left *= 1 - surfaces.coverage({ray.hit.primID, {ray.hit.u, ray.hit.v}, 0});
-        ray = embree_ray(origin, direction, std::nextafter(ray.ray.tfar, kInfinity));
+        left *= 1 - surfaces.coverage({met->triangle, met->uv, 0});
+        ray.from = std::nextafter(met->distance, kInfinity);
     }
     return left;
 }
@@ -224,15 +210,13 @@ glm::vec3 view_direction(const CameraFrame& frame, const PathTraceOptions& optio
 
 } // namespace
 
-PathTracer::PathTracer(const RayScene& rays, const Scene& scene, const Surfaces& surfaces,
-                       const DistantLight& light, const PathTraceOptions& options)
-    : rays_(rays), scene_(scene), surfaces_(surfaces), light_(light), options_(options),
-      frame_(camera_frame(options.camera)),
+PathTracer::PathTracer(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options)
+    : scene_(scene), light_(light), options_(options), frame_(camera_frame(options.camera)),
       sums_(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height)),
       counts_(static_cast<std::size_t>(options.height)) {}
 
 void PathTracer::add_pass(int threads, std::stop_token stop) {
-    const Tracing tracing{rays_, scene_, surfaces_, light_, options_};
+    const Tracing tracing{scene_.rays(), scene_.scene(), scene_.surfaces(), light_, options_};
     const auto pass = static_cast<std::uint32_t>(passes_);
     parallel_for(counts_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y) {
@@ -262,14 +246,14 @@ Image PathTracer::image() const {
 }
 
 std::vector<bool> PathTracer::surface_mask() const {
-    const Tracing tracing{rays_, scene_, surfaces_, light_, options_};
+    const Tracing tracing{scene_.rays(), scene_.scene(), scene_.surfaces(), light_, options_};
     std::vector<bool> mask;
     for (int y = 0; y < options_.height; ++y)
         for (int x = 0; x < options_.width; ++x) {
             const glm::vec3 view = view_direction(frame_, options_, x + 0.5, y + 0.5);
             float from = 0;
             auto hit = tracing.nearest(options_.camera.position, view, from);
-            while (hit && (!hit->scatters || surfaces_.coverage(hit->point) < 0.5f)) {
+            while (hit && (!hit->scatters || scene_.surfaces().coverage(hit->point) < 0.5f)) {
                 from = std::nextafter(hit->distance, kInfinity);
                 hit = tracing.nearest(options_.camera.position, view, from);
             }

@@ -2,14 +2,12 @@
 // of many directions the scene is drawn once, and every receiver compares its depth
 // (shaders/bake_raster.comp).
 
-#include "prt/gl_rasterizer.h"
+#include "trace/gpu/gl_rasterizer.h"
 
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
-#include "trace/gpu/depth_maps.h"
 #include "trace/gpu/gpu_receivers.h"
-#include "trace/gpu/gpu_scene.h"
 #include "trace/gpu/touching_triangles.h"
 
 #include <epoxy/gl.h>
@@ -18,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <random>
 
@@ -56,18 +53,35 @@ std::size_t sums_of(int order) {
     return static_cast<std::size_t>(2 * coefficient_count(order) + 2);
 }
 
+/// From sums to the transfer of a receiver, with the open lobe as control variate, as rays do.
+void write_transfer(const glm::vec3& normal, int order, std::span<const float> sum, std::span<float> vector) {
+    const std::size_t coefficients = vector.size();
+    const auto weight = static_cast<double>(sum[2 * coefficients]),
+               blocked = static_cast<double>(sum[2 * coefficients + 1]);
+    std::array<double, kMaxOrder * kMaxOrder> lobe{};
+    clamped_cosine_lobe(order, glm::dvec3(normal), lobe);
+    for (std::size_t k = 0; k < coefficients; ++k) {
+        const auto all = static_cast<double>(sum[k]), stopped = static_cast<double>(sum[coefficients + k]);
+        vector[k] = static_cast<float>(weight <= 0             ? 0
+                                       : 2 * blocked <= weight ? lobe[k] - stopped / weight
+                                                               : (all - stopped) / weight);
+    }
+}
+
+} // namespace
+
 /// Receivers on the device, what touches them, and the sums over directions.
-class Batch {
+class GlRasterizer::Batch {
 public:
-    Batch(const RayScene& rays, const Surfaces& surfaces, const Receivers& receivers,
-          std::span<const std::uint32_t> indices, const TraceOptions& options, int threads)
-        : receivers_(upload_receivers(rays, receivers, indices, options.seed, threads)),
+    Batch(const TraceScene& scene, const Receivers& receivers, std::span<const std::uint32_t> indices,
+          const TraceOptions& options)
+        : receivers_(upload_receivers(scene, receivers, indices, options.seed)),
           sums_(indices.size() * sums_of(options.order)),
           gpu_sums_(make_buffer(std::span<const float>(sums_))) {
-        const TouchingTriangles touching = touching_triangles(rays, surfaces, receivers, indices, threads);
+        const TouchingTriangles touching = touching_triangles(scene, receivers, indices);
         touching_ranges_ = make_buffer(std::span<const glm::uvec2>(touching.ranges));
         touching_ = make_buffer(std::span<const glm::vec4>(touching.corners));
-        const std::vector<float> ones(surfaces.has_alpha() ? indices.size() : 1, 1.0f);
+        const std::vector<float> ones(scene.surfaces().traits().alpha ? indices.size() : 1, 1.0f);
         passes_ = make_buffer(std::span<const float>(ones));
         glFinish();
     }
@@ -91,136 +105,79 @@ private:
     GlObject gpu_sums_;
 };
 
-/// From sums to the transfer of a receiver, with the open lobe as control variate, as rays do.
-void finish(const glm::vec3& normal, int order, std::span<const float> sum, std::span<float> vector) {
-    const std::size_t coefficients = vector.size();
-    const auto weight = static_cast<double>(sum[2 * coefficients]),
-               blocked = static_cast<double>(sum[2 * coefficients + 1]);
-    std::array<double, kMaxOrder * kMaxOrder> lobe{};
-    clamped_cosine_lobe(order, glm::dvec3(normal), lobe);
-    for (std::size_t k = 0; k < coefficients; ++k) {
-        const auto all = static_cast<double>(sum[k]), stopped = static_cast<double>(sum[coefficients + k]);
-        vector[k] = static_cast<float>(weight <= 0             ? 0
-                                       : 2 * blocked <= weight ? lobe[k] - stopped / weight
-                                                               : (all - stopped) / weight);
-    }
-}
-
-} // namespace
-
-class GlRasterizer::Implementation {
-public:
-    Implementation(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                   const Surfaces& surfaces, const std::vector<Texture>& textures, int resolution,
-                   int threads)
-        : context_(std::move(context)), rays_(rays), surfaces_(surfaces),
-          scene_(scene, surfaces, textures, threads),
-          maps_(scene_, bounds(scene), resolution, has_blended(scene, surfaces)), threads_(threads) {}
-
-    std::string device() const { return context_->renderer(); }
-
-    std::size_t batch_size(const TraceOptions& options) const {
-        GLint64 largest = 0;
-        glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
-        const std::size_t bytes = sums_of(options.order) * sizeof(float);
-        return std::max<std::size_t>(
-            1, std::min<std::size_t>(static_cast<std::size_t>(largest) / bytes, 65535 * 64));
-    }
-
-    void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-               const TraceOptions& options, std::span<float> vectors, TraceSeconds& seconds) {
-        Stopwatch transfer;
-        Batch batch(rays_, surfaces_, receivers, indices, options, threads_);
-        seconds.transfer += transfer.seconds();
-        scene_.bind();
-        batch.bind();
-        maps_.bind();
-        const std::vector<glm::vec3> directions = even_directions(options.rays, options.seed);
-        for (std::size_t begin = 0; begin < directions.size(); begin += maps_.at_once()) {
-            if (options.progress)
-                options.progress->update(static_cast<double>(begin) / static_cast<double>(directions.size()));
-            const auto part =
-                std::span(directions).subspan(begin, std::min(maps_.at_once(), directions.size() - begin));
-            look_up(part, options.order, indices.size(), seconds);
-        }
-        transfer = Stopwatch();
-        const std::span<const float> sums = batch.read_sums();
-        seconds.transfer += transfer.seconds();
-        const std::size_t columns = sums_of(options.order), coefficients = columns / 2 - 1;
-        for (std::size_t i = 0; i < indices.size(); ++i)
-            finish(receivers.normals[indices[i]], options.order, sums.subspan(i * columns, columns),
-                   vectors.subspan(i * coefficients, coefficients));
-    }
-
-private:
-    const GlObject& program(int order, bool peel) {
-        GlObject& program = programs_[{order, peel}];
-        if (program.name() == 0)
-            program =
-                make_compute_program("bake_raster.comp", "#define PRT_ORDER " + std::to_string(order) + "\n" +
-                                                             (peel ? "#define PRT_PEEL\n" : "") +
-                                                             (maps_.blends() ? "#define PRT_ALPHA\n" : ""));
-        return program;
-    }
-
-    /// Draws the maps of some directions and adds what they say to the sums.
-    void look_up(std::span<const glm::vec3> directions, int order, std::size_t receivers,
-                 TraceSeconds& seconds) {
-        const GlObject& shader = program(order, false);
-        const Stopwatch maps;
-        const GlObject table = maps_.table(directions, order);
-        bind_storage(PRT_BINDING_DIRECTIONS, table);
-        maps_.draw(directions);
-        if (maps_.blends())
-            maps_.peel(directions[0], [&] { dispatch(program(order, true), receivers, 1); });
-        glFinish();
-        seconds.trace += maps.seconds();
-        const Stopwatch accumulate;
-        dispatch(shader, receivers, directions.size());
-        glFinish();
-        check_gl("looking up the depth maps");
-        seconds.accumulate += accumulate.seconds();
-    }
-
-    void dispatch(const GlObject& shader, std::size_t receivers, std::size_t directions) const {
-        glUseProgram(shader.name());
-        set_uniform(shader, "receiver_count", static_cast<std::uint32_t>(receivers));
-        set_uniform(shader, "direction_count", static_cast<std::uint32_t>(directions));
-        set_uniform(shader, "texel_depth", 1 / static_cast<float>(maps_.resolution()));
-        glDispatchCompute(static_cast<GLuint>((receivers + 63) / 64), 1, 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-    }
-
-    std::unique_ptr<GlContext> context_;
-    const RayScene& rays_;
-    const Surfaces& surfaces_;
-    GpuScene scene_;
-    DepthMaps maps_;
-    int threads_;
-    std::map<std::pair<int, bool>, GlObject> programs_; ///< by order, and whether for peeling
-};
-
-GlRasterizer::GlRasterizer(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                           const Surfaces& surfaces, const std::vector<Texture>& textures, int resolution,
-                           int threads)
-    : implementation_(std::make_unique<Implementation>(std::move(context), scene, rays, surfaces, textures,
-                                                       resolution, threads)) {}
-
-GlRasterizer::~GlRasterizer() = default;
-
-std::string GlRasterizer::device() const {
-    return implementation_->device();
-}
+GlRasterizer::GlRasterizer(std::unique_ptr<GlContext> context, const TraceScene& scene, int resolution)
+    : context_(std::move(context)), scene_(scene), gpu_scene_(scene),
+      maps_(gpu_scene_, bounds(scene.scene()), resolution, has_blended(scene.scene(), scene.surfaces())) {}
 
 std::size_t GlRasterizer::batch_size(const TraceOptions& options) const {
-    return implementation_->batch_size(options);
+    GLint64 largest = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
+    const std::size_t bytes = sums_of(options.order) * sizeof(float);
+    return std::max<std::size_t>(
+        1, std::min<std::size_t>(static_cast<std::size_t>(largest) / bytes, 65535 * 64));
 }
 
 void GlRasterizer::trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-                         const TraceOptions& options, std::span<float> vectors, const HitSink& sink) {
+                         const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
+                         const Progress& progress) {
     if (sink)
         throw Error("depth maps do not tell what light would meet");
-    implementation_->trace(receivers, indices, options, vectors, seconds_);
+    Stopwatch transfer;
+    Batch batch(scene_, receivers, indices, options);
+    seconds_.transfer += transfer.seconds();
+    gpu_scene_.bind();
+    batch.bind();
+    maps_.bind();
+    const std::vector<glm::vec3> directions = even_directions(options.rays, options.seed);
+    for (std::size_t begin = 0; begin < directions.size(); begin += maps_.at_once()) {
+        progress.update(static_cast<double>(begin) / static_cast<double>(directions.size()));
+        const auto part =
+            std::span(directions).subspan(begin, std::min(maps_.at_once(), directions.size() - begin));
+        look_up(part, options.order, indices.size());
+    }
+    transfer = Stopwatch();
+    const std::span<const float> sums = batch.read_sums();
+    seconds_.transfer += transfer.seconds();
+    const std::size_t columns = sums_of(options.order), coefficients = columns / 2 - 1;
+    for (std::size_t i = 0; i < indices.size(); ++i)
+        write_transfer(receivers.normals[indices[i]], options.order, sums.subspan(i * columns, columns),
+                       vectors.subspan(i * coefficients, coefficients));
+}
+
+const GlObject& GlRasterizer::program(int order, bool peel) {
+    GlObject& program = programs_[{order, peel}];
+    if (program.name() == 0)
+        program = make_compute_program("bake_raster.comp", "#define PRT_ORDER " + std::to_string(order) +
+                                                               "\n" + (peel ? "#define PRT_PEEL\n" : "") +
+                                                               (maps_.blends() ? "#define PRT_ALPHA\n" : ""));
+    return program;
+}
+
+/// Draws the maps of some directions and adds what they say to the sums.
+void GlRasterizer::look_up(std::span<const glm::vec3> directions, int order, std::size_t receivers) {
+    const GlObject& shader = program(order, false);
+    const Stopwatch maps;
+    const GlObject table = maps_.table(directions, order);
+    bind_storage(PRT_BINDING_DIRECTIONS, table);
+    maps_.draw(directions);
+    if (maps_.blends())
+        maps_.peel(directions[0], [&] { dispatch(program(order, true), receivers, 1); });
+    glFinish();
+    seconds_.trace += maps.seconds();
+    const Stopwatch accumulate;
+    dispatch(shader, receivers, directions.size());
+    glFinish();
+    check_gl("looking up the depth maps");
+    seconds_.accumulate += accumulate.seconds();
+}
+
+void GlRasterizer::dispatch(const GlObject& shader, std::size_t receivers, std::size_t directions) const {
+    glUseProgram(shader.name());
+    set_uniform(shader, "receiver_count", static_cast<std::uint32_t>(receivers));
+    set_uniform(shader, "direction_count", static_cast<std::uint32_t>(directions));
+    set_uniform(shader, "texel_depth", 1 / static_cast<float>(maps_.resolution()));
+    glDispatchCompute(static_cast<GLuint>((receivers + 63) / 64), 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
 } // namespace prt

@@ -1,7 +1,7 @@
 // Rays in a compute shader (shaders/bake_trace.comp): direct transfer with the open lobe as control variate
 // (docs/math.md, eq. 7), through the hierarchy of Ylitie, Karras and Laine (2017).
 
-#include "prt/gl_tracer.h"
+#include "trace/gpu/gl_tracer.h"
 
 #include "prt/gl_objects.h"
 #include "prt/sh.h"
@@ -9,7 +9,6 @@
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
 #include "trace/gpu/gpu_receivers.h"
-#include "trace/gpu/gpu_scene.h"
 #include "trace/gpu/gpu_structs.h"
 #include "trace/sample_sequence.h"
 
@@ -18,8 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <utility>
 
 namespace prt {
 namespace {
@@ -53,8 +50,10 @@ GlObject sample_table(const SobolChunk& whole, const SobolChunk& last) {
     return make_buffer(std::span<const glm::uvec2>(table));
 }
 
+} // namespace
+
 /// What Tracer::trace is asked, or a piece of it.
-struct Work {
+struct GlTracer::Job {
     const Receivers& receivers;
     std::span<const std::uint32_t> indices;
     const TraceOptions& options;
@@ -62,7 +61,7 @@ struct Work {
     HitSink sink;
 
     std::size_t coefficients() const { return static_cast<std::size_t>(coefficient_count(options.order)); }
-    Work piece(std::size_t begin, std::size_t count) const {
+    Job piece(std::size_t begin, std::size_t count) const {
         HitSink part;
         if (sink)
             part = [this, begin](std::size_t i, std::span<const Hit> hits) { sink(begin + i, hits); };
@@ -72,56 +71,69 @@ struct Work {
 };
 
 /// The chunks [begin, end) of the rays of every receiver of a batch.
-struct Chunks {
+struct GlTracer::Chunks {
     std::size_t begin, end;
     std::size_t size() const { return end - begin; }
 };
 
 /// Receivers on the device, their samples, and the sums over their rays.
-class Batch {
+class GlTracer::Batch {
 public:
-    Batch(const RayScene& rays, const Work& work, int threads)
-        : whole_(kChunk, stride(work)), last_((work.options.rays - 1) % kChunk + 1, stride(work)),
+    Batch(const TraceScene& scene, const Job& job)
+        : whole_(kChunk, stride(job)), last_((job.options.rays - 1) % kChunk + 1, stride(job)),
           samples_(sample_table(whole_, last_)),
-          receivers_(upload_receivers(rays, work.receivers, work.indices, work.options.seed, threads)),
-          sums_(work.indices.size() * (work.coefficients() + 1)),
+          receivers_(upload_receivers(scene, job.receivers, job.indices, job.options.seed)),
+          sums_(job.indices.size() * (job.coefficients() + 1)),
           gpu_sums_(make_buffer(std::span<const float>(sums_))),
-          chunks_((static_cast<std::size_t>(work.options.rays) + kChunk - 1) / kChunk) {
+          chunks_((static_cast<std::size_t>(job.options.rays) + kChunk - 1) / kChunk) {
         glFinish();
     }
 
     std::size_t chunks() const { return chunks_; } ///< of a receiver
 
-    void bind(const GlObject& shader, const Work& work) const {
+    void bind(const GlObject& shader, const Job& job) const {
         bind_storage(PRT_BINDING_SAMPLES, samples_);
         bind_storage(PRT_BINDING_RECEIVERS, receivers_);
         bind_storage(PRT_BINDING_SUMS, gpu_sums_);
-        set_uniform(shader, "first_ray", work.options.first_ray);
+        set_uniform(shader, "first_ray", job.options.first_ray);
         set_uniform(shader, "all_chunks", static_cast<std::uint32_t>(chunks_));
         set_uniform(shader, "last_rays", static_cast<std::uint32_t>(last_.rays));
-        set_uniform(shader, "whole_followed", static_cast<std::uint32_t>(work.sink ? whole_.followed : 0));
-        set_uniform(shader, "last_followed", static_cast<std::uint32_t>(work.sink ? last_.followed : 0));
-        set_uniform(shader, "rays", static_cast<float>(work.options.rays) / static_cast<float>(stride(work)));
+        set_uniform(shader, "whole_followed", static_cast<std::uint32_t>(job.sink ? whole_.followed : 0));
+        set_uniform(shader, "last_followed", static_cast<std::uint32_t>(job.sink ? last_.followed : 0));
+        set_uniform(shader, "rays", static_cast<float>(job.options.rays) / static_cast<float>(stride(job)));
     }
 
-    /// Per receiver [order²], and the rays that use the control variate.
-    std::span<const float> read_sums() {
-        read_buffer(gpu_sums_, std::span(sums_), "the sums");
-        return sums_;
+    void read_sums() { read_buffer(gpu_sums_, std::span(sums_), "the sums"); }
+
+    /// Writes the transfer: the open lobe, and what its rays differ from it by.
+    void add_lobes(const Job& job, int threads) const {
+        const std::size_t coefficients = job.coefficients();
+        parallel_for(job.indices.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
+            std::array<double, kMaxOrder * kMaxOrder> lobe{};
+            for (std::size_t i = begin; i < end; ++i) {
+                clamped_cosine_lobe(job.options.order, glm::dvec3(job.receivers.normals[job.indices[i]]),
+                                    lobe);
+                const float* const sum = &sums_[i * (coefficients + 1)];
+                for (std::size_t k = 0; k < coefficients; ++k)
+                    job.vectors[i * coefficients + k] = static_cast<float>(
+                        (static_cast<double>(sum[coefficients]) * lobe[k] + static_cast<double>(sum[k])) /
+                        job.options.rays);
+            }
+        });
     }
 
 private:
-    static int stride(const Work& work) { return work.sink ? work.options.hit_stride : 1; }
+    static int stride(const Job& job) { return job.sink ? job.options.hit_stride : 1; }
 
     SobolChunk whole_, last_;
     GlObject samples_, receivers_;
-    std::vector<float> sums_;
+    std::vector<float> sums_; ///< per receiver [order²], and the rays that use the control variate
     GlObject gpu_sums_;
     std::size_t chunks_;
 };
 
 /// Room for what the rays of a dispatch meet.
-class HitBuffers {
+class GlTracer::HitBuffers {
 public:
     HitBuffers(std::size_t capacity, std::size_t receivers, Chunks chunks)
         : chunks_(chunks), capacity_(capacity), blocked_of_(receivers * chunks.size()),
@@ -174,191 +186,129 @@ private:
     GlObject records_, count_, blocked_;
 };
 
-/// From sums to transfer: the open lobe, and what its rays differ from it by.
-void add_lobes(const Work& work, std::span<const float> sums, int threads) {
-    const std::size_t coefficients = work.coefficients();
-    parallel_for(work.indices.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
-        std::array<double, kMaxOrder * kMaxOrder> lobe{};
-        for (std::size_t i = begin; i < end; ++i) {
-            clamped_cosine_lobe(work.options.order, glm::dvec3(work.receivers.normals[work.indices[i]]),
-                                lobe);
-            const std::span<const float> sum = sums.subspan(i * (coefficients + 1), coefficients + 1);
-            for (std::size_t k = 0; k < coefficients; ++k)
-                work.vectors[i * coefficients + k] = static_cast<float>(
-                    (static_cast<double>(sum[coefficients]) * lobe[k] + static_cast<double>(sum[k])) /
-                    work.options.rays);
-        }
-    });
-}
-
-} // namespace
-
-class GlTracer::Implementation {
-public:
-    Implementation(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                   const Surfaces& surfaces, const std::vector<Texture>& textures, int threads,
-                   std::size_t hit_bytes)
-        : context_(std::move(context)), rays_(rays), scene_(scene, surfaces, textures, threads),
-          threads_(threads), most_hits_(hit_bytes / sizeof(gpu::HitRecord)),
-          sh_factors_(make_buffer(std::span<const glm::vec4>(sh_factors()))) {}
-
-    std::string device() const { return context_->renderer(); }
-    std::size_t traced_again() const { return traced_again_; }
-
-    std::size_t batch_size(const TraceOptions& options) const {
-        const double receivers = rays_per_second_ * kDispatchSeconds / options.rays;
-        return static_cast<std::size_t>(std::clamp(receivers, 1.0, static_cast<double>(kMostGroups)));
-    }
-
-    /// Cuts work that does not fit the device into smaller pieces.
-    void trace(const Work& work, TraceSeconds& seconds) {
-        std::size_t most = kMostGroups;
-        for (std::size_t begin = 0; begin < work.indices.size();) {
-            std::size_t count = std::min(work.indices.size() - begin, most);
-            if (work.sink)
-                count = std::min(count, std::max<std::size_t>(1, most_hits_ / hits_per_chunk(work.options)));
-            try {
-                trace_piece(work.piece(begin, count), seconds);
-                begin += count;
-            } catch (const GpuOutOfMemory&) {
-                if (count <= 1)
-                    throw;
-                most = count / 2;
-            }
-        }
-    }
-
-private:
-    const GlObject& program(int order, bool hits) {
-        auto& program = programs_[{order, hits}];
-        if (program.name() == 0)
-            program = make_compute_program("bake_trace.comp", scene_.defines() + "#define PRT_ORDER " +
-                                                                  std::to_string(order) + "\n" +
-                                                                  (hits ? "#define PRT_HITS\n" : ""));
-        return program;
-    }
-
-    /// Records that the rays of a chunk need room for. Where surfaces are opaque no more can be: every ray
-    /// that is followed, and one that stands for those that are not. Through blended surfaces rays have no
-    /// bound: what they needed so far.
-    std::size_t hits_per_chunk(const TraceOptions& options) const {
-        if (scene_.has_alpha())
-            return static_cast<std::size_t>(std::ceil(hits_per_ray_ * kChunk));
-        return static_cast<std::size_t>((kChunk + options.hit_stride - 1) / options.hit_stride) + 1;
-    }
-
-    /// What the device does in kDispatchSeconds, and its hits have room for.
-    std::size_t chunks_at_once(const Work& work) const {
-        const auto receivers = static_cast<double>(work.indices.size());
-        auto count = static_cast<std::size_t>(rays_per_second_ * kDispatchSeconds /
-                                              (static_cast<double>(kChunk) * receivers));
-        if (work.sink)
-            count = std::min(count, most_hits_ / (hits_per_chunk(work.options) * work.indices.size()));
-        return std::max<std::size_t>(1, count);
-    }
-
-    void trace_piece(const Work& work, TraceSeconds& seconds) {
-        Stopwatch transfer;
-        Batch batch(rays_, work, threads_);
-        seconds.transfer += transfer.seconds();
-
-        const GlObject& shader = program(work.options.order, static_cast<bool>(work.sink));
-        glUseProgram(shader.name());
-        scene_.bind();
-        glBindBufferBase(GL_UNIFORM_BUFFER, PRT_BINDING_SH_FACTORS, sh_factors_.name());
-        batch.bind(shader, work);
-        std::vector<std::vector<Hit>> hits(work.sink ? work.indices.size() : 0);
-        for (std::size_t begin = 0; begin < batch.chunks();) {
-            const Chunks chunks{begin, std::min(batch.chunks(), begin + chunks_at_once(work))};
-            if (work.sink)
-                trace_hits(shader, work, chunks, hits, seconds);
-            else
-                dispatch(shader, work.indices.size(), chunks, seconds);
-            begin = chunks.end;
-        }
-
-        transfer = Stopwatch();
-        const std::span<const float> sums = batch.read_sums();
-        seconds.transfer += transfer.seconds();
-        const Stopwatch accumulate;
-        add_lobes(work, sums, threads_);
-        parallel_for(hits.size(), 64, threads_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                work.sink(i, hits[i]);
-        });
-        seconds.accumulate += accumulate.seconds();
-    }
-
-    void dispatch(const GlObject& shader, std::size_t receivers, Chunks chunks, TraceSeconds& seconds) {
-        set_uniform(shader, "first_chunk", static_cast<std::uint32_t>(chunks.begin));
-        set_uniform(shader, "end_chunk", static_cast<std::uint32_t>(chunks.end));
-        const Stopwatch trace;
-        glDispatchCompute(static_cast<GLuint>(receivers), 1, 1);
-        glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
-        glFinish();
-        check_gl("tracing");
-        const double took = trace.seconds();
-        seconds.trace += took;
-        rays_per_second_ = 0.5 * (rays_per_second_ + static_cast<double>(receivers * chunks.size() * kChunk) /
-                                                         std::max(took, 1e-6));
-    }
-
-    /// Throws `GpuOutOfMemory` where the hits do not fit; the next batches have room.
-    void trace_hits(const GlObject& shader, const Work& work, Chunks chunks,
-                    std::vector<std::vector<Hit>>& hits, TraceSeconds& seconds) {
-        const std::size_t receivers = work.indices.size(), beams = receivers * chunks.size();
-        const std::size_t capacity = std::min(most_hits_, beams * hits_per_chunk(work.options));
-        HitBuffers buffers(capacity, receivers, chunks);
-        buffers.bind(shader);
-        dispatch(shader, receivers, chunks, seconds);
-
-        const Stopwatch transfer;
-        const std::uint32_t found = buffers.read_count();
-        hits_per_ray_ = std::max(hits_per_ray_, 1.25 * found / static_cast<double>(beams * kChunk));
-        if (found > capacity) {
-            ++traced_again_;
-            throw GpuOutOfMemory("the GPU has no memory for what the rays of a receiver meet");
-        }
-        buffers.read();
-        seconds.transfer += transfer.seconds();
-        buffers.sort(scene_.has_alpha(), hits);
-    }
-
-    std::unique_ptr<GlContext> context_;
-    const RayScene& rays_;
-    GpuScene scene_;
-    int threads_;
-    std::size_t most_hits_; ///< of a dispatch
-    std::size_t traced_again_ = 0;
-    GlObject sh_factors_;
-    std::map<std::pair<int, bool>, GlObject> programs_; ///< by order, and whether hits are noted
-    double rays_per_second_ = 1e6;                      ///< until measured, that of a software rasteriser
-    double hits_per_ray_ = 1; ///< through blended surfaces, a quarter more than measured
-};
-
-GlTracer::GlTracer(std::unique_ptr<GlContext> context, const Scene& scene, const RayScene& rays,
-                   const Surfaces& surfaces, const std::vector<Texture>& textures, int threads,
-                   std::size_t hit_bytes)
-    : implementation_(std::make_unique<Implementation>(std::move(context), scene, rays, surfaces, textures,
-                                                       threads, hit_bytes)) {}
-
-GlTracer::~GlTracer() = default;
-
-std::string GlTracer::device() const {
-    return implementation_->device();
-}
-
-std::size_t GlTracer::traced_again() const {
-    return implementation_->traced_again();
-}
+GlTracer::GlTracer(std::unique_ptr<GlContext> context, const TraceScene& scene, std::size_t hit_bytes)
+    : context_(std::move(context)), scene_(scene), gpu_scene_(scene),
+      most_hits_(hit_bytes / sizeof(gpu::HitRecord)),
+      sh_factors_(make_buffer(std::span<const glm::vec4>(sh_factors()))) {}
 
 std::size_t GlTracer::batch_size(const TraceOptions& options) const {
-    return implementation_->batch_size(options);
+    const double receivers = rays_per_second_ * kDispatchSeconds / options.rays;
+    return static_cast<std::size_t>(std::clamp(receivers, 1.0, static_cast<double>(kMostGroups)));
 }
 
 void GlTracer::trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-                     const TraceOptions& options, std::span<float> vectors, const HitSink& sink) {
-    implementation_->trace({receivers, indices, options, vectors, sink}, seconds_);
+                     const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
+                     const Progress&) {
+    const Job job{receivers, indices, options, vectors, sink};
+    std::size_t most = kMostGroups;
+    for (std::size_t begin = 0; begin < job.indices.size();) {
+        std::size_t count = std::min(job.indices.size() - begin, most);
+        if (job.sink)
+            count = std::min(count, std::max<std::size_t>(1, most_hits_ / hits_per_chunk(job.options)));
+        try {
+            trace_piece(job.piece(begin, count));
+            begin += count;
+        } catch (const GpuOutOfMemory&) {
+            if (count <= 1)
+                throw;
+            most = count / 2;
+        }
+    }
+}
+
+const GlObject& GlTracer::program(int order, bool hits) {
+    auto& program = programs_[{order, hits}];
+    if (program.name() == 0)
+        program = make_compute_program("bake_trace.comp", gpu_scene_.defines() + "#define PRT_ORDER " +
+                                                              std::to_string(order) + "\n" +
+                                                              (hits ? "#define PRT_HITS\n" : ""));
+    return program;
+}
+
+/// Records that the rays of a chunk need room for. Where surfaces are opaque no more can be: every ray
+/// that is followed, and one that stands for those that are not. Through blended surfaces rays have no
+/// bound: what they needed so far.
+std::size_t GlTracer::hits_per_chunk(const TraceOptions& options) const {
+    if (gpu_scene_.has_alpha())
+        return static_cast<std::size_t>(std::ceil(hits_per_ray_ * kChunk));
+    return static_cast<std::size_t>((kChunk + options.hit_stride - 1) / options.hit_stride) + 1;
+}
+
+/// What the device does in kDispatchSeconds, and its hits have room for.
+std::size_t GlTracer::chunks_at_once(const Job& job) const {
+    const auto receivers = static_cast<double>(job.indices.size());
+    auto count = static_cast<std::size_t>(rays_per_second_ * kDispatchSeconds /
+                                          (static_cast<double>(kChunk) * receivers));
+    if (job.sink)
+        count = std::min(count, most_hits_ / (hits_per_chunk(job.options) * job.indices.size()));
+    return std::max<std::size_t>(1, count);
+}
+
+void GlTracer::trace_piece(const Job& job) {
+    Stopwatch transfer;
+    Batch batch(scene_, job);
+    seconds_.transfer += transfer.seconds();
+
+    const GlObject& shader = program(job.options.order, static_cast<bool>(job.sink));
+    glUseProgram(shader.name());
+    gpu_scene_.bind();
+    glBindBufferBase(GL_UNIFORM_BUFFER, PRT_BINDING_SH_FACTORS, sh_factors_.name());
+    batch.bind(shader, job);
+    std::vector<std::vector<Hit>> hits(job.sink ? job.indices.size() : 0);
+    for (std::size_t begin = 0; begin < batch.chunks();) {
+        const Chunks chunks{begin, std::min(batch.chunks(), begin + chunks_at_once(job))};
+        if (job.sink)
+            trace_hits(shader, job, chunks, hits);
+        else
+            dispatch(shader, job.indices.size(), chunks);
+        begin = chunks.end;
+    }
+
+    transfer = Stopwatch();
+    batch.read_sums();
+    seconds_.transfer += transfer.seconds();
+    const Stopwatch accumulate;
+    batch.add_lobes(job, scene_.threads());
+    parallel_for(hits.size(), 64, scene_.threads(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            job.sink(i, hits[i]);
+    });
+    seconds_.accumulate += accumulate.seconds();
+}
+
+void GlTracer::dispatch(const GlObject& shader, std::size_t receivers, Chunks chunks) {
+    set_uniform(shader, "first_chunk", static_cast<std::uint32_t>(chunks.begin));
+    set_uniform(shader, "end_chunk", static_cast<std::uint32_t>(chunks.end));
+    const Stopwatch trace;
+    glDispatchCompute(static_cast<GLuint>(receivers), 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+    glFinish();
+    check_gl("tracing");
+    const double took = trace.seconds();
+    seconds_.trace += took;
+    rays_per_second_ = 0.5 * (rays_per_second_ +
+                              static_cast<double>(receivers * chunks.size() * kChunk) / std::max(took, 1e-6));
+}
+
+/// Throws `GpuOutOfMemory` where the hits do not fit; the next batches have room.
+void GlTracer::trace_hits(const GlObject& shader, const Job& job, Chunks chunks,
+                          std::vector<std::vector<Hit>>& hits) {
+    const std::size_t receivers = job.indices.size(), beams = receivers * chunks.size();
+    const std::size_t capacity = std::min(most_hits_, beams * hits_per_chunk(job.options));
+    HitBuffers buffers(capacity, receivers, chunks);
+    buffers.bind(shader);
+    dispatch(shader, receivers, chunks);
+
+    const Stopwatch transfer;
+    const std::uint32_t found = buffers.read_count();
+    hits_per_ray_ = std::max(hits_per_ray_, 1.25 * found / static_cast<double>(beams * kChunk));
+    if (found > capacity) {
+        ++traced_again_;
+        throw GpuOutOfMemory("the GPU has no memory for what the rays of a receiver meet");
+    }
+    buffers.read();
+    seconds_.transfer += transfer.seconds();
+    buffers.sort(gpu_scene_.has_alpha(), hits);
 }
 
 } // namespace prt

@@ -143,9 +143,10 @@ GlObject storage_buffer(const std::vector<T>& values, const char* what) {
 
 } // namespace
 
-GpuScene::GpuScene(const Scene& scene, const Surfaces& surfaces, const std::vector<Texture>& textures,
-                   int threads)
-    : triangles_(surfaces.triangles()), has_alpha_(surfaces.has_alpha()) {
+GpuScene::GpuScene(const TraceScene& trace_scene)
+    : triangles_(trace_scene.surfaces().triangles()), has_alpha_(trace_scene.surfaces().traits().alpha) {
+    const Scene& scene = trace_scene.scene();
+    const Surfaces& surfaces = trace_scene.surfaces();
     std::vector<glm::vec3> positions;
     for (const VertexArray& vertices : scene.vertex_arrays)
         positions.insert(positions.end(), vertices.positions.begin(), vertices.positions.end());
@@ -153,8 +154,8 @@ GpuScene::GpuScene(const Scene& scene, const Surfaces& surfaces, const std::vect
     for (std::uint32_t t = 0; t < indices.size(); ++t)
         indices[t] =
             surfaces.material(t).casts_shadow ? surfaces.corners(t) : glm::uvec3(surfaces.corners(t).x);
-    const WideBvh bvh = build_wide_bvh(positions, indices, threads);
-    const AlphaTables alpha = make_alpha_tables(scene, surfaces, textures);
+    const WideBvh bvh = build_wide_bvh(positions, indices, trace_scene.threads());
+    const AlphaTables alpha = make_alpha_tables(scene, surfaces, trace_scene.textures());
 
     std::vector<glm::vec4> corners;
     corners.reserve(3 * bvh.triangles.size());

@@ -1,12 +1,13 @@
 // The GPU baker against the CPU baker. Here OpenGL is Mesa's software rasteriser; scenes are small.
 
 #include "prt/bake.h"
-#include "prt/embree_tracer.h"
 #include "prt/error_measures.h"
-#include "prt/gl_rasterizer.h"
-#include "prt/gl_tracer.h"
 #include "prt/support/error.h"
 #include "support/scene_builder.h"
+#include "support/traced.h"
+#include "trace/embree_tracer.h"
+#include "trace/gpu/gl_rasterizer.h"
+#include "trace/gpu/gl_tracer.h"
 #include "trace/gpu/wide_bvh.h"
 
 #include <gtest/gtest.h>
@@ -60,19 +61,17 @@ Texture dotted_texture() {
 class Pair {
 public:
     explicit Pair(Scene scene, std::vector<Texture> textures = {})
-        : scene_(std::move(scene)), textures_(std::move(textures)), rays_(scene_),
-          surfaces_(scene_, textures_), receivers_(vertex_receivers(scene_)), cpu_(rays_, 0, &surfaces_) {}
+        : scene_(std::move(scene)), trace_(scene_, std::move(textures)), receivers_(vertex_receivers(scene_)),
+          cpu_(trace_) {}
 
     std::unique_ptr<GlTracer> gpu(std::size_t hit_bytes = 96 << 20) {
-        return std::make_unique<GlTracer>(GlContext::create(GlDevice::any), scene_, rays_, surfaces_,
-                                          textures_, 0, hit_bytes);
+        return std::make_unique<GlTracer>(GlContext::create(GlDevice::any), trace_, hit_bytes);
     }
     std::unique_ptr<GlRasterizer> rasterizer(int resolution) {
-        return std::make_unique<GlRasterizer>(GlContext::create(GlDevice::any), scene_, rays_, surfaces_,
-                                              textures_, resolution);
+        return std::make_unique<GlRasterizer>(GlContext::create(GlDevice::any), trace_, resolution);
     }
     Transfer trace(Tracer& tracer, const TraceOptions& options, const ReceiverSink& sink = {}) {
-        return direct_transfer(tracer, receivers_, options, {}, sink);
+        return test::traced(tracer, receivers_, options, sink);
     }
     Transfer on_cpu(const TraceOptions& options) { return trace(cpu_, options); }
     double distance(const Transfer& a, const Transfer& b) const {
@@ -83,9 +82,7 @@ public:
 
 private:
     Scene scene_;
-    std::vector<Texture> textures_;
-    RayScene rays_;
-    Surfaces surfaces_;
+    TraceScene trace_;
     Receivers receivers_;
     EmbreeTracer cpu_;
 };
@@ -259,7 +256,7 @@ TEST(GpuTrace, PassesGlassAsTheCpuDoes) {
 }
 
 BakeResult bake_on(Backend backend, const Scene& scene, BakeOptions options) {
-    options.backend = backend;
+    options.tracer.backend = backend;
     return bake(scene, options);
 }
 
@@ -392,8 +389,8 @@ TEST(GpuBake, StopsWhenAsked) {
     for (const BakeMethod method : {BakeMethod::trace, BakeMethod::raster}) {
         std::stop_source stop;
         BakeOptions options;
-        options.backend = Backend::gpu;
-        options.method = method;
+        options.tracer.backend = Backend::gpu;
+        options.tracer.method = method;
         options.rays = 1 << 20;
         const Progress progress{[&](double fraction) {
                                     if (fraction > 0)
@@ -406,12 +403,12 @@ TEST(GpuBake, StopsWhenAsked) {
 
 TEST(GpuBake, OfRasterRefusesWhatDepthMapsCannotTell) {
     BakeOptions options;
-    options.method = BakeMethod::raster;
-    options.backend = Backend::gpu;
+    options.tracer.method = BakeMethod::raster;
+    options.tracer.backend = Backend::gpu;
     options.bounces = 1;
     EXPECT_THROW(bake(balls_over_floor(), options), Error);
     options.bounces = 0;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     EXPECT_THROW(bake(balls_over_floor(), options), Error);
 }
 
