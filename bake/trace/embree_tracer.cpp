@@ -7,6 +7,7 @@
 #include "prt/sh.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
+#include "shared_layout.h"
 #include "trace/chunk_kernels.h"
 
 #include <embree3/rtcore.h>
@@ -107,8 +108,7 @@ Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet,
     return {packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane], weight, footprint, facing > 0};
 }
 
-/// A ray with less than this left is taken to end at the surface it meets.
-constexpr float kLeastTransmittance = 1.0f / 1024;
+constexpr float kLeastTransmittance = PRT_LEAST_TRANSMITTANCE;
 
 /// Follows each of the rays [first, end) through cut-outs and blended surfaces until it ends, and notes what
 /// it met.
