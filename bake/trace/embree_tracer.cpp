@@ -7,6 +7,7 @@
 #include "prt/sh.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
+#include "shared_layout.h"
 #include "trace/chunk_kernels.h"
 
 #include <embree3/rtcore.h>
@@ -108,8 +109,7 @@ Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet,
     return {packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane], weight, footprint, facing > 0};
 }
 
-/// A ray with less than this left is taken to end at the surface it meets.
-constexpr float kLeastTransmittance = 1.0f / 1024;
+constexpr float kLeastTransmittance = PRT_LEAST_TRANSMITTANCE;
 
 /// A packet of rays on their way through what lets a share of them pass.
 struct alignas(64) Walk {

@@ -4,6 +4,7 @@
 
 #include "prt/support/error.h"
 #include "trace/embree_tracer.h"
+#include "trace/gpu/gl_rasterizer.h"
 #include "trace/gpu/gl_tracer.h"
 
 namespace prt {

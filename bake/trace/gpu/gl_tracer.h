@@ -1,12 +1,13 @@
 #pragma once
 
-// The GPU baker: rays and depth maps in OpenGL 4.5.
-
 #include "prt/gl_context.h"
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
+#include "trace/gpu/gpu_scene.h"
 
+#include <map>
 #include <memory>
+#include <utility>
 
 namespace prt {
 
@@ -18,42 +19,39 @@ public:
     /// Keeps a reference to `scene` (for offsets off the surface); takes `context`, which stays current.
     /// Throws `Error` when the scene does not fit the device.
     GlTracer(std::unique_ptr<GlContext> context, const TraceScene& scene, std::size_t hit_bytes = 96 << 20);
-    ~GlTracer() override;
     Backend backend() const override { return Backend::gpu; }
-    std::string device() const override;
+    std::string device() const override { return context_->renderer(); }
     std::size_t batch_size(const TraceOptions& options) const override;
     void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                const Progress& progress = {}) override;
     /// Pieces that were traced again since their hits did not fit: only blended surfaces can make some, the
     /// first time that rays meet more of them than before.
-    std::size_t traced_again() const;
+    std::size_t traced_again() const { return traced_again_; }
 
 private:
-    class Implementation;
-    std::unique_ptr<Implementation> implementation_;
-};
+    struct Job;
+    struct Chunks;
+    class Batch;
+    class HitBuffers;
 
-/// Direct transfer from orthographic depth maps: S. Hill, "Hardware Accelerating Art Production", Gamasutra
-/// 2004. For each of `rays` directions over the sphere the scene is drawn once, and every receiver compares
-/// its depth; blended surfaces are peeled layer by layer. Weights are normalised per receiver. No hits.
-class GlRasterizer final : public Tracer {
-public:
-    GlRasterizer(std::unique_ptr<GlContext> context, const TraceScene& scene, int resolution);
-    ~GlRasterizer() override;
-    Backend backend() const override { return Backend::gpu; }
-    BakeMethod method() const override { return BakeMethod::raster; }
-    bool notes_hits() const override { return false; }
-    std::string device() const override;
-    /// All at once: the maps are drawn once for them.
-    std::size_t batch_size(const TraceOptions& options) const override;
-    void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-               const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
-               const Progress& progress = {}) override;
+    const GlObject& program(int order, bool hits);
+    std::size_t hits_per_chunk(const TraceOptions& options) const;
+    std::size_t chunks_at_once(const Job& job) const;
+    void trace_piece(const Job& job);
+    void trace_hits(const GlObject& shader, const Job& job, Chunks chunks,
+                    std::vector<std::vector<Hit>>& hits);
+    void dispatch(const GlObject& shader, std::size_t receivers, Chunks chunks);
 
-private:
-    class Implementation;
-    std::unique_ptr<Implementation> implementation_;
+    std::unique_ptr<GlContext> context_;
+    const TraceScene& scene_;
+    GpuScene gpu_scene_;
+    std::size_t most_hits_; ///< of a dispatch
+    std::size_t traced_again_ = 0;
+    GlObject sh_factors_;
+    std::map<std::pair<int, bool>, GlObject> programs_; ///< by order, and whether hits are noted
+    double rays_per_second_ = 1e6;                      ///< until measured, that of a software rasteriser
+    double hits_per_ray_ = 1; ///< through blended surfaces, a quarter more than measured
 };
 
 } // namespace prt

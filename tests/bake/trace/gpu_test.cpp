@@ -6,11 +6,13 @@
 #include "support/scene_builder.h"
 #include "support/traced.h"
 #include "trace/embree_tracer.h"
+#include "trace/gpu/gl_rasterizer.h"
 #include "trace/gpu/gl_tracer.h"
 #include "trace/gpu/wide_bvh.h"
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -102,22 +104,23 @@ TEST(WideBvh, HoldsEveryTriangleOnceInsideItsBoxes) {
         EXPECT_EQ(bvh.triangles.size(), count);
         EXPECT_EQ(seen.size(), count);
         std::size_t in_leaves = 0;
-        for (const WideNode& node : bvh.nodes)
-            for (int slot = 0; slot < 8; ++slot) {
-                const unsigned meta = node.meta[slot];
-                if (meta == 0 || (meta & 0x80) != 0)
+        for (const gpu::WideNode& node : bvh.nodes)
+            for (unsigned slot = 0; slot < 8; ++slot) {
+                const unsigned meta = gpu::byte_of(node.meta, slot);
+                if (meta == 0 || PRT_IS_INNER(meta))
                     continue;
-                for (unsigned i = 0; i < meta >> 5; ++i) {
+                for (unsigned i = 0; i < PRT_LEAF_COUNT(meta); ++i) {
                     ++in_leaves;
-                    const std::uint32_t t = bvh.triangles[node.first_triangle + (meta & 31) + i];
+                    const std::uint32_t t = bvh.triangles[node.first_triangle + PRT_LEAF_FIRST(meta) + i];
                     for (int corner = 0; corner < 3; ++corner)
-                        for (int axis = 0; axis < 3; ++axis) {
-                            const float step = std::ldexp(1.0f, node.exponents[axis] - 127);
-                            const float value = positions[corners[t][corner]][axis];
-                            EXPECT_LE(node.origin[axis] + static_cast<float>(node.low[axis][slot]) * step,
-                                      value);
-                            EXPECT_GE(node.origin[axis] + static_cast<float>(node.high[axis][slot]) * step,
-                                      value);
+                        for (unsigned axis = 0; axis < 3; ++axis) {
+                            const float step = std::bit_cast<float>(gpu::step_bits(node.exponents, axis)),
+                                        origin = node.origin[static_cast<int>(axis)];
+                            const auto low = static_cast<float>(gpu::byte_of(node.low[axis], slot)),
+                                       high = static_cast<float>(gpu::byte_of(node.high[axis], slot));
+                            const float value = positions[corners[t][corner]][static_cast<int>(axis)];
+                            EXPECT_LE(origin + low * step, value);
+                            EXPECT_GE(origin + high * step, value);
                         }
                 }
             }
