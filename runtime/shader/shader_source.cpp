@@ -1,3 +1,4 @@
+// Puts a shader of a model together from the embedded files and the defines of its format.
 #include "prt/shader_source.h"
 
 #include "embedded_files.h"

@@ -1,3 +1,4 @@
+// Materials with the extensions that matter to light that passes through.
 #include "gltf/material.h"
 
 #include "prt/support/error.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 // A glTF scene, flattened: world-space vertices and triangles of the default scene, ready to bake and to
-// draw.
+// draw. Stable.
 
 #include "prt/support/glm_layout.h"
 
