@@ -1,3 +1,5 @@
+// The error measures of docs/math.md, section 6.
+
 #include "prt/error_measures.h"
 
 #include "prt/support/error.h"
