@@ -2,8 +2,8 @@
 
 // The error measures of docs/math.md, section 6.
 
+#include "prt/adjacency.h"
 #include "prt/light.h"
-#include "prt/mesh_edges.h"
 #include "prt/transfer.h"
 
 #include <optional>
@@ -13,7 +13,7 @@
 namespace prt {
 
 /// sqrt( sum_p a_p |T_p - T'_p|² / sum_p a_p |T_p|² ); 0 when both are zero. A grey transfer compares with a
-/// colored one as three equal channels. Throws `Error` when receivers or orders differ.
+/// coloured one as three equal channels. Throws `Error` when receivers or orders differ.
 double relative_l2(const Transfer& reference, const Transfer& approximation, std::span<const float> areas);
 
 /// Relative L2 of exit radiance, albedo 1, three channels, both [receivers].
@@ -42,8 +42,8 @@ struct LitError {
 
 /// What errors of exit radiance are measured in.
 struct LitScale {
-    double mean_square = 0; ///< mean over the area of |R|² over the receivers, three channels together
-    double mean = 0;        ///< mean over the area of R over the channels
+    double mean_square = 0; ///< area-weighted mean of |R|² over the receivers, three channels together
+    double mean = 0;        ///< area-weighted mean of R over the channels
 };
 
 LitScale lit_scale(std::span<const glm::vec3> reference, std::span<const float> areas);
