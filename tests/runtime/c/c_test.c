@@ -63,7 +63,8 @@ static void test_sh(void) {
 
 static void test_lights(void) {
     float light[27], other[27];
-    const float white[3] = {1, 1, 1}, up[3] = {0, 1, 0}, down[3] = {0, -1, 0}, far_up[3] = {0, 4, 0}, none[3] = {0, 0, 0};
+    const float white[3] = {1, 1, 1}, up[3] = {0, 1, 0}, down[3] = {0, -1, 0}, far_up[3] = {0, 4, 0},
+                none[3] = {0, 0, 0};
     prt_message message;
     EXPECT(prt_light_constant(3, white, light, NULL) == PRT_OK);
     EXPECT(fabsf(light[0] - 3.5449077f) < 1e-5f);
@@ -187,7 +188,8 @@ static void test_model(const char* path) {
     EXPECT(prt_model_form_constants(model, info.order - 1, light, constants, &message) == PRT_BAD_ARGUMENT);
 
     size = 0;
-    EXPECT(prt_model_shader(model, PRT_ESSL300, PRT_CONSTANTS_IN_TEXTURE, NULL, &size, &message) == PRT_TOO_SMALL);
+    EXPECT(prt_model_shader(model, PRT_ESSL300, PRT_CONSTANTS_IN_TEXTURE, NULL, &size, &message) ==
+           PRT_TOO_SMALL);
     char* source = malloc(size);
     EXPECT(prt_model_shader(model, PRT_ESSL300, PRT_CONSTANTS_IN_TEXTURE, source, &size, &message) == PRT_OK);
     EXPECT(strncmp(source, "#version 300 es", 15) == 0 && strlen(source) + 1 == size);
