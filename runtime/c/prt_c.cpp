@@ -78,7 +78,8 @@ prt_status guarded(prt_message* message, Body&& body) noexcept {
 
 template <class... Pointers>
 void check_pointers(const Pointers*... pointers) {
-    if ((... || (pointers == nullptr)))
+    const bool any_null = (... || (pointers == nullptr));
+    if (any_null)
         throw Error("a pointer is null");
 }
 

@@ -10,13 +10,11 @@ trap 'rm -rf "$folder"' EXIT
 # build OUTPUT SOURCE MODULE...
 build() {
     local flags
-    flags=$(pkg-config --cflags --libs "${@:3}")
-    # shellcheck disable=SC2086 # flags are words
-    $cxx -std=c++20 "$2" -o "$folder/$1" $flags
+    read -ra flags <<<"$(pkg-config --cflags --libs "${@:3}")"
+    $cxx -std=c++20 "$2" -o "$folder/$1" "${flags[@]}"
 }
-flags=$(pkg-config --cflags --libs prtkit-c)
-# shellcheck disable=SC2086
-$cc -std=c11 -D_POSIX_C_SOURCE=200809L "$tests/runtime/c/c_test.c" -o "$folder/c" $flags -lm
+read -ra flags <<<"$(pkg-config --cflags --libs prtkit-c)"
+$cc -std=c11 -D_POSIX_C_SOURCE=200809L "$tests/runtime/c/c_test.c" -o "$folder/c" "${flags[@]}" -lm
 LD_LIBRARY_PATH=$libdir "$folder/c" "$model" "$sky"
 build bare "$tests/package/bare.cpp" prtkit
 "$folder/bare"

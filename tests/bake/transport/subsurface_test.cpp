@@ -163,14 +163,14 @@ TEST(Subsurface, BlursShadowsAndKeepsTheirLight) {
     BakeOptions options;
     options.order = 2;
     options.rays = 256;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     const auto visibility = [&] {
         const Transfer t = bake(scene, options).baked.transfer;
         return std::pair(exit_radiance(t, constant_light(2, glm::vec3(1))),
                          mean_visibility(t, receiver_areas(scene)));
     };
     const auto [sharp, sharp_mean] = visibility();
-    options.subsurface = {{"", {glm::dvec3(20, 30, 40), glm::dvec3(0.5), 1.3}}};
+    options.subsurface.media = {{"", {glm::dvec3(20, 30, 40), glm::dvec3(0.5), 1.3}}};
     const auto [soft, soft_mean] = visibility();
     float darkest_sharp = 1, darkest_soft = 1;
     for (std::size_t p = 0; p < 24 * 24 * 6; ++p) {

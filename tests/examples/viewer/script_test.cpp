@@ -32,13 +32,13 @@ protected:
         prt::BakeOptions bake_options;
         bake_options.order = 3;
         bake_options.rays = 16;
-        bake_options.backend = prt::Backend::cpu;
+        bake_options.tracer.backend = prt::Backend::cpu;
         const prt::BakedTransfer baked = prt::bake(scene, bake_options).baked;
         prt::write_transfer(document, scene, baked);
         prt::save_glb(document, folder / "baked.glb");
         prt::CompressOptions options;
         options.clusters = 8;
-        options.components = 2;
+        options.coding.components = 2;
         prt::write_clustered(
             document, scene,
             {prt::compress(baked.transfer, prt::receiver_areas(scene), {}, options).transfer, baked.record});

@@ -58,7 +58,7 @@ protected:
         prt::BakeOptions options;
         options.order = order;
         options.rays = 64;
-        options.backend = prt::Backend::cpu;
+        options.tracer.backend = prt::Backend::cpu;
         prt::write_transfer(document, scene, prt::bake(scene, options).baked);
         prt::save_glb(document, folder / "baked.glb");
         return folder / "baked.glb";
@@ -67,8 +67,7 @@ protected:
         prt::GltfDocument document = prt::load_gltf(baked());
         const prt::Scene scene = prt::extract_scene(document);
         const auto transfer = prt::read_transfer(document, scene);
-        prt::CompressOptions options = prt::preset_u32();
-        options.clusters = 16;
+        const prt::CompressOptions options{.clusters = 16, .coding = prt::preset_u32()};
         prt::CompressedTransfer compressed{
             prt::compress(transfer->transfer, prt::receiver_areas(scene), prt::mesh_edges(scene), options)
                 .transfer,
