@@ -135,8 +135,8 @@ std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds ne
         }
         if (m.glass.factor > 0 && needs != TextureNeeds::pictures)
             add(m.glass.texture, TextureEncoding::linear);
-        if (m.metallic > 0 && needs == TextureNeeds::all)
-            add(m.metallic_roughness_texture, TextureEncoding::linear);
+        if (m.metal.factor > 0 && needs == TextureNeeds::all)
+            add(m.metal.texture, TextureEncoding::linear);
     }
     return images;
 }
