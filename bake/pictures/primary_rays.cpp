@@ -57,10 +57,7 @@ PrimaryRays::PrimaryRays(const Picture& picture, const RayScene& rays, int colum
     : picture_(picture), rays_(rays), frame_(camera_frame(picture.camera)), columns_(columns), rows_(rows) {}
 
 glm::vec3 PrimaryRays::direction(double x, double y) const {
-    const double aspect = static_cast<double>(picture_.width) / picture_.height;
-    return glm::vec3(frame_.forward +
-                     frame_.right * (frame_.half_height * aspect * (2 * (x + 0.5) / columns_ - 1)) +
-                     frame_.up * (frame_.half_height * (1 - 2 * (y + 0.5) / rows_)));
+    return glm::vec3(view_direction(frame_, columns_, rows_, x + 0.5, y + 0.5));
 }
 
 bool PrimaryRays::next(const glm::vec3& along, int x, int y, float& from, SeenSurface& surface) const {

@@ -28,7 +28,7 @@ bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays)
 Sealed find_sealed(const TraceScene& scene, const Receivers& receivers, const Transfer& direct,
                    const SealedOptions& options, const std::stop_token& stop) {
     Sealed result{std::vector<bool>(receivers.size()), 0};
-    const double darkest = options.most_visibility * detail::kLegendre.sectoral[0];
+    const double darkest = options.most_visibility * kY00;
     std::vector<std::uint32_t> dark;
     for (const std::uint32_t p : receivers_on_surfaces(receivers))
         if (static_cast<double>(direct.vector(p)[0]) <= darkest)

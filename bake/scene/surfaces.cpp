@@ -1,5 +1,6 @@
 #include "prt/surfaces.h"
 
+#include "prt/color.h"
 #include "prt/tone_map.h"
 #include "scene/interpolated.h"
 
@@ -31,7 +32,7 @@ float left_of_glass(const Material& material, float texel) {
 } // namespace
 
 float glass_transmittance(const Material& material) {
-    const float tint = glm::dot(glm::vec3(material.base_color), glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    const float tint = luminance(glm::vec3(material.base_color));
     return material.glass.factor * std::min(tint, 1.0f); // the weights may round to more than 1
 }
 

@@ -9,14 +9,6 @@
 
 namespace prt {
 
-const char* to_string(Backend backend) {
-    return backend == Backend::cpu ? "cpu" : backend == Backend::gpu ? "gpu" : "auto";
-}
-
-const char* to_string(BakeMethod method) {
-    return method == BakeMethod::raster ? "raster" : "trace";
-}
-
 std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice& choice) {
     const bool raster = choice.method == BakeMethod::raster;
     std::unique_ptr<GlContext> context;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prt/baked_transfer.h"
 #include "prt/receivers.h"
 #include "prt/support/progress.h"
 
@@ -9,21 +10,6 @@
 #include <string>
 
 namespace prt {
-
-enum class Backend {
-    automatic, ///< a hardware GPU where there is one, else the CPU
-    cpu,
-    gpu, ///< any OpenGL 4.5
-};
-
-enum class BakeMethod {
-    trace,  ///< rays
-    raster, ///< depth maps from many directions (Hill 2004): direct light, GPU only
-};
-
-/// As files and options spell them: "auto", "cpu", "gpu"; "trace", "raster".
-const char* to_string(Backend backend);
-const char* to_string(BakeMethod method);
 
 /// Rays of one call. Rays of a receiver are a sequence that depends on the seed alone: tracing [0, 64) and
 /// then [64, 128) is tracing [0, 128).
