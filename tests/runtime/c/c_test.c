@@ -155,7 +155,9 @@ static void test_model(const char* path) {
     prt_model* again = NULL;
     EXPECT(prt_model_load_memory(bytes, size, &again, &message) == PRT_OK);
     free(bytes);
-    const prt_model_info info = prt_model_get_info(model), info_again = prt_model_get_info(again);
+    prt_model_info info, info_again;
+    EXPECT(prt_model_get_info(model, &info, NULL) == PRT_OK &&
+           prt_model_get_info(again, &info_again, NULL) == PRT_OK);
     EXPECT(info.receivers == info_again.receivers && info.rows == info_again.rows);
     EXPECT(memcmp(info.weights, info_again.weights, info.receivers * info.stride) == 0);
     prt_model_destroy(again);
@@ -195,7 +197,7 @@ static void test_model(const char* path) {
     EXPECT(strncmp(source, "#version 300 es", 15) == 0 && strlen(source) + 1 == size);
     EXPECT(prt_model_shader(model, 77, PRT_CONSTANTS_IN_BUFFER, source, &size, &message) == PRT_BAD_ARGUMENT);
     EXPECT(prt_model_shader(model, PRT_GLSL450, -1, source, &size, &message) == PRT_BAD_ARGUMENT);
-    EXPECT(prt_model_get_info(NULL).receivers == 0);
+    EXPECT(prt_model_get_info(NULL, &info_again, &message) == PRT_BAD_ARGUMENT);
     EXPECT(prt_model_shader(model, PRT_GLSL330, PRT_CONSTANTS_IN_BUFFER, source, &size, &message) ==
            PRT_BAD_ARGUMENT);
     free(source);
