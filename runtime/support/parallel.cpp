@@ -1,11 +1,3 @@
-// Splits a range over threads that live as long as the call. oneTBB would spare starting them, but a game
-// that links the runtime would link it, too, and have a second pool of threads beside its own.
-//
-// The threads are our own and not oneTBB's, although Embree brings those: a game links this library, which needs GLM
-// and the standard library only and keeps no pool in the game's process. Loops here take milliseconds to minutes;
-// starting and joining a thread took 0.27 ms with ten other programs on two cores. A counter that hands out blocks
-// balances as well as stealing them would, and keeps their borders, so that results do not depend on threads.
-
 #include "prt/support/parallel.h"
 
 #include <algorithm>
