@@ -29,12 +29,15 @@ glm::vec2 plane_barycentrics(const Corners& t, const glm::vec3& origin, const gl
             static_cast<float>(glm::dot(d, q) / determinant)};
 }
 
-/// Filtered by the footprint of one sample: neighbouring rays meet the triangle's plane, as dFdx and dFdy do.
-/// `across` and `down` are the directions of those rays.
+/// Directions of the rays beside one.
+struct NextRays {
+    glm::vec3 across, down;
+};
+
+/// Filtered by the footprint of one sample: the next rays meet the triangle's plane, as dFdx and dFdy do.
 std::optional<glm::vec4> base_color_texel(const Picture& picture, const VertexArray& vertices,
                                           const TextureUse& use, const Corners& corners, const glm::uvec3& t,
-                                          const glm::vec2& uv, const glm::vec3& across,
-                                          const glm::vec3& down) {
+                                          const glm::vec2& uv, const NextRays& next) {
     if (use.image < 0 || static_cast<std::size_t>(use.texcoord) >= vertices.texcoords.size())
         return std::nullopt;
     const auto& set = vertices.texcoords[static_cast<std::size_t>(use.texcoord)];
@@ -45,8 +48,8 @@ std::optional<glm::vec4> base_color_texel(const Picture& picture, const VertexAr
     };
     const glm::vec2 size(texture.levels[0].width, texture.levels[0].height);
     const glm::vec2 at = coordinate(uv);
-    const glm::vec2 dx = (coordinate(plane_barycentrics(corners, origin, across)) - at) * size;
-    const glm::vec2 dy = (coordinate(plane_barycentrics(corners, origin, down)) - at) * size;
+    const glm::vec2 dx = (coordinate(plane_barycentrics(corners, origin, next.across)) - at) * size;
+    const glm::vec2 dy = (coordinate(plane_barycentrics(corners, origin, next.down)) - at) * size;
     const float lod = 0.5f * std::log2(std::max(glm::dot(dx, dx), glm::dot(dy, dy)));
     return sample(texture, use, at, std::isfinite(lod) ? lod : 0.0f);
 }
@@ -92,7 +95,7 @@ SeenSurface PrimaryRays::surface_at(unsigned id, const glm::vec3& along, int x, 
     if (!vertices.colors.empty())
         base *= interpolated(vertices.colors, t, surface.barycentrics);
     if (const auto texel = base_color_texel(picture_, vertices, material.base_color_texture, corners, t,
-                                            surface.barycentrics, direction(x + 1, y), direction(x, y + 1)))
+                                            surface.barycentrics, {direction(x + 1, y), direction(x, y + 1)}))
         base *= *texel;
     if (material.alpha_mode == AlphaMode::opaque)
         base.a = 1;
