@@ -280,7 +280,7 @@ TEST(GpuBake, OfEveryTransportIsTheCpus) {
     EXPECT_LT(difference(options), 3e-3);
     options.subsurface.media = {{"", {glm::dvec3(20, 30, 40), glm::dvec3(0.5), 1.3}}};
     EXPECT_LT(difference(options), 3e-3);
-    options.subsurface.clear();
+    options.subsurface.media.clear();
     options.bounces = 0;
     options.target_error = 0.05;
     EXPECT_LT(difference(options), 3e-3);
