@@ -1,4 +1,5 @@
-// Puts a shader of a model together from the embedded files and the defines of its format.
+// Puts shaders together: version, defines, and files with their includes in place.
+
 #include "prt/shader_source.h"
 
 #include "embedded_files.h"
