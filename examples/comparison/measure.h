@@ -2,8 +2,8 @@
 
 // Error, bytes and time of every way to light a scene, against path tracing.
 
-#include "core/model.h"
-#include "core/picture_kind.h"
+#include "pictures/model.h"
+#include "pictures/picture_kind.h"
 
 #include "prt/environment.h"
 #include "prt/gl_context.h"

@@ -16,7 +16,6 @@ namespace viewer {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
 const glm::vec3 kGround(0.24f, 0.2f, 0.15f);
 
 glm::dvec3 sun_at(double hour) {

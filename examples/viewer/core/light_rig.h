@@ -6,6 +6,7 @@
 #include "prt/environment.h"
 #include "prt/light.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -14,6 +15,27 @@
 namespace viewer {
 
 enum class LightKind { sun, cone, sphere, hemisphere };
+
+struct LightName {
+    LightKind kind;
+    const char* id; ///< for scripts and for people
+};
+inline constexpr std::array<LightName, 4> kLights = {{{LightKind::sun, "sun"},
+                                                      {LightKind::cone, "cone"},
+                                                      {LightKind::sphere, "sphere"},
+                                                      {LightKind::hemisphere, "hemisphere"}}};
+
+struct WindowName {
+    prt::Window window;
+    const char *id, *title, *tip; ///< for scripts; for people
+};
+inline constexpr std::array<WindowName, 4> kWindows = {
+    {{prt::Window::automatic, "auto", "auto: no negative light",
+      "The least filter of the bands under which no light is negative."},
+     {prt::Window::none, "none", "none",
+      "The bands as they are: sharpest, with dark and coloured rings about strong lights."},
+     {prt::Window::hann, "hann", "Hann", "Fades the bands out by a raised cosine, whatever the light."},
+     {prt::Window::lanczos, "lanczos", "Lanczos", "Fades the bands out by a sinc, whatever the light."}}};
 
 struct RigLight {
     LightKind kind = LightKind::sun;

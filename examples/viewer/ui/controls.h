@@ -4,7 +4,6 @@
 
 #include "core/viewer.h"
 
-#include <array>
 #include <functional>
 
 namespace viewer {
@@ -16,6 +15,7 @@ enum class Button { left, middle, right };
 class Controls {
 public:
     explicit Controls(Viewer& viewer) : viewer_(viewer) {}
+    Viewer& viewer() { return viewer_; }
     void press(Button button, const glm::vec2& pixel);
     void move(const glm::vec2& pixel);
     void release() { drag_ = Drag::nothing; }
@@ -38,12 +38,5 @@ private:
 
 /// Where the handle of a light is in the scene.
 glm::vec3 handle_place(const Viewer& viewer, const RigLight& light);
-
-struct KeyHelp {
-    char key;
-    const char* what;
-};
-/// Every key and what it does.
-extern const std::array<KeyHelp, 20> kKeys;
 
 } // namespace viewer

@@ -66,9 +66,10 @@ struct Legend {
 Legend legend_of(const Viewer& viewer, PictureKind kind) {
     switch (kind) {
     case PictureKind::clusters:
-        return {false, "", "", fmt::format("{} clusters, a colour each", viewer.figures().clusters)};
+        return {false, "", "", fmt::format("{} clusters, a colour each", viewer.figures().transfer.clusters)};
     case PictureKind::components:
-        return {true, "0", fmt::format("{}", viewer.most_components()), "components of the vertex' cluster"};
+        return {true, "0", fmt::format("{}", viewer.document().most_components()),
+                "components of the vertex' cluster"};
     case PictureKind::error:
         return {true, "0", fmt::format("{:.0f} %", 100 * prt::kWhiteError),
                 "of the mean radiance, this light"};
@@ -145,7 +146,7 @@ float scaled(float pixels) {
 }
 
 void draw_overlay(const Viewer& viewer) {
-    if (!viewer.has_model())
+    if (!viewer.document().model())
         return;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const ImVec2 size = ImGui::GetIO().DisplaySize;

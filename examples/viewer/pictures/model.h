@@ -2,7 +2,7 @@
 
 // A scene file in memory, and what the viewer computes of it once.
 
-#include "core/triangle_clusters.h"
+#include "pictures/triangle_clusters.h"
 
 #include "prt/gltf.h"
 #include "prt/mesh_edges.h"

@@ -1,4 +1,4 @@
-#include "gpu/screen.h"
+#include "core/screen.h"
 
 #include <glm/geometric.hpp>
 

@@ -1,4 +1,4 @@
-#include "core/model.h"
+#include "pictures/model.h"
 
 #include "prt/bake.h"
 
