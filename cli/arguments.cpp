@@ -128,12 +128,12 @@ void add_transport(CLI::App* command, BakeOptions& options) {
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {
-    choice(command, "--backend", options.backend, kBackends,
+    choice(command, "--backend", options.tracer.backend, kBackends,
            "gpu: OpenGL 4.5 of any kind; auto: a hardware GPU, else the CPU", "auto");
-    choice(command, "--method", options.method, kBakeMethods,
+    choice(command, "--method", options.tracer.method, kBakeMethods,
            "trace: rays; raster: depth maps from many directions, direct light only, on the GPU", "trace");
     command
-        ->add_option("--raster-resolution", options.raster_resolution,
+        ->add_option("--raster-resolution", options.tracer.raster_resolution,
                      "texels along each side of a depth map")
         ->capture_default_str();
 }

@@ -1,10 +1,10 @@
 #include "bench.h"
 
-#include "prt/embree_tracer.h"
 #include "prt/error_measures.h"
 #include "prt/make_tracer.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
+#include "prt/trace_receivers.h"
 
 #include <fmt/core.h>
 
@@ -33,8 +33,7 @@ class Bench {
 public:
     Bench(const Scene& scene, const BenchOptions& options, const Progress& progress)
         : scene_(scene), options_(options), progress_(progress), textures_(load_textures(scene)),
-          surfaces_(scene, textures_), receivers_(vertex_receivers(scene)),
-          indices_(receivers_on_surfaces(receivers_)) {}
+          receivers_(vertex_receivers(scene)), indices_(receivers_on_surfaces(receivers_)) {}
 
     BenchResult run(const std::string& name) {
         BenchResult result;
@@ -56,10 +55,10 @@ private:
         const std::size_t step = std::max<std::size_t>(1, indices_.size() / wanted);
         for (std::size_t i = step / 2; i < indices_.size(); i += step)
             sample_.push_back(indices_[i]);
-        const RayScene rays_scene(scene_, options_.threads);
-        EmbreeTracer tracer(rays_scene, options_.threads, &surfaces_);
+        const TraceScene scene(scene_, textures_, {.threads = options_.threads});
+        const std::unique_ptr<Tracer> tracer = make_tracer(scene, {.backend = Backend::cpu});
         reference_ = empty_transfer();
-        trace_receivers(tracer, receivers_, sample_, {options_.order, rays, kReferenceSeed, 0}, reference_,
+        trace_receivers(*tracer, receivers_, sample_, {options_.order, rays, kReferenceSeed, 0}, reference_,
                         part(0));
         areas_.assign(receivers_.size(), 0);
         for (const std::uint32_t p : sample_)
@@ -94,14 +93,10 @@ private:
     }
 
     BenchRun measure_run(const Setup& setup, int rays, std::string& device) {
-        BakeOptions options;
-        options.backend = setup.backend;
-        options.method = setup.method;
-        options.raster_resolution = options_.raster_resolution;
-        options.threads = options_.threads;
+        const TraceScene scene(scene_, textures_, {.threads = options_.threads});
         const Stopwatch all;
-        const RayScene ray_scene(scene_, options_.threads);
-        const std::unique_ptr<Tracer> tracer = make_tracer(scene_, ray_scene, surfaces_, textures_, options);
+        const std::unique_ptr<Tracer> tracer =
+            make_tracer(scene, {setup.backend, setup.method, options_.raster_resolution});
         device = tracer->device();
         // Shaders are compiled on first use; a bake of a game's scene does not notice.
         Transfer transfer = empty_transfer();
@@ -135,7 +130,6 @@ private:
     const BenchOptions& options_;
     const Progress& progress_;
     std::vector<Texture> textures_;
-    Surfaces surfaces_;
     Receivers receivers_;
     std::vector<std::uint32_t> indices_, sample_;
     std::vector<float> areas_; ///< of the sample, else zero

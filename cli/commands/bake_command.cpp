@@ -43,12 +43,12 @@ constexpr double kDark = 0.05; ///< mean visibility; a cellar with a window has 
 void print_report(const BakeArguments& a, const BakeResult& result) {
     const BakeStatistics& s = result.statistics;
     const Transfer& t = result.baked.transfer;
-    const bool raster = a.options.method == BakeMethod::raster;
+    const bool raster = a.options.tracer.method == BakeMethod::raster;
     fmt::print("{}: {} receivers, {} triangles, order {}, {} {}, {} {} each, {} bounces\n", a.output.string(),
                s.receivers, s.triangles, t.order, t.channels, t.channels == 1 ? "channel" : "channels",
                result.baked.record.rays, raster ? "directions" : "rays", result.baked.record.bounces);
     fmt::print("  {} on the {}: {}\n", raster ? "depth maps" : "rays",
-               result.baked.record.backend == "cpu" ? "CPU" : "GPU", s.device);
+               result.baked.record.backend == Backend::cpu ? "CPU" : "GPU", s.device);
     if (s.receivers > s.traced)
         fmt::print("  {} receivers are on no surface and have zero transfer\n", s.receivers - s.traced);
     for (const std::string& notice : s.notices)

@@ -17,11 +17,12 @@ std::string counted(std::size_t count, const char* what) {
 }
 
 void describe_record(const BakeRecord& record) {
-    fmt::print(
-        "  baked by {} on the {}, {} per vertex, {}, seed {}\n",
-        record.method == "raster" ? "depth maps" : "rays", record.backend == "cpu" ? "CPU" : "GPU",
-        counted(static_cast<std::size_t>(record.rays), record.method == "raster" ? "direction" : "ray"),
-        counted(static_cast<std::size_t>(record.bounces), "bounce"), record.seed);
+    fmt::print("  baked by {} on the {}, {} per vertex, {}, seed {}\n",
+               record.method == BakeMethod::raster ? "depth maps" : "rays",
+               record.backend == Backend::cpu ? "CPU" : "GPU",
+               counted(static_cast<std::size_t>(record.rays),
+                       record.method == BakeMethod::raster ? "direction" : "ray"),
+               counted(static_cast<std::size_t>(record.bounces), "bounce"), record.seed);
 }
 
 } // namespace

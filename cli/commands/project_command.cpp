@@ -82,7 +82,7 @@ void run(const ProjectArguments& a, Interrupt& interrupt) {
         file["lights"] = lights_json(suns);
     write_json(file, a.output, interrupt);
 
-    const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(detail::kLegendre.sectoral[0]);
+    const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(kY00);
     fmt::print("{}: order {}, mean radiance {:.4g} {:.4g} {:.4g}\n", a.output.string(), a.order, mean.r,
                mean.g, mean.b);
     if (a.suns > 0)

@@ -39,8 +39,8 @@ void publish(const Report& report, const ReportFiles& files, Interrupt& interrup
 }
 
 Json bake_record_json(const BakeRecord& record) {
-    return {{"method", record.method},
-            {"backend", record.backend},
+    return {{"method", to_string(record.method)},
+            {"backend", to_string(record.backend)},
             {"rays_per_receiver", record.rays},
             {"bounces", record.bounces},
             {"seed", record.seed},

@@ -17,9 +17,9 @@ struct Mesh {
 
 struct Part {
     std::string name;
-    glm::vec3 color; ///< linear base colour
+    glm::vec3 color; ///< linear base color
     Mesh mesh;
-    /// Of a leaf: the share of the light that passes, and its colour. Above 0 the part is double-sided.
+    /// Of a leaf: the share of the light that passes, and its color. Above 0 the part is double-sided.
     float transmission = 0;
     glm::vec3 transmission_color{1};
 };

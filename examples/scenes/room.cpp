@@ -1,4 +1,4 @@
-// A room, open to the front and through a skylight, with two rows of columns and coloured side walls.
+// A room, open to the front and through a skylight, with two rows of columns and colored side walls.
 
 #include "mesh.h"
 

@@ -19,11 +19,11 @@ glm::vec3 knot_curve(float t) {
 glm::vec3 knot_surface(float u, float v) {
     constexpr float kTube = 0.24f, kStep = 1e-3f;
     const float t = kTurn * u;
-    const glm::vec3 centre = knot_curve(t),
+    const glm::vec3 center = knot_curve(t),
                     tangent = glm::normalize(knot_curve(t + kStep) - knot_curve(t - kStep));
     const glm::vec3 side = glm::normalize(glm::cross(glm::vec3(0, 1, 0), tangent)),
                     up = glm::cross(tangent, side);
-    return centre + kTube * (std::cos(kTurn * v) * side - std::sin(kTurn * v) * up);
+    return center + kTube * (std::cos(kTurn * v) * side - std::sin(kTurn * v) * up);
 }
 
 } // namespace

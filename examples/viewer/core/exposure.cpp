@@ -51,12 +51,12 @@ std::vector<glm::vec3> compressed(const prt::ClusteredTransfer& transfer, const 
 prt::LightMeter meter_of(const ExposureMeter::View& view) {
     prt::Picture picture;
     picture.scene = &view.model->scene;
-    picture.textures = view.model->textures;
+    picture.textures = view.model->trace->textures();
     picture.camera = view.camera;
     picture.width = view.width;
     picture.height = view.height;
     picture.textured = view.textured;
-    return {picture, *view.model->rays};
+    return {picture, view.model->trace->rays()};
 }
 
 } // namespace

@@ -41,7 +41,7 @@ struct RigLight {
     LightKind kind = LightKind::sun;
     bool on = true;
     glm::vec3 direction{0, 1, 0}; ///< unit, towards the light
-    float distance = 2;           ///< sphere: to its centre, in radii of the scene
+    float distance = 2;           ///< sphere: to its center, in radii of the scene
     float size = 0.4f;            ///< cone: half angle, radians; sphere: radius, in radii of the scene
     glm::vec3 color{1, 0.9f, 0.75f};
     float strength = 3; ///< suns: irradiance over pi; others: radiance; over the mean of the environment

@@ -28,8 +28,8 @@ GpuModel::Source GpuModel::source_of(PictureKind kind) {
 }
 
 GpuModel::GpuModel(std::shared_ptr<const Model> model, std::size_t most_receivers)
-    : model_(std::move(model)), most_receivers_(most_receivers), scene_(model_->scene, model_->textures),
-      plain_(scene_.make_vertex_arrays()) {
+    : model_(std::move(model)), most_receivers_(most_receivers),
+      scene_(model_->scene, model_->trace->textures()), plain_(scene_.make_vertex_arrays()) {
     numbers_.arrays = scene_.make_vertex_arrays();
     programs_.wires = prt::make_program("viewer_color.vert", "viewer_color.frag");
 }

@@ -16,7 +16,7 @@ enum class PictureKind {
     prt,            ///< raw transfer
     prt_compressed, ///< compressed transfer
     reference,      ///< path tracing
-    clusters,       ///< a colour per cluster
+    clusters,       ///< a color per cluster
     components,     ///< how many directions the cluster has
     error,          ///< of the compression, under this light
     seams,          ///< jumps of that error between clusters

@@ -22,7 +22,7 @@ float handle_radius(const Viewer& viewer, const RigLight& light) {
 } // namespace
 
 glm::vec3 handle_place(const Viewer& viewer, const RigLight& light) {
-    return viewer.document().model()->centre + handle_radius(viewer, light) * light.direction;
+    return viewer.document().model()->center + handle_radius(viewer, light) * light.direction;
 }
 
 int Controls::light_at(const glm::vec2& pixel) const {
@@ -49,7 +49,7 @@ void Controls::press(Button button, const glm::vec2& pixel) {
     light_ = light_at(pixel);
     if (light_ >= 0) {
         drag_ = Drag::light;
-        // A handle behind the centre stays behind it.
+        // A handle behind the center stays behind it.
         const prt::Camera camera = viewer_.camera.camera();
         far_side_ = glm::dot(viewer_.lights.lights[static_cast<std::size_t>(light_)].direction,
                              camera.position - camera.target) < 0;
@@ -83,7 +83,7 @@ void Controls::move(const glm::vec2& pixel) {
         break;
     case Drag::light: {
         RigLight& light = viewer_.lights.lights[static_cast<std::size_t>(light_)];
-        light.direction = direction_on_sphere(screen, pixel, viewer_.document().model()->centre,
+        light.direction = direction_on_sphere(screen, pixel, viewer_.document().model()->center,
                                               handle_radius(viewer_, light), far_side_);
         break;
     }

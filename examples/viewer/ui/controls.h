@@ -22,7 +22,7 @@ public:
     void scroll(float notches) { viewer_.camera.zoom(notches); }
     /// False for a key that means nothing.
     bool key(char key);
-    std::function<void()> screenshot, quit; ///< called by their keys
+    std::function<void()> screenshot = [] {}, quit = [] {}; ///< called by their keys
 
     /// The light under the pointer or being dragged, -1: none.
     int light_at(const glm::vec2& pixel) const;

@@ -57,9 +57,9 @@ std::string side_label(const Viewer& viewer, PictureKind kind) {
     return fmt::format("{}: {}. Meanwhile: {}", name_of(kind).title, shown.note, name_of(shown.kind).title);
 }
 
-/// What the colours of a picture of numbers mean.
+/// What the colors of a picture of numbers mean.
 struct Legend {
-    bool heat = true; ///< a ramp from `low` to `high`; else colours that only tell apart
+    bool heat = true; ///< a ramp from `low` to `high`; else colors that only tell apart
     std::string low, high, note;
 };
 
@@ -86,7 +86,7 @@ ImU32 display_color(const glm::vec3& linear) {
         {prt::srgb_encode(linear.r), prt::srgb_encode(linear.g), prt::srgb_encode(linear.b), 1});
 }
 
-/// Steps of colour between (x, y) and (x + width, y + height).
+/// Steps of color between (x, y) and (x + width, y + height).
 void draw_colors(ImDrawList& list, const Legend& legend, float x, float y, float width, float height) {
     const int steps = legend.heat ? 60 : 12;
     for (int i = 0; i < steps; ++i) {

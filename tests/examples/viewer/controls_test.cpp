@@ -30,18 +30,18 @@ TEST(Screen, PixelsAndDirectionsAreInverse) {
 }
 
 TEST(Screen, DirectionsOnASphereMeetThePixel) {
-    const glm::vec3 centre(0.2f, 0.4f, 0);
+    const glm::vec3 center(0.2f, 0.4f, 0);
     for (const bool far_side : {false, true})
         for (const glm::vec2 pixel : {glm::vec2(300, 170), {350, 200}, {320, 150}}) {
-            const glm::vec3 d = direction_on_sphere(kScreen, pixel, centre, 0.8f, far_side);
+            const glm::vec3 d = direction_on_sphere(kScreen, pixel, center, 0.8f, far_side);
             EXPECT_NEAR(glm::length(d), 1, 1e-5f);
-            const auto back = pixel_of(kScreen, centre + 0.8f * d);
+            const auto back = pixel_of(kScreen, center + 0.8f * d);
             ASSERT_TRUE(back);
             EXPECT_LT(glm::distance(*back, pixel), 0.05f);
-            EXPECT_EQ(glm::dot(d, kScreen.camera.position - centre) > 0, !far_side);
+            EXPECT_EQ(glm::dot(d, kScreen.camera.position - center) > 0, !far_side);
         }
     // Beside the sphere: its outline.
-    const glm::vec3 d = direction_on_sphere(kScreen, {0, 180}, centre, 0.8f, false);
+    const glm::vec3 d = direction_on_sphere(kScreen, {0, 180}, center, 0.8f, false);
     EXPECT_NEAR(glm::length(d), 1, 1e-5f);
 }
 

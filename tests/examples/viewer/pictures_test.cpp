@@ -79,7 +79,7 @@ protected:
     prt::Picture picture_of(std::span<const glm::vec3> radiance) const {
         prt::Picture picture;
         picture.scene = &model->scene;
-        picture.textures = model->textures;
+        picture.textures = model->trace->textures();
         picture.radiance = radiance;
         picture.textured = settings.drawing.textured;
         picture.camera = view.camera;
@@ -89,7 +89,7 @@ protected:
         return picture;
     }
     prt::Image rays(std::span<const glm::vec3> radiance) const {
-        return prt::render_rays(picture_of(radiance), *model->rays);
+        return prt::render_rays(picture_of(radiance), model->trace->rays());
     }
 
     bool inside(int x, int y, int margin = 1) const {
@@ -130,7 +130,7 @@ protected:
         prt::BakeOptions options;
         options.rays = rays_per_receiver;
         options.bounces = 1;
-        options.backend = prt::Backend::cpu;
+        options.tracer.backend = prt::Backend::cpu;
         return prt::bake(model->scene, options).baked.transfer;
     }
     prt::ClusteredTransfer compressed(const prt::Transfer& transfer) {
@@ -158,7 +158,7 @@ TEST_F(ViewerPictures, OfRawTransferAreThoseOfCpp) {
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), kSame);
     settings.drawing.textured = true;
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), kSame);
-    settings.drawing.deferred = true; // base colour in 8 bits
+    settings.drawing.deferred = true; // base color in 8 bits
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), 0.006);
     // Another light.
     light = prt::rotated_about_y(light, 2);
@@ -166,7 +166,7 @@ TEST_F(ViewerPictures, OfRawTransferAreThoseOfCpp) {
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), 0.006);
 }
 
-TEST_F(ViewerPictures, OfColouredTransferAreThoseOfCpp) {
+TEST_F(ViewerPictures, OfColoredTransferAreThoseOfCpp) {
     const prt::Transfer transfer = baked();
     ASSERT_EQ(transfer.channels, 3);
     gpu->set_raw(transfer);
@@ -214,7 +214,7 @@ TEST_F(ViewerPictures, OfBakedOcclusionAreThoseOfTracedOcclusion) {
     options.textured = false;
     options.background = false;
     options.antialiased = false;
-    prt::PathTracer tracer(*model->rays, model->scene, *model->surfaces, white, options);
+    prt::PathTracer tracer(*model->trace, white, options);
     for (int i = 0; i < 128; ++i)
         tracer.add_pass();
     // What is left: noise of 128 paths, and the cells of the floor at the contact.
@@ -373,7 +373,7 @@ TEST_P(Ssao, IsMultipliedIntoTheIrradianceAndNothingElse) {
         }
 }
 
-TEST_F(ViewerPictures, OfNumbersAreTheirColours) {
+TEST_F(ViewerPictures, OfNumbersAreTheirColors) {
     const prt::ClusteredTransfer transfer = compressed(baked());
     const prt::Transfer raw = baked();
     const auto reference = prt::exit_radiance(raw, light),

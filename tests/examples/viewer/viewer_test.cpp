@@ -58,7 +58,7 @@ protected:
         prt::BakeOptions options;
         options.order = order;
         options.rays = 64;
-        options.backend = prt::Backend::cpu;
+        options.tracer.backend = prt::Backend::cpu;
         prt::write_transfer(document, scene, prt::bake(scene, options).baked);
         prt::save_glb(document, folder / "baked.glb");
         return folder / "baked.glb";
@@ -286,7 +286,7 @@ TEST_F(ViewerTest, ResetsTheCamera) {
 }
 
 TEST_F(ViewerTest, MetersTheModelAndNotTheSky) {
-    // An open floor of base colour c under light of radiance 4 shows 4 c, which comes to 0.22.
+    // An open floor of base color c under light of radiance 4 shows 4 c, which comes to 0.22.
     prt::test::GlbFile file = prt::test::scene_file(SceneBuilder().floor({0, 0, 0}, 1, 4).build());
     file.json["materials"] = {
         {{"pbrMetallicRoughness", {{"baseColorFactor", {0.25, 0.5, 0.125, 1}}, {"metallicFactor", 0}}}}};
