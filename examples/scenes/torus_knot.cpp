@@ -1,6 +1,6 @@
 // A (2, 3) torus knot over a plane: soft contact shadows, and a surface that shadows itself.
 
-#include "mesh.h"
+#include "example_scenes.h"
 
 #include <glm/geometric.hpp>
 
@@ -8,8 +8,6 @@
 
 namespace examples {
 namespace {
-
-constexpr float kTurn = 6.2831853f;
 
 glm::vec3 knot_curve(float t) {
     const float radius = 1.0f + 0.4f * std::cos(3 * t);
