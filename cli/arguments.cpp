@@ -17,8 +17,8 @@ const std::map<std::string, Backend> kBackends = {
 const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
 const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
                                                         {"raster", BakeMethod::raster}};
-const std::map<std::string, Storage> kStorages = {
-    {"auto", Storage::automatic}, {"float32", Storage::float32}, {"float16", Storage::float16}};
+const std::map<std::string, std::optional<TransferStorage>> kStorages = {
+    {"auto", std::nullopt}, {"float32", TransferStorage::float32}, {"float16", TransferStorage::float16}};
 const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
                                                          {"ignore", BadTextures::ignore}};
 const std::map<std::string, ShaderLanguage> kLanguages = {{"glsl450", ShaderLanguage::glsl450},
@@ -98,7 +98,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "--subsurface",
             [&options](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts)
-                    options.subsurface.push_back(parse_medium(text));
+                    options.subsurface.media.push_back(parse_medium(text));
             },
             "light spreads under the surface of a material, or of all: marble, skin1, whole-milk and others, "
             "or "
@@ -106,7 +106,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
         ->allow_extra_args(false) // one each time, so that the scene may follow
         ->type_name("[MATERIAL=]MEDIUM");
     command
-        ->add_option("--metres-per-unit", options.metres_per_unit,
+        ->add_option("--metres-per-unit", options.subsurface.metres_per_unit,
                      "size of the scene's unit, where it is not glTF's metre; only media care")
         ->capture_default_str();
     choice(command, "--bad-textures", options.bad_textures, kBadTextures,

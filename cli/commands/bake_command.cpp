@@ -14,27 +14,27 @@ namespace prt::cli {
 namespace {
 
 Json statistics_json(const BakeStatistics& s) {
-    return {{"receivers", s.receivers},
-            {"receivers_traced", s.traced},
-            {"back_sides", s.back_sides},
-            {"receivers_sealed", s.sealed},
-            {"receivers_refilled", s.refilled},
+    return {{"receivers", s.receivers.all},
+            {"receivers_traced", s.receivers.traced},
+            {"back_sides", s.receivers.back_sides},
+            {"receivers_sealed", s.receivers.sealed},
+            {"receivers_refilled", s.receivers.refilled},
             {"triangles", s.triangles},
             {"rays", s.rays},
             {"device", s.device},
-            {"seconds", s.seconds},
-            {"seconds_build", s.seconds_build},
-            {"seconds_trace", s.seconds_tracing.trace},
-            {"seconds_accumulate", s.seconds_tracing.accumulate},
-            {"seconds_transfer", s.seconds_tracing.transfer},
-            {"seconds_transport", s.seconds_transport},
+            {"seconds", s.seconds.all},
+            {"seconds_build", s.seconds.build},
+            {"seconds_trace", s.seconds.tracing.trace},
+            {"seconds_accumulate", s.seconds.tracing.accumulate},
+            {"seconds_transfer", s.seconds.tracing.transfer},
+            {"seconds_transport", s.seconds.transport},
             {"rays_per_second", s.rays_per_second},
             {"mean_visibility", s.mean_visibility},
             {"sampling_error_relative_l2", s.sampling_error},
             {"float16_error_relative_l2", s.rounding_error},
             {"remaining_energy", s.remaining_energy},
-            {"gather_entries", s.gather_entries},
-            {"gather_bytes", s.gather_bytes},
+            {"gather_entries", s.gather.entries},
+            {"gather_bytes", s.gather.bytes},
             {"notices", s.notices}};
 }
 
@@ -45,29 +45,30 @@ void print_report(const BakeArguments& a, const BakeResult& result) {
     const Transfer& t = result.baked.transfer;
     const bool raster = a.options.tracer.method == BakeMethod::raster;
     fmt::print("{}: {} receivers, {} triangles, order {}, {} {}, {} {} each, {} bounces\n", a.output.string(),
-               s.receivers, s.triangles, t.order, t.channels, t.channels == 1 ? "channel" : "channels",
+               s.receivers.all, s.triangles, t.order, t.channels, t.channels == 1 ? "channel" : "channels",
                result.baked.record.rays, raster ? "directions" : "rays", result.baked.record.bounces);
     fmt::print("  {} on the {}: {}\n", raster ? "depth maps" : "rays",
                result.baked.record.backend == Backend::cpu ? "CPU" : "GPU", s.device);
-    if (s.receivers > s.traced)
-        fmt::print("  {} receivers are on no surface and have zero transfer\n", s.receivers - s.traced);
+    if (s.receivers.all > s.receivers.traced)
+        fmt::print("  {} receivers are on no surface and have zero transfer\n",
+                   s.receivers.all - s.receivers.traced);
     for (const std::string& notice : s.notices)
         fmt::print("  {}\n", notice);
     fmt::print("  {:.3f} s: build {:.3f}, trace {:.3f}, accumulate {:.3f}, transfer {:.3f}, transport "
                "{:.3f}; {:.2f} "
                "million {}/s\n",
-               s.seconds, s.seconds_build, s.seconds_tracing.trace, s.seconds_tracing.accumulate,
-               s.seconds_tracing.transfer, s.seconds_transport, s.rays_per_second * 1e-6,
+               s.seconds.all, s.seconds.build, s.seconds.tracing.trace, s.seconds.tracing.accumulate,
+               s.seconds.tracing.transfer, s.seconds.transport, s.rays_per_second * 1e-6,
                raster ? "tests" : "rays");
     if (a.options.target_error)
         fmt::print("  error of the direct light: {:.3f} % asked for, {:.3f} % estimated\n",
                    100 * *a.options.target_error, 100 * s.sampling_error);
     else if (s.sampling_error > 0)
         fmt::print("  error of the direct light: {:.3f} % estimated\n", 100 * s.sampling_error);
-    if (s.gather_entries > 0)
+    if (s.gather.entries > 0)
         fmt::print("  bounces: {} pairs of receivers that light each other, {:.1f} MB; at most {:.2g} % of a "
                    "receiver's light is missing\n",
-                   s.gather_entries, static_cast<double>(s.gather_bytes) * 1e-6, 100 * s.remaining_energy);
+                   s.gather.entries, static_cast<double>(s.gather.bytes) * 1e-6, 100 * s.remaining_energy);
     fmt::print("  {:.1f} % of the light of a uniform sky arrives, on average\n", 100 * s.mean_visibility);
     if (s.mean_visibility < kDark && a.no_shadow.empty())
         fmt::print("  hardly any light comes in: where a shell round the scene, as an outline or a sky, "

@@ -42,7 +42,7 @@ Outcome run_compressor(const CompressArguments& a, const Model& model, const Sea
     const std::vector<float> areas = receiver_areas(model.scene);
     const CompressOptions& o = options.compress;
     const std::vector<Edge> edges =
-        o.seam_weight > 0 || o.potts_weight > 0 ? mesh_edges(model.scene) : std::vector<Edge>{};
+        o.seam_price > 0 || o.border_price > 0 ? mesh_edges(model.scene) : std::vector<Edge>{};
     ProgressBar bar("compressing", interrupt.token());
     if (a.preset) {
         SearchResult found = compress_preset(transfer, areas, edges, o, bar.progress());
@@ -82,9 +82,9 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
     options.compress.metric = chosen_metric(a, transfer);
-    if (a.components_given && options.compress.components > static_cast<int>(transfer.dimension()))
+    if (a.components_given && options.compress.coding.components > static_cast<int>(transfer.dimension()))
         throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
-                                transfer.dimension(), options.compress.components));
+                                transfer.dimension(), options.compress.coding.components));
     discard_transfer(model.document); // it is in `transfer`, and would be in memory twice
     Outcome outcome = run_compressor(a, model, options, interrupt);
     ClusteredTransfer& result = outcome.result.transfer;
@@ -117,8 +117,8 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
     fmt::print("{}: {} clusters x {:.2f} components\n", a.output.string(), s.clusters, s.mean_components);
     if (a.preset && !outcome.trials.empty())
         fmt::print("  the mesh is small: {} fitted to it, so that bases do not outweigh weights\n",
-                   options.compress.weights == WeightFormat::packed ? "clusters and bits are"
-                                                                    : "clusters are");
+                   options.compress.coding.format == WeightFormat::packed ? "clusters and bits are"
+                                                                          : "clusters are");
     fmt::print(
         "  expected error of the lit surface (lit_rms) {:.3f} %, of the transfer (relative L2) {:.3f} %\n",
         100 * s.lit_rms, 100 * l2);

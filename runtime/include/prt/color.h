@@ -1,5 +1,7 @@
 #pragma once
 
+// Colors as numbers. Experimental.
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 

@@ -155,9 +155,9 @@ TEST(Metal, ReflectsDiffuselyAsFarAsItIsRough) {
     Material& m = sheet.materials[0];
     m.base_color = {0.8f, 0.6f, 0.2f, 1};
     const auto reflected = [&](float metallic, float roughness, const std::vector<Texture>& textures) {
-        m.metallic = metallic;
-        m.roughness = roughness;
-        m.metallic_roughness_texture.image = textures.empty() ? -1 : 0;
+        m.metal.factor = metallic;
+        m.metal.roughness = roughness;
+        m.metal.texture.image = textures.empty() ? -1 : 0;
         return Surfaces(sheet, textures).scattering({0, {0.3f, 0.3f}, 1e-4f}).reflected.r;
     };
     EXPECT_FLOAT_EQ(reflected(0, 0.3f, {}), 0.8f);
@@ -175,8 +175,8 @@ TEST(Metal, ReflectsDiffuselyAsFarAsItIsRough) {
 TEST(Metal, BouncesByThatShareAndSaysSo) {
     const auto bounced = [](float metallic, float roughness, std::size_t& notices) {
         Scene bowl = SceneBuilder().bowl({0, 0, 0}, 1, 12, 4).build();
-        bowl.materials[0].metallic = metallic;
-        bowl.materials[0].roughness = roughness;
+        bowl.materials[0].metal.factor = metallic;
+        bowl.materials[0].metal.roughness = roughness;
         BakeOptions options;
         options.order = 1;
         options.rays = 256;
@@ -254,7 +254,7 @@ TEST(Leaf, TakesLightFromBehindThroughDiffuseTransmission) {
     const BakeResult result = bake(leaf, options);
     const Transfer& t = result.baked.transfer;
     ASSERT_EQ(t.channels, 3);
-    EXPECT_EQ(result.statistics.back_sides, leaf.receivers());
+    EXPECT_EQ(result.statistics.receivers.back_sides, leaf.receivers());
     std::array<double, 16> above{}, below{};
     clamped_cosine_lobe(4, {0, 1, 0}, above);
     clamped_cosine_lobe(4, {0, -1, 0}, below);
@@ -319,8 +319,8 @@ TEST(InsideGeometry, ABodyThatIsInsideAsAWholeStaysDark) {
     options.rays = 64;
     options.tracer.backend = Backend::cpu;
     const BakeResult result = bake(scene, options);
-    EXPECT_GT(result.statistics.sealed, 0u);
-    EXPECT_EQ(result.statistics.refilled, 0u);
+    EXPECT_GT(result.statistics.receivers.sealed, 0u);
+    EXPECT_EQ(result.statistics.receivers.refilled, 0u);
 }
 
 TEST(Textures, ThatAreMissingAreNamedUnlessNobodyLooksAtThem) {

@@ -4,9 +4,12 @@
  * and write a line for people to `message`, which may be null. Handles may be used from several threads at
  * once as long as nobody destroys them. Conventions, units and layouts are those of the C++ headers: SH with
  * Condon-Shortley phase, order N for N*N coefficients, right-handed axes with +Y up, linear Rec. 709.
+ * Stable: it changes with the minor version only.
  */
 #ifndef PRT_PRT_H
 #define PRT_PRT_H
+
+#include "prt/version.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -27,14 +30,15 @@ typedef enum prt_status {
                              matrix, what is not finite */
     PRT_BAD_FILE = 2,     /* missing, damaged, or without what is wanted */
     PRT_NO_MEMORY = 3,
-    PRT_TOO_SMALL = 4 /* the buffer; what it needs is written to *size */
+    PRT_TOO_SMALL = 4, /* the buffer; what it needs is written to *size */
+    PRT_INTERNAL = 5   /* none of these: a mistake in the library, which the message may help to find */
 } prt_status;
 
 typedef struct prt_message {
     char text[256];
 } prt_message;
 
-/* A light: `order`, and order*order colours (r, g, b) of the caller's. */
+/* A light: `order`, and order*order colors (r, g, b) of the caller's. */
 
 /* Writes the order*order basis values in unit direction `direction` to `basis`. */
 PRT_API prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message);
@@ -50,13 +54,13 @@ PRT_API prt_status prt_light_directional(int order, const float towards[3], cons
                                          float* light, prt_message* message);
 PRT_API prt_status prt_light_cone(int order, const float axis[3], float half_angle, const float radiance[3],
                                   float* light, prt_message* message);
-PRT_API prt_status prt_light_sphere(int order, const float centre[3], float radius, const float radiance[3],
+PRT_API prt_status prt_light_sphere(int order, const float center[3], float radius, const float radiance[3],
                                     float* light, prt_message* message);
-PRT_API prt_status prt_light_disc(int order, const float centre[3], const float normal[3], float radius,
+PRT_API prt_status prt_light_disc(int order, const float center[3], const float normal[3], float radius,
                                   const float radiance[3], float* light, prt_message* message);
 PRT_API prt_status prt_light_hemisphere(int order, const float up[3], const float top[3],
                                         const float bottom[3], float* light, prt_message* message);
-/* What the centre column of a lat-long image looks at: +Z as OpenEXR says, or +X as three.js, glTF viewers
+/* What the center column of a lat-long image looks at: +Z as OpenEXR says, or +X as three.js, glTF viewers
  * and Blender show it. */
 typedef enum prt_center { PRT_CENTER_Z = 0, PRT_CENTER_X = 1 } prt_center;
 /* Pixels (r, g, b), rows from the top: top row +Y, `center` a prt_center. Bad pixels are an error. `threads`
@@ -101,8 +105,8 @@ typedef struct prt_model_info {
     const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
     size_t meshes;
 } prt_model_info;
-/* Pointers live as long as the model. All 0 where `model` is NULL. */
-PRT_API prt_model_info prt_model_get_info(const prt_model* model);
+/* Pointers live as long as the model. */
+PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message);
 
 typedef struct prt_mesh {
     size_t vertices;

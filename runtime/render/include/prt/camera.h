@@ -1,5 +1,7 @@
 #pragma once
 
+// Cameras and the rays of their pixels. Experimental.
+
 #include "prt/scene.h"
 #include "prt/support/glm_layout.h"
 
