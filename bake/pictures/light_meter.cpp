@@ -3,6 +3,7 @@
 #include "prt/light_meter.h"
 
 #include "pictures/primary_rays.h"
+#include "prt/color.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,7 +16,6 @@ namespace {
 constexpr int kMostAcross = 48; ///< along each axis
 /// Above the middle grey of photographs (0.18), at which plaster looks grey.
 constexpr float kMeanShown = 0.22f;
-constexpr glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
 
 } // namespace
 
@@ -35,8 +35,9 @@ LightMeter::LightMeter(const Picture& picture, const RayScene& ray_scene) {
                 const glm::vec2 uv = glm::clamp(surface.barycentrics, 0.0f, 1.0f);
                 const glm::vec3 corners(std::max(0.0f, 1 - uv.x - uv.y), uv.x, uv.y);
                 for (int corner = 0; corner < 3; ++corner)
-                    readings.push_back({surface.receivers[corner],
-                                        share * corners[corner] * kLuminance * glm::vec3(surface.base)});
+                    readings.push_back(
+                        {surface.receivers[corner],
+                         share * corners[corner] * glm::vec3(kLuminance) * glm::vec3(surface.base)});
                 covered += share;
             });
     std::stable_sort(readings.begin(), readings.end(),

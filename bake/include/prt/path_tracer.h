@@ -24,6 +24,8 @@ struct PathTraceOptions {
     /// Rays through random points of each pixel; else through its center.
     bool antialiased = true;
     std::uint64_t seed = 0;
+
+    friend bool operator==(const PathTraceOptions&, const PathTraceOptions&) = default;
 };
 
 /// Refines a picture pass by pass, a path per pixel each: next-event estimation and cosine sampling combined
