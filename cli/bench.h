@@ -4,7 +4,6 @@
 
 #include "prt/bake.h"
 #include "prt/scene.h"
-#include "report/report.h"
 
 #include <string>
 #include <vector>
@@ -47,8 +46,5 @@ struct BenchResult {
 /// Measures direct light. The error is that of an even sample of the receivers. Throws `Cancelled`.
 BenchResult run_bench(const std::string& name, const Scene& scene, const BenchOptions& options,
                       const Progress& progress);
-
-/// All runs, with the curves of error over time and of speed over rays.
-Report bench_report(const BenchResult& result);
 
 } // namespace prt::cli

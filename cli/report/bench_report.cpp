@@ -1,6 +1,4 @@
-#include "bench.h"
-#include "report/log_chart.h"
-#include "report/report.h"
+#include "report/bench_report.h"
 
 #include <fmt/core.h>
 
@@ -44,15 +42,40 @@ Table runs_table(const BenchResult& result) {
         "spherical "
         "harmonics, which are summed on chip. accumulate: spherical harmonics on the CPU, depth tests with "
         "method raster. transfer: to and from the GPU. Rays or depth tests per second, all work counted.";
-    table.chart = log_chart(curves(
-                                result, [](const BenchRun& r) { return r.seconds; },
-                                [](const BenchRun& r) { return 100 * r.relative_l2; }),
-                            "seconds, all work counted", "error, %") +
-                  log_chart(curves(
-                                result, [](const BenchRun& r) { return static_cast<double>(r.rays); },
-                                [](const BenchRun& r) { return 1e-6 * r.rays_per_second; }),
-                            "rays or directions per receiver", "million rays or depth tests per second");
+    table.charts = {{"seconds, all work counted", "error, %",
+                     curves(
+                         result, [](const BenchRun& r) { return r.seconds; },
+                         [](const BenchRun& r) { return 100 * r.relative_l2; })},
+                    {"rays or directions per receiver", "million rays or depth tests per second",
+                     curves(
+                         result, [](const BenchRun& r) { return static_cast<double>(r.rays); },
+                         [](const BenchRun& r) { return 1e-6 * r.rays_per_second; })}};
     return table;
+}
+
+/// The table of Hill's article, with what was measured beside it.
+Table classic_table() {
+    Table table{"classic", "The table of Hill, 2004", "", {}, {}};
+    table.columns = {{"vertices", "vertices"},
+                     {"series", "backend, method"},
+                     {"samples", "samples"},
+                     {"seconds", "seconds", Unit::seconds, 4},
+                     {"seconds_d3dx_2004", "D3DX", Unit::seconds, 2},
+                     {"times_faster_than_d3dx", "times faster"},
+                     {"seconds_hill_2004", "Hill", Unit::seconds, 2},
+                     {"times_faster_than_hill", "times faster"},
+                     {"relative_l2", "error", Unit::percent}};
+    table.about =
+        "Seconds to bake meshes of as many vertices, all work counted; his own meshes are not published.";
+    return table;
+}
+
+void add_rows(const ClassicRow& row, const BenchResult& result, Table& table) {
+    for (const BenchSeries& series : result.series)
+        for (const BenchRun& run : series.runs)
+            table.rows.push_back({row.vertices, series.backend + " " + series.method, run.rays, run.seconds,
+                                  row.seconds_d3dx, row.seconds_d3dx / run.seconds, row.seconds_hill,
+                                  row.seconds_hill / run.seconds, run.relative_l2});
 }
 
 } // namespace
@@ -73,6 +96,21 @@ Report bench_report(const BenchResult& result) {
     for (const BenchSeries& series : result.series)
         if (!series.left_out.empty())
             report.notes.push_back(series.backend + " " + series.method + ": " + series.left_out);
+    return report;
+}
+
+Report classic_report(std::span<const ClassicRow> rows, std::span<const BenchResult> results) {
+    Report report;
+    report.title = "Bakes of 2004";
+    Table table = classic_table();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        add_rows(rows[i], results[i], table);
+        for (const BenchSeries& series : results[i].series)
+            if (!series.left_out.empty())
+                report.notes.push_back(fmt::format("{} vertices, {} {}: {}", rows[i].vertices, series.backend,
+                                                   series.method, series.left_out));
+    }
+    report.tables.push_back(std::move(table));
     return report;
 }
 
