@@ -1,6 +1,7 @@
 #include "adaptive.h"
 
 #include "prt/sh.h"
+#include "prt/trace_receivers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -249,7 +250,7 @@ double sampling_error(Tracer& tracer, const Receivers& receivers, const TraceOpt
     // Few receivers carry most of the error: they are chosen by what they are likely to contribute. Half-open
     // ones err most; a floor stands for what visibility does not tell.
     const auto likely = [&](std::uint32_t p) {
-        const double visible = static_cast<double>(transfer.vector(p)[0]) / detail::kLegendre.sectoral[0];
+        const double visible = static_cast<double>(transfer.vector(p)[0]) / kY00;
         return area(p) * (0.02 + std::clamp(visible * (1 - visible), 0.0, 0.25));
     };
     double sum = 0, norm = 0;

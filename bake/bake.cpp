@@ -2,11 +2,11 @@
 
 #include "adaptive.h"
 #include "available_memory.h"
-#include "prt/embree_tracer.h"
-#include "prt/make_tracer.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
+#include "prt/trace_receivers.h"
+#include "prt/trace_scene.h"
 #include "scene/material_notices.h"
 #include "scene/mesh_neighbours.h"
 #include "scene/sealed.h"
@@ -33,8 +33,8 @@ void check_options(const BakeOptions& options) {
         throw Error("the error to reach must be above 0");
     if (!(options.metres_per_unit > 0))
         throw Error("metres per unit must be above 0");
-    if (options.method == BakeMethod::raster) {
-        if (options.backend == Backend::cpu)
+    if (options.tracer.method == BakeMethod::raster) {
+        if (options.tracer.backend == Backend::cpu)
             throw Error("method raster draws on the GPU: it has no CPU backend");
         if (options.bounces != 0)
             throw Error("method raster finds direct light only: use method trace for bounces");
@@ -42,7 +42,7 @@ void check_options(const BakeOptions& options) {
             throw Error(
                 "method raster takes the same directions everywhere: use method trace for an error to "
                 "reach");
-        if (options.raster_resolution < 16 || options.raster_resolution > 16384)
+        if (options.tracer.raster_resolution < 16 || options.tracer.raster_resolution > 16384)
             throw Error("the resolution of depth maps must lie in 16..16384");
     }
 }
@@ -84,22 +84,21 @@ class Baker {
 public:
     Baker(const Scene& scene, const BakeOptions& options, const Progress& progress)
         : scene_(scene), options_(options), progress_(progress), media_(choose_media(scene, options)),
-          textures_(load_textures(scene, options.bad_textures, texture_needs())),
-          surfaces_(scene, textures_, solid()) {
+          traced_(scene, load_textures(scene, options.bad_textures, texture_needs()),
+                  {.solid = solid(), .threads = options.threads}) {
         note_materials();
     }
 
     BakeResult run() {
         const Stopwatch all;
-        receivers_ = transport_receivers(vertex_receivers(scene_), surfaces_);
+        receivers_ = transport_receivers(vertex_receivers(scene_), surfaces());
         decide_what_is_needed();
         check_memory(memory_needed());
-        RayScene rays(scene_, options_.threads);
-        tracer_ = make_tracer(scene_, rays, surfaces_, textures_, options_);
+        tracer_ = make_tracer(traced_, options_.tracer);
         statistics().device = tracer_->device();
         statistics().seconds_build = all.seconds();
 
-        Transfer transfer = trace(rays);
+        Transfer transfer = trace();
         statistics().mean_visibility = mean_visibility(transfer, fronts_areas());
         const Stopwatch transport;
         transfer = propagated(std::move(transfer));
@@ -112,6 +111,7 @@ public:
     }
 
 private:
+    const Surfaces& surfaces() const { return traced_.surfaces(); }
     BakeStatistics& statistics() { return result_.statistics; }
     template <class... Args>
     void note(fmt::format_string<Args...> format, Args&&... args) {
@@ -131,7 +131,7 @@ private:
 
     void note_materials() {
         for (const auto& [image, encoding] : needed_images(scene_, texture_needs()))
-            if (textures_[static_cast<std::size_t>(image)].levels.empty())
+            if (traced_.textures()[static_cast<std::size_t>(image)].levels.empty())
                 note("image {} is missing or damaged: the factors of its materials are used alone", image);
         for (std::string& notice : material_notices(scene_, options_.bounces != 0))
             statistics().notices.push_back(std::move(notice));
@@ -140,11 +140,11 @@ private:
     /// Only what the scene needs: bounces, back sides and colour.
     void decide_what_is_needed() {
         bounces_ = options_.bounces;
-        if (bounces_ != 0 && !surfaces_.can_scatter()) {
+        if (bounces_ != 0 && !surfaces().traits().scattering) {
             bounces_ = 0;
             note("no bounces: every surface is black");
         }
-        if (bounces_ == 0 && !surfaces_.has_transmission() && !receivers_.back.empty()) {
+        if (bounces_ == 0 && !surfaces().traits().transmission && !receivers_.back.empty()) {
             Receivers& all = receivers_.receivers;
             all.positions.resize(receivers_.fronts);
             all.normals.resize(receivers_.fronts);
@@ -156,7 +156,7 @@ private:
         const bool grey_media =
             std::all_of(diffusion_.begin(), diffusion_.end(), [](const auto& d) { return d.is_grey(); });
         const bool colored =
-            (surfaces_.has_color() && (bounces_ != 0 || surfaces_.has_transmission())) || !grey_media;
+            (surfaces().traits().color && (bounces_ != 0 || surfaces().traits().transmission)) || !grey_media;
         channels_ = colored ? 3 : 1;
         if (!colored)
             note("one channel: {}", bounces_ != 0 ? "every surface is grey" : "direct light is white");
@@ -207,7 +207,7 @@ private:
         for (const auto& [rays, members] : by_rays)
             most += static_cast<double>(members.size()) * rays * GatherOperator::kMostBytesPerRay;
         // Through blended surfaces a ray meets any number.
-        if (!surfaces_.has_alpha() && memory_needed() + most <= memory_there())
+        if (!surfaces().traits().alpha && memory_needed() + most <= memory_there())
             return;
         for (const auto& [rays, members] : by_rays)
             likely += estimate_gather(members, static_cast<int>(rays), options);
@@ -220,7 +220,7 @@ private:
         std::vector<std::uint32_t> some;
         for (std::size_t i = 0; i < count; ++i)
             some.push_back(receivers[i * receivers.size() / count]);
-        GatherOperator rows(surfaces_, receivers_, channels_);
+        GatherOperator rows(surfaces(), receivers_, channels_);
         const auto empty = static_cast<double>(rows.bytes());
         options.order = 1;
         options.rays = std::min(rays, 4096);
@@ -238,7 +238,7 @@ private:
     }
 
     /// Direct transfer, the gather operator where there are bounces, and which receivers are inside.
-    Transfer trace(const RayScene& rays) {
+    Transfer trace() {
         const Receivers& receivers = receivers_.receivers;
         const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
         statistics().traced = static_cast<std::size_t>(
@@ -266,8 +266,8 @@ private:
             trace_receivers(*tracer_, receivers, indices, options, transfer, progress);
             statistics().rays += indices.size() * static_cast<std::size_t>(options_.rays);
         }
-        refill_sealed(rays, transfer);
-        if (!options_.target_error && tracer_->method() == "trace")
+        refill_sealed(transfer);
+        if (!options_.target_error && tracer_->notes_hits())
             statistics().sampling_error =
                 sampling_error(*tracer_, receivers, options, transfer, statistics().rays, progress_);
         statistics().seconds_tracing = tracer_->seconds();
@@ -282,7 +282,7 @@ private:
     void trace_gather(TraceOptions options, std::span<const std::uint32_t> rays_of, Transfer& transfer,
                       const Progress& progress) {
         const Receivers& receivers = receivers_.receivers;
-        gather_ = std::make_unique<GatherOperator>(surfaces_, receivers_, channels_);
+        gather_ = std::make_unique<GatherOperator>(surfaces(), receivers_, channels_);
         std::map<std::uint32_t, std::vector<std::uint32_t>> by_rays;
         std::size_t all = 0, done = 0;
         for (const std::uint32_t p : receivers_on_surfaces(receivers)) {
@@ -313,16 +313,15 @@ private:
 
     const MeshNeighbours& neighbours() {
         if (!neighbours_)
-            neighbours_.emplace(surfaces_, receivers_.receivers, receivers_.fronts);
+            neighbours_.emplace(surfaces(), receivers_.receivers, receivers_.fronts);
         return *neighbours_;
     }
 
     /// Receivers that are sealed in take the light of their neighbours.
-    void refill_sealed(const RayScene& rays, const Transfer& transfer) {
+    void refill_sealed(const Transfer& transfer) {
         // Depth maps do not resolve the last hundredth.
-        const SealedOptions options{tracer_->method() == "trace" ? 0 : 0.01, options_.seed, options_.threads};
-        const Sealed sealed =
-            find_sealed(rays, surfaces_, receivers_.receivers, transfer, options, progress_.stop);
+        const SealedOptions options{tracer_->notes_hits() ? 0 : 0.01, options_.seed};
+        const Sealed sealed = find_sealed(traced_, receivers_.receivers, transfer, options, progress_.stop);
         statistics().rays += sealed.rays;
         const auto& marked = sealed.receivers;
         statistics().sealed = static_cast<std::size_t>(std::count(
@@ -357,8 +356,8 @@ private:
         if (!bounced.converged)
             note("the sum over all bounces still changes by {:.2g} after {} steps", bounced.remaining,
                  bounced.bounces);
-        if (surfaces_.has_transmission())
-            add_transmission(transfer, surfaces_, receivers_);
+        if (surfaces().traits().transmission)
+            add_transmission(transfer, surfaces(), receivers_);
         transfer.vectors.resize(receivers_.fronts * transfer.dimension());
         return transfer;
     }
@@ -388,8 +387,7 @@ private:
     const BakeOptions& options_;
     Progress progress_;
     std::vector<std::optional<Medium>> media_; ///< [materials]
-    std::vector<Texture> textures_;
-    Surfaces surfaces_;
+    TraceScene traced_;
     TransportReceivers receivers_;
     int bounces_ = 0, channels_ = 1, mean_rays_ = 0;
     std::unique_ptr<Tracer> tracer_;

@@ -1,6 +1,6 @@
 #include "storage.h"
 
-#include "prt/sh_basis.h"
+#include "prt/sh.h"
 
 #include <glm/gtc/packing.hpp>
 

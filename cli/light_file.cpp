@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -64,7 +65,7 @@ FittedLight fitted_light(const Json& entry) {
     for (int c = 0; c < 3; ++c)
         if (light.irradiance[c] < 0)
             throw Error("\"irradiance\" is negative");
-    if (!(light.half_angle >= 0 && light.half_angle <= 0.5 * detail::kPi))
+    if (!(light.half_angle >= 0 && light.half_angle <= 0.5 * std::numbers::pi))
         throw Error("\"half_angle_radians\" is not in 0..pi/2");
     light.towards = glm::vec3(glm::dvec3(light.towards) / length);
     return light;

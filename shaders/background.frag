@@ -24,5 +24,6 @@ void main() {
     ivec2 low = ivec2(floor(at));
     vec2 f = at - vec2(low);
     result = vec4(mix(mix(texel(low.x, low.y, size), texel(low.x + 1, low.y, size), f.x),
-                      mix(texel(low.x, low.y + 1, size), texel(low.x + 1, low.y + 1, size), f.x), f.y), 1.0);
+                      mix(texel(low.x, low.y + 1, size), texel(low.x + 1, low.y + 1, size), f.x), f.y),
+                  1.0);
 }

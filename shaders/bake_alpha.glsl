@@ -1,19 +1,5 @@
-// Coverage of surfaces that are cut out, blended or glass, as on the CPU (bake/surfaces.cpp, runtime/render/texture.cpp).
-
-struct AlphaTriangle {
-    vec2 texcoord[3];     // transformed
-    float vertex_alpha[3];
-    uint material;
-    float texel_density;  // texels of level 0 per m²
-    uint next;            // layer of the same triangle, counting from 1; 0: none
-};
-struct AlphaMaterial {
-    uint mode;            // prt::AlphaMode: 1 mask, 2 blend; 3 glass. From 2 on rays are stopped in part
-    float cutoff, factor;
-    uint texels;          // where level 0 begins in alpha_texels, in bytes; ~0: no texture
-    int width, height, levels;
-    uint wrap;            // prt::Wrap of u, and of v << 8
-};
+// Coverage of surfaces that are cut out, blended or glass, as on the CPU (bake/scene/surfaces.cpp,
+// runtime/render/texture.cpp).
 
 layout(std430, binding = PRT_BINDING_ALPHA_TRIANGLES) readonly buffer AlphaTriangles {
     AlphaTriangle alpha_triangles[];
@@ -26,9 +12,9 @@ layout(std430, binding = PRT_BINDING_ALPHA_TEXELS) readonly buffer AlphaTexels {
 };
 
 int wrapped(int i, int size, uint wrap) {
-    if (wrap == 2u)
+    if (wrap == PRT_WRAP_CLAMP)
         return clamp(i, 0, size - 1);
-    int period = wrap == 1u ? 2 * size : size;
+    int period = wrap == PRT_WRAP_MIRROR ? 2 * size : size;
     int rest = i - period * int(floor(float(i) / float(period)));
     return rest < size ? rest : 2 * size - 1 - rest;
 }
@@ -47,7 +33,7 @@ float bilinear_alpha(AlphaMaterial m, int level, vec2 uv) {
         height = max(1, height / 2);
     }
     vec2 at = uv * vec2(width, height) - 0.5, low = floor(at), f = at - low;
-    uint wrap_u = m.wrap & 255u, wrap_v = m.wrap >> 8;
+    uint wrap_u = PRT_WRAP_U(m.wrap), wrap_v = PRT_WRAP_V(m.wrap);
     int x0 = wrapped(int(low.x), width, wrap_u), x1 = wrapped(int(low.x) + 1, width, wrap_u);
     int y0 = wrapped(int(low.y), height, wrap_v), y1 = wrapped(int(low.y) + 1, height, wrap_v);
     return mix(mix(alpha_texel(first, x0, y0, width), alpha_texel(first, x1, y0, width), f.x),
@@ -58,18 +44,18 @@ float layer_coverage_of(AlphaTriangle t, vec2 uv, float footprint) {
     AlphaMaterial m = alpha_materials[t.material];
     vec3 b = vec3(1.0 - uv.x - uv.y, uv);
     float alpha = m.factor * (b.x * t.vertex_alpha[0] + b.y * t.vertex_alpha[1] + b.z * t.vertex_alpha[2]);
-    if (m.texels != 0xffffffffu) {
+    if (m.texels != PRT_NO_TEXELS) {
         vec2 at = b.x * t.texcoord[0] + b.y * t.texcoord[1] + b.z * t.texcoord[2];
         float lod = 0.0;
-        if (m.mode >= 2u && footprint * t.texel_density > 0.0)
+        if (m.mode >= PRT_ALPHA_BLEND && footprint * t.texel_density > 0.0)
             lod = clamp(0.5 * log2(footprint * t.texel_density), 0.0, float(m.levels - 1));
         int fine = int(lod), coarse = min(fine + 1, m.levels - 1);
         alpha *= mix(bilinear_alpha(m, fine, at), bilinear_alpha(m, coarse, at), lod - float(fine));
     }
-    if (m.mode == 1u)
+    if (m.mode == PRT_ALPHA_MASK)
         return alpha >= m.cutoff ? 1.0 : 0.0;
     alpha = clamp(alpha, 0.0, 1.0);
-    return m.mode == 3u ? 1.0 - alpha : alpha;
+    return m.mode == PRT_ALPHA_GLASS ? 1.0 - alpha : alpha;
 }
 
 // `index` counts from 1; 0 is opaque.

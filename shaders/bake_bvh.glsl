@@ -1,10 +1,10 @@
-// Traversal of the wide, quantised bounding volume hierarchy (bake/gpu/wide_bvh.h).
+// Traversal of the wide, quantised bounding volume hierarchy (bake/trace/gpu/wide_bvh.h).
 //
 // Define before including: PRT_STACK_SIZE, entries that the deepest path can need. Loops have one exit and no
 // `continue`: Mesa's software rasteriser computes wrong results for those where threads diverge.
 
 layout(std430, binding = PRT_BINDING_NODES) readonly buffer Nodes {
-    uvec4 nodes[]; // five per node
+    WideNode nodes[];
 };
 layout(std430, binding = PRT_BINDING_CORNERS) readonly buffer Corners {
     vec4 corners[]; // three per triangle; w of the first: index of the triangle, as bits
@@ -19,10 +19,7 @@ struct BvhHit {
 };
 
 const float kFar = 3.402823e38;
-
-uint byte_of(uint lower, uint upper, uint i) {
-    return bitfieldExtract(i < 4u ? lower : upper, int(i & 3u) * 8, 8);
-}
+const uint kLeaf = 0x80000000u;
 
 // By Plücker coordinates about the origin: neighbours agree on the side of a shared edge, so that no ray passes
 // between them.
@@ -58,7 +55,7 @@ bool trace_ray(vec3 origin, vec3 direction, float t_min, bool any, out BvhHit ne
     nearest.back = false;
     bool found = false, running = true;
 
-    // Entries: (node, distance), or with the upper bit a leaf: number of triangles << 29 | the first of them.
+    // Entries: (node, distance), or with kLeaf a leaf: number of triangles << 29 | the first of them.
     uvec2 stack[PRT_STACK_SIZE];
     int height = 1;
     stack[0] = uvec2(0u, 0u);
@@ -66,7 +63,7 @@ bool trace_ray(vec3 origin, vec3 direction, float t_min, bool any, out BvhHit ne
         --height;
         uvec2 entry = stack[height];
         bool wanted = uintBitsToFloat(entry.y) < nearest.t;
-        if (wanted && (entry.x & 0x80000000u) != 0u) {
+        if (wanted && (entry.x & kLeaf) != 0u) {
             uint first = entry.x & 0x1fffffffu, count = (entry.x >> 29) & 3u;
             for (uint i = 0u; i < count; ++i) {
                 BvhHit hit;
@@ -76,26 +73,26 @@ bool trace_ray(vec3 origin, vec3 direction, float t_min, bool any, out BvhHit ne
                 }
             }
         } else if (wanted) {
-            uvec4 n0 = nodes[5u * entry.x], n1 = nodes[5u * entry.x + 1u], n2 = nodes[5u * entry.x + 2u],
-                  n3 = nodes[5u * entry.x + 3u], n4 = nodes[5u * entry.x + 4u];
-            vec3 step = uintBitsToFloat(uvec3((n0.w & 255u) << 23, ((n0.w >> 8) & 255u) << 23, ((n0.w >> 16) & 255u) << 23));
-            vec3 base = (uintBitsToFloat(n0.xyz) - origin) * inverse, scale = step * inverse;
+            WideNode node = nodes[entry.x];
+            vec3 step = uintBitsToFloat(
+                uvec3(step_bits(node.exponents, 0u), step_bits(node.exponents, 1u), step_bits(node.exponents, 2u)));
+            vec3 base = (node.origin - origin) * inverse, scale = step * inverse;
             // What rounding can do to the planes below.
             vec3 slack = 3e-7 * (abs(base) + 256.0 * abs(scale));
             for (int k = 7; k >= 0; --k) {
                 uint slot = uint(k) ^ octant;
-                uint meta = byte_of(n1.z, n1.w, slot);
-                vec3 low = base + scale * vec3(byte_of(n2.x, n2.y, slot), byte_of(n2.z, n2.w, slot),
-                                               byte_of(n3.x, n3.y, slot));
-                vec3 high = base + scale * vec3(byte_of(n3.z, n3.w, slot), byte_of(n4.x, n4.y, slot),
-                                                byte_of(n4.z, n4.w, slot));
+                uint meta = byte_of(node.meta, slot);
+                vec3 low = base + scale * vec3(byte_of(node.low[0], slot), byte_of(node.low[1], slot),
+                                               byte_of(node.low[2], slot));
+                vec3 high = base + scale * vec3(byte_of(node.high[0], slot), byte_of(node.high[1], slot),
+                                                byte_of(node.high[2], slot));
                 vec3 enter = min(low, high) - slack, leave = max(low, high) + slack;
                 float t_enter = max(max(enter.x, enter.y), max(enter.z, t_min));
                 float t_leave = min(min(leave.x, leave.y), min(leave.z, nearest.t));
                 if (meta != 0u && t_enter <= t_leave) {
-                    uint child = (meta & 0x80u) != 0u
-                                     ? n1.x + (meta & 7u)
-                                     : 0x80000000u | (meta >> 5) << 29 | (n1.y + (meta & 31u));
+                    uint child = PRT_IS_INNER(meta) ? node.first_child + PRT_INNER_CHILD(meta)
+                                                    : kLeaf | PRT_LEAF_COUNT(meta) << 29 |
+                                                          (node.first_triangle + PRT_LEAF_FIRST(meta));
                     stack[height] = uvec2(child, floatBitsToUint(max(t_enter, 0.0)));
                     ++height;
                 }

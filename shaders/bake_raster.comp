@@ -3,30 +3,21 @@
 // first direction.
 
 #include "shared_layout.h"
+#include "shared_structs.h"
 #include "bake_sh.glsl"
 
 layout(local_size_x = 64) in;
 
-struct Receiver {
-    vec4 origin; // off the surface; w: seed, not used here
-    vec4 normal;
-};
-struct Direction {
-    vec4 towards_light;
-    mat4 map_from_world; // to [0, 1]³
-    float basis[100];
-};
-
 layout(std430, binding = PRT_BINDING_RECEIVERS) readonly buffer Receivers {
     Receiver receivers[];
 };
-layout(std430, binding = PRT_BINDING_SAMPLES) readonly buffer Directions {
+layout(std430, binding = PRT_BINDING_DIRECTIONS) readonly buffer Directions {
     Direction directions[];
 };
 layout(std430, binding = PRT_BINDING_SUMS) buffer Sums {
     float sums[]; // per receiver: all directions [order²], blocked ones [order²], weights of both
 };
-layout(std430, binding = PRT_BINDING_BLOCKED) buffer Passes {
+layout(std430, binding = PRT_BINDING_PASSES) buffer Passes {
     float passes[]; // per receiver: what blended layers let through
 };
 layout(binding = PRT_UNIT_OPAQUE_DEPTH) uniform sampler2DArray opaque_depth;

@@ -2,6 +2,7 @@
 // one, and its coverage.
 
 #include "shared_layout.h"
+#include "shared_structs.h"
 #ifdef PRT_ALPHA
 #include "bake_alpha.glsl"
 #endif
@@ -18,7 +19,8 @@ uniform float texel_area; // of the map, m²
 
 void main() {
 #ifdef PRT_ALPHA
-    bool blended = alpha_index != 0u && alpha_materials[alpha_triangles[alpha_index - 1u].material].mode >= 2u;
+    bool blended =
+        alpha_index != 0u && alpha_materials[alpha_triangles[alpha_index - 1u].material].mode >= PRT_ALPHA_BLEND;
     float covered = coverage(alpha_index, barycentrics, texel_area);
 #ifdef PRT_PEEL
     ivec2 at = ivec2(gl_FragCoord.xy);

@@ -1,4 +1,4 @@
-// Directions of a receiver's rays, the same as on the CPU (bake/chunk_kernels.cpp): Owen-scrambled Sobol points
+// Directions of a receiver's rays, the same as on the CPU (bake/trace/chunk_kernels.cpp): Owen-scrambled Sobol points
 // by the hash of Laine and Karras (2011) in the form of Vegdahl (2021), through the concentric map of Shirley
 // and Chiu (1997).
 

@@ -3,5 +3,5 @@
 #define PRT_COEFFICIENTS (PRT_ORDER * PRT_ORDER)
 
 layout(std140, binding = PRT_BINDING_SH_FACTORS) uniform ShFactors {
-    vec4 sh_factors[100]; // at 10 l + m: a_lm, b_lm, and where l = m the sectoral factor
+    vec4 sh_factors[PRT_MOST_COEFFICIENTS]; // at PRT_SH_FACTOR(l, m): a_lm, b_lm, and where l = m the sectoral factor
 };

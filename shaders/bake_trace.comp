@@ -3,6 +3,7 @@
 // chip. With PRT_HITS it also notes what some of the rays, or with PRT_ALPHA all of them, meet.
 
 #include "shared_layout.h"
+#include "shared_structs.h"
 #include "bake_samples.glsl"
 #include "bake_bvh.glsl"
 #include "bake_sh.glsl"
@@ -11,18 +12,6 @@
 #endif
 
 layout(local_size_x = PRT_TRACE_THREADS) in;
-
-struct Receiver {
-    vec4 origin; // off the surface; w: seed, as bits
-    vec4 normal;
-};
-struct HitRecord {
-    uint receiver; // in the batch
-    uint chunk;
-    uint triangle; // upper bit: met from behind
-    float u, v, weight, footprint;
-    uint unused;
-};
 
 layout(std430, binding = PRT_BINDING_RECEIVERS) readonly buffer Receivers {
     Receiver receivers[];
@@ -69,7 +58,7 @@ void note_hit(uint receiver, uint chunk, BvhHit hit, float weight, float footpri
     uint slot = atomicAdd(hit_count, 1u);
     atomicAdd(followed_hits, 1u);
     if (slot < hit_capacity)
-        hits[slot] = HitRecord(receiver, chunk, hit.triangle | (hit.back ? 0x80000000u : 0u), hit.uv.x, hit.uv.y,
+        hits[slot] = HitRecord(receiver, chunk, hit.triangle | (hit.back ? PRT_HIT_BACK : 0u), hit.uv.x, hit.uv.y,
                                weight, footprint, 0u);
 }
 #endif
@@ -92,7 +81,7 @@ float trace(vec3 origin, vec3 normal, vec3 direction, uint receiver, uint chunk,
             float footprint = footprint_of(hit, direction, normal);
             uint alpha = floatBitsToUint(corners[3u * hit.slot + 1u].w);
             float passes = left * (1.0 - coverage(alpha, hit.uv, footprint));
-            passes = passes < 1.0 / 1024.0 ? 0.0 : passes;
+            passes = passes < PRT_LEAST_TRANSMITTANCE ? 0.0 : passes;
 #ifdef PRT_HITS
             if (left > passes)
                 note_hit(receiver, chunk, hit, left - passes, footprint);
@@ -117,10 +106,11 @@ float trace(vec3 origin, vec3 normal, vec3 direction, uint receiver, uint chunk,
 void write_basis(vec3 d, float weight, int first) {
     float cosine = weight, sine = 0.0;
     for (int m = 0; m < PRT_ORDER; ++m) {
-        float before = 0.0, legendre = sh_factors[11 * m].z;
+        float before = 0.0, legendre = sh_factors[PRT_SH_FACTOR(m, m)].z;
         for (int l = m; l < PRT_ORDER; ++l) {
             if (l > m) {
-                float next = sh_factors[10 * l + m].x * (d.z * legendre) - sh_factors[10 * l + m].y * before;
+                vec4 factors = sh_factors[PRT_SH_FACTOR(l, m)];
+                float next = factors.x * (d.z * legendre) - factors.y * before;
                 before = legendre;
                 legendre = next;
             }

@@ -6,9 +6,15 @@
 layout(local_size_x = 64) in;
 
 // What prt::ConstantFormer::matrix gives: [rows / 16][channels][coefficients][16].
-layout(std430, binding = PRT_BINDING_MATRIX) readonly buffer PrtMatrix { float prt_matrix[]; };
-layout(std430, binding = PRT_BINDING_LIGHT) readonly buffer PrtLight { vec4 prt_light[]; }; // rgb of a coefficient
-layout(std430, binding = PRT_BINDING_CONSTANTS) writeonly buffer PrtConstants { vec4 prt_constants[]; };
+layout(std430, binding = PRT_BINDING_MATRIX) readonly buffer PrtMatrix {
+    float prt_matrix[];
+};
+layout(std430, binding = PRT_BINDING_LIGHT) readonly buffer PrtLight {
+    vec4 prt_light[]; // rgb of a coefficient
+};
+layout(std430, binding = PRT_BINDING_CONSTANTS) writeonly buffer PrtConstants {
+    vec4 prt_constants[];
+};
 
 void main() {
     uint row = gl_GlobalInvocationID.x;

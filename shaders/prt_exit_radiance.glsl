@@ -15,25 +15,29 @@
 // The program binds blocks and samplers by name where the language cannot say it here.
 #if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
 #define PRT_BINDING(number) , binding = number
+#define PRT_SAMPLER(number) layout(binding = number) uniform highp
 #else
 #define PRT_BINDING(number)
+#define PRT_SAMPLER(number) uniform highp
 #endif
 
 #if defined(PRT_CONSTANTS_BLOCK)
-layout(std140 PRT_BINDING(PRT_BINDING_CONSTANTS)) uniform PrtConstants { vec4 prt_constants[PRT_MOST_ROWS]; };
-layout(std140 PRT_BINDING(PRT_BINDING_CLUSTERS)) uniform PrtClusters { uvec4 prt_clusters[PRT_MOST_CLUSTERS]; };
+layout(std140 PRT_BINDING(PRT_BINDING_CONSTANTS)) uniform PrtConstants {
+    vec4 prt_constants[PRT_MOST_ROWS];
+};
+layout(std140 PRT_BINDING(PRT_BINDING_CLUSTERS)) uniform PrtClusters {
+    uvec4 prt_clusters[PRT_MOST_CLUSTERS];
+};
 #elif defined(PRT_CONSTANTS_TEXTURE)
-#if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
-layout(binding = PRT_BINDING_CONSTANTS)
-#endif
-uniform highp sampler2D prt_constants;
-#if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
-layout(binding = PRT_BINDING_CLUSTERS)
-#endif
-uniform highp usampler2D prt_clusters;
+PRT_SAMPLER(PRT_BINDING_CONSTANTS) sampler2D prt_constants;
+PRT_SAMPLER(PRT_BINDING_CLUSTERS) usampler2D prt_clusters;
 #else
-layout(std430 PRT_BINDING(PRT_BINDING_CONSTANTS)) readonly buffer PrtConstants { vec4 prt_constants[]; };
-layout(std430 PRT_BINDING(PRT_BINDING_CLUSTERS)) readonly buffer PrtClusters { uvec4 prt_clusters[]; };
+layout(std430 PRT_BINDING(PRT_BINDING_CONSTANTS)) readonly buffer PrtConstants {
+    vec4 prt_constants[];
+};
+layout(std430 PRT_BINDING(PRT_BINDING_CLUSTERS)) readonly buffer PrtClusters {
+    uvec4 prt_clusters[];
+};
 #endif
 
 // Row `row` of the constants of all clusters.
@@ -45,7 +49,7 @@ vec3 prt_constant(uint row) {
 #endif
 }
 
-// First row, components, widths of weights 0 to 7, 8 to 15.
+// By PRT_CLUSTER_*: first row, components, widths of weights 0 to 7, 8 to 15.
 uvec4 prt_layout_of(uint cluster) {
 #ifdef PRT_CONSTANTS_TEXTURE
     return texelFetch(prt_clusters, ivec2(cluster % uint(PRT_TEXTURE_WIDTH), cluster / uint(PRT_TEXTURE_WIDTH)), 0);
@@ -83,11 +87,13 @@ uint prt_bits(uint position, uint width) {
 
 vec3 prt_exit_radiance() {
     uvec4 cluster = prt_layout_of(prt_bits(0u, uint(PRT_CLUSTER_BITS)));
-    vec3 radiance = prt_constant(cluster.x);
+    uint first = cluster[PRT_CLUSTER_FIRST_ROW];
+    vec3 radiance = prt_constant(first);
     uint position = uint(PRT_CLUSTER_BITS);
-    for (uint j = 0u; j < cluster.y; ++j) {
-        uint width = 1u + ((j < 8u ? cluster.z : cluster.w) >> (4u * (j & 7u)) & 15u);
-        radiance += float(prt_bits(position, width)) * prt_constant(cluster.x + 1u + j);
+    for (uint j = 0u; j < cluster[PRT_CLUSTER_COMPONENTS]; ++j) {
+        uint width =
+            1u + ((j < 8u ? cluster[PRT_CLUSTER_WIDTHS] : cluster[PRT_CLUSTER_WIDTHS + 1]) >> (4u * (j & 7u)) & 15u);
+        radiance += float(prt_bits(position, width)) * prt_constant(first + 1u + j);
         position += width;
     }
     return radiance;
@@ -132,11 +138,14 @@ layout(location = PRT_LOCATION_WEIGHTS_11) in vec4 prt_weights_11;
 #endif
 
 // On one line: GLSL 3.3 knows no others.
-#define PRT_ADD_FOUR(w) for (uint i = 0u; i < 4u && j < cluster.y; ++i, ++j) radiance += w[i] * prt_constant(cluster.x + 1u + j);
+// clang-format off
+#define PRT_ADD_FOUR(w) for (uint i = 0u; i < 4u && j < components; ++i, ++j) radiance += w[i] * prt_constant(first + 1u + j);
+// clang-format on
 
 vec3 prt_exit_radiance() {
     uvec4 cluster = prt_layout_of(prt_cluster);
-    vec3 radiance = prt_constant(cluster.x);
+    uint first = cluster[PRT_CLUSTER_FIRST_ROW], components = cluster[PRT_CLUSTER_COMPONENTS];
+    vec3 radiance = prt_constant(first);
     uint j = 0u;
 #if PRT_WEIGHT_VECTORS > 0
     PRT_ADD_FOUR(prt_weights_0)

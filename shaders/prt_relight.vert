@@ -5,7 +5,9 @@
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
 
 #ifdef VULKAN
-layout(push_constant) uniform Camera { mat4 view_projection; };
+layout(push_constant) uniform Camera {
+    mat4 view_projection;
+};
 layout(location = 0) out vec3 radiance;
 #else
 uniform mat4 view_projection;

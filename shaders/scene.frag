@@ -1,4 +1,4 @@
-// Exit radiance times base colour, linear.
+// Exit radiance times base color, linear.
 
 #include "surface.glsl"
 

@@ -1,4 +1,4 @@
-// The base colour of the surface that a fragment shader draws: material, texture, vertex colour, cut-outs. Linear.
+// The base color of the surface that a fragment shader draws: material, texture, vertex color, cut-outs. Linear.
 
 #include "shared_layout.h"
 
@@ -6,11 +6,11 @@ in vec2 surface_texcoord;
 in vec4 surface_color;
 
 layout(binding = PRT_UNIT_BASE_COLOR) uniform sampler2D base_color_texture;
-uniform bool textured;          // multiply by base colour
+uniform bool textured; // multiply by base color
 uniform bool has_texture;
 uniform vec4 base_color;
 uniform mat3x2 texture_transform;
-uniform int alpha_mode;         // prt::AlphaMode
+uniform int alpha_mode; // PRT_ALPHA_*
 uniform float alpha_cutoff;
 
 // The level of detail is computed here, not by the texture unit, whose formula differs between drivers.
@@ -21,16 +21,16 @@ vec4 filtered_texture(vec2 uv) {
     return textureLod(base_color_texture, uv, 0.5 * log2(footprint));
 }
 
-// Colour and coverage; discards what is cut out.
+// Color and coverage; discards what is cut out.
 vec4 surface_base_color() {
     vec4 base = vec4(1.0);
     if (textured) {
         base = base_color * surface_color;
         if (has_texture)
             base *= filtered_texture(texture_transform * vec3(surface_texcoord, 1.0));
-        if (alpha_mode == 0)
+        if (alpha_mode == PRT_ALPHA_OPAQUE)
             base.a = 1.0;
-        if (alpha_mode == 1) {
+        if (alpha_mode == PRT_ALPHA_MASK) {
             if (base.a < alpha_cutoff)
                 discard;
             base.a = 1.0;

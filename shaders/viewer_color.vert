@@ -1,4 +1,4 @@
-// Coloured triangles and lines: lobes, wires.
+// Colored triangles and lines: lobes, wires.
 
 #include "shared_layout.h"
 

@@ -4,12 +4,12 @@
 
 layout(binding = PRT_UNIT_LEFT) uniform sampler2D left_picture;
 layout(binding = PRT_UNIT_RIGHT) uniform sampler2D right_picture;
-uniform ivec2 size;       // of the screen, pixels
-uniform float split;      // pixels from the left
+uniform ivec2 size;        // of the screen, pixels
+uniform float split;       // pixels from the left
 uniform bvec2 tone_mapped; // left, right: exposure and tone curve, else shown as it is
 uniform float exposure;
 uniform bool difference;
-uniform float white;      // radiance that is white as heat
+uniform float white; // radiance that is white as heat
 
 out vec4 result;
 

@@ -8,7 +8,9 @@ layout(local_size_x = 16, local_size_y = 16) in;
 layout(binding = PRT_UNIT_LEFT) uniform sampler2D left_picture;
 layout(binding = PRT_UNIT_RIGHT) uniform sampler2D right_picture;
 uniform ivec2 size;
-layout(std430, binding = PRT_BINDING_SUMS) writeonly buffer Sums { vec4 sums[]; };
+layout(std430, binding = PRT_BINDING_SUMS) writeonly buffer Sums {
+    vec4 sums[];
+};
 
 shared vec4 partial[256];
 

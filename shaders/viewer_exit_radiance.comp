@@ -4,9 +4,15 @@
 
 layout(local_size_x = 64) in;
 
-layout(std430, binding = PRT_BINDING_MATRIX) readonly buffer Transfer { float transfer[]; }; // [receivers][channels][order²]
-layout(std430, binding = PRT_BINDING_LIGHT) readonly buffer Light { vec4 light[]; };
-layout(std430, binding = PRT_BINDING_RECEIVERS) writeonly buffer Radiance { float radiance[]; }; // [receivers][3]
+layout(std430, binding = PRT_BINDING_MATRIX) readonly buffer Transfer {
+    float transfer[]; // [receivers][channels][order²]
+};
+layout(std430, binding = PRT_BINDING_LIGHT) readonly buffer Light {
+    vec4 light[];
+};
+layout(std430, binding = PRT_BINDING_RECEIVERS) writeonly buffer Radiance {
+    float radiance[]; // [receivers][3]
+};
 
 uniform uint receivers; // in this piece
 uniform uint first;     // of the piece, in `radiance`

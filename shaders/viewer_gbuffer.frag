@@ -1,4 +1,4 @@
-// A surface into the G-buffer: base colour, and in alpha five bits of ambient occlusion and one that says whether the
+// A surface into the G-buffer: base color, and in alpha five bits of ambient occlusion and one that says whether the
 // exit radiance is already in the third target; the normal, octahedral (Meyer et al. 2010).
 
 #include "viewer_lighting.glsl"

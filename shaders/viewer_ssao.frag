@@ -28,7 +28,7 @@ vec3 kernel(int i) {
 }
 
 // 1 where the point is hidden behind something near it.
-float hidden(vec3 point, float centre_depth) {
+float hidden(vec3 point, float center_depth) {
     vec4 clip = view_projection * vec4(point, 1.0);
     vec2 uv = clip.xy / clip.w * 0.5 + 0.5;
     bool inside = clip.w > 0.0 && all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
@@ -38,7 +38,7 @@ float hidden(vec3 point, float centre_depth) {
     float surface = dot(place(at, depth) - eye, forward);
     float behind = dot(point - eye, forward) - surface;
     // What lies far in front hides nothing: it would make haloes.
-    float near = smoothstep(0.0, 1.0, radius / max(abs(centre_depth - surface), 1e-6 * radius));
+    float near = smoothstep(0.0, 1.0, radius / max(abs(center_depth - surface), 1e-6 * radius));
     return inside && depth < 1.0 && behind > bias * radius ? near : 0.0;
 }
 
@@ -51,7 +51,7 @@ void main() {
         return;
     }
     vec3 p = place((vec2(pixel) + 0.5) / size, depth);
-    float centre_depth = dot(p - eye, forward);
+    float center_depth = dot(p - eye, forward);
     vec3 n = gbuffer_normal_at(pixel);
     // A mirror of the kernel for each pixel of 4 x 4, which the blur averages.
     int tile = (pixel.x & 3) + 4 * (pixel.y & 3);
@@ -63,10 +63,10 @@ void main() {
         if (use_normals) {
             float cosine = dot(normalize(offset), n);
             vec3 above = cosine >= 0.0 ? offset : -offset;
-            blocked += abs(cosine) * hidden(p + above, centre_depth);
+            blocked += abs(cosine) * hidden(p + above, center_depth);
             all_weights += abs(cosine);
         } else {
-            blocked += 0.5 * (hidden(p + offset, centre_depth) + hidden(p - offset, centre_depth));
+            blocked += 0.5 * (hidden(p + offset, center_depth) + hidden(p - offset, center_depth));
             all_weights += 1.0;
         }
     }

@@ -1,5 +1,7 @@
 #include "prt/distant_light.h"
 
+#include "prt/color.h"
+
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -15,8 +17,7 @@ DistantLight::DistantLight(Image environment, std::vector<Sun> suns)
     for (int y = 0; y < environment_.height; ++y)
         for (int x = 0; x < environment_.width; ++x) {
             const glm::dvec3 radiance(environment_.at(x, y));
-            const double luminance = glm::dot(radiance, glm::dvec3(0.2126, 0.7152, 0.0722));
-            cumulative_.push_back(cumulative_.back() + std::max(luminance, 0.0) * solid_angle(y));
+            cumulative_.push_back(cumulative_.back() + std::max(luminance(radiance), 0.0) * solid_angle(y));
         }
 }
 

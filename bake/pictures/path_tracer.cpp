@@ -4,6 +4,7 @@
 #include "trace/sample_sequence.h"
 
 #include "prt/support/parallel.h"
+#include "prt/support/tangent_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -42,21 +43,11 @@ private:
     std::uint32_t seed_, reversed_, pair_ = 0;
 };
 
-struct Frame {
-    glm::vec3 x, y, z;
-};
-
-/// Right-handed about unit `z` (Duff et al. 2017).
-Frame frame_about(const glm::vec3& z) {
-    const float sign = std::copysign(1.0f, z.z), a = -1 / (sign + z.z), b = z.x * z.y * a;
-    return {{1 + sign * z.x * z.x * a, sign * b, -sign * z.x}, {b, sign + z.y * z.y * a, -z.y}, z};
-}
-
 glm::vec3 cosine_direction(const glm::vec3& normal, const glm::vec2& u) {
     const float radius = std::sqrt(u.x), angle = 2 * kPi * u.y;
-    const Frame frame = frame_about(normal);
-    return frame.x * (radius * std::cos(angle)) + frame.y * (radius * std::sin(angle)) +
-           frame.z * std::sqrt(std::max(0.0f, 1 - u.x));
+    const TangentFrame frame = tangent_frame(normal);
+    return frame.tangent * (radius * std::cos(angle)) + frame.bitangent * (radius * std::sin(angle)) +
+           frame.normal * std::sqrt(std::max(0.0f, 1 - u.x));
 }
 
 float largest(const glm::vec3& v) {
@@ -87,26 +78,16 @@ struct Tracing {
     glm::vec3 path(const glm::vec3& origin, const glm::vec3& direction, PathSamples& samples) const;
 };
 
-RTCRayHit embree_ray(const glm::vec3& o, const glm::vec3& d, float from) {
-    RTCRayHit hit{};
-    hit.ray = {o.x, o.y, o.z, from, d.x, d.y, d.z, 0, kInfinity, ~0u, 0, 0};
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    return hit;
-}
-
 std::optional<SurfaceHit> Tracing::nearest(const glm::vec3& origin, const glm::vec3& direction,
                                            float from) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit ray = embree_ray(origin, direction, from);
-    rtcIntersect1(rays.handle(), &context, &ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    const std::optional<RayHit> met = rays.nearest({origin, direction, from});
+    if (!met)
         return std::nullopt;
     SurfaceHit hit;
-    hit.id = ray.hit.primID;
-    hit.distance = ray.ray.tfar;
-    hit.point = {ray.hit.primID, {ray.hit.u, ray.hit.v}, 0};
-    hit.position = origin + direction * ray.ray.tfar;
+    hit.id = met->triangle;
+    hit.distance = met->distance;
+    hit.point = {met->triangle, met->uv, 0};
+    hit.position = origin + direction * met->distance;
     const RayScene::Triangle triangle = rays.triangle(hit.id);
     const Primitive& primitive = scene.primitives[triangle.primitive];
     const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
@@ -123,20 +104,16 @@ std::optional<SurfaceHit> Tracing::nearest(const glm::vec3& origin, const glm::v
 }
 
 float Tracing::transmittance(const glm::vec3& origin, const glm::vec3& direction) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit ray = embree_ray(origin, direction, 0);
-    if (!surfaces.has_alpha()) {
-        rtcOccluded1(rays.handle(), &context, &ray.ray);
-        return ray.ray.tfar < 0 ? 0.0f : 1.0f;
-    }
+    Ray ray{origin, direction};
+    if (!surfaces.traits().alpha)
+        return rays.occluded(ray) ? 0.0f : 1.0f;
     float left = 1;
     while (left > 0) {
-        rtcIntersect1(rays.handle(), &context, &ray);
-        if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        const std::optional<RayHit> met = rays.nearest(ray);
+        if (!met)
             break;
-        left *= 1 - surfaces.coverage({ray.hit.primID, {ray.hit.u, ray.hit.v}, 0});
-        ray = embree_ray(origin, direction, std::nextafter(ray.ray.tfar, kInfinity));
+        left *= 1 - surfaces.coverage({met->triangle, met->uv, 0});
+        ray.from = std::nextafter(met->distance, kInfinity);
     }
     return left;
 }
@@ -215,24 +192,19 @@ glm::vec3 Tracing::path(const glm::vec3& camera, const glm::vec3& view, PathSamp
     }
 }
 
-glm::vec3 view_direction(const CameraFrame& frame, const PathTraceOptions& options, double x, double y) {
-    const double aspect = static_cast<double>(options.width) / options.height;
-    return glm::vec3(glm::normalize(frame.forward +
-                                    frame.right * (frame.half_height * aspect * (2 * x / options.width - 1)) +
-                                    frame.up * (frame.half_height * (1 - 2 * y / options.height))));
+glm::vec3 unit_direction(const CameraFrame& frame, const PathTraceOptions& options, double x, double y) {
+    return glm::vec3(glm::normalize(view_direction(frame, options.width, options.height, x, y)));
 }
 
 } // namespace
 
-PathTracer::PathTracer(const RayScene& rays, const Scene& scene, const Surfaces& surfaces,
-                       const DistantLight& light, const PathTraceOptions& options)
-    : rays_(rays), scene_(scene), surfaces_(surfaces), light_(light), options_(options),
-      frame_(camera_frame(options.camera)),
+PathTracer::PathTracer(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options)
+    : scene_(scene), light_(light), options_(options), frame_(camera_frame(options.camera)),
       sums_(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height)),
       counts_(static_cast<std::size_t>(options.height)) {}
 
 void PathTracer::add_pass(int threads, std::stop_token stop) {
-    const Tracing tracing{rays_, scene_, surfaces_, light_, options_};
+    const Tracing tracing{scene_.rays(), scene_.scene(), scene_.surfaces(), light_, options_};
     const auto pass = static_cast<std::uint32_t>(passes_);
     parallel_for(counts_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y) {
@@ -244,7 +216,7 @@ void PathTracer::add_pass(int threads, std::stop_token stop) {
                 PathSamples samples(receiver_seed(static_cast<std::uint32_t>(i), options_.seed), pass);
                 const glm::dvec2 at = options_.antialiased ? glm::dvec2(samples.next()) : glm::dvec2(0.5);
                 const glm::vec3 view =
-                    view_direction(frame_, options_, x + at.x, static_cast<double>(y) + at.y);
+                    unit_direction(frame_, options_, x + at.x, static_cast<double>(y) + at.y);
                 sums_[i] += tracing.path(options_.camera.position, view, samples);
             }
             ++counts_[y];
@@ -262,14 +234,14 @@ Image PathTracer::image() const {
 }
 
 std::vector<bool> PathTracer::surface_mask() const {
-    const Tracing tracing{rays_, scene_, surfaces_, light_, options_};
+    const Tracing tracing{scene_.rays(), scene_.scene(), scene_.surfaces(), light_, options_};
     std::vector<bool> mask;
     for (int y = 0; y < options_.height; ++y)
         for (int x = 0; x < options_.width; ++x) {
-            const glm::vec3 view = view_direction(frame_, options_, x + 0.5, y + 0.5);
+            const glm::vec3 view = unit_direction(frame_, options_, x + 0.5, y + 0.5);
             float from = 0;
             auto hit = tracing.nearest(options_.camera.position, view, from);
-            while (hit && (!hit->scatters || surfaces_.coverage(hit->point) < 0.5f)) {
+            while (hit && (!hit->scatters || scene_.surfaces().coverage(hit->point) < 0.5f)) {
                 from = std::nextafter(hit->distance, kInfinity);
                 hit = tracing.nearest(options_.camera.position, view, from);
             }

@@ -1,3 +1,5 @@
+// Primary rays with the footprints of their pixels, as OpenGL filters textures by them.
+
 #include "pictures/primary_rays.h"
 
 #include "scene/interpolated.h"
@@ -51,47 +53,20 @@ std::optional<glm::vec4> base_color_texel(const Picture& picture, const VertexAr
 
 } // namespace
 
-/// What the filter of one ray needs; Embree hands back the address of its first member.
-struct PrimaryRays::Query {
-    RTCIntersectContext context;
-    const PrimaryRays* rays;
-    glm::vec3 along;
-    int x, y;
-};
-
 PrimaryRays::PrimaryRays(const Picture& picture, const RayScene& rays, int columns, int rows)
     : picture_(picture), rays_(rays), frame_(camera_frame(picture.camera)), columns_(columns), rows_(rows) {}
 
 glm::vec3 PrimaryRays::direction(double x, double y) const {
-    const double aspect = static_cast<double>(picture_.width) / picture_.height;
-    return glm::vec3(frame_.forward +
-                     frame_.right * (frame_.half_height * aspect * (2 * (x + 0.5) / columns_ - 1)) +
-                     frame_.up * (frame_.half_height * (1 - 2 * (y + 0.5) / rows_)));
-}
-
-void PrimaryRays::filter(const RTCFilterFunctionNArguments* arguments) {
-    const auto& query = *reinterpret_cast<const Query*>(arguments->context);
-    const unsigned id = RTCHitN_primID(arguments->hit, arguments->N, 0);
-    if (query.rays->surface_at(id, query.along, query.x, query.y).base.a <= 0)
-        arguments->valid[0] = 0;
+    return glm::vec3(view_direction(frame_, columns_, rows_, x + 0.5, y + 0.5));
 }
 
 bool PrimaryRays::next(const glm::vec3& along, int x, int y, float& from, SeenSurface& surface) const {
-    Query query{{}, this, along, x, y};
-    rtcInitIntersectContext(&query.context);
-    query.context.filter = filter;
-    const glm::vec3& origin = picture_.camera.position;
-    RTCRayHit hit{};
-    hit.ray = {origin.x, origin.y, origin.z,
-               from,     along.x,  along.y,
-               along.z,  0,        std::numeric_limits<float>::infinity(),
-               ~0u,      0,        0};
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(rays_.handle(), &query.context, &hit);
-    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    const auto shows = [&](unsigned id) { return surface_at(id, along, x, y).base.a > 0; };
+    const auto hit = rays_.nearest({picture_.camera.position, along, from}, std::ref(shows));
+    if (!hit)
         return false;
-    surface = surface_at(hit.hit.primID, along, x, y);
-    from = std::nextafter(hit.ray.tfar, std::numeric_limits<float>::infinity());
+    surface = surface_at(hit->triangle, along, x, y);
+    from = std::nextafter(hit->distance, std::numeric_limits<float>::infinity());
     return true;
 }
 

@@ -39,8 +39,6 @@ public:
     }
 
 private:
-    struct Query;
-    static void filter(const RTCFilterFunctionNArguments* arguments);
     /// The nearest surface beyond `from`, which becomes its distance. Culled and cut-out ones do not count,
     /// so that what lies at the same place shows.
     bool next(const glm::vec3& along, int x, int y, float& from, SeenSurface& surface) const;

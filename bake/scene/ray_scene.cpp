@@ -1,8 +1,11 @@
+// Embree's tree of the triangles of a scene (Wald et al. 2014), and how far rays keep off its surfaces.
+
 #include "prt/ray_scene.h"
 
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 
+#include <embree3/rtcore.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -23,7 +26,62 @@ float largest_coordinate(const glm::vec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
+RTCRay embree_ray(const Ray& ray) {
+    const glm::vec3 &o = ray.origin, &d = ray.direction;
+    return {o.x, o.y, o.z, ray.from, d.x, d.y, d.z, 0, std::numeric_limits<float>::infinity(), ~0u, 0, 0};
+}
+
+std::optional<RayHit> nearest_hit(RTCScene scene, RTCIntersectContext& context, const Ray& ray) {
+    RTCRayHit hit{embree_ray(ray), {}};
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene, &context, &hit);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+        return std::nullopt;
+    return RayHit{hit.hit.primID, {hit.hit.u, hit.hit.v}, hit.ray.tfar};
+}
+
+/// Embree hands back the address of its first member.
+struct FilteringContext {
+    RTCIntersectContext context;
+    const std::function<bool(unsigned)>& accepts;
+};
+
+void filter(const RTCFilterFunctionNArguments* arguments) {
+    const auto& filtering = *reinterpret_cast<const FilteringContext*>(arguments->context);
+    if (!filtering.accepts(RTCHitN_primID(arguments->hit, arguments->N, 0)))
+        arguments->valid[0] = 0;
+}
+
 } // namespace
+
+void RayScene::Release::operator()(RTCDeviceTy* device) const {
+    rtcReleaseDevice(device);
+}
+
+void RayScene::Release::operator()(RTCSceneTy* scene) const {
+    rtcReleaseScene(scene);
+}
+
+std::optional<RayHit> RayScene::nearest(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    return nearest_hit(scene_.get(), context, ray);
+}
+
+std::optional<RayHit> RayScene::nearest(const Ray& ray, const std::function<bool(unsigned)>& accepts) const {
+    FilteringContext filtering{{}, accepts};
+    rtcInitIntersectContext(&filtering.context);
+    filtering.context.filter = filter;
+    return nearest_hit(scene_.get(), filtering.context, ray);
+}
+
+bool RayScene::occluded(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay blocked = embree_ray(ray);
+    rtcOccluded1(scene_.get(), &context, &blocked);
+    return blocked.tfar < 0;
+}
 
 RayScene::RayScene(const Scene& scene, int threads) {
     device_.reset(rtcNewDevice(("threads=" + std::to_string(thread_count(threads))).c_str()));

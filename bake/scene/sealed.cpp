@@ -1,8 +1,8 @@
 #include "scene/sealed.h"
 
-#include "prt/bake.h"
-#include "prt/embree_tracer.h"
 #include "prt/sh.h"
+#include "prt/trace_receivers.h"
+#include "trace/embree_tracer.h"
 
 #include <span>
 
@@ -25,22 +25,22 @@ bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays)
 
 } // namespace
 
-Sealed find_sealed(const RayScene& rays, const Surfaces& surfaces, const Receivers& receivers,
-                   const Transfer& direct, const SealedOptions& options, const std::stop_token& stop) {
+Sealed find_sealed(const TraceScene& scene, const Receivers& receivers, const Transfer& direct,
+                   const SealedOptions& options, const std::stop_token& stop) {
     Sealed result{std::vector<bool>(receivers.size()), 0};
-    const double darkest = options.most_visibility * detail::kLegendre.sectoral[0];
+    const double darkest = options.most_visibility * kY00;
     std::vector<std::uint32_t> dark;
     for (const std::uint32_t p : receivers_on_surfaces(receivers))
         if (static_cast<double>(direct.vector(p)[0]) <= darkest)
             dark.push_back(p);
     // Few rays for all of them, more for those that may be.
-    EmbreeTracer prober(rays, options.threads, &surfaces);
+    EmbreeTracer prober(scene);
     std::vector<std::uint8_t> sealed(receivers.size(), 0); // bytes, as several threads write
     for (const int probes : {16, 128, 1024}) {
         Transfer unused = zero_transfer(1, 1, receivers.size());
         trace_receivers(prober, receivers, dark, {.order = 1, .rays = probes, .seed = options.seed}, unused,
                         {{}, stop}, [&](std::uint32_t p, std::span<const Hit> hits) {
-                            sealed[p] = looks_sealed(surfaces, hits, probes);
+                            sealed[p] = looks_sealed(scene.surfaces(), hits, probes);
                         });
         result.rays += dark.size() * static_cast<std::size_t>(probes);
         std::erase_if(dark, [&](std::uint32_t p) { return sealed[p] == 0; });

@@ -1,5 +1,6 @@
 #include "prt/surfaces.h"
 
+#include "prt/color.h"
 #include "prt/tone_map.h"
 #include "scene/interpolated.h"
 
@@ -31,7 +32,7 @@ float left_of_glass(const Material& material, float texel) {
 } // namespace
 
 float glass_transmittance(const Material& material) {
-    const float tint = glm::dot(glm::vec3(material.base_color), glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    const float tint = luminance(glm::vec3(material.base_color));
     return material.glass.factor * std::min(tint, 1.0f); // the weights may round to more than 1
 }
 
@@ -46,16 +47,16 @@ Surfaces::Surfaces(const Scene& scene, const std::vector<Texture>& textures, con
             triangles_.push_back({t + static_cast<unsigned>(vertices.first_receiver), p});
         const Kind kind = kind_of(primitive, !solid.empty() && solid[primitive.material]);
         kinds_.push_back(kind);
-        has_alpha_ |= !kind.opaque;
-        has_textures_ |= !kind.constant || !kind.opaque;
-        has_transmission_ |= kind.thin;
+        traits_.alpha |= !kind.opaque;
+        traits_.textured |= !kind.constant || !kind.opaque;
+        traits_.transmission |= kind.thin;
         const glm::vec3 base(material.base_color);
-        can_scatter_ |= (kind.constant ? kind.constant->reflected : base) != glm::vec3(0) || kind.thin;
-        has_color_ |= !prt::is_grey(base) || !is_grey(material.base_color_texture) ||
-                      std::any_of(vertices.colors.begin(), vertices.colors.end(),
-                                  [](const glm::vec4& c) { return !prt::is_grey(glm::vec3(c)); });
+        traits_.scattering |= (kind.constant ? kind.constant->reflected : base) != glm::vec3(0) || kind.thin;
+        traits_.color |= !prt::is_grey(base) || !is_grey(material.base_color_texture) ||
+                         std::any_of(vertices.colors.begin(), vertices.colors.end(),
+                                     [](const glm::vec4& c) { return !prt::is_grey(glm::vec3(c)); });
         if (kind.thin)
-            has_color_ |=
+            traits_.color |=
                 !prt::is_grey(material.transmission.color) || !is_grey(material.transmission.color_texture);
     }
 }

@@ -54,12 +54,6 @@ template <int Order>
 
 } // namespace
 
-TangentFrame tangent_frame(const glm::vec3& n) {
-    const float sign = std::copysign(1.0f, n.z);
-    const float a = -1.0f / (sign + n.z), b = n.x * n.y * a;
-    return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
-}
-
 PRT_TARGET_CLONES
 void generate_directions(const SobolChunk& chunk, SobolOffset offset, std::uint32_t seed,
                          const TangentFrame& frame, ChunkDirections& directions) {

@@ -2,9 +2,8 @@
 
 // The two vectorised loops of the CPU baker. They run on whatever vector width the processor has.
 
+#include "prt/support/tangent_frame.h"
 #include "trace/sample_sequence.h"
-
-#include <glm/vec3.hpp>
 
 #include <array>
 #include <span>
@@ -15,13 +14,6 @@ namespace prt {
 struct alignas(64) ChunkDirections {
     std::array<float, kChunk> x, y, z;
 };
-
-struct TangentFrame {
-    glm::vec3 tangent, bitangent, normal;
-};
-
-/// An orthonormal frame about unit `normal` (Duff et al. 2017, "Building an Orthonormal Basis, Revisited").
-TangentFrame tangent_frame(const glm::vec3& normal);
 
 /// Directions of `chunk` shifted by `offset`, scrambled by `seed`, distributed as the cosine about the normal
 /// of `frame`. Scrambling: Owen's by the hash of Laine and Karras (2011) in the form of Vegdahl (2021); the

@@ -2,13 +2,15 @@
 // open rays of a chunk the fewer are summed. Open receivers get the lobe exactly, fully blocked ones exactly
 // zero.
 
-#include "prt/embree_tracer.h"
+#include "trace/embree_tracer.h"
 
 #include "prt/sh.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
+#include "shared_layout.h"
 #include "trace/chunk_kernels.h"
 
+#include <embree3/rtcore.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -24,15 +26,14 @@ namespace {
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct Plan {
-    RTCScene scene;
     const RayScene& rays;
-    const Surfaces* surfaces;
+    const Surfaces& surfaces;
     const TraceOptions& options;
     SobolChunk whole, last; ///< all chunks but the last, and the last
 
-    Plan(const RayScene& ray_scene, const Surfaces* surface_table, const TraceOptions& trace)
-        : scene(ray_scene.handle()), rays(ray_scene), surfaces(surface_table), options(trace),
-          whole(kChunk, trace.hit_stride), last((trace.rays - 1) % kChunk + 1, trace.hit_stride) {}
+    Plan(const TraceScene& scene, const TraceOptions& trace)
+        : rays(scene.rays()), surfaces(scene.surfaces()), options(trace), whole(kChunk, trace.hit_stride),
+          last((trace.rays - 1) % kChunk + 1, trace.hit_stride) {}
 
     int chunks() const { return (options.rays + kChunk - 1) / kChunk; }
     const SobolChunk& chunk(int i) const { return i + 1 < chunks() ? whole : last; }
@@ -88,7 +89,7 @@ void trace_occlusion(const Plan& plan, int first, int end, Work& work) {
         set_directions(rays, work.directions, begin, lanes);
         for (int lane = 0; lane < kPacket; ++lane)
             valid[lane] = lane < lanes ? -1 : 0;
-        rtcOccluded16(valid, plan.scene, &context, &rays);
+        rtcOccluded16(valid, plan.rays.handle(), &context, &rays);
         for (int lane = 0; lane < lanes; ++lane) // Embree sets -infinity
             work.blocked[begin + lane] = rays.tfar[lane] < 0 ? 1.0f : 0.0f;
     }
@@ -99,7 +100,7 @@ Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet,
     const glm::vec3 face(packet.hit.Ng_x[lane], packet.hit.Ng_y[lane], packet.hit.Ng_z[lane]);
     const float facing = glm::dot(face, direction), distance = packet.ray.tfar[lane];
     float footprint = 0;
-    if (plan.surfaces && plan.surfaces->has_textures())
+    if (plan.surfaces.traits().textured)
         // Directions have density cos/pi: each of n rays stands for a solid angle of pi/(n cos).
         footprint = std::numbers::pi_v<float> * distance * distance * glm::length(face) /
                     (static_cast<float>(plan.options.rays) * glm::dot(normal, direction) * std::abs(facing));
@@ -107,8 +108,7 @@ Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet,
     return {packet.hit.primID[lane], packet.hit.u[lane], packet.hit.v[lane], weight, footprint, facing > 0};
 }
 
-/// A ray with less than this left is taken to end at the surface it meets.
-constexpr float kLeastTransmittance = 1.0f / 1024;
+constexpr float kLeastTransmittance = PRT_LEAST_TRANSMITTANCE;
 
 /// Follows each of the rays [first, end) through cut-outs and blended surfaces until it ends, and notes what
 /// it met.
@@ -116,7 +116,7 @@ void trace_hits(const Plan& plan, int first, int end, Work& work) {
     RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
     RTCRayHit16 packet;
     set_origin(packet.ray, work.origin);
-    const bool alpha = plan.surfaces && plan.surfaces->has_alpha();
+    const bool alpha = plan.surfaces.traits().alpha;
     alignas(64) int valid[kPacket];
     for (int begin = first; begin < end; begin += kPacket) {
         const int lanes = std::min(kPacket, end - begin);
@@ -130,7 +130,7 @@ void trace_hits(const Plan& plan, int first, int end, Work& work) {
         while (active > 0) {
             std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
             std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
-            rtcIntersect16(valid, plan.scene, &context, &packet);
+            rtcIntersect16(valid, plan.rays.handle(), &context, &packet);
             active = 0;
             for (int lane = 0; lane < kPacket; ++lane) {
                 if (valid[lane] == 0)
@@ -140,7 +140,7 @@ void trace_hits(const Plan& plan, int first, int end, Work& work) {
                     continue;
                 Hit hit = hit_of(plan, work.normal, packet, lane, left[lane]);
                 const float coverage =
-                    alpha ? plan.surfaces->coverage({hit.triangle, {hit.u, hit.v}, hit.footprint}) : 1.0f;
+                    alpha ? plan.surfaces.coverage({hit.triangle, {hit.u, hit.v}, hit.footprint}) : 1.0f;
                 const float passes = left[lane] * (1 - coverage);
                 left[lane] = passes < kLeastTransmittance ? 0.0f : passes;
                 hit.weight -= left[lane];
@@ -211,7 +211,7 @@ void trace_receiver(const Plan& plan, const Receivers& receivers, std::uint32_t 
         const Stopwatch trace;
         generate_directions(chunk, sobol_offset(options.first_ray + static_cast<std::uint32_t>(c * kChunk)),
                             seed, frame, work.directions);
-        if (plan.surfaces && plan.surfaces->has_alpha()) {
+        if (plan.surfaces.traits().alpha) {
             trace_hits(plan, 0, chunk.rays, work);
         } else if (with_hits) {
             trace_some_hits(plan, chunk, work);
@@ -237,25 +237,31 @@ void trace_receiver(const Plan& plan, const Receivers& receivers, std::uint32_t 
 
 } // namespace
 
+EmbreeTracer::EmbreeTracer(const TraceScene& scene) : scene_(scene) {
+    scene.rays();
+}
+
 std::string EmbreeTracer::device() const {
-    return "Embree 3, " + std::to_string(thread_count(threads_)) + " threads";
+    return "Embree 3, " + std::to_string(thread_count(scene_.threads())) + " threads";
 }
 
 std::size_t EmbreeTracer::batch_size(const TraceOptions& options) const {
     constexpr std::size_t kRaysPerThread = 1'000'000; // about a tenth of a second
     const auto rays = static_cast<std::size_t>(options.rays);
-    return std::max<std::size_t>(1, kRaysPerThread / rays) * static_cast<std::size_t>(thread_count(threads_));
+    return std::max<std::size_t>(1, kRaysPerThread / rays) *
+           static_cast<std::size_t>(thread_count(scene_.threads()));
 }
 
 void EmbreeTracer::trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-                         const TraceOptions& options, std::span<float> vectors, const HitSink& sink) {
-    const Plan plan(scene_, surfaces_, options);
+                         const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
+                         const Progress&) {
+    const Plan plan(scene_, options);
     const bool with_hits = static_cast<bool>(sink);
     const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
     const auto grain = static_cast<std::size_t>(std::clamp(16384 / options.rays, 1, 16));
     const Stopwatch all;
     std::atomic<double> trace = 0, accumulate = 0;
-    parallel_for(indices.size(), grain, threads_, [&](std::size_t begin, std::size_t end) {
+    parallel_for(indices.size(), grain, scene_.threads(), [&](std::size_t begin, std::size_t end) {
         const auto work = std::make_unique<Work>();
         for (std::size_t i = begin; i < end; ++i) {
             trace_receiver(plan, receivers, indices[i], with_hits, *work,

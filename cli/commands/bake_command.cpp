@@ -107,11 +107,12 @@ void add_transport(CLI::App* command, BakeOptions& options) {
 }
 
 void add_method(CLI::App* command, BakeOptions& options) {
-    add_backend(command, options.backend, "gpu: OpenGL 4.5 of any kind; auto: a hardware GPU, else the CPU");
-    choice(command, "--method", options.method, kBakeMethods,
+    add_backend(command, options.tracer.backend,
+                "gpu: OpenGL 4.5 of any kind; auto: a hardware GPU, else the CPU");
+    choice(command, "--method", options.tracer.method, kBakeMethods,
            "trace: rays; raster: depth maps from many directions, direct light only, on the GPU", "trace");
     command
-        ->add_option("--raster-resolution", options.raster_resolution,
+        ->add_option("--raster-resolution", options.tracer.raster_resolution,
                      "texels along each side of a depth map")
         ->capture_default_str();
 }
@@ -146,14 +147,14 @@ constexpr double kDark = 0.05; ///< mean visibility; a cellar with a window has 
 /// What the statistics say in words.
 void add_sentences(const BakeArguments& a, const BakeResult& result, Report& report) {
     const BakeStatistics& s = result.statistics;
-    const bool raster = a.options.method == BakeMethod::raster;
+    const bool raster = a.options.tracer.method == BakeMethod::raster;
     const auto say = [&](std::string sentence) { report.sentences.push_back(std::move(sentence)); };
     say(fmt::format("{{output}}: {{receivers}} receivers, {{triangles}} triangles, order {{order}}, "
                     "{{channels}} {}, {{bake/rays_per_receiver}} {} each, {{bake/bounces}} bounces",
                     result.baked.transfer.channels == 1 ? "channel" : "channels",
                     raster ? "directions" : "rays"));
     say(fmt::format("{} on the {}: {{device}}", raster ? "depth maps" : "rays",
-                    result.baked.record.backend == "cpu" ? "CPU" : "GPU"));
+                    result.baked.record.backend == Backend::cpu ? "CPU" : "GPU"));
     if (s.receivers > s.traced)
         say(fmt::format("{} receivers are on no surface and have zero transfer", s.receivers - s.traced));
     for (std::size_t i = 0; i < s.notices.size(); ++i)
@@ -178,12 +179,11 @@ void add_sentences(const BakeArguments& a, const BakeResult& result, Report& rep
 
 Report report_of(const BakeArguments& a, const BakeResult& result, const Scene& scene) {
     Report report;
-    add_figures(report,
-                {{"output", a.output.string()},
-                 {"order", a.options.order},
-                 {"channels", result.baked.transfer.channels},
-                 {"storage", result.baked.storage == TransferStorage::float16 ? "float16" : "float32"},
-                 {"bake", bake_record_json(result.baked.record)}});
+    add_figures(report, {{"output", a.output.string()},
+                         {"order", a.options.order},
+                         {"channels", result.baked.transfer.channels},
+                         {"storage", to_string(result.baked.storage)},
+                         {"bake", bake_record_json(result.baked.record)}});
     if (a.options.target_error)
         add_figures(report, {{"target_error_relative_l2", *a.options.target_error}});
     Json statistics = statistics_json(result.statistics);

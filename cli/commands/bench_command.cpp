@@ -1,7 +1,5 @@
 #include "commands/commands.h"
 
-#include "bench.h"
-#include "classic.h"
 #include "options.h"
 #include "outputs.h"
 #include "report/bench_report.h"

@@ -90,7 +90,7 @@ void run(const ProjectArguments& a, Session& session) {
         file["lights"] = lights_json(suns);
     session.write(a.output, json_text(file));
 
-    const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(detail::kLegendre.sectoral[0]);
+    const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(kY00);
     Report report;
     add_figures(report, {{"output", a.output.string()},
                          {"order", a.order},

@@ -10,7 +10,7 @@ template <class X, class Y>
 std::vector<ChartSeries> curves(const BenchResult& result, X&& x, Y&& y) {
     std::vector<ChartSeries> all;
     for (const BenchSeries& series : result.series) {
-        ChartSeries curve{fmt::format("{} {}", series.backend, series.method), {}};
+        ChartSeries curve{series.name(), {}};
         for (const BenchRun& run : series.runs)
             curve.points.push_back({x(run), y(run),
                                     fmt::format("{} per receiver: {:.4g} s, {:.3f} %", run.rays, run.seconds,
@@ -34,9 +34,8 @@ Table runs_table(const BenchResult& result) {
                      {"relative_l2", "error", Unit::percent}};
     for (const BenchSeries& series : result.series)
         for (const BenchRun& r : series.runs)
-            table.rows.push_back({series.backend + " " + series.method, r.rays, r.seconds, r.seconds_build,
-                                  r.parts.trace, r.parts.accumulate, r.parts.transfer, r.rays_per_second,
-                                  r.relative_l2});
+            table.rows.push_back({series.name(), r.rays, r.seconds, r.seconds_build, r.parts.trace,
+                                  r.parts.accumulate, r.parts.transfer, r.rays_per_second, r.relative_l2});
     table.about =
         "build: hierarchy, upload, shaders. trace: rays, or drawing depth maps; on the GPU with the "
         "spherical "
@@ -73,8 +72,8 @@ Table classic_table() {
 void add_rows(const ClassicRow& row, const BenchResult& result, Table& table) {
     for (const BenchSeries& series : result.series)
         for (const BenchRun& run : series.runs)
-            table.rows.push_back({row.vertices, series.backend + " " + series.method, run.rays, run.seconds,
-                                  row.seconds_d3dx, row.seconds_d3dx / run.seconds, row.seconds_hill,
+            table.rows.push_back({row.vertices, series.name(), run.rays, run.seconds, row.seconds_d3dx,
+                                  row.seconds_d3dx / run.seconds, row.seconds_hill,
                                   row.seconds_hill / run.seconds, run.relative_l2});
 }
 
@@ -91,11 +90,11 @@ Report bench_report(const BenchResult& result) {
         {{"reference_rays", "rays of the reference, of another seed"}, result.reference_rays},
         {{"reference_receivers", "receivers that errors are over"}, result.reference_receivers}};
     for (const BenchSeries& series : result.series)
-        report.origin.emplace_back(series.backend + " " + series.method, series.device);
+        report.origin.emplace_back(series.name(), series.device);
     report.tables.push_back(runs_table(result));
     for (const BenchSeries& series : result.series)
         if (!series.left_out.empty())
-            report.notes.push_back(series.backend + " " + series.method + ": " + series.left_out);
+            report.notes.push_back(series.name() + ": " + series.left_out);
     return report;
 }
 
@@ -107,8 +106,8 @@ Report classic_report(std::span<const ClassicRow> rows, std::span<const BenchRes
         add_rows(rows[i], results[i], table);
         for (const BenchSeries& series : results[i].series)
             if (!series.left_out.empty())
-                report.notes.push_back(fmt::format("{} vertices, {} {}: {}", rows[i].vertices, series.backend,
-                                                   series.method, series.left_out));
+                report.notes.push_back(
+                    fmt::format("{} vertices, {}: {}", rows[i].vertices, series.name(), series.left_out));
     }
     report.tables.push_back(std::move(table));
     return report;

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "bench.h"
-#include "classic.h"
+#include "prt/bench.h"
+#include "prt/classic_meshes.h"
 #include "report/report.h"
 
 #include <span>

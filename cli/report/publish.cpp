@@ -28,8 +28,8 @@ void publish(const Report& report, const ReportFiles& files, Session& session) {
 }
 
 Json bake_record_json(const BakeRecord& record) {
-    return {{"method", record.method},
-            {"backend", record.backend},
+    return {{"method", to_string(record.method)},
+            {"backend", to_string(record.backend)},
             {"rays_per_receiver", record.rays},
             {"bounces", record.bounces},
             {"seed", record.seed},

@@ -78,7 +78,7 @@ private:
         std::array<prt::Image, 2> images;
         for (std::size_t i = 0; i < 2; ++i) {
             trace.seed = i + 1;
-            prt::PathTracer tracer(*model_->rays, model_->scene, *model_->surfaces, light, trace);
+            prt::PathTracer tracer(*model_->trace, light, trace);
             for (int pass = 0; pass < options_.passes; ++pass)
                 tracer.add_pass();
             images[i] = tracer.image();
@@ -165,7 +165,7 @@ private:
         bake_options.order = kOrders[std::size(kOrders) - 1];
         bake_options.rays = options_.bake_rays;
         bake_options.bounces = prt::kEndlessBounces;
-        bake_options.backend = prt::Backend::cpu;
+        bake_options.tracer.backend = prt::Backend::cpu;
         bake_options.bad_textures = prt::BadTextures::ignore;
         const prt::Transfer raw = prt::bake(model_->scene, bake_options).baked.transfer;
         result_.channels = raw.channels;

@@ -1,5 +1,6 @@
 #include "prt/sun_fit.h"
 
+#include "prt/color.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 
@@ -10,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <string>
 
 namespace prt {
@@ -23,7 +25,7 @@ struct ScalarOf<ceres::Jet<double, N>> {
 
 namespace {
 
-using detail::kPi;
+using std::numbers::pi;
 
 constexpr int kOrder = kMaxOrder;
 constexpr int kFirstBand = 4; ///< what a smooth sky does not have
@@ -82,10 +84,6 @@ struct Residual {
     }
 };
 
-double luminance(const glm::dvec3& colour) {
-    return glm::dot(colour, glm::dvec3(0.2126, 0.7152, 0.0722));
-}
-
 /// The colour of the bands from kFirstBand on in direction `w`, over what a directional light of irradiance 1
 /// would have there.
 glm::dvec3 peak_irradiance(const Colours& left, const glm::dvec3& w) {
@@ -94,7 +92,7 @@ glm::dvec3 peak_irradiance(const Colours& left, const glm::dvec3& w) {
     glm::dvec3 value(0);
     for (std::size_t i = kFirst; i < kCount; ++i)
         value += basis[i] * left[i];
-    return value * (4 * kPi / static_cast<double>(kCount - kFirst));
+    return value * (4 * pi / static_cast<double>(kCount - kFirst));
 }
 
 /// The direction where `left` has its highest peak: on a grid of two degrees, a tenth of the peaks' width.
@@ -104,7 +102,7 @@ glm::dvec3 highest_peak(const Colours& left) {
     double highest = 0;
     for (int row = 0; row < kRows; ++row)
         for (int column = 0; column < 2 * kRows; ++column) {
-            const double theta = kPi * (row + 0.5) / kRows, phi = kPi * (column + 0.5) / kRows;
+            const double theta = pi * (row + 0.5) / kRows, phi = pi * (column + 0.5) / kRows;
             const glm::dvec3 w(std::sin(theta) * std::sin(phi), std::cos(theta),
                                std::sin(theta) * std::cos(phi));
             const double value = luminance(peak_irradiance(left, w));

@@ -187,7 +187,7 @@ void add_rows(const Light& light, std::span<const LowPoint> points, LeastChange&
     for (const LowPoint& point : points) {
         evaluate_sh(light.order, point.direction, std::span<float>(basis));
         for (int c = 0; c < 3; ++c) {
-            const double mean = static_cast<double>(light.coefficients[0][c]) * detail::kLegendre.sectoral[0];
+            const double mean = static_cast<double>(light.coefficients[0][c]) * kY00;
             if (!(mean > 0))
                 continue;
             Row row{1};

@@ -12,13 +12,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <utility>
 
 namespace prt {
 namespace {
 
-using detail::kPi;
+using std::numbers::pi;
 using Coefficients = std::array<double, kMaxOrder * kMaxOrder>;
 
 /// { z > 0, (x / wide)² + (y / narrow)² <= z² } in a frame whose axes are the columns of `frame`.
@@ -96,10 +97,10 @@ Coefficients covered(const EllipticCone& cone) {
     Coefficients sum{};
     for (int interval = 0; interval <= halvings + 1; ++interval) {
         // Distances from pi/2.
-        const double far = 0.5 * kPi * std::exp2(-interval), near = interval == halvings + 1 ? 0 : 0.5 * far;
+        const double far = 0.5 * pi * std::exp2(-interval), near = interval == halvings + 1 ? 0 : 0.5 * far;
         for (std::size_t k = 0; k < nodes.nodes.size(); ++k) {
             const double from_end = near + 0.5 * (far - near) * (1 + nodes.nodes[k]);
-            add_ray(cone, 0.5 * kPi - from_end, 4 * 0.5 * (far - near) * nodes.weights[k], nodes, sum);
+            add_ray(cone, 0.5 * pi - from_end, 4 * 0.5 * (far - near) * nodes.weights[k], nodes, sum);
         }
     }
     return sum;

@@ -9,11 +9,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <string>
 
 namespace prt {
 
-using detail::kPi;
+using std::numbers::pi;
 
 namespace {
 
@@ -83,7 +84,7 @@ glm::vec3 sample_cube(const Image& image, EnvironmentLayout layout, const glm::v
 glm::vec3 sample_angular(const Image& image, const glm::vec3& direction) {
     const double angle = std::acos(std::clamp(-static_cast<double>(direction.z), -1.0, 1.0));
     const double off_axis = std::hypot(direction.x, direction.y);
-    const double factor = off_axis > 0 ? angle / kPi / off_axis : 0;
+    const double factor = off_axis > 0 ? angle / pi / off_axis : 0;
     const double u = factor * static_cast<double>(direction.x),
                  v = -factor * static_cast<double>(direction.y);
     return sample_square(image, 0, image.width, (u + 1) * 0.5 * image.width - 0.5,
@@ -129,15 +130,15 @@ std::size_t repair_pixels(Image& image, BadPixels policy) {
 }
 
 glm::dvec3 lat_long_direction(int width, int height, double x, double y) {
-    const double longitude = 2 * kPi * (0.5 - x / width);
-    const double theta = kPi * y / height;
+    const double longitude = 2 * pi * (0.5 - x / width);
+    const double theta = pi * y / height;
     return {std::sin(theta) * std::sin(longitude), std::cos(theta), std::sin(theta) * std::cos(longitude)};
 }
 
 glm::dvec2 lat_long_position(int width, int height, const glm::dvec3& direction) {
     const double longitude = std::atan2(direction.x, direction.z);
     const double theta = std::acos(std::clamp(direction.y, -1.0, 1.0));
-    return {(0.5 - longitude / (2 * kPi)) * width, theta / kPi * height};
+    return {(0.5 - longitude / (2 * pi)) * width, theta / pi * height};
 }
 
 glm::dvec3 cube_direction(int face, double u, double v) {
@@ -149,8 +150,8 @@ glm::dvec3 cube_face_direction(int face, double u, double v) {
 }
 
 glm::dvec3 angular_direction(double u, double v) {
-    const double distance = std::hypot(u, v), angle = kPi * distance;
-    const double factor = distance > 0 ? std::sin(angle) / distance : kPi;
+    const double distance = std::hypot(u, v), angle = pi * distance;
+    const double factor = distance > 0 ? std::sin(angle) / distance : pi;
     return {factor * u, -factor * v, -std::cos(angle)};
 }
 

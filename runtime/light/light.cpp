@@ -12,11 +12,12 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <string>
 
 namespace prt {
 
-using detail::kPi;
+using std::numbers::pi;
 
 namespace {
 
@@ -51,7 +52,7 @@ Light with_window(const Light& light, double (*window)(int, double)) {
 } // namespace
 
 Light constant_light(int order, const glm::vec3& radiance) {
-    return zonal_light(order, {0, 0, 1}, radiance, [](int l) { return l == 0 ? 4 * kPi : 0; });
+    return zonal_light(order, {0, 0, 1}, radiance, [](int l) { return l == 0 ? 4 * pi : 0; });
 }
 
 Light directional_light(int order, const glm::vec3& towards, const glm::vec3& irradiance) {
@@ -59,7 +60,7 @@ Light directional_light(int order, const glm::vec3& towards, const glm::vec3& ir
 }
 
 Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& radiance) {
-    if (!(half_angle >= 0 && half_angle <= kPi * (1 + 1e-7))) // pi in float is more than pi
+    if (!(half_angle >= 0 && half_angle <= pi * (1 + 1e-7))) // pi in float is more than pi
         throw Error("the half angle of a cone of light lies in 0..pi radians, not " +
                     std::to_string(half_angle));
     std::array<double, kMaxOrder + 1> legendre{}, slope{}; // P_l and P_l' at cos half_angle
@@ -74,14 +75,14 @@ Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm:
         slope[l] = slope[l - 2] + (2 * ld - 1) * legendre[l - 1];
     }
     return zonal_light(order, axis, radiance, [&](int l) {
-        return l == 0 ? 4 * kPi * half_sine * half_sine
-                      : 2 * kPi * sine * sine * slope[static_cast<std::size_t>(l)] / (l * (l + 1));
+        return l == 0 ? 4 * pi * half_sine * half_sine
+                      : 2 * pi * sine * sine * slope[static_cast<std::size_t>(l)] / (l * (l + 1));
     });
 }
 
 Light hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom) {
     return sum(constant_light(order, 0.5f * (top + bottom)),
-               zonal_light(order, up, 0.5f * (top - bottom), [](int l) { return l == 1 ? 4 * kPi / 3 : 0; }));
+               zonal_light(order, up, 0.5f * (top - bottom), [](int l) { return l == 1 ? 4 * pi / 3 : 0; }));
 }
 
 Light sphere_light(int order, const glm::vec3& centre, double radius, const glm::vec3& radiance) {
@@ -97,9 +98,9 @@ Light sphere_light(int order, const glm::vec3& centre, double radius, const glm:
 Light overcast_sky(int order, const glm::vec3& zenith) {
     // (1 + 2 t) / 3 on the upper hemisphere: a third of the half-sphere cone and two thirds of the clamped
     // cosine.
-    return sum(cone_light(order, {0, 1, 0}, kPi / 2, zenith / 3.0f),
+    return sum(cone_light(order, {0, 1, 0}, pi / 2, zenith / 3.0f),
                zonal_light(order, {0, 1, 0}, zenith * (2.0f / 3.0f),
-                           [](int l) { return kPi * clamped_cosine_factor(l); }));
+                           [](int l) { return pi * clamped_cosine_factor(l); }));
 }
 
 Light scaled_to_exit_radiance(const Light& light, const glm::vec3& normal, const glm::vec3& exit_radiance) {

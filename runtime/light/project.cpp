@@ -19,10 +19,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace prt {
 
-using detail::kPi;
+using std::numbers::pi;
 
 namespace {
 
@@ -44,7 +45,7 @@ struct ColumnTables {
         : folded(width % 4 == 0), columns(static_cast<std::size_t>(folded ? width / 4 : width)) {
         for (int m = 0; m < order; ++m)
             for (std::size_t x = 0; x < columns; ++x) {
-                const double phi = 2 * kPi * (0.5 - (static_cast<double>(x) + 0.5) / width);
+                const double phi = 2 * pi * (0.5 - (static_cast<double>(x) + 0.5) / width);
                 cosine.push_back(std::cos(m * phi));
                 sine.push_back(std::sin(m * phi));
             }
@@ -107,7 +108,7 @@ void row_fourier(const glm::vec3* row, int width, int order, const ColumnTables&
     const std::size_t n = tables.columns;
     for (std::size_t m = 0; m < static_cast<std::size_t>(order); ++m) {
         // ∫ over a column of width d about phi: cos(m phi) 2 sin(m d / 2) / m.
-        const double d = 2 * kPi / width, md = static_cast<double>(m);
+        const double d = 2 * pi / width, md = static_cast<double>(m);
         const double extent = m == 0 ? d : 2 * std::sin(0.5 * md * d) / md;
         const std::size_t odd = m % 2;
         result.cosine[m] =
@@ -134,7 +135,7 @@ std::array<double, kMaxOrder * kMaxOrder> row_legendre(int order, double theta0,
 ProjectedColours project_lat_long(const Environment& environment, int order, int threads) {
     const Image& image = environment.image;
     const ColumnTables tables(order, image.width);
-    const GaussLegendre quadrature(kPi / image.height > 0.2 ? 24 : 3); // as in points_for
+    const GaussLegendre quadrature(pi / image.height > 0.2 ? 24 : 3); // as in points_for
     const auto height = static_cast<std::size_t>(image.height);
     std::vector<ProjectedColours> rows(height);
     parallel_for(height, 8, threads, [&](std::size_t begin, std::size_t end) {
@@ -145,7 +146,7 @@ ProjectedColours project_lat_long(const Environment& environment, int order, int
                         parts.data(), fourier);
             const double row = static_cast<double>(y);
             const auto legendre =
-                row_legendre(order, kPi * row / image.height, kPi * (row + 1) / image.height, quadrature);
+                row_legendre(order, pi * row / image.height, pi * (row + 1) / image.height, quadrature);
             for (int l = 0; l < order; ++l) {
                 for (int m = 0; m <= l; ++m) {
                     const auto i = static_cast<std::size_t>(sh_index(l, m));

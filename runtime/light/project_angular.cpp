@@ -5,11 +5,12 @@
 #include "sh/gauss_legendre.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace prt {
 namespace {
 
-using detail::kPi;
+using std::numbers::pi;
 
 /// sin(pi r) / r and cos(pi r) as power series in r² < 2. At (s, t) of an angular map the direction is
 /// (s sin(pi r) / r, t sin(pi r) / r, cos(pi r)), and the solid angle sin(pi r) pi dr dalpha, over r dr
@@ -22,7 +23,7 @@ using detail::kPi;
         for (int n = 0; n < 2 * kTerms; ++n) {
             series[static_cast<std::size_t>(n % 2)][static_cast<std::size_t>(n / 2)] =
                 n / 2 % 2 == 0 ? term : -term;
-            term *= kPi / (n + 1);
+            term *= pi / (n + 1);
         }
         return series;
     }();
@@ -41,7 +42,7 @@ void put_disc_nodes(const float* s, const float* t, std::size_t stride, glm::vec
         Lanes sine, cosine;
         disc_factors(lanes_at(s + x) * lanes_at(s + x) + lanes_at(t + x) * lanes_at(t + x), sine, cosine);
         const Lanes away = sine * lanes_at(s + x), down = sine * lanes_at(t + x);
-        *reinterpret_cast<LanesInMemory*>(weights + x) = sine * static_cast<float>(kPi);
+        *reinterpret_cast<LanesInMemory*>(weights + x) = sine * static_cast<float>(pi);
         for (int lane = 0; lane < kLaneCount; ++lane)
             directions[x + static_cast<std::size_t>(lane)] = {away[lane], down[lane], cosine[lane]};
     }
@@ -197,7 +198,7 @@ void add_rim(const AngularMap& map, int y, const GaussLegendre& rim, int order, 
 ProjectedColours project_angular(const Image& image, int order, int threads) {
     const AngularMap map(image);
     const int size = map.size();
-    const double texel = 2 * kPi / size;
+    const double texel = 2 * pi / size;
     const MeanOfCell& mean = mean_of_cell(texel);
     const GaussLegendre inner(mean.reach > 0 ? 1 : points_for(texel)), rim(size < 64    ? 24
                                                                            : size < 256 ? 6

@@ -8,11 +8,12 @@
 #include <cmath>
 #include <complex>
 #include <limits>
+#include <numbers>
 
 namespace prt {
 namespace {
 
-using detail::kPi;
+using std::numbers::pi;
 
 /// What sums in float may err by, as a share of the range.
 constexpr double kRounding = 1e-5;
@@ -48,7 +49,6 @@ float ring_values(const Ring& ring, int order, const float* cosines, const float
 /// Coefficients as shares of the means. A channel without a positive mean is 1 everywhere, which lies between
 /// the least and the largest of any other.
 std::vector<glm::vec3> in_shares(const Light& light) {
-    constexpr double kY00 = detail::kLegendre.sectoral[0];
     std::vector<glm::vec3> result = light.coefficients;
     for (int c = 0; c < 3; ++c) {
         const double mean = kY00 * static_cast<double>(light.coefficients[0][c]);
@@ -81,7 +81,7 @@ GridRadiance radiance_on_grid(const Light& light, int rows) {
     const std::vector<glm::vec3> coefficients = in_shares(light);
     std::vector<float> cosines(order * columns), sines(order * columns), lowest(columns);
     for (std::size_t column = 0; column < columns; ++column) {
-        const double azimuth = kPi * (static_cast<double>(column) + 0.5) / rows;
+        const double azimuth = pi * (static_cast<double>(column) + 0.5) / rows;
         const std::complex<double> turn(std::cos(azimuth), std::sin(azimuth));
         std::complex<double> power = turn;
         for (std::size_t m = 1; m < order; ++m, power *= turn) {
@@ -92,7 +92,7 @@ GridRadiance radiance_on_grid(const Light& light, int rows) {
     GridRadiance result{std::numeric_limits<double>::max(), std::numeric_limits<double>::lowest(), {}};
     std::vector<LowPoint> patches(columns / kLaneCount);
     for (int row = 0; row < rows; ++row) {
-        const double theta = kPi * (row + 0.5) / rows;
+        const double theta = pi * (row + 0.5) / rows;
         const float largest = ring_values(ring_at(theta, light.order, coefficients), light.order,
                                           cosines.data(), sines.data(), columns, lowest.data());
         result.largest = std::max(result.largest, static_cast<double>(largest));
@@ -101,7 +101,7 @@ GridRadiance radiance_on_grid(const Light& light, int rows) {
             result.least = std::min(result.least, static_cast<double>(lowest[column]));
             LowPoint& low = patches[column / kLaneCount];
             if (lowest[column] < low.value) {
-                const double azimuth = kPi * (static_cast<double>(column) + 0.5) / rows;
+                const double azimuth = pi * (static_cast<double>(column) + 0.5) / rows;
                 low = {{sine * std::cos(azimuth), sine * std::sin(azimuth), cosine}, lowest[column]};
             }
         }
@@ -117,13 +117,13 @@ GridRadiance radiance_on_grid(const Light& light, int rows) {
 
 double share_between(int order, int rows) {
     // No direction is farther from the grid than half the diagonal of a square of pi / rows.
-    const double turn = (order - 1) * kPi / rows, drop = turn * turn / 8;
+    const double turn = (order - 1) * pi / rows, drop = turn * turn / 8;
     return drop / (1 - 2 * drop) + kRounding;
 }
 
 int rows_for(int order, double share) {
     const double drop = std::max(share - kRounding, 0.1 * kRounding) / (1 + 2 * share);
-    const int rows = static_cast<int>(std::ceil((order - 1) * kPi / std::sqrt(8 * drop)));
+    const int rows = static_cast<int>(std::ceil((order - 1) * pi / std::sqrt(8 * drop)));
     return std::max(kLaneCount, (rows + kLaneCount - 1) / kLaneCount * kLaneCount);
 }
 

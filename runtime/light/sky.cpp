@@ -9,12 +9,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace prt {
 namespace {
 
-using detail::kPi;
+using std::numbers::pi;
 
 double perez(const std::array<double, 5>& p, double cos_zenith, double gamma) {
     const double cos_gamma = std::cos(gamma);
@@ -37,7 +38,7 @@ PreethamSky::PreethamSky(double t, const glm::dvec3& sun) : sun_(sun) {
     y_ = {-0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
           -0.0109 * t + 0.0529};
     const double s = theta_sun_, s2 = s * s, s3 = s2 * s;
-    const double chi = (4.0 / 9 - t / 120) * (kPi - 2 * s);
+    const double chi = (4.0 / 9 - t / 120) * (pi - 2 * s);
     zenith_luminance_ = (4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192;
     zenith_x_ = t * t * (0.00166 * s3 - 0.00375 * s2 + 0.00209 * s) +
                 t * (-0.02903 * s3 + 0.06377 * s2 - 0.03202 * s + 0.00394) +
@@ -75,9 +76,9 @@ Light sky_light(int order, const PreethamSky& sky) {
     std::array<double, kMaxOrder * kMaxOrder> basis{};
     for (std::size_t r = 0; r < kRings; ++r) {
         const double y = 0.5 * (1 + rings.nodes[r]), radius = std::sqrt(1 - y * y);
-        const double weight = 0.5 * rings.weights[r] * 2 * kPi / kAzimuths;
+        const double weight = 0.5 * rings.weights[r] * 2 * pi / kAzimuths;
         for (int a = 0; a < kAzimuths; ++a) {
-            const double phi = 2 * kPi * (a + 0.5) / kAzimuths;
+            const double phi = 2 * pi * (a + 0.5) / kAzimuths;
             const glm::dvec3 w(radius * std::sin(phi), y, radius * std::cos(phi));
             const glm::dvec3 value = weight * sky.radiance(w);
             evaluate_sh(order, w, std::span<double>(basis));

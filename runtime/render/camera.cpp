@@ -1,3 +1,4 @@
+// Cameras: placing them, and where their pixels look.
 #include "prt/camera.h"
 
 #include "prt/support/error.h"
@@ -71,6 +72,12 @@ CameraFrame camera_frame(const Camera& camera) {
     frame.up = glm::cross(frame.right, frame.forward);
     frame.half_height = std::tan(0.5 * static_cast<double>(camera.vertical_field_of_view));
     return frame;
+}
+
+glm::dvec3 view_direction(const CameraFrame& frame, int width, int height, double x, double y) {
+    const double aspect = static_cast<double>(width) / height;
+    return frame.forward + frame.right * (frame.half_height * aspect * (2 * x / width - 1)) +
+           frame.up * (frame.half_height * (1 - 2 * y / height));
 }
 
 glm::mat4 view_projection(const Camera& camera, const Bounds& box, float aspect) {

@@ -1,5 +1,7 @@
 #include "prt/tone_map.h"
 
+#include "prt/color.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,10 +29,9 @@ Image empty_smaller(const Image& image, int samples) {
 } // namespace
 
 float automatic_exposure(const Light& light) {
-    // Mean radiance over the sphere is L_0 Y_00; luminance by the weights of Rec. 709.
-    const glm::vec3 mean = light.coefficients[0] * static_cast<float>(detail::kLegendre.sectoral[0]);
-    const float luminance = 0.2126f * mean.r + 0.7152f * mean.g + 0.0722f * mean.b;
-    return luminance > 0 ? 0.25f / luminance : 1.0f;
+    // Mean radiance over the sphere is L_0 Y_00.
+    const float mean = luminance(light.coefficients[0] * static_cast<float>(kY00));
+    return mean > 0 ? 0.25f / mean : 1.0f;
 }
 
 Image downsampled(const Image& image, int samples) {

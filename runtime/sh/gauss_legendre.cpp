@@ -3,13 +3,14 @@
 #include "prt/sh_basis.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace prt {
 
 GaussLegendre::GaussLegendre(int n) {
     for (int i = 0; i < n; ++i) {
         // Newton's method on P_n from an estimate that lies next to the root.
-        double t = std::cos(detail::kPi * (i + 0.75) / (n + 0.5));
+        double t = std::cos(std::numbers::pi * (i + 0.75) / (n + 0.5));
         double derivative = 0;
         for (int iteration = 0; iteration < 100; ++iteration) {
             double previous = 1, current = t;

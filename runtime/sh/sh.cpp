@@ -7,11 +7,12 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace prt {
 
-using detail::kPi;
+using std::numbers::pi;
 
 void check_order(int order) {
     if (order < 1 || order > kMaxOrder)
@@ -140,13 +141,13 @@ void clamped_cosine_lobe(int order, const glm::dvec3& normal, std::span<double> 
 }
 
 double hann_window(int l, double width) {
-    return l < width ? 0.5 * (1 + std::cos(kPi * l / width)) : 0;
+    return l < width ? 0.5 * (1 + std::cos(pi * l / width)) : 0;
 }
 
 double lanczos_window(int l, double width) {
     if (l == 0)
         return 1;
-    const double t = kPi * l / width;
+    const double t = pi * l / width;
     return l < width ? std::sin(t) / t : 0;
 }
 

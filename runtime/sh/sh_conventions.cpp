@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace prt {
 namespace {
@@ -22,7 +23,7 @@ constexpr int kBands = 3;
 
 /// Factor of band l from radiance to irradiance.
 float irradiance_factor(int l) {
-    return static_cast<float>(detail::kPi * clamped_cosine_factor(l));
+    return static_cast<float>(std::numbers::pi * clamped_cosine_factor(l));
 }
 
 } // namespace
@@ -80,7 +81,7 @@ Light d3dx_directional_light(int order, const glm::vec3& towards, const glm::vec
 Light d3dx_cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& intensity) {
     if (!(half_angle > 0))
         throw Error("the half angle of a cone of D3DX is more than 0");
-    const double sine = std::sin(std::min(half_angle, 0.5 * detail::kPi));
+    const double sine = std::sin(std::min(half_angle, 0.5 * std::numbers::pi));
     return cone_light(order, axis, half_angle, intensity / static_cast<float>(sine * sine));
 }
 

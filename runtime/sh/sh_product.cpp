@@ -10,13 +10,14 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <utility>
 #include <vector>
 
 namespace prt {
 namespace {
 
-using detail::kPi;
+using std::numbers::pi;
 
 /// Rings of an order: as many nodes in the cosine of the polar angle as integrate a · b · Y_lm.
 constexpr int ring_count(int order) {
@@ -63,12 +64,12 @@ struct ProductTables {
             evaluate_sh(order, glm::dvec3(std::sqrt(1 - z * z), 0, z), std::span<double>(basis));
             for (std::size_t i = 0; i < static_cast<std::size_t>(coefficient_count(order)); ++i)
                 legendre[i][r] = static_cast<Real>(basis[i]);
-            weights[r] = static_cast<Real>(rings.weights[r] * 2 * kPi / azimuths);
+            weights[r] = static_cast<Real>(rings.weights[r] * 2 * pi / azimuths);
         }
         for (int j = 0; j < half_count(order); ++j)
             for (int m = 0; m < order; ++m) {
-                cosine.push_back(static_cast<Real>(std::cos(2 * kPi * j * m / azimuths)));
-                sine.push_back(static_cast<Real>(std::sin(2 * kPi * j * m / azimuths)));
+                cosine.push_back(static_cast<Real>(std::cos(2 * pi * j * m / azimuths)));
+                sine.push_back(static_cast<Real>(std::sin(2 * pi * j * m / azimuths)));
             }
     }
 };

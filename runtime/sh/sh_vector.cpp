@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace prt {
 namespace {
@@ -18,8 +19,8 @@ Real value(int order, std::span<const Real> function, const Direction& direction
 template <class Real>
 void convolve(int order, std::span<const Real> function, std::span<const Real> kernel, std::span<Real> out) {
     for (int l = 0; l < order; ++l) {
-        const Real factor =
-            static_cast<Real>(std::sqrt(4 * detail::kPi / (2 * l + 1))) * kernel[static_cast<std::size_t>(l)];
+        const Real factor = static_cast<Real>(std::sqrt(4 * std::numbers::pi / (2 * l + 1))) *
+                            kernel[static_cast<std::size_t>(l)];
         for (int m = -l; m <= l; ++m) {
             const auto i = static_cast<std::size_t>(sh_index(l, m));
             out[i] = factor * function[i];

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
 
 namespace prt {
 
@@ -36,7 +37,7 @@ private:
     };
 
     static consteval std::array<Polynomial, kTripleCount> functions() {
-        const double pi = detail::kPi;
+        using std::numbers::pi;
         const double a = detail::square_root(1 / (4 * pi)), b = detail::square_root(3 / (4 * pi)),
                      c = detail::square_root(15 / (4 * pi)), d = detail::square_root(5 / (16 * pi));
         return {{{1, {{{a, 0, 0, 0}}}},
@@ -61,7 +62,7 @@ private:
     static consteval double moment(int a, int b, int c) {
         if (a % 2 != 0 || b % 2 != 0 || c % 2 != 0)
             return 0;
-        return 4 * detail::kPi * odd_factorial(a - 1) * odd_factorial(b - 1) * odd_factorial(c - 1) /
+        return 4 * std::numbers::pi * odd_factorial(a - 1) * odd_factorial(b - 1) * odd_factorial(c - 1) /
                odd_factorial(a + b + c + 1);
     }
 

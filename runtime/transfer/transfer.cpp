@@ -1,3 +1,4 @@
+// Exit radiance and visibility from raw transfer vectors.
 #include "prt/transfer.h"
 
 #include "prt/support/parallel.h"
@@ -26,6 +27,19 @@ std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Light& ligh
             result[p] = exit_radiance(transfer.vector(p), transfer.channels, bands);
     });
     return result;
+}
+
+double mean_visibility(const Transfer& transfer, std::span<const float> areas) {
+    double sum = 0, area = 0;
+    const auto stride = static_cast<std::size_t>(coefficient_count(transfer.order));
+    for (std::size_t p = 0; p < areas.size(); ++p) {
+        for (int c = 0; c < transfer.channels; ++c)
+            sum += static_cast<double>(areas[p]) *
+                   static_cast<double>(transfer.vector(p)[static_cast<std::size_t>(c) * stride]) /
+                   transfer.channels;
+        area += static_cast<double>(areas[p]);
+    }
+    return area > 0 ? sum / (area * kY00) : 0;
 }
 
 } // namespace prt

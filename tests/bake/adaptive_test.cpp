@@ -22,7 +22,7 @@ Scene balls_over_floor() {
 
 BakeOptions cpu_options() {
     BakeOptions options;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     return options;
 }
 
@@ -136,7 +136,7 @@ TEST(SamplingError, OfFixedRaysIsNeitherLowNorScattered) {
         options.order = 3;
         options.rays = rays;
         options.seed = seed;
-        options.backend = Backend::cpu;
+        options.tracer.backend = Backend::cpu;
         options.storage = Storage::float32;
         return bake(scene, options);
     };

@@ -1,8 +1,8 @@
 #include "prt/bake.h"
-#include "prt/embree_tracer.h"
 #include "prt/sh.h"
 #include "support/quadrature.h"
 #include "support/scene_builder.h"
+#include "support/traced.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -19,9 +19,8 @@ using std::numbers::pi;
 /// Transfer of one receiver in front of `scene`.
 std::vector<float> transfer_at(const Scene& scene, const glm::vec3& position, const glm::vec3& normal,
                                int order, int rays) {
-    const RayScene rays_scene(scene);
-    EmbreeTracer tracer(rays_scene);
-    return direct_transfer(tracer, {{position}, {normal}, {1.0f}}, {order, rays, 1}).vectors;
+    return test::traced_at(TraceScene(scene), position, normal, {.order = order, .rays = rays, .seed = 1})
+        .vectors;
 }
 
 class OpenReceiver : public testing::TestWithParam<int> {};
@@ -137,7 +136,7 @@ TEST(FootOfAWall, SeesHalfTheSkyWhateverTheSidesOfTheWall) {
                               .build();
             scene.materials[0].double_sided = double_sided;
             BakeOptions options;
-            options.backend = Backend::cpu;
+            options.tracer.backend = Backend::cpu;
             options.order = 1;
             const BakeResult result = bake(scene, options);
             EXPECT_EQ(result.statistics.sealed, 0u);

@@ -1,7 +1,7 @@
 #include "prt/bake.h"
-#include "prt/embree_tracer.h"
 #include "prt/sh.h"
 #include "support/scene_builder.h"
+#include "support/traced.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -128,10 +128,8 @@ TEST(HardCase, ANearlyBlockedReceiverKeepsItsLastLight) {
                             .quad({-50, 1, -50}, {-50, 1, 50}, {-0.005f, 1, 50}, {-0.005f, 1, -50})
                             .quad({0.005f, 1, -50}, {0.005f, 1, 50}, {50, 1, 50}, {50, 1, -50})
                             .build();
-    const RayScene rays(scene);
-    EmbreeTracer tracer(rays);
     const Transfer t =
-        direct_transfer(tracer, {{glm::vec3(0)}, {glm::vec3(0, 1, 0)}, {1.0f}}, {1, 1 << 16, 0});
+        test::traced_at(TraceScene(scene), glm::vec3(0), {0, 1, 0}, {.order = 1, .rays = 1 << 16});
     // (1/pi) ∫ cos over the slit = (1/pi) ∫∫ dx dz / (1 + x² + z²)², x in ±0.005, z in ±50: 0.01/pi · pi/2,
     // and what lies beyond the roof's edge 50 away: about (1/50)².
     EXPECT_NEAR(t.vectors[0] / 0.28209479, 0.01 / 2 + 4e-4, 5e-4);

@@ -2,26 +2,16 @@
 
 // The baker: transfer vectors of every receiver of a scene.
 
-#include "prt/gltf.h"
+#include "prt/baked_transfer.h"
+#include "prt/make_tracer.h"
+#include "prt/scene.h"
 #include "prt/subsurface.h"
 #include "prt/support/progress.h"
 #include "prt/texture.h"
-#include "prt/tracer.h"
 
 #include <optional>
 
 namespace prt {
-
-enum class Backend {
-    automatic, ///< a hardware GPU where there is one, else the CPU
-    cpu,
-    gpu, ///< any OpenGL 4.5
-};
-
-enum class BakeMethod {
-    trace,  ///< rays
-    raster, ///< depth maps from many directions (Hill 2004): direct light, GPU only
-};
 
 enum class Storage {
     automatic, ///< float16 where its rounding is less than a tenth of the sampling error
@@ -50,9 +40,7 @@ struct BakeOptions {
     int rays = 1024;                    ///< per receiver; directions where method is raster
     std::optional<double> target_error; ///< relative L2 to reach, with as many rays as each receiver needs
     int bounces = 0;                    ///< or kEndlessBounces
-    Backend backend = Backend::automatic;
-    BakeMethod method = BakeMethod::trace;
-    int raster_resolution = 1024; ///< texels along each side of a depth map
+    TracerChoice tracer;
     std::vector<MediumChoice> subsurface;
     double metres_per_unit = 1; ///< size of the scene's unit, for media
     BadTextures bad_textures = BadTextures::error;
@@ -100,23 +88,5 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 /// found by tracing some receivers.
 double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
                        int channels);
-
-/// Takes the hits of a receiver. Called from several threads.
-using ReceiverSink = std::function<void(std::uint32_t receiver, std::span<const Hit> hits)>;
-
-/// Runs `tracer` over those `receivers` that have an area and a normal; the others get zeros.
-Transfer direct_transfer(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,
-                         const Progress& progress = {}, const ReceiverSink& sink = {});
-
-/// The same for `indices` alone, into `transfer`.
-void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
-                     const TraceOptions& options, Transfer& transfer, const Progress& progress = {},
-                     const ReceiverSink& sink = {});
-
-/// Those with an area and a normal.
-std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers);
-
-/// Area-weighted mean of T_0 / Y_00 over all channels.
-double mean_visibility(const Transfer& transfer, std::span<const float> areas);
 
 } // namespace prt

@@ -1,16 +1,21 @@
 #pragma once
 
-#include "prt/bake.h"
-#include "prt/ray_scene.h"
-#include "prt/surfaces.h"
+#include "prt/trace_scene.h"
+#include "prt/tracer.h"
 
 #include <memory>
 
 namespace prt {
 
-/// The tracer that `options` ask for: on a hardware GPU where the backend is automatic and there is one.
-/// Keeps references to its arguments. Throws `Error` where the backend is not there.
-std::unique_ptr<Tracer> make_tracer(const Scene& scene, const RayScene& rays, const Surfaces& surfaces,
-                                    const std::vector<Texture>& textures, const BakeOptions& options);
+/// Which tracer to use.
+struct TracerChoice {
+    Backend backend = Backend::automatic;
+    BakeMethod method = BakeMethod::trace;
+    int raster_resolution = 1024; ///< texels along each side of a depth map
+};
+
+/// The tracer that `choice` asks for: on a hardware GPU where the backend is automatic and there is one.
+/// Keeps a reference to `scene`. Throws `Error` where the backend is not there.
+std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice& choice = {});
 
 } // namespace prt

@@ -6,8 +6,7 @@
 #include "prt/bake.h"
 #include "prt/camera.h"
 #include "prt/distant_light.h"
-#include "prt/ray_scene.h"
-#include "prt/surfaces.h"
+#include "prt/trace_scene.h"
 
 #include <cstdint>
 #include <stop_token>
@@ -33,8 +32,7 @@ struct PathTraceOptions {
 class PathTracer {
 public:
     /// Keeps references to all but the options.
-    PathTracer(const RayScene& rays, const Scene& scene, const Surfaces& surfaces, const DistantLight& light,
-               const PathTraceOptions& options);
+    PathTracer(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options);
 
     /// Traces one path more for every pixel. Throws `Cancelled` within a row when asked to stop; the rows
     /// that are done count. `threads` 0: all.
@@ -47,9 +45,7 @@ public:
     std::vector<bool> surface_mask() const;
 
 private:
-    const RayScene& rays_;
-    const Scene& scene_;
-    const Surfaces& surfaces_;
+    const TraceScene& scene_;
     const DistantLight& light_;
     PathTraceOptions options_;
     CameraFrame frame_;

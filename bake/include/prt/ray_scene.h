@@ -5,13 +5,30 @@
 #include "prt/receivers.h"
 #include "prt/scene.h"
 
-#include <embree3/rtcore.h>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
+struct RTCDeviceTy;
+struct RTCSceneTy;
+
 namespace prt {
+
+struct Ray {
+    glm::vec3 origin, direction;
+    float from = 0; ///< distance, in lengths of `direction`
+};
+
+/// Where a ray meets a triangle.
+struct RayHit {
+    unsigned triangle; ///< in the order of the scene's primitives and their triangles
+    glm::vec2 uv;      ///< barycentric coordinates of corners 1 and 2
+    float distance;    ///< in lengths of the ray's direction
+};
 
 /// A bounding volume hierarchy over all triangles of a scene. Building is multithreaded; queries are
 /// thread-safe.
@@ -20,17 +37,25 @@ public:
     /// Copies what it needs of `scene`. `threads` build it (0: all). Throws `Error` when memory runs out.
     explicit RayScene(const Scene& scene, int threads = 0);
 
-    RTCScene handle() const { return scene_.get(); }
+    /// The nearest triangle on the way; nothing where there is none.
+    std::optional<RayHit> nearest(const Ray& ray) const;
+    /// The nearest of those triangles that `accepts`.
+    std::optional<RayHit> nearest(const Ray& ray,
+                                  const std::function<bool(unsigned triangle)>& accepts) const;
+    bool occluded(const Ray& ray) const;
+
+    /// An RTCScene, for packets of rays.
+    RTCSceneTy* handle() const { return scene_.get(); }
 
     /// How far to move a ray's origin off the surface at `position` so that the surface does not block it:
     /// the largest coordinate of any triangle that `position` lies on, times 32 units of float rounding.
     /// Rounding of the origin, and of the vertices seen from it, moves either by at most a few such units.
     float surface_offset(const glm::vec3& position) const;
 
-    /// The same for a point of the triangle with Embree's primID `id`, and quick.
+    /// The same for a point of triangle `id`, and quick.
     float triangle_offset(unsigned id) const;
 
-    /// Replaces `ids` by the primIDs of the triangles whose boxes come as near as `distance` to `position`.
+    /// Replaces `ids` by the triangles whose boxes come as near as `distance` to `position`.
     void triangles_near(const glm::vec3& position, float distance, std::vector<unsigned>& ids) const;
 
     /// Where the rays of receivers[index] start: off the surface by Receivers::starts. A start that lies on
@@ -40,7 +65,7 @@ public:
     struct Triangle {
         std::uint32_t primitive, triangle; ///< indices into Scene::primitives and its triangles
     };
-    /// What an Embree primID stands for.
+    /// Where triangle `id` is in the scene.
     Triangle triangle(unsigned id) const { return triangles_[id]; }
 
 private:
@@ -50,8 +75,8 @@ private:
     void visit_near(const glm::vec3& position, float distance, Visit&& visit) const;
 
     struct Release {
-        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+        void operator()(RTCDeviceTy* device) const;
+        void operator()(RTCSceneTy* scene) const;
     };
     std::unique_ptr<RTCDeviceTy, Release> device_;
     std::unique_ptr<RTCSceneTy, Release> scene_;

@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <vector>
 
 namespace prt {
@@ -24,6 +25,9 @@ struct Receivers {
 
 /// Every vertex of the scene, in the order of its vertex arrays, with a third of the area of its triangles.
 Receivers vertex_receivers(const Scene& scene);
+
+/// Those with an area and a normal.
+std::vector<std::uint32_t> receivers_on_surfaces(const Receivers& receivers);
 
 /// Direct transfer of every vertex as if nothing shadowed it: the lobes of their normals.
 Transfer unshadowed_transfer(const Scene& scene, int order);

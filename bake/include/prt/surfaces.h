@@ -30,6 +30,15 @@ struct Scattering {
 /// luminance (Rec. 709), since what passes keeps its colour.
 float glass_transmittance(const Material& material);
 
+/// What some surface of a scene does.
+struct SurfaceTraits {
+    bool alpha = false;        ///< lets rays through: cut out, blended, or glass
+    bool textured = false;     ///< has a texture to filter
+    bool transmission = false; ///< lets diffuse light through
+    bool color = false;        ///< reflects or transmits red, green and blue differently
+    bool scattering = false;   ///< reflects or transmits at all
+};
+
 class Surfaces {
 public:
     /// Keeps references to `scene` and `textures` (load_textures(scene), or empty to leave textures out).
@@ -45,16 +54,7 @@ public:
         return scene_.materials[scene_.primitives[triangles_[triangle].primitive].material];
     }
 
-    /// Some surface lets rays through: cut out, blended, or glass.
-    bool has_alpha() const { return has_alpha_; }
-    /// Some surface has a texture to filter.
-    bool has_textures() const { return has_textures_; }
-    /// Some surface lets diffuse light through.
-    bool has_transmission() const { return has_transmission_; }
-    /// Some surface reflects or transmits red, green and blue differently.
-    bool has_color() const { return has_color_; }
-    /// Some surface reflects or transmits at all.
-    bool can_scatter() const { return can_scatter_; }
+    const SurfaceTraits& traits() const { return traits_; }
 
     /// The texture is loaded and `vertices` have coordinates for it.
     bool has_texture(const VertexArray& vertices, const TextureUse& use) const;
@@ -94,8 +94,7 @@ private:
     const std::vector<Texture>& textures_;
     std::vector<Triangle> triangles_;
     std::vector<Kind> kinds_; ///< [primitives]
-    bool has_textures_ = false, has_alpha_ = false, has_transmission_ = false, has_color_ = false,
-         can_scatter_ = false;
+    SurfaceTraits traits_;
 };
 
 } // namespace prt

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prt/baked_transfer.h"
 #include "prt/receivers.h"
 #include "prt/support/progress.h"
 
@@ -21,8 +22,6 @@ struct TraceOptions {
     /// One ray of so many is followed to what it meets, and stands for the others: light that comes from
     /// surfaces varies less over directions than visibility does. Scenes with alpha follow every ray anyway.
     int hit_stride = 1;
-    /// Asked, where it is given, by tracers whose calls take long.
-    const Progress* progress = nullptr;
 };
 
 /// A surface that a ray met.
@@ -49,15 +48,19 @@ struct TraceSeconds {
 class Tracer {
 public:
     virtual ~Tracer() = default;
-    virtual std::string backend() const = 0; ///< for reports: "cpu", "gpu"
-    virtual std::string method() const { return "trace"; }
+    virtual Backend backend() const = 0; ///< never automatic
+    virtual BakeMethod method() const { return BakeMethod::trace; }
+    /// Whether `trace` takes a sink and ranges of rays.
+    virtual bool notes_hits() const { return true; }
     virtual std::string device() const = 0; ///< for reports: what it runs on
     /// How many receivers to give to `trace` at once so that a batch takes about a tenth of a second.
     virtual std::size_t batch_size(const TraceOptions& options) const = 0;
     /// Shadowed direct transfer (docs/math.md, eq. 7) of receivers[indices[i]] for each i, to `vectors`
-    /// [indices][order²]; with a `sink`, also what the rays met.
+    /// [indices][order²]; with a `sink`, also what the rays met. `progress` is told by tracers whose calls
+    /// take long.
     virtual void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
-                       const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {}) = 0;
+                       const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
+                       const Progress& progress = {}) = 0;
     TraceSeconds seconds() const { return seconds_; }
 
 protected:

@@ -1,33 +1,27 @@
+// Receivers on their way to the GPU.
+
 #include "trace/gpu/gpu_receivers.h"
 
 #include "prt/support/parallel.h"
+#include "trace/gpu/gpu_structs.h"
 #include "trace/sample_sequence.h"
-
-#include <glm/vec4.hpp>
 
 #include <bit>
 
 namespace prt {
-namespace {
 
-struct GpuReceiver {
-    glm::vec4 origin, normal;
-};
-
-} // namespace
-
-GlObject upload_receivers(const RayScene& rays, const Receivers& receivers,
-                          std::span<const std::uint32_t> indices, std::uint64_t seed, int threads) {
-    std::vector<GpuReceiver> batch(indices.size());
-    parallel_for(indices.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
+GlObject upload_receivers(const TraceScene& scene, const Receivers& receivers,
+                          std::span<const std::uint32_t> indices, std::uint64_t seed) {
+    std::vector<gpu::Receiver> batch(indices.size());
+    parallel_for(indices.size(), 256, scene.threads(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint32_t p = indices[i];
-            batch[i] = {
-                glm::vec4(rays.ray_origin(receivers, p), std::bit_cast<float>(receiver_seed(p, seed))),
-                glm::vec4(receivers.normals[p], 0)};
+            batch[i] = {glm::vec4(scene.rays().ray_origin(receivers, p),
+                                  std::bit_cast<float>(receiver_seed(p, seed))),
+                        glm::vec4(receivers.normals[p], 0)};
         }
     });
-    return make_buffer(std::span<const GpuReceiver>(batch));
+    return make_buffer(std::span<const gpu::Receiver>(batch));
 }
 
 } // namespace prt

@@ -1,7 +1,8 @@
+// The hierarchy and the tables of surfaces that do not stop all light, made and uploaded.
+
 #include "trace/gpu/gpu_scene.h"
 
 #include "prt/support/error.h"
-#include "shared_layout.h"
 #include "trace/gpu/wide_bvh.h"
 
 #include <epoxy/gl.h>
@@ -13,26 +14,14 @@
 namespace prt {
 namespace {
 
-// As in shaders/bake_alpha.glsl.
-struct AlphaTriangle {
-    glm::vec2 texcoord[3];
-    float vertex_alpha[3];
-    std::uint32_t material;
-    float texel_density;
-    std::uint32_t next;
-};
-static_assert(sizeof(AlphaTriangle) == 48);
-struct AlphaMaterial {
-    std::uint32_t mode;
-    float cutoff, factor;
-    std::uint32_t texels;
-    std::int32_t width, height, levels;
-    std::uint32_t wrap;
-};
-static_assert(sizeof(AlphaMaterial) == 32);
+using gpu::AlphaMaterial, gpu::AlphaTriangle;
 
-constexpr std::uint32_t kNoTexels = ~0u;
-constexpr std::uint32_t kGlassMode = 3; ///< beside those of AlphaMode
+static_assert(PRT_ALPHA_OPAQUE == static_cast<int>(AlphaMode::opaque) &&
+              PRT_ALPHA_MASK == static_cast<int>(AlphaMode::mask) &&
+              PRT_ALPHA_BLEND == static_cast<int>(AlphaMode::blend));
+static_assert(PRT_WRAP_REPEAT == static_cast<int>(Wrap::repeat) &&
+              PRT_WRAP_MIRROR == static_cast<int>(Wrap::mirror) &&
+              PRT_WRAP_CLAMP == static_cast<int>(Wrap::clamp));
 
 /// Tables for triangles that are not opaque.
 struct AlphaTables {
@@ -55,7 +44,7 @@ struct AlphaLayer {
 std::vector<AlphaLayer> alpha_layers(const Material& m) {
     std::vector<AlphaLayer> layers;
     if (m.glass.factor > 0)
-        layers.push_back({kGlassMode, 0, glass_transmittance(m), &m.glass.texture, 0, false});
+        layers.push_back({PRT_ALPHA_GLASS, 0, glass_transmittance(m), &m.glass.texture, 0, false});
     if (m.alpha_mode != AlphaMode::opaque)
         layers.push_back({static_cast<std::uint32_t>(m.alpha_mode), m.alpha_cutoff, m.base_color.a,
                           &m.base_color_texture, 3, true});
@@ -65,15 +54,15 @@ std::vector<AlphaLayer> alpha_layers(const Material& m) {
 AlphaMaterial alpha_material(const AlphaLayer& layer, const Surfaces& surfaces, const VertexArray& vertices,
                              const std::vector<Texture>& textures, std::vector<std::uint8_t>& texels) {
     const TextureUse& use = *layer.use;
-    AlphaMaterial result{layer.mode,
-                         layer.cutoff,
-                         layer.factor,
-                         kNoTexels,
-                         1,
-                         1,
-                         1,
-                         static_cast<std::uint32_t>(use.wrap_u) | static_cast<std::uint32_t>(use.wrap_v)
-                                                                      << 8};
+    AlphaMaterial result{
+        .mode = layer.mode,
+        .cutoff = layer.cutoff,
+        .factor = layer.factor,
+        .texels = PRT_NO_TEXELS,
+        .width = 1,
+        .height = 1,
+        .levels = 1,
+        .wrap = PRT_WRAPS(static_cast<std::uint32_t>(use.wrap_u), static_cast<std::uint32_t>(use.wrap_v))};
     if (!surfaces.has_texture(vertices, use))
         return result;
     const Texture& texture = textures[static_cast<std::size_t>(use.image)];
@@ -89,9 +78,10 @@ AlphaMaterial alpha_material(const AlphaLayer& layer, const Surfaces& surfaces, 
 
 AlphaTriangle alpha_triangle(const AlphaLayer& layer, std::uint32_t index, const AlphaMaterial& m,
                              const VertexArray& vertices, const glm::uvec3& corners) {
-    AlphaTriangle triangle{{}, {1, 1, 1}, index, 0, 0};
+    AlphaTriangle triangle{
+        .texcoord = {}, .vertex_alpha = {1, 1, 1}, .material = index, .texel_density = 0, .next = 0};
     for (int i = 0; i < 3; ++i) {
-        if (m.texels != kNoTexels)
+        if (m.texels != PRT_NO_TEXELS)
             triangle.texcoord[i] =
                 layer.use->transform *
                 glm::vec3(vertices.texcoords[static_cast<std::size_t>(layer.use->texcoord)][corners[i]], 1);
@@ -113,7 +103,7 @@ AlphaTables make_alpha_tables(const Scene& scene, const Surfaces& surfaces,
                               const std::vector<Texture>& textures) {
     AlphaTables tables;
     tables.index.resize(surfaces.triangles());
-    std::vector<std::uint32_t> material_of(scene.primitives.size(), kNoTexels); // of the first layer
+    std::vector<std::uint32_t> material_of(scene.primitives.size(), PRT_NO_TEXELS); // of the first layer
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
         if (surfaces.opaque(t))
             continue;
@@ -121,7 +111,7 @@ AlphaTables make_alpha_tables(const Scene& scene, const Surfaces& surfaces,
         const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
         const std::vector<AlphaLayer> layers = alpha_layers(scene.materials[primitive.material]);
         std::uint32_t& first = material_of[surfaces.primitive(t)];
-        if (first == kNoTexels) {
+        if (first == PRT_NO_TEXELS) {
             first = static_cast<std::uint32_t>(tables.materials.size());
             for (const AlphaLayer& layer : layers)
                 tables.materials.push_back(
@@ -153,9 +143,10 @@ GlObject storage_buffer(const std::vector<T>& values, const char* what) {
 
 } // namespace
 
-GpuScene::GpuScene(const Scene& scene, const Surfaces& surfaces, const std::vector<Texture>& textures,
-                   int threads)
-    : triangles_(surfaces.triangles()), has_alpha_(surfaces.has_alpha()) {
+GpuScene::GpuScene(const TraceScene& trace_scene)
+    : triangles_(trace_scene.surfaces().triangles()), has_alpha_(trace_scene.surfaces().traits().alpha) {
+    const Scene& scene = trace_scene.scene();
+    const Surfaces& surfaces = trace_scene.surfaces();
     std::vector<glm::vec3> positions;
     for (const VertexArray& vertices : scene.vertex_arrays)
         positions.insert(positions.end(), vertices.positions.begin(), vertices.positions.end());
@@ -163,8 +154,8 @@ GpuScene::GpuScene(const Scene& scene, const Surfaces& surfaces, const std::vect
     for (std::uint32_t t = 0; t < indices.size(); ++t)
         indices[t] =
             surfaces.material(t).casts_shadow ? surfaces.corners(t) : glm::uvec3(surfaces.corners(t).x);
-    const WideBvh bvh = build_wide_bvh(positions, indices, threads);
-    const AlphaTables alpha = make_alpha_tables(scene, surfaces, textures);
+    const WideBvh bvh = build_wide_bvh(positions, indices, trace_scene.threads());
+    const AlphaTables alpha = make_alpha_tables(scene, surfaces, trace_scene.textures());
 
     std::vector<glm::vec4> corners;
     corners.reserve(3 * bvh.triangles.size());
@@ -188,11 +179,11 @@ std::string GpuScene::defines() const {
 }
 
 void GpuScene::bind() const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_NODES, nodes_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CORNERS, corners_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_ALPHA_TRIANGLES, alpha_triangles_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_ALPHA_MATERIALS, alpha_materials_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_ALPHA_TEXELS, alpha_texels_.name());
+    bind_storage(PRT_BINDING_NODES, nodes_);
+    bind_storage(PRT_BINDING_CORNERS, corners_);
+    bind_storage(PRT_BINDING_ALPHA_TRIANGLES, alpha_triangles_);
+    bind_storage(PRT_BINDING_ALPHA_MATERIALS, alpha_materials_);
+    bind_storage(PRT_BINDING_ALPHA_TEXELS, alpha_texels_);
 }
 
 } // namespace prt

@@ -3,7 +3,7 @@
 // A scene in the buffers that the bake shaders read.
 
 #include "prt/gl_objects.h"
-#include "prt/surfaces.h"
+#include "prt/trace_scene.h"
 
 #include <string>
 
@@ -12,7 +12,7 @@ namespace prt {
 class GpuScene {
 public:
     /// Builds the hierarchy and uploads. A context must be current. Throws `Error` when memory runs out.
-    GpuScene(const Scene& scene, const Surfaces& surfaces, const std::vector<Texture>& textures, int threads);
+    explicit GpuScene(const TraceScene& scene);
 
     bool has_alpha() const { return has_alpha_; }
     std::size_t triangles() const { return triangles_; }

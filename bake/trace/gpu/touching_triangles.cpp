@@ -1,3 +1,5 @@
+// Faces that stand on a receiver: found on the CPU, since depth maps cannot show them.
+
 #include "trace/gpu/touching_triangles.h"
 
 #include "prt/support/parallel.h"
@@ -31,11 +33,12 @@ bool touches(const Corners& c, const glm::dvec3& position, const glm::dvec3& nor
 
 } // namespace
 
-TouchingTriangles touching_triangles(const RayScene& rays, const Surfaces& surfaces,
-                                     const Receivers& receivers, std::span<const std::uint32_t> indices,
-                                     int threads) {
+TouchingTriangles touching_triangles(const TraceScene& scene, const Receivers& receivers,
+                                     std::span<const std::uint32_t> indices) {
+    const RayScene& rays = scene.rays();
+    const Surfaces& surfaces = scene.surfaces();
     std::vector<std::vector<glm::vec4>> found(indices.size());
-    parallel_for(indices.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_for(indices.size(), 256, scene.threads(), [&](std::size_t begin, std::size_t end) {
         std::vector<unsigned> ids;
         for (std::size_t i = begin; i < end; ++i) {
             const glm::vec3& position = receivers.positions[indices[i]];

@@ -3,8 +3,7 @@
 // What touches receivers: blockers at distance zero, which depth maps cannot tell from the receiver's own
 // surface at any resolution.
 
-#include "prt/ray_scene.h"
-#include "prt/surfaces.h"
+#include "prt/trace_scene.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -22,8 +21,7 @@ struct TouchingTriangles {
 
 /// Opaque triangles that touch receivers[indices[i]] and that can block what it sees; faces nearly flush with
 /// it (within 8 degrees) are left out, as they hide at most half a percent of its light.
-TouchingTriangles touching_triangles(const RayScene& rays, const Surfaces& surfaces,
-                                     const Receivers& receivers, std::span<const std::uint32_t> indices,
-                                     int threads);
+TouchingTriangles touching_triangles(const TraceScene& scene, const Receivers& receivers,
+                                     std::span<const std::uint32_t> indices);
 
 } // namespace prt

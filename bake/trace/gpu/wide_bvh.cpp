@@ -1,3 +1,6 @@
+// Embree builds the hierarchy; here its boxes are quantised and its nodes written as the shader reads them
+// (Ylitie, Karras and Laine 2017).
+
 #include "trace/gpu/wide_bvh.h"
 
 #include "prt/support/error.h"
@@ -15,6 +18,8 @@
 
 namespace prt {
 namespace {
+
+using gpu::WideNode;
 
 constexpr unsigned kWidth = 8, kMostLeafTriangles = 3;
 
@@ -86,13 +91,13 @@ std::array<int, kWidth> octant_slots(const BuildNode& node, const glm::vec3& mid
 }
 
 /// The least exponent whose grid of 256 steps from `low` reaches `high`, in floats as the shader computes it.
-std::uint8_t grid_exponent(float low, float high) {
+std::uint32_t grid_exponent(float low, float high) {
     int exponent = 1;
     if (high > low)
         exponent = std::clamp(std::ilogb((high - low) / 255) + 127, 1, 254);
     while (exponent < 254 && low + 255 * std::ldexp(1.0f, exponent - 127) < high)
         ++exponent;
-    return static_cast<std::uint8_t>(exponent);
+    return static_cast<std::uint32_t>(exponent);
 }
 
 class Converter {
@@ -120,47 +125,56 @@ private:
             box.high = glm::max(box.high, node.boxes[c].high);
         }
         WideNode wide{};
-        for (int axis = 0; axis < 3; ++axis) {
-            wide.origin[axis] = box.low[axis];
-            wide.exponents[axis] = grid_exponent(box.low[axis], box.high[axis]);
-        }
+        wide.origin = box.low;
+        for (int axis = 0; axis < 3; ++axis)
+            wide.exponents |= grid_exponent(box.low[axis], box.high[axis]) << 8 * axis;
         wide.first_child = static_cast<std::uint32_t>(bvh_.nodes.size());
         wide.first_triangle = static_cast<std::uint32_t>(bvh_.triangles.size());
-        const std::array<int, kWidth> slots = octant_slots(node, 0.5f * (box.low + box.high));
-        std::vector<const BuildNode*> inner;
-        for (unsigned slot = 0; slot < kWidth; ++slot)
-            for (unsigned c = 0; c < node.child_count; ++c) {
-                if (slots[c] != static_cast<int>(slot))
-                    continue;
-                const BuildNode& child = *node.children[c];
-                quantise(wide, node.boxes[c], slot);
-                if (child.child_count > 0) {
-                    wide.meta[slot] = static_cast<std::uint8_t>(0x80u | inner.size());
-                    inner.push_back(&child);
-                    continue;
-                }
-                const std::size_t offset = bvh_.triangles.size() - wide.first_triangle;
-                wide.meta[slot] = static_cast<std::uint8_t>(child.triangle_count << 5 | offset);
-                bvh_.triangles.insert(bvh_.triangles.end(), child.triangles.begin(),
-                                      child.triangles.begin() + child.triangle_count);
-            }
+        const std::vector<const BuildNode*> inner = fill_slots(wide, node, 0.5f * (box.low + box.high));
         bvh_.nodes.resize(bvh_.nodes.size() + inner.size());
         bvh_.nodes[index] = wide;
         for (std::size_t i = 0; i < inner.size(); ++i)
             fill(wide.first_child + i, *inner[i], depth + 1);
     }
 
-    static void quantise(WideNode& wide, const Box& box, unsigned slot) {
-        for (int axis = 0; axis < 3; ++axis) {
-            const float origin = wide.origin[axis], step = std::ldexp(1.0f, wide.exponents[axis] - 127);
+    /// Writes the children of `node` to the slots and appends the triangles of leaves. Returns the inner
+    /// ones.
+    std::vector<const BuildNode*> fill_slots(WideNode& wide, const BuildNode& node, const glm::vec3& middle) {
+        const std::array<int, kWidth> slots = octant_slots(node, middle);
+        std::vector<const BuildNode*> inner;
+        for (std::uint32_t slot = 0; slot < kWidth; ++slot)
+            for (unsigned c = 0; c < node.child_count; ++c) {
+                if (slots[c] != static_cast<int>(slot))
+                    continue;
+                const BuildNode& child = *node.children[c];
+                quantise(wide, node.boxes[c], slot);
+                if (child.child_count > 0) {
+                    wide.meta = gpu::with_byte(wide.meta, slot,
+                                               PRT_NODE_INNER(static_cast<std::uint32_t>(inner.size())));
+                    inner.push_back(&child);
+                    continue;
+                }
+                const auto first = static_cast<std::uint32_t>(bvh_.triangles.size()) - wide.first_triangle;
+                wide.meta = gpu::with_byte(wide.meta, slot, PRT_NODE_LEAF(child.triangle_count, first));
+                bvh_.triangles.insert(bvh_.triangles.end(), child.triangles.begin(),
+                                      child.triangles.begin() + child.triangle_count);
+            }
+        return inner;
+    }
+
+    static void quantise(WideNode& wide, const Box& box, std::uint32_t slot) {
+        for (std::uint32_t i = 0; i < 3; ++i) {
+            const int axis = static_cast<int>(i);
+            const float origin = wide.origin[axis],
+                        step = std::bit_cast<float>(gpu::step_bits(wide.exponents, i));
             float low = std::clamp(std::floor((box.low[axis] - origin) / step), 0.0f, 255.0f);
             float high = std::clamp(std::ceil((box.high[axis] - origin) / step), 0.0f, 255.0f);
             while (low > 0 && origin + low * step > box.low[axis])
                 --low;
             while (high < 255 && origin + high * step < box.high[axis])
                 ++high;
-            wide.low[axis][slot] = static_cast<std::uint8_t>(low);
-            wide.high[axis][slot] = static_cast<std::uint8_t>(high);
+            wide.low[i] = gpu::with_byte(wide.low[i], slot, static_cast<std::uint32_t>(low));
+            wide.high[i] = gpu::with_byte(wide.high[i], slot, static_cast<std::uint32_t>(high));
         }
     }
 

@@ -66,12 +66,12 @@ float ExposureMeter::exposure(const Subject& subject, const std::function<prt::L
     if (key != seen_key_) {
         prt::Picture picture;
         picture.scene = &subject.model->scene;
-        picture.textures = subject.model->textures;
+        picture.textures = subject.model->trace->textures();
         picture.camera = subject.camera;
         picture.width = subject.width;
         picture.height = subject.height;
         picture.textured = subject.textured;
-        meter_.emplace(picture, *subject.model->rays);
+        meter_.emplace(picture, subject.model->trace->rays());
         seen_key_ = std::move(key);
     }
     radiance_version_ = subject.radiance_version;

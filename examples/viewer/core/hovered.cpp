@@ -1,22 +1,14 @@
 #include "core/hovered.h"
 
-#include <limits>
-
 namespace viewer {
 namespace {
 
 std::optional<std::uint32_t> receiver_at(const Model& model, const Screen& screen, const glm::vec2& pixel) {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    const glm::vec3 o = screen.camera.position, d = direction_through(screen, pixel);
-    RTCRayHit ray{};
-    ray.ray = {o.x, o.y, o.z, 0, d.x, d.y, d.z, 0, std::numeric_limits<float>::infinity(), ~0u, 0, 0};
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(model.rays->handle(), &context, &ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    const auto hit = model.trace->rays().nearest({screen.camera.position, direction_through(screen, pixel)});
+    if (!hit)
         return std::nullopt;
-    const glm::uvec3& corners = model.surfaces->corners(ray.hit.primID);
-    const float u = ray.hit.u, v = ray.hit.v, w = 1 - u - v;
+    const glm::uvec3& corners = model.trace->surfaces().corners(hit->triangle);
+    const float u = hit->uv.x, v = hit->uv.y, w = 1 - u - v;
     return w >= u && w >= v ? corners.x : u >= v ? corners.y : corners.z;
 }
 

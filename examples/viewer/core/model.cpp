@@ -18,7 +18,6 @@ std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path 
     auto model = std::make_shared<Model>();
     model->path = std::move(path);
     model->scene = std::move(scene);
-    model->textures = prt::load_textures(model->scene, prt::BadTextures::ignore);
     model->areas = prt::receiver_areas(model->scene);
     model->edges = prt::mesh_edges(model->scene);
     model->box = prt::bounds(model->scene);
@@ -28,8 +27,8 @@ std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path 
     for (prt::Primitive& primitive : model->scene.primitives)
         model->clusters.push_back(
             make_triangle_clusters(primitive, model->scene.vertex_arrays[primitive.vertices]));
-    model->rays = std::make_unique<prt::RayScene>(model->scene);
-    model->surfaces = std::make_unique<prt::Surfaces>(model->scene, model->textures);
+    model->trace.emplace(model->scene, prt::load_textures(model->scene, prt::BadTextures::ignore));
+    model->trace->rays(); // now rather than in the first frame
     return model;
 }
 
@@ -53,7 +52,7 @@ std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& pr
     prt::BakeOptions options;
     options.order = 1;
     options.rays = kOcclusionRays;
-    options.backend = prt::Backend::cpu; // beside the window's own context
+    options.tracer.backend = prt::Backend::cpu; // beside the window's own context
     options.bad_textures = prt::BadTextures::ignore;
     options.storage = prt::Storage::float32;
     const prt::Transfer direct = prt::bake(model.scene, options, progress).baked.transfer;

@@ -6,13 +6,12 @@
 
 #include "prt/gltf.h"
 #include "prt/mesh_edges.h"
-#include "prt/ray_scene.h"
 #include "prt/support/progress.h"
-#include "prt/surfaces.h"
-#include "prt/texture.h"
+#include "prt/trace_scene.h"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,8 +20,7 @@ namespace viewer {
 /// Never changes once it is loaded; shared by threads.
 struct Model {
     std::filesystem::path path;
-    prt::Scene scene; ///< triangles in the order of `clusters`
-    std::vector<prt::Texture> textures;
+    prt::Scene scene;                                   ///< triangles in the order of `clusters`
     std::vector<std::vector<TriangleCluster>> clusters; ///< [primitives]
     std::vector<float> areas;                           ///< [receivers]
     std::vector<prt::Edge> edges;
@@ -30,8 +28,7 @@ struct Model {
     glm::vec3 centre{0};
     float radius = 1;
     std::string receivers_id;
-    std::unique_ptr<prt::RayScene> rays;
-    std::unique_ptr<prt::Surfaces> surfaces;
+    std::optional<prt::TraceScene> trace; ///< of `scene`
 
     Model() = default;
     Model(const Model&) = delete;

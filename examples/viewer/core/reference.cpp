@@ -52,7 +52,7 @@ void Reference::trace(const Subject& subject, Shared& shared, const std::stop_to
     coarse.height = std::max(1, coarse.height / kCoarser);
     for (const prt::PathTraceOptions& options : {coarse, subject.options}) {
         const bool fine = options.width == subject.options.width;
-        prt::PathTracer tracer(*model.rays, model.scene, *model.surfaces, light, options);
+        prt::PathTracer tracer(*model.trace, light, options);
         const std::vector<bool> surfaces = tracer.surface_mask();
         for (int pass = 0; pass < (fine ? kMostPasses : 4); ++pass) {
             tracer.add_pass(threads, stop);

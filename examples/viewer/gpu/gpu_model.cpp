@@ -28,8 +28,9 @@ GpuModel::Source GpuModel::source_of(PictureKind kind) {
 }
 
 GpuModel::GpuModel(std::shared_ptr<const Model> model, std::size_t most_receivers)
-    : model_(std::move(model)), most_receivers_(most_receivers), scene_(model_->scene, model_->textures),
-      plain_(scene_.make_vertex_arrays()), number_arrays_(scene_.make_vertex_arrays()) {}
+    : model_(std::move(model)), most_receivers_(most_receivers),
+      scene_(model_->scene, model_->trace->textures()), plain_(scene_.make_vertex_arrays()),
+      number_arrays_(scene_.make_vertex_arrays()) {}
 
 void GpuModel::set_raw(const prt::Transfer& transfer) {
     drop_raw(); // there may not be room for two

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <type_traits>
 
 namespace prt {
@@ -22,8 +23,6 @@ constexpr int sh_index(int l, int m) {
 }
 
 namespace detail {
-
-constexpr double kPi = 3.14159265358979323846;
 
 constexpr double square_root(double value) {
     double root = value > 1 ? value : 1;
@@ -48,7 +47,7 @@ struct LegendreRecurrence {
         for (int m = 0; m < kMaxOrder; ++m) {
             if (m > 0)
                 product *= (2.0 * m + 1) / (2.0 * m);
-            const double norm = square_root((m > 0 ? 2.0 : 1.0) * product / (4 * kPi));
+            const double norm = square_root((m > 0 ? 2.0 : 1.0) * product / (4 * std::numbers::pi));
             sectoral[static_cast<std::size_t>(m)] = m % 2 == 0 ? norm : -norm;
         }
         for (int m = 0; m < kMaxOrder; ++m) {
@@ -85,6 +84,9 @@ struct ScalarOf<Real> {
 };
 
 } // namespace detail
+
+/// The basis function of band 0, the same in all directions.
+inline constexpr double kY00 = detail::kLegendre.sectoral[0];
 
 /// Writes the Order² values of the basis in unit direction (x, y, z) to `basis`. Real, orthonormal,
 /// Condon-Shortley phase, polar axis z (docs/math.md, eq. 1 to 3).

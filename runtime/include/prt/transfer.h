@@ -43,4 +43,7 @@ glm::vec3 exit_radiance(std::span<const float> transfer, int channels, const Lig
 /// Exit radiance of every receiver for albedo 1, [receivers]. Throws `Error` if `light` has fewer bands.
 std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Light& light, int threads = 0);
 
+/// Area-weighted mean of T_0 / Y_00 over all channels: the share of a uniform sky's light that arrives.
+double mean_visibility(const Transfer& transfer, std::span<const float> areas);
+
 } // namespace prt

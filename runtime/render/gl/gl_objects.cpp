@@ -5,6 +5,8 @@
 
 #include <epoxy/gl.h>
 
+#include <algorithm>
+
 namespace prt {
 namespace {
 
@@ -80,6 +82,24 @@ GlObject make_buffer(std::span<const std::byte> bytes) {
     return buffer;
 }
 
+GlObject make_buffer_of(std::size_t bytes) {
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
+    GlObject buffer(GlKind::buffer, name);
+    glNamedBufferStorage(name, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 4)), nullptr, 0);
+    check_gl("a buffer");
+    return buffer;
+}
+
+void read_buffer(const GlObject& buffer, std::span<std::byte> to, const char* what) {
+    glGetNamedBufferSubData(buffer.name(), 0, static_cast<GLsizeiptr>(to.size()), to.data());
+    check_gl(what);
+}
+
+void bind_storage(std::uint32_t binding, const GlObject& buffer) {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+}
+
 GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines,
                       const char* captured) {
     GlObject program(GlKind::program, glCreateProgram());
@@ -100,6 +120,14 @@ GlObject make_compute_program(const std::string& compute, const std::string& def
 
 int uniform(const GlObject& program, const char* name) {
     return glGetUniformLocation(program.name(), name);
+}
+
+void set_uniform(const GlObject& program, const char* name, std::uint32_t value) {
+    glProgramUniform1ui(program.name(), uniform(program, name), value);
+}
+
+void set_uniform(const GlObject& program, const char* name, float value) {
+    glProgramUniform1f(program.name(), uniform(program, name), value);
 }
 
 void check_gl(const char* what) {

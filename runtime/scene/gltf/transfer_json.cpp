@@ -15,11 +15,21 @@ namespace {
 /// GL_HALF_FLOAT. glTF's accessors do not know it, but the views of our extensions are no accessors.
 constexpr int kHalfComponentType = 5131;
 
+/// The one of `values` whose word stands at `key`, the first where there is none.
+template <class Enum>
+Enum one_of(const Json& json, const char* key, std::initializer_list<Enum> values) {
+    const std::string word = json.value(key, to_string(*values.begin()));
+    for (const Enum value : values)
+        if (word == to_string(value))
+            return value;
+    throw Error(std::string(key) + " of the bake is '" + word + "', which this program does not know");
+}
+
 } // namespace
 
 Json record_json(const BakeRecord& record) {
-    return {{"method", record.method},
-            {"backend", record.backend},
+    return {{"method", to_string(record.method)},
+            {"backend", to_string(record.backend)},
             {"raysPerReceiver", record.rays},
             {"bounces", record.bounces},
             {"seed", record.seed},
@@ -29,8 +39,8 @@ Json record_json(const BakeRecord& record) {
 
 BakeRecord read_record(const Json& json) {
     BakeRecord record;
-    record.method = json.value("method", "");
-    record.backend = json.value("backend", "");
+    record.method = one_of(json, "method", {BakeMethod::trace, BakeMethod::raster});
+    record.backend = one_of(json, "backend", {Backend::cpu, Backend::gpu});
     record.rays = json.value("raysPerReceiver", 0);
     record.bounces = json.value("bounces", 0);
     record.seed = json.value("seed", std::uint64_t{0});

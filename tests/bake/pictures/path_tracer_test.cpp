@@ -33,17 +33,14 @@ Image uneven_environment() {
 
 struct Traced {
     Scene scene;
-    std::vector<Texture> textures;
-    Surfaces surfaces;
-    RayScene rays;
+    TraceScene trace;
     DistantLight light;
 
-    Traced(Scene s, DistantLight l)
-        : scene(std::move(s)), surfaces(scene, textures), rays(scene), light(std::move(l)) {}
+    Traced(Scene s, DistantLight l) : scene(std::move(s)), trace(scene), light(std::move(l)) {}
 
     /// Mean over the picture's pixels that show the scene.
     glm::dvec3 mean(const PathTraceOptions& options, int passes) const {
-        PathTracer tracer(rays, scene, surfaces, light, options);
+        PathTracer tracer(trace, light, options);
         for (int i = 0; i < passes; ++i)
             tracer.add_pass();
         EXPECT_EQ(tracer.passes(), passes);
@@ -159,7 +156,7 @@ TEST(PathTracer, AgreesWithTheBakerOnASphereOverAFloor) {
     bake_options.order = 3;
     bake_options.rays = 512;
     bake_options.bounces = 2;
-    bake_options.backend = Backend::cpu;
+    bake_options.tracer.backend = Backend::cpu;
     const Transfer transfer = bake(scene, bake_options).baked.transfer;
     // Light of two bands, so that three bands hold all of it.
     Image image{128, 64, {}};
@@ -180,10 +177,10 @@ TEST(PathTracer, AgreesWithTheBakerOnASphereOverAFloor) {
     picture.camera = options.camera;
     picture.width = picture.height = 64;
     picture.samples = 1;
-    PathTracer tracer(traced.rays, traced.scene, traced.surfaces, traced.light, options);
+    PathTracer tracer(traced.trace, traced.light, options);
     for (int i = 0; i < 256; ++i)
         tracer.add_pass();
-    const Image reference = tracer.image(), interpolated = render_rays(picture, traced.rays);
+    const Image reference = tracer.image(), interpolated = render_rays(picture, traced.trace.rays());
     const std::vector<bool> mask = tracer.surface_mask();
     double squared = 0, norm = 0;
     glm::dvec3 sum(0), reference_sum(0);

@@ -24,7 +24,7 @@ BakeResult bake_kept(const Scene& scene, Inside inside = Inside::keep) {
     BakeOptions options;
     options.order = 3;
     options.rays = 256;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     options.inside = inside;
     return bake(scene, options);
 }

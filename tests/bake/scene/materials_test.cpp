@@ -1,12 +1,12 @@
 // Cut-outs, blended surfaces, leaves, receivers inside geometry, textures at the hit.
 
 #include "prt/bake.h"
-#include "prt/embree_tracer.h"
 #include "prt/light.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/surfaces.h"
 #include "support/scene_builder.h"
+#include "support/traced.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -21,10 +21,9 @@ using test::SceneBuilder;
 
 /// Transfer of one receiver under `scene`, with its textures.
 std::vector<float> transfer_below(const Scene& scene, const std::vector<Texture>& textures, int rays = 4096) {
-    const RayScene ray_scene(scene);
-    const Surfaces surfaces(scene, textures);
-    EmbreeTracer tracer(ray_scene, 0, &surfaces);
-    return direct_transfer(tracer, {{{0.1f, 0, 0}}, {{0, 1, 0}}, {1.0f}}, {4, rays, 1, 0}).vectors;
+    const TraceScene trace_scene(scene, textures);
+    return test::traced_at(trace_scene, {0.1f, 0, 0}, {0, 1, 0}, {.order = 4, .rays = rays, .seed = 1})
+        .vectors;
 }
 
 /// A square of side 2 at height 1, facing down, with texture coordinates over it.
@@ -140,7 +139,8 @@ TEST(Glass, ReflectsDiffuselyWhatItsFactorLeaves) {
         for (const glm::vec3& tint : {glm::vec3(1), glm::vec3(0.2f, 0.5f, 0.9f)}) {
             sheet.materials[0].base_color = glm::vec4(tint, 1);
             sheet.materials[0].glass.factor = factor;
-            const Surfaces surfaces(sheet, {});
+            const TraceScene traced(sheet);
+            const Surfaces& surfaces = traced.surfaces();
             const SurfacePoint point{0, {0.3f, 0.3f}, 1e-4f};
             // Rays that meet it bring a share of the light, and of all light (1 - factor) is reflected.
             const glm::vec3 reflected = surfaces.coverage(point) * surfaces.scattering(point).reflected;
@@ -180,7 +180,7 @@ TEST(Metal, BouncesByThatShareAndSaysSo) {
         BakeOptions options;
         options.order = 1;
         options.rays = 256;
-        options.backend = Backend::cpu;
+        options.tracer.backend = Backend::cpu;
         const auto radiance = [&](int bounces) {
             options.bounces = bounces;
             const BakeResult result = bake(bowl, options);
@@ -216,7 +216,7 @@ TEST(BadTextures, StopOnlyABakeThatNeedsThem) {
     BakeOptions options;
     options.order = 1;
     options.rays = 16;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     const auto message = [&](const Scene& scene) -> std::string {
         try {
             bake(scene, options);
@@ -250,7 +250,7 @@ TEST(Leaf, TakesLightFromBehindThroughDiffuseTransmission) {
     BakeOptions options;
     options.order = 4;
     options.rays = 256;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     const BakeResult result = bake(leaf, options);
     const Transfer& t = result.baked.transfer;
     ASSERT_EQ(t.channels, 3);
@@ -278,7 +278,7 @@ TEST(Leaf, LightsWhatIsBelowIt) {
         const Scene scene = test::join({SceneBuilder().floor({0, 0, 0}, 1, 8).build(), leaf});
         BakeOptions options;
         options.bounces = 1;
-        options.backend = Backend::cpu;
+        options.tracer.backend = Backend::cpu;
         const Transfer t = bake(scene, options).baked.transfer;
         return exit_radiance(t, constant_light(6, glm::vec3(1)))[8 * 4 * 6 + 4 * 6].x;
     };
@@ -305,7 +305,7 @@ TEST(Textures, AreFilteredOverWhatARayStandsFor) {
         }
     const std::vector<Texture> textures = {make_texture(image)};
     const Surfaces surfaces(chequered, textures);
-    EXPECT_FALSE(surfaces.has_color());
+    EXPECT_FALSE(surfaces.traits().color);
     // Half of white in linear light, once the footprint is large.
     EXPECT_NEAR(surfaces.scattering({0, {0.3f, 0.3f}, 0.01f}).reflected.g, 0.5f, 0.01f);
     // Texels are there once it is small: 4/256 m wide, this is the middle of one.
@@ -317,7 +317,7 @@ TEST(InsideGeometry, ABodyThatIsInsideAsAWholeStaysDark) {
     const Scene scene = SceneBuilder().sphere({0, 0, 0}, 1, 12).sphere({0, 0, 0}, 0.3f, 6).build();
     BakeOptions options;
     options.rays = 64;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     const BakeResult result = bake(scene, options);
     EXPECT_GT(result.statistics.sealed, 0u);
     EXPECT_EQ(result.statistics.refilled, 0u);
@@ -330,7 +330,7 @@ TEST(Textures, ThatAreMissingAreNamedUnlessNobodyLooksAtThem) {
     BakeOptions options;
     options.rays = 16;
     options.bounces = 1;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     try {
         bake(scene, options);
         FAIL();

@@ -1,15 +1,18 @@
 // The GPU baker against the CPU baker. Here OpenGL is Mesa's software rasteriser; scenes are small.
 
 #include "prt/bake.h"
-#include "prt/embree_tracer.h"
 #include "prt/error_measures.h"
-#include "prt/gl_tracer.h"
 #include "prt/support/error.h"
 #include "support/scene_builder.h"
+#include "support/traced.h"
+#include "trace/embree_tracer.h"
+#include "trace/gpu/gl_rasterizer.h"
+#include "trace/gpu/gl_tracer.h"
 #include "trace/gpu/wide_bvh.h"
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -58,19 +61,17 @@ Texture dotted_texture() {
 class Pair {
 public:
     explicit Pair(Scene scene, std::vector<Texture> textures = {})
-        : scene_(std::move(scene)), textures_(std::move(textures)), rays_(scene_),
-          surfaces_(scene_, textures_), receivers_(vertex_receivers(scene_)), cpu_(rays_, 0, &surfaces_) {}
+        : scene_(std::move(scene)), trace_(scene_, std::move(textures)), receivers_(vertex_receivers(scene_)),
+          cpu_(trace_) {}
 
     std::unique_ptr<GlTracer> gpu(std::size_t hit_bytes = 96 << 20) {
-        return std::make_unique<GlTracer>(GlContext::create(GlDevice::any), scene_, rays_, surfaces_,
-                                          textures_, 0, hit_bytes);
+        return std::make_unique<GlTracer>(GlContext::create(GlDevice::any), trace_, hit_bytes);
     }
     std::unique_ptr<GlRasterizer> rasterizer(int resolution) {
-        return std::make_unique<GlRasterizer>(GlContext::create(GlDevice::any), scene_, rays_, surfaces_,
-                                              textures_, resolution);
+        return std::make_unique<GlRasterizer>(GlContext::create(GlDevice::any), trace_, resolution);
     }
     Transfer trace(Tracer& tracer, const TraceOptions& options, const ReceiverSink& sink = {}) {
-        return direct_transfer(tracer, receivers_, options, {}, sink);
+        return test::traced(tracer, receivers_, options, sink);
     }
     Transfer on_cpu(const TraceOptions& options) { return trace(cpu_, options); }
     double distance(const Transfer& a, const Transfer& b) const {
@@ -81,9 +82,7 @@ public:
 
 private:
     Scene scene_;
-    std::vector<Texture> textures_;
-    RayScene rays_;
-    Surfaces surfaces_;
+    TraceScene trace_;
     Receivers receivers_;
     EmbreeTracer cpu_;
 };
@@ -105,22 +104,23 @@ TEST(WideBvh, HoldsEveryTriangleOnceInsideItsBoxes) {
         EXPECT_EQ(bvh.triangles.size(), count);
         EXPECT_EQ(seen.size(), count);
         std::size_t in_leaves = 0;
-        for (const WideNode& node : bvh.nodes)
-            for (int slot = 0; slot < 8; ++slot) {
-                const unsigned meta = node.meta[slot];
-                if (meta == 0 || (meta & 0x80) != 0)
+        for (const gpu::WideNode& node : bvh.nodes)
+            for (unsigned slot = 0; slot < 8; ++slot) {
+                const unsigned meta = gpu::byte_of(node.meta, slot);
+                if (meta == 0 || PRT_IS_INNER(meta))
                     continue;
-                for (unsigned i = 0; i < meta >> 5; ++i) {
+                for (unsigned i = 0; i < PRT_LEAF_COUNT(meta); ++i) {
                     ++in_leaves;
-                    const std::uint32_t t = bvh.triangles[node.first_triangle + (meta & 31) + i];
+                    const std::uint32_t t = bvh.triangles[node.first_triangle + PRT_LEAF_FIRST(meta) + i];
                     for (int corner = 0; corner < 3; ++corner)
-                        for (int axis = 0; axis < 3; ++axis) {
-                            const float step = std::ldexp(1.0f, node.exponents[axis] - 127);
-                            const float value = positions[corners[t][corner]][axis];
-                            EXPECT_LE(node.origin[axis] + static_cast<float>(node.low[axis][slot]) * step,
-                                      value);
-                            EXPECT_GE(node.origin[axis] + static_cast<float>(node.high[axis][slot]) * step,
-                                      value);
+                        for (unsigned axis = 0; axis < 3; ++axis) {
+                            const float step = std::bit_cast<float>(gpu::step_bits(node.exponents, axis)),
+                                        origin = node.origin[static_cast<int>(axis)];
+                            const auto low = static_cast<float>(gpu::byte_of(node.low[axis], slot)),
+                                       high = static_cast<float>(gpu::byte_of(node.high[axis], slot));
+                            const float value = positions[corners[t][corner]][static_cast<int>(axis)];
+                            EXPECT_LE(origin + low * step, value);
+                            EXPECT_GE(origin + high * step, value);
                         }
                 }
             }
@@ -256,7 +256,7 @@ TEST(GpuTrace, PassesGlassAsTheCpuDoes) {
 }
 
 BakeResult bake_on(Backend backend, const Scene& scene, BakeOptions options) {
-    options.backend = backend;
+    options.tracer.backend = backend;
     return bake(scene, options);
 }
 
@@ -273,7 +273,7 @@ TEST(GpuBake, OfEveryTransportIsTheCpus) {
     const std::vector<float> areas = receiver_areas(leaf);
     const auto difference = [&](const BakeOptions& o) {
         const BakeResult cpu = bake_on(Backend::cpu, leaf, o), gpu = bake_on(Backend::gpu, leaf, o);
-        EXPECT_EQ(gpu.baked.record.backend, "gpu");
+        EXPECT_EQ(gpu.baked.record.backend, Backend::gpu);
         EXPECT_EQ(cpu.baked.transfer.channels, 3);
         return relative_l2(cpu.baked.transfer, gpu.baked.transfer, areas);
     };
@@ -389,8 +389,8 @@ TEST(GpuBake, StopsWhenAsked) {
     for (const BakeMethod method : {BakeMethod::trace, BakeMethod::raster}) {
         std::stop_source stop;
         BakeOptions options;
-        options.backend = Backend::gpu;
-        options.method = method;
+        options.tracer.backend = Backend::gpu;
+        options.tracer.method = method;
         options.rays = 1 << 20;
         const Progress progress{[&](double fraction) {
                                     if (fraction > 0)
@@ -403,12 +403,12 @@ TEST(GpuBake, StopsWhenAsked) {
 
 TEST(GpuBake, OfRasterRefusesWhatDepthMapsCannotTell) {
     BakeOptions options;
-    options.method = BakeMethod::raster;
-    options.backend = Backend::gpu;
+    options.tracer.method = BakeMethod::raster;
+    options.tracer.backend = Backend::gpu;
     options.bounces = 1;
     EXPECT_THROW(bake(balls_over_floor(), options), Error);
     options.bounces = 0;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     EXPECT_THROW(bake(balls_over_floor(), options), Error);
 }
 

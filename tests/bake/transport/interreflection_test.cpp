@@ -27,7 +27,7 @@ BakeResult bake_bounces(const Scene& scene, int bounces, int rays = 1024, int or
     options.order = order;
     options.rays = rays;
     options.bounces = bounces;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     return bake(scene, options);
 }
 
@@ -330,7 +330,7 @@ TEST(Bounces, AreTheSameToTheByteForAnyNumberOfThreads) {
     BakeOptions options;
     options.rays = 300;
     options.bounces = 2;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     options.threads = 1;
     const Scene scene = make_bowl(0.5).scene;
     const auto one = bake(scene, options).baked.transfer.vectors;
@@ -398,7 +398,7 @@ TEST(Memory, IsEstimatedFirstAndTooMuchIsRefused) {
     EXPECT_GT(estimate_memory(options, 100'000'000, 200'000'000, 1), 1.2e11);
     options.bounces = 1;
     options.memory_limit = 20e6;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     try {
         bake(make_bowl(0.5).scene, options);
         FAIL();
@@ -414,7 +414,7 @@ TEST(Memory, OfBouncesIsWhatRaysReallyMeet) {
     options.order = 2;
     options.rays = 2048;
     options.bounces = 1;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     options.memory_limit = 50e6; // as much as 9 600 · 2 048 entries would be, a third of them
     EXPECT_NO_THROW(bake(scene, options));
 }

@@ -163,7 +163,7 @@ TEST(Subsurface, BlursShadowsAndKeepsTheirLight) {
     BakeOptions options;
     options.order = 2;
     options.rays = 256;
-    options.backend = Backend::cpu;
+    options.tracer.backend = Backend::cpu;
     const auto visibility = [&] {
         const Transfer t = bake(scene, options).baked.transfer;
         return std::pair(exit_radiance(t, constant_light(2, glm::vec3(1))),

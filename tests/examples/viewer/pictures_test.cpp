@@ -79,7 +79,7 @@ protected:
     prt::Picture picture_of(std::span<const glm::vec3> radiance) const {
         prt::Picture picture;
         picture.scene = &model->scene;
-        picture.textures = model->textures;
+        picture.textures = model->trace->textures();
         picture.radiance = radiance;
         picture.textured = settings.textured;
         picture.camera = view.camera;
@@ -89,7 +89,7 @@ protected:
         return picture;
     }
     prt::Image rays(std::span<const glm::vec3> radiance) const {
-        return prt::render_rays(picture_of(radiance), *model->rays);
+        return prt::render_rays(picture_of(radiance), model->trace->rays());
     }
 
     bool inside(int x, int y, int margin = 1) const {
@@ -130,7 +130,7 @@ protected:
         prt::BakeOptions options;
         options.rays = rays_per_receiver;
         options.bounces = 1;
-        options.backend = prt::Backend::cpu;
+        options.tracer.backend = prt::Backend::cpu;
         return prt::bake(model->scene, options).baked.transfer;
     }
     prt::ClusteredTransfer compressed(const prt::Transfer& transfer) {
@@ -214,7 +214,7 @@ TEST_F(ViewerPictures, OfBakedOcclusionAreThoseOfTracedOcclusion) {
     options.textured = false;
     options.background = false;
     options.antialiased = false;
-    prt::PathTracer tracer(*model->rays, model->scene, *model->surfaces, white, options);
+    prt::PathTracer tracer(*model->trace, white, options);
     for (int i = 0; i < 128; ++i)
         tracer.add_pass();
     // What is left: noise of 128 paths, and the cells of the floor at the contact.

@@ -32,7 +32,7 @@ protected:
         prt::BakeOptions bake_options;
         bake_options.order = 3;
         bake_options.rays = 16;
-        bake_options.backend = prt::Backend::cpu;
+        bake_options.tracer.backend = prt::Backend::cpu;
         const prt::BakedTransfer baked = prt::bake(scene, bake_options).baked;
         prt::write_transfer(document, scene, baked);
         prt::save_glb(document, folder / "baked.glb");

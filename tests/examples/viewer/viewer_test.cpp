@@ -58,7 +58,7 @@ protected:
         prt::BakeOptions options;
         options.order = order;
         options.rays = 64;
-        options.backend = prt::Backend::cpu;
+        options.tracer.backend = prt::Backend::cpu;
         prt::write_transfer(document, scene, prt::bake(scene, options).baked);
         prt::save_glb(document, folder / "baked.glb");
         return folder / "baked.glb";

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace prt {
 namespace {
@@ -35,7 +36,7 @@ std::vector<glm::dvec3> lattice(int count) {
     std::vector<glm::dvec3> directions;
     for (int i = 0; i < count; ++i) {
         const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z);
-        const double angle = 2 * detail::kPi * 0.61803398874989485 * i;
+        const double angle = 2 * std::numbers::pi * 0.61803398874989485 * i;
         directions.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
     }
     return directions;
@@ -68,7 +69,7 @@ TEST(Dering, NoShadowedReceiverHasNegativeExitRadiance) {
     for (const glm::dvec3& normal : lattice(20)) {
         double before = 0, after = 0;
         for (const auto& [w, weight] : test::sphere_quadrature(120)) {
-            const double cosine = std::max(glm::dot(normal, w), 0.0) / detail::kPi * weight;
+            const double cosine = std::max(glm::dot(normal, w), 0.0) / std::numbers::pi * weight;
             before += cosine * std::min(0.0f, radiance(raw, glm::vec3(w)).r);
             after += cosine * std::min(0.0f, radiance(quiet, glm::vec3(w)).r);
         }

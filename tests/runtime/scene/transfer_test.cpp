@@ -29,7 +29,8 @@ nlohmann::ordered_json json_of(const std::filesystem::path& path) {
 }
 
 BakedTransfer random_bake(const Scene& scene, int order, int channels) {
-    BakedTransfer baked{{order, channels, {}}, {2, 77, 12345678901, "trace", "cpu", receivers_id(scene)}};
+    BakedTransfer baked{{order, channels, {}},
+                        {2, 77, 12345678901, BakeMethod::raster, Backend::gpu, receivers_id(scene)}};
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
     baked.transfer.vectors.resize(scene.receivers() * baked.transfer.dimension());
@@ -152,6 +153,8 @@ TEST(TransferInGltf, RawVectorsComeBackExactly) {
     EXPECT_EQ(read->transfer.vectors, baked.transfer.vectors);
     EXPECT_EQ(read->record.seed, baked.record.seed);
     EXPECT_EQ(read->record.rays, 77);
+    EXPECT_EQ(read->record.method, BakeMethod::raster);
+    EXPECT_EQ(read->record.backend, Backend::gpu);
     EXPECT_EQ(read->record.receivers, baked.record.receivers);
     EXPECT_FALSE(read_clustered(again, scene_again));
 }

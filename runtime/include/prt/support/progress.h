@@ -14,11 +14,22 @@ struct Progress {
     /// When a stop is requested, the work throws `Cancelled` within a fraction of a second.
     std::stop_token stop;
 
-    void update(double fraction) const {
+    /// Throws `Cancelled` when a stop is requested.
+    void check() const {
         if (stop.stop_requested())
             throw Cancelled();
+    }
+    void update(double fraction) const {
+        check();
         if (report)
             report(fraction);
+    }
+    /// The progress of a part of the work that takes the share `from` .. `to` of the whole.
+    Progress part(double from, double to) const {
+        Progress part{{}, stop};
+        if (report)
+            part.report = [whole = report, from, to](double share) { whole(from + (to - from) * share); };
+        return part;
     }
 };
 

@@ -19,14 +19,16 @@ struct Camera {
 /// Sees all of `scene` from the front, a little from the right and above (glTF models face +Z).
 Camera automatic_camera(const Scene& scene, float aspect, float vertical_field_of_view);
 
-/// Orthonormal frame of the camera and half the height of the image plane at distance 1. Pixel (x, y) of an
-/// image of w x h, from the top, is seen along forward + right · half_height · aspect · (2 (x + 0.5) / w - 1)
-/// + up · half_height · (1 - 2 (y + 0.5) / h).
+/// Orthonormal frame of the camera and half the height of the image plane at distance 1.
 struct CameraFrame {
     glm::dvec3 forward, right, up;
     double half_height;
 };
 CameraFrame camera_frame(const Camera& camera);
+
+/// The direction, not unit, in which the position (x, y) of an image of `width` x `height` is seen; (0, 0) is
+/// its top left corner, the center of pixel i at i + 0.5.
+glm::dvec3 view_direction(const CameraFrame& frame, int width, int height, double x, double y);
 
 /// World to OpenGL clip space, with near and far planes just round `box`.
 glm::mat4 view_projection(const Camera& camera, const Bounds& box, float aspect);

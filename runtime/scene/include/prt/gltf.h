@@ -2,9 +2,8 @@
 
 // glTF 2.0 files: reading scenes, and reading and writing transfer in them (docs/format.md).
 
-#include "prt/clustered_transfer.h"
+#include "prt/baked_transfer.h"
 #include "prt/scene.h"
-#include "prt/transfer.h"
 
 #include <filesystem>
 #include <memory>
@@ -45,30 +44,6 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
 /// taken in the pose of the file. Throws `Error` for accessors out of bounds, indices beyond the vertices,
 /// positions that are not finite, and a scene without triangles.
 Scene extract_scene(const GltfDocument& document);
-
-/// How a bake was made; written to the file and shown by `prt info`.
-struct BakeRecord {
-    int bounces = 0; ///< done
-    int rays = 0;    ///< per receiver, the mean where it differs; directions where method is "raster"
-    std::uint64_t seed = 0;
-    std::string method;        ///< "trace", "raster"
-    std::string backend;       ///< "cpu", "gpu"
-    std::string receivers;     ///< receivers_id of the scene
-    double sampling_error = 0; ///< estimated relative L2 of the direct light
-};
-
-enum class TransferStorage { float32, float16 };
-
-struct BakedTransfer {
-    Transfer transfer; ///< receivers in the order of the scene's vertex arrays
-    BakeRecord record;
-    TransferStorage storage = TransferStorage::float32; ///< in the file
-};
-
-struct CompressedTransfer {
-    ClusteredTransfer transfer;
-    BakeRecord record;
-};
 
 /// Writes PRTKIT_transfer into `document`, from which `scene` was extracted: meshes that several nodes share
 /// get a copy per node, and primitives without normals get flat ones. Replaces any transfer that is there.

@@ -41,6 +41,16 @@ GlObject make_buffer(std::span<const T> values) {
     return make_buffer(std::as_bytes(values));
 }
 
+/// An immutable buffer that shaders fill, of at least one word.
+GlObject make_buffer_of(std::size_t bytes);
+/// Reads what shaders wrote to the start of `buffer`. Throws as `check_gl(what)`.
+void read_buffer(const GlObject& buffer, std::span<std::byte> to, const char* what);
+template <class T>
+void read_buffer(const GlObject& buffer, std::span<T> to, const char* what) {
+    read_buffer(buffer, std::as_writable_bytes(to), what);
+}
+void bind_storage(std::uint32_t binding, const GlObject& buffer);
+
 /// A program of two files of shaders/, with lines of `defines` before them. `captured`: an output of the
 /// vertex shader that transform feedback records. Throws `Error` with the compiler's words when the driver
 /// refuses it.
@@ -52,6 +62,8 @@ GlObject make_compute_program(const std::string& compute, const std::string& def
 
 /// Where `program` has the uniform `name`; -1 where it has none, which OpenGL ignores when it is set.
 int uniform(const GlObject& program, const char* name);
+void set_uniform(const GlObject& program, const char* name, std::uint32_t value);
+void set_uniform(const GlObject& program, const char* name, float value);
 
 /// Work that is cut smaller may still fit.
 struct GpuOutOfMemory : Error {

@@ -1,3 +1,4 @@
+// The measures of docs/math.md, section 6: errors of transfer, and of exit radiance under a light.
 #include "prt/error_measures.h"
 
 #include "prt/support/error.h"

@@ -2,8 +2,8 @@
 
 // The error measures of docs/math.md, section 6.
 
+#include "prt/adjacency.h"
 #include "prt/light.h"
-#include "prt/mesh_edges.h"
 #include "prt/transfer.h"
 
 #include <optional>

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "prt/tracer.h"
+
+namespace prt {
+
+/// Takes the hits of a receiver. Called from several threads.
+using ReceiverSink = std::function<void(std::uint32_t receiver, std::span<const Hit> hits)>;
+
+/// Replaces the transfer of receivers[indices] in `transfer`, of one channel, by the direct transfer that
+/// `tracer` finds. Receivers go to it in batches, between which the work can be stopped. `sink` gets their
+/// hits, from a tracer that notes them.
+void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
+                     const TraceOptions& options, Transfer& transfer, const Progress& progress = {},
+                     const ReceiverSink& sink = {});
+
+} // namespace prt

@@ -1,0 +1,49 @@
+#pragma once
+
+#include "prt/ray_scene.h"
+#include "prt/surfaces.h"
+
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace prt {
+
+struct TraceSceneOptions {
+    /// [materials] those with something inside, which are no thin sheets; empty: none.
+    std::vector<bool> solid = {};
+    int threads = 0; ///< that build and trace; 0: all
+};
+
+/// A scene with all that light is traced with: its textures, its surfaces, and a tree of its triangles. Owns
+/// what it makes and stays where it is, since tracers keep references to it. Thread-safe.
+class TraceScene {
+public:
+    /// Keeps a reference to `scene`. `textures`: load_textures(scene), or empty to leave textures out.
+    explicit TraceScene(const Scene& scene, std::vector<Texture> textures = {},
+                        const TraceSceneOptions& options = {})
+        : scene_(scene), textures_(std::move(textures)), surfaces_(scene, textures_, options.solid),
+          threads_(options.threads) {}
+    TraceScene(const TraceScene&) = delete;
+    TraceScene& operator=(const TraceScene&) = delete;
+
+    const Scene& scene() const { return scene_; }
+    const std::vector<Texture>& textures() const { return textures_; }
+    const Surfaces& surfaces() const { return surfaces_; }
+    int threads() const { return threads_; }
+    /// Built when it is first asked for. Throws `Error` when memory runs out.
+    const RayScene& rays() const {
+        std::call_once(built_, [this] { rays_.emplace(scene_, threads_); });
+        return *rays_;
+    }
+
+private:
+    const Scene& scene_;
+    std::vector<Texture> textures_;
+    Surfaces surfaces_;
+    int threads_;
+    mutable std::once_flag built_;
+    mutable std::optional<RayScene> rays_;
+};
+
+} // namespace prt

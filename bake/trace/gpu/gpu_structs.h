@@ -1,0 +1,70 @@
+#pragma once
+
+// The structs of shaders/shared_structs.h in C++, with the types of GLSL, and the check that they lie in
+// memory as std430 lays them out.
+
+#include "shared_layout.h"
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace prt::gpu {
+
+using uint = std::uint32_t;
+using glm::mat4, glm::vec2, glm::vec3, glm::vec4, glm::uvec2;
+
+#include "shared_structs.h"
+
+#define PRT_AT(type, member, offset) static_assert(offsetof(type, member) == offset)
+static_assert(sizeof(Receiver) == 32);
+PRT_AT(Receiver, origin, 0);
+PRT_AT(Receiver, normal, 16);
+
+static_assert(sizeof(HitRecord) == 32);
+PRT_AT(HitRecord, receiver, 0);
+PRT_AT(HitRecord, chunk, 4);
+PRT_AT(HitRecord, triangle, 8);
+PRT_AT(HitRecord, u, 12);
+PRT_AT(HitRecord, v, 16);
+PRT_AT(HitRecord, weight, 20);
+PRT_AT(HitRecord, footprint, 24);
+PRT_AT(HitRecord, unused, 28);
+
+static_assert(sizeof(Direction) == 480);
+PRT_AT(Direction, towards_light, 0);
+PRT_AT(Direction, map_from_world, 16);
+PRT_AT(Direction, basis, 80);
+
+static_assert(sizeof(AlphaTriangle) == 48);
+PRT_AT(AlphaTriangle, texcoord, 0);
+PRT_AT(AlphaTriangle, vertex_alpha, 24);
+PRT_AT(AlphaTriangle, material, 36);
+PRT_AT(AlphaTriangle, texel_density, 40);
+PRT_AT(AlphaTriangle, next, 44);
+
+static_assert(sizeof(AlphaMaterial) == 32);
+PRT_AT(AlphaMaterial, mode, 0);
+PRT_AT(AlphaMaterial, cutoff, 4);
+PRT_AT(AlphaMaterial, factor, 8);
+PRT_AT(AlphaMaterial, texels, 12);
+PRT_AT(AlphaMaterial, width, 16);
+PRT_AT(AlphaMaterial, height, 20);
+PRT_AT(AlphaMaterial, levels, 24);
+PRT_AT(AlphaMaterial, wrap, 28);
+
+static_assert(sizeof(WideNode) == 80);
+PRT_AT(WideNode, origin, 0);
+PRT_AT(WideNode, exponents, 12);
+PRT_AT(WideNode, first_child, 16);
+PRT_AT(WideNode, first_triangle, 20);
+PRT_AT(WideNode, meta, 24);
+PRT_AT(WideNode, low, 32);
+PRT_AT(WideNode, high, 56);
+#undef PRT_AT
+
+} // namespace prt::gpu

@@ -1,0 +1,88 @@
+// Structs that the baker's GLSL and C++ share, laid out as in std430: what one side packs the other unpacks by the
+// functions and numbers here. C++ includes it through bake/trace/gpu/gpu_structs.h, which has the types of GLSL.
+#ifndef PRT_SHARED_STRUCTS_H
+#define PRT_SHARED_STRUCTS_H
+
+#ifdef __cplusplus
+#define PRT_FUNCTION inline
+#else
+#define PRT_FUNCTION
+#endif
+
+struct Receiver {
+    vec4 origin; // of its rays, off the surface; w: seed of its samples, as bits
+    vec4 normal;
+};
+
+// A surface that a ray met.
+struct HitRecord {
+    uint receiver; // in the batch
+    uint chunk;    // of the receiver's rays
+    uint triangle; // in the scene's order; PRT_HIT_BACK: met from behind
+    float u, v, weight, footprint;
+    uint unused;
+};
+#define PRT_HIT_BACK 0x80000000u
+
+// A direction that depth maps are drawn for.
+struct Direction {
+    vec4 towards_light;
+    mat4 map_from_world; // to [0, 1]³
+    float basis[PRT_MOST_COEFFICIENTS];
+};
+
+// A triangle that does not stop all light.
+struct AlphaTriangle {
+    vec2 texcoord[3]; // transformed
+    float vertex_alpha[3];
+    uint material;
+    float texel_density; // texels of level 0 per m²
+    uint next;           // layer of the same triangle, counting from 1; 0: none
+};
+
+struct AlphaMaterial {
+    uint mode; // PRT_ALPHA_*; from PRT_ALPHA_BLEND on rays are stopped in part
+    float cutoff, factor;
+    uint texels; // where level 0 begins among the texels, in bytes, or PRT_NO_TEXELS
+    int width, height, levels;
+    uint wrap; // PRT_WRAPS(of u, of v)
+};
+#define PRT_NO_TEXELS 0xffffffffu
+#define PRT_WRAPS(u, v) ((u) | (v) << 8)
+#define PRT_WRAP_U(wraps) ((wraps)&255u)
+#define PRT_WRAP_V(wraps) ((wraps) >> 8)
+
+// A node of the wide hierarchy (bake/trace/gpu/wide_bvh.h): boxes of up to eight children, in slots. They are
+// origin + q · step, rounded outwards. Slots are ordered by octant, so that a ray finds near ones first.
+struct WideNode {
+    vec3 origin;
+    uint exponents;      // of the step, eight bits an axis, biased by 127, as in a float
+    uint first_child;    // node index of the first inner child
+    uint first_triangle; // of the leaves' triangles
+    uvec2 meta;          // a byte a slot: 0 empty, PRT_NODE_INNER(i), or PRT_NODE_LEAF(count, first)
+    uvec2 low[3];        // [axis], a byte a slot
+    uvec2 high[3];
+};
+// Child i of the inner ones; `count` triangles from first_triangle + first on.
+#define PRT_NODE_INNER(i) (0x80u | (i))
+#define PRT_NODE_LEAF(count, first) ((count) << 5 | (first))
+#define PRT_IS_INNER(meta) (((meta)&0x80u) != 0u)
+#define PRT_INNER_CHILD(meta) ((meta)&7u)
+#define PRT_LEAF_COUNT(meta) ((meta) >> 5)
+#define PRT_LEAF_FIRST(meta) ((meta)&31u)
+
+PRT_FUNCTION uint byte_of(uvec2 bytes, uint slot) {
+    return (slot < 4u ? bytes.x : bytes.y) >> (8u * (slot & 3u)) & 255u;
+}
+
+PRT_FUNCTION uvec2 with_byte(uvec2 bytes, uint slot, uint value) {
+    uint shifted = value << (8u * (slot & 3u));
+    return slot < 4u ? uvec2(bytes.x | shifted, bytes.y) : uvec2(bytes.x, bytes.y | shifted);
+}
+
+// The step of an axis, as bits of a float.
+PRT_FUNCTION uint step_bits(uint exponents, uint axis) {
+    return (exponents >> (8u * axis) & 255u) << 23;
+}
+
+#endif
