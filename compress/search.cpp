@@ -1,7 +1,11 @@
+// Searches clusters and bits for a budget: over the words of a receiver, and for each over the number of
+// clusters, by interpolation (docs/math.md, section 4, "Budgets").
+
 #include "prt/search.h"
 
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
+#include "tuning.h"
 
 #include <algorithm>
 #include <bit>
@@ -14,17 +18,12 @@
 namespace prt {
 namespace {
 
-constexpr int kPatience = 2;     ///< steps that may make it worse before a search turns back
-constexpr double kNotKept = 1e6; ///< least cost of what does not keep the budget
-constexpr int kMostWords = 8;    ///< of packed weights
-constexpr double kBasesOverWeights =
-    2; ///< bases of a preset take at most so many times the weights' bytes ..
-constexpr double kAlwaysForBases = 4096; ///< .. or so many bytes: a prop of some hundred vertices needs them
+constexpr double kNotKept = 1e6; ///< least cost of what does not keep the budget, above any error or size
 
-void check(const SearchOptions& o) {
+void check_budget(const SearchOptions& o) {
     for (const auto& [value, name] :
          {std::pair(o.budget.max_error, "error"), std::pair(o.budget.bytes_per_vertex, "bytes per vertex"),
-          std::pair(o.budget.shader_ops, "shader operations")})
+          std::pair(o.budget.mean_components, "shader operations")})
         if (value && !(*value > 0 && std::isfinite(*value)))
             throw Error("a budget of " + std::to_string(*value) + " " + name + " makes no sense");
     if (!o.budget.any())
@@ -52,31 +51,43 @@ double payload_bytes(WeightFormat format, int payload) {
 }
 
 /// Words of a preset, or the groups of four that its components take.
-int payload_of(const CompressOptions& preset, std::size_t dimension) {
-    if (preset.weights != WeightFormat::packed)
+int payload_of(const WeightCoding& preset, std::size_t dimension) {
+    if (preset.format != WeightFormat::packed)
         return (std::min(preset.components, static_cast<int>(dimension)) + 3) / 4;
     const int bits = std::accumulate(preset.fixed_bits.begin(), preset.fixed_bits.end(), preset.cluster_bits);
     return (bits + 31) / 32;
 }
 
-/// How hard a search tries.
+/// How hard a search tries (tuning.h).
 struct Effort {
-    double least_filled = 0.975; ///< share of the bytes that ends a line
-    /// Bytes over those of the weights above which directions are tried both as paying for their bytes and as
-    /// not.
-    double both_ways = 2;
-    double bytes_per_cluster = 120; ///< of the bases, before the first try
+    double least_filled = tuning::kLeastFilled;
+    double both_ways = tuning::kBothWays;
+    double bytes_per_cluster = tuning::kBytesPerCluster; ///< of the bases, before the first try
 };
 
-/// A preset that does not fit: its bytes are a rule of thumb, and a tenth of them is not worth a try. Both
-/// ways differ only where there are so few vertices that bases take more than their share: 2 478 of them had
-/// 0.479 and 0.506 %, and 0.069 and 0.074 %.
+/// Of a preset that does not fit.
 Effort effort_of_preset(const CompressStatistics& too_large) {
-    return {.least_filled = 0.9,
-            .both_ways = 1.02 * (1 + kBasesOverWeights),
+    return {.least_filled = tuning::kLeastFilledOfPreset,
+            .both_ways = tuning::kBothWaysOfPreset,
             .bytes_per_cluster =
                 static_cast<double>(too_large.basis_bytes) / static_cast<double>(too_large.clusters)};
 }
+
+/// What is compressed, and what for. Keeps references.
+struct SearchTask {
+    const Transfer& transfer;
+    std::span<const float> areas;
+    std::span<const Edge> edges;
+    const SearchOptions& options;
+    const Progress& progress;
+
+    double receivers() const { return static_cast<double>(transfer.receivers()); }
+    int dimension() const { return static_cast<int>(transfer.dimension()); }
+    bool packed() const { return options.compress.coding.format == WeightFormat::packed; }
+    double payload_bytes(int payload) const {
+        return prt::payload_bytes(options.compress.coding.format, payload);
+    }
+};
 
 /// Where a straight line through both has `value`.
 double interpolated(const Known& a, const Known& b, double value) {
@@ -86,73 +97,75 @@ double interpolated(const Known& a, const Known& b, double value) {
 /// Tries numbers of clusters on lines, each pair once, and keeps the best.
 class Search {
 public:
-    Search(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-           const SearchOptions& options, const Progress& progress, const Effort& effort = {})
-        : transfer_(transfer), areas_(areas), edges_(edges), options_(options), progress_(progress),
-          effort_(effort), receivers_(static_cast<double>(transfer.receivers())),
-          bytes_per_cluster_(effort.bytes_per_cluster) {
-        // Fewer than a dozen receivers a cluster, and tables outweigh weights.
-        const std::size_t enough = std::max<std::size_t>(64, transfer.receivers() / 12);
-        most_clusters_ =
-            static_cast<int>(std::clamp<std::size_t>(std::min(enough, transfer.receivers()), 1, 65536));
-        if (!options.choose_clusters)
-            most_clusters_ = options.compress.clusters;
-    }
+    explicit Search(const SearchTask& task, const Effort& effort = {})
+        : task_(task), budget_(task.options.budget), effort_(effort), most_clusters_(most_clusters(task)),
+          bytes_per_cluster_(effort.bytes_per_cluster) {}
 
-    /// Where operations are what is short they are few anyway, and more of them must not give way to clusters
-    /// that the bytes have room for: 0.40 instead of 1.04 times the error of classic CPCA with one operation,
-    /// measured on a head. The other way is tried where operations turn out not to be short, or where bases
-    /// outweigh what they serve: the price of a direction is measured on meshes where they do not.
+    /// Where components are what is short they are few anyway, and more of them must not give way to clusters
+    /// that the bytes have room for: 0.40 instead of 1.04 times the error of classic CPCA with one component,
+    /// measured on a head. The other way is tried where components turn out not to be short, or where bases
+    /// outweigh what they serve: the price of a row is measured on meshes where they do not.
     SearchResult run() {
-        const std::optional<double> ops = options_.budget.shader_ops;
-        search_payloads({start(), !ops});
+        const std::optional<double>& most = budget_.mean_components;
+        search_payloads({start(), !most});
+        const SearchTrial& best = best_->trial;
         const bool other_way =
-            ops ? best_trial_.mean_components < 0.9 * *ops
-                : packed() && best_trial_.bytes_per_vertex > effort_.both_ways * best_trial_.payload_bytes;
+            most ? best.mean_components < tuning::kComponentsShort * *most
+                 : task_.packed() && best.bytes_per_vertex > effort_.both_ways * best.payload_bytes;
         if (other_way)
-            search_payloads({best_payload_, ops.has_value()});
-        if (!result_.kept && options_.budget.bytes_per_vertex && options_.choose_components)
+            search_payloads({best_->payload, most.has_value()});
+        if (!result_.kept && budget_.bytes_per_vertex && task_.options.choose_components)
             search_fewer_components();
         result_.result.statistics.seconds = stopwatch_.seconds();
         return std::move(result_);
     }
 
 private:
-    bool packed() const { return options_.compress.weights == WeightFormat::packed; }
+    struct Best {
+        SearchTrial trial;
+        int payload;
+    };
+
+    static int most_clusters(const SearchTask& task) {
+        if (!task.options.choose_clusters)
+            return task.options.compress.clusters;
+        const std::size_t receivers = task.transfer.receivers(),
+                          enough =
+                              std::max(tuning::kAlwaysClusters, receivers / tuning::kReceiversPerCluster);
+        return static_cast<int>(std::clamp<std::size_t>(std::min(enough, receivers), 1, 65536));
+    }
     int start() const;
-    int least_payload() const { return options_.payload > 0 ? options_.payload : packed() ? 1 : 0; }
+    int least_payload() const {
+        const int given = task_.options.payload;
+        return given > 0 ? given : task_.packed() ? 1 : 0;
+    }
     int most_payload() const;
-    double payload_bytes(int payload) const { return prt::payload_bytes(options_.compress.weights, payload); }
     /// Bytes per receiver that a line may fill: the budget's, or, where bytes are not asked about, as much as
     /// a preset may.
     double most_bytes(const Line& line) const {
-        return options_.budget.bytes_per_vertex.value_or((1 + kBasesOverWeights) *
-                                                         payload_bytes(line.payload));
+        return budget_.bytes_per_vertex.value_or((1 + tuning::kBasesOverWeights) *
+                                                 task_.payload_bytes(line.payload));
     }
     CompressOptions options_on(const Line& line, int clusters) const;
     SearchTrial attempt(int clusters, const Line& line);
     void keep_if_better(CompressResult&& result, const SearchTrial& trial, const Line& line);
 
     bool keeps(const SearchTrial& t) const {
-        const Budget& b = options_.budget;
-        return (!b.max_error || t.lit_rms <= *b.max_error) &&
-               (!b.bytes_per_vertex || t.bytes_per_vertex <= *b.bytes_per_vertex) &&
-               (!b.shader_ops || t.mean_components <= *b.shader_ops);
+        return (!budget_.max_error || t.lit_rms <= *budget_.max_error) &&
+               (!budget_.bytes_per_vertex || t.bytes_per_vertex <= *budget_.bytes_per_vertex) &&
+               (!budget_.mean_components || t.mean_components <= *budget_.mean_components);
     }
     /// What is made small once the budget is kept; while it is not, how far off it is.
     double cost(const SearchTrial& t) const {
-        const Budget& b = options_.budget;
-        if (!keeps(t)) {
-            double off = 1;
-            if (b.max_error)
-                off = std::max(off, t.lit_rms / *b.max_error);
-            if (b.bytes_per_vertex)
-                off = std::max(off, t.bytes_per_vertex / *b.bytes_per_vertex);
-            if (b.shader_ops)
-                off = std::max(off, t.mean_components / *b.shader_ops);
-            return kNotKept * off;
-        }
-        return b.max_error ? t.bytes_per_vertex : t.lit_rms;
+        if (keeps(t))
+            return budget_.max_error ? t.bytes_per_vertex : t.lit_rms;
+        double off = 1;
+        for (const auto& [value, most] : {std::pair(t.lit_rms, budget_.max_error),
+                                          std::pair(t.bytes_per_vertex, budget_.bytes_per_vertex),
+                                          std::pair(t.mean_components, budget_.mean_components)})
+            if (most)
+                off = std::max(off, value / *most);
+        return kNotKept * off;
     }
 
     double search_payloads(const Line& start);
@@ -165,41 +178,35 @@ private:
         return static_cast<int>(std::clamp(std::round(clusters), 1.0, static_cast<double>(most_clusters_)));
     }
 
-    const Transfer& transfer_;
-    std::span<const float> areas_;
-    std::span<const Edge> edges_;
-    const SearchOptions& options_;
-    const Progress& progress_;
+    const SearchTask& task_;
+    const Budget& budget_;
     Effort effort_;
-    double receivers_;
-    int most_clusters_ = 1;
+    int most_clusters_;
     double bytes_per_cluster_; ///< of the bases, from the last try
-    double clusters_guess_ = 64;
+    double clusters_guess_ = tuning::kFirstClusters;
     std::map<std::pair<int, Line>, SearchTrial> tried_;
-    std::map<Line, double> best_;
+    std::map<Line, double> least_cost_;
+    std::optional<Best> best_;
     SearchResult result_;
     Stopwatch stopwatch_;
-    bool any_ = false;
-    SearchTrial best_trial_;
-    int best_payload_ = 1;
 };
 
 CompressOptions Search::options_on(const Line& line, int clusters) const {
-    CompressOptions o = options_.compress;
+    CompressOptions o = task_.options.compress;
+    WeightCoding& coding = o.coding;
     o.clusters = clusters;
-    o.mean_components = options_.budget.shader_ops.value_or(0);
-    if (packed()) {
-        o.cluster_bits = static_cast<int>(std::bit_width(static_cast<unsigned>(clusters - 1)));
+    o.mean_components = budget_.mean_components.value_or(0);
+    int most = 4 * line.payload;
+    if (task_.packed()) {
+        coding.cluster_bits = static_cast<int>(std::bit_width(static_cast<unsigned>(clusters - 1)));
         o.bases_count = line.bases_count;
-        o.fixed_bits.clear();
-        o.bits = std::min(32 * line.payload - o.cluster_bits, kMostPackedBits); // words are bound whole
-        if (options_.choose_components)
-            o.components = std::min(kMostPackedComponents, static_cast<int>(transfer_.dimension()));
-    } else if (options_.choose_components) {
-        o.components = std::min(4 * line.payload, static_cast<int>(transfer_.dimension()));
+        coding.fixed_bits.clear();
+        coding.bits =
+            std::min(32 * line.payload - coding.cluster_bits, kMostPackedBits); // words are bound whole
+        most = kMostPackedComponents;
     }
-    if (options_.choose_components)
-        o.components = std::min(o.components, line.most_components);
+    if (task_.options.choose_components)
+        coding.components = std::min({most, task_.dimension(), line.most_components});
     return o;
 }
 
@@ -209,39 +216,40 @@ SearchTrial Search::attempt(int clusters, const Line& line) {
         return known->second;
     // How many tries there will be is not known; each takes a tenth of what is left of the bar.
     const double done = 1 - std::pow(0.9, static_cast<double>(tried_.size()));
-    Progress part{{}, progress_.stop};
-    if (progress_.report)
-        part.report = [&, done](double share) { progress_.report(done + 0.1 * (1 - done) * share); };
-    CompressResult result = compress(transfer_, areas_, edges_, options_on(line, clusters), part);
+    CompressResult result = compress(task_.transfer, task_.areas, task_.edges, options_on(line, clusters),
+                                     task_.progress.part(done, done + 0.1 * (1 - done)));
     const CompressStatistics& s = result.statistics;
-    const SearchTrial trial{clusters,          static_cast<int>(s.bytes_per_receiver),
-                            s.lit_rms,         s.bytes_with_bases(transfer_.receivers()),
-                            s.mean_components, s.seconds};
-    bytes_per_cluster_ = std::max(4.0, static_cast<double>(s.basis_bytes) / static_cast<double>(s.clusters));
+    const SearchTrial trial{.clusters = clusters,
+                            .payload_bytes = static_cast<int>(s.bytes_per_receiver),
+                            .lit_rms = s.lit_rms,
+                            .bytes_per_vertex = s.bytes_with_bases(task_.transfer.receivers()),
+                            .mean_components = s.mean_components,
+                            .seconds = s.seconds};
+    bytes_per_cluster_ = std::max(tuning::kLeastBytesPerCluster,
+                                  static_cast<double>(s.basis_bytes) / static_cast<double>(s.clusters));
+    if (task_.options.compress.trace)
+        task_.options.compress.trace(trial);
     tried_[key] = trial;
     result_.trials.push_back(trial);
-    best_[line] = std::min(best_[line], cost(trial));
+    least_cost_[line] = std::min(least_cost_[line], cost(trial));
     keep_if_better(std::move(result), trial, line);
     return trial;
 }
 
 void Search::keep_if_better(CompressResult&& result, const SearchTrial& trial, const Line& line) {
-    if (any_ && !(cost(trial) < cost(best_trial_)))
+    if (best_ && !(cost(trial) < cost(best_->trial)))
         return;
-    any_ = true;
-    best_trial_ = trial;
-    best_payload_ = line.payload;
+    best_ = {trial, line.payload};
     result_.result = std::move(result);
     result_.kept = keeps(trial);
 }
 
 /// As many clusters as the bytes have room for, between a number that fits and one that does not.
 void Search::fill_bytes(const Line& line) {
-    constexpr int kTries = 6;
     const double most = most_bytes(line), aim = 0.5 * (1 + effort_.least_filled) * most;
-    Known fits{0, payload_bytes(line.payload)}, too_many{static_cast<double>(most_clusters_) + 1, 0};
-    double next = (aim - fits.value) * receivers_ / bytes_per_cluster_;
-    for (int i = 0; i < kTries && fits.clusters + 1 < too_many.clusters; ++i) {
+    Known fits{0, task_.payload_bytes(line.payload)}, too_many{static_cast<double>(most_clusters_) + 1, 0};
+    double next = (aim - fits.value) * task_.receivers() / bytes_per_cluster_;
+    for (int i = 0; i < tuning::kBytesTries && fits.clusters + 1 < too_many.clusters; ++i) {
         const int clusters = clamped(std::clamp(next, fits.clusters + 1, too_many.clusters - 1));
         const double bytes = attempt(clusters, line).bytes_per_vertex;
         (bytes <= most ? fits : too_many) = {static_cast<double>(clusters), bytes};
@@ -250,19 +258,18 @@ void Search::fill_bytes(const Line& line) {
         if (too_many.value > 0)
             next = interpolated(fits, too_many, aim);
         else
-            next = clusters + (aim - bytes) * receivers_ / bytes_per_cluster_;
+            next = clusters + (aim - bytes) * task_.receivers() / bytes_per_cluster_;
     }
 }
 
 /// As few clusters as reach the error, between a number that misses and one that does: the logarithm of the
-/// error falls straight with that of the clusters, by -0.4 as a rule.
+/// error falls straight with that of the clusters, by -kErrorExponent as a rule.
 void Search::reach_error(const Line& line) {
-    constexpr int kTries = 8;
-    const double wanted = *options_.budget.max_error, aim = std::log(0.993 * wanted);
+    const double wanted = *budget_.max_error, aim = std::log(tuning::kAimedError * wanted);
     Known misses{0, 0}, reaches{static_cast<double>(most_clusters_) + 1, 0};
     bool missed = false, reached = false;
     double next = clusters_guess_;
-    for (int i = 0; i < kTries && misses.clusters + 1 < reaches.clusters; ++i) {
+    for (int i = 0; i < tuning::kErrorTries && misses.clusters + 1 < reaches.clusters; ++i) {
         const int clusters = clamped(std::clamp(next, misses.clusters + 1, reaches.clusters - 1));
         const SearchTrial trial = attempt(clusters, line);
         const double error = std::log(std::max(trial.lit_rms, 1e-12));
@@ -271,17 +278,17 @@ void Search::reach_error(const Line& line) {
         (enough ? reached : missed) = true;
         if (enough)
             clusters_guess_ = clusters;
-        if (enough && trial.lit_rms > 0.985 * wanted)
+        if (enough && trial.lit_rms > tuning::kNearEnough * wanted)
             break;
         // More clusters only cost more where the bytes already pass what is allowed, or the best so far.
         const double dearest =
-            result_.kept ? best_trial_.bytes_per_vertex : options_.budget.bytes_per_vertex.value_or(1e30);
+            result_.kept ? best_->trial.bytes_per_vertex : budget_.bytes_per_vertex.value_or(1e30);
         if (!enough && trial.bytes_per_vertex > dearest)
             break;
-        const double factor = std::exp(std::clamp((error - aim) / 0.4, -5.0, 5.0));
-        if (!reached && factor > 64) // so far off, a larger payload is the way
+        const double factor = std::exp(std::clamp((error - aim) / tuning::kErrorExponent, -5.0, 5.0));
+        if (!reached && factor > tuning::kHopelessFactor) // so far off, a larger payload is the way
             break;
-        next = clusters * std::clamp(factor, 1.0 / 64, 4.0);
+        next = clusters * std::clamp(factor, 1 / tuning::kHopelessFactor, tuning::kMostFactor);
         if (missed && reached)
             next = std::exp(interpolated({std::log(misses.clusters), misses.value},
                                          {std::log(reaches.clusters), reaches.value}, aim));
@@ -289,42 +296,42 @@ void Search::reach_error(const Line& line) {
 }
 
 double Search::best_on(const Line& line) {
-    if (const auto known = best_.find(line); known != best_.end())
+    if (const auto known = least_cost_.find(line); known != least_cost_.end())
         return known->second;
-    best_[line] = 1e30;
-    if (!options_.choose_clusters)
-        attempt(options_.compress.clusters, line);
-    else if (options_.budget.max_error)
+    least_cost_[line] = 1e30;
+    if (!task_.options.choose_clusters)
+        attempt(task_.options.compress.clusters, line);
+    else if (budget_.max_error)
         reach_error(line);
     else
         fill_bytes(line);
-    return best_[line];
+    return least_cost_[line];
 }
 
 int Search::most_payload() const {
-    if (options_.payload > 0)
-        return options_.payload;
-    int most = packed() ? kMostWords : (static_cast<int>(transfer_.dimension()) + 3) / 4;
-    const Budget& budget = options_.budget;
-    if (budget.bytes_per_vertex)
-        while (most > least_payload() && payload_bytes(most) > *budget.bytes_per_vertex)
+    if (task_.options.payload > 0)
+        return task_.options.payload;
+    int most = task_.packed() ? kMostPackedWords : (task_.dimension() + 3) / 4;
+    if (budget_.bytes_per_vertex)
+        while (most > least_payload() && task_.payload_bytes(most) > *budget_.bytes_per_vertex)
             --most;
-    else if (packed() && budget.shader_ops && !budget.max_error)
-        // More bits than these lose nothing to speak of: 16 of the cluster, 12 of every component.
-        most = std::min(most, static_cast<int>(std::ceil((16 + 12 * *budget.shader_ops) / 32)));
+    else if (task_.packed() && budget_.mean_components && !budget_.max_error)
+        most = std::min(
+            most,
+            static_cast<int>(std::ceil(
+                (tuning::kEnoughClusterBits + tuning::kEnoughWeightBits * *budget_.mean_components) / 32)));
     return most;
 }
 
-/// Where to begin: what was the best share of the weights on meshes of 10 000 to 40 000 vertices. Few
-/// operations leave little to spend there.
+/// Where to begin. Few components leave little to spend on weights.
 int Search::start() const {
-    const Budget& budget = options_.budget;
-    double bytes = 4;
-    if (budget.max_error) // four bytes or so for a hundredth, and one more for every half of it
-        bytes = 4 + 1.1 * std::log2(0.01 / *budget.max_error);
-    if (budget.bytes_per_vertex)
-        bytes = (budget.shader_ops ? 0.4 : 0.6) * *budget.bytes_per_vertex;
-    const double payload = packed() ? bytes / 4 : bytes / payload_bytes(1);
+    double bytes = tuning::kFirstBytes;
+    if (budget_.max_error)
+        bytes += tuning::kBytesPerHalving * std::log2(tuning::kFirstBytesError / *budget_.max_error);
+    if (budget_.bytes_per_vertex)
+        bytes = (budget_.mean_components ? tuning::kWeightsShareOfFewComponents : tuning::kWeightsShare) *
+                *budget_.bytes_per_vertex;
+    const double payload = bytes / task_.payload_bytes(1);
     return std::clamp(static_cast<int>(std::lround(payload)), least_payload(), most_payload());
 }
 
@@ -335,7 +342,7 @@ double Search::search_payloads(const Line& start) {
         double best = best_on(start);
         int worse = 0;
         for (int payload = start.payload + direction;
-             payload >= least_payload() && payload <= most_payload() && worse < kPatience;
+             payload >= least_payload() && payload <= most_payload() && worse < tuning::kPatience;
              payload += direction) {
             const double found = best_on({payload, start.bases_count, start.most_components});
             worse = found < best ? 0 : worse + 1;
@@ -349,10 +356,10 @@ double Search::search_payloads(const Line& start) {
 /// Where even one cluster with all its directions takes too many bytes: from none of them on, as long as the
 /// budget is kept or comes nearer. A mean alone, of one cluster, is the least that there is.
 void Search::search_fewer_components() {
-    const int all = options_on({.payload = least_payload()}, 1).components;
+    const int all = options_on({.payload = least_payload()}, 1).coding.components;
     double best = std::numeric_limits<double>::infinity();
     int worse = 0;
-    for (int components = 0; components < std::max(all, 1) && worse < kPatience; ++components) {
+    for (int components = 0; components < std::max(all, 1) && worse < tuning::kPatience; ++components) {
         const double found = search_payloads({.payload = least_payload(), .most_components = components});
         worse = found < kNotKept || found < best ? 0 : worse + 1;
         best = std::min(best, found);
@@ -364,31 +371,37 @@ void Search::search_fewer_components() {
 SearchResult compress_within(const Transfer& transfer, std::span<const float> areas,
                              std::span<const Edge> edges, const SearchOptions& options,
                              const Progress& progress) {
-    check(options);
-    return Search(transfer, areas, edges, options, progress).run();
+    check_budget(options);
+    const SearchTask task{transfer, areas, edges, options, progress};
+    return Search(task).run();
 }
 
 SearchResult compress_preset(const Transfer& transfer, std::span<const float> areas,
-                             std::span<const Edge> edges, const CompressOptions& preset,
+                             std::span<const Edge> edges, const CompressOptions& options,
                              const Progress& progress) {
     const Stopwatch stopwatch;
     SearchResult found;
-    found.result = compress(transfer, areas, edges, preset, progress);
+    // The search that may follow is one of small meshes: it takes no time to speak of.
+    found.result = compress(transfer, areas, edges, options, progress.part(0, 0.9));
     const CompressStatistics& s = found.result.statistics;
     const auto receivers = static_cast<double>(transfer.receivers());
-    const int payload = payload_of(preset, transfer.dimension());
-    const double bound = payload_bytes(preset.weights, payload);
-    const double most_bases = std::max(kBasesOverWeights * bound * receivers, kAlwaysForBases);
+    const int payload = payload_of(options.coding, transfer.dimension());
+    const double bound = payload_bytes(options.coding.format, payload);
+    const double most_bases =
+        std::max(tuning::kBasesOverWeights * bound * receivers, tuning::kAlwaysForBases);
     found.kept = static_cast<double>(s.basis_bytes) <= most_bases;
-    if (found.kept)
-        return found;
-    SearchOptions options;
-    options.compress = preset;
-    options.payload = payload;
-    options.choose_components = preset.weights == WeightFormat::packed;
-    options.budget.bytes_per_vertex = bound + most_bases / receivers;
-    found = Search(transfer, areas, edges, options, progress, effort_of_preset(s)).run();
-    found.result.statistics.seconds = stopwatch.seconds();
+    if (!found.kept) {
+        SearchOptions fitting;
+        fitting.compress = options;
+        fitting.payload = payload;
+        fitting.choose_components = options.coding.format == WeightFormat::packed;
+        fitting.budget.bytes_per_vertex = bound + most_bases / receivers;
+        const Progress rest = progress.part(0.9, 1);
+        const SearchTask task{transfer, areas, edges, fitting, rest};
+        found = Search(task, effort_of_preset(s)).run();
+        found.result.statistics.seconds = stopwatch.seconds();
+    }
+    progress.update(1);
     return found;
 }
 

@@ -52,21 +52,13 @@ void count_or_auto(CLI::App* command, const std::string& name, int& target, bool
         ->type_name("N|auto");
 }
 
-/// What a preset fixes; the rest of the options stays.
-void take_sizes(const CompressOptions& preset, CompressOptions& to) {
-    to.clusters = preset.clusters;
-    to.cluster_bits = preset.cluster_bits;
-    to.fixed_bits = preset.fixed_bits;
-    to.components = preset.components;
-}
-
 void add_sizes(CLI::App* command, SearchOptions& o) {
     command
         ->add_option_function<std::string>(
             "--preset",
             [&o](const std::string& name) {
                 if (name != "custom")
-                    take_sizes(name == "u32" ? preset_u32() : preset_u64(), o.compress);
+                    o.compress.coding = name == "u32" ? preset_u32() : preset_u64();
             },
             "u32: all of a vertex in one 32-bit word; u64: in two; both with 256 clusters, or as many as "
             "bases of twice those bytes (or 4 KB) hold; custom: as the following options say")
@@ -75,17 +67,17 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
         ->default_str("u32, custom with other sizes");
     count_or_auto(command, "--clusters", o.compress.clusters, o.choose_clusters,
                   "number of clusters, 1..65536");
-    count_or_auto(command, "--components", o.compress.components, o.choose_components,
+    count_or_auto(command, "--components", o.compress.coding.components, o.choose_components,
                   "most PCA components of a cluster");
-    command->add_option("--bits", o.compress.bits,
+    command->add_option("--bits", o.compress.coding.bits,
                         "bits of a vertex's weights together, where they are packed");
-    choice(command, "--weights", o.compress.weights, kWeights,
+    choice(command, "--weights", o.compress.coding.format, kWeights,
            "packed: bits by variance; or 8 or 16 bits each, or float", "packed");
     command->add_option("--max-error", o.budget.max_error,
                         "the cheapest whose expected lit_rms under the metric is at most this");
     command->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
                         "the best of at most this size: whole 32-bit words, as a game binds them, and bases");
-    command->add_option("--shader-ops", o.budget.shader_ops,
+    command->add_option("--shader-ops", o.budget.mean_components,
                         "components that the vertex shader adds, on average over the vertices, at most");
 }
 
@@ -109,13 +101,13 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     if ((given("--clusters") && o.choose_clusters) || (given("--components") && o.choose_components))
         throw CLI::ValidationError("auto", "needs --max-error, --bytes-per-vertex or --shader-ops");
     if (!preset && !sizes && !given("--preset")) {
-        take_sizes(preset_u32(), o.compress);
+        o.compress.coding = preset_u32();
         return;
     }
-    if (preset || o.compress.weights == WeightFormat::packed)
+    if (preset || o.compress.coding.format == WeightFormat::packed)
         return;
     if (!given("--components"))
-        o.compress.components = 8;
+        o.compress.coding.components = 8;
     a.preset = !given("--clusters"); // as many as suit the mesh
 }
 
@@ -146,7 +138,7 @@ Outcome run_compressor(const CompressArguments& a, const SceneFile& model, const
     const std::vector<float> areas = receiver_areas(model.scene);
     const CompressOptions& o = options.compress;
     const std::vector<Edge> edges =
-        o.seam_weight > 0 || o.potts_weight > 0 ? mesh_edges(model.scene) : std::vector<Edge>{};
+        o.seam_price > 0 || o.border_price > 0 ? mesh_edges(model.scene) : std::vector<Edge>{};
     ProgressBar bar = session.progress_bar("compressing");
     if (a.preset) {
         SearchResult found = compress_preset(transfer, areas, edges, o, bar.progress());
@@ -222,9 +214,10 @@ Json reuse_json(const VertexReuse& before, const VertexReuse& after) {
 std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
     std::vector<std::string> list = {"{output}: {clusters} clusters x {components_mean:.2f} components"};
     if (fitted)
-        list.push_back(fmt::format(
-            "the mesh is small: {} fitted to it, so that bases do not outweigh weights",
-            a.options.compress.weights == WeightFormat::packed ? "clusters and bits are" : "clusters are"));
+        list.push_back(
+            fmt::format("the mesh is small: {} fitted to it, so that bases do not outweigh weights",
+                        a.options.compress.coding.format == WeightFormat::packed ? "clusters and bits are"
+                                                                                 : "clusters are"));
     list.emplace_back("expected error of the lit surface (lit_rms) {lit_rms:.3f%}, of the transfer (relative "
                       "L2) {relative_l2:.3f%}");
     list.emplace_back(
@@ -260,9 +253,9 @@ void run(const CompressArguments& a, Session& session) {
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
     options.compress.metric = chosen_metric(a, transfer);
-    if (a.components_given && options.compress.components > static_cast<int>(transfer.dimension()))
+    if (a.components_given && options.compress.coding.components > static_cast<int>(transfer.dimension()))
         throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
-                                transfer.dimension(), options.compress.components));
+                                transfer.dimension(), options.compress.coding.components));
     discard_transfer(model.document); // it is in `transfer`, and would be in memory twice
     Outcome outcome = run_compressor(a, model, options, session);
     const VertexReuse reuse_before = vertex_reuse(model.scene);
@@ -307,11 +300,11 @@ void add_compress(CLI::App& app, Session& session) {
         ->type_name("FILE");
     add_light_options(command, a.light_options);
     command
-        ->add_option("--seam-weight", a.options.compress.seam_weight,
+        ->add_option("--seam-weight", a.options.compress.seam_price,
                      "what jumps of the error along mesh edges cost, 0: nothing")
         ->capture_default_str();
     command
-        ->add_option("--potts-weight", a.options.compress.potts_weight,
+        ->add_option("--potts-weight", a.options.compress.border_price,
                      "price of a neighbour in another cluster, in mean squared errors")
         ->capture_default_str();
     command->add_flag("--reorder", a.reorder, "put the vertices of a cluster side by side");

@@ -41,7 +41,7 @@ Chart chart(const std::vector<SweepPoint>& points, const char* x_title, Cost&& c
         for (const SweepPoint& p : frontier(points, method, cost))
             curve.points.push_back({cost(p), 100 * p.lit_rms,
                                     fmt::format("{}: {:.2f} bytes, {:.2f} operations, {:.3f} %", p.setting,
-                                                p.bytes(), p.shader_ops, 100 * p.lit_rms)});
+                                                p.bytes(), p.mean_components, 100 * p.lit_rms)});
         series.push_back(std::move(curve));
     }
     return {x_title, "lit_rms, %", std::move(series)};
@@ -77,14 +77,14 @@ Table points_table(const char* key, const std::vector<SweepPoint>& points) {
                                "bytes_per_vertex", "shader_operations", "lit_rms", "relative_l2", "seconds"})
         table.columns.push_back({column, ""});
     for (const SweepPoint& p : points)
-        table.rows.push_back({p.method, p.setting, p.payload_bytes, p.table_bytes, p.bytes(), p.shader_ops,
-                              p.lit_rms, p.relative_l2, p.seconds});
+        table.rows.push_back({p.method, p.setting, p.payload_bytes, p.table_bytes, p.bytes(),
+                              p.mean_components, p.lit_rms, p.relative_l2, p.seconds});
     table.audience = Audience::files;
     return table;
 }
 
 double ops_of(const SweepPoint& p) {
-    return p.shader_ops;
+    return p.mean_components;
 }
 double bytes_of(const SweepPoint& p) {
     return p.bytes();
@@ -99,18 +99,18 @@ void add_sweep(const Sweep& sweep, Report& report) {
         "Bytes per vertex: payload as a game binds it, in whole 32-bit words, and all tables over the "
         "vertices. All methods are counted alike.";
     bytes.charts = {chart(sweep.by_bytes, "bytes per vertex, bases counted in", bytes_of)};
-    Table ops = best_table(sweep, sweep.by_ops, kSweepOps, "operations", best_by_ops);
+    Table ops = best_table(sweep, sweep.by_components, kSweepComponents, "operations", best_by_components);
     ops.title = "Error at equal shader operations";
     ops.about =
         fmt::format("Multiply-adds of a colour per vertex, on average. Clustered methods of the literature "
                     "have {} clusters; prtkit has as many as take no more bytes than classic CPCA at the "
                     "same operations.",
                     kSweepClusters);
-    ops.charts = {chart(sweep.by_ops, "multiply-adds per vertex", ops_of)};
+    ops.charts = {chart(sweep.by_components, "multiply-adds per vertex", ops_of)};
     report.tables.push_back(std::move(bytes));
     report.tables.push_back(std::move(ops));
     report.tables.push_back(points_table("sweep/equal_bytes", sweep.by_bytes));
-    report.tables.push_back(points_table("sweep/equal_shader_operations", sweep.by_ops));
+    report.tables.push_back(points_table("sweep/equal_shader_operations", sweep.by_components));
     for (const std::string& missing : sweep.left_out)
         report.notes.push_back(std::string(kOurs) + ": " + missing);
 }

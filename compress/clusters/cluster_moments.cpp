@@ -1,3 +1,6 @@
+// Local PCA from moments that are kept up to date (Sloan et al. 2003, section 4.2): eigenvectors of each
+// cluster's covariance, by way of a low-rank factor where its points are few.
+
 #include "clusters/cluster_moments.h"
 
 #include "prt/support/parallel.h"
@@ -23,14 +26,14 @@ ClusterMoments::ClusterMoments(std::size_t clusters, std::size_t dimension)
     : dimension_(dimension), stride_(1 + dimension + dimension * (dimension + 1) / 2),
       values_(clusters * stride_, 0) {}
 
-void ClusterMoments::add(const float* point, double weight, std::span<double> moments) {
+void ClusterMoments::add(const float* point, double significance, std::span<double> moments) {
     const std::size_t dimension =
         static_cast<std::size_t>((std::sqrt(8.0 * static_cast<double>(moments.size()) + 1) - 3) / 2 + 0.5);
     double* sums = &moments[1];
     double* products = sums + dimension;
-    moments[0] += weight;
+    moments[0] += significance;
     for (std::size_t i = 0; i < dimension; ++i) {
-        const double scaled = weight * static_cast<double>(point[i]);
+        const double scaled = significance * static_cast<double>(point[i]);
         sums[i] += scaled;
         for (std::size_t j = 0; j <= i; ++j)
             products[j] += scaled * static_cast<double>(point[j]);
@@ -38,20 +41,20 @@ void ClusterMoments::add(const float* point, double weight, std::span<double> mo
     }
 }
 
-void ClusterMoments::build(const PointBlocks& points, std::span<const float> weights,
+void ClusterMoments::build(const PointBlocks& points, std::span<const float> significance,
                            std::span<const std::uint32_t> clusters, int threads) {
     std::fill(values_.begin(), values_.end(), 0);
     const std::vector<std::uint32_t> nowhere(points.count, ~0u);
-    update(points, weights, nowhere, clusters, threads);
+    update(points, significance, nowhere, clusters, threads);
 }
 
-void ClusterMoments::update(const PointBlocks& points, std::span<const float> weights,
+void ClusterMoments::update(const PointBlocks& points, std::span<const float> significance,
                             std::span<const std::uint32_t> before, std::span<const std::uint32_t> after,
                             int threads) {
     const std::size_t count = values_.size() / stride_;
     std::vector<std::vector<Change>> changes(count);
     for (std::uint32_t p = 0; p < points.count; ++p) {
-        if (before[p] == after[p] || !(weights[p] > 0))
+        if (before[p] == after[p] || !(significance[p] > 0))
             continue;
         if (before[p] < count)
             changes[before[p]].push_back({p, -1});
@@ -63,7 +66,7 @@ void ClusterMoments::update(const PointBlocks& points, std::span<const float> we
         for (std::size_t k = begin; k < end; ++k)
             for (const Change& change : changes[k]) {
                 points.copy_point(change.point, point.data());
-                add(point.data(), change.sign * static_cast<double>(weights[change.point]),
+                add(point.data(), change.sign * static_cast<double>(significance[change.point]),
                     std::span(values_).subspan(k * stride_, stride_));
             }
     });
@@ -71,8 +74,9 @@ void ClusterMoments::update(const PointBlocks& points, std::span<const float> we
 
 namespace {
 
-// Of points that came and went rounding stays behind: nothing below a millionth of a millionth counts.
-constexpr double kLeastWeight = 1e-14;
+/// Rounding stays behind where points came and went: a cluster of less significance is empty. All receivers
+/// together have 1, known to 2^-53 in each of the additions.
+constexpr double kLeastSignificance = 1e-14;
 
 struct Covariance {
     Eigen::VectorXd mean;
@@ -81,12 +85,12 @@ struct Covariance {
 
 Covariance covariance_of(const ClusterMoments::View& moments) {
     const auto d = static_cast<Eigen::Index>(moments.dimension);
-    Covariance result{Eigen::Map<const Eigen::VectorXd>(&moments.values[1], d) / moments.weight(),
+    Covariance result{Eigen::Map<const Eigen::VectorXd>(&moments.values[1], d) / moments.significance(),
                       Eigen::MatrixXd::Zero(d, d)};
     const double* product = moments.values.data() + 1 + d;
     for (Eigen::Index i = 0; i < d; ++i)
         for (Eigen::Index j = 0; j <= i; ++j)
-            result.matrix(i, j) = *product++ / moments.weight() - result.mean[i] * result.mean[j];
+            result.matrix(i, j) = *product++ / moments.significance() - result.mean[i] * result.mean[j];
     return result;
 }
 
@@ -159,9 +163,9 @@ Spectrum spectrum_of(const Covariance& covariance, bool with_directions) {
 
 ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending) {
     ClusterFit fit{std::vector<float>(moments.dimension, 0.0f), {}, {}, {}, 0};
-    if (!(moments.weight() > kLeastWeight))
+    if (!(moments.significance() > kLeastSignificance))
         return fit;
-    fit.weight = moments.weight();
+    fit.significance = moments.significance();
     if (moments.dimension == 0)
         return fit;
     const Covariance covariance = covariance_of(moments);
@@ -169,7 +173,7 @@ ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spen
                    [](double v) { return static_cast<float>(v); });
     Spectrum spectrum = spectrum_of(covariance, true);
     fit.variances = std::move(spectrum.variances);
-    fit.plan = plan_components(fit.variances, fit.weight, spending);
+    fit.plan = plan_components(fit.variances, fit.significance, spending);
     for (std::size_t j = 0; j < fit.plan.bits.size(); ++j) {
         Eigen::VectorXd direction = spectrum.directions.col(static_cast<Eigen::Index>(j));
         Eigen::Index largest = 0; // the sign of an eigenvector is arbitrary; fix it
@@ -183,11 +187,12 @@ ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spen
 }
 
 double cluster_cost(const ClusterMoments::View& moments, const Spending& spending) {
-    if (!(moments.weight() > kLeastWeight) || moments.dimension == 0)
+    if (!(moments.significance() > kLeastSignificance) || moments.dimension == 0)
         return 0;
     const Covariance covariance = covariance_of(moments);
-    return cost_of(plan_components(spectrum_of(covariance, false).variances, moments.weight(), spending),
-                   moments.weight(), spending);
+    return cost_of(
+        plan_components(spectrum_of(covariance, false).variances, moments.significance(), spending),
+        moments.significance(), spending);
 }
 
 } // namespace prt

@@ -5,28 +5,28 @@
 
 namespace prt {
 
-/// Weighted moments of every cluster's points, in double: what a local PCA needs. Points that change their
-/// cluster are subtracted here and added there, so that a round costs what has moved.
+/// Moments of every cluster's points by significance, in double: what a local PCA needs. Points that change
+/// their cluster are subtracted here and added there, so that a round costs what has moved.
 class ClusterMoments {
 public:
     ClusterMoments(std::size_t clusters, std::size_t dimension);
 
     /// Sums over all points from nothing.
-    void build(const PointBlocks& points, std::span<const float> weights,
+    void build(const PointBlocks& points, std::span<const float> significance,
                std::span<const std::uint32_t> clusters, int threads);
     /// Takes `before` to `after`.
-    void update(const PointBlocks& points, std::span<const float> weights,
+    void update(const PointBlocks& points, std::span<const float> significance,
                 std::span<const std::uint32_t> before, std::span<const std::uint32_t> after, int threads);
 
-    /// A cluster's moments: weight, sums [dimension], lower triangle of products by rows.
+    /// A cluster's moments: significance, sums [dimension], lower triangle of products by rows.
     struct View {
         std::size_t dimension;
         std::span<const double> values;
-        double weight() const { return values[0]; }
+        double significance() const { return values[0]; }
     };
     View view(std::size_t k) const { return {dimension_, std::span(values_).subspan(k * stride_, stride_)}; }
     std::size_t stride() const { return stride_; }
-    static void add(const float* point, double weight, std::span<double> moments);
+    static void add(const float* point, double significance, std::span<double> moments);
 
 private:
     std::size_t dimension_, stride_;
@@ -39,10 +39,10 @@ struct ClusterFit {
     std::vector<float> directions; ///< [components][dimension], orthonormal
     std::vector<double> variances; ///< [dimension] along all principal axes, descending
     ComponentPlan plan;
-    double weight = 0;
+    double significance = 0;
 
     /// Of all points of the cluster, prices included.
-    double cost(const Spending& spending) const { return cost_of(plan, weight, spending); }
+    double cost(const Spending& spending) const { return cost_of(plan, significance, spending); }
 };
 
 /// Local PCA from moments. Directions without variance beyond the rounding of the points are left out.

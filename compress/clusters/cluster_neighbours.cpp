@@ -1,18 +1,44 @@
+// Finds for every cluster those that its points may move to, so that a round need not try all.
+
 #include "clusters/cluster_neighbours.h"
 
-#include "prt/support/parallel.h"
+#include "tuning.h"
 
-#include <algorithm>
 #include <utility>
 
 namespace prt {
+namespace {
 
-MeanDistances::MeanDistances(std::size_t clusters, std::size_t dimension,
-                             const std::function<const float*(std::size_t)>& mean)
-    : means_(static_cast<Eigen::Index>(clusters), static_cast<Eigen::Index>(dimension)) {
-    for (std::size_t k = 0; k < clusters; ++k)
+/// Squared distance of cluster k's mean to the points of `other`: to its mean, less what its rows reach.
+float squared_gap(const AffineClusters& clusters, std::span<const RowReach> reaches, std::size_t k,
+                  std::size_t other) {
+    const std::size_t dimension = clusters.dimension;
+    std::array<float, kMostDimensions> d;
+    for (std::size_t i = 0; i < dimension; ++i)
+        d[i] = clusters.mean(k)[i] - clusters.mean(other)[i];
+    for (std::size_t j = 0; j < clusters.components_of(other); ++j) {
+        const float* row = clusters.row(other, j);
+        const RowReach& reach = reaches[other * clusters.max_components + j];
+        float w = 0;
         for (std::size_t i = 0; i < dimension; ++i)
-            means_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = mean(k)[i];
+            w += row[i] * d[i];
+        w = std::clamp(w * reach.inverse_norm, -reach.most_weight, reach.most_weight);
+        for (std::size_t i = 0; i < dimension; ++i)
+            d[i] -= w * row[i];
+    }
+    float squared = 0;
+    for (std::size_t i = 0; i < dimension; ++i)
+        squared += d[i] * d[i];
+    return squared;
+}
+
+} // namespace
+
+MeanDistances::MeanDistances(const AffineClusters& clusters)
+    : means_(static_cast<Eigen::Index>(clusters.clusters()), static_cast<Eigen::Index>(clusters.dimension)) {
+    for (std::size_t k = 0; k < clusters.clusters(); ++k)
+        for (std::size_t i = 0; i < clusters.dimension; ++i)
+            means_(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(i)) = clusters.mean(k)[i];
 }
 
 Eigen::ArrayXf MeanDistances::from(std::size_t cluster) const {
@@ -22,14 +48,13 @@ Eigen::ArrayXf MeanDistances::from(std::size_t cluster) const {
     return squared;
 }
 
-std::vector<std::vector<std::uint32_t>>
-nearest_clusters(const MeanDistances& means, std::size_t most, int threads,
-                 const std::function<float(std::size_t k, std::size_t other)>& distance) {
-    const std::size_t count = means.clusters();
-    std::vector<std::vector<std::uint32_t>> result(count);
-    parallel_for(count, 8, threads, [&](std::size_t begin, std::size_t end) {
+ClusterLists neighbour_clusters(const AffineClusters& clusters, std::span<const RowReach> reaches,
+                                std::size_t most, int threads) {
+    const MeanDistances means(clusters);
+    ClusterLists result(clusters.clusters());
+    parallel_for(result.size(), 8, threads, [&](std::size_t begin, std::size_t end) {
         std::vector<std::pair<float, std::uint32_t>> near;
-        const auto keep_nearest = [&](std::size_t kept) {
+        const auto keep_nearest_of_them = [&](std::size_t kept) {
             const auto last = near.begin() + static_cast<std::ptrdiff_t>(std::min(kept, near.size()));
             std::partial_sort(near.begin(), last, near.end());
             near.erase(last, near.end());
@@ -37,13 +62,13 @@ nearest_clusters(const MeanDistances& means, std::size_t most, int threads,
         for (std::size_t k = begin; k < end; ++k) {
             const Eigen::ArrayXf squared = means.from(k);
             near.clear();
-            for (std::uint32_t other = 0; other < count; ++other)
+            for (std::uint32_t other = 0; other < result.size(); ++other)
                 near.emplace_back(other == k ? -1.0f : squared[static_cast<Eigen::Index>(other)], other);
-            keep_nearest(4 * most);
+            keep_nearest_of_them(tuning::kMeansPerNeighbour * most);
             for (auto& [d, other] : near)
                 if (other != k)
-                    d = distance(k, other);
-            keep_nearest(most);
+                    d = squared_gap(clusters, reaches, k, other);
+            keep_nearest_of_them(most);
             for (const auto& [d, other] : near)
                 result[k].push_back(other);
         }

@@ -1,21 +1,16 @@
 #pragma once
 
-#include <Eigen/Core>
+#include "clusters/assignment.h"
 
-#include <cstdint>
-#include <functional>
-#include <vector>
+#include <Eigen/Core>
 
 namespace prt {
 
 /// Squared distances between the means of clusters, one against all others at once.
 class MeanDistances {
 public:
-    /// `mean(k)` points at the `dimension` values of cluster k.
-    MeanDistances(std::size_t clusters, std::size_t dimension,
-                  const std::function<const float*(std::size_t)>& mean);
+    explicit MeanDistances(const AffineClusters& clusters);
 
-    std::size_t clusters() const { return static_cast<std::size_t>(means_.rows()); }
     /// [clusters]
     Eigen::ArrayXf from(std::size_t cluster) const;
 
@@ -23,11 +18,16 @@ private:
     Eigen::ArrayXXf means_; ///< [clusters] of each coordinate side by side
 };
 
+/// How far the points of a cluster lie along one of its rows.
+struct RowReach {
+    float inverse_norm = 1; ///< 1 over the row's squared length
+    float most_weight = 1;
+};
+
 /// Clusters that are near each other, for each the `most` nearest, itself first: of four times as many whose
-/// means are nearest, since further ones no direction reaches, those with the least `distance(k, other)` of
-/// k's mean to the other's subspace.
-std::vector<std::vector<std::uint32_t>>
-nearest_clusters(const MeanDistances& means, std::size_t most, int threads,
-                 const std::function<float(std::size_t k, std::size_t other)>& distance);
+/// means are nearest, since further ones no row reaches, those whose points come nearest to its mean.
+/// `reaches` [clusters][max_components].
+ClusterLists neighbour_clusters(const AffineClusters& clusters, std::span<const RowReach> reaches,
+                                std::size_t most, int threads);
 
 } // namespace prt

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "clusters/cluster_moments.h"
-#include "clusters/points.h"
+#include "clusters/cluster_rounds.h"
 #include "prt/support/progress.h"
+#include "tuning.h"
 
 #include <random>
 
@@ -16,15 +16,21 @@ struct Clustering {
     std::vector<double> history;         ///< squared error after each round, quantisation and prices left out
 };
 
+/// How long it goes on. The defaults are the compressor's; the baseline of study/ goes as published.
+struct ClusteringSchedule {
+    bool grow = true; ///< components come one at a time, some rounds each
+    int most_rounds = tuning::kMostRounds;
+    double tolerance = tuning::kRoundTolerance; ///< rounds end when the cost falls by a smaller share
+    int most_move_sweeps = tuning::kMostMoveSweeps;
+};
+
 struct ClusteringOptions {
     std::size_t clusters = 64;
     Spending spending;
-    double mean_components = 0; ///< finds the operation price that keeps to it; 0: as `spending` says
+    double mean_components = 0; ///< finds the component price that keeps to it; 0: as `spending` says
     bool rows_cost = false;     ///< finds the row price of a file whose bases count
-    int most_rounds = 200;
-    double tolerance = 1e-3; ///< rounds end when the cost falls by less than this share of itself
-    bool grow = true;        ///< components come one at a time, two rounds each
-    int most_moves = 8;      ///< sweeps of split-and-merge moves
+    ClusteringSchedule schedule;
+    CompressTrace trace;
     int threads = 0;
 };
 
@@ -32,7 +38,8 @@ struct ClusteringOptions {
 /// better optima than starting with all of them; every cluster takes as many as pay under `spending`, and
 /// points choose between clusters knowing what each will lose by quantisation. Then the clusters that gain
 /// most by being split are, in the place of pairs that lose least by being merged, as long as the sum falls.
-Clustering cluster_points(const PointBlocks& points, std::span<const float> weights,
+/// `significance` [points] sums to 1.
+Clustering cluster_points(const PointBlocks& points, std::span<const float> significance,
                           const ClusteringOptions& options, std::mt19937_64& random,
                           const Progress& progress);
 

@@ -1,3 +1,6 @@
+// Divides the bits of a receiver among the components of a cluster: greedily, by what each bit takes away of
+// a Gaussian (Gersho and Gray 1992, chapter 8; Max 1960).
+
 #include "clusters/component_plan.h"
 
 #include <algorithm>
@@ -48,14 +51,15 @@ std::vector<std::uint8_t> divide_bits(std::span<const double> variances, std::si
 
 } // namespace
 
-ComponentPlan plan_components(std::span<const double> variances, double weight, const Spending& spending) {
+ComponentPlan plan_components(std::span<const double> variances, double significance,
+                              const Spending& spending) {
     const auto rank = static_cast<std::size_t>(
         std::find_if(variances.begin(), variances.end(), [](double v) { return !(v > 0); }) -
         variances.begin());
     const std::size_t most = std::min(rank, static_cast<std::size_t>(spending.most_components));
     ComponentPlan best{{}, 0, tail(variances, 0)};
     double best_cost = best.error;
-    const double row_price = weight > 0 ? spending.row_price / weight : 0;
+    const double row_price = significance > 0 ? spending.row_price / significance : 0;
     for (std::size_t m = 1; m <= most; ++m) {
         std::vector<std::uint8_t> bits;
         if (!spending.fixed_bits.empty())
@@ -67,7 +71,7 @@ ComponentPlan plan_components(std::span<const double> variances, double weight, 
             bits.assign(m, 0);
         if (bits.size() < m)
             break; // no bits left for another component
-        double penalty = spending.operation_price * static_cast<double>(m);
+        double penalty = spending.component_price * static_cast<double>(m);
         if (spending.bits > 0 || !spending.fixed_bits.empty())
             for (std::size_t j = 0; j < m; ++j)
                 penalty += variances[j] * left_after(bits[j]);

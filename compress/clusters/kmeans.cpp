@@ -1,6 +1,9 @@
+// Vector quantisation, where clustered PCA starts: k-means++ seeding (Arthur and Vassilvitskii 2007), then
+// Lloyd's iteration (Lloyd 1982) until the error hardly falls.
+
 #include "clusters/kmeans.h"
 
-#include <algorithm>
+#include "tuning.h"
 
 namespace prt {
 namespace {
@@ -9,17 +12,16 @@ double uniform(std::mt19937_64& random) {
     return static_cast<double>(random() >> 11) * 0x1p-53;
 }
 
-/// An index with probability proportional to weights[i] · errors[i]; the count when all are zero.
-std::size_t draw(std::span<const float> weights, std::span<const float> errors, std::mt19937_64& random) {
-    double total = 0;
-    for (std::size_t i = 0; i < weights.size(); ++i)
-        total += static_cast<double>(weights[i]) * static_cast<double>(errors[i]);
+/// An index with probability proportional to significance[i] · errors[i]; the count when all are zero.
+std::size_t draw(std::span<const float> significance, std::span<const float> errors,
+                 std::mt19937_64& random) {
+    const double total = total_error(significance, errors);
     if (!(total > 0))
-        return weights.size();
+        return errors.size();
     double target = uniform(random) * total;
     std::size_t last = 0;
-    for (std::size_t i = 0; i < weights.size(); ++i) {
-        const double share = static_cast<double>(weights[i]) * static_cast<double>(errors[i]);
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        const double share = static_cast<double>(significance[i]) * static_cast<double>(errors[i]);
         if (share <= 0)
             continue;
         last = i;
@@ -30,61 +32,63 @@ std::size_t draw(std::span<const float> weights, std::span<const float> errors, 
     return last;
 }
 
-ClusterModels seed_centers(const PointBlocks& points, std::span<const float> weights, std::size_t clusters,
-                           std::size_t max_components, std::mt19937_64& random, int threads,
-                           const Progress& progress) {
-    ClusterModels models(clusters, points.dimension, max_components);
-    std::vector<float> errors(points.count, 1.0f); // the first centre: by weight alone
-    std::size_t found = 0;
-    for (; found < clusters; ++found) {
-        progress.update(0);
-        const std::size_t point = draw(weights, errors, random);
+/// Centers by k-means++; each is drawn by its error to those before it.
+PenalisedClusters seed_centers(const PointBlocks& points, std::span<const float> significance,
+                               std::size_t most, std::mt19937_64& random, int threads,
+                               const Progress& progress) {
+    std::vector<float> errors(points.count, 1.0f); // the first center: by significance alone
+    std::vector<std::size_t> centers;
+    std::vector<float> center(points.dimension);
+    while (centers.size() < most) {
+        progress.update(static_cast<double>(centers.size()) / static_cast<double>(most));
+        const std::size_t point = draw(significance, errors, random);
         if (point == points.count)
             break;
-        points.copy_point(point, models.mean(found));
-        if (found == 0)
+        if (centers.empty())
             std::fill(errors.begin(), errors.end(), std::numeric_limits<float>::infinity());
-        lower_to_distance(points, models.mean(found), errors, threads);
+        centers.push_back(point);
+        points.copy_point(point, center.data());
+        lower_to_distance(points, center.data(), errors, threads);
     }
-    models.components.resize(found);
-    models.penalties.resize(found);
-    models.means.resize(found * points.dimension);
-    models.directions.resize(found * max_components * points.dimension);
-    return models;
+    PenalisedClusters clusters(centers.size(), points.dimension, 0);
+    for (std::size_t k = 0; k < centers.size(); ++k)
+        points.copy_point(centers[k], clusters.mean(k));
+    return clusters;
 }
 
-void move_to_means(const PointBlocks& points, std::span<const float> weights,
-                   std::span<const std::uint32_t> clusters, ClusterModels& models) {
-    std::vector<double> sums(models.means.size(), 0), totals(models.clusters(), 0);
+void move_to_means(const PointBlocks& points, std::span<const float> significance,
+                   std::span<const std::uint32_t> assigned, AffineClusters& clusters) {
+    std::vector<double> sums(clusters.means.size(), 0), totals(clusters.clusters(), 0);
     for (std::size_t p = 0; p < points.count; ++p) {
-        const double weight = static_cast<double>(weights[p]);
-        totals[clusters[p]] += weight;
+        const double share = static_cast<double>(significance[p]);
+        totals[assigned[p]] += share;
         for (std::size_t i = 0; i < points.dimension; ++i)
-            sums[clusters[p] * points.dimension + i] += weight * static_cast<double>(points.coordinate(p, i));
+            sums[assigned[p] * points.dimension + i] += share * static_cast<double>(points.coordinate(p, i));
     }
-    for (std::size_t k = 0; k < models.clusters(); ++k)
+    for (std::size_t k = 0; k < clusters.clusters(); ++k)
         if (totals[k] > 0)
             for (std::size_t i = 0; i < points.dimension; ++i)
-                models.mean(k)[i] = static_cast<float>(sums[k * points.dimension + i] / totals[k]);
+                clusters.mean(k)[i] = static_cast<float>(sums[k * points.dimension + i] / totals[k]);
 }
 
 } // namespace
 
-ClusterModels vector_quantise(const PointBlocks& points, std::span<const float> weights, std::size_t clusters,
-                              std::size_t max_components, std::mt19937_64& random, int threads,
-                              const Progress& progress) {
-    ClusterModels models = seed_centers(points, weights, clusters, max_components, random, threads, progress);
+PenalisedClusters vector_quantise(const PointBlocks& points, std::span<const float> significance,
+                                  std::size_t clusters, std::mt19937_64& random, int threads,
+                                  const Progress& progress) {
+    PenalisedClusters found =
+        seed_centers(points, significance, clusters, random, threads, progress.part(0, 0.5));
     double before = std::numeric_limits<double>::infinity();
-    for (int iteration = 0; iteration < 50; ++iteration) {
-        progress.update(0);
-        const Assignment assignment = assign(points, models, threads);
-        const double error = total_error(weights, assignment.errors);
-        if (error == 0 || error > before * (1 - 1e-3))
+    for (int iteration = 0; iteration < tuning::kMostLloydIterations; ++iteration) {
+        progress.update(0.5 + 0.5 * iteration / tuning::kMostLloydIterations);
+        const Assignment assignment = assign(points, found, threads);
+        const double error = total_error(significance, assignment.errors);
+        if (error == 0 || error > before * (1 - tuning::kLloydTolerance))
             break;
         before = error;
-        move_to_means(points, weights, assignment.clusters, models);
+        move_to_means(points, significance, assignment.clusters, found);
     }
-    return models;
+    return found;
 }
 
 } // namespace prt

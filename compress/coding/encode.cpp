@@ -1,3 +1,6 @@
+// Writes clusters and codes as a file has them: rows as integers over rounded axes, weights in bits or as
+// signed normalised integers (docs/format.md, PRTKIT_clustered_pca).
+
 #include "coding/encode.h"
 
 #include "prt/support/parallel.h"
@@ -20,27 +23,27 @@ void store(std::byte* to, Stored value) {
 }
 
 /// Rows of all clusters over the axes of the frame, in units of the step.
-std::vector<std::int32_t> integer_rows(const QuantisedModels& models, double step, std::size_t axes) {
+std::vector<std::int32_t> integer_rows(const QuantisedClusters& clusters, double step, std::size_t axes) {
     std::vector<std::int32_t> values;
     const auto put = [&](const float* row, double unit) {
         for (std::size_t i = 0; i < axes; ++i)
             values.push_back(static_cast<std::int32_t>(std::lround(static_cast<double>(row[i]) / unit)));
     };
-    for (std::size_t k = 0; k < models.clusters(); ++k) {
-        put(models.mean(k), step);
-        for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[k]); ++j)
-            put(models.row(k, j), 2 * step);
+    for (std::size_t k = 0; k < clusters.clusters(); ++k) {
+        put(clusters.mean(k), step);
+        for (std::size_t j = 0; j < clusters.components_of(k); ++j)
+            put(clusters.row(k, j), 2 * step);
     }
     return values;
 }
 
 /// Axes up to the last that any row uses.
-std::size_t axes_in_use(const QuantisedModels& models, double step) {
-    const std::vector<std::int32_t> values = integer_rows(models, step, models.dimension);
+std::size_t axes_in_use(const QuantisedClusters& clusters, double step) {
+    const std::vector<std::int32_t> values = integer_rows(clusters, step, clusters.dimension);
     std::size_t used = 0;
     for (std::size_t v = 0; v < values.size(); ++v)
         if (values[v] != 0)
-            used = std::max(used, v % models.dimension + 1);
+            used = std::max(used, v % clusters.dimension + 1);
     return used;
 }
 
@@ -54,20 +57,20 @@ std::vector<std::int32_t> integer_axes(const Frame& frame, std::size_t axes, dou
     return values;
 }
 
-ClusteredBases make_bases(const Frame& frame, const QuantisedModels& models, const CodedBases& coded_frame,
-                          double step) {
+ClusteredBases make_bases(const Frame& frame, const QuantisedClusters& clusters,
+                          const CodedBases& coded_frame, double step) {
     ClusteredBases bases;
     bases.order = frame.order;
     bases.channels = frame.channels;
-    bases.components = models.components;
+    bases.components = clusters.components;
     if (step > 0) {
-        const std::size_t axes = axes_in_use(models, step);
+        const std::size_t axes = axes_in_use(clusters, step);
         bases.coded = coded_frame;
         bases.coded.step = static_cast<float>(step);
         bases.coded.scales.resize(axes);
         const std::vector<std::int32_t> all = decode_rows(coded_frame.axes, coded_frame.scales.size());
         bases.coded.axes = encode_rows(std::span(all).first(axes * frame.full()), frame.full());
-        bases.coded.values = encode_rows(integer_rows(models, step, axes), axes);
+        bases.coded.values = encode_rows(integer_rows(clusters, step, axes), axes);
         bases.rows = decode_bases(bases.coded, bases.components);
         return bases;
     }
@@ -84,27 +87,26 @@ ClusteredBases make_bases(const Frame& frame, const QuantisedModels& models, con
         for (const double v : vector)
             bases.rows.push_back(static_cast<float>(v));
     };
-    for (std::size_t k = 0; k < models.clusters(); ++k) {
-        put(models.mean(k), true);
-        for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[k]); ++j)
-            put(models.row(k, j), false);
+    for (std::size_t k = 0; k < clusters.clusters(); ++k) {
+        put(clusters.mean(k), true);
+        for (std::size_t j = 0; j < clusters.components_of(k); ++j)
+            put(clusters.row(k, j), false);
     }
     return bases;
 }
 
-void pack(const QuantisedModels& models, const Codes& codes, const Encoding& encoding,
+void pack(const QuantisedClusters& clusters, const Codes& codes, const Encoding& encoding,
           ClusteredTransfer& result) {
     ClusteredBases& bases = result.bases;
     ClusteredReceivers& receivers = result.receivers;
     receivers.cluster_bits = encoding.cluster_bits > 0
                                  ? encoding.cluster_bits
-                                 : static_cast<int>(std::bit_width(models.clusters() - 1));
+                                 : static_cast<int>(std::bit_width(clusters.clusters() - 1));
     int most = 0;
-    for (std::size_t k = 0; k < models.clusters(); ++k) {
+    for (std::size_t k = 0; k < clusters.clusters(); ++k) {
         int total = receivers.cluster_bits;
-        for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[k]); ++j) {
-            const float half = models.halves[k * models.max_components + j];
-            bases.bits.push_back(static_cast<std::uint8_t>(std::bit_width(static_cast<unsigned>(2 * half))));
+        for (std::size_t j = 0; j < clusters.components_of(k); ++j) {
+            bases.bits.push_back(static_cast<std::uint8_t>(clusters.grid(k, j).bits()));
             total += bases.bits.back();
         }
         most = std::max(most, total);
@@ -113,12 +115,11 @@ void pack(const QuantisedModels& models, const Codes& codes, const Encoding& enc
     receivers.weights.resize(codes.clusters.size() * receivers.stride());
     const std::vector<ClusterLayout> layouts = cluster_layouts(bases);
     std::vector<std::uint32_t> words(static_cast<std::size_t>(receivers.words)),
-        values(models.max_components);
+        values(clusters.max_components);
     for (std::size_t p = 0; p < codes.clusters.size(); ++p) {
         const std::uint32_t k = codes.clusters[p];
         for (std::size_t j = 0; j < layouts[k].components; ++j)
-            values[j] = static_cast<std::uint32_t>(
-                std::lround((codes.of(p)[j] + 1) * models.halves[k * models.max_components + j]));
+            values[j] = static_cast<std::uint32_t>(clusters.grid(k, j).index_of(codes.of(p)[j]));
         pack_words(k, receivers.cluster_bits, layouts[k], values, words);
         std::memcpy(&receivers.weights[p * receivers.stride()], words.data(), receivers.stride());
     }
@@ -180,22 +181,22 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
     return coded;
 }
 
-ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedModels& models,
+ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedClusters& clusters,
                          const Codes& codes, const Encoding& encoding) {
     ClusteredTransfer result;
-    result.bases = make_bases(frame, models, coded_frame, encoding.step);
+    result.bases = make_bases(frame, clusters, coded_frame, encoding.step);
     ClusteredReceivers& receivers = result.receivers;
     receivers.format = encoding.format;
     receivers.clusters.assign(codes.clusters.begin(), codes.clusters.end());
     if (encoding.format == WeightFormat::packed) {
-        pack(models, codes, encoding, result);
+        pack(clusters, codes, encoding, result);
         return result;
     }
     receivers.components = (result.bases.max_components() + 3) / 4 * 4;
     const std::size_t size = bytes_per_weight(encoding.format), stride = receivers.stride();
     receivers.weights.assign(codes.clusters.size() * stride, std::byte{0});
     for (std::size_t p = 0; p < codes.clusters.size(); ++p)
-        for (std::size_t j = 0; j < static_cast<std::size_t>(models.components[codes.clusters[p]]); ++j)
+        for (std::size_t j = 0; j < clusters.components_of(codes.clusters[p]); ++j)
             store_weight(&receivers.weights[p * stride + j * size], codes.of(p)[j], encoding.format);
     return result;
 }

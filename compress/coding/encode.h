@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coding/quantised_models.h"
+#include "coding/weight_coding.h"
 #include "metric/frame.h"
 #include "prt/clustered_transfer.h"
 
@@ -10,7 +10,7 @@ namespace prt {
 struct Encoding {
     WeightFormat format = WeightFormat::packed;
     int cluster_bits = 0; ///< 0: as few as do
-    double step = 0;      ///< models were rounded to it and are written in code; 0: as float32
+    double step = 0;      ///< clusters were rounded to it and are written in code; 0: as float32
 };
 
 /// The frame as a file holds it: its axes are rounded so that this adds a squared error of about
@@ -18,9 +18,9 @@ struct Encoding {
 /// analysis that belongs to them.
 CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error);
 
-/// The transfer that `models` and `codes` stand for in the space of `frame`. `coded_frame` is what code_frame
-/// made of it, where there is a step.
-ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedModels& models,
+/// The transfer that `clusters` and `codes` stand for in the space of `frame`. `coded_frame` is what
+/// code_frame made of it, where there is a step.
+ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedClusters& clusters,
                          const Codes& codes, const Encoding& encoding);
 
 } // namespace prt

@@ -1,41 +1,43 @@
+// Smooths the error over the mesh, docs/math.md, eq. 31: weights by conjugate gradients on its normal
+// equations, clusters receiver by receiver, as iterated conditional modes (Besag 1986) for the Potts model of
+// its last term.
+
 #include "coding/seams.h"
 
-#include "prt/support/parallel.h"
+#include "coding/conjugate_gradients.h"
+#include "tuning.h"
 
 #include <Eigen/Dense>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace prt {
 namespace {
 
-/// Mesh neighbours of every receiver, with the weight of the edge.
-class Neighbours {
+/// Mesh neighbours of every receiver, with the significance of the edge.
+class EdgeLinks {
 public:
     struct Link {
         std::uint32_t other;
-        double weight;
+        double significance;
     };
 
-    /// The weight of an edge is the mean of what its ends have per edge, so that all edges together weigh
-    /// about as much as all receivers.
-    Neighbours(std::span<const Edge> edges, std::span<const float> weights) : first_(weights.size() + 1, 0) {
-        std::vector<std::uint32_t> degree(weights.size(), 0);
+    /// The significance of an edge is the sum of what its ends have per edge, so that all edges together have
+    /// that of all receivers.
+    EdgeLinks(std::span<const Edge> edges, std::span<const float> significance)
+        : first_(significance.size() + 1, 0) {
+        std::vector<std::uint32_t> degree(significance.size(), 0);
         for (const Edge& e : edges) {
             ++degree[e.first];
             ++degree[e.second];
         }
-        for (std::size_t p = 0; p < weights.size(); ++p)
+        for (std::size_t p = 0; p < significance.size(); ++p)
             first_[p + 1] = first_[p] + degree[p];
         links_.resize(first_.back());
         std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
         for (const Edge& e : edges) {
-            const double weight = static_cast<double>(weights[e.first]) / degree[e.first] +
-                                  static_cast<double>(weights[e.second]) / degree[e.second];
-            links_[next[e.first]++] = {e.second, weight};
-            links_[next[e.second]++] = {e.first, weight};
+            const double of_edge = static_cast<double>(significance[e.first]) / degree[e.first] +
+                                   static_cast<double>(significance[e.second]) / degree[e.second];
+            links_[next[e.first]++] = {e.second, of_edge};
+            links_[next[e.second]++] = {e.first, of_edge};
         }
     }
     std::span<const Link> of(std::size_t p) const {
@@ -47,40 +49,48 @@ private:
     std::vector<Link> links_;
 };
 
-using Vector = Eigen::VectorXf;
+using PointVector = Eigen::VectorXf;
 
 /// Nothing is kept per receiver but its weights: vectors in the space of the frame are formed where they are
 /// needed, for a receiver and its neighbours, since all of them together would take as much memory as the
 /// points.
 class SeamSmoother {
 public:
-    SeamSmoother(const PointBlocks& points, std::span<const float> weights, std::span<const Edge> edges,
-                 const QuantisedModels& models, const SeamOptions& options, Codes& codes)
-        : points_(points), weights_(weights), models_(models), options_(options), codes_(codes),
-          neighbours_(edges, weights), dimension_(static_cast<Eigen::Index>(points.dimension)),
-          mean_error_(total_error(weights, codes.errors)) {}
+    SeamSmoother(const PointBlocks& points, std::span<const float> significance, std::span<const Edge> edges,
+                 const QuantisedClusters& clusters, const SeamOptions& options, Codes& codes)
+        : points_(points), significance_(significance), clusters_(clusters), options_(options), codes_(codes),
+          links_(edges, significance), dimension_(static_cast<Eigen::Index>(points.dimension)),
+          mean_error_(total_error(significance, codes.errors)) {}
 
     void solve_weights();
     void reassign();
-    /// How many components more receivers may have in all.
-    std::ptrdiff_t spare_components() const;
 
 private:
-    Eigen::Map<const Vector> row(std::uint32_t k, std::size_t j) const {
-        return {models_.row(k, j), dimension_};
+    /// Where receiver p is pulled by its neighbours: what eq. 31 costs at p is total |e - pull|², and what
+    /// does not depend on the error e of p, and borders.
+    struct Pull {
+        double total = 0;
+        PointVector vector;
+        std::vector<std::uint32_t> candidates; ///< its own cluster and those of its neighbours
+    };
+    struct BetterCode {
+        std::uint32_t cluster = 0;
+        std::vector<float> weights; ///< [max_components]
+    };
+
+    Eigen::Map<const PointVector> row(std::uint32_t k, std::size_t j) const {
+        return {clusters_.row(k, j), dimension_};
     }
-    std::size_t components(std::size_t p) const {
-        return static_cast<std::size_t>(models_.components[codes_.clusters[p]]);
-    }
+    std::size_t components(std::size_t p) const { return clusters_.components_of(codes_.clusters[p]); }
     /// sum_j w_j row_j in the cluster of receiver p.
-    void add_combination(std::size_t p, std::span<const float> w, Vector& to) const {
+    void add_combination(std::size_t p, std::span<const float> w, PointVector& to) const {
         for (std::size_t j = 0; j < components(p); ++j)
             to += w[j] * row(codes_.clusters[p], j);
     }
     /// Code minus point.
-    void error_of(std::size_t p, Vector& error) const {
+    void error_of(std::size_t p, PointVector& error) const {
         points_.copy_point(p, error.data());
-        error = Eigen::Map<const Vector>(models_.mean(codes_.clusters[p]), dimension_) - error;
+        error = Eigen::Map<const PointVector>(clusters_.mean(codes_.clusters[p]), dimension_) - error;
         add_combination(p, codes_.of(p), error);
     }
 
@@ -89,109 +99,88 @@ private:
     template <class VectorOf>
     std::vector<float> gradient(VectorOf&& vector_of) const;
     std::vector<float> inverse_diagonal() const;
-    double dot(std::span<const float> a, std::span<const float> b) const;
+
+    void pull_at(std::size_t p, Pull& pull) const;
+    /// Of an error `e` at p with a code in cluster k, in eq. 31.
+    double cost_at(std::size_t p, const Pull& pull, std::uint32_t k, const PointVector& e) const;
     /// The code nearest to `target` in cluster k; returns its error vector.
-    Vector code_in(std::uint32_t k, const Vector& target, std::span<float> code) const;
+    PointVector code_in(std::uint32_t k, const PointVector& target, std::span<float> code) const;
+    /// A code that is cheaper than p's while the neighbours stay, with at most `spare` more components.
+    bool find_better(std::size_t p, const Pull& pull, std::ptrdiff_t spare, BetterCode& better) const;
+    /// How many components more receivers may have in all.
+    std::ptrdiff_t spare_components() const;
+    std::size_t sweep(std::ptrdiff_t& spare);
 
     const PointBlocks& points_;
-    std::span<const float> weights_;
-    const QuantisedModels& models_;
+    std::span<const float> significance_;
+    const QuantisedClusters& clusters_;
     const SeamOptions& options_;
     Codes& codes_;
-    Neighbours neighbours_;
+    EdgeLinks links_;
     Eigen::Index dimension_;
     double mean_error_;
 };
 
 template <class VectorOf>
 std::vector<float> SeamSmoother::gradient(VectorOf&& vector_of) const {
-    std::vector<float> result(points_.count * models_.max_components, 0.0f);
+    std::vector<float> result(points_.count * clusters_.max_components, 0.0f);
     parallel_for(points_.count, 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
-        Vector g(dimension_), own(dimension_), other(dimension_);
+        PointVector g(dimension_), own(dimension_), other(dimension_);
         for (std::size_t p = begin; p < end; ++p) {
             vector_of(p, own);
             g.setZero();
-            g += weights_[p] * own;
-            for (const Neighbours::Link& link : neighbours_.of(p)) {
+            g += significance_[p] * own;
+            for (const EdgeLinks::Link& link : links_.of(p)) {
                 vector_of(link.other, other);
-                g += static_cast<float>(options_.seam_weight * link.weight) * (own - other);
+                g += static_cast<float>(options_.seam_price * link.significance) * (own - other);
             }
             for (std::size_t j = 0; j < components(p); ++j)
-                result[p * models_.max_components + j] = g.dot(row(codes_.clusters[p], j));
+                result[p * clusters_.max_components + j] = g.dot(row(codes_.clusters[p], j));
         }
     });
     return result;
 }
 
 std::vector<float> SeamSmoother::inverse_diagonal() const {
-    std::vector<float> result(points_.count * models_.max_components, 1.0f);
+    std::vector<float> result(points_.count * clusters_.max_components, 1.0f);
     for (std::size_t p = 0; p < points_.count; ++p) {
-        auto weight = static_cast<double>(weights_[p]);
-        for (const Neighbours::Link& link : neighbours_.of(p))
-            weight += options_.seam_weight * link.weight;
+        auto total = static_cast<double>(significance_[p]);
+        for (const EdgeLinks::Link& link : links_.of(p))
+            total += options_.seam_price * link.significance;
         for (std::size_t j = 0; j < components(p); ++j) {
-            const double d = weight * static_cast<double>(row(codes_.clusters[p], j).squaredNorm());
-            result[p * models_.max_components + j] = d > 1e-30 ? static_cast<float>(1 / d) : 1.0f;
+            const double d = total * static_cast<double>(row(codes_.clusters[p], j).squaredNorm());
+            result[p * clusters_.max_components + j] = d > 1e-30 ? static_cast<float>(1 / d) : 1.0f;
         }
     }
     return result;
 }
 
-double SeamSmoother::dot(std::span<const float> a, std::span<const float> b) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-    return sum;
-}
-
-/// Conjugate gradients, preconditioned by the diagonal, on the change of all weights. The matrix is never
-/// formed: with 1.5 million receivers and 8 components it would have 10^9 entries.
+/// All weights together, as real numbers, and then rounded.
 void SeamSmoother::solve_weights() {
-    const std::size_t most = models_.max_components;
-    const std::vector<float> inverse = inverse_diagonal();
-    std::vector<float> residual = gradient([&](std::size_t p, Vector& to) { error_of(p, to); });
-    std::vector<float> change(residual.size(), 0.0f), direction(residual.size(), 0.0f);
-    for (float& r : residual)
+    const std::size_t most = clusters_.max_components;
+    std::vector<float> right = gradient([&](std::size_t p, PointVector& to) { error_of(p, to); });
+    for (float& r : right)
         r = -r;
-    double before = 0, start = 0;
-    constexpr int kMostSteps = 30;
-    for (int step = 0; step < kMostSteps; ++step) {
-        double norm = 0;
-        for (std::size_t i = 0; i < residual.size(); ++i)
-            norm += static_cast<double>(residual[i]) * static_cast<double>(residual[i]) *
-                    static_cast<double>(inverse[i]);
-        if (step == 0)
-            start = norm;
-        if (!(norm > 1e-6 * start)) // weights are rounded afterwards, to steps far larger
-            break;
-        const auto beta = static_cast<float>(step == 0 ? 0 : norm / before);
-        before = norm;
-        for (std::size_t i = 0; i < residual.size(); ++i)
-            direction[i] = residual[i] * inverse[i] + beta * direction[i];
-        const std::vector<float> product = gradient([&](std::size_t p, Vector& to) {
+    const auto apply = [&](std::span<const float> direction) {
+        return gradient([&](std::size_t p, PointVector& to) {
             to.setZero();
-            add_combination(p, std::span<const float>(direction).subspan(p * most, most), to);
+            add_combination(p, direction.subspan(p * most, most), to);
         });
-        const auto alpha = static_cast<float>(norm / dot(direction, product));
-        for (std::size_t i = 0; i < residual.size(); ++i) {
-            change[i] += alpha * direction[i];
-            residual[i] -= alpha * product[i];
-        }
-    }
+    };
+    const std::vector<float> change = conjugate_gradients(apply, inverse_diagonal(), std::move(right));
     for (std::size_t p = 0; p < points_.count; ++p)
         for (std::size_t j = 0; j < components(p); ++j) {
             float& w = codes_.weights[p * most + j];
-            w = round_weight(w + change[p * most + j], models_.halves[codes_.clusters[p] * most + j]);
+            w = clusters_.grid(codes_.clusters[p], j).nearest(w + change[p * most + j]);
         }
 }
 
-Vector SeamSmoother::code_in(std::uint32_t k, const Vector& target, std::span<float> code) const {
-    Vector left = target - Eigen::Map<const Vector>(models_.mean(k), dimension_);
-    for (std::size_t j = 0; j < static_cast<std::size_t>(models_.components[k]); ++j) {
+PointVector SeamSmoother::code_in(std::uint32_t k, const PointVector& target, std::span<float> code) const {
+    PointVector left = target - Eigen::Map<const PointVector>(clusters_.mean(k), dimension_);
+    for (std::size_t j = 0; j < clusters_.components_of(k); ++j) {
         const auto direction = row(k, j);
         const float norm = direction.squaredNorm();
-        code[j] = round_weight(norm > 1e-30f ? left.dot(direction) / norm : 0.0f,
-                               models_.halves[k * models_.max_components + j]);
+        code[j] = clusters_.grid(k, j).nearest(norm > 1e-30f ? left.dot(direction) / norm : 0.0f);
         left -= code[j] * direction;
     }
     return -left;
@@ -206,67 +195,80 @@ std::ptrdiff_t SeamSmoother::spare_components() const {
     return spare;
 }
 
-void SeamSmoother::reassign() {
-    std::vector<float> code(models_.max_components), best_code(models_.max_components);
-    std::vector<std::uint32_t> candidates;
-    Vector point(dimension_), pull(dimension_), error(dimension_);
-    constexpr int kMostSweeps = 10;
-    std::ptrdiff_t spare = spare_components();
-    for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
-        std::size_t changed = 0;
-        // One after the other, so that each sees what its neighbours have become.
-        for (std::size_t p = 0; p < points_.count; ++p) {
-            const auto links = neighbours_.of(p);
-            double total = static_cast<double>(weights_[p]);
-            pull.setZero();
-            candidates.assign(1, codes_.clusters[p]);
-            for (const Neighbours::Link& link : links) {
-                total += options_.seam_weight * link.weight;
-                error_of(link.other, error);
-                pull += static_cast<float>(options_.seam_weight * link.weight) * error;
-                if (std::find(candidates.begin(), candidates.end(), codes_.clusters[link.other]) ==
-                    candidates.end())
-                    candidates.push_back(codes_.clusters[link.other]);
-            }
-            if (links.empty() || !(total > 0))
-                continue;
-            // The sum over the edges is total |e - pull|² and what does not depend on e.
-            pull /= static_cast<float>(total);
-            const auto price = [&](std::uint32_t k, const Vector& e) {
-                double cost = total * static_cast<double>((e - pull).squaredNorm());
-                for (const Neighbours::Link& link : links)
-                    if (codes_.clusters[link.other] != k)
-                        cost += options_.potts_weight * mean_error_ * link.weight;
-                return cost;
-            };
-            points_.copy_point(p, point.data());
-            error_of(p, error);
-            double least = price(codes_.clusters[p], error);
-            std::uint32_t best = ~0u;
-            const int own = models_.components[codes_.clusters[p]];
-            for (const std::uint32_t k : candidates) {
-                if (models_.components[k] - own > spare)
-                    continue;
-                const Vector e = code_in(k, point + pull, code) + pull;
-                const double cost = price(k, e);
-                if (cost < least * (1 - 1e-6)) {
-                    least = cost;
-                    best = k;
-                    best_code = code;
-                }
-            }
-            if (best == ~0u)
-                continue;
-            spare -= models_.components[best] - own;
-            codes_.clusters[p] = best;
-            std::fill_n(codes_.weights.data() + p * models_.max_components, models_.max_components, 0.0f);
-            std::copy_n(best_code.begin(), models_.components[best],
-                        codes_.weights.data() + p * models_.max_components);
-            ++changed;
-        }
-        if (changed * 200 < points_.count)
-            break;
+void SeamSmoother::pull_at(std::size_t p, Pull& pull) const {
+    PointVector error(dimension_);
+    pull.total = static_cast<double>(significance_[p]);
+    pull.vector.setZero(dimension_);
+    pull.candidates.assign(1, codes_.clusters[p]);
+    for (const EdgeLinks::Link& link : links_.of(p)) {
+        pull.total += options_.seam_price * link.significance;
+        error_of(link.other, error);
+        pull.vector += static_cast<float>(options_.seam_price * link.significance) * error;
+        const std::uint32_t k = codes_.clusters[link.other];
+        if (std::find(pull.candidates.begin(), pull.candidates.end(), k) == pull.candidates.end())
+            pull.candidates.push_back(k);
     }
+    if (pull.total > 0)
+        pull.vector /= static_cast<float>(pull.total);
+}
+
+double SeamSmoother::cost_at(std::size_t p, const Pull& pull, std::uint32_t k, const PointVector& e) const {
+    double cost = pull.total * static_cast<double>((e - pull.vector).squaredNorm());
+    for (const EdgeLinks::Link& link : links_.of(p))
+        if (codes_.clusters[link.other] != k)
+            cost += options_.border_price * mean_error_ * link.significance;
+    return cost;
+}
+
+bool SeamSmoother::find_better(std::size_t p, const Pull& pull, std::ptrdiff_t spare,
+                               BetterCode& better) const {
+    std::vector<float> code(clusters_.max_components);
+    PointVector point(dimension_), error(dimension_);
+    points_.copy_point(p, point.data());
+    error_of(p, error);
+    double least = cost_at(p, pull, codes_.clusters[p], error);
+    bool found = false;
+    for (const std::uint32_t k : pull.candidates) {
+        if (clusters_.components[k] - clusters_.components[codes_.clusters[p]] > spare)
+            continue;
+        const PointVector e = code_in(k, point + pull.vector, code) + pull.vector;
+        const double cost = cost_at(p, pull, k, e);
+        if (cost < least * (1 - tuning::kLeastSeamGain)) {
+            least = cost;
+            better = {k, code};
+            found = true;
+        }
+    }
+    return found;
+}
+
+/// One after the other, so that each sees what its neighbours have become. Returns how many have changed.
+std::size_t SeamSmoother::sweep(std::ptrdiff_t& spare) {
+    std::size_t changed = 0;
+    Pull pull;
+    BetterCode better;
+    for (std::size_t p = 0; p < points_.count; ++p) {
+        if (links_.of(p).empty())
+            continue;
+        pull_at(p, pull);
+        if (!(pull.total > 0) || !find_better(p, pull, spare, better))
+            continue;
+        spare -= clusters_.components[better.cluster] - clusters_.components[codes_.clusters[p]];
+        codes_.clusters[p] = better.cluster;
+        float* to = codes_.weights.data() + p * clusters_.max_components;
+        std::fill_n(to, clusters_.max_components, 0.0f);
+        std::copy_n(better.weights.begin(), clusters_.components[better.cluster], to);
+        ++changed;
+    }
+    return changed;
+}
+
+void SeamSmoother::reassign() {
+    std::ptrdiff_t spare = spare_components();
+    for (int s = 0; s < tuning::kMostSeamSweeps; ++s)
+        if (sweep(spare) * tuning::kReceiversPerSeamChange < points_.count)
+            break;
+    PointVector error(dimension_);
     for (std::size_t p = 0; p < points_.count; ++p) {
         error_of(p, error);
         codes_.errors[p] = error.squaredNorm();
@@ -275,12 +277,12 @@ void SeamSmoother::reassign() {
 
 } // namespace
 
-void smooth_seams(const PointBlocks& points, std::span<const float> weights, std::span<const Edge> edges,
-                  const QuantisedModels& models, const SeamOptions& options, Codes& codes) {
+void smooth_seams(const PointBlocks& points, std::span<const float> significance, std::span<const Edge> edges,
+                  const QuantisedClusters& clusters, const SeamOptions& options, Codes& codes) {
     if (points.dimension == 0)
         return;
-    SeamSmoother smoother(points, weights, edges, models, options, codes);
-    if (options.seam_weight > 0 && models.max_components > 0)
+    SeamSmoother smoother(points, significance, edges, clusters, options, codes);
+    if (options.seam_price > 0 && clusters.max_components > 0)
         smoother.solve_weights();
     smoother.reassign();
 }

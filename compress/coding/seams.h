@@ -1,13 +1,13 @@
 #pragma once
 
-#include "coding/quantised_models.h"
+#include "coding/weight_coding.h"
 #include "prt/mesh_edges.h"
 
 namespace prt {
 
 struct SeamOptions {
-    double seam_weight = 0;     ///< mu of docs/math.md, eq. 31
-    double potts_weight = 0;    ///< beta of eq. 31, times the mean squared error
+    double seam_price = 0;      ///< mu of docs/math.md, eq. 31
+    double border_price = 0;    ///< beta of eq. 31, times the mean squared error
     double mean_components = 0; ///< receivers have at most so many on average; 0: any
     int threads = 0;
 };
@@ -16,7 +16,7 @@ struct SeamOptions {
 /// numbers, by conjugate gradients on the normal equations of eq. 31; then receiver by receiver the cluster,
 /// of its own and its neighbours', and the rounded weights that are best while the neighbours stay, until few
 /// change.
-void smooth_seams(const PointBlocks& points, std::span<const float> weights, std::span<const Edge> edges,
-                  const QuantisedModels& models, const SeamOptions& options, Codes& codes);
+void smooth_seams(const PointBlocks& points, std::span<const float> significance, std::span<const Edge> edges,
+                  const QuantisedClusters& clusters, const SeamOptions& options, Codes& codes);
 
 } // namespace prt

@@ -1,6 +1,10 @@
+// Principal axes of transfer in the metric of light (docs/math.md, section 4): clusters then work in few
+// axes.
+
 #include "metric/frame.h"
 
 #include "prt/support/parallel.h"
+#include "tuning.h"
 
 #include <Eigen/Dense>
 
@@ -18,10 +22,10 @@ struct Moments {
     Matrix outer;
 };
 
-/// Weighted first and second moments of all vectors about `shift`, block by block in double and summed in a
-/// fixed order.
-Moments weighted_moments(const Transfer& transfer, std::span<const float> weights, const Vector& shift,
-                         int threads) {
+/// First and second moments, by significance, of all vectors about `shift`, block by block in double and
+/// summed in a fixed order.
+Moments moments_about(const Vector& shift, const Transfer& transfer, std::span<const float> significance,
+                      int threads) {
     const auto n = static_cast<Eigen::Index>(transfer.dimension());
     // At most 64 partial sums, whatever the number of receivers.
     const std::size_t grain = std::max<std::size_t>(1024, (transfer.receivers() + 63) / 64);
@@ -35,9 +39,9 @@ Moments weighted_moments(const Transfer& transfer, std::span<const float> weight
             const std::size_t count = std::min(kRows, end - first);
             for (std::size_t r = 0; r < count; ++r) {
                 const Eigen::Map<const Eigen::VectorXf> vector(transfer.vector(first + r).data(), n);
-                const double weight = static_cast<double>(weights[first + r]);
-                rows.col(static_cast<Eigen::Index>(r)) = (vector.cast<double>() - shift) * std::sqrt(weight);
-                part.sum += rows.col(static_cast<Eigen::Index>(r)) * std::sqrt(weight);
+                const double root = std::sqrt(static_cast<double>(significance[first + r]));
+                rows.col(static_cast<Eigen::Index>(r)) = (vector.cast<double>() - shift) * root;
+                part.sum += rows.col(static_cast<Eigen::Index>(r)) * root;
             }
             part.outer.selfadjointView<Eigen::Lower>().rankUpdate(
                 rows.leftCols(static_cast<Eigen::Index>(count)));
@@ -52,28 +56,27 @@ Moments weighted_moments(const Transfer& transfer, std::span<const float> weight
     return total;
 }
 
-/// The weights, scaled to the sum 1 again, without receivers whose vector is more than a hundred times as
-/// long as the median: near one such, float has no digits left for the others.
-std::vector<float> without_outliers(const Transfer& transfer, std::span<const float> weights) {
+/// The significance, scaled to the sum 1 again, without outliers, whose vector is far longer than the median.
+std::vector<float> without_outliers(const Transfer& transfer, std::span<const float> significance) {
     std::vector<float> lengths;
-    for (std::size_t p = 0; p < weights.size(); ++p)
+    for (std::size_t p = 0; p < significance.size(); ++p)
         lengths.push_back(Eigen::Map<const Eigen::VectorXf>(transfer.vector(p).data(),
                                                             static_cast<Eigen::Index>(transfer.dimension()))
                               .stableNorm());
     std::vector<float> sorted = lengths;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
-    std::vector<float> usual(weights.begin(), weights.end());
+    std::vector<float> usual(significance.begin(), significance.end());
     double total = 0;
     for (std::size_t p = 0; p < usual.size(); ++p) {
-        if (lengths[p] > 100 * *middle)
+        if (lengths[p] > tuning::kOutlierLength * *middle)
             usual[p] = 0;
         total += static_cast<double>(usual[p]);
     }
     if (!(total > 0))
-        return {weights.begin(), weights.end()};
-    for (float& weight : usual)
-        weight = static_cast<float>(static_cast<double>(weight) / total);
+        return {significance.begin(), significance.end()};
+    for (float& share : usual)
+        share = static_cast<float>(static_cast<double>(share) / total);
     return usual;
 }
 
@@ -91,54 +94,70 @@ void square_roots(const LightMetric& metric, Matrix& root, Matrix& inverse) {
     }
 }
 
-} // namespace
-
-Frame fit_frame(const Transfer& transfer, std::span<const float> weights, const LightMetric& metric,
-                double most_dropped, int threads) {
-    const auto n = static_cast<Eigen::Index>(transfer.dimension());
-    Matrix root, inverse;
-    square_roots(metric, root, inverse);
-    const std::vector<float> usual = without_outliers(transfer, weights);
-    const Vector origin = weighted_moments(transfer, usual, Vector::Zero(n), threads).sum;
-    const Moments moments = weighted_moments(transfer, weights, origin, threads);
-    const Matrix covariance = root * (moments.outer - moments.sum * moments.sum.transpose()) * root;
-    const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance);
-    const double energy = (root * (origin + moments.sum)).squaredNorm() + std::max(covariance.trace(), 0.0);
-    const double scale = energy > 0 ? 1 / std::sqrt(energy) : 1;
-
-    Frame frame{transfer.order, transfer.channels, 0, {}, {}, {}, {}, 0, scale};
-    frame.origin.assign(origin.begin(), origin.end());
-    frame.variances.resize(static_cast<std::size_t>(n));
-    for (Eigen::Index i = 0; i < n; ++i) // eigenvalues ascend
-        frame.variances[static_cast<std::size_t>(i)] =
-            std::max(0.0, solver.eigenvalues()[n - 1 - i]) * scale * scale;
-    // Float rounding of usual vectors alone makes (2^-24)² of their energy along every axis; 4 is a margin.
-    const double rounding = 4 * 0x1p-48 * scale * scale * (root * origin).squaredNorm();
-    frame.dimension = static_cast<std::size_t>(n);
-    // Beside an outlier's the variances of all others are too inexact to tell which axes matter.
-    bool outliers = false;
-    for (std::size_t p = 0; p < usual.size(); ++p)
-        outliers = outliers || (usual[p] == 0 && weights[p] > 0);
-    while (frame.dimension > 0 && !outliers) {
+/// Leaves out axes from the end as long as they add at most `most_dropped`, or are `rounding` only.
+void drop_axes(Frame& frame, double most_dropped, double rounding) {
+    while (frame.dimension > 0) {
         const double variance = frame.variances[frame.dimension - 1];
         if (frame.dropped + variance > most_dropped && variance > rounding)
             break;
         frame.dropped += variance;
         --frame.dimension;
     }
-    const auto kept = static_cast<Eigen::Index>(frame.dimension);
-    Matrix axes = solver.eigenvectors().rightCols(kept).rowwise().reverse();
-    for (Eigen::Index i = 0; i < kept; ++i) { // the sign of an eigenvector is arbitrary; fix it
+}
+
+/// The last `count` eigenvectors, the largest first, each with its largest entry positive: their sign is
+/// arbitrary.
+Matrix largest_axes(const Matrix& eigenvectors, std::size_t count) {
+    Matrix axes = eigenvectors.rightCols(static_cast<Eigen::Index>(count)).rowwise().reverse();
+    for (Eigen::Index i = 0; i < axes.cols(); ++i) {
         Eigen::Index largest = 0;
         axes.col(i).cwiseAbs().maxCoeff(&largest);
         if (axes(largest, i) < 0)
             axes.col(i) *= -1;
     }
+    return axes;
+}
+
+} // namespace
+
+Frame fit_frame(const Transfer& transfer, std::span<const float> significance, const LightMetric& metric,
+                double most_dropped, int threads) {
+    const auto n = static_cast<Eigen::Index>(transfer.dimension());
+    Matrix root, inverse;
+    square_roots(metric, root, inverse);
+    const std::vector<float> usual = without_outliers(transfer, significance);
+    const Vector origin = moments_about(Vector::Zero(n), transfer, usual, threads).sum;
+    const Moments moments = moments_about(origin, transfer, significance, threads);
+    const Matrix covariance = root * (moments.outer - moments.sum * moments.sum.transpose()) * root;
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(covariance);
+    const double energy = (root * (origin + moments.sum)).squaredNorm() + std::max(covariance.trace(), 0.0);
+    const double scale = energy > 0 ? 1 / std::sqrt(energy) : 1;
+
+    Frame frame{transfer.order, transfer.channels, transfer.dimension(), {}, {}, {}, {}, 0, scale};
+    frame.origin.assign(origin.begin(), origin.end());
+    for (Eigen::Index i = n; i-- > 0;) // eigenvalues ascend
+        frame.variances.push_back(std::max(0.0, solver.eigenvalues()[i]) * scale * scale);
+    // Beside an outlier's the variances of all others are too inexact to tell which axes matter.
+    bool outliers = false;
+    for (std::size_t p = 0; p < usual.size(); ++p)
+        outliers = outliers || (usual[p] == 0 && significance[p] > 0);
+    // Float rounding of usual vectors alone makes (2^-24)² of their energy along every axis; 4 is a margin.
+    if (!outliers)
+        drop_axes(frame, most_dropped, 4 * 0x1p-48 * scale * scale * (root * origin).squaredNorm());
+    const Matrix axes = largest_axes(solver.eigenvectors(), frame.dimension);
     const Matrix analysis = scale * root * axes,
                  synthesis = inverse * axes / scale; // [full][kept], column-major
     frame.analysis.assign(analysis.data(), analysis.data() + analysis.size());
     frame.synthesis.assign(synthesis.data(), synthesis.data() + synthesis.size());
     return frame;
+}
+
+std::size_t axes_needed(const Frame& frame, double most) {
+    std::size_t axes = frame.dimension;
+    double dropped = frame.dropped;
+    while (axes > 0 && dropped + frame.variances[axes - 1] <= most)
+        dropped += frame.variances[--axes];
+    return axes;
 }
 
 void truncate(Frame& frame, std::size_t dimension) {

@@ -9,9 +9,9 @@
 namespace prt {
 
 /// A space in which Euclidean distance is error of exit radiance: y = analysis (T - origin), T = origin +
-/// synthesis^T y, with axes in descending order of variance. Units are such that the weighted mean of |dT|²
-/// in this space is the squared `expected_lit_rms`. Axes that carry next to nothing are left out, so that
-/// coloured transfer, whose channels are nearly dependent, costs little more than grey.
+/// synthesis^T y, with axes in descending order of variance. Units are such that the mean of |dT|² by
+/// significance in this space is the squared `expected_lit_rms`. Axes that carry next to nothing are left
+/// out, so that colored transfer, whose channels are nearly dependent, costs little more than grey.
 struct Frame {
     int order = 0, channels = 1;
     std::size_t dimension = 0;     ///< axes that are kept
@@ -25,10 +25,13 @@ struct Frame {
     std::size_t full() const { return origin.size(); }
 };
 
-/// The frame of `transfer` with as few axes as leave a squared error of at most `most_dropped`. `weights`
-/// [receivers] sum to 1.
-Frame fit_frame(const Transfer& transfer, std::span<const float> weights, const LightMetric& metric,
+/// The frame of `transfer` with as few axes as leave a squared error of at most `most_dropped`.
+/// `significance` [receivers] sums to 1.
+Frame fit_frame(const Transfer& transfer, std::span<const float> significance, const LightMetric& metric,
                 double most_dropped, int threads);
+
+/// Axes without which the squared error grows to at most `most`.
+std::size_t axes_needed(const Frame& frame, double most);
 
 /// Leaves out all but the first `dimension` axes.
 void truncate(Frame& frame, std::size_t dimension);

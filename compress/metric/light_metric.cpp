@@ -1,8 +1,12 @@
+// What an error of transfer costs, by second moments of lighting (docs/math.md, eq. 26); natural lighting
+// after Dror, Willsky and Adelson (2004, "Statistical characterization of real-world illumination").
+
 #include "prt/light_metric.h"
 
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
+#include "tuning.h"
 
 #include <Eigen/Dense>
 
@@ -12,8 +16,6 @@
 
 namespace prt {
 namespace {
-
-constexpr double kNaturalShare = 0.01; // of natural lighting in the metric of given lights
 
 /// A metric without correlations in which band l has the power `power(l)`.
 template <class Power>
@@ -39,13 +41,13 @@ int exact_rotations(int order) {
 void add_outer_product(const Light& light, double scale, int channels, std::span<double> moments) {
     const std::size_t count = light.coefficients.size();
     for (std::size_t c = 0; c < 3; ++c) {
-        // One channel serves all colours: its metric is the mean over them.
+        // One channel serves all colors: its metric is the mean over them.
         double* block = &moments[(channels == 3 ? c : 0) * count * count];
-        const double weight = channels == 3 ? scale : scale / 3;
+        const double share = channels == 3 ? scale : scale / 3;
         const auto color = static_cast<glm::length_t>(c);
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t j = 0; j < count; ++j)
-                block[i * count + j] += weight * static_cast<double>(light.coefficients[i][color]) *
+                block[i * count + j] += share * static_cast<double>(light.coefficients[i][color]) *
                                         static_cast<double>(light.coefficients[j][color]);
     }
 }
@@ -94,9 +96,9 @@ LightMetric metric_of_lights(std::span<const Light> lights, int order, int chann
     if (!(given > 0))
         throw Error("the lights to compress for are all black");
     const LightMetric natural = natural_metric(order, channels);
-    const double share = kNaturalShare * given / trace(natural);
+    const double natural_share = tuning::kNaturalShare * given / trace(natural);
     for (std::size_t i = 0; i < metric.moments.size(); ++i)
-        metric.moments[i] += share * natural.moments[i];
+        metric.moments[i] += natural_share * natural.moments[i];
     return metric;
 }
 

@@ -1,7 +1,10 @@
+// The methods that this compressor is measured against: SH of fewer bands, and clustered PCA as published
+// (Sloan, Hall, Hart and Snyder 2003) and as D3DX stored it.
+
 #include "prt/baselines.h"
 
 #include "clusters/clustering.h"
-#include "metric/receiver_weights.h"
+#include "metric/significance.h"
 #include "prt/light_metric.h"
 #include "prt/sh.h"
 
@@ -17,12 +20,12 @@ float snorm8(float value, float largest) {
     return largest > 0 ? std::round(std::clamp(value / largest, -1.0f, 1.0f) * 127) / 127 * largest : 0;
 }
 
-float as_half(double value) {
+float as_float16(double value) {
     return glm::unpackHalf1x16(glm::packHalf1x16(static_cast<float>(value)));
 }
 
 /// Rows of a cluster in the space of transfer: the mean and the directions that are in use.
-std::vector<std::vector<float>> half_rows(const Frame& frame, const ClusterFit& fit) {
+std::vector<std::vector<float>> float16_rows(const Frame& frame, const ClusterFit& fit) {
     std::vector<std::vector<float>> rows;
     for (std::size_t r = 0; r <= fit.plan.bits.size(); ++r) {
         const float* from = r == 0 ? fit.mean.data() : &fit.directions[(r - 1) * frame.dimension];
@@ -31,7 +34,7 @@ std::vector<std::vector<float>> half_rows(const Frame& frame, const ClusterFit& 
             double value = r == 0 ? frame.origin[a] : 0;
             for (std::size_t i = 0; i < frame.dimension; ++i)
                 value += frame.synthesis[i * frame.full() + a] * static_cast<double>(from[i]);
-            row[a] = as_half(r == 0 ? value : value * frame.scale); // directions of length 1
+            row[a] = as_float16(r == 0 ? value : value * frame.scale); // directions of length 1
         }
         rows.push_back(std::move(row));
     }
@@ -43,6 +46,47 @@ float dot(std::span<const float> a, std::span<const float> b) {
     for (std::size_t i = 0; i < a.size(); ++i)
         sum += static_cast<double>(a[i]) * static_cast<double>(b[i]);
     return static_cast<float>(sum);
+}
+
+/// As published: all components at once, rounds to the end or none, no moves.
+ClusteringSchedule classic_schedule(bool iterate) {
+    return {.grow = false,
+            .most_rounds = iterate ? tuning::kMostRounds : 1,
+            .tolerance = 1e-4,
+            .most_move_sweeps = 0};
+}
+
+/// Clusters in the space of transfer, as float16, and weights before they are rounded.
+struct ClassicCode {
+    std::vector<std::uint32_t> clusters;               ///< [receivers]
+    std::vector<std::vector<std::vector<float>>> rows; ///< [clusters]: mean and directions
+    std::vector<std::vector<float>> largest;           ///< [clusters][directions] weight
+    std::size_t row_count = 0, most = 0;
+    std::vector<float> weights; ///< [receivers][most]
+};
+
+ClassicCode classic_code(const Transfer& transfer, const Frame& frame, const Clustering& found) {
+    ClassicCode code{found.clusters, {}, {}, 0, 0, {}};
+    for (const ClusterFit& fit : found.fits) {
+        code.rows.push_back(float16_rows(frame, fit));
+        code.largest.emplace_back(fit.plan.bits.size(), 0.0f);
+        code.row_count += code.rows.back().size();
+        code.most = std::max(code.most, fit.plan.bits.size());
+    }
+    code.weights.resize(transfer.receivers() * code.most);
+    std::vector<float> offset(transfer.dimension());
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
+        const auto& rows = code.rows[code.clusters[p]];
+        for (std::size_t i = 0; i < offset.size(); ++i)
+            offset[i] = transfer.vector(p)[i] - rows[0][i];
+        for (std::size_t j = 0; j + 1 < rows.size(); ++j) {
+            float& weight = code.weights[p * code.most + j];
+            float& largest = code.largest[code.clusters[p]][j];
+            weight = dot(offset, rows[j + 1]);
+            largest = std::max(largest, std::abs(weight));
+        }
+    }
+    return code;
 }
 
 } // namespace
@@ -67,64 +111,42 @@ BaselineResult truncated_sh(const Transfer& transfer, int bands) {
     const std::size_t bytes = kept * static_cast<std::size_t>(transfer.channels);
     result.payload_bytes = bound_bytes(bytes);
     result.table_bytes = static_cast<double>(bytes * sizeof(float));
-    // A colour times a number, or each channel by itself: the cost of one multiply-add of a colour.
-    result.shader_ops = static_cast<double>(kept);
+    // A color times a number, or each channel by itself: the cost of one multiply-add of a color.
+    result.mean_components = static_cast<double>(kept);
     return result;
 }
 
 BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> areas,
                             const ClassicOptions& options, const Progress& progress) {
-    const std::vector<float> weights = receiver_weights(areas);
-    const Frame frame =
-        fit_frame(transfer, weights, plain_metric(transfer.order, transfer.channels), 0, options.threads);
-    const PointBlocks points(transfer, frame, options.threads);
-    ClusteringOptions how;
-    how.clusters = static_cast<std::size_t>(options.clusters);
-    how.spending.most_components = options.components;
-    how.grow = false;
-    how.most_moves = 0;
-    how.most_rounds = options.iterate ? 200 : 1;
-    how.tolerance = 1e-4;
-    how.threads = options.threads;
+    const std::vector<float> significance = significance_of(areas);
+    const Frame frame = fit_frame(transfer, significance, plain_metric(transfer.order, transfer.channels), 0,
+                                  options.threads);
     std::mt19937_64 random(options.seed);
-    const Clustering found = cluster_points(points, weights, how, random, progress);
-
-    std::vector<std::vector<std::vector<float>>> rows;
-    std::vector<std::vector<float>> largest;
-    std::size_t row_count = 0, most = 0;
-    for (const ClusterFit& fit : found.fits) {
-        rows.push_back(half_rows(frame, fit));
-        largest.emplace_back(fit.plan.bits.size(), 0.0f);
-        row_count += rows.back().size();
-        most = std::max(most, fit.plan.bits.size());
-    }
-    std::vector<float> coded(transfer.receivers() * most, 0), offset(transfer.dimension());
-    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
-        const std::size_t k = found.clusters[p];
-        for (std::size_t i = 0; i < offset.size(); ++i)
-            offset[i] = transfer.vector(p)[i] - rows[k][0][i];
-        for (std::size_t j = 0; j + 1 < rows[k].size(); ++j) {
-            coded[p * most + j] = dot(offset, rows[k][j + 1]);
-            largest[k][j] = std::max(largest[k][j], std::abs(coded[p * most + j]));
-        }
-    }
+    const ClusteringOptions how{.clusters = static_cast<std::size_t>(options.clusters),
+                                .spending = {.most_components = options.components},
+                                .schedule = classic_schedule(options.iterate),
+                                .trace = {},
+                                .threads = options.threads};
+    const ClassicCode code = classic_code(
+        transfer, frame,
+        cluster_points(PointBlocks(transfer, frame, options.threads), significance, how, random, progress));
     BaselineResult result;
     result.decoded = zero_transfer(transfer.order, transfer.channels, transfer.receivers());
     for (std::size_t p = 0; p < transfer.receivers(); ++p) {
-        const std::size_t k = found.clusters[p];
+        const std::size_t k = code.clusters[p];
         const std::span<float> to = result.decoded.vector(p);
-        std::copy(rows[k][0].begin(), rows[k][0].end(), to.begin());
-        for (std::size_t j = 0; j + 1 < rows[k].size(); ++j) {
-            const float w = snorm8(coded[p * most + j], largest[k][j]);
+        std::copy(code.rows[k][0].begin(), code.rows[k][0].end(), to.begin());
+        for (std::size_t j = 0; j + 1 < code.rows[k].size(); ++j) {
+            const float w = snorm8(code.weights[p * code.most + j], code.largest[k][j]);
             for (std::size_t i = 0; i < to.size(); ++i)
-                to[i] += w * rows[k][j + 1][i];
+                to[i] += w * code.rows[k][j + 1][i];
         }
     }
-    const std::size_t index = found.fits.size() > 256 ? 2 : found.fits.size() > 1 ? 1 : 0;
-    result.payload_bytes = bound_bytes(index + most);
-    result.table_bytes = static_cast<double>(row_count * transfer.dimension() * 2 +
-                                             (row_count - found.fits.size()) * sizeof(float));
-    result.shader_ops = static_cast<double>(most);
+    const std::size_t clusters = code.rows.size(), index = clusters > 256 ? 2 : clusters > 1 ? 1 : 0;
+    result.payload_bytes = bound_bytes(index + code.most);
+    result.table_bytes = static_cast<double>(code.row_count * transfer.dimension() * 2 +
+                                             (code.row_count - clusters) * sizeof(float));
+    result.mean_components = static_cast<double>(code.most);
     return result;
 }
 

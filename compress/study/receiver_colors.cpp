@@ -1,3 +1,5 @@
+// Pictures of numbers: clusters, components, errors and seams as colors of receivers.
+
 #include "prt/receiver_colors.h"
 
 #include "prt/error_measures.h"

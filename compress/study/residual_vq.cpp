@@ -34,7 +34,7 @@ BaselineResult residual_vq(const Transfer& transfer, std::size_t codebooks, std:
     quantizer.decode(codes.data(), result.decoded.vectors.data(), receivers);
     result.payload_bytes = bound_bytes(codebooks);
     result.table_bytes = static_cast<double>(codebooks * kRows * dimension * kBytesOfValue);
-    result.shader_ops = static_cast<double>(codebooks);
+    result.mean_components = static_cast<double>(codebooks);
     return result;
 }
 

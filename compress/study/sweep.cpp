@@ -1,3 +1,6 @@
+// Rate against distortion of this compressor and of what it is measured against, at equal bytes and at equal
+// components per receiver.
+
 #include "prt/sweep.h"
 
 #include "prt/baselines.h"
@@ -39,7 +42,7 @@ public:
             const BaselineResult r = other.run();
             const SweepPoint point = measured(other.method, other.setting, r, stopwatch.seconds());
             sweep_.by_bytes.push_back(point);
-            sweep_.by_ops.push_back(point);
+            sweep_.by_components.push_back(point);
         }
         plain_pca();
         clustered();
@@ -68,7 +71,7 @@ private:
         SweepPoint point = measured(method, setting, r.decoded);
         point.payload_bytes = r.payload_bytes;
         point.table_bytes = r.table_bytes / static_cast<double>(transfer_.receivers());
-        point.shader_ops = r.shader_ops;
+        point.mean_components = r.mean_components;
         point.seconds = seconds;
         return point;
     }
@@ -78,16 +81,9 @@ private:
         point.payload_bytes = static_cast<double>(r.statistics.bytes_per_receiver);
         point.table_bytes =
             static_cast<double>(r.statistics.basis_bytes) / static_cast<double>(transfer_.receivers());
-        point.shader_ops = r.statistics.mean_components;
+        point.mean_components = r.statistics.mean_components;
         point.seconds = r.statistics.seconds;
         return point;
-    }
-
-    Progress part(double from, double to) const {
-        Progress p{{}, progress_.stop};
-        if (progress_.report)
-            p.report = [this, from, to](double share) { progress_.report(from + (to - from) * share); };
-        return p;
     }
 
     void truncations() {
@@ -95,26 +91,34 @@ private:
             const SweepPoint point =
                 measured("truncated SH", "order " + std::to_string(bands), truncated_sh(transfer_, bands), 0);
             sweep_.by_bytes.push_back(point);
-            sweep_.by_ops.push_back(point);
+            sweep_.by_components.push_back(point);
         }
     }
 
     SweepPoint classic(const std::string& method, int clusters, int components, bool iterate,
                        const Progress& progress) const {
         const Stopwatch stopwatch;
-        const BaselineResult r = classic_cpca(
-            transfer_, areas_, {clusters, components, iterate, options_.seed, options_.threads}, progress);
+        const BaselineResult r = classic_cpca(transfer_, areas_,
+                                              {.clusters = clusters,
+                                               .components = components,
+                                               .iterate = iterate,
+                                               .seed = options_.seed,
+                                               .threads = options_.threads},
+                                              progress);
         return measured(method, std::to_string(clusters) + " x " + std::to_string(components), r,
                         stopwatch.seconds());
     }
 
     void plain_pca() {
+        double done = 0.01;
         for (const int components : {2, 4, 8, 12, 16, 24, 32}) {
             if (static_cast<std::size_t>(components) > transfer_.dimension())
                 break;
-            const SweepPoint point = classic("plain PCA", 1, components, true, part(0.01, 0.03));
+            const SweepPoint point =
+                classic("plain PCA", 1, components, true, progress_.part(done, done + 0.002));
+            done += 0.002;
             sweep_.by_bytes.push_back(point);
-            sweep_.by_ops.push_back(point);
+            sweep_.by_components.push_back(point);
         }
     }
 
@@ -142,21 +146,24 @@ private:
                 done += 0.02 * (0.5 - done);
                 if (m < 1)
                     continue;
-                sweep_.by_bytes.push_back(classic("static CPCA", clusters, m, false, part(done, done)));
-                sweep_.by_bytes.push_back(classic(kClassic, clusters, m, true, part(done, done)));
+                sweep_.by_bytes.push_back(
+                    classic("static CPCA", clusters, m, false, progress_.part(done, done)));
+                sweep_.by_bytes.push_back(classic(kClassic, clusters, m, true, progress_.part(done, done)));
             }
             if (*components.rbegin() >= 0)
                 sweep_.by_bytes.push_back(
-                    classic("vector quantisation", clusters, 0, false, part(done, done)));
+                    classic("vector quantisation", clusters, 0, false, progress_.part(done, done)));
         }
         const int clusters = std::min(kSweepClusters, most_clusters);
-        for (const int m : kSweepOps) {
+        for (const int m : kSweepComponents) {
             if (static_cast<std::size_t>(m) > transfer_.dimension())
                 break;
-            sweep_.by_ops.push_back(classic("static CPCA", clusters, m, false, part(0.5, 0.5)));
-            sweep_.by_ops.push_back(classic(kClassic, clusters, m, true, part(0.5, 0.5)));
+            sweep_.by_components.push_back(
+                classic("static CPCA", clusters, m, false, progress_.part(0.5, 0.5)));
+            sweep_.by_components.push_back(classic(kClassic, clusters, m, true, progress_.part(0.5, 0.5)));
         }
-        sweep_.by_ops.push_back(classic("vector quantisation", clusters, 0, false, part(0.5, 0.5)));
+        sweep_.by_components.push_back(
+            classic("vector quantisation", clusters, 0, false, progress_.part(0.5, 0.5)));
     }
 
     void ours() {
@@ -164,14 +171,15 @@ private:
         for (const double bytes : kSweepBytes) {
             Budget budget;
             budget.bytes_per_vertex = bytes;
-            within(budget, short_number(bytes) + " bytes", part(done, done + 0.07), sweep_.by_bytes);
+            within(budget, short_number(bytes) + " bytes", progress_.part(done, done + 0.07),
+                   sweep_.by_bytes);
             done += 0.07;
         }
         // The operations of the classic way, in no more bytes than it takes.
-        for (const SweepPoint& reference : std::vector<SweepPoint>(sweep_.by_ops)) {
+        for (const SweepPoint& reference : std::vector<SweepPoint>(sweep_.by_components)) {
             if (reference.method != kClassic)
                 continue;
-            if (!(reference.shader_ops > 0)) {
+            if (!(reference.mean_components > 0)) {
                 sweep_.left_out.push_back(
                     "nothing at the operations of classic CPCA with " + reference.setting +
                     ": it has a cluster for every receiver there, or they are all alike");
@@ -179,11 +187,11 @@ private:
             }
             Budget budget;
             budget.bytes_per_vertex = reference.bytes();
-            budget.shader_ops = reference.shader_ops;
+            budget.mean_components = reference.mean_components;
             within(budget,
-                   short_number(reference.shader_ops) + " operations and " + short_number(reference.bytes()) +
-                       " bytes",
-                   part(done, done + 0.01), sweep_.by_ops);
+                   short_number(reference.mean_components) + " operations and " +
+                       short_number(reference.bytes()) + " bytes",
+                   progress_.part(done, done + 0.01), sweep_.by_components);
             done += 0.01;
         }
     }
@@ -236,8 +244,9 @@ const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, d
     return best(sweep.by_bytes, method, bytes, [](const SweepPoint& p) { return p.bytes(); });
 }
 
-const SweepPoint* best_by_ops(const Sweep& sweep, const std::string& method, double ops) {
-    return best(sweep.by_ops, method, ops, [](const SweepPoint& p) { return p.shader_ops; });
+const SweepPoint* best_by_components(const Sweep& sweep, const std::string& method, double components) {
+    return best(sweep.by_components, method, components,
+                [](const SweepPoint& p) { return p.mean_components; });
 }
 
 } // namespace prt

@@ -48,8 +48,8 @@ CompressResult run(const Transfer& t, int clusters, int components,
                    WeightFormat format = WeightFormat::float32, int threads = 0) {
     CompressOptions options;
     options.clusters = clusters;
-    options.components = components;
-    options.weights = format;
+    options.coding.components = components;
+    options.coding.format = format;
     options.threads = threads;
     options.metric = plain_metric(t.order, t.channels);
     return compress(t, std::vector<float>(t.receivers(), 1.0f), {}, options);
@@ -101,8 +101,8 @@ TEST(Compress, DirectionsAreOrthogonalInTheMetric) {
     const Transfer t = random_transfer(400, 4, 3, 9);
     CompressOptions options;
     options.clusters = 4;
-    options.components = 6;
-    options.weights = WeightFormat::float32;
+    options.coding.components = 6;
+    options.coding.format = WeightFormat::float32;
     const CompressResult result = compress(t, std::vector<float>(400, 1.0f), {}, options);
     const ClusteredBases& b = result.transfer.bases;
     const LightMetric metric = natural_metric(4, 3);
@@ -147,8 +147,8 @@ TEST(Compress, QuantisationErrorIsHalfAStepAtMost) {
     const Transfer t = synthetic(500, 3, 2, truth); // exact but for the weights' rounding
     CompressOptions options;
     options.clusters = 3;
-    options.components = 2;
-    options.weights = WeightFormat::snorm8;
+    options.coding.components = 2;
+    options.coding.format = WeightFormat::snorm8;
     options.basis_share = 0;
     options.metric = plain_metric(4, 1);
     const CompressResult result = compress(t, std::vector<float>(500, 1.0f), {}, options);
@@ -182,8 +182,8 @@ TEST(Compress, EveryFormatIsTheSameForAnyNumberOfThreads) {
             CompressOptions options;
             options.clusters = 20;
             options.mean_components = format == WeightFormat::packed ? 0 : 3;
-            options.weights = format;
-            options.seam_weight = 1;
+            options.coding.format = format;
+            options.seam_price = 1;
             options.threads = threads;
             results.push_back(compress(t, std::vector<float>(700, 1.0f), edges, options).transfer);
             EXPECT_EQ(results.back().bases.rows, results.front().bases.rows);
@@ -277,8 +277,8 @@ TEST(HardCase, ReceiversWithoutAreaDoNotCountButAreCoded) {
     }
     CompressOptions options;
     options.clusters = 2;
-    options.components = 2;
-    options.weights = WeightFormat::float32;
+    options.coding.components = 2;
+    options.coding.format = WeightFormat::float32;
     const CompressResult result = compress(t, areas, {}, options);
     EXPECT_LT(relative_l2(t, decode(result.transfer), areas), 1e-6);
     EXPECT_EQ(result.transfer.receivers.size(), 200u);
@@ -302,13 +302,13 @@ TEST(Compress, RefusesWhatItCannotDo) {
         change(options);
         EXPECT_THROW(compress(fine, areas, {}, options), Error);
     };
-    refused([](CompressOptions& o) { o.bits = 241; });
-    refused([](CompressOptions& o) { o.bits = -1; });
-    refused([](CompressOptions& o) { o.fixed_bits = {17}; });
-    refused([](CompressOptions& o) { o.fixed_bits = {0}; });
-    refused([](CompressOptions& o) { o.cluster_bits = 3; }); // 256 clusters
-    refused([](CompressOptions& o) { o.seam_weight = -1; });
-    refused([](CompressOptions& o) { o.seam_weight = std::nan(""); });
+    refused([](CompressOptions& o) { o.coding.bits = 241; });
+    refused([](CompressOptions& o) { o.coding.bits = -1; });
+    refused([](CompressOptions& o) { o.coding.fixed_bits = {17}; });
+    refused([](CompressOptions& o) { o.coding.fixed_bits = {0}; });
+    refused([](CompressOptions& o) { o.coding.cluster_bits = 3; }); // 256 clusters
+    refused([](CompressOptions& o) { o.seam_price = -1; });
+    refused([](CompressOptions& o) { o.seam_price = std::nan(""); });
     refused([](CompressOptions& o) { o.mean_components = -2; });
     refused([](CompressOptions& o) { o.basis_share = 1; });
     refused([](CompressOptions& o) { o.metric = natural_metric(4, 1); });

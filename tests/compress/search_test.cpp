@@ -92,7 +92,7 @@ struct Tried {
     SearchResult within(const Budget& budget, WeightFormat format = WeightFormat::packed) const {
         SearchOptions options;
         options.budget = budget;
-        options.compress.weights = format;
+        options.compress.coding.format = format;
         return compress_within(transfer, areas, {}, options);
     }
     double lit_rms(const CompressResult& result) const {
@@ -180,7 +180,8 @@ TEST(Search, IsNeverWorseThanTheMethodsItComesFromAtTheirSize) {
         const Tried scene(600, channels, seed);
         const LightMetric metric = natural_metric(4, channels);
         for (const auto& [clusters, components] : {std::pair(1, 6), std::pair(64, 0), std::pair(16, 2)}) {
-            const BaselineResult other = classic_cpca(scene.transfer, scene.areas, {clusters, components});
+            const BaselineResult other =
+                classic_cpca(scene.transfer, scene.areas, {.clusters = clusters, .components = components});
             const double bytes = other.payload_bytes + other.table_bytes / 600; // both bind whole words
             const double error = expected_lit_rms(scene.transfer, other.decoded, scene.areas, metric);
             const SearchResult ours = scene.within({{}, bytes, {}});
@@ -200,7 +201,7 @@ TEST(Search, FindsOnSmallMeshesWhatAGridByHandFinds) {
         for (const int bits : {12, 26, 56}) {
             CompressOptions o;
             o.clusters = clusters;
-            o.bits = bits;
+            o.coding.bits = bits;
             const CompressResult r = compress(prop.transfer, prop.areas, {}, o);
             grid.push_back({bound_bytes(r), r.statistics.lit_rms});
         }
@@ -229,8 +230,8 @@ TEST(Search, OperationsAloneAreSpentAsWellAsByHand) {
     EXPECT_LT(bound_bytes(alone.result), 24.01); // three times two words at most
     CompressOptions by_hand;
     by_hand.clusters = 416; // a dozen receivers each
-    by_hand.components = 2;
-    by_hand.bits = 22;
+    by_hand.coding.components = 2;
+    by_hand.coding.bits = 22;
     const CompressResult hand = compress(scene.transfer, scene.areas, {}, by_hand);
     EXPECT_LT(alone.result.statistics.lit_rms, 1.05 * hand.statistics.lit_rms);
 }
@@ -238,7 +239,7 @@ TEST(Search, OperationsAloneAreSpentAsWellAsByHand) {
 TEST(Search, PresetsFitSmallMeshes) {
     const Tried prop(prop_transfer());
     for (const auto& [preset, words] : {std::pair(preset_u32(), 1), std::pair(preset_u64(), 2)}) {
-        const SearchResult found = compress_preset(prop.transfer, prop.areas, {}, preset);
+        const SearchResult found = compress_preset(prop.transfer, prop.areas, {}, {.coding = preset});
         EXPECT_TRUE(found.kept);
         EXPECT_EQ(found.result.transfer.receivers.words, words);
         EXPECT_LE(basis_bytes(found.result.transfer.bases), 4096u);
@@ -247,7 +248,7 @@ TEST(Search, PresetsFitSmallMeshes) {
     }
     // Where there is room for the bases, the preset is what it says.
     const Tried large(3000, 1, 8);
-    const SearchResult whole = compress_preset(large.transfer, large.areas, {}, preset_u32());
+    const SearchResult whole = compress_preset(large.transfer, large.areas, {}, {.coding = preset_u32()});
     EXPECT_TRUE(whole.trials.empty());
     EXPECT_EQ(whole.result.transfer.receivers.cluster_bits, 8);
 }
@@ -258,7 +259,7 @@ TEST(Search, KeepsBudgetsThatOnlyFewerDirectionsKeep) {
         for (const int components : {0, 1, 3}) {
             CompressOptions by_hand;
             by_hand.clusters = 1;
-            by_hand.components = components;
+            by_hand.coding.components = components;
             const CompressResult hand = compress(scene->transfer, scene->areas, {}, by_hand);
             const double bytes = 1.02 * bound_bytes(hand);
             const SearchResult found = scene->within({{}, bytes, {}});
@@ -272,8 +273,8 @@ TEST(Search, KeepsBudgetsThatOnlyFewerDirectionsKeep) {
 TEST(Search, WeightsThatAreNotPackedFitSmallMeshesToo) {
     const Tried prop(prop_transfer());
     CompressOptions bytes;
-    bytes.weights = WeightFormat::snorm8;
-    bytes.components = 8;
+    bytes.coding.format = WeightFormat::snorm8;
+    bytes.coding.components = 8;
     const SearchResult found = compress_preset(prop.transfer, prop.areas, {}, bytes);
     EXPECT_TRUE(found.kept);
     EXPECT_LE(basis_bytes(found.result.transfer.bases), 12u * 2 * 232); // twice cluster and weights

@@ -15,9 +15,9 @@ namespace prt {
 /// A transfer after coding and decoding by some method, and what the code takes.
 struct BaselineResult {
     Transfer decoded;
-    double payload_bytes = 0; ///< per receiver, as a game binds it: whole 32-bit words (`bound_bytes`)
-    double table_bytes = 0;   ///< in all
-    double shader_ops = 0;    ///< multiply-adds of a colour per receiver
+    double payload_bytes = 0;   ///< per receiver, as a game binds it: whole 32-bit words (`bound_bytes`)
+    double table_bytes = 0;     ///< in all
+    double mean_components = 0; ///< per receiver; each is a multiply-add of a color
 };
 
 /// `bytes` of a receiver, each a code, in the whole 32-bit words that a vertex attribute takes.

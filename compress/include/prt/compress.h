@@ -4,12 +4,12 @@
 // Components for Precomputed Radiance Transfer"), for the least error of exit radiance rather than of
 // coefficients; docs/math.md, section 4.
 //
-//     CompressOptions options = preset_u32();              // or the members one by one
-//     CompressResult r = compress(transfer, areas, edges, options);
+//     CompressResult r = compress(transfer, areas, edges, {.coding = preset_u32()});
 //
-// `prt/search.h` chooses options for a budget.
+// `prt/search.h` chooses options for a budget; docs/terminology.md says what the words mean.
 
 #include "prt/clustered_transfer.h"
+#include "prt/compress_trace.h"
 #include "prt/light_metric.h"
 #include "prt/mesh_edges.h"
 #include "prt/support/progress.h"
@@ -21,43 +21,57 @@
 
 namespace prt {
 
-inline constexpr int kMostPackedBits = 240; ///< of a receiver's weights: eight words, less the cluster
+/// Packed weights take at most eight 32-bit words of a receiver, less the cluster, which takes up to 16 bits:
+/// 240 bits, 30 bytes.
+inline constexpr int kMostPackedWords = 8;
+inline constexpr int kMostPackedBits = 32 * kMostPackedWords - 16;
 
-struct CompressOptions {
-    int clusters = 256;
+/// How a receiver's weights are written.
+struct WeightCoding {
+    WeightFormat format = WeightFormat::packed;
     /// Most components of a cluster; beyond the dimension of the transfer vectors, or 16 for packed weights,
     /// there are none.
     int components = 16;
-    /// Components per receiver on average, where clusters may differ: what the vertex shader pays. 0: no
-    /// limit.
-    double mean_components = 0;
-    WeightFormat weights = WeightFormat::packed;
-    /// Packed: bits of a receiver's weights together, at most 240. Every cluster divides them by variance.
+
+    // Packed weights only:
+
+    /// Bits of a receiver's weights together, at most kMostPackedBits. Every cluster divides them by
+    /// variance.
     int bits = 24;
-    /// Packed: bits of each component, 1..16, the same in all clusters, instead of `bits`.
-    std::vector<int> fixed_bits;
-    /// Packed: bits of the cluster's number; 0: as few as do.
+    /// Bits of each component, 1..16, the same in all clusters, instead of `bits`.
+    std::vector<int> fixed_bits = {};
+    /// Bits of the cluster's number; 0: as few as do.
     int cluster_bits = 0;
-    /// Squared error that rounding the bases may add, as a share of what there is; 0: bases are float32.
-    /// Unset: 0.1 for packed weights, 0.05 for 8 bits, 0.0001 for 16, 0 for floats.
-    std::optional<double> basis_share;
-    /// Packed: bases count in the size, so that clusters leave out directions which take more than they give.
-    bool bases_count = false;
-    /// What an error costs; nothing: `natural_metric`.
-    std::optional<LightMetric> metric;
-    /// mu of docs/math.md, eq. 31: what a jump of the error along a mesh edge costs, in units of the error
-    /// itself.
-    double seam_weight = 1;
-    /// Price of a neighbour in another cluster, in units of the mean squared error (eq. 31).
-    double potts_weight = 0;
-    std::uint64_t seed = 0;
-    int threads = 0; ///< 0: all
 };
 
 /// One 32-bit word per vertex: 8 bits of cluster, four weights of 7, 6, 6 and 5 bits.
-CompressOptions preset_u32();
+WeightCoding preset_u32();
 /// Two of them: 8 bits of cluster, nine weights of 9, 8, 7, 7, 6, 6, 5, 4 and 4 bits.
-CompressOptions preset_u64();
+WeightCoding preset_u64();
+
+struct CompressOptions {
+    int clusters = 256;
+    WeightCoding coding = {};
+    /// Components per receiver on average, where clusters may differ: what the vertex shader pays. 0: no
+    /// limit.
+    double mean_components = 0;
+    /// Squared error that rounding the bases may add, as a share of what there is; 0: bases are float32.
+    /// Unset: 0.1 for packed weights, 0.05 for 8 bits, 0.0001 for 16, 0 for floats.
+    std::optional<double> basis_share = {};
+    /// Packed weights: bases count in the size, so that clusters leave out directions which take more than
+    /// they give.
+    bool bases_count = false;
+    /// What an error costs; nothing: `natural_metric`.
+    std::optional<LightMetric> metric = {};
+    /// mu of docs/math.md, eq. 31: what a jump of the error along a mesh edge costs, in units of the error
+    /// itself.
+    double seam_price = 1;
+    /// beta of eq. 31: what a neighbour in another cluster costs, in units of the mean squared error.
+    double border_price = 0;
+    std::uint64_t seed = 0;
+    int threads = 0;          ///< 0: all
+    CompressTrace trace = {}; ///< is told what happens; results are the same with and without
+};
 
 struct CompressStatistics {
     /// Expected lit_rms under the metric after each round of clustered PCA at the full number of components,
@@ -82,7 +96,7 @@ struct CompressResult {
     CompressStatistics statistics;
 };
 
-/// Compresses `transfer`; `areas` [receivers] weight the error. Receivers of area 0 are coded but do not
+/// Compresses `transfer`; an error counts by `areas` [receivers]. Receivers of area 0 are coded but do not
 /// count. `edges` are needed where seams have a weight. Deterministic from the seed, whatever the number of
 /// threads. Thread-safe. Throws `Error` for options outside their range and transfer that is not finite, and
 /// `Cancelled`. Memory: about twice the input; time: proportional to receivers × clusters × components.

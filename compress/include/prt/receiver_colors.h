@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers of receivers as colours, for pictures. All are [receivers] and are shown as they are, without
+// Numbers of receivers as colors, for pictures. All are [receivers] and are shown as they are, without
 // exposure.
 
 #include "prt/clustered_transfer.h"
@@ -15,10 +15,10 @@ namespace prt {
 
 /// From black over red and yellow to white for `share` 0..1.
 glm::vec3 heat_color(double share);
-/// A colour for a number: neighbouring numbers differ, and no two of many are the same.
+/// A color for a number: neighbouring numbers differ, and no two of many are the same.
 glm::vec3 label_color(std::size_t label);
 
-/// A colour per cluster.
+/// A color per cluster.
 std::vector<glm::vec3> cluster_colors(const ClusteredTransfer& transfer);
 
 /// Components of the receiver's cluster, as heat over the largest number of components there is.

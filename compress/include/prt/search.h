@@ -13,27 +13,18 @@ namespace prt {
 struct Budget {
     std::optional<double> max_error;        ///< expected lit_rms under the metric
     std::optional<double> bytes_per_vertex; ///< what a game binds (`bytes_per_receiver`), and bases
-    std::optional<double> shader_ops;       ///< components per receiver on average
+    std::optional<double> mean_components;  ///< of all receivers: what the vertex shader pays
 
-    bool any() const { return max_error || bytes_per_vertex || shader_ops; }
+    bool any() const { return max_error || bytes_per_vertex || mean_components; }
 };
 
 struct SearchOptions {
     CompressOptions compress;      ///< what the search does not choose: metric, seams, seed, threads, format
     bool choose_clusters = true;   ///< else compress.clusters holds
-    bool choose_components = true; ///< else compress.components holds as the most, packed or not
+    bool choose_components = true; ///< else compress.coding.components holds as the most, packed or not
     /// 32-bit words of a receiver, or groups of four weights that are not packed; 0: the search chooses.
     int payload = 0;
     Budget budget;
-};
-
-/// One try of the search.
-struct SearchTrial {
-    int clusters = 0, payload_bytes = 0; ///< `bytes_per_receiver`
-    double lit_rms = 0;
-    double bytes_per_vertex = 0; ///< payload and bases
-    double mean_components = 0;
-    double seconds = 0;
 };
 
 struct SearchResult {
@@ -44,19 +35,19 @@ struct SearchResult {
 };
 
 /// Compresses with the numbers of clusters, components and bits that are cheapest in bytes under `max_error`,
-/// or best in error under `bytes_per_vertex`, or, under `shader_ops` alone, in as many bytes as a preset may
-/// take. Takes five to twenty times as long as `compress`. Throws as `compress` does, and for budgets that
-/// are not positive.
+/// or best in error under `bytes_per_vertex`, or, under `mean_components` alone, in as many bytes as a preset
+/// may take. Takes five to twenty times as long as `compress`. Throws as `compress` does, and for budgets
+/// that are not positive.
 SearchResult compress_within(const Transfer& transfer, std::span<const float> areas,
                              std::span<const Edge> edges, const SearchOptions& options,
                              const Progress& progress = {});
 
-/// A preset (`preset_u32`, `preset_u64`, or weights that are not packed) that fits small meshes, too: as it
+/// A coding (`preset_u32`, `preset_u64`, or weights that are not packed) that fits small meshes, too: as it
 /// is where its bases take at most twice the bytes of the weights, or 4 KB; else the clusters and bits that
 /// lose least in as many words and no more bytes of bases than that. `kept` is false where nothing is as
 /// small.
 SearchResult compress_preset(const Transfer& transfer, std::span<const float> areas,
-                             std::span<const Edge> edges, const CompressOptions& preset,
+                             std::span<const Edge> edges, const CompressOptions& options,
                              const Progress& progress = {});
 
 } // namespace prt

@@ -13,10 +13,10 @@ namespace prt {
 
 struct SweepPoint {
     std::string method, setting;
-    double payload_bytes = 0; ///< per receiver, as a game binds it: whole 32-bit words
-    double table_bytes = 0;   ///< bases and all else, per receiver
-    double shader_ops = 0;    ///< multiply-adds of a colour per receiver, on average
-    double lit_rms = 0;       ///< root of the mean square over the lights of the sweep
+    double payload_bytes = 0;   ///< per receiver, as a game binds it: whole 32-bit words
+    double table_bytes = 0;     ///< bases and all else, per receiver
+    double mean_components = 0; ///< per receiver; each is a multiply-add of a color
+    double lit_rms = 0;         ///< root of the mean square over the lights of the sweep
     double relative_l2 = 0;
     double seconds = 0;
 
@@ -26,8 +26,8 @@ struct SweepPoint {
 struct Sweep {
     std::vector<SweepPoint> by_bytes; ///< every method at sizes that suit it
     /// The literature's clustered methods with `kSweepClusters` clusters, and ours with as many as take no
-    /// more bytes than classic CPCA does with as many operations.
-    std::vector<SweepPoint> by_ops;
+    /// more bytes than classic CPCA does with as many components.
+    std::vector<SweepPoint> by_components;
     std::vector<std::string> left_out; ///< what of ours is missing, and why
 };
 
@@ -35,7 +35,7 @@ inline constexpr int kSweepClusters = 256; ///< in one byte
 /// Budgets of the sweep, bytes per receiver with bases: one, one, two and three words at most.
 inline constexpr double kSweepBytes[] = {5, 7, 9, 13};
 /// Components per receiver.
-inline constexpr int kSweepOps[] = {1, 2, 4, 8};
+inline constexpr int kSweepComponents[] = {1, 2, 4, 8};
 
 /// A method that the caller brings, at one setting.
 struct SweepCandidate {
@@ -51,8 +51,8 @@ Sweep sweep(const Transfer& transfer, std::span<const float> areas, std::span<co
 
 /// The best point of `method` with at most `bytes` per receiver; nothing where it has none.
 const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, double bytes);
-/// The best point of `method` with at most `ops`.
-const SweepPoint* best_by_ops(const Sweep& sweep, const std::string& method, double ops);
+/// The best point of `method` with at most so many `components`.
+const SweepPoint* best_by_components(const Sweep& sweep, const std::string& method, double components);
 
 inline constexpr const char* kOurs = "prtkit";
 inline constexpr const char* kClassic = "classic CPCA";

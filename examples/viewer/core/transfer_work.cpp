@@ -18,14 +18,12 @@ constexpr int kBakeRays[] = {16, 128, 1024};
 /// asked.
 prt::CompressResult compressed_as(const CompressionSettings& how, const prt::Transfer& transfer,
                                   const Model& model, const prt::Progress& progress) {
-    prt::CompressOptions options = prt::preset_u32();
-    if (how.clusters == options.clusters && how.components == 4)
+    prt::CompressOptions options{.coding = prt::preset_u32()};
+    if (how.clusters == options.clusters && how.components == options.coding.components)
         return prt::compress_preset(transfer, model.areas, model.edges, options, progress).result;
-    options.fixed_bits.clear();
     options.clusters = how.clusters;
-    options.components = how.components;
-    options.bits = 6 * how.components; // as many for each as the preset has
-    options.cluster_bits = 0;
+    // As many bits for each component as the preset has.
+    options.coding = {.components = how.components, .bits = 6 * how.components};
     return prt::compress(transfer, model.areas, model.edges, options, progress);
 }
 

@@ -1,7 +1,7 @@
 // Codes for given clusters and clusters for given codes, in turn.
 
 #include "clusters/clustering.h"
-#include "coding/quantised_models.h"
+#include "coding/refit.h"
 #include "metric/frame.h"
 
 #include <gtest/gtest.h>
@@ -25,29 +25,29 @@ Transfer falling_spectrum(std::size_t receivers, unsigned seed) {
 
 TEST(Alternation, NeverLosesWhatARoundHasFound) {
     constexpr std::size_t kReceivers = 300;
-    const std::vector<float> weights(kReceivers, 1.0f / kReceivers);
+    const std::vector<float> significance(kReceivers, 1.0f / kReceivers);
     for (const unsigned seed : {1u, 2u, 3u, 4u}) {
         const Transfer transfer = falling_spectrum(kReceivers, seed);
-        const Frame frame = fit_frame(transfer, weights, plain_metric(4, 1), 0, 1);
+        const Frame frame = fit_frame(transfer, significance, plain_metric(4, 1), 0, 1);
         const PointBlocks points(transfer, frame, 1);
         ClusteringOptions how;
         how.clusters = kReceivers / 9; // as many members as least squares has unknowns, or fewer
         how.spending.most_components = 16;
         how.spending.bits = 33;
         std::mt19937_64 random(seed);
-        const Clustering found = cluster_points(points, weights, how, random, {});
-        QuantisedModels models = quantised_models(points, weights, found, false, 0, 1);
+        const Clustering found = cluster_points(points, significance, how, random, {});
+        QuantisedClusters clusters = quantised_clusters(points, significance, found, std::nullopt, 1);
         Codes codes;
         codes.clusters = found.clusters;
-        encode_in_place(points, models, codes, 1);
-        double before = total_error(weights, codes.errors);
+        encode_in_place(points, clusters, codes, 1);
+        double before = total_error(significance, codes.errors);
         const double first = before;
         for (int round = 0; round < 6; ++round) {
-            refit(points, weights, codes, models, 1);
+            refit(points, significance, codes, clusters, 1);
             const Codes kept = codes;
-            encode_points(points, models, neighbour_clusters(models, 16, 1), codes, 1);
-            keep_better(points, models, kept, codes, 1);
-            const double error = total_error(weights, codes.errors);
+            encode_points(points, clusters, neighbours_of_codes(clusters, 16, 1), codes, 1);
+            keep_better(points, clusters, kept, codes, 1);
+            const double error = total_error(significance, codes.errors);
             EXPECT_LE(error, before * (1 + 1e-5)) << "seed " << seed << ", round " << round;
             before = error;
         }

@@ -37,14 +37,14 @@ struct Grid {
         std::size_t crossing = 0;
         double lit_rms = 0;
     };
-    Jumps compressed(double seam_weight, double potts_weight, WeightFormat format) const {
+    Jumps compressed(double seam_price, double border_price, WeightFormat format) const {
         CompressOptions options;
         options.clusters = 30;
-        options.components = 2;
-        options.bits = 12;
-        options.weights = format;
-        options.seam_weight = seam_weight;
-        options.potts_weight = potts_weight;
+        options.coding.components = 2;
+        options.coding.bits = 12;
+        options.coding.format = format;
+        options.seam_price = seam_price;
+        options.border_price = border_price;
         const CompressResult result = compress(transfer, areas, edges, options);
         const Transfer decoded = decode(result.transfer);
         Jumps jumps;
@@ -85,11 +85,11 @@ TEST_P(Seams, SmoothingKeepsTheMeanNumberOfComponents) {
     const Grid grid;
     CompressOptions options;
     options.clusters = 30;
-    options.components = 6;
+    options.coding.components = 6;
     options.mean_components = 1.5; // some have one, others two or more: reassignment would like the latter
-    options.bits = 48;
-    options.weights = GetParam();
-    options.seam_weight = 4;
+    options.coding.bits = 48;
+    options.coding.format = GetParam();
+    options.seam_price = 4;
     const CompressResult result = compress(grid.transfer, grid.areas, grid.edges, options);
     EXPECT_LE(result.statistics.mean_components, 1.5);
     EXPECT_GT(result.statistics.mean_components, 1.2);

@@ -30,7 +30,7 @@ TEST(Baselines, TruncationKeepsItsBandsToAByte) {
 TEST(Baselines, AllComponentsLoseOnlyWhatEightBitsLose) {
     const Transfer t = random_transfer(300);
     const std::vector<float> areas(300, 1.0f);
-    const BaselineResult r = classic_cpca(t, areas, {1, 9});
+    const BaselineResult r = classic_cpca(t, areas, {.clusters = 1, .components = 9});
     EXPECT_LT(relative_l2(t, r.decoded, areas),
               0.01); // a step of 3.5 sigma / 127 along each of nine axes: 0.8 %
     EXPECT_GT(relative_l2(t, r.decoded, areas), 0.001);
@@ -43,18 +43,24 @@ TEST(Baselines, CountsTheWholeWordsThatAGameBinds) {
     const std::vector<float> areas(600, 1.0f);
     EXPECT_EQ(truncated_sh(t, 3).payload_bytes, 12);  // 9 bytes
     EXPECT_EQ(truncated_sh(t, 3).table_bytes, 9 * 4); // tables have no padding
-    EXPECT_EQ(classic_cpca(t, areas, {1, 4}).payload_bytes, 4);
-    EXPECT_EQ(classic_cpca(t, areas, {8, 3}).payload_bytes, 4); // the cluster's byte beside three weights
-    EXPECT_EQ(classic_cpca(t, areas, {8, 4}).payload_bytes, 8);
-    EXPECT_EQ(classic_cpca(t, areas, {300, 0}).payload_bytes, 4); // two bytes of cluster
+    EXPECT_EQ(classic_cpca(t, areas, {.clusters = 1, .components = 4}).payload_bytes, 4);
+    EXPECT_EQ(classic_cpca(t, areas, {.clusters = 8, .components = 3}).payload_bytes,
+              4); // the cluster's byte beside three weights
+    EXPECT_EQ(classic_cpca(t, areas, {.clusters = 8, .components = 4}).payload_bytes, 8);
+    EXPECT_EQ(classic_cpca(t, areas, {.clusters = 300, .components = 0}).payload_bytes,
+              4); // two bytes of cluster
 }
 
 TEST(Baselines, IteratingIsNoWorseThanPcaOnce) {
     const Transfer t = random_transfer(500);
     const std::vector<float> areas(500, 1.0f);
     for (const int components : {1, 3, 5})
-        EXPECT_LE(relative_l2(t, classic_cpca(t, areas, {8, components, true}).decoded, areas),
-                  relative_l2(t, classic_cpca(t, areas, {8, components, false}).decoded, areas));
+        EXPECT_LE(
+            relative_l2(t, classic_cpca(t, areas, {.clusters = 8, .components = components}).decoded, areas),
+            relative_l2(
+                t,
+                classic_cpca(t, areas, {.clusters = 8, .components = components, .iterate = false}).decoded,
+                areas));
 }
 
 } // namespace

@@ -31,7 +31,7 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
                                                      for (float& v : r.decoded.vectors)
                                                          v *= 0.5f;
                                                      r.payload_bytes = 3;
-                                                     r.shader_ops = 2;
+                                                     r.mean_components = 2;
                                                      return r;
                                                  }}};
     const Sweep result = sweep(transfer, areas, {}, lights, {}, others);
@@ -41,7 +41,7 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
     EXPECT_NEAR(half->relative_l2, 0.5, 1e-6); // half of everything is missing
     EXPECT_NEAR(half->lit_rms, 0.5, 1e-6);
     EXPECT_EQ(best_by_bytes(result, "half", 2.9), nullptr);
-    EXPECT_NE(best_by_ops(result, "half", 2), nullptr);
+    EXPECT_NE(best_by_components(result, "half", 2), nullptr);
 
     for (const char* method : {"truncated SH", "plain PCA", "static CPCA", "vector quantisation", kClassic})
         EXPECT_NE(best_by_bytes(result, method, 100), nullptr) << method;
@@ -52,9 +52,10 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
         const SweepPoint* classic = best_by_bytes(result, kClassic, bytes);
         EXPECT_TRUE(!classic || ours->lit_rms <= classic->lit_rms) << bytes;
     }
-    for (const SweepPoint& point : result.by_ops)
+    for (const SweepPoint& point : result.by_components)
         if (point.method == kOurs) {
-            const SweepPoint* classic = best_by_ops(result, kClassic, std::ceil(point.shader_ops));
+            const SweepPoint* classic =
+                best_by_components(result, kClassic, std::ceil(point.mean_components));
             ASSERT_NE(classic, nullptr);
             EXPECT_LE(point.bytes(), classic->bytes());
         }
@@ -67,10 +68,10 @@ TEST(Sweep, SaysWhyOursIsMissing) {
     const std::vector<Light> lights = {constant_light(2, {1, 1, 1})};
     const Sweep result = sweep(few, std::vector<float>(40, 1.0f), {}, lights, {});
     std::size_t ours = 0, asked = std::size(kSweepBytes);
-    for (const auto* points : {&result.by_bytes, &result.by_ops})
+    for (const auto* points : {&result.by_bytes, &result.by_components})
         for (const SweepPoint& point : *points) {
             ours += point.method == kOurs;
-            asked += points == &result.by_ops && point.method == kClassic;
+            asked += points == &result.by_components && point.method == kClassic;
         }
     EXPECT_LT(ours, asked);
     EXPECT_EQ(ours + result.left_out.size(), asked);

@@ -134,8 +134,7 @@ protected:
         return prt::bake(model->scene, options).baked.transfer;
     }
     prt::ClusteredTransfer compressed(const prt::Transfer& transfer) {
-        prt::CompressOptions options = prt::preset_u32();
-        options.clusters = 24;
+        const prt::CompressOptions options{.clusters = 24, .coding = prt::preset_u32()};
         return prt::compress(transfer, model->areas, model->edges, options).transfer;
     }
 

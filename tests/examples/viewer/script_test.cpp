@@ -38,7 +38,7 @@ protected:
         prt::save_glb(document, folder / "baked.glb");
         prt::CompressOptions options;
         options.clusters = 8;
-        options.components = 2;
+        options.coding.components = 2;
         prt::write_clustered(
             document, scene,
             {prt::compress(baked.transfer, prt::receiver_areas(scene), {}, options).transfer, baked.record});

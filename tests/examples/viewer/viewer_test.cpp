@@ -67,8 +67,7 @@ protected:
         prt::GltfDocument document = prt::load_gltf(baked());
         const prt::Scene scene = prt::extract_scene(document);
         const auto transfer = prt::read_transfer(document, scene);
-        prt::CompressOptions options = prt::preset_u32();
-        options.clusters = 16;
+        const prt::CompressOptions options{.clusters = 16, .coding = prt::preset_u32()};
         prt::CompressedTransfer compressed{
             prt::compress(transfer->transfer, prt::receiver_areas(scene), prt::mesh_edges(scene), options)
                 .transfer,

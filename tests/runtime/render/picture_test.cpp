@@ -129,7 +129,7 @@ TEST_F(Pictures, OfCompressedTransferAgree) {
     const Transfer transfer = bake(objects.scene, bake_options).baked.transfer;
     CompressOptions options;
     options.clusters = 8;
-    options.components = 6;
+    options.coding.components = 6;
     const ClusteredTransfer compressed =
         compress(transfer, receiver_areas(objects.scene), {}, options).transfer;
     const Light light = overcast_sky(6, glm::vec3(1, 0.9f, 0.8f));

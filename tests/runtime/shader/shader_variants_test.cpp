@@ -211,9 +211,9 @@ ClusteredTransfer compressed(WeightFormat format) {
         transfer.vectors[i] = normal(random) + (i % 16 == 0 ? 3.0f : 0.0f);
     CompressOptions options;
     options.clusters = 20;
-    options.components = 6;
-    options.bits = 150; // five words: weights lie across words and attributes
-    options.weights = format;
+    options.coding.components = 6;
+    options.coding.bits = 150; // five words: weights lie across words and attributes
+    options.coding.format = format;
     return compress(transfer, std::vector<float>(600, 1.0f), {}, options).transfer;
 }
 

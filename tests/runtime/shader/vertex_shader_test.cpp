@@ -43,9 +43,9 @@ TEST_P(VertexShader, AgreesWithCppPerVertex) {
         transfer.vectors[i] = normal(random) + (i % transfer.dimension() == 0 ? 3.0f : 0.0f);
     CompressOptions options;
     options.clusters = kind.clusters;
-    options.components = kind.components;
-    options.weights = kind.format;
-    options.bits = kind.bits;
+    options.coding.components = kind.components;
+    options.coding.format = kind.format;
+    options.coding.bits = kind.bits;
     const ClusteredTransfer compressed =
         compress(transfer, std::vector<float>(transfer.receivers(), 1.0f), {}, options).transfer;
     Light light = constant_light(kind.order, glm::vec3(1));

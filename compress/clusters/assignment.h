@@ -1,0 +1,83 @@
+#pragma once
+
+#include "clusters/affine_clusters.h"
+#include "clusters/points.h"
+#include "prt/support/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace prt {
+
+/// Clusters with orthonormal rows, as points choose between them.
+struct PenalisedClusters : AffineClusters {
+    std::vector<float> penalties; ///< [clusters] added to the squared distance of a point
+
+    PenalisedClusters(std::size_t clusters, std::size_t dimensions, std::size_t most_components)
+        : AffineClusters(clusters, dimensions, most_components), penalties(clusters, 0.0f) {}
+};
+
+struct Assignment {
+    std::vector<std::uint32_t> clusters; ///< [points]
+    std::vector<float> errors;           ///< [points] squared distance to the cluster, and its penalty
+};
+
+using ClusterLists = std::vector<std::vector<std::uint32_t>>; ///< [clusters][..] numbers of clusters
+
+/// Gives each point the cluster whose subspace is nearest, penalties added; of equals the first.
+Assignment assign(const PointBlocks& points, const PenalisedClusters& clusters, int threads);
+
+/// The same among the `candidates` of the cluster that a point has now, and of those of the points beside it
+/// in memory.
+Assignment assign(const PointBlocks& points, const PenalisedClusters& clusters,
+                  const ClusterLists& candidates, std::span<const std::uint32_t> now, int threads);
+
+/// Lowers `errors` [points] to the squared distance to `center` [dimension] where that is less.
+void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads);
+
+/// All candidates of the points of block `b`, each once, ascending.
+void candidates_of_block(const ClusterLists& candidates, std::span<const std::uint32_t> now, std::size_t b,
+                         std::vector<std::uint32_t>& to);
+
+/// Leaves in `clusters` and `errors` [kLanes] the candidate with the least `distance(k)` of each point of a
+/// block; of equals the first. What is a distance differs: rows that are orthonormal are projected on, rows
+/// of codes, which are not, are subtracted one after the other with rounded weights.
+template <class Distance>
+[[gnu::always_inline]] inline void keep_nearest(std::span<const std::uint32_t> candidates,
+                                                std::uint32_t* clusters, float* errors, Distance&& distance) {
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+        errors[lane] = std::numeric_limits<float>::infinity();
+    for (const std::uint32_t k : candidates) {
+        const Lanes squared = distance(k);
+        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+            const bool nearer = squared[lane] < errors[lane];
+            errors[lane] = nearer ? squared[lane] : errors[lane];
+            clusters[lane] = nearer ? k : clusters[lane];
+        }
+    }
+}
+
+/// Assigns all points block by block: `candidates_of(b, list)` says which clusters the points of a block may
+/// have, `nearest_of(block, list, clusters, errors)` chooses.
+template <class CandidatesOf, class NearestOf>
+Assignment assign_blocks(const PointBlocks& points, int threads, CandidatesOf&& candidates_of,
+                         NearestOf&& nearest_of) {
+    Assignment result{std::vector<std::uint32_t>(points.count), std::vector<float>(points.count)};
+    parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
+        alignas(64) std::array<std::uint32_t, kLanes> clusters{};
+        alignas(64) std::array<float, kLanes> errors{};
+        std::vector<std::uint32_t> candidates;
+        for (std::size_t b = begin; b < end; ++b) {
+            candidates_of(b, candidates);
+            nearest_of(points.block(b), candidates, clusters.data(), errors.data());
+            const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
+            std::copy_n(clusters.begin(), n, &result.clusters[first]);
+            std::transform(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(n),
+                           &result.errors[first], [](float e) { return std::max(e, 0.0f); });
+        }
+    });
+    return result;
+}
+
+} // namespace prt

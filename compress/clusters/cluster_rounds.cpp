@@ -1,0 +1,77 @@
+// A round of clustered PCA (Sloan, Hall, Hart and Snyder 2003, "Clustered Principal Components for
+// Precomputed Radiance Transfer"): Lloyd's iteration with affine subspaces, here with penalties for what
+// quantisation will lose, as entropy-constrained vector quantisation has (Chou, Lookabaugh and Gray 1989).
+
+#include "clusters/cluster_rounds.h"
+
+#include "clusters/cluster_neighbours.h"
+#include "tuning.h"
+
+#include <cmath>
+
+namespace prt {
+namespace {
+
+/// Along each direction weights reach up to some deviations.
+std::vector<RowReach> reaches_of(const std::vector<ClusterFit>& fits, std::size_t max_components) {
+    std::vector<RowReach> reaches(fits.size() * max_components);
+    for (std::size_t k = 0; k < fits.size(); ++k)
+        for (std::size_t j = 0; j < fits[k].plan.bits.size(); ++j)
+            reaches[k * max_components + j].most_weight =
+                tuning::kReach * static_cast<float>(std::sqrt(fits[k].variances[j]));
+    return reaches;
+}
+
+} // namespace
+
+PenalisedClusters penalised_clusters(const std::vector<ClusterFit>& fits, std::size_t dimension) {
+    std::size_t most = 0;
+    for (const ClusterFit& fit : fits)
+        most = std::max(most, fit.plan.bits.size());
+    PenalisedClusters result(fits.size(), dimension, most);
+    for (std::size_t k = 0; k < fits.size(); ++k) {
+        const ClusterFit& fit = fits[k];
+        std::copy(fit.mean.begin(), fit.mean.end(), result.mean(k));
+        if (!fit.directions.empty())
+            std::copy(fit.directions.begin(), fit.directions.end(), result.row(k, 0));
+        result.components[k] = static_cast<int>(fit.plan.bits.size());
+        // What a point loses here beyond its distance. The plan's error holds the variance along the axes
+        // that it leaves out, which the distance counts exactly.
+        result.penalties[k] = fit.significance > 0 ? static_cast<float>(fit.plan.penalty)
+                                                   : std::numeric_limits<float>::infinity();
+    }
+    return result;
+}
+
+ClusterState ClusterRounds::start(const PenalisedClusters& centers) const {
+    const std::size_t count = centers.clusters();
+    ClusterState state{assign(points, centers, threads).clusters, ClusterMoments(count, points.dimension),
+                       std::vector<ClusterFit>(count), 0};
+    state.moments.build(points, significance, state.clusters, threads);
+    return state;
+}
+
+void ClusterRounds::refit(ClusterState& state, const Spending& spending) const {
+    parallel_for(state.fits.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k)
+            state.fits[k] = fit_cluster(state.moments.view(k), spending);
+    });
+    state.cost = 0;
+    for (const ClusterFit& fit : state.fits)
+        state.cost += fit.cost(spending);
+}
+
+void ClusterRounds::reassign(ClusterState& state) const {
+    const PenalisedClusters clusters = penalised_clusters(state.fits, points.dimension);
+    Assignment next =
+        state.fits.size() <= 2 * tuning::kNeighbours
+            ? assign(points, clusters, threads)
+            : assign(points, clusters,
+                     neighbour_clusters(clusters, reaches_of(state.fits, clusters.max_components),
+                                        tuning::kNeighbours, threads),
+                     state.clusters, threads);
+    state.moments.update(points, significance, state.clusters, next.clusters, threads);
+    state.clusters = std::move(next.clusters);
+}
+
+} // namespace prt

@@ -1,0 +1,173 @@
+// Split-and-merge moves between clusters, against the local optima in which Lloyd's iteration ends.
+
+#include "clusters/moves.h"
+
+#include "clusters/cluster_neighbours.h"
+#include "tuning.h"
+
+#include <numeric>
+#include <tuple>
+
+namespace prt {
+namespace {
+
+struct PossibleSplit {
+    double gain = 0;
+    std::vector<std::uint32_t> leaving; ///< points that go to the new cluster
+};
+
+struct PossibleMerge {
+    double loss = 0;
+    std::size_t into = 0, from = 0;
+};
+
+class Moves {
+public:
+    Moves(const ClusterRounds& rounds, const Spending& spending, const ClusterState& state)
+        : rounds_(rounds), points_(rounds.points), spending_(spending), state_(state) {}
+
+    /// [clusters]; the gain is 0 where a cluster is not worth a look.
+    std::vector<PossibleSplit> splits() const;
+    /// Of every cluster and the nearest others, the least loss first.
+    std::vector<PossibleMerge> merges() const;
+    /// Moves points in `next` as long as pairs of a split and a merge pay; whether any did.
+    bool apply(const std::vector<PossibleSplit>& splits, const std::vector<PossibleMerge>& merges,
+               std::vector<std::uint32_t>& next) const;
+
+private:
+    double cost(std::size_t k) const { return state_.fits[k].cost(spending_); }
+    double cost_of_moments(std::span<const double> moments) const {
+        return cluster_cost({points_.dimension, moments}, spending_);
+    }
+    PossibleSplit split(std::size_t k, std::span<const std::uint32_t> members) const;
+    PossibleMerge merge(std::size_t k, std::size_t other) const;
+
+    const ClusterRounds& rounds_;
+    const PointBlocks& points_;
+    const Spending& spending_;
+    const ClusterState& state_;
+};
+
+PossibleSplit Moves::split(std::size_t k, std::span<const std::uint32_t> members) const {
+    const ClusterFit& fit = state_.fits[k];
+    PossibleSplit result;
+    std::vector<float> point(points_.dimension);
+    std::vector<double> low(state_.moments.stride(), 0), high(state_.moments.stride(), 0);
+    for (const std::uint32_t p : members) {
+        points_.copy_point(p, point.data());
+        double along = 0;
+        for (std::size_t i = 0; i < points_.dimension; ++i)
+            along += static_cast<double>(fit.directions[i]) * static_cast<double>(point[i] - fit.mean[i]);
+        ClusterMoments::add(point.data(), static_cast<double>(rounds_.significance[p]),
+                            along > 0 ? high : low);
+        if (along > 0)
+            result.leaving.push_back(p);
+    }
+    result.gain = cost(k) - cost_of_moments(low) - cost_of_moments(high);
+    return result;
+}
+
+std::vector<PossibleSplit> Moves::splits() const {
+    std::vector<std::vector<std::uint32_t>> members(state_.fits.size());
+    for (std::uint32_t p = 0; p < points_.count; ++p)
+        if (rounds_.significance[p] > 0)
+            members[state_.clusters[p]].push_back(p);
+    // Only clusters whose cost is above the mean are worth a look.
+    const double mean = state_.cost / static_cast<double>(state_.fits.size());
+    std::vector<PossibleSplit> found(state_.fits.size());
+    parallel_for(found.size(), 1, rounds_.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k)
+            if (!state_.fits[k].directions.empty() && members[k].size() >= 2 && !(cost(k) < mean))
+                found[k] = split(k, members[k]);
+    });
+    return found;
+}
+
+PossibleMerge Moves::merge(std::size_t k, std::size_t other) const {
+    const auto a = state_.moments.view(k), b = state_.moments.view(other);
+    std::vector<double> sum(a.values.begin(), a.values.end());
+    for (std::size_t i = 0; i < sum.size(); ++i)
+        sum[i] += b.values[i];
+    return {cost_of_moments(sum) - cost(k) - cost(other), std::min(k, other), std::max(k, other)};
+}
+
+std::vector<PossibleMerge> Moves::merges() const {
+    const MeanDistances means(penalised_clusters(state_.fits, points_.dimension));
+    std::vector<std::vector<PossibleMerge>> found(state_.fits.size());
+    parallel_for(found.size(), 1, rounds_.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const Eigen::ArrayXf squared = means.from(k);
+            std::vector<std::pair<float, std::size_t>> near;
+            for (std::size_t other = 0; other < found.size(); ++other)
+                if (other != k)
+                    near.emplace_back(
+                        state_.fits[other].significance > 0 ? squared[static_cast<Eigen::Index>(other)] : 0,
+                        other);
+            const std::size_t count = std::min(tuning::kMergePartners, near.size());
+            std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
+            for (std::size_t n = 0; n < count; ++n)
+                found[k].push_back(merge(k, near[n].second));
+        }
+    });
+    std::vector<PossibleMerge> all;
+    for (const auto& list : found)
+        all.insert(all.end(), list.begin(), list.end());
+    std::sort(all.begin(), all.end(), [](const PossibleMerge& a, const PossibleMerge& b) {
+        return std::tie(a.loss, a.into, a.from) < std::tie(b.loss, b.into, b.from);
+    });
+    return all;
+}
+
+bool Moves::apply(const std::vector<PossibleSplit>& splits, const std::vector<PossibleMerge>& merges,
+                  std::vector<std::uint32_t>& next) const {
+    std::vector<std::size_t> order(splits.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return splits[a].gain > splits[b].gain; });
+    std::vector<bool> touched(splits.size(), false);
+    auto best = order.begin();
+    bool any = false;
+    for (const PossibleMerge& merge : merges) {
+        if (touched[merge.into] || touched[merge.from])
+            continue;
+        while (best != order.end() && (touched[*best] || *best == merge.into || *best == merge.from))
+            ++best;
+        if (best == order.end() ||
+            !(splits[*best].gain > tuning::kSplitOverMerge * std::max(merge.loss, 0.0)))
+            break;
+        const PossibleSplit& split = splits[*best];
+        touched[merge.into] = touched[merge.from] = touched[*best] = true;
+        std::replace(next.begin(), next.end(), static_cast<std::uint32_t>(merge.from),
+                     static_cast<std::uint32_t>(merge.into));
+        for (const std::uint32_t p : split.leaving)
+            next[p] = static_cast<std::uint32_t>(merge.from);
+        rounds_.tell(ClusterMerge{merge.from, merge.into, merge.loss});
+        rounds_.tell(ClusterSplit{*best, merge.from, split.gain});
+        ++best;
+        any = true;
+    }
+    return any;
+}
+
+} // namespace
+
+bool split_and_merge(const ClusterRounds& rounds, const Spending& spending, double tolerance,
+                     const Progress& progress, ClusterState& state) {
+    const Moves moves(rounds, spending, state);
+    ClusterState next = state;
+    if (!moves.apply(moves.splits(), moves.merges(), next.clusters))
+        return false;
+    next.moments.update(rounds.points, rounds.significance, state.clusters, next.clusters, rounds.threads);
+    for (int r = 0; r < tuning::kRoundsAfterMoves; ++r) {
+        progress.update(static_cast<double>(r) / tuning::kRoundsAfterMoves);
+        rounds.round(next, spending);
+    }
+    rounds.refit(next, spending);
+    const bool kept = next.cost < state.cost * (1 - tolerance);
+    rounds.tell(MovesTried{state.cost, next.cost, kept});
+    if (kept)
+        state = std::move(next);
+    return kept;
+}
+
+} // namespace prt

@@ -1,0 +1,71 @@
+// Finds the prices, the Lagrange multipliers of rate and distortion, at which bases and components keep to
+// what was asked for (docs/math.md, section 4, "Different sizes").
+
+#include "clusters/prices.h"
+
+#include "tuning.h"
+
+#include <cmath>
+
+namespace prt {
+
+/// A bit more for the weights of each of V receivers takes away kGainPerBit/m of the error (m components
+/// share it), so that a bit is worth kGainPerBit/m/V of it; a row takes kBitsPerRow.
+double row_price(const ClusterState& state) {
+    double rows = 0;
+    for (const ClusterFit& fit : state.fits)
+        rows += static_cast<double>(fit.plan.bits.size());
+    const double mean = std::max(1.0, rows / static_cast<double>(state.fits.size()));
+    return tuning::kBitsPerRow * tuning::kGainPerBit / mean * state.cost /
+           static_cast<double>(state.clusters.size());
+}
+
+double component_price(const ClusterState& state, Spending spending, double most) {
+    std::vector<double> members(state.fits.size(), 0);
+    for (const std::uint32_t k : state.clusters)
+        members[k] += 1;
+    const auto mean = [&](double price) {
+        spending.component_price = price;
+        double sum = 0;
+        for (std::size_t k = 0; k < state.fits.size(); ++k)
+            sum += members[k] * static_cast<double>(plan_components(state.fits[k].variances,
+                                                                    state.fits[k].significance, spending)
+                                                        .bits.size());
+        return sum / static_cast<double>(state.clusters.size());
+    };
+    double low = 0, high = 1;
+    if (mean(low) <= most)
+        return low;
+    // Forty steps between powers find the magnitude, twenty more the number to 2^-20 of it.
+    for (int i = 0; i < 60; ++i) {
+        const double middle = i < 40 ? std::sqrt(std::max(low, 1e-20) * high) : 0.5 * (low + high);
+        (mean(middle) > most ? low : high) = middle;
+    }
+    return high;
+}
+
+void spend_components(const ClusterRounds& rounds, double most, const Progress& progress, Spending& spending,
+                      ClusterState& state) {
+    ClusterState best = state;
+    double least = std::numeric_limits<double>::infinity(), best_price = 0;
+    for (int r = 0; r < tuning::kPriceRounds; ++r) {
+        progress.update(static_cast<double>(r) / tuning::kPriceRounds);
+        spending.component_price = 0;
+        rounds.refit(state, spending); // for the spectra
+        spending.component_price = component_price(state, spending, most);
+        rounds.refit(state, spending);
+        double paid = 0;
+        for (const ClusterFit& fit : state.fits)
+            paid += fit.significance * spending.component_price * static_cast<double>(fit.plan.bits.size());
+        if (state.cost - paid < least) {
+            least = state.cost - paid;
+            best = state;
+            best_price = spending.component_price;
+        }
+        rounds.reassign(state);
+    }
+    state = std::move(best);
+    spending.component_price = best_price;
+}
+
+} // namespace prt

@@ -1,0 +1,30 @@
+#pragma once
+
+#include "coding/weight_coding.h"
+#include "prt/compress_trace.h"
+
+namespace prt {
+
+/// Clusters and what points are coded as in them.
+struct CodedClusters {
+    QuantisedClusters clusters;
+    Codes codes;
+    double step = 0; ///< of the rounded bases; 0: they are not rounded
+};
+
+struct AlternationOptions {
+    bool stay = false;      ///< points stay in their clusters: a mean number of components is promised
+    double basis_share = 0; ///< error that rounding the bases may add, as a share of what there is; 0: none
+    CompressTrace trace = {};
+    int threads = 0;
+};
+
+/// Codes all points anew for the clusters.
+void encode_all(const PointBlocks& points, const AlternationOptions& options, CodedClusters& coded);
+
+/// Alternates codes, given the clusters, and clusters, given the codes; from the third round on with the
+/// bases rounded as they will be written. Leaves the best of the rounds that could be written.
+void alternate(const PointBlocks& points, std::span<const float> significance,
+               const AlternationOptions& options, const Progress& progress, CodedClusters& coded);
+
+} // namespace prt

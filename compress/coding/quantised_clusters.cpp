@@ -1,0 +1,116 @@
+// Brings clusters into the form of a file: rows as long as a weight of 1 reaches, on a grid of values. A
+// uniform quantiser's range is chosen as for a Gaussian (Max 1960), but by trial on the points themselves.
+
+#include "coding/quantised_clusters.h"
+
+namespace prt {
+namespace {
+
+/// The length of a row along a principal axis at which rounding the coordinates `along` loses least.
+double best_length(std::span<const double> along, std::span<const double> significance, float steps) {
+    double largest = 0;
+    for (const double a : along)
+        largest = std::max(largest, std::abs(a));
+    double best = largest, least = std::numeric_limits<double>::infinity();
+    for (int tenths = tuning::kMostLengthTenths; tenths >= tuning::kLeastLengthTenths; --tenths) {
+        const double length = tenths / 10.0 * largest, h = static_cast<double>(steps);
+        double error = 0;
+        for (std::size_t p = 0; p < along.size(); ++p) {
+            const double w = std::clamp(length > 0 ? along[p] / length : 0.0, -1.0, 1.0);
+            const double lost = along[p] - length * (std::round((w + 1) * h) / h - 1);
+            error += significance[p] * lost * lost;
+        }
+        if (error < least) {
+            least = error;
+            best = length;
+        }
+    }
+    return best;
+}
+
+/// Coordinates of a cluster's members along its directions.
+struct MemberCoordinates {
+    std::vector<double> along; ///< [directions][members]
+    std::vector<double> significance;
+};
+
+MemberCoordinates coordinates_of(const PointBlocks& points, std::span<const float> significance,
+                                 const ClusterFit& fit, std::span<const std::uint32_t> members) {
+    const std::size_t count = fit.plan.bits.size(), n = members.size();
+    MemberCoordinates result{std::vector<double>(count * n, 0), {}};
+    std::vector<float> point(points.dimension);
+    for (std::size_t r = 0; r < n; ++r) {
+        points.copy_point(members[r], point.data());
+        result.significance.push_back(static_cast<double>(significance[members[r]]));
+        for (std::size_t j = 0; j < count; ++j)
+            for (std::size_t i = 0; i < points.dimension; ++i)
+                result.along[j * n + r] += static_cast<double>(fit.directions[j * points.dimension + i]) *
+                                           static_cast<double>(point[i] - fit.mean[i]);
+    }
+    return result;
+}
+
+} // namespace
+
+ClusterLists members_of(std::span<const std::uint32_t> clusters, std::size_t count) {
+    ClusterLists members(count);
+    for (std::uint32_t p = 0; p < clusters.size(); ++p)
+        members[clusters[p]].push_back(p);
+    return members;
+}
+
+QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const float> significance,
+                                     const Clustering& clustering, const std::optional<WeightGrid>& grid,
+                                     int threads) {
+    const std::vector<ClusterFit>& fits = clustering.fits;
+    QuantisedClusters result{penalised_clusters(fits, points.dimension), {}};
+    result.grids.resize(fits.size() * result.max_components, WeightGrid::any());
+    if (grid && grid->is_any())
+        return result;
+    const ClusterLists members = members_of(clustering.clusters, fits.size());
+    parallel_for(fits.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+            const std::size_t n = members[k].size();
+            const MemberCoordinates of = coordinates_of(points, significance, fits[k], members[k]);
+            for (std::size_t j = 0; j < result.components_of(k); ++j) {
+                const WeightGrid own = grid ? *grid : WeightGrid::of_bits(fits[k].plan.bits[j]);
+                result.grids[k * result.max_components + j] = own;
+                const double length =
+                    best_length(std::span(of.along).subspan(j * n, n), of.significance, own.steps());
+                for (std::size_t i = 0; i < result.dimension; ++i)
+                    result.row(k, j)[i] =
+                        static_cast<float>(length * static_cast<double>(result.row(k, j)[i]));
+            }
+        }
+    });
+    return result;
+}
+
+void round_rows(AffineClusters& clusters, double step) {
+    const auto to_multiple = [](float v, double of) {
+        return static_cast<float>(std::round(static_cast<double>(v) / of) * of);
+    };
+    for (float& v : clusters.means)
+        v = to_multiple(v, step);
+    for (float& v : clusters.rows)
+        v = to_multiple(v, 2 * step);
+}
+
+QuantisedClusters truncated(const QuantisedClusters& clusters, std::size_t dimension) {
+    QuantisedClusters result = clusters;
+    result.dimension = dimension;
+    const auto keep = [&](std::vector<float>& rows) {
+        std::vector<float> kept;
+        for (std::size_t first = 0; first < rows.size(); first += clusters.dimension)
+            kept.insert(kept.end(), rows.begin() + static_cast<std::ptrdiff_t>(first),
+                        rows.begin() + static_cast<std::ptrdiff_t>(first + dimension));
+        rows = std::move(kept);
+    };
+    if (clusters.dimension > 0) {
+        keep(result.means);
+        keep(result.rows);
+    }
+    return result;
+}
+
+} // namespace prt

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "clusters/clustering.h"
+#include "coding/weight_grid.h"
+
+#include <optional>
+
+namespace prt {
+
+/// Clusters as a file holds them: weights lie in [-1, 1] on grids, or are any. Rows need not be orthogonal.
+struct QuantisedClusters : AffineClusters {
+    std::vector<WeightGrid> grids; ///< [clusters][max_components]
+
+    const WeightGrid& grid(std::size_t k, std::size_t j) const { return grids[k * max_components + j]; }
+};
+
+/// Points by their cluster, ascending.
+ClusterLists members_of(std::span<const std::uint32_t> clusters, std::size_t count);
+
+/// Rows from the principal axes of `clustering`, each as long as loses least when the weights of its points
+/// are rounded to `grid`, or of length 1 where that is any. No grid: by the bits of each cluster's plan.
+QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const float> significance,
+                                     const Clustering& clustering, const std::optional<WeightGrid>& grid,
+                                     int threads);
+
+/// Rounds means to multiples of `step` and rows to multiples of 2 `step`.
+void round_rows(AffineClusters& clusters, double step);
+
+/// The same clusters over the first `dimension` axes.
+QuantisedClusters truncated(const QuantisedClusters& clusters, std::size_t dimension);
+
+} // namespace prt

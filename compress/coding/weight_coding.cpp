@@ -1,0 +1,191 @@
+// Codes points: a cluster, and weights on its grids, rounded one after the other to what the former left
+// over. That is matching pursuit over the rows in their order (Mallat and Zhang 1993).
+
+#include "coding/weight_coding.h"
+
+#include "clusters/cluster_neighbours.h"
+
+namespace prt {
+namespace {
+
+/// A cluster as the kernel reads it.
+struct KernelCluster {
+    const float* mean;
+    const float* rows;
+    const WeightGrid* grids;
+    const RowReach* reaches;
+    std::size_t components;
+};
+
+/// Adding and taking away 1.5 · 2^23 rounds to the nearest integer what is far smaller.
+[[gnu::always_inline]] inline Lanes rounded(const Lanes& v) {
+    constexpr float kMagic = 12582912.0f;
+    return (v + kMagic) - kMagic;
+}
+
+/// Squared distance of a block's points to what their codes in this cluster stand for; the weights go to
+/// `weights` [components][kLanes] unless it is null.
+[[gnu::always_inline]] inline Lanes code_block(const float* block, std::size_t dimension,
+                                               const KernelCluster& k, float* weights) {
+    Lanes d[kMostDimensions];
+    for (std::size_t i = 0; i < dimension; ++i)
+        d[i] = lanes_at(block + i * kLanes) - k.mean[i];
+    for (std::size_t j = 0; j < k.components; ++j) {
+        const float* row = k.rows + j * dimension;
+        Lanes dot = {};
+        for (std::size_t i = 0; i < dimension; ++i)
+            dot += row[i] * d[i];
+        Lanes w = dot * k.reaches[j].inverse_norm;
+        if (!k.grids[j].is_any()) {
+            const float steps = k.grids[j].steps();
+            w = w < -1.0f ? Lanes{} - 1.0f : w;
+            w = w > 1.0f ? Lanes{} + 1.0f : w;
+            w = rounded((w + 1.0f) * steps) / steps - 1.0f;
+        }
+        for (std::size_t i = 0; i < dimension; ++i)
+            d[i] -= w * row[i];
+        if (weights)
+            for (std::size_t lane = 0; lane < kLanes; ++lane)
+                weights[j * kLanes + lane] = w[lane];
+    }
+    Lanes total = {};
+    for (std::size_t i = 0; i < dimension; ++i)
+        total += d[i] * d[i];
+    return total;
+}
+
+PRT_TARGET_CLONES
+void best_of_block(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
+                   std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
+    const auto distance = [&](std::uint32_t k) __attribute__((always_inline)) {
+        return code_block(block, dimension, clusters[k], nullptr);
+    };
+    keep_nearest(candidates, best, errors, distance);
+}
+
+PRT_TARGET_CLONES
+void weights_of_block(const float* block, std::size_t dimension, const KernelCluster& cluster, float* weights,
+                      float* errors) {
+    const Lanes distance = code_block(block, dimension, cluster, weights);
+    for (std::size_t lane = 0; lane < kLanes; ++lane)
+        errors[lane] = distance[lane];
+}
+
+/// [clusters][max_components]
+std::vector<RowReach> reaches_of_codes(const AffineClusters& clusters) {
+    std::vector<RowReach> result(clusters.clusters() * clusters.max_components);
+    for (std::size_t k = 0; k < clusters.clusters(); ++k)
+        for (std::size_t j = 0; j < clusters.components_of(k); ++j) {
+            double squared = 0;
+            for (std::size_t i = 0; i < clusters.dimension; ++i)
+                squared +=
+                    static_cast<double>(clusters.row(k, j)[i]) * static_cast<double>(clusters.row(k, j)[i]);
+            // A row that rounding has emptied codes nothing.
+            result[k * clusters.max_components + j].inverse_norm =
+                squared > 1e-30 ? static_cast<float>(1 / squared) : 0.0f;
+        }
+    return result;
+}
+
+/// All clusters as the kernel reads them, and what they point to.
+struct Kernel {
+    std::vector<RowReach> reaches;
+    std::vector<KernelCluster> clusters;
+
+    explicit Kernel(const QuantisedClusters& of) : reaches(reaches_of_codes(of)) {
+        for (std::size_t k = 0; k < of.clusters(); ++k) {
+            const std::size_t first = k * of.max_components;
+            clusters.push_back({of.mean(k), of.row(k, 0), of.grids.data() + first, reaches.data() + first,
+                                of.components_of(k)});
+        }
+    }
+};
+
+/// Weights and errors of the points of block `b` in the clusters that they have.
+void code_in_clusters(const PointBlocks& points, std::size_t b, std::span<const KernelCluster> clusters,
+                      Codes& codes, std::span<float> weights) {
+    const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
+    const std::span<const std::uint32_t> own = std::span(codes.clusters).subspan(first, n);
+    alignas(64) std::array<float, kLanes> errors{};
+    for (std::size_t lane = 0; lane < n; ++lane) {
+        if (std::find(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(lane), own[lane]) !=
+            own.begin() + static_cast<std::ptrdiff_t>(lane))
+            continue; // done with an earlier lane
+        const KernelCluster& cluster = clusters[own[lane]];
+        weights_of_block(points.block(b), points.dimension, cluster, weights.data(), errors.data());
+        for (std::size_t other = lane; other < n; ++other) {
+            if (own[other] != own[lane])
+                continue;
+            codes.errors[first + other] = errors[other];
+            float* to = codes.weights.data() + (first + other) * codes.max_components;
+            for (std::size_t j = 0; j < codes.max_components; ++j)
+                to[j] = j < cluster.components ? weights[j * kLanes + other] : 0.0f;
+        }
+    }
+}
+
+void code_all(const PointBlocks& points, const Kernel& kernel, std::size_t max_components, Codes& codes,
+              int threads) {
+    codes.max_components = max_components;
+    codes.errors.resize(points.count);
+    codes.weights.resize(points.count * max_components);
+    parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> weights(max_components * kLanes);
+        for (std::size_t b = begin; b < end; ++b)
+            code_in_clusters(points, b, kernel.clusters, codes, weights);
+    });
+}
+
+} // namespace
+
+void encode_in_place(const PointBlocks& points, const QuantisedClusters& clusters, Codes& codes,
+                     int threads) {
+    code_all(points, Kernel(clusters), clusters.max_components, codes, threads);
+}
+
+void encode_points(const PointBlocks& points, const QuantisedClusters& clusters,
+                   const ClusterLists& candidates, Codes& codes, int threads) {
+    const Kernel kernel(clusters);
+    codes.clusters =
+        assign_blocks(
+            points, threads,
+            [&](std::size_t b, std::vector<std::uint32_t>& to) {
+                candidates_of_block(candidates, codes.clusters, b, to);
+            },
+            [&](const float* block, std::span<const std::uint32_t> near, std::uint32_t* best, float* errors) {
+                best_of_block(block, points.dimension, kernel.clusters, near, best, errors);
+            })
+            .clusters;
+    code_all(points, kernel, clusters.max_components, codes, threads);
+}
+
+ClusterLists neighbours_of_codes(const QuantisedClusters& clusters, std::size_t most, int threads) {
+    return neighbour_clusters(clusters, reaches_of_codes(clusters), most, threads);
+}
+
+void keep_better(const PointBlocks& points, const QuantisedClusters& clusters, const Codes& before,
+                 Codes& codes, int threads) {
+    parallel_for(points.count, 1024, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> rest(clusters.dimension);
+        for (std::size_t p = begin; p < end; ++p) {
+            const std::size_t k = before.clusters[p];
+            const std::span<const float> w = before.of(p);
+            points.copy_point(p, rest.data());
+            for (std::size_t i = 0; i < clusters.dimension; ++i)
+                rest[i] -= clusters.mean(k)[i];
+            for (std::size_t j = 0; j < clusters.components_of(k); ++j)
+                for (std::size_t i = 0; i < clusters.dimension; ++i)
+                    rest[i] -= w[j] * clusters.row(k, j)[i];
+            float error = 0;
+            for (const float r : rest)
+                error += r * r;
+            if (!(error < codes.errors[p]))
+                continue;
+            codes.clusters[p] = before.clusters[p];
+            codes.errors[p] = error;
+            std::copy(w.begin(), w.end(), codes.weights.begin() + static_cast<std::ptrdiff_t>(p * w.size()));
+        }
+    });
+}
+
+} // namespace prt

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace prt {
+
+/// The values that a weight may have: evenly spaced over [-1, 1] with both ends, or any.
+class WeightGrid {
+public:
+    static WeightGrid any() { return WeightGrid(0); }
+    /// 2^bits values, symmetric about zero, without zero.
+    static WeightGrid of_bits(int bits) { return WeightGrid(0.5f * (static_cast<float>(1u << bits) - 1.0f)); }
+    /// Multiples of 1/largest, as signed normalised integers have.
+    static WeightGrid of_multiples(int largest) { return WeightGrid(static_cast<float>(largest)); }
+
+    bool is_any() const { return !(steps_ > 0); }
+    /// Steps from 0 to 1; a value lies at w = q / steps - 1, q = 0, 1, ...
+    float steps() const { return steps_; }
+    /// Bits of q.
+    int bits() const { return std::bit_width(static_cast<unsigned>(2 * steps_)); }
+    float nearest(float weight) const {
+        return is_any() ? weight : std::round((std::clamp(weight, -1.0f, 1.0f) + 1) * steps_) / steps_ - 1;
+    }
+    /// The q of a weight on the grid.
+    long index_of(float weight) const { return std::lround((weight + 1) * steps_); }
+
+private:
+    explicit WeightGrid(float steps) : steps_(steps) {}
+    float steps_;
+};
+
+} // namespace prt

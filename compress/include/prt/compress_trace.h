@@ -1,0 +1,63 @@
+#pragma once
+
+// What the compressor tells whoever wants to know how it came to its result: `CompressOptions::trace`.
+// Experimental: events may come and go between versions.
+
+#include <cstddef>
+#include <functional>
+#include <variant>
+
+namespace prt {
+
+/// The start: clusters by k-means++ and Lloyd's iteration, over so many axes of the frame.
+struct ClustersSeeded {
+    std::size_t clusters, axes;
+};
+
+/// A round of clustered PCA before weights are quantised. Costs are squared lit_rms under the metric, with
+/// what quantisation is expected to lose, and prices.
+struct ClusteringRound {
+    int most_components;
+    double cost;
+};
+
+/// A cluster whose points beyond its mean along the first direction go to `into`, which a merge has emptied.
+struct ClusterSplit {
+    std::size_t cluster, into;
+    double gain; ///< expected fall of the cost
+};
+
+/// A cluster whose points all go to `into`.
+struct ClusterMerge {
+    std::size_t cluster, into;
+    double loss; ///< expected rise of the cost
+};
+
+/// A sweep of the splits and merges since the last such event, after some rounds: kept where the cost fell.
+struct MovesTried {
+    double cost_before, cost_after;
+    bool kept;
+};
+
+/// A round of codes and clusters in turn.
+struct CodingRound {
+    bool rounded; ///< with bases rounded as they will be written; only such results may be kept
+    double error; ///< squared lit_rms under the metric
+};
+
+/// One try of a search for a budget (`prt/search.h`), after the events of its own compression.
+struct SearchTrial {
+    int clusters = 0, payload_bytes = 0; ///< `bytes_per_receiver`
+    double lit_rms = 0;
+    double bytes_per_vertex = 0; ///< payload and bases
+    double mean_components = 0;
+    double seconds = 0;
+};
+
+using CompressEvent = std::variant<ClustersSeeded, ClusteringRound, ClusterSplit, ClusterMerge, MovesTried,
+                                   CodingRound, SearchTrial>;
+
+/// Is called for each event, in order, from the thread that compresses. Empty: nothing is told.
+using CompressTrace = std::function<void(const CompressEvent&)>;
+
+} // namespace prt

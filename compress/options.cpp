@@ -1,0 +1,132 @@
+// What options mean: presets, defaults by format, and what is refused.
+
+#include "options.h"
+
+#include "prt/sh.h"
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace prt {
+namespace {
+
+[[noreturn]] void out_of_range(const std::string& what, double value) {
+    std::ostringstream message;
+    message.precision(12);
+    message << what << ", not " << value;
+    throw Error(message.str());
+}
+
+void check_packed(const WeightCoding& coding, int clusters) {
+    if (coding.fixed_bits.empty() && (coding.bits < 0 || coding.bits > kMostPackedBits))
+        out_of_range("bits of a vertex's weights must lie in 0.." + std::to_string(kMostPackedBits),
+                     coding.bits);
+    for (const int bits : coding.fixed_bits)
+        if (bits < 1 || bits > kMostBits)
+            out_of_range("bits of a weight must lie in 1.." + std::to_string(kMostBits), bits);
+    if (coding.cluster_bits < 0 || coding.cluster_bits > 16 ||
+        (coding.cluster_bits > 0 && clusters > 1 << coding.cluster_bits))
+        throw Error(std::to_string(clusters) + " clusters do not fit " + std::to_string(coding.cluster_bits) +
+                    " bits");
+}
+
+void check_options(const CompressOptions& o) {
+    if (o.clusters < 1 || o.clusters > 65536)
+        out_of_range("clusters must lie in 1..65536", o.clusters);
+    if (o.coding.components < 0)
+        out_of_range("components must not be negative", o.coding.components);
+    if (!(o.mean_components >= 0))
+        out_of_range("components per vertex must not be negative", o.mean_components);
+    if (o.coding.format == WeightFormat::packed)
+        check_packed(o.coding, o.clusters);
+    if (!(o.seam_price >= 0) || !(o.border_price >= 0))
+        out_of_range("seam weights must not be negative", std::min(o.seam_price, o.border_price));
+    if (o.basis_share && !(*o.basis_share >= 0 && *o.basis_share < 1))
+        out_of_range("the share of the bases must lie in 0..1", *o.basis_share);
+}
+
+} // namespace
+
+WeightCoding preset_u32() {
+    return {.components = 4, .fixed_bits = {7, 6, 6, 5}, .cluster_bits = 8};
+}
+
+WeightCoding preset_u64() {
+    return {.components = 9, .fixed_bits = {9, 8, 7, 7, 6, 6, 5, 4, 4}, .cluster_bits = 8};
+}
+
+void check_input(const Transfer& transfer, std::span<const float> areas, const CompressOptions& options) {
+    check_order(transfer.order);
+    check_options(options);
+    const std::optional<LightMetric>& metric = options.metric;
+    if (metric && (metric->order != transfer.order || metric->channels != transfer.channels))
+        throw Error("the metric has another order or other channels than the transfer");
+    if (transfer.receivers() == 0)
+        throw Error("there are no receivers to compress");
+    if (areas.size() != transfer.receivers())
+        throw Error("there are areas for " + std::to_string(areas.size()) + " receivers of " +
+                    std::to_string(transfer.receivers()));
+    if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(),
+                     [](float v) { return std::isfinite(v); }))
+        throw Error("the transfer holds values that are not finite");
+}
+
+double basis_share(const CompressOptions& options) {
+    if (options.basis_share)
+        return *options.basis_share;
+    switch (options.coding.format) {
+    case WeightFormat::packed:
+        return tuning::kBasisSharePacked;
+    case WeightFormat::snorm8:
+        return tuning::kBasisShare8;
+    case WeightFormat::snorm16:
+        return tuning::kBasisShare16;
+    case WeightFormat::float32:
+        break;
+    }
+    return 0;
+}
+
+bool bases_are_coded(const CompressOptions& options) {
+    return options.coding.format != WeightFormat::float32 && basis_share(options) > 0;
+}
+
+ClusteringOptions clustering_options(const CompressOptions& options, std::size_t dimension) {
+    const WeightCoding& coding = options.coding;
+    ClusteringOptions how;
+    how.clusters = static_cast<std::size_t>(options.clusters);
+    how.mean_components = options.mean_components;
+    how.trace = options.trace;
+    how.threads = options.threads;
+    how.spending.most_components = std::min(coding.components, static_cast<int>(dimension));
+    if (coding.format != WeightFormat::packed)
+        return how;
+    how.rows_cost = options.bases_count;
+    int most = kMostPackedComponents;
+    if (!coding.fixed_bits.empty())
+        most = std::min(most, static_cast<int>(coding.fixed_bits.size()));
+    else if (coding.bits == 0)
+        most = 0;
+    how.spending.most_components = std::min(how.spending.most_components, most);
+    how.spending.bits = coding.bits;
+    how.spending.fixed_bits = coding.fixed_bits;
+    return how;
+}
+
+std::optional<WeightGrid> grid_of(WeightFormat format) {
+    switch (format) {
+    case WeightFormat::snorm8:
+        return WeightGrid::of_multiples(127);
+    case WeightFormat::snorm16:
+        return WeightGrid::of_multiples(32767);
+    case WeightFormat::float32:
+        return WeightGrid::any();
+    case WeightFormat::packed:
+        break;
+    }
+    return std::nullopt;
+}
+
+} // namespace prt

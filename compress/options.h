@@ -1,0 +1,26 @@
+#pragma once
+
+#include "clusters/clustering.h"
+#include "coding/weight_grid.h"
+#include "prt/compress.h"
+
+#include <optional>
+
+namespace prt {
+
+/// Throws `Error` for what cannot be compressed, or not so.
+void check_input(const Transfer& transfer, std::span<const float> areas, const CompressOptions& options);
+
+/// As given, or by the format of the weights.
+double basis_share(const CompressOptions& options);
+
+/// Whether the file holds its bases in code, rounded.
+bool bases_are_coded(const CompressOptions& options);
+
+/// What the clustering is told of transfer of this dimension.
+ClusteringOptions clustering_options(const CompressOptions& options, std::size_t dimension);
+
+/// The grid of all weights; nothing where it goes by the bits of each cluster's plan.
+std::optional<WeightGrid> grid_of(WeightFormat format);
+
+} // namespace prt

@@ -1,0 +1,139 @@
+#pragma once
+
+// The numbers of the compressor that were chosen and not derived: unit, origin, and the command that measures
+// what another value does. Change one, build, and compare over the four demo scenes and what you ship:
+//
+//   [sweep]   prt evaluate BAKED.glb --sweep --json REPORT.json     lit_rms at equal bytes, equal components
+//   [preset]  prt compress BAKED.glb -o OUT.glb --preset u32 --json REPORT.json     lit_rms, seconds
+//   [budget]  prt compress BAKED.glb -o OUT.glb --bytes-per-vertex 9 (or --max-error 0.01) --json REPORT.json
+//                                                                    lit_rms, bytes, trials, seconds
+//   [trace]   any of the latter with --trace TRACE.jsonl             rounds, splits, merges, trials
+//   [seams]   prt evaluate BAKED.glb OUT.glb --json REPORT.json      seam, lit_max
+//
+// "Measured" is: when it was chosen, on the scenes named. "By hand": a round value that nothing was found to
+// depend on. Tolerances of floating point stand where they are used, with their derivation.
+
+#include <cstddef>
+
+namespace prt::tuning {
+
+// metric/
+
+/// Share of the power that natural lighting has in the metric of given lights, so that no error is free. By
+/// hand. [preset] with --lights
+inline constexpr double kNaturalShare = 0.01;
+/// A receiver is an outlier whose vector is so many times as long as the median: near it float has no digits
+/// for the others. By hand; HardCase.AHugeOutlierIsKeptAndSpoilsNothing.
+inline constexpr float kOutlierLength = 100;
+
+// The frame: squared errors relative to the mean squared exit radiance, as lit_rms².
+
+/// Error that axes may drop at first, for up to kFewBits bits of weights and beyond. By hand: a hundredth of
+/// what a word and two words leave on the demo scenes. [preset] with u32, u64
+inline constexpr double kDroppedOfFewBits = 1e-6, kDroppedOfManyBits = 1e-7;
+inline constexpr int kFewBits = 48;
+/// Where the axes dropped more than this share of the error found, the frame is made anew with the other
+/// share of it, or with all axes where the error is below kExactError (float rounding). By hand.
+inline constexpr double kTooMuchDropped = 0.04, kDroppedAgain = 0.01, kLeastDropped = 1e-13,
+                        kExactError = 1e-11;
+/// Shares of the error that leaving out axes and rounding them may add in a file. By hand. [sweep]
+inline constexpr double kAxesShare = 0.01, kAxisRoundingShare = 0.02;
+/// Share of the error that rounding the bases may add: bytes of bases against error, measured on small meshes
+/// for packed weights; the others follow their size. [sweep]
+inline constexpr double kBasisSharePacked = 0.1, kBasisShare8 = 0.05, kBasisShare16 = 0.0001;
+/// Mean square of a weight, for the step of the bases. Measured on the demo scenes. [preset]
+inline constexpr double kMeanSquareWeight = 0.2;
+
+// clusters/
+
+/// Lloyd's iteration for the start: most iterations, and the fall of the error that ends it. By hand.
+/// [preset]
+inline constexpr int kMostLloydIterations = 50;
+inline constexpr double kLloydTolerance = 1e-3;
+/// Rounds for each component while they come one at a time, and after each sweep of moves. By hand. [trace]
+inline constexpr int kRoundsPerComponent = 2, kRoundsAfterMoves = 2;
+/// Most rounds of clustered PCA, and the fall of the cost that ends them. By hand. [trace]
+inline constexpr int kMostRounds = 200;
+inline constexpr double kRoundTolerance = 1e-3;
+/// Most sweeps of split-and-merge moves. Later ones are seldom kept. [trace]
+inline constexpr int kMostMoveSweeps = 8;
+/// A split must gain so many times what its merge loses: neighbours adapt in the rounds that follow, so that
+/// a split gains more and a merge loses less than is known before. Measured on four scenes: 0.7 finds what
+/// there is to find; the sum has the last word. [trace]
+inline constexpr double kSplitOverMerge = 0.7;
+/// Nearest clusters that a merge is tried with. By hand. [trace]
+inline constexpr std::size_t kMergePartners = 4;
+/// Clusters that a point looks among in a round, where there are more than twice as many. By hand. [preset]
+inline constexpr std::size_t kNeighbours = 32;
+/// The same when points are coded: by then most have their cluster. By hand. [preset]
+inline constexpr std::size_t kNeighboursOfCodes = 16;
+/// Clusters whose means are looked at for each neighbour that is kept. By hand. [preset]
+inline constexpr std::size_t kMeansPerNeighbour = 4;
+/// How far weights reach along a direction, in standard deviations. By hand. [preset]
+inline constexpr float kReach = 3;
+/// Bits of one more row in a file whose bases count. Measured on five scenes: [budget], bytes_bases over
+/// rows.
+inline constexpr double kBitsPerRow = 64;
+/// Share of the error, times the components, that a bit more for a receiver's weights takes away: the fall of
+/// an optimal quantiser is log 4 = 1.39 per bit (docs/math.md, eq. 27).
+inline constexpr double kGainPerBit = 1.4;
+/// Rounds in which the price of a component and the points settle. By hand. [budget] with --shader-ops
+inline constexpr int kPriceRounds = 12;
+
+// coding/
+
+/// Rounds of codes and clusters in turn, and the first with rounded bases. The best is kept. By hand. [trace]
+inline constexpr int kCodingRounds = 6, kRoundedFrom = 2;
+/// Lengths of rows that are tried, as shares of the largest coordinate: 1 to 0.3. By hand. [preset]
+inline constexpr int kMostLengthTenths = 10, kLeastLengthTenths = 3;
+/// Conjugate gradients of the seams: most steps, and the fall of the squared residual that ends them: weights
+/// are rounded afterwards, to steps far larger. By hand. [seams]
+inline constexpr int kMostSolverSteps = 30;
+inline constexpr double kSolverTolerance = 1e-6;
+/// Sweeps over the receivers that choose clusters at seams, and the share of changes below which they end. By
+/// hand. [seams]
+inline constexpr int kMostSeamSweeps = 10;
+inline constexpr std::size_t kReceiversPerSeamChange = 200;
+/// Share by which another code must be cheaper, against moves to and fro by rounding.
+inline constexpr double kLeastSeamGain = 1e-6;
+
+// search.cpp
+
+/// Steps that may make it worse before a search turns back. By hand. [budget]
+inline constexpr int kPatience = 2;
+/// Tries on one line of the search: to fill bytes, to reach an error. By hand. [budget]
+inline constexpr int kBytesTries = 6, kErrorTries = 8;
+/// Bases of a preset take at most so many times the bytes of the weights, or so many bytes: a prop of some
+/// hundred vertices needs them. By hand, over meshes of 232 to 3 000 vertices. [preset]
+inline constexpr double kBasesOverWeights = 2, kAlwaysForBases = 4096;
+/// With fewer receivers a cluster, tables outweigh weights; so many clusters may be tried always. [budget]
+inline constexpr std::size_t kReceiversPerCluster = 12, kAlwaysClusters = 64;
+/// Share of the bytes that ends a line; of a preset that does not fit, whose bytes are a rule of thumb, a
+/// tenth is not worth a try. By hand. [budget]
+inline constexpr double kLeastFilled = 0.975, kLeastFilledOfPreset = 0.9;
+/// Bytes over those of the weights above which rows are tried both as paying for their bytes and as not. A
+/// preset's ways differ only where there are so few vertices that bases take more than their share: 2 478 of
+/// them had 0.479 and 0.506 %, and 0.069 and 0.074 %. [budget]
+inline constexpr double kBothWays = 2, kBothWaysOfPreset = 1.02 * (1 + kBasesOverWeights);
+/// Bytes of the bases of a cluster before the first try, and the least after one. [budget]
+inline constexpr double kBytesPerCluster = 120, kLeastBytesPerCluster = 4;
+/// Clusters of the first try for an error. [budget]
+inline constexpr double kFirstClusters = 64;
+/// Shares of an allowed error: what is aimed at, and what ends a line. By hand. [budget]
+inline constexpr double kAimedError = 0.993, kNearEnough = 0.985;
+/// log error falls by so much per log clusters, as a rule. Measured on the demo scenes. [budget]
+inline constexpr double kErrorExponent = 0.4;
+/// Factors of clusters from one try to the next: when more are needed than the last, a larger payload is the
+/// way; the most up at once. By hand. [budget]
+inline constexpr double kHopelessFactor = 64, kMostFactor = 4;
+/// Share of the components allowed below which they are not what is short. By hand. [budget] --shader-ops
+inline constexpr double kComponentsShort = 0.9;
+/// Bits beyond which nothing is lost to speak of: of the cluster and of each component. [budget] --shader-ops
+inline constexpr double kEnoughClusterBits = 16, kEnoughWeightBits = 12;
+/// Where a search of payloads begins, bytes: as given by an error, four for a hundredth and kBytesPerHalving
+/// more for every half of it; or a share of the bytes given, less where components are few. Measured on
+/// meshes of 10 000 to 40 000 vertices. [budget]
+inline constexpr double kFirstBytes = 4, kFirstBytesError = 0.01, kBytesPerHalving = 1.1;
+inline constexpr double kWeightsShare = 0.6, kWeightsShareOfFewComponents = 0.4;
+
+} // namespace prt::tuning
