@@ -4,7 +4,6 @@
 #include "outputs.h"
 #include "prt/reorder.h"
 #include "prt/support/error.h"
-#include "session.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -16,19 +15,19 @@
 
 namespace prt::cli {
 
-int Model::order() const {
+int SceneFile::order() const {
     if (compressed)
         return compressed->transfer.bases.order;
     return baked ? baked->transfer.order : 0;
 }
 
-const BakeRecord* Model::record() const {
+const BakeRecord* SceneFile::record() const {
     if (compressed)
         return &compressed->record;
     return baked ? &baked->record : nullptr;
 }
 
-void check_belong_together(const Model& baked, const Path& baked_path, const Model& shipped,
+void check_belong_together(const SceneFile& baked, const Path& baked_path, const SceneFile& shipped,
                            const Path& shipped_path) {
     for (const auto& [model, path] : {std::pair(&baked, &baked_path), std::pair(&shipped, &shipped_path)})
         if (!model->record())
@@ -42,12 +41,12 @@ void check_belong_together(const Model& baked, const Path& baked_path, const Mod
                                 baked_path.string(), baked.order()));
 }
 
-void put_in_order_of(const Scene& scene, Model& baked) {
+void put_in_order_of(const Scene& scene, SceneFile& baked) {
     baked.baked->transfer = in_order_of(scene, baked.scene, baked.baked->transfer);
     baked.scene = scene;
 }
 
-Model load_model(const Path& path) {
+SceneFile load_scene_file(const Path& path) {
     GltfDocument document = load_gltf(path);
     Scene scene = extract_scene(document);
     auto baked = read_transfer(document, scene);

@@ -2,8 +2,10 @@
 
 // Files as the commands need them.
 
-#include "arguments.h"
 #include "prt/gltf.h"
+#include "prt/image_file.h"
+#include "prt/light.h"
+#include "session.h"
 
 #include <optional>
 #include <string>
@@ -11,8 +13,15 @@
 
 namespace prt::cli {
 
+/// How every command reads lighting.
+struct LightOptions {
+    EnvironmentOptions environment;
+    Window window = Window::none;
+    double rotation_degrees = 0;
+};
+
 /// A scene file with whatever transfer it holds. Notices go to stderr.
-struct Model {
+struct SceneFile {
     GltfDocument document;
     Scene scene;
     std::optional<BakedTransfer> baked;
@@ -23,14 +32,14 @@ struct Model {
     /// How the transfer was baked; null where there is none.
     const BakeRecord* record() const;
 };
-Model load_model(const Path& path);
+SceneFile load_scene_file(const Path& path);
 
 /// Puts the receivers of a bake in the order that they have in another file of the same scene, whose vertices
 /// prt compress --reorder may have moved.
-void put_in_order_of(const Scene& scene, Model& baked);
+void put_in_order_of(const Scene& scene, SceneFile& baked);
 
 /// Throws `Error` unless both hold transfer of one order for the same receivers.
-void check_belong_together(const Model& baked, const Path& baked_path, const Model& shipped,
+void check_belong_together(const SceneFile& baked, const Path& baked_path, const SceneFile& shipped,
                            const Path& shipped_path);
 
 struct LoadedLight {

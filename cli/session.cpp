@@ -1,5 +1,7 @@
 #include "session.h"
 
+#include "prt/support/file.h"
+
 #include <fmt/core.h>
 
 #include <atomic>
@@ -78,6 +80,20 @@ void ProgressBar::show(double fraction) {
     } else {
         fmt::print(stderr, "{}: {:.0f} %{}\n", title_, 100 * fraction, left);
     }
+}
+
+void Session::write(const std::function<void()>& save) {
+    const Interrupt::WritingScope writing(interrupt_);
+    save();
+}
+
+void Session::write(const Path& path, std::string_view text) {
+    if (!path.empty())
+        write([&] {
+            OutputFile file(path);
+            file.write(text);
+            file.commit();
+        });
 }
 
 void print_notices(std::string_view file, const std::vector<std::string>& notices) {

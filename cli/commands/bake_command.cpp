@@ -1,17 +1,121 @@
 #include "commands/commands.h"
 
+#include "options.h"
 #include "outputs.h"
 #include "prt/gltf.h"
 #include "prt/support/error.h"
-#include "report/write_report.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <filesystem>
 
 namespace prt::cli {
-
 namespace {
+
+struct BakeArguments {
+    Path scene, output, json;
+    std::vector<std::string> no_shadow; ///< names of materials
+    BakeOptions options;
+};
+
+const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
+const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
+                                                        {"raster", BakeMethod::raster}};
+const std::map<std::string, Storage> kStorages = {
+    {"auto", Storage::automatic}, {"float32", Storage::float32}, {"float16", Storage::float16}};
+const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
+                                                         {"ignore", BadTextures::ignore}};
+
+int parse_bounces(const std::string& text) {
+    if (text == "inf")
+        return kEndlessBounces;
+    const std::optional<int> bounces = whole_number(text);
+    if (!bounces || *bounces < 0)
+        throw CLI::ValidationError("--bounces", "'" + text + "' is neither a number of bounces nor inf");
+    return *bounces;
+}
+
+/// [MATERIAL=]MEDIUM, where MEDIUM is a name or six coefficients in 1/mm.
+MediumChoice parse_medium(const std::string& text) {
+    MediumChoice choice;
+    const std::size_t equals = text.rfind('=');
+    if (equals != std::string::npos)
+        choice.material = text.substr(0, equals);
+    const std::string medium = equals == std::string::npos ? text : text.substr(equals + 1);
+    std::string names;
+    for (const NamedMedium& named : measured_media()) {
+        if (named.name == medium) {
+            choice.medium = named.medium;
+            return choice;
+        }
+        names += std::string(named.name) + ", ";
+    }
+    glm::dvec3 &s = choice.medium.scattering, &a = choice.medium.absorption;
+    int used = 0;
+    if (std::sscanf(medium.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &s.x, &s.y, &s.z, &a.x, &a.y, &a.z, &used) !=
+            6 ||
+        static_cast<std::size_t>(used) != medium.size() || !(std::min({s.x, s.y, s.z}) > 0) ||
+        !(std::min({a.x, a.y, a.z}) >= 0))
+        throw CLI::ValidationError("--subsurface", "'" + medium + "' is neither one of " + names +
+                                                       "nor six coefficients sr,sg,sb,ar,ag,ab in 1/mm");
+    s *= 1000.0;
+    a *= 1000.0;
+    return choice;
+}
+
+void add_transport(CLI::App* command, BakeOptions& options) {
+    command
+        ->add_option_function<std::string>(
+            "--bounces", [&options](const std::string& text) { options.bounces = parse_bounces(text); },
+            "bounces of light between surfaces; inf: all of them")
+        ->type_name("N|inf")
+        ->default_str("0");
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--subsurface",
+            [&options](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts)
+                    options.subsurface.push_back(parse_medium(text));
+            },
+            "light spreads under the surface of a material, or of all: marble, skin1, whole-milk and others, "
+            "or "
+            "reduced scattering and absorption sr,sg,sb,ar,ag,ab in 1/mm")
+        ->allow_extra_args(false) // one each time, so that the scene may follow
+        ->type_name("[MATERIAL=]MEDIUM");
+    command
+        ->add_option("--metres-per-unit", options.metres_per_unit,
+                     "size of the scene's unit, where it is not glTF's metre; only media care")
+        ->capture_default_str();
+    choice(command, "--bad-textures", options.bad_textures, kBadTextures,
+           "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
+           "use the factors of their materials alone",
+           "error");
+    command
+        ->add_option_function<std::uint64_t>(
+            "--memory-limit",
+            [&options](const std::uint64_t& bytes) { options.memory_limit = static_cast<double>(bytes); },
+            "bytes that the bake may take; otherwise what the machine or its container has")
+        ->transform(CLI::AsSizeValue(true))
+        ->type_name("SIZE, as 8GB");
+    choice(command, "--inside", options.inside, kInsides,
+           "vertices that lie inside solid geometry, where no light comes: they take the light of their "
+           "neighbours, "
+           "or stay dark",
+           "refill");
+}
+
+void add_method(CLI::App* command, BakeOptions& options) {
+    add_backend(command, options.tracer.backend,
+                "gpu: OpenGL 4.5 of any kind; auto: a hardware GPU, else the CPU");
+    choice(command, "--method", options.tracer.method, kBakeMethods,
+           "trace: rays; raster: depth maps from many directions, direct light only, on the GPU", "trace");
+    command
+        ->add_option("--raster-resolution", options.tracer.raster_resolution,
+                     "texels along each side of a depth map")
+        ->capture_default_str();
+}
 
 Json statistics_json(const BakeStatistics& s) {
     return {{"receivers", s.receivers},
@@ -40,39 +144,55 @@ Json statistics_json(const BakeStatistics& s) {
 
 constexpr double kDark = 0.05; ///< mean visibility; a cellar with a window has as much
 
-void print_report(const BakeArguments& a, const BakeResult& result) {
+/// What the statistics say in words.
+void add_sentences(const BakeArguments& a, const BakeResult& result, Report& report) {
     const BakeStatistics& s = result.statistics;
-    const Transfer& t = result.baked.transfer;
     const bool raster = a.options.tracer.method == BakeMethod::raster;
-    fmt::print("{}: {} receivers, {} triangles, order {}, {} {}, {} {} each, {} bounces\n", a.output.string(),
-               s.receivers, s.triangles, t.order, t.channels, t.channels == 1 ? "channel" : "channels",
-               result.baked.record.rays, raster ? "directions" : "rays", result.baked.record.bounces);
-    fmt::print("  {} on the {}: {}\n", raster ? "depth maps" : "rays",
-               result.baked.record.backend == Backend::cpu ? "CPU" : "GPU", s.device);
+    const auto say = [&](std::string sentence) { report.sentences.push_back(std::move(sentence)); };
+    say(fmt::format("{{output}}: {{receivers}} receivers, {{triangles}} triangles, order {{order}}, "
+                    "{{channels}} {}, {{bake/rays_per_receiver}} {} each, {{bake/bounces}} bounces",
+                    result.baked.transfer.channels == 1 ? "channel" : "channels",
+                    raster ? "directions" : "rays"));
+    say(fmt::format("{} on the {}: {{device}}", raster ? "depth maps" : "rays",
+                    result.baked.record.backend == Backend::cpu ? "CPU" : "GPU"));
     if (s.receivers > s.traced)
-        fmt::print("  {} receivers are on no surface and have zero transfer\n", s.receivers - s.traced);
-    for (const std::string& notice : s.notices)
-        fmt::print("  {}\n", notice);
-    fmt::print("  {:.3f} s: build {:.3f}, trace {:.3f}, accumulate {:.3f}, transfer {:.3f}, transport "
-               "{:.3f}; {:.2f} "
-               "million {}/s\n",
-               s.seconds, s.seconds_build, s.seconds_tracing.trace, s.seconds_tracing.accumulate,
-               s.seconds_tracing.transfer, s.seconds_transport, s.rays_per_second * 1e-6,
-               raster ? "tests" : "rays");
+        say(fmt::format("{} receivers are on no surface and have zero transfer", s.receivers - s.traced));
+    for (std::size_t i = 0; i < s.notices.size(); ++i)
+        say(fmt::format("{{notices/{}}}", i));
+    say(fmt::format("{{seconds:.3f}} s: build {{seconds_build:.3f}}, trace {{seconds_trace:.3f}}, accumulate "
+                    "{{seconds_accumulate:.3f}}, transfer {{seconds_transfer:.3f}}, transport "
+                    "{{seconds_transport:.3f}}; {{rays_per_second:.2fM}} million {}/s",
+                    raster ? "tests" : "rays"));
     if (a.options.target_error)
-        fmt::print("  error of the direct light: {:.3f} % asked for, {:.3f} % estimated\n",
-                   100 * *a.options.target_error, 100 * s.sampling_error);
+        say("error of the direct light: {target_error_relative_l2:.3f%} asked for, "
+            "{sampling_error_relative_l2:.3f%} estimated");
     else if (s.sampling_error > 0)
-        fmt::print("  error of the direct light: {:.3f} % estimated\n", 100 * s.sampling_error);
+        say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
     if (s.gather_entries > 0)
-        fmt::print("  bounces: {} pairs of receivers that light each other, {:.1f} MB; at most {:.2g} % of a "
-                   "receiver's light is missing\n",
-                   s.gather_entries, static_cast<double>(s.gather_bytes) * 1e-6, 100 * s.remaining_energy);
-    fmt::print("  {:.1f} % of the light of a uniform sky arrives, on average\n", 100 * s.mean_visibility);
+        say("bounces: {gather_entries} pairs of receivers that light each other, {gather_bytes:.1fM} MB; at "
+            "most {remaining_energy:.2g%} of a receiver's light is missing");
+    say("{mean_visibility:.1f%} of the light of a uniform sky arrives, on average");
     if (s.mean_visibility < kDark && a.no_shadow.empty())
-        fmt::print("  hardly any light comes in: where a shell round the scene, as an outline or a sky, "
-                   "keeps it out, "
-                   "--no-shadow MATERIAL lets it pass\n");
+        say("hardly any light comes in: where a shell round the scene, as an outline or a sky, keeps it out, "
+            "--no-shadow MATERIAL lets it pass");
+}
+
+Report report_of(const BakeArguments& a, const BakeResult& result, const Scene& scene) {
+    Report report;
+    add_figures(report, {{"output", a.output.string()},
+                         {"order", a.options.order},
+                         {"channels", result.baked.transfer.channels},
+                         {"storage", to_string(result.baked.storage)},
+                         {"bake", bake_record_json(result.baked.record)}});
+    if (a.options.target_error)
+        add_figures(report, {{"target_error_relative_l2", *a.options.target_error}});
+    Json statistics = statistics_json(result.statistics);
+    for (const std::string& notice : scene.notices)
+        statistics["notices"].push_back(notice);
+    add_figures(report, statistics);
+    add_figures(report, {{"bytes_file", std::filesystem::file_size(a.output)}});
+    add_sentences(a, result, report);
+    return report;
 }
 
 /// Surfaces of these materials stop no light.
@@ -89,44 +209,62 @@ void leave_out_shadows(Scene& scene, const std::vector<std::string>& names) {
     }
 }
 
-} // namespace
+BakeResult baked(const BakeArguments& a, Scene& scene, Session& session) {
+    try {
+        leave_out_shadows(scene, a.no_shadow);
+        ProgressBar bar = session.progress_bar("baking");
+        return bake(scene, a.options, bar.progress());
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        throw Error(a.scene.string() + ": " + error.what());
+    }
+}
 
-void run(const BakeArguments& a, Interrupt& interrupt) {
+void run(const BakeArguments& a, Session& session) {
     check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.scene});
     const auto missing =
         a.options.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
     GltfDocument document = load_gltf(a.scene, missing);
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
-
-    BakeResult result;
-    try {
-        leave_out_shadows(scene, a.no_shadow);
-        ProgressBar bar("baking", interrupt.token());
-        result = bake(scene, a.options, bar.progress());
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) {
-        throw Error(a.scene.string() + ": " + error.what());
-    }
+    const BakeResult result = baked(a, scene, session);
     write_transfer(document, scene, result.baked);
-    {
-        const Interrupt::WritingScope writing(interrupt);
-        save_glb(document, a.output);
-    }
-    print_report(a, result);
-    Json report = {{"output", a.output.string()},
-                   {"order", a.options.order},
-                   {"channels", result.baked.transfer.channels},
-                   {"storage", result.baked.storage == TransferStorage::float16 ? "float16" : "float32"},
-                   {"bake", bake_record_json(result.baked.record)}};
-    if (a.options.target_error)
-        report["target_error_relative_l2"] = *a.options.target_error;
-    report.update(statistics_json(result.statistics));
-    for (const std::string& notice : scene.notices)
-        report["notices"].push_back(notice);
-    report["bytes_file"] = std::filesystem::file_size(a.output);
-    write_json(report, a.json, interrupt);
+    session.write([&] { save_glb(document, a.output); });
+    publish(report_of(a, result, scene), a.json, session);
+}
+
+} // namespace
+
+void add_bake(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand("bake", "Bake transfer vectors for every vertex of a glTF scene");
+    auto& a = arguments_for<BakeArguments>(command,
+                                           [&session](const BakeArguments& given) { run(given, session); });
+    command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required();
+    add_output(command, a.output, "baked .glb to write");
+    command->add_option("--order", a.options.order, "SH order N, 1..10: N² coefficients")
+        ->capture_default_str();
+    CLI::Option* rays =
+        command->add_option("--rays", a.options.rays, "rays per receiver; directions where method is raster")
+            ->capture_default_str();
+    command
+        ->add_option(
+            "--target-error", a.options.target_error,
+            "relative L2 error of the direct light to reach, with as many rays as each receiver needs")
+        ->excludes(rays);
+    add_transport(command, a.options);
+    command
+        ->add_option("--no-shadow", a.no_shadow,
+                     "a material whose surfaces stop no light, as the sky or the outline that is a shell "
+                     "round a scene")
+        ->allow_extra_args(false)
+        ->type_name("MATERIAL");
+    add_method(command, a.options);
+    choice(command, "--storage", a.options.storage, kStorages,
+           "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
+    command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
+    add_threads(command, a.options.threads);
+    add_json(command, a.json);
 }
 
 } // namespace prt::cli

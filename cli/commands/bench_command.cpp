@@ -1,80 +1,86 @@
-#include "bench.h"
-#include "classic.h"
 #include "commands/commands.h"
-#include "outputs.h"
 
-#include "report/write_report.h"
+#include "options.h"
+#include "outputs.h"
+#include "report/bench_report.h"
 
 #include <fmt/core.h>
 
 namespace prt::cli {
 namespace {
 
-/// The table of Hill's article, with what was measured beside it.
-Table classic_table() {
-    Table table{"classic", "The table of Hill, 2004", "", {}, {}};
-    table.columns = {{"vertices", "vertices"},
-                     {"series", "backend, method"},
-                     {"samples", "samples"},
-                     {"seconds", "seconds", Unit::seconds, 4},
-                     {"seconds_d3dx_2004", "D3DX", Unit::seconds, 2},
-                     {"times_faster_than_d3dx", "times faster"},
-                     {"seconds_hill_2004", "Hill", Unit::seconds, 2},
-                     {"times_faster_than_hill", "times faster"},
-                     {"relative_l2", "error", Unit::percent}};
-    table.about =
-        "Seconds to bake meshes of as many vertices, all work counted; his own meshes are not published.";
-    return table;
-}
+struct BenchArguments {
+    Path scene;
+    ReportFiles files;
+    BenchOptions options;
+    bool classic = false;
+};
 
-void add_rows(const ClassicRow& row, const BenchResult& result, Table& table) {
-    for (const BenchSeries& series : result.series)
-        for (const BenchRun& run : series.runs)
-            table.rows.push_back({row.vertices, series.backend + " " + series.method, run.rays, run.seconds,
-                                  row.seconds_d3dx, row.seconds_d3dx / run.seconds, row.seconds_hill,
-                                  row.seconds_hill / run.seconds, run.relative_l2});
-}
-
-Report scene_report(const BenchArguments& a, Interrupt& interrupt) {
+Report scene_report(const BenchArguments& a, Session& session) {
     const GltfDocument document = load_gltf(a.scene);
     const Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
-    ProgressBar bar("measuring", interrupt.token());
+    ProgressBar bar = session.progress_bar("measuring");
     Report report = bench_report(run_bench(a.scene.string(), scene, a.options, bar.progress()));
     report.notices = scene.notices;
     return report;
 }
 
-Report classic_report(const BenchArguments& a, Interrupt& interrupt) {
-    Report report;
-    report.title = "Bakes of 2004";
+Report hill_report(const BenchArguments& a, Session& session) {
     BenchOptions options = a.options;
     options.fewest_rays = kClassicSamples.front();
     options.most_rays = kClassicSamples.back();
-    Table table = classic_table();
-    for (const ClassicRow& row : classic_rows()) {
-        ProgressBar bar(fmt::format("measuring {} vertices", row.vertices), interrupt.token());
-        const BenchResult result = run_bench(fmt::format("bumpy torus, {} vertices", row.vertices), row.scene,
-                                             options, bar.progress());
-        add_rows(row, result, table);
-        for (const BenchSeries& series : result.series)
-            if (!series.left_out.empty())
-                report.notes.push_back(fmt::format("{} vertices, {} {}: {}", row.vertices, series.backend,
-                                                   series.method, series.left_out));
+    const std::array<ClassicRow, 3> rows = classic_rows();
+    std::vector<BenchResult> results;
+    for (const ClassicRow& row : rows) {
+        ProgressBar bar = session.progress_bar(fmt::format("measuring {} vertices", row.vertices));
+        results.push_back(run_bench(fmt::format("bumpy torus, {} vertices", row.vertices), row.scene, options,
+                                    bar.progress()));
     }
-    report.tables.push_back(std::move(table));
-    return report;
+    return classic_report(rows, results);
+}
+
+void run(const BenchArguments& a, Session& session) {
+    if (a.scene.empty() && !a.classic)
+        throw CLI::RequiredError("scene, or --classic");
+    check_outputs({{a.files.json, "--json", {".json"}},
+                   {a.files.html, "--html", {".html", ".htm"}},
+                   {a.files.csv, "--csv", {".csv"}}},
+                  {a.scene});
+    Report report = a.classic ? hill_report(a, session) : scene_report(a, session);
+    report.origin.emplace_back("command", session.command_line());
+    publish(report, a.files, session);
 }
 
 } // namespace
 
-void run(const BenchArguments& a, Interrupt& interrupt) {
-    check_outputs(
-        {{a.json, "--json", {".json"}}, {a.html, "--html", {".html", ".htm"}}, {a.csv, "--csv", {".csv"}}},
-        {a.scene});
-    Report report = a.classic ? classic_report(a, interrupt) : scene_report(a, interrupt);
-    report.origin.emplace_back("command", a.command_line);
-    publish(report, {a.json, a.html, a.csv}, interrupt);
+void add_bench(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand(
+        "bench", "Measure speed against error of the bake, on every backend and by every method");
+    auto& a = arguments_for<BenchArguments>(command,
+                                            [&session](const BenchArguments& given) { run(given, session); });
+    CLI::Option* scene = command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb");
+    command->add_flag("--classic", a.classic, "generated meshes like those of Hill's table of 2004")
+        ->excludes(scene);
+    command->add_option("--order", a.options.order, "SH order N")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMaxOrder));
+    command->add_option("--from", a.options.fewest_rays, "fewest rays per receiver")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMostRays));
+    command->add_option("--to", a.options.most_rays, "most rays per receiver")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMostRays / 64));
+    command
+        ->add_option("--raster-resolution", a.options.raster_resolution,
+                     "texels along each side of a depth map")
+        ->capture_default_str()
+        ->check(CLI::Range(16, 16384));
+    command->add_option("--most-seconds", a.options.most_seconds, "leave runs out that would take longer")
+        ->capture_default_str();
+    command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
+    add_threads(command, a.options.threads);
+    add_reports(command, a.files);
 }
 
 } // namespace prt::cli

@@ -1,18 +1,22 @@
 #pragma once
 
-#include "arguments.h"
-#include "session.h"
+namespace CLI {
+class App;
+}
 
 namespace prt::cli {
 
-// Each does what its subcommand says and throws `Error` when it cannot.
-void run(const BakeArguments& arguments, Interrupt& interrupt);
-void run(const CompressArguments& arguments, Interrupt& interrupt);
-void run(const EvaluateArguments& arguments, Interrupt& interrupt);
-void run(const ProjectArguments& arguments, Interrupt& interrupt);
-void run(const RenderArguments& arguments, Interrupt& interrupt);
-void run(const BenchArguments& arguments, Interrupt& interrupt);
-void run(const ShaderArguments& arguments, Interrupt& interrupt);
-void run(const InfoArguments& arguments, Interrupt& interrupt);
+class Session;
+
+// Each declares one command: its options, and what it does with them once they are parsed. A command throws
+// `Error` when it cannot do its work, and `CLI::ParseError` for options that do not go together.
+void add_bake(CLI::App& app, Session& session);
+void add_bench(CLI::App& app, Session& session);
+void add_compress(CLI::App& app, Session& session);
+void add_evaluate(CLI::App& app, Session& session);
+void add_info(CLI::App& app, Session& session);
+void add_project(CLI::App& app, Session& session);
+void add_render(CLI::App& app, Session& session);
+void add_shader(CLI::App& app, Session& session);
 
 } // namespace prt::cli

@@ -1,12 +1,11 @@
 #include "commands/commands.h"
 
-#include "inputs.h"
+#include "options.h"
 #include "outputs.h"
 #include "prt/error_measures.h"
 #include "prt/reorder.h"
 #include "prt/search.h"
 #include "prt/support/error.h"
-#include "report/write_report.h"
 
 #include <fmt/core.h>
 
@@ -14,6 +13,103 @@
 
 namespace prt::cli {
 namespace {
+
+enum class MetricChoice { natural, plain };
+
+struct CompressArguments {
+    Path baked, output, json;
+    SearchOptions options; ///< without a budget `options.compress` says it all
+    MetricChoice metric = MetricChoice::natural;
+    std::vector<Path> lights; ///< to compress for, instead of `metric`
+    LightOptions light_options;
+    bool components_given = false;
+    bool preset = false; ///< `options.compress` is one, to be fitted to the mesh
+    bool best_effort = false;
+    bool meshopt = false, reorder = false;
+};
+
+const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::packed},
+                                                      {"float", WeightFormat::float32},
+                                                      {"16", WeightFormat::snorm16},
+                                                      {"8", WeightFormat::snorm8}};
+const std::map<std::string, MetricChoice> kMetrics = {{"natural", MetricChoice::natural},
+                                                      {"plain", MetricChoice::plain}};
+
+/// A number, or auto: the search chooses.
+void count_or_auto(CLI::App* command, const std::string& name, int& target, bool& choose,
+                   const std::string& text) {
+    command
+        ->add_option_function<std::string>(
+            name,
+            [name, &target, &choose](const std::string& value) {
+                choose = value == "auto";
+                const std::optional<int> number = choose ? target : whole_number(value);
+                if (!number)
+                    throw CLI::ValidationError(name, "'" + value + "' is neither a number nor auto");
+                target = *number;
+            },
+            text)
+        ->type_name("N|auto");
+}
+
+void add_sizes(CLI::App* command, SearchOptions& o) {
+    command
+        ->add_option_function<std::string>(
+            "--preset",
+            [&o](const std::string& name) {
+                if (name != "custom")
+                    o.compress.coding = name == "u32" ? preset_u32() : preset_u64();
+            },
+            "u32: all of a vertex in one 32-bit word; u64: in two; both with 256 clusters, or as many as "
+            "bases of twice those bytes (or 4 KB) hold; custom: as the following options say")
+        ->check(CLI::IsMember({"u32", "u64", "custom"}))
+        ->type_name("u32|u64|custom")
+        ->default_str("u32, custom with other sizes");
+    count_or_auto(command, "--clusters", o.compress.clusters, o.choose_clusters,
+                  "number of clusters, 1..65536");
+    count_or_auto(command, "--components", o.compress.coding.components, o.choose_components,
+                  "most PCA components of a cluster");
+    command->add_option("--bits", o.compress.coding.bits,
+                        "bits of a vertex's weights together, where they are packed");
+    choice(command, "--weights", o.compress.coding.format, kWeights,
+           "packed: bits by variance; or 8 or 16 bits each, or float", "packed");
+    command->add_option("--max-error", o.budget.max_error,
+                        "the cheapest whose expected lit_rms under the metric is at most this");
+    command->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
+                        "the best of at most this size: whole 32-bit words, as a game binds them, and bases");
+    command->add_option("--shader-ops", o.budget.mean_components,
+                        "components that the vertex shader adds, on average over the vertices, at most");
+}
+
+/// What the options mean together: u32 where no size is given, a search where a budget is.
+void resolve(const CLI::App& command, CompressArguments& a) {
+    SearchOptions& o = a.options;
+    const auto given = [&](const char* name) { return command.count(name) > 0; };
+    const bool sizes = given("--clusters") || given("--components") || given("--bits") || given("--weights");
+    const bool preset = given("--preset") && command.get_option("--preset")->as<std::string>() != "custom";
+    if (preset && (sizes || o.budget.any()))
+        throw CLI::ValidationError("--preset", "u32 and u64 fix what other sizes and budgets would choose");
+    a.components_given = given("--components");
+    a.preset = preset || (!o.budget.any() && !sizes && !given("--preset"));
+    if (o.budget.any()) {
+        if (given("--bits"))
+            throw CLI::ValidationError("--bits", "is what a budget chooses");
+        o.choose_clusters = o.choose_clusters || !given("--clusters");
+        o.choose_components = o.choose_components || !given("--components");
+        return;
+    }
+    if ((given("--clusters") && o.choose_clusters) || (given("--components") && o.choose_components))
+        throw CLI::ValidationError("auto", "needs --max-error, --bytes-per-vertex or --shader-ops");
+    if (!preset && !sizes && !given("--preset")) {
+        o.compress.coding = preset_u32();
+        return;
+    }
+    if (preset || o.compress.coding.format == WeightFormat::packed)
+        return;
+    if (!given("--components"))
+        o.compress.coding.components = 8;
+    a.preset = !given("--clusters"); // as many as suit the mesh
+}
 
 LightMetric chosen_metric(const CompressArguments& a, const Transfer& transfer) {
     if (a.lights.empty())
@@ -36,14 +132,14 @@ struct Outcome {
     std::vector<SearchTrial> trials;
 };
 
-Outcome run_compressor(const CompressArguments& a, const Model& model, const SearchOptions& options,
-                       Interrupt& interrupt) {
+Outcome run_compressor(const CompressArguments& a, const SceneFile& model, const SearchOptions& options,
+                       Session& session) {
     const Transfer& transfer = model.baked->transfer;
     const std::vector<float> areas = receiver_areas(model.scene);
     const CompressOptions& o = options.compress;
     const std::vector<Edge> edges =
         o.seam_price > 0 || o.border_price > 0 ? mesh_edges(model.scene) : std::vector<Edge>{};
-    ProgressBar bar("compressing", interrupt.token());
+    ProgressBar bar = session.progress_bar("compressing");
     if (a.preset) {
         SearchResult found = compress_preset(transfer, areas, edges, o, bar.progress());
         return {std::move(found.result), std::move(found.trials)};
@@ -57,6 +153,19 @@ Outcome run_compressor(const CompressArguments& a, const Model& model, const Sea
     return {std::move(found.result), std::move(found.trials)};
 }
 
+/// Puts the result into the scene's file, in the order that is asked for, and writes that.
+void save(const CompressArguments& a, SceneFile& model, ClusteredTransfer& result, Session& session) {
+    if (a.reorder) {
+        const std::vector<std::uint32_t> order = order_by_cluster(model.scene, result.receivers);
+        reorder_vertices(model.document, model.scene, order);
+        result.receivers = reordered(result.receivers, order);
+    }
+    write_clustered(model.document, model.scene, {result, model.baked->record});
+    session.write([&] {
+        save_glb(model.document, a.output, a.meshopt ? BufferCompression::meshopt : BufferCompression::none);
+    });
+}
+
 Json trials_json(const std::vector<SearchTrial>& trials) {
     Json list = Json::array();
     for (const SearchTrial& t : trials)
@@ -68,17 +177,79 @@ Json trials_json(const std::vector<SearchTrial>& trials) {
     return list;
 }
 
-} // namespace
+/// The errors are those of `coded`, which is what the file holds, against `transfer` in its order.
+Json result_json(const CompressStatistics& s, const CompressOptions& options, const Transfer& transfer,
+                 const SceneFile& written) {
+    const ClusteredTransfer& coded = written.compressed->transfer;
+    const Transfer decoded = decode(coded, options.threads);
+    const std::vector<float> areas = receiver_areas(written.scene);
+    const std::size_t receivers = transfer.receivers();
+    const std::size_t uncompressed = transfer.dimension() * sizeof(float);
+    return {{"order", transfer.order},
+            {"channels", transfer.channels},
+            {"receivers", receivers},
+            {"clusters", s.clusters},
+            {"components_most", coded.bases.max_components()},
+            {"components_mean", s.mean_components},
+            {"lit_rms", expected_lit_rms(transfer, decoded, areas, *options.metric, options.threads)},
+            {"relative_l2", relative_l2(transfer, decoded, areas)},
+            {"lit_rms_by_iteration", s.lit_rms_by_iteration},
+            {"bytes_bound_per_vertex", s.bytes_per_receiver},
+            {"bytes_bound_per_vertex_with_bases", s.bytes_with_bases(receivers)},
+            {"bits_used_per_vertex", s.bits_per_receiver},
+            {"bytes_uncompressed_per_vertex", uncompressed},
+            {"bytes_attributes", s.bytes_per_receiver * receivers},
+            {"bytes_bases", s.basis_bytes},
+            {"bytes_constants", constant_rows(coded.bases) * sizeof(glm::vec4)},
+            {"bytes_uncompressed", uncompressed * receivers}};
+}
 
-void run(const CompressArguments& a, Interrupt& interrupt) {
+Json reuse_json(const VertexReuse& before, const VertexReuse& after) {
+    return {{"vertices_transformed_per_triangle", after.transforms_per_triangle},
+            {"vertices_transformed_per_triangle_before", before.transforms_per_triangle},
+            {"vertex_overfetch", after.overfetch},
+            {"vertex_overfetch_before", before.overfetch}};
+}
+
+std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
+    std::vector<std::string> list = {"{output}: {clusters} clusters x {components_mean:.2f} components"};
+    if (fitted)
+        list.push_back(
+            fmt::format("the mesh is small: {} fitted to it, so that bases do not outweigh weights",
+                        a.options.compress.coding.format == WeightFormat::packed ? "clusters and bits are"
+                                                                                 : "clusters are"));
+    list.emplace_back("expected error of the lit surface (lit_rms) {lit_rms:.3f%}, of the transfer (relative "
+                      "L2) {relative_l2:.3f%}");
+    list.emplace_back(
+        "{bytes_bound_per_vertex} bytes per vertex to bind ({bits_used_per_vertex} bits in use), "
+        "{bytes_bound_per_vertex_with_bases:.2f} with the bases; uncompressed "
+        "{bytes_uncompressed_per_vertex}");
+    list.emplace_back(
+        "GPU: {bytes_attributes} bytes of attributes, {bytes_bases} of bases, {bytes_constants} "
+        "of constants per lighting; uncompressed {bytes_uncompressed}");
+    if (a.reorder)
+        list.emplace_back(
+            "vertices transformed per triangle {vertices_transformed_per_triangle:.3f}, before "
+            "{vertices_transformed_per_triangle_before:.3f}; fetched {vertex_overfetch:.2f} times, before "
+            "{vertex_overfetch_before:.2f}");
+    list.emplace_back("{bytes_file} bytes on disk; {seconds:.2f} s");
+    return list;
+}
+
+SceneFile load_bake(const Path& path) {
+    SceneFile model = load_scene_file(path);
+    if (!model.baked)
+        throw Error(path.string() + (model.compressed
+                                         ? ": is compressed already; compress the bake it came from"
+                                         : ": holds no transfer; run prt bake first"));
+    return model;
+}
+
+void run(const CompressArguments& a, Session& session) {
     std::vector<Path> inputs = a.lights;
     inputs.push_back(a.baked);
     check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
-    Model model = load_model(a.baked);
-    if (!model.baked)
-        throw Error(a.baked.string() + (model.compressed
-                                            ? ": is compressed already; compress the bake it came from"
-                                            : ": holds no transfer; run prt bake first"));
+    SceneFile model = load_bake(a.baked);
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
     options.compress.metric = chosen_metric(a, transfer);
@@ -86,78 +257,61 @@ void run(const CompressArguments& a, Interrupt& interrupt) {
         throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
                                 transfer.dimension(), options.compress.coding.components));
     discard_transfer(model.document); // it is in `transfer`, and would be in memory twice
-    Outcome outcome = run_compressor(a, model, options, interrupt);
-    ClusteredTransfer& result = outcome.result.transfer;
+    Outcome outcome = run_compressor(a, model, options, session);
     const VertexReuse reuse_before = vertex_reuse(model.scene);
-    if (a.reorder) {
-        const std::vector<std::uint32_t> order = order_by_cluster(model.scene, result.receivers);
-        reorder_vertices(model.document, model.scene, order);
-        result.receivers = reordered(result.receivers, order);
-    }
-    write_clustered(model.document, model.scene, {result, model.baked->record});
-    {
-        const Interrupt::WritingScope writing(interrupt);
-        save_glb(model.document, a.output, a.meshopt ? BufferCompression::meshopt : BufferCompression::none);
-    }
-    // The figures are those of the file, not of what was meant to be written.
-    const Model written = load_model(a.output);
-    put_in_order_of(written.scene, model);
-    const VertexReuse reuse = vertex_reuse(written.scene);
-    const ClusteredTransfer& coded = written.compressed->transfer;
-    const Transfer decoded = decode(coded, options.compress.threads);
-    const std::vector<float> areas = receiver_areas(written.scene);
-    CompressStatistics s = outcome.result.statistics;
-    s.lit_rms =
-        expected_lit_rms(transfer, decoded, areas, *options.compress.metric, options.compress.threads);
-    const double l2 = relative_l2(transfer, decoded, areas);
+    save(a, model, outcome.result.transfer, session);
 
-    const std::size_t receivers = transfer.receivers();
-    const std::size_t uncompressed = transfer.dimension() * sizeof(float);
-    const std::size_t constants = constant_rows(coded.bases) * sizeof(glm::vec4);
-    fmt::print("{}: {} clusters x {:.2f} components\n", a.output.string(), s.clusters, s.mean_components);
-    if (a.preset && !outcome.trials.empty())
-        fmt::print("  the mesh is small: {} fitted to it, so that bases do not outweigh weights\n",
-                   options.compress.coding.format == WeightFormat::packed ? "clusters and bits are"
-                                                                          : "clusters are");
-    fmt::print(
-        "  expected error of the lit surface (lit_rms) {:.3f} %, of the transfer (relative L2) {:.3f} %\n",
-        100 * s.lit_rms, 100 * l2);
-    fmt::print("  {} bytes per vertex to bind ({} bits in use), {:.2f} with the bases; uncompressed {}\n",
-               s.bytes_per_receiver, s.bits_per_receiver, s.bytes_with_bases(receivers), uncompressed);
-    fmt::print("  GPU: {} bytes of attributes, {} of bases, {} of constants per lighting; uncompressed {}\n",
-               s.bytes_per_receiver * receivers, s.basis_bytes, constants, uncompressed * receivers);
-    if (a.reorder)
-        fmt::print("  vertices transformed per triangle {:.3f}, before {:.3f}; fetched {:.2f} times, before "
-                   "{:.2f}\n",
-                   reuse.transforms_per_triangle, reuse_before.transforms_per_triangle, reuse.overfetch,
-                   reuse_before.overfetch);
-    fmt::print("  {} bytes on disk; {:.2f} s\n", std::filesystem::file_size(a.output), s.seconds);
-    write_json({{"output", a.output.string()},
-                {"order", transfer.order},
-                {"channels", transfer.channels},
-                {"receivers", receivers},
-                {"clusters", s.clusters},
-                {"components_most", coded.bases.max_components()},
-                {"components_mean", s.mean_components},
-                {"lit_rms", s.lit_rms},
-                {"relative_l2", l2},
-                {"lit_rms_by_iteration", s.lit_rms_by_iteration},
-                {"bytes_bound_per_vertex", s.bytes_per_receiver},
-                {"bytes_bound_per_vertex_with_bases", s.bytes_with_bases(receivers)},
-                {"bits_used_per_vertex", s.bits_per_receiver},
-                {"bytes_uncompressed_per_vertex", uncompressed},
-                {"bytes_attributes", s.bytes_per_receiver * receivers},
-                {"bytes_bases", s.basis_bytes},
-                {"bytes_constants", constants},
-                {"bytes_uncompressed", uncompressed * receivers},
-                {"vertices_transformed_per_triangle", reuse.transforms_per_triangle},
-                {"vertices_transformed_per_triangle_before", reuse_before.transforms_per_triangle},
-                {"vertex_overfetch", reuse.overfetch},
-                {"vertex_overfetch_before", reuse_before.overfetch},
-                {"bytes_file", std::filesystem::file_size(a.output)},
-                {"trials", trials_json(outcome.trials)},
-                {"seconds", s.seconds}},
-               a.json, interrupt);
+    const SceneFile written = load_scene_file(a.output);
+    put_in_order_of(written.scene, model);
+    const CompressStatistics& s = outcome.result.statistics;
+    Report report;
+    add_figures(report, {{"output", a.output.string()}});
+    add_figures(report, result_json(s, options.compress, transfer, written));
+    add_figures(report, reuse_json(reuse_before, vertex_reuse(written.scene)));
+    add_figures(report, {{"bytes_file", std::filesystem::file_size(a.output)},
+                         {"trials", trials_json(outcome.trials)},
+                         {"seconds", s.seconds}});
+    report.sentences = sentences(a, a.preset && !outcome.trials.empty());
+    publish(report, a.json, session);
+}
+
+} // namespace
+
+void add_compress(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand("compress", "Compress a bake by clustered PCA");
+    auto& a = arguments_for<CompressArguments>(command, [command, &session](CompressArguments& given) {
+        resolve(*command, given);
+        run(given, session);
+    });
+    command->add_option("baked", a.baked, "output of prt bake")->required();
+    add_output(command, a.output, "compressed .glb to write");
+    add_sizes(command, a.options);
+    command->add_flag("--best-effort", a.best_effort, "write the nearest where nothing keeps the budget");
+    CLI::Option* metric =
+        choice(command, "--metric", a.metric, kMetrics,
+               "what an error costs: natural lighting from any side, or all coefficients alike", "natural");
+    command
+        ->add_option(
+            "--lights", a.lights,
+            "compress for this environment (.exr, .hdr, .png, .jpg) or light (.json), turned about +Y; "
+            "repeat it for each of several")
+        ->allow_extra_args(false) // one each time, so that the bake may follow
+        ->excludes(metric)
+        ->type_name("FILE");
+    add_light_options(command, a.light_options);
+    command
+        ->add_option("--seam-weight", a.options.compress.seam_price,
+                     "what jumps of the error along mesh edges cost, 0: nothing")
+        ->capture_default_str();
+    command
+        ->add_option("--potts-weight", a.options.compress.border_price,
+                     "price of a neighbour in another cluster, in mean squared errors")
+        ->capture_default_str();
+    command->add_flag("--reorder", a.reorder, "put the vertices of a cluster side by side");
+    command->add_flag("--meshopt", a.meshopt, "write vertex data through EXT_meshopt_compression");
+    command->add_option("--seed", a.options.compress.seed, "seed of the clustering")->capture_default_str();
+    add_threads(command, a.options.compress.threads);
+    add_json(command, a.json);
 }
 
 } // namespace prt::cli

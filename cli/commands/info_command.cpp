@@ -1,8 +1,7 @@
 #include "commands/commands.h"
 
-#include "inputs.h"
+#include "options.h"
 #include "outputs.h"
-#include "report/write_report.h"
 
 #include <fmt/core.h>
 
@@ -11,83 +10,117 @@
 namespace prt::cli {
 namespace {
 
-/// "1 image", "2 images"
-std::string counted(std::size_t count, const char* what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+struct InfoArguments {
+    Path file, json;
+};
+
+/// "{images} image", "{images} images"
+std::string counted(const std::string& key, std::size_t count, const char* what) {
+    return fmt::format("{{{}}} {}{}", key, what, count == 1 ? "" : "s");
 }
 
-void describe_record(const BakeRecord& record) {
-    fmt::print("  baked by {} on the {}, {} per vertex, {}, seed {}\n",
-               record.method == BakeMethod::raster ? "depth maps" : "rays",
-               record.backend == Backend::cpu ? "CPU" : "GPU",
-               counted(static_cast<std::size_t>(record.rays),
-                       record.method == BakeMethod::raster ? "direction" : "ray"),
-               counted(static_cast<std::size_t>(record.bounces), "bounce"), record.seed);
+/// How the transfer was baked; `key` leads to its record.
+std::string record_sentence(const std::string& key, const BakeRecord& record) {
+    const bool raster = record.method == BakeMethod::raster;
+    return fmt::format("baked by {} on the {}, {} per vertex, {}, seed {{{}/seed}}",
+                       raster ? "depth maps" : "rays", record.backend == Backend::cpu ? "CPU" : "GPU",
+                       counted(key + "/rays_per_receiver", static_cast<std::size_t>(record.rays),
+                               raster ? "direction" : "ray"),
+                       counted(key + "/bounces", static_cast<std::size_t>(record.bounces), "bounce"), key);
+}
+
+void add_scene(const Path& path, const Scene& scene, Report& report) {
+    const Bounds box = bounds(scene);
+    const glm::dvec3 low = scene.world(box.low), high = scene.world(box.high);
+    const std::size_t materials = scene.materials.size() - 1;
+    add_figures(report, {{"file", path.string()},
+                         {"primitives", scene.primitives.size()},
+                         {"triangles", scene.triangles()},
+                         {"vertices", scene.receivers()},
+                         {"materials", materials},
+                         {"images", scene.images.size()},
+                         {"low_metres", {low.x, low.y, low.z}},
+                         {"high_metres", {high.x, high.y, high.z}},
+                         {"notices", scene.notices}});
+    report.sentences.push_back(fmt::format(
+        "{{file}}: {}, {}, {{vertices}} {}, {}, {}",
+        counted("primitives", scene.primitives.size(), "primitive"),
+        counted("triangles", scene.triangles(), "triangle"), scene.receivers() == 1 ? "vertex" : "vertices",
+        counted("materials", materials, "material"), counted("images", scene.images.size(), "image")));
+    report.sentences.emplace_back("from {low_metres/0:g} {low_metres/1:g} {low_metres/2:g} to "
+                                  "{high_metres/0:g} {high_metres/1:g} {high_metres/2:g} m");
+}
+
+void add_baked(const BakedTransfer& baked, Report& report) {
+    const Transfer& t = baked.transfer;
+    const bool half = baked.storage == TransferStorage::float16;
+    add_figures(
+        report,
+        {{"transfer",
+          {{"order", t.order},
+           {"channels", t.channels},
+           {"bytes_stored_per_vertex", t.dimension() * (half ? sizeof(std::uint16_t) : sizeof(float))},
+           {"bake", bake_record_json(baked.record)}}}});
+    report.sentences.push_back(
+        fmt::format("raw transfer: order {{transfer/order}}, {}, {{transfer/bytes_stored_per_vertex}} bytes "
+                    "per vertex as {}",
+                    counted("transfer/channels", static_cast<std::size_t>(t.channels), "channel"),
+                    half ? "float16" : "float32"));
+    report.sentences.push_back(record_sentence("transfer/bake", baked.record));
+}
+
+void add_compressed(const CompressedTransfer& compressed, Report& report) {
+    const ClusteredTransfer& t = compressed.transfer;
+    const auto [least, most] = std::minmax_element(t.bases.components.begin(), t.bases.components.end());
+    const bool packed = t.receivers.format == WeightFormat::packed;
+    add_figures(report,
+                {{"clustered_pca",
+                  {{"order", t.bases.order},
+                   {"channels", t.bases.channels},
+                   {"clusters", t.bases.clusters()},
+                   {"components_least", *least},
+                   {"components_most", *most},
+                   {"weights", packed ? "packed" : std::to_string(8 * bytes_per_weight(t.receivers.format))},
+                   {"bytes_bound_per_vertex", bytes_per_receiver(t)},
+                   {"bits_used_per_vertex", bits_per_receiver(t)},
+                   {"bytes_bases", basis_bytes(t.bases)},
+                   {"bake", bake_record_json(compressed.record)}}}});
+    const std::string own = "clustered_pca/";
+    report.sentences.push_back(
+        fmt::format("clustered PCA: order {{{0}order}}, {1}, {2} x {{{0}components_least}} to "
+                    "{{{0}components_most}} components, {{{0}weights}}{3} weights",
+                    own, counted(own + "channels", static_cast<std::size_t>(t.bases.channels), "channel"),
+                    counted(own + "clusters", t.bases.clusters(), "cluster"), packed ? "" : "-bit"));
+    report.sentences.push_back(fmt::format(
+        "{{{0}bytes_bound_per_vertex}} bytes per vertex to bind ({{{0}bits_used_per_vertex}} bits in use)",
+        own));
+    report.sentences.push_back(fmt::format("{{{}bytes_bases}} bytes of bases, {} shader constants per frame",
+                                           own, constant_rows(t.bases)));
+    report.sentences.push_back(record_sentence(own + "bake", compressed.record));
+}
+
+void run(const InfoArguments& a, Session& session) {
+    check_outputs({{a.json, "--json", {".json"}}}, {a.file});
+    const SceneFile model = load_scene_file(a.file);
+    Report report;
+    add_scene(a.file, model.scene, report);
+    if (model.baked)
+        add_baked(*model.baked, report);
+    if (model.compressed)
+        add_compressed(*model.compressed, report);
+    if (!model.record())
+        report.sentences.emplace_back("no transfer");
+    publish(report, a.json, session);
 }
 
 } // namespace
 
-void run(const InfoArguments& a, Interrupt& interrupt) {
-    check_outputs({{a.json, "--json", {".json"}}}, {a.file});
-    const Model model = load_model(a.file);
-    const Scene& scene = model.scene;
-    const Bounds box = bounds(scene);
-    const glm::dvec3 low = scene.world(box.low), high = scene.world(box.high);
-    fmt::print("{}: {}, {}, {}, {}, {}\n", a.file.string(), counted(scene.primitives.size(), "primitive"),
-               counted(scene.triangles(), "triangle"),
-               scene.receivers() == 1 ? "1 vertex" : fmt::format("{} vertices", scene.receivers()),
-               counted(scene.materials.size() - 1, "material"), counted(scene.images.size(), "image"));
-    fmt::print("  from {:g} {:g} {:g} to {:g} {:g} {:g} m\n", low.x, low.y, low.z, high.x, high.y, high.z);
-    Json report = {{"file", a.file.string()},
-                   {"primitives", scene.primitives.size()},
-                   {"triangles", scene.triangles()},
-                   {"vertices", scene.receivers()},
-                   {"materials", scene.materials.size() - 1},
-                   {"images", scene.images.size()},
-                   {"low_metres", {low.x, low.y, low.z}},
-                   {"high_metres", {high.x, high.y, high.z}},
-                   {"notices", scene.notices}};
-    if (model.baked) {
-        const Transfer& t = model.baked->transfer;
-        const bool half = model.baked->storage == TransferStorage::float16;
-        const std::size_t bytes = t.dimension() * (half ? sizeof(std::uint16_t) : sizeof(float));
-        fmt::print("  raw transfer: order {}, {}, {} bytes per vertex as {}\n", t.order,
-                   counted(static_cast<std::size_t>(t.channels), "channel"), bytes,
-                   half ? "float16" : "float32");
-        describe_record(model.baked->record);
-        report["transfer"] = {{"order", t.order},
-                              {"channels", t.channels},
-                              {"bytes_stored_per_vertex", bytes},
-                              {"bake", bake_record_json(model.baked->record)}};
-    }
-    if (model.compressed) {
-        const ClusteredTransfer& t = model.compressed->transfer;
-        const auto [least, most] = std::minmax_element(t.bases.components.begin(), t.bases.components.end());
-        const bool packed = t.receivers.format == WeightFormat::packed;
-        const std::size_t bits = packed ? 0 : 8 * bytes_per_weight(t.receivers.format);
-        fmt::print("  clustered PCA: order {}, {}, {} x {} to {} components, {}\n", t.bases.order,
-                   counted(static_cast<std::size_t>(t.bases.channels), "channel"),
-                   counted(t.bases.clusters(), "cluster"), *least, *most,
-                   packed ? fmt::format("packed weights") : fmt::format("{}-bit weights", bits));
-        fmt::print("  {} bytes per vertex to bind ({} bits in use)\n", bytes_per_receiver(t),
-                   bits_per_receiver(t));
-        fmt::print("  {} bytes of bases, {} shader constants per frame\n", basis_bytes(t.bases),
-                   constant_rows(t.bases));
-        describe_record(model.compressed->record);
-        report["clustered_pca"] = {{"order", t.bases.order},
-                                   {"channels", t.bases.channels},
-                                   {"clusters", t.bases.clusters()},
-                                   {"components_least", *least},
-                                   {"components_most", *most},
-                                   {"weights", packed ? "packed" : std::to_string(bits)},
-                                   {"bytes_bound_per_vertex", bytes_per_receiver(t)},
-                                   {"bits_used_per_vertex", bits_per_receiver(t)},
-                                   {"bytes_bases", basis_bytes(t.bases)},
-                                   {"bake", bake_record_json(model.compressed->record)}};
-    }
-    if (!model.baked && !model.compressed)
-        fmt::print("  no transfer\n");
-    write_json(report, a.json, interrupt);
+void add_info(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand("info", "Say what a glTF file holds");
+    auto& a = arguments_for<InfoArguments>(command,
+                                           [&session](const InfoArguments& given) { run(given, session); });
+    command->add_option("file", a.file, "any .gltf or .glb")->required();
+    add_json(command, a.json);
 }
 
 } // namespace prt::cli

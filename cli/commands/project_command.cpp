@@ -1,19 +1,26 @@
 #include "commands/commands.h"
 
-#include "inputs.h"
 #include "light_file.h"
+#include "options.h"
 #include "outputs.h"
 #include "prt/sh.h"
 #include "prt/sun_fit.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
-#include "report/write_report.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
 
 namespace prt::cli {
 namespace {
+
+struct ProjectArguments {
+    Path environment, output, json;
+    int order = 6;
+    int suns = 0; ///< lights to take out
+    LightOptions light_options;
+    int threads = 0;
+};
 
 const char* layout_name(EnvironmentLayout layout) {
     switch (layout) {
@@ -45,64 +52,84 @@ Json lights_json(const std::vector<FittedLight>& lights) {
     return list;
 }
 
-void print_lights(const std::vector<FittedLight>& lights) {
+void add_lights(const std::vector<FittedLight>& lights, Report& report) {
     double rest = 1;
     for (const FittedLight& light : lights) {
-        fmt::print("  light towards {:.4f} {:.4f} {:.4f}, irradiance {:.4g} {:.4g} {:.4g}, half angle {:.1f} "
-                   "degrees: "
-                   "{:.1f} % of the energy\n",
-                   light.towards.x, light.towards.y, light.towards.z, light.irradiance.r, light.irradiance.g,
-                   light.irradiance.b, glm::degrees(light.half_angle), 100 * light.energy_share);
+        report.sentences.push_back(fmt::format(
+            "light towards {:.4f} {:.4f} {:.4f}, irradiance {:.4g} {:.4g} {:.4g}, half angle {:.1f} degrees: "
+            "{:.1f} % of the energy",
+            light.towards.x, light.towards.y, light.towards.z, light.irradiance.r, light.irradiance.g,
+            light.irradiance.b, glm::degrees(light.half_angle), 100 * light.energy_share));
         rest -= light.energy_share;
     }
-    fmt::print("  the coefficients hold the other {:.1f} %\n", 100 * rest);
+    report.sentences.push_back(fmt::format("the coefficients hold the other {:.1f} %", 100 * rest));
+    add_figures(report, {{"lights", lights_json(lights)}});
 }
 
-} // namespace
+/// The light of an environment, and the suns that were taken out of it.
+std::pair<LoadedLight, std::vector<FittedLight>> project(const ProjectArguments& a) {
+    if (a.suns == 0)
+        return {load_light(a.environment, a.order, a.light_options, a.threads), {}};
+    LoadedLight loaded = load_light(a.environment, kMaxOrder, without_window(a.light_options), a.threads);
+    SunFit fit = fit_suns(loaded.light, a.order, a.suns);
+    loaded.light = windowed(fit.remainder, a.light_options.window);
+    return {std::move(loaded), std::move(fit.lights)};
+}
 
-void run(const ProjectArguments& a, Interrupt& interrupt) {
+void run(const ProjectArguments& a, Session& session) {
     // A light file is known by its name.
     check_outputs({{a.output, "--output", {".json"}, true}, {a.json, "--json", {".json"}}}, {a.environment});
     check_order(a.order);
     if (a.suns > 0 && suffix_of(a.environment) == ".json")
         throw Error(a.environment.string() + ": is a light file, and suns are fitted to images");
     const Stopwatch stopwatch;
-    LoadedLight loaded =
-        load_light(a.environment, a.suns > 0 ? kMaxOrder : a.order,
-                   a.suns > 0 ? without_window(a.light_options) : a.light_options, a.threads);
-    std::vector<FittedLight> suns;
-    if (a.suns > 0) {
-        SunFit fit = fit_suns(loaded.light, a.order, a.suns);
-        suns = std::move(fit.lights);
-        loaded.light = windowed(fit.remainder, a.light_options.window);
-    }
+    const auto [loaded, suns] = project(a);
     const double seconds = stopwatch.seconds();
     Json file = light_json(loaded.light);
     if (a.suns > 0)
         file["lights"] = lights_json(suns);
-    write_json(file, a.output, interrupt);
+    session.write(a.output, json_text(file));
 
     const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(kY00);
-    fmt::print("{}: order {}, mean radiance {:.4g} {:.4g} {:.4g}\n", a.output.string(), a.order, mean.r,
-               mean.g, mean.b);
+    Report report;
+    add_figures(report, {{"output", a.output.string()},
+                         {"order", a.order},
+                         {"mean_radiance", {mean.r, mean.g, mean.b}},
+                         {"seconds", seconds}});
+    report.sentences = {"{output}: order {order}, mean radiance {mean_radiance/0:.4g} {mean_radiance/1:.4g} "
+                        "{mean_radiance/2:.4g}"};
     if (a.suns > 0)
-        print_lights(suns);
-    Json report = {{"output", a.output.string()},
-                   {"order", a.order},
-                   {"mean_radiance", {mean.r, mean.g, mean.b}},
-                   {"seconds", seconds}};
-    if (a.suns > 0)
-        report["lights"] = lights_json(suns);
+        add_lights(suns, report);
     if (loaded.environment) {
-        const Environment& environment = *loaded.environment;
-        const char* layout = layout_name(environment.layout);
-        fmt::print("  from a {} image of {} x {}\n", layout, environment.image.width,
-                   environment.image.height);
-        report["layout"] = layout;
-        report["width_pixels"] = environment.image.width;
-        report["height_pixels"] = environment.image.height;
+        add_figures(report, {{"layout", layout_name(loaded.environment->layout)},
+                             {"width_pixels", loaded.environment->image.width},
+                             {"height_pixels", loaded.environment->image.height}});
+        report.sentences.emplace_back("from a {layout} image of {width_pixels} x {height_pixels}");
     }
-    write_json(report, a.json, interrupt);
+    publish(report, a.json, session);
+}
+
+} // namespace
+
+void add_project(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand("project", "Project an environment map into SH lighting");
+    auto& a = arguments_for<ProjectArguments>(
+        command, [&session](const ProjectArguments& given) { run(given, session); });
+    command
+        ->add_option("environment", a.environment,
+                     "environment map, .exr, .hdr, .png or .jpg; with {face} in its name six files px, nx, "
+                     "py, ny, pz, nz")
+        ->required();
+    add_output(command, a.output, "light to write, .json");
+    command->add_option("--order", a.order, "SH order N, 1..10")->capture_default_str();
+    command
+        ->add_option("--suns", a.suns,
+                     "fit so many lights to it, write them apart, and the rest as coefficients")
+        ->check(CLI::Range(0, 16))
+        ->capture_default_str();
+    add_light_options(command, a.light_options);
+    add_threads(command, a.threads);
+    add_json(command, a.json);
 }
 
 } // namespace prt::cli

@@ -1,6 +1,6 @@
 #include "commands/commands.h"
 
-#include "inputs.h"
+#include "options.h"
 #include "outputs.h"
 #include "prt/gl_renderer.h"
 #include "prt/light_meter.h"
@@ -9,15 +9,91 @@
 #include "prt/receivers.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
-#include "report/write_report.h"
+#include "prt/tone_map.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
 
 #include <cmath>
+#include <cstdio>
 
 namespace prt::cli {
 namespace {
+
+enum class Show { lit, clusters, error, ao };
+
+/// How bright a picture is.
+struct Exposure {
+    bool automatic = true; ///< by what the model shows
+    double stops = 0;      ///< of radiance, or beside the automatic ones
+};
+
+/// From where, and with how many pixels.
+struct View {
+    int width = 1280, height = 720, samples = 2;
+    std::optional<glm::dvec3> camera, look_at; ///< metres, world
+    double field_of_view_degrees = 35;
+};
+
+struct Look {
+    Show show = Show::lit;
+    Exposure exposure;
+    ToneMap tone_map = ToneMap::filmic;
+    bool background = true;
+};
+
+struct RenderArguments {
+    Path model, environment, output, json, baked;
+    LightOptions light_options = {{}, Window::automatic, 0}; ///< a picture shows ringing as bruises
+    View view;
+    Backend backend = Backend::automatic;
+    Look look;
+    int threads = 0;
+};
+
+const std::map<std::string, Show> kShows = {
+    {"lit", Show::lit}, {"clusters", Show::clusters}, {"error", Show::error}, {"ao", Show::ao}};
+const std::map<std::string, ToneMap> kToneMaps = {{"filmic", ToneMap::filmic}, {"srgb", ToneMap::srgb}};
+
+void parse_vector(const std::string& name, const std::string& text, std::optional<glm::dvec3>& target) {
+    glm::dvec3 v(0);
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &v.x, &v.y, &v.z, &used) != 3 ||
+        static_cast<std::size_t>(used) != text.size())
+        throw CLI::ValidationError(name, "'" + text + "' is not x,y,z");
+    target = v;
+}
+
+void vector_option(CLI::App* command, const std::string& name, std::optional<glm::dvec3>& target,
+                   const std::string& text) {
+    command
+        ->add_option_function<std::string>(
+            name, [name, &target](const std::string& value) { parse_vector(name, value, target); }, text)
+        ->type_name("x,y,z");
+}
+
+void parse_size(const std::string& text, int& width, int& height) {
+    constexpr int kMost = 16384;
+    int used = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) != 2 ||
+        static_cast<std::size_t>(used) != text.size() || width < 1 || height < 1 || width > kMost ||
+        height > kMost)
+        throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT in 1..16384");
+}
+
+Exposure parse_exposure(const std::string& text) {
+    Exposure exposure;
+    exposure.automatic = text.starts_with("auto");
+    const std::string number = exposure.automatic ? text.substr(4) : text;
+    const bool sign_follows = number.empty() || number[0] == '+' || number[0] == '-';
+    const std::optional<double> stops = number.empty() ? exposure.stops : real_number(number);
+    if ((exposure.automatic && !sign_follows) || text.empty() || !stops || !std::isfinite(*stops))
+        throw CLI::ValidationError("--exposure", "'" + text +
+                                                     "' is neither a number of stops nor auto, "
+                                                     "auto+STOPS or auto-STOPS");
+    exposure.stops = *stops;
+    return exposure;
+}
 
 constexpr int kUnshadowedOrder = 6;
 
@@ -33,7 +109,7 @@ std::unique_ptr<GlContext> choose_backend(Backend backend) {
 }
 
 /// Exit radiance for albedo 1: compressed, baked, or unshadowed, whatever the model holds.
-std::vector<glm::vec3> lit_colors(const Model& model, const Light& light, int threads) {
+std::vector<glm::vec3> lit_colors(const SceneFile& model, const Light& light, int threads) {
     if (model.compressed)
         return exit_radiance(model.compressed->transfer, light, threads);
     if (model.baked)
@@ -41,8 +117,8 @@ std::vector<glm::vec3> lit_colors(const Model& model, const Light& light, int th
     return exit_radiance(unshadowed_transfer(model.scene, light.order), light, threads);
 }
 
-std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const Model& model, const Light& light) {
-    switch (a.show) {
+std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile& model, const Light& light) {
+    switch (a.look.show) {
     case Show::clusters:
         if (!model.compressed)
             throw Error("--show clusters needs a compressed file");
@@ -50,7 +126,7 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const Model& mod
     case Show::ao: // exit radiance under uniform light of radiance 1
         return lit_colors(model, constant_light(std::max(1, model.order()), glm::vec3(1)), a.threads);
     case Show::error: {
-        Model baked = load_model(a.baked);
+        SceneFile baked = load_scene_file(a.baked);
         if (!baked.baked)
             throw Error(a.baked.string() + ": holds no raw transfer; --baked is the output of prt bake");
         check_belong_together(baked, a.baked, model, a.model);
@@ -64,23 +140,23 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const Model& mod
     return lit_colors(model, light, a.threads);
 }
 
-Camera choose_camera(const RenderArguments& a, const Scene& scene) {
-    const float aspect = static_cast<float>(a.width) / static_cast<float>(a.height);
-    const auto fov = static_cast<float>(glm::radians(a.field_of_view_degrees));
+Camera choose_camera(const View& view, const Scene& scene) {
+    const float aspect = static_cast<float>(view.width) / static_cast<float>(view.height);
+    const auto fov = static_cast<float>(glm::radians(view.field_of_view_degrees));
     Camera camera = automatic_camera(scene, aspect, fov);
-    if (a.look_at)
-        camera.target = glm::vec3(*a.look_at - scene.origin);
-    if (a.camera)
-        camera.position = glm::vec3(*a.camera - scene.origin);
+    if (view.look_at)
+        camera.target = glm::vec3(*view.look_at - scene.origin);
+    if (view.camera)
+        camera.position = glm::vec3(*view.camera - scene.origin);
     return camera;
 }
 
 /// Factor on radiance; `rays` may be null unless it is automatic. Where the picture shows nothing of the
 /// model that is lit, the light is measured.
-float choose_exposure(const RenderArguments& a, const Picture& picture, const RayScene* rays,
+float choose_exposure(const Exposure& exposure, const Picture& picture, const RayScene* rays,
                       const Light& light) {
-    const auto stops = static_cast<float>(std::exp2(a.exposure.stops));
-    if (!a.exposure.automatic)
+    const auto stops = static_cast<float>(std::exp2(exposure.stops));
+    if (!exposure.automatic)
         return stops;
     const LightMeter meter(picture, *rays);
     std::vector<glm::vec3> radiance;
@@ -90,97 +166,179 @@ float choose_exposure(const RenderArguments& a, const Picture& picture, const Ra
     return stops * (luminance > 0 ? exposure_for(luminance) : automatic_exposure(light));
 }
 
-void write_picture(const RenderArguments& a, const Image& image, std::optional<float> exposure,
-                   Interrupt& interrupt) {
-    const Interrupt::WritingScope writing(interrupt);
-    if (suffix_of(a.output) == ".exr")
-        return write_exr(a.output, downsampled(image, a.samples));
-    // Views of numbers are shown as they are.
-    const auto pixels =
-        tone_mapped(image, a.samples, exposure.value_or(1.0f), exposure ? a.tone_map : ToneMap::srgb);
-    write_png(a.output, a.width, a.height, pixels);
+/// A picture that shows nothing yet.
+Picture empty_picture(const RenderArguments& a, const Scene& scene) {
+    Picture picture;
+    picture.scene = &scene;
+    picture.textured = a.look.show == Show::lit;
+    picture.camera = choose_camera(a.view, scene);
+    picture.width = a.view.width;
+    picture.height = a.view.height;
+    picture.samples = a.view.samples;
+    picture.background_rotation = static_cast<float>(glm::radians(a.light_options.rotation_degrees));
+    return picture;
 }
 
-void report(const RenderArguments& a, const Picture& picture, std::optional<float> exposure, double seconds,
-            const GlContext* context, Interrupt& interrupt) {
-    const std::string renderer = context ? context->renderer() : "CPU ray casting";
+/// Lets OpenGL light what is compressed in the vertex shader, where it fits.
+void light_in_shader(const RenderArguments& a, const SceneFile& model, const Light& light, Picture& picture) {
+    if (a.look.show != Show::lit || !model.compressed)
+        return;
+    if (model.compressed->transfer.bases.max_components() <= kMostVertexComponents) {
+        picture.transfer = &model.compressed->transfer;
+        picture.light = &light;
+    } else {
+        print_notices(
+            a.model.string(),
+            {fmt::format("has more than {} components, which do not fit the vertex attributes; exit "
+                         "radiance is formed on the CPU",
+                         kMostVertexComponents)});
+    }
+}
+
+struct Rendered {
+    Image image;
+    double seconds = 0;
+    std::optional<float> exposure; ///< unset: the numbers are shown as they are
+};
+
+/// Draws with `context`, or on the CPU where that is null.
+Rendered render(const RenderArguments& a, const Picture& picture, const Light& light, GlContext* context) {
+    const bool exposed = a.look.show == Show::lit && a.output.extension() != ".exr";
+    const Stopwatch stopwatch;
+    std::optional<RayScene> rays;
+    if (!context || (exposed && a.look.exposure.automatic))
+        rays.emplace(*picture.scene, a.threads);
+    Rendered result;
+    result.image = context ? render_gl(picture, *context) : render_rays(picture, *rays, a.threads);
+    result.seconds = stopwatch.seconds();
+    if (exposed)
+        result.exposure = choose_exposure(a.look.exposure, picture, rays ? &*rays : nullptr, light);
+    return result;
+}
+
+void write_picture(const RenderArguments& a, const Rendered& rendered) {
+    if (suffix_of(a.output) == ".exr")
+        return write_exr(a.output, downsampled(rendered.image, a.view.samples));
+    // Views of numbers are shown as they are.
+    const auto pixels = tone_mapped(rendered.image, a.view.samples, rendered.exposure.value_or(1.0f),
+                                    rendered.exposure ? a.look.tone_map : ToneMap::srgb);
+    write_png(a.output, a.view.width, a.view.height, pixels);
+}
+
+Report report_of(const RenderArguments& a, const Picture& picture, const Rendered& rendered,
+                 const GlContext* context) {
     const glm::dvec3 position = picture.scene->world(picture.camera.position),
                      target = picture.scene->world(picture.camera.target);
-    Json json = {{"output", a.output.string()},
-                 {"width_pixels", a.width},
-                 {"height_pixels", a.height},
-                 {"seconds", seconds},
-                 {"backend", context ? "gpu" : "cpu"},
-                 {"renderer", renderer},
-                 {"camera_metres", {position.x, position.y, position.z}},
-                 {"look_at_metres", {target.x, target.y, target.z}}};
-    std::string stops;
-    if (exposure) {
-        const double value = std::log2(static_cast<double>(*exposure));
-        stops = fmt::format(", exposure {:+.2f} stops{}", value, a.exposure.automatic ? " (auto)" : "");
-        json["exposure_stops"] = value;
-        json["exposure_automatic"] = a.exposure.automatic;
+    Report report;
+    add_figures(report, {{"output", a.output.string()},
+                         {"width_pixels", a.view.width},
+                         {"height_pixels", a.view.height},
+                         {"seconds", rendered.seconds},
+                         {"backend", context ? "gpu" : "cpu"},
+                         {"renderer", context ? context->renderer() : "CPU ray casting"},
+                         {"camera_metres", {position.x, position.y, position.z}},
+                         {"look_at_metres", {target.x, target.y, target.z}}});
+    std::string sentence = "{output}: {width_pixels} x {height_pixels}, {seconds:.3f} s, {renderer}";
+    if (rendered.exposure) {
+        add_figures(report, {{"exposure_stops", std::log2(static_cast<double>(*rendered.exposure))},
+                             {"exposure_automatic", a.look.exposure.automatic}});
+        sentence += ", exposure {exposure_stops:+.2f} stops";
+        sentence += a.look.exposure.automatic ? " (auto)" : "";
     }
-    fmt::print("{}: {} x {}, {:.3f} s, {}{}\n", a.output.string(), a.width, a.height, seconds, renderer,
-               stops);
-    write_json(json, a.json, interrupt);
+    report.sentences = {sentence};
+    return report;
 }
 
-} // namespace
+/// What CLI11 cannot see: options that need each other.
+void check_together(const RenderArguments& a) {
+    if ((a.look.show == Show::error) == a.baked.empty())
+        throw CLI::ValidationError("--show error", "and --baked FILE go together");
+}
 
-void run(const RenderArguments& a, Interrupt& interrupt) {
+void run(const RenderArguments& a, Session& session) {
+    check_together(a);
     check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
                   {a.model, a.environment, a.baked});
-    const Model model = load_model(a.model);
-    if (!model.baked && !model.compressed)
+    const SceneFile model = load_scene_file(a.model);
+    if (!model.record())
         print_notices(a.model.string(), {"holds no transfer and is drawn without shadows"});
     const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
     const LoadedLight light = load_light(a.environment, order, a.light_options, a.threads);
     const std::vector<Texture> textures =
         load_textures(model.scene, BadTextures::error, TextureNeeds::pictures);
     const std::vector<glm::vec3> colors = colors_to_show(a, model, light.light);
-
-    Picture picture;
-    picture.scene = &model.scene;
+    Picture picture = empty_picture(a, model.scene);
     picture.textures = textures;
     picture.radiance = colors;
-    picture.textured = a.show == Show::lit;
-    picture.camera = choose_camera(a, model.scene);
-    picture.width = a.width;
-    picture.height = a.height;
-    picture.samples = a.samples;
     Image background;
-    if (a.background && a.show == Show::lit && light.environment) {
+    if (a.look.background && a.look.show == Show::lit && light.environment) {
         background = resampled_lat_long(*light.environment);
         picture.background = &background;
-        picture.background_rotation = static_cast<float>(glm::radians(a.light_options.rotation_degrees));
     }
-
     const std::unique_ptr<GlContext> context = choose_backend(a.backend);
-    if (context && a.show == Show::lit && model.compressed) {
-        if (model.compressed->transfer.bases.max_components() <= kMostVertexComponents) {
-            picture.transfer = &model.compressed->transfer;
-            picture.light = &light.light;
-        } else {
-            print_notices(a.model.string(),
-                          {fmt::format("has more than {} components, which do not fit the vertex "
-                                       "attributes; exit radiance is formed on the CPU",
-                                       kMostVertexComponents)});
-        }
-    }
-    const Stopwatch stopwatch;
-    const bool exposed =
-        a.show == Show::lit && a.output.extension() != ".exr"; // else the numbers as they are
-    std::optional<RayScene> rays;
-    if (!context || (exposed && a.exposure.automatic))
-        rays.emplace(model.scene, a.threads);
-    const Image image = context ? render_gl(picture, *context) : render_rays(picture, *rays, a.threads);
-    const double seconds = stopwatch.seconds();
-    std::optional<float> exposure;
-    if (exposed)
-        exposure = choose_exposure(a, picture, rays ? &*rays : nullptr, light.light);
-    write_picture(a, image, exposure, interrupt);
-    report(a, picture, exposure, seconds, context.get(), interrupt);
+    if (context)
+        light_in_shader(a, model, light.light, picture);
+    const Rendered rendered = render(a, picture, light.light, context.get());
+    session.write([&] { write_picture(a, rendered); });
+    publish(report_of(a, picture, rendered, context.get()), a.json, session);
+}
+
+void add_view(CLI::App* command, View& view) {
+    command
+        ->add_option_function<std::string>(
+            "--size", [&view](const std::string& text) { parse_size(text, view.width, view.height); },
+            "size in pixels")
+        ->type_name("WxH")
+        ->default_str("1280x720");
+    vector_option(command, "--camera", view.camera,
+                  "position of the camera, metres; otherwise it sees the whole scene");
+    vector_option(command, "--look-at", view.look_at,
+                  "point the camera looks at; otherwise the middle of the scene");
+    command->add_option("--fov", view.field_of_view_degrees, "vertical field of view, degrees")
+        ->capture_default_str()
+        ->check(CLI::Range(1.0, 170.0));
+}
+
+void add_exposure(CLI::App* command, Look& look) {
+    command
+        ->add_option_function<std::string>(
+            "--exposure", [&look](const std::string& text) { look.exposure = parse_exposure(text); },
+            "stops; or auto: the mean luminance of what shows of the model becomes 0.22; or stops "
+            "beside it: auto+1, auto-0.5")
+        ->type_name("STOPS")
+        ->default_str("auto");
+    choice(command, "--tone-map", look.tone_map, kToneMaps, "tone curve of .png", "filmic");
+}
+
+} // namespace
+
+void add_render(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand("render", "Draw a file under an environment, without a window");
+    auto& a = arguments_for<RenderArguments>(
+        command, [&session](const RenderArguments& given) { run(given, session); });
+    command
+        ->add_option("model", a.model, "any .gltf or .glb: compressed, baked, or neither (then unshadowed)")
+        ->required();
+    command->add_option("--env", a.environment, "environment (.exr, .hdr, .png, .jpg) or light (.json)")
+        ->required()
+        ->type_name("FILE");
+    add_output(command, a.output, "picture to write, .png or .exr");
+    add_view(command, a.view);
+    add_backend(command, a.backend,
+                "gpu: OpenGL 4.5 of any kind; cpu: ray casting; auto: a hardware GPU, else the CPU");
+    choice(
+        command, "--show", a.look.show, kShows,
+        "lit; the clusters; the error against --baked (white: 10 % of the mean radiance); ambient occlusion",
+        "lit");
+    command->add_option("--baked", a.baked, "the bake that --show error compares with")->type_name("FILE");
+    add_exposure(command, a.look);
+    command->add_option("--samples", a.view.samples, "samples per pixel along each axis")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 16));
+    command->add_flag("!--no-background", a.look.background, "do not show the environment behind the scene");
+    add_light_options(command, a.light_options);
+    add_threads(command, a.threads);
+    add_json(command, a.json);
 }
 
 } // namespace prt::cli

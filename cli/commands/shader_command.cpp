@@ -1,9 +1,9 @@
 #include "commands/commands.h"
 
-#include "inputs.h"
+#include "options.h"
 #include "outputs.h"
+#include "prt/shader_source.h"
 #include "prt/support/error.h"
-#include "prt/support/file.h"
 
 #include <fmt/core.h>
 #include <glm/vec4.hpp>
@@ -11,9 +11,22 @@
 #include <algorithm>
 
 namespace prt::cli {
-
 namespace {
 
+struct ShaderArguments {
+    Path model, output;
+    ShaderLanguage language = ShaderLanguage::glsl450;
+    std::optional<ConstantSource> constants; ///< unset: what the language can do
+    bool compute = false;
+};
+
+const std::map<std::string, ShaderLanguage> kLanguages = {{"glsl450", ShaderLanguage::glsl450},
+                                                          {"glsl330", ShaderLanguage::glsl330},
+                                                          {"essl300", ShaderLanguage::essl300},
+                                                          {"vulkan", ShaderLanguage::vulkan}};
+const std::map<std::string, ConstantSource> kConstants = {{"buffer", ConstantSource::buffer},
+                                                          {"block", ConstantSource::block},
+                                                          {"texture", ConstantSource::texture}};
 /// Storage buffers where the language has them; there is always room in a texture.
 ConstantSource constants_for(ShaderLanguage language) {
     const bool old = language == ShaderLanguage::glsl330 || language == ShaderLanguage::essl300;
@@ -35,11 +48,9 @@ void warn_of_large_blocks(const Path& model, const ClusteredTransfer& transfer) 
                                    rows, bytes, kGuaranteedBlock, kGuaranteedBlock / sizeof(glm::vec4))});
 }
 
-} // namespace
-
-void run(const ShaderArguments& a, Interrupt&) {
+void run(const ShaderArguments& a, Session& session) {
     check_outputs({{a.output, "--output"}}, {a.model});
-    const Model model = load_model(a.model);
+    const SceneFile model = load_scene_file(a.model);
     if (!model.compressed)
         throw Error(a.model.string() + ": holds no compressed transfer; run prt compress first");
     const ClusteredTransfer& transfer = model.compressed->transfer;
@@ -48,11 +59,26 @@ void run(const ShaderArguments& a, Interrupt&) {
         a.compute ? constants_shader(transfer, a.language) : relight_shader(transfer, constants, a.language);
     if (!a.compute && constants == ConstantSource::block)
         warn_of_large_blocks(a.model, transfer);
-    OutputFile output(a.output);
-    output.write(source);
-    output.commit();
+    session.write(a.output, source);
     fmt::print("{}: {} clusters, {} rows of constants, attributes from prt_exit_radiance.glsl\n",
                a.output.string(), transfer.bases.clusters(), constant_rows(transfer.bases));
+}
+
+} // namespace
+
+void add_shader(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand("shader", "Write the shader that relights a compressed model");
+    auto& a = arguments_for<ShaderArguments>(
+        command, [&session](const ShaderArguments& given) { run(given, session); });
+    command->add_option("model", a.model, "output of prt compress")->required();
+    add_output(command, a.output, "GLSL to write");
+    choice(command, "--language", a.language, kLanguages,
+           "vulkan is GLSL to compile to SPIR-V, and from there to HLSL", "glsl450");
+    choice(command, "--constants", a.constants, kConstants,
+           "where the constants are: a storage buffer, a uniform block or a float texture",
+           "buffer, texture where the language has no buffers");
+    command->add_flag("--compute", a.compute,
+                      "the compute shader that forms the constants instead of the vertex shader");
 }
 
 } // namespace prt::cli

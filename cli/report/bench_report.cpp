@@ -1,6 +1,4 @@
-#include "bench.h"
-#include "report/log_chart.h"
-#include "report/report.h"
+#include "report/bench_report.h"
 
 #include <fmt/core.h>
 
@@ -12,7 +10,7 @@ template <class X, class Y>
 std::vector<ChartSeries> curves(const BenchResult& result, X&& x, Y&& y) {
     std::vector<ChartSeries> all;
     for (const BenchSeries& series : result.series) {
-        ChartSeries curve{fmt::format("{} {}", series.backend, series.method), {}};
+        ChartSeries curve{series.name(), {}};
         for (const BenchRun& run : series.runs)
             curve.points.push_back({x(run), y(run),
                                     fmt::format("{} per receiver: {:.4g} s, {:.3f} %", run.rays, run.seconds,
@@ -36,23 +34,47 @@ Table runs_table(const BenchResult& result) {
                      {"relative_l2", "error", Unit::percent}};
     for (const BenchSeries& series : result.series)
         for (const BenchRun& r : series.runs)
-            table.rows.push_back({series.backend + " " + series.method, r.rays, r.seconds, r.seconds_build,
-                                  r.parts.trace, r.parts.accumulate, r.parts.transfer, r.rays_per_second,
-                                  r.relative_l2});
+            table.rows.push_back({series.name(), r.rays, r.seconds, r.seconds_build, r.parts.trace,
+                                  r.parts.accumulate, r.parts.transfer, r.rays_per_second, r.relative_l2});
     table.about =
         "build: hierarchy, upload, shaders. trace: rays, or drawing depth maps; on the GPU with the "
         "spherical "
         "harmonics, which are summed on chip. accumulate: spherical harmonics on the CPU, depth tests with "
         "method raster. transfer: to and from the GPU. Rays or depth tests per second, all work counted.";
-    table.chart = log_chart(curves(
-                                result, [](const BenchRun& r) { return r.seconds; },
-                                [](const BenchRun& r) { return 100 * r.relative_l2; }),
-                            "seconds, all work counted", "error, %") +
-                  log_chart(curves(
-                                result, [](const BenchRun& r) { return static_cast<double>(r.rays); },
-                                [](const BenchRun& r) { return 1e-6 * r.rays_per_second; }),
-                            "rays or directions per receiver", "million rays or depth tests per second");
+    table.charts = {{"seconds, all work counted", "error, %",
+                     curves(
+                         result, [](const BenchRun& r) { return r.seconds; },
+                         [](const BenchRun& r) { return 100 * r.relative_l2; })},
+                    {"rays or directions per receiver", "million rays or depth tests per second",
+                     curves(
+                         result, [](const BenchRun& r) { return static_cast<double>(r.rays); },
+                         [](const BenchRun& r) { return 1e-6 * r.rays_per_second; })}};
     return table;
+}
+
+/// The table of Hill's article, with what was measured beside it.
+Table classic_table() {
+    Table table{"classic", "The table of Hill, 2004", "", {}, {}};
+    table.columns = {{"vertices", "vertices"},
+                     {"series", "backend, method"},
+                     {"samples", "samples"},
+                     {"seconds", "seconds", Unit::seconds, 4},
+                     {"seconds_d3dx_2004", "D3DX", Unit::seconds, 2},
+                     {"times_faster_than_d3dx", "times faster"},
+                     {"seconds_hill_2004", "Hill", Unit::seconds, 2},
+                     {"times_faster_than_hill", "times faster"},
+                     {"relative_l2", "error", Unit::percent}};
+    table.about =
+        "Seconds to bake meshes of as many vertices, all work counted; his own meshes are not published.";
+    return table;
+}
+
+void add_rows(const ClassicRow& row, const BenchResult& result, Table& table) {
+    for (const BenchSeries& series : result.series)
+        for (const BenchRun& run : series.runs)
+            table.rows.push_back({row.vertices, series.name(), run.rays, run.seconds, row.seconds_d3dx,
+                                  row.seconds_d3dx / run.seconds, row.seconds_hill,
+                                  row.seconds_hill / run.seconds, run.relative_l2});
 }
 
 } // namespace
@@ -68,11 +90,26 @@ Report bench_report(const BenchResult& result) {
         {{"reference_rays", "rays of the reference, of another seed"}, result.reference_rays},
         {{"reference_receivers", "receivers that errors are over"}, result.reference_receivers}};
     for (const BenchSeries& series : result.series)
-        report.origin.emplace_back(series.backend + " " + series.method, series.device);
+        report.origin.emplace_back(series.name(), series.device);
     report.tables.push_back(runs_table(result));
     for (const BenchSeries& series : result.series)
         if (!series.left_out.empty())
-            report.notes.push_back(series.backend + " " + series.method + ": " + series.left_out);
+            report.notes.push_back(series.name() + ": " + series.left_out);
+    return report;
+}
+
+Report classic_report(std::span<const ClassicRow> rows, std::span<const BenchResult> results) {
+    Report report;
+    report.title = "Bakes of 2004";
+    Table table = classic_table();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        add_rows(rows[i], results[i], table);
+        for (const BenchSeries& series : results[i].series)
+            if (!series.left_out.empty())
+                report.notes.push_back(
+                    fmt::format("{} vertices, {}: {}", rows[i].vertices, series.name(), series.left_out));
+    }
+    report.tables.push_back(std::move(table));
     return report;
 }
 

@@ -21,16 +21,32 @@ enum class Unit {
 };
 
 struct Column {
-    std::string key;   ///< in JSON and CSV
-    std::string title; ///< for people
+    std::string key;        ///< in JSON and CSV
+    std::string title = {}; ///< for people; empty: in JSON and CSV alone
     Unit unit = Unit::plain;
-    int digits = 3;      ///< behind the point, of what people see
-    bool detail = false; ///< in JSON and CSV alone
+    int digits = 3; ///< behind the point, of what people see
 };
 
 struct Figure {
     Column column;
     Json value;
+};
+
+struct ChartPoint {
+    double x = 0, y = 0; ///< points that are not above zero are left out
+    std::string label;   ///< shown when pointed at
+};
+
+struct ChartSeries {
+    std::string name;
+    std::vector<ChartPoint> points; ///< in the order of the curve
+    bool strong = false;            ///< a thicker line
+};
+
+/// Curves over logarithmic axes.
+struct Chart {
+    std::string x_title, y_title;
+    std::vector<ChartSeries> series;
 };
 
 /// Who a table is for.
@@ -41,7 +57,7 @@ struct Table {
     std::string title, about; ///< about: a sentence on what the columns are
     std::vector<Column> columns;
     std::vector<std::vector<Json>> rows; ///< [rows][columns]; null: there is none
-    std::string chart = {};              ///< SVG, before the table
+    std::vector<Chart> charts = {};      ///< before the table, for HTML
     Audience audience = Audience::all;
     std::size_t most_shown = 1000; ///< rows that people see
 };
@@ -60,18 +76,29 @@ struct Report {
     std::vector<ReportPicture> pictures; ///< for HTML
     std::vector<std::string> notes;      ///< what is missing, and why
     std::vector<std::string> notices;    ///< of how the scene was read; for JSON, as they are printed before
+    /// Lines of text that stand for all of the above on the terminal. "{key}" and "{key:format}" are figures
+    /// of the JSON, where '/' leads into lists and objects; a format is one of fmt's, and a '%' or 'M' behind
+    /// it means per cent or millions.
+    std::vector<std::string> sentences;
 };
+
+/// Adds the items of an object as figures.
+void add_figures(Report& report, const Json& object);
 
 /// A value as people read it, "-" where there is none.
 std::string shown(const Json& value, const Column& column);
+/// The columns, as numbers, and rows that people see.
+std::vector<std::size_t> columns_for_people(const Table& table);
+std::size_t rows_for_people(const Table& table);
 
 /// Lines for the terminal.
 std::string report_text(const Report& report);
 /// All figures by key, tables as lists of objects.
 Json report_json(const Report& report);
+std::string json_text(const Json& json);
 /// A line for each figure: table, row (what its first column says), figure, value.
 std::string report_csv(const Report& report);
-/// A page that stands alone: no scripts, nothing loaded.
+/// A page that stands alone: report/page.html with the report as JSON in it. Nothing is loaded.
 std::string report_html(const Report& report);
 
 } // namespace prt::cli

@@ -36,16 +36,13 @@ std::string wrapped(const std::string& text, const std::string& indent) {
 
 /// The first column to the left, numbers to the right, as wide as they need.
 std::string table_text(const Table& table) {
+    const std::vector<std::size_t> columns = columns_for_people(table);
     std::vector<std::vector<std::string>> cells(1);
-    std::vector<std::size_t> in_sight;
-    for (std::size_t c = 0; c < table.columns.size(); ++c)
-        if (!table.columns[c].detail) {
-            in_sight.push_back(c);
-            cells[0].push_back(table.columns[c].title);
-        }
-    for (std::size_t r = 0; r < std::min(table.most_shown, table.rows.size()); ++r) {
+    for (const std::size_t c : columns)
+        cells[0].push_back(table.columns[c].title);
+    for (std::size_t r = 0; r < rows_for_people(table); ++r) {
         cells.emplace_back();
-        for (const std::size_t c : in_sight)
+        for (const std::size_t c : columns)
             cells.back().push_back(shown(table.rows[r][c], table.columns[c]));
     }
     std::string text = "  " + table.title + "\n";
@@ -63,7 +60,57 @@ std::string table_text(const Table& table) {
     return table.about.empty() ? text : text + wrapped(table.about, "    ");
 }
 
+/// A figure in a sentence.
+std::string in_words(const Json& value, std::string format) {
+    if (value.is_string())
+        return value.get<std::string>();
+    if (format.empty())
+        return value.dump();
+    const char last = format.back();
+    const double scale = last == '%' ? 100 : last == 'M' ? 1e-6 : 1;
+    if (scale != 1)
+        format.pop_back();
+    return fmt::format(fmt::runtime("{:" + format + "}"), scale * value.get<double>()) +
+           (last == '%' ? " %" : "");
+}
+
+std::string with_figures(const std::string& sentence, const Json& figures) {
+    std::string text;
+    std::size_t at = 0;
+    for (std::size_t open = 0; (open = sentence.find('{', at)) != std::string::npos;) {
+        const std::size_t close = sentence.find('}', open);
+        const std::string field = sentence.substr(open + 1, close - open - 1);
+        const std::size_t colon = std::min(field.find(':'), field.size());
+        const Json& value = figures.at(Json::json_pointer("/" + field.substr(0, colon)));
+        text +=
+            sentence.substr(at, open - at) + in_words(value, field.substr(std::min(colon + 1, field.size())));
+        at = close + 1;
+    }
+    return text + sentence.substr(at);
+}
+
+/// The first to the left, what it is about below it.
+std::string sentences_text(const Report& report) {
+    const Json figures = report_json(report);
+    std::string text;
+    for (const std::string& sentence : report.sentences)
+        text += (text.empty() ? "" : "  ") + with_figures(sentence, figures) + "\n";
+    return text;
+}
+
 } // namespace
+
+std::vector<std::size_t> columns_for_people(const Table& table) {
+    std::vector<std::size_t> columns;
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+        if (!table.columns[c].title.empty())
+            columns.push_back(c);
+    return columns;
+}
+
+std::size_t rows_for_people(const Table& table) {
+    return table.audience == Audience::files ? 0 : std::min(table.most_shown, table.rows.size());
+}
 
 std::string shown(const Json& value, const Column& column) {
     if (value.is_null())
@@ -86,14 +133,16 @@ std::string shown(const Json& value, const Column& column) {
 }
 
 std::string report_text(const Report& report) {
+    if (!report.sentences.empty())
+        return sentences_text(report);
     std::string text = report.verdict.empty() ? report.title + "\n" : report.verdict + "\n";
     for (const auto& [name, value] : report.origin)
         text += fmt::format("  {}: {}\n", name, value);
     for (const Figure& figure : report.figures)
-        if (!figure.column.detail)
+        if (!figure.column.title.empty())
             text += fmt::format("  {}: {}\n", figure.column.title, shown(figure.value, figure.column));
     for (const Table& table : report.tables)
-        if (table.audience != Audience::files && !table.rows.empty())
+        if (rows_for_people(table) > 0)
             text += table_text(table);
     for (const std::string& note : report.notes)
         text += "  left out: " + note + "\n";

@@ -1,7 +1,5 @@
 #include "report/sweep_report.h"
 
-#include "report/log_chart.h"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -36,7 +34,7 @@ std::vector<SweepPoint> frontier(const std::vector<SweepPoint>& points, const st
 }
 
 template <class Cost>
-std::string chart(const std::vector<SweepPoint>& points, const char* x_title, Cost&& cost) {
+Chart chart(const std::vector<SweepPoint>& points, const char* x_title, Cost&& cost) {
     std::vector<ChartSeries> series;
     for (const std::string& method : methods_of(points)) {
         ChartSeries curve{method, {}, method == kOurs};
@@ -46,7 +44,7 @@ std::string chart(const std::vector<SweepPoint>& points, const char* x_title, Co
                                                 p.bytes(), p.mean_components, 100 * p.lit_rms)});
         series.push_back(std::move(curve));
     }
-    return log_chart(series, x_title, "lit_rms, %");
+    return {x_title, "lit_rms, %", std::move(series)};
 }
 
 using Best = const SweepPoint* (*)(const Sweep&, const std::string&, double);
@@ -100,7 +98,7 @@ void add_sweep(const Sweep& sweep, Report& report) {
     bytes.about =
         "Bytes per vertex: payload as a game binds it, in whole 32-bit words, and all tables over the "
         "vertices. All methods are counted alike.";
-    bytes.chart = chart(sweep.by_bytes, "bytes per vertex, bases counted in", bytes_of);
+    bytes.charts = {chart(sweep.by_bytes, "bytes per vertex, bases counted in", bytes_of)};
     Table ops = best_table(sweep, sweep.by_components, kSweepComponents, "operations", best_by_components);
     ops.title = "Error at equal shader operations";
     ops.about =
@@ -108,7 +106,7 @@ void add_sweep(const Sweep& sweep, Report& report) {
                     "have {} clusters; prtkit has as many as take no more bytes than classic CPCA at the "
                     "same operations.",
                     kSweepClusters);
-    ops.chart = chart(sweep.by_components, "multiply-adds per vertex", ops_of);
+    ops.charts = {chart(sweep.by_components, "multiply-adds per vertex", ops_of)};
     report.tables.push_back(std::move(bytes));
     report.tables.push_back(std::move(ops));
     report.tables.push_back(points_table("sweep/equal_bytes", sweep.by_bytes));

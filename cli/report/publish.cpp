@@ -1,41 +1,30 @@
-#include "report/write_report.h"
-
-#include "prt/support/file.h"
+#include "report/publish.h"
 
 #include <fmt/chrono.h>
 #include <fmt/core.h>
 
 #include <chrono>
-#include <string>
 
 namespace prt::cli {
 
-void write_json(const Json& json, const std::filesystem::path& path, Interrupt& interrupt) {
-    write_text(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", path, interrupt);
+void publish(const Report& report, const Path& json, Session& session) {
+    fmt::print("{}", report_text(report));
+    session.write(json, json_text(report_json(report)));
 }
 
-void write_text(const std::string& text, const std::filesystem::path& path, Interrupt& interrupt) {
-    if (path.empty())
-        return;
-    const Interrupt::WritingScope writing(interrupt);
-    OutputFile file(path);
-    file.write(text);
-    file.commit();
-}
-
-void publish(const Report& report, const ReportFiles& files, Interrupt& interrupt) {
+void publish(const Report& report, const ReportFiles& files, Session& session) {
     fmt::print("{}", report_text(report));
     Json json = report_json(report);
     json["version"] = PRTKIT_VERSION;
-    write_json(json, files.json, interrupt);
-    write_text(report_csv(report), files.csv, interrupt);
+    session.write(files.json, json_text(json));
+    session.write(files.csv, report_csv(report));
     if (files.html.empty())
         return;
     Report dated = report; // files of figures stay the same from run to run
     const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
     dated.origin.emplace_back("date", fmt::format("{:%Y-%m-%d %H:%M} UTC", now));
     dated.origin.emplace_back("version", "prt " PRTKIT_VERSION);
-    write_text(report_html(dated), files.html, interrupt);
+    session.write(files.html, report_html(dated));
 }
 
 Json bake_record_json(const BakeRecord& record) {

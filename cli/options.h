@@ -1,15 +1,28 @@
 #pragma once
 
-// Options that several commands share.
+// Options that several commands share, and how a command keeps what its options say.
 
-#include "arguments.h"
+#include "inputs.h"
+#include "prt/bake.h"
+#include "report/publish.h"
 
 #include <CLI/CLI.hpp>
 
 #include <map>
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace prt::cli {
+
+/// What the options of `command` are to fill. It lives as long as the command, which calls `run` with it once
+/// all options are parsed.
+template <class Arguments, class Run>
+Arguments& arguments_for(CLI::App* command, Run run) {
+    auto arguments = std::make_shared<Arguments>();
+    command->callback([arguments, run] { run(*arguments); });
+    return *arguments;
+}
 
 /// An option whose value is one of `choices`.
 template <class T, class Target>
@@ -31,11 +44,12 @@ CLI::Option* choice(CLI::App* command, const std::string& name, Target& target,
 void add_output(CLI::App* command, Path& output, const std::string& text);
 void add_threads(CLI::App* command, int& threads);
 void add_json(CLI::App* command, Path& json);
-void add_reports(CLI::App* command, Path& json, Path& html, Path& csv);
+void add_reports(CLI::App* command, ReportFiles& files);
+void add_backend(CLI::App* command, Backend& backend, const std::string& text);
 void add_light_options(CLI::App* command, LightOptions& options);
 
-void add_compress(CLI::App& app, CompressArguments& arguments);
-/// What the options of prt compress mean together: u32 where no size is given, a search where a budget is.
-void resolve(const CLI::App& command, CompressArguments& arguments);
+/// What `text` says, all of it, in any notation of C; nothing where that is no number.
+std::optional<int> whole_number(const std::string& text);
+std::optional<double> real_number(const std::string& text);
 
 } // namespace prt::cli

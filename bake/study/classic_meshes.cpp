@@ -1,11 +1,13 @@
-#include "classic.h"
+// Makes meshes of as many vertices as those of S. Hill's table of 2004, for `prt bench --classic`.
+
+#include "prt/classic_meshes.h"
 
 #include <glm/geometric.hpp>
 
 #include <cmath>
 #include <numbers>
 
-namespace prt::cli {
+namespace prt {
 namespace {
 
 glm::vec3 bumpy_torus(double u, double v) {
@@ -47,4 +49,4 @@ std::array<ClassicRow, 3> classic_rows() {
             ClassicRow{31076, 581.95, 9.49, torus(457, 68)}};
 }
 
-} // namespace prt::cli
+} // namespace prt

@@ -1,10 +1,13 @@
-#include "argument_parts.h"
+#include "options.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace prt::cli {
 namespace {
 
+const std::map<std::string, Backend> kBackends = {
+    {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
 const std::map<std::string, Window> kWindows = {{"none", Window::none},
                                                 {"hann", Window::hann},
                                                 {"lanczos", Window::lanczos},
@@ -13,7 +16,7 @@ const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", Environm
                                                            {"cube", EnvironmentLayout::cube},
                                                            {"cube-faces", EnvironmentLayout::cube_faces},
                                                            {"angular", EnvironmentLayout::angular}};
-const std::map<std::string, LatLongCentre> kCentres = {{"x", LatLongCentre::x}, {"z", LatLongCentre::z}};
+const std::map<std::string, LatLongCentre> kCenters = {{"x", LatLongCentre::x}, {"z", LatLongCentre::z}};
 const std::map<std::string, BadPixels> kBadPixels = {
     {"error", BadPixels::error}, {"zero", BadPixels::zero}, {"clamp", BadPixels::clamp}};
 
@@ -36,10 +39,15 @@ void add_json(CLI::App* command, Path& json) {
     command->add_option("--json", json, "also write all figures to this file")->type_name("FILE");
 }
 
-void add_reports(CLI::App* command, Path& json, Path& html, Path& csv) {
-    add_json(command, json);
-    command->add_option("--html", html, "also write a report page to this file")->type_name("FILE");
-    command->add_option("--csv", csv, "also write all figures to this file, one a line")->type_name("FILE");
+void add_reports(CLI::App* command, ReportFiles& files) {
+    add_json(command, files.json);
+    command->add_option("--html", files.html, "also write a report page to this file")->type_name("FILE");
+    command->add_option("--csv", files.csv, "also write all figures to this file, one a line")
+        ->type_name("FILE");
+}
+
+void add_backend(CLI::App* command, Backend& backend, const std::string& text) {
+    choice(command, "--backend", backend, kBackends, text, "auto");
 }
 
 void add_light_options(CLI::App* command, LightOptions& options) {
@@ -55,12 +63,25 @@ void add_light_options(CLI::App* command, LightOptions& options) {
     choice(command, "--env-layout", options.environment.layout, kLayouts,
            "how to read an image that does not say; otherwise by its shape", "by shape");
     choice(
-        command, "--env-center", options.environment.centre, kCentres,
+        command, "--env-center", options.environment.centre, kCenters,
         "what the centre column of a lat-long image looks at: z as OpenEXR says, x as three.js, glTF viewers "
         "and Blender show it",
         "z");
     choice(command, "--bad-pixels", options.environment.bad_pixels, kBadPixels,
            "what to do with negative, infinite and NaN pixels", "error");
+}
+
+std::optional<int> whole_number(const std::string& text) {
+    char* end = nullptr;
+    const long long value = std::strtoll(text.c_str(), &end, 0);
+    const bool whole = !text.empty() && end == text.c_str() + text.size();
+    return whole && value == static_cast<int>(value) ? std::optional(static_cast<int>(value)) : std::nullopt;
+}
+
+std::optional<double> real_number(const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    return !text.empty() && end == text.c_str() + text.size() ? std::optional(value) : std::nullopt;
 }
 
 } // namespace prt::cli

@@ -1,3 +1,6 @@
+// Residual vector quantisation: every codebook codes what the ones before it leave over (Chen, Guan and Wang
+// 2010, "Approximate Nearest Neighbor Search by Residual Vector Quantization"), by faiss.
+
 #include "residual_vq.h"
 
 #ifdef PRTKIT_WITH_FAISS

@@ -1,8 +1,10 @@
-#include "bench.h"
+// Bakes direct light with more and more rays on every backend, and measures its time and its error against a
+// bake of many more rays from another seed.
 
+#include "prt/bench.h"
+
+#include "prt/bake.h"
 #include "prt/error_measures.h"
-#include "prt/make_tracer.h"
-#include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "prt/trace_receivers.h"
 
@@ -10,7 +12,7 @@
 
 #include <algorithm>
 
-namespace prt::cli {
+namespace prt {
 namespace {
 
 /// A reference has so many times the rays of what is measured against it.
@@ -22,53 +24,56 @@ constexpr std::uint64_t kReferenceSeed = 0x51ed270b7a5d1f3c;
 struct Setup {
     Backend backend;
     BakeMethod method;
-    const char* backend_name;
-    const char* method_name;
 };
-constexpr Setup kSetups[] = {{Backend::cpu, BakeMethod::trace, "cpu", "trace"},
-                             {Backend::gpu, BakeMethod::trace, "gpu", "trace"},
-                             {Backend::gpu, BakeMethod::raster, "gpu", "raster"}};
+constexpr Setup kSetups[] = {
+    {Backend::cpu, BakeMethod::trace}, {Backend::gpu, BakeMethod::trace}, {Backend::gpu, BakeMethod::raster}};
 
 class Bench {
 public:
-    Bench(const Scene& scene, const BenchOptions& options, const Progress& progress)
-        : scene_(scene), options_(options), progress_(progress), textures_(load_textures(scene)),
+    Bench(const Scene& scene, const BenchOptions& options)
+        : scene_(scene), options_(options), textures_(load_textures(scene)),
           receivers_(vertex_receivers(scene)), indices_(receivers_on_surfaces(receivers_)) {}
 
-    BenchResult run(const std::string& name) {
+    BenchResult run(const std::string& name, const Progress& progress) {
         BenchResult result;
         result.scene = name;
         result.receivers = receivers_.size();
         result.triangles = scene_.triangles();
         result.order = options_.order;
-        make_reference(result);
-        for (const Setup& setup : kSetups)
-            result.series.push_back(measure(setup));
-        progress_.update(1);
+        // The reference and each series take a quarter of the time.
+        double begin = 0.25;
+        make_reference(result, progress.part(0, begin));
+        for (const Setup& setup : kSetups) {
+            result.series.push_back(measure(setup, progress.part(begin, begin + 0.25)));
+            begin += 0.25;
+        }
+        progress.update(1);
         return result;
     }
 
 private:
-    void make_reference(BenchResult& result) {
+    void make_reference(BenchResult& result, const Progress& progress) {
         const int rays = std::min(kMostRays, kReferenceFactor * options_.most_rays);
         const auto wanted = static_cast<std::size_t>(std::max(64.0, kReferenceRays / rays));
         const std::size_t step = std::max<std::size_t>(1, indices_.size() / wanted);
+        std::vector<std::uint32_t> sample;
         for (std::size_t i = step / 2; i < indices_.size(); i += step)
-            sample_.push_back(indices_[i]);
+            sample.push_back(indices_[i]);
         const TraceScene scene(scene_, textures_, {.threads = options_.threads});
         const std::unique_ptr<Tracer> tracer = make_tracer(scene, {.backend = Backend::cpu});
         reference_ = empty_transfer();
-        trace_receivers(*tracer, receivers_, sample_, {options_.order, rays, kReferenceSeed, 0}, reference_,
-                        part(0));
+        trace_receivers(*tracer, receivers_, sample,
+                        {.order = options_.order, .rays = rays, .seed = kReferenceSeed}, reference_,
+                        progress);
         areas_.assign(receivers_.size(), 0);
-        for (const std::uint32_t p : sample_)
+        for (const std::uint32_t p : sample)
             areas_[p] = receivers_.areas[p];
         result.reference_rays = rays;
-        result.reference_receivers = sample_.size();
+        result.reference_receivers = sample.size();
     }
 
-    BenchSeries measure(const Setup& setup) {
-        BenchSeries series{setup.backend_name, setup.method_name, {}, {}, {}};
+    BenchSeries measure(const Setup& setup, const Progress& progress) const {
+        BenchSeries series{.backend = setup.backend, .method = setup.method};
         double per_ray = 0;
         for (int rays = options_.fewest_rays; rays <= options_.most_rays; rays *= 2) {
             const double expected = per_ray * rays;
@@ -78,8 +83,10 @@ private:
                                 setup.method == BakeMethod::raster ? "directions" : "rays", expected);
                 break;
             }
+            const double share = static_cast<double>(rays) / options_.most_rays;
             try {
-                series.runs.push_back(measure_run(setup, rays, series.device));
+                series.runs.push_back(
+                    measure_run(setup, rays, series.device, progress.part(share / 2, share)));
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
@@ -88,26 +95,27 @@ private:
             }
             per_ray = series.runs.back().seconds / rays;
         }
-        ++finished_;
         return series;
     }
 
-    BenchRun measure_run(const Setup& setup, int rays, std::string& device) {
+    BenchRun measure_run(const Setup& setup, int rays, std::string& device, const Progress& progress) const {
         const TraceScene scene(scene_, textures_, {.threads = options_.threads});
         const Stopwatch all;
         const std::unique_ptr<Tracer> tracer =
-            make_tracer(scene, {setup.backend, setup.method, options_.raster_resolution});
+            make_tracer(scene, {.backend = setup.backend,
+                                .method = setup.method,
+                                .raster_resolution = options_.raster_resolution});
         device = tracer->device();
         // Shaders are compiled on first use; a bake of a game's scene does not notice.
         Transfer transfer = empty_transfer();
-        trace_receivers(*tracer, receivers_, std::span(indices_).first(1), {options_.order, 1, 0, 0},
-                        transfer);
+        trace_receivers(*tracer, receivers_, std::span(indices_).first(1),
+                        {.order = options_.order, .rays = 1}, transfer);
         const TraceSeconds before = tracer->seconds();
         BenchRun run;
         run.rays = rays;
         run.seconds_build = all.seconds();
-        trace_receivers(*tracer, receivers_, indices_, {options_.order, rays, options_.seed, 0}, transfer,
-                        part(static_cast<double>(rays) / (2.0 * options_.most_rays)));
+        trace_receivers(*tracer, receivers_, indices_,
+                        {.order = options_.order, .rays = rays, .seed = options_.seed}, transfer, progress);
         run.seconds = all.seconds();
         run.parts = tracer->seconds();
         run.parts.trace -= before.trace;
@@ -120,28 +128,20 @@ private:
 
     Transfer empty_transfer() const { return zero_transfer(options_.order, 1, receivers_.size()); }
 
-    /// The reference and each series take a quarter of the progress bar; `from` within the quarter.
-    Progress part(double from) const {
-        const double start = (finished_ + from) / 4;
-        return {[this, start](double) { progress_.update(start); }, progress_.stop};
-    }
-
     const Scene& scene_;
     const BenchOptions& options_;
-    const Progress& progress_;
     std::vector<Texture> textures_;
     Receivers receivers_;
-    std::vector<std::uint32_t> indices_, sample_;
-    std::vector<float> areas_; ///< of the sample, else zero
+    std::vector<std::uint32_t> indices_;
+    std::vector<float> areas_; ///< of the receivers that the reference has, else zero
     Transfer reference_;
-    double finished_ = 0; ///< quarters of the work
 };
 
 } // namespace
 
 BenchResult run_bench(const std::string& name, const Scene& scene, const BenchOptions& options,
                       const Progress& progress) {
-    return Bench(scene, options, progress).run(name);
+    return Bench(scene, options).run(name, progress);
 }
 
-} // namespace prt::cli
+} // namespace prt

@@ -2,14 +2,14 @@
 
 // Speed against error of the bake, on every backend and by every method.
 
-#include "prt/bake.h"
+#include "prt/make_tracer.h"
 #include "prt/scene.h"
-#include "report/report.h"
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-namespace prt::cli {
+namespace prt {
 
 struct BenchOptions {
     int order = 6;
@@ -30,9 +30,14 @@ struct BenchRun {
 };
 
 struct BenchSeries {
-    std::string backend, method, device;
-    std::vector<BenchRun> runs;
-    std::string left_out; ///< what is missing, and why; empty: nothing
+    Backend backend = Backend::cpu;
+    BakeMethod method = BakeMethod::trace;
+    std::string device = {};
+    std::vector<BenchRun> runs = {};
+    std::string left_out = {}; ///< what is missing, and why; empty: nothing
+
+    /// "cpu trace"
+    std::string name() const { return std::string(to_string(backend)) + " " + to_string(method); }
 };
 
 struct BenchResult {
@@ -48,7 +53,4 @@ struct BenchResult {
 BenchResult run_bench(const std::string& name, const Scene& scene, const BenchOptions& options,
                       const Progress& progress);
 
-/// All runs, with the curves of error over time and of speed over rays.
-Report bench_report(const BenchResult& result);
-
-} // namespace prt::cli
+} // namespace prt

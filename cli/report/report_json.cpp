@@ -20,6 +20,15 @@ std::string csv_cell(const Json& value) {
 
 } // namespace
 
+void add_figures(Report& report, const Json& object) {
+    for (const auto& [key, value] : object.items())
+        report.figures.push_back({{key}, value});
+}
+
+std::string json_text(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 Json report_json(const Report& report) {
     Json json = Json::object();
     if (!report.verdict.empty())

@@ -1,4 +1,4 @@
-#include "report/cluster_shares.h"
+#include "cluster_shares.h"
 
 #include <glm/geometric.hpp>
 

@@ -2,11 +2,11 @@
 
 // The table of S. Hill, "Hardware Accelerating Art Production", Gamasutra 2004: seconds to bake three meshes.
 
-#include "bench.h"
+#include "prt/scene.h"
 
 #include <array>
 
-namespace prt::cli {
+namespace prt {
 
 struct ClassicRow {
     int vertices = 0;
@@ -20,4 +20,4 @@ std::array<ClassicRow, 3> classic_rows();
 
 inline constexpr std::array kClassicSamples = {1024, 2048, 4096};
 
-} // namespace prt::cli
+} // namespace prt

@@ -1,0 +1,286 @@
+#include "comparison.h"
+
+#include "cluster_shares.h"
+#include "evaluation_lights.h"
+#include "prt/dering.h"
+#include "prt/error_measures.h"
+#include "prt/ray_renderer.h"
+#include "prt/receiver_colors.h"
+#include "prt/support/error.h"
+#include "prt/tone_map.h"
+#include "report/verdict.h"
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace prt::cli {
+namespace {
+
+/// The file that is measured: compressed, or another bake.
+struct Candidate {
+    const SceneFile& model;
+    Transfer transfer; ///< decoded
+    std::optional<std::span<const std::uint16_t>> clusters;
+
+    /// Exit radiance by the road that a game takes.
+    std::vector<glm::vec3> radiance(const Light& light, int threads) const {
+        return model.compressed ? exit_radiance(model.compressed->transfer, light, threads)
+                                : exit_radiance(transfer, light, threads);
+    }
+};
+
+Candidate candidate(const SceneFile& model, const Path& path) {
+    if (model.compressed)
+        return {model, decode(model.compressed->transfer), model.compressed->transfer.receivers.clusters};
+    if (model.baked)
+        return {model, model.baked->transfer, std::nullopt};
+    throw Error(path.string() + ": holds no transfer; run prt bake and prt compress first");
+}
+
+/// Errors under the lights that were named and under those that are always tried.
+struct Evaluation {
+    std::vector<std::pair<std::string, LitError>> named, standard;
+    std::string worst_sun; ///< where it stands
+    std::vector<ClusterShare> clusters;
+    double relative_l2 = 0;
+};
+
+std::string place_of(const Scene& scene, std::uint32_t receiver) {
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        if (receiver >= vertices.first_receiver && receiver < vertices.first_receiver + vertices.size()) {
+            const glm::dvec3 p = scene.world(vertices.positions[receiver - vertices.first_receiver]);
+            return fmt::format("{:.4g} {:.4g} {:.4g}", p.x, p.y, p.z);
+        }
+    return {};
+}
+
+std::string about_lights(const Evaluation& evaluation) {
+    return "lit_rms: relative L2 of exit radiance for albedo 1. lit_max and 99.9 %: the largest error of a "
+           "receiver, and that which 99.9 % stay below. Darker half: relative L2 of the half of the area "
+           "where the radiance is least. Seam: the largest jump of the error along an edge between two "
+           "clusters; 99 %: what 99 % of such edges, and of those inside a cluster, stay below. All but the "
+           "relative ones are over the mean radiance. The worst sun is that of 64 all over the sphere whose "
+           "error is largest; errors under it are over the radiance of all 64, since one that lights nothing "
+           "leaves nothing to divide by. It stands " +
+           evaluation.worst_sun + ". Random white: every coefficient alike; over the root mean square of R.";
+}
+
+Table lights_table(const Evaluation& evaluation, const Scene& scene) {
+    Table table{"lights", "Errors by light", about_lights(evaluation), {}, {}};
+    const Unit share = Unit::percent;
+    table.columns = {{"light", "light"},
+                     {"lit_rms", "lit_rms", share},
+                     {"lit_max", "lit_max", share, 2},
+                     {"percentile_999", "99.9 %", share, 2},
+                     {"darker_half_rms", "darker half", share},
+                     {"seam", "seam", share, 2},
+                     {"crossing_percentile_99", "seams, 99 %", share, 2},
+                     {"inner_percentile_99", "inner, 99 %", share, 2},
+                     {"mean_radiance", "mean radiance"}};
+    for (const char* key :
+         {"crossing_edges", "crossing_rms", "seam_place_metres", "inner_edges", "inner_rms", "inner_max"})
+        table.columns.push_back({key});
+    for (const auto* lights : {&evaluation.named, &evaluation.standard})
+        for (const auto& [name, e] : *lights)
+            table.rows.push_back(
+                {name, e.rms, e.max, e.percentile_999, e.darker_half_rms, e.crossing.max,
+                 e.crossing.percentile_99, e.inner.percentile_99, e.mean, e.crossing.edges, e.crossing.rms,
+                 e.crossing.edges > 0 ? Json(place_of(scene, e.crossing.worst.first)) : Json(), e.inner.edges,
+                 e.inner.rms, e.inner.max});
+    return table;
+}
+
+Table clusters_table(const Evaluation& evaluation) {
+    Table table{"clusters", "Clusters with most of the error", "", {}, {}};
+    table.columns = {{"cluster", "cluster"},
+                     {"receivers", "vertices"},
+                     {"components", "components"},
+                     {"area_share", "of the area", Unit::percent, 2},
+                     {"squared_error_share", "of the squared error", Unit::percent, 2},
+                     {"lit_rms", "lit_rms", Unit::percent}};
+    for (const ClusterShare& c : evaluation.clusters)
+        table.rows.push_back({c.cluster, c.receivers, c.components, c.area_share, c.error_share, c.lit_rms});
+    table.most_shown = 8;
+    return table;
+}
+
+/// A shipped file held against its bake.
+class Comparison {
+public:
+    Comparison(const ComparisonOptions& a, SceneFile& baked)
+        : a_(a), baked_(baked), model_(load_scene_file(a.shipped)), shipped_(candidate(model_, a.shipped)) {
+        check_belong_together(baked, a.baked, model_, a.shipped);
+        put_in_order_of(model_.scene, baked);
+        areas_ = receiver_areas(baked.scene);
+        edges_ = mesh_edges(baked.scene);
+    }
+
+    Evaluation measure(const std::vector<LoadedLight>& lights) const {
+        Evaluation evaluation;
+        evaluation.relative_l2 = relative_l2(reference(), shipped_.transfer, areas_);
+        ClusterShares shares(model_.compressed ? model_.compressed->transfer.bases.clusters() : 0);
+        for (const LoadedLight& light : lights) {
+            const auto wanted = wanted_under(light.light), lit = shipped_.radiance(light.light, a_.threads);
+            if (shipped_.clusters)
+                shares.add(*shipped_.clusters, areas_, wanted, lit);
+            evaluation.named.emplace_back(light.name,
+                                          lit_error(wanted, lit, areas_, edges_, shipped_.clusters));
+        }
+        add_worst_sun(evaluation);
+        // Half of what random light gives is negative, and the mean of no use to divide by.
+        const Light random = random_white_light(reference().order);
+        const double square = lit_scale(wanted_under(random), areas_).mean_square;
+        evaluation.standard.emplace_back("random white",
+                                         error_under(random, LitScale{square, std::sqrt(square / 3)}));
+        if (model_.compressed)
+            evaluation.clusters = shares.finish(model_.compressed->transfer, areas_);
+        return evaluation;
+    }
+
+    void add_sizes(Report& report) const {
+        report.figures.push_back({{"bytes_file_shipped", "bytes of the file, shipped"},
+                                  static_cast<std::size_t>(std::filesystem::file_size(a_.shipped))});
+        if (!model_.compressed)
+            return;
+        const ClusteredTransfer& t = model_.compressed->transfer;
+        const double with_bases =
+            static_cast<double>(bytes_per_receiver(t)) +
+            static_cast<double>(basis_bytes(t.bases)) / static_cast<double>(t.receivers.size());
+        report.figures.insert(
+            report.figures.end(),
+            {{{"bytes_bound_per_vertex", "bytes per vertex to bind"}, bytes_per_receiver(t)},
+             {{"bytes_bound_per_vertex_with_bases", "bytes per vertex with the bases"}, with_bases},
+             {{"bits_used_per_vertex", "bits per vertex in use"}, bits_per_receiver(t)},
+             {{"bytes_bases", "bytes of bases"}, basis_bytes(t.bases)},
+             {{"clusters", "clusters"}, t.bases.clusters()},
+             {{"components_most", "components, at most"}, t.bases.max_components()}});
+    }
+
+    Verdict verdict(const Evaluation& evaluation) const {
+        Verdict v;
+        v.under = evaluation.named.size() == 1 ? evaluation.named.front().first
+                                               : fmt::format("these {} lights", evaluation.named.size());
+        for (const auto& [name, error] : evaluation.named) {
+            v.lit_rms = std::max(v.lit_rms, error.rms);
+            v.seam_99 = std::max(v.seam_99, error.crossing.percentile_99);
+            if (error.crossing.edges > 0)
+                v.seam = std::max(v.seam.value_or(0), error.crossing.max);
+        }
+        if (model_.compressed)
+            v.bytes_per_vertex = bytes_per_receiver(model_.compressed->transfer);
+        return v;
+    }
+
+    /// Lit by the bake and by what is shipped, as `prt render` lights them, at one exposure and without
+    /// textures, which would hide errors; then the error as the figures count it, and clusters.
+    void add_pictures(const LoadedLight& light, Report& report) const {
+        const Light drawn = deringed(light.light);
+        const auto before = wanted_under(drawn);
+        const float exposure = exposure_of(before);
+        add_picture(report, "Before: the bake, under " + light.name, before, exposure);
+        add_picture(report, "After: as shipped", shipped_.radiance(drawn, a_.threads), exposure);
+        const auto wanted = wanted_under(light.light), lit = shipped_.radiance(light.light, a_.threads);
+        add_picture(report, fmt::format("Error (white: {:.0f} % of the mean radiance)", 100 * kWhiteError),
+                    error_colors(wanted, lit, areas_), 1);
+        if (model_.compressed)
+            add_picture(report, "Clusters", cluster_colors(model_.compressed->transfer), 1);
+    }
+
+private:
+    const Transfer& reference() const { return baked_.baked->transfer; }
+    std::vector<glm::vec3> wanted_under(const Light& light) const {
+        return exit_radiance(reference(), light, a_.threads);
+    }
+    LitError error_under(const Light& light, const std::optional<LitScale>& scale) const {
+        return lit_error(wanted_under(light), shipped_.radiance(light, a_.threads), areas_, edges_,
+                         shipped_.clusters, scale);
+    }
+
+    /// Suns of one strength: errors are over what all of them light (docs/math.md, eq. 42).
+    void add_worst_sun(Evaluation& evaluation) const {
+        const DirectionalLights suns = directional_lights(reference().order);
+        LitScale all;
+        for (const Light& sun : suns.lights) {
+            const LitScale one = lit_scale(wanted_under(sun), areas_);
+            all.mean_square += one.mean_square / static_cast<double>(suns.lights.size());
+            all.mean += one.mean / static_cast<double>(suns.lights.size());
+        }
+        LitError worst;
+        for (std::size_t i = 0; i < suns.lights.size(); ++i) {
+            const LitError error = error_under(suns.lights[i], all);
+            if (error.rms < worst.rms)
+                continue;
+            worst = error;
+            const glm::vec3& d = suns.directions[i];
+            evaluation.worst_sun = fmt::format("towards {:.2f} {:.2f} {:.2f}", d.x, d.y, d.z);
+        }
+        evaluation.standard.emplace_back(fmt::format("worst of {} suns", suns.lights.size()), worst);
+    }
+
+    /// Brings what 98 % of the receivers stay below to 0.8.
+    static float exposure_of(std::span<const glm::vec3> radiance) {
+        std::vector<float> values;
+        for (const glm::vec3& r : radiance)
+            values.push_back(std::max({r.x, r.y, r.z}));
+        const auto at =
+            values.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(values.size() - 1));
+        std::nth_element(values.begin(), at, values.end());
+        return *at > 0 ? 0.8f / *at : 1.0f;
+    }
+
+    void add_picture(Report& report, std::string title, std::span<const glm::vec3> colors,
+                     float exposure) const {
+        constexpr int kWidth = 720, kHeight = 450, kSamples = 2;
+        Picture picture;
+        picture.scene = &model_.scene;
+        picture.radiance = colors;
+        picture.textured = false;
+        picture.camera = automatic_camera(model_.scene, static_cast<float>(kWidth) / kHeight, 0.6f);
+        picture.width = kWidth;
+        picture.height = kHeight;
+        picture.samples = kSamples;
+        const Image image = render_rays(picture, RayScene(model_.scene, a_.threads), a_.threads);
+        report.pictures.push_back(
+            {std::move(title),
+             encode_png(kWidth, kHeight, tone_mapped(image, kSamples, exposure, ToneMap::srgb))});
+    }
+
+    const ComparisonOptions& a_;
+    SceneFile& baked_;
+    SceneFile model_;
+    Candidate shipped_;
+    std::vector<float> areas_;
+    std::vector<Edge> edges_;
+};
+
+/// Where a difference is seen if anywhere.
+const LoadedLight& worst_of(const Evaluation& evaluation, const std::vector<LoadedLight>& lights) {
+    const auto worst =
+        std::max_element(evaluation.named.begin(), evaluation.named.end(),
+                         [](const auto& a, const auto& b) { return a.second.rms < b.second.rms; });
+    return lights[static_cast<std::size_t>(worst - evaluation.named.begin())];
+}
+
+} // namespace
+
+void add_comparison(const ComparisonOptions& options, SceneFile& baked,
+                    const std::vector<LoadedLight>& lights, Report& report) {
+    const Comparison comparison(options, baked);
+    const Evaluation evaluation = comparison.measure(lights);
+    report.verdict = in_one_line(comparison.verdict(evaluation));
+    report.figures.push_back(
+        {{"relative_l2", "relative L2 of the transfer", Unit::percent, 4}, evaluation.relative_l2});
+    report.figures.push_back({{"worst_directional_light"}, evaluation.worst_sun});
+    comparison.add_sizes(report);
+    report.tables.push_back(lights_table(evaluation, baked.scene));
+    if (!evaluation.clusters.empty())
+        report.tables.push_back(clusters_table(evaluation));
+    if (options.pictures)
+        comparison.add_pictures(worst_of(evaluation, lights), report);
+}
+
+} // namespace prt::cli
