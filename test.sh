@@ -1,23 +1,66 @@
 #!/usr/bin/env bash
-# Installs what is missing, checks the formatting, builds with warnings as errors, and runs all tests: first under the
-# address and undefined-behaviour sanitizers, then optimised.
+# Installs what is missing, checks how sources look, builds with warnings as errors by clang and by gcc, and runs all
+# tests: under the address and undefined-behaviour sanitizers, what runs in threads under the thread sanitizer, and
+# everything optimised, with the web page.
+#   ./test.sh [look | sanitize | tidy | threads | optimised]...   all, in this order, where none is named
 set -euo pipefail
 cd "$(dirname "$0")"
+
+look() {
+    git ls-files '*.cpp' '*.h' '*.c' '*.comp' '*.frag' '*.glsl' '*.vert' | xargs clang-format --dry-run --Werror
+    git ls-files '*.sh' .ci/run | xargs shellcheck
+}
+
+sanitize() {
+    build_and_test sanitize
+}
+
+# Over the joined sources of `sanitize`, whose headers are then read once for eight sources.
+tidy() {
+    cmake --preset sanitize >/dev/null
+    local log=build/tidy.log
+    if ! run-clang-tidy -quiet -p build/sanitize >"$log" 2>/dev/null; then
+        grep -E -A 3 '(warning|error):' "$log"
+        return 1
+    fi
+}
+
+threads() {
+    build_and_test tsan
+}
+
+optimised() {
+    cmake --preset check >/dev/null
+    cmake --build --preset check
+    # The web page: lint, units, types, and its pictures in Chromium against those of prt.
+    local web=(npm --silent --prefix examples/web)
+    "${web[@]}" install --no-audit --no-fund --no-package-lock
+    "${web[@]}" test
+    (
+        export PRT=$PWD/build/check/cli/prt PRT_EXAMPLE_SCENES=$PWD/build/check/examples/scenes/example_scenes
+        export PRTKIT_WEB=$PWD/build/web PRT_RAYS=64 PRT_SCENES=knot,tree
+        rm -rf "$PRTKIT_WEB"
+        "${web[@]}" run build
+        node examples/web/test/e2e.mjs
+    )
+    ctest --preset check
+}
+
+build_and_test() {
+    cmake --preset "$1" >/dev/null
+    cmake --build --preset "$1"
+    ctest --preset "$1"
+}
+
 cmake/install_packages.sh
-git ls-files '*.cpp' '*.h' | grep -v '^shaders/' | xargs clang-format --dry-run --Werror
 npm install --silent --no-audit --no-fund --no-package-lock --prefix build/validator gltf-validator@2.0.0-dev.3.10 >/dev/null
-cmake --preset sanitize >/dev/null
-cmake --build --preset sanitize
-ctest --preset sanitize
-cmake --preset dev >/dev/null
-cmake --build --preset dev
-# The web page: units, types, and its pictures in Chromium against those of prt.
-web=(npm --silent --prefix examples/web)
-"${web[@]}" install --no-audit --no-fund --no-package-lock
-"${web[@]}" test
-export PRT=$PWD/build/dev/cli/prt PRT_EXAMPLE_SCENES=$PWD/build/dev/examples/scenes/example_scenes
-export PRTKIT_WEB=$PWD/build/web PRT_RAYS=64 PRT_SCENES=knot,tree
-rm -rf "$PRTKIT_WEB"
-"${web[@]}" run build
-node examples/web/test/e2e.mjs
-ctest --preset dev
+[ $# -gt 0 ] || set -- look sanitize tidy threads optimised
+for step in "$@"; do
+    case "$step" in
+        look | sanitize | tidy | threads | optimised) ;;
+        *) echo "test.sh: there is no step '$step'" >&2; exit 2 ;;
+    esac
+    start=$SECONDS
+    "$step"
+    echo "test.sh: $step took $(((SECONDS - start) / 60)) min $(((SECONDS - start) % 60)) s"
+done

@@ -1,7 +1,11 @@
+// Plans rays where they lower the error most (docs/math.md, section 9): two scrambles of a few rays predict
+// it, a sample of the receivers tells what came out.
+
 #include "adaptive.h"
 
-#include "prt/sh.h"
+#include "prt/bake.h"
 #include "prt/trace_receivers.h"
+#include "trace/scrambles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,47 +19,25 @@ constexpr std::uint32_t kFirstRays = 32;       ///< of each of the two scrambles
 constexpr std::size_t kCheckedReceivers = 128; ///< sampled again to see what came out
 /// Receivers that look dark and are asked with many rays.
 constexpr std::size_t kCheckedDark = 512, kDarkRays = 4096;
-/// One receiver of so many is sampled again to estimate the error of a bake, within these bounds.
-constexpr std::size_t kReceiversPerCheck = 32, kLeastChecked = 256, kMostChecked = 1024;
-constexpr std::uint64_t kSecondScramble = 0x9e3779b97f4a7c15;
 /// The squared error of a scrambled net falls as n^-1.5 where visibility has edges: measured n^-1.52 on the
 /// knot between 1 024 and 2 048 rays.
 constexpr double kExponent = 1.5;
 
-double squared_distance(std::span<const float> a, std::span<const float> b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k)
-        sum += static_cast<double>((a[k] - b[k]) * (a[k] - b[k]));
-    return sum;
-}
-
-double product(std::span<const float> a, std::span<const float> b) {
-    double sum = 0;
-    for (std::size_t k = 0; k < a.size(); ++k)
-        sum += static_cast<double>(a[k] * b[k]);
-    return sum;
-}
-
-double squared_norm(std::span<const float> a) {
-    return product(a, a);
-}
-
 class AdaptiveSampler {
 public:
-    AdaptiveSampler(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
-                    const TraceOptions& options, const Progress& progress)
-        : tracer_(tracer), receivers_(receivers), options_(options), progress_{{}, progress.stop},
+    AdaptiveSampler(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,
+                    const Progress& progress)
+        : tracer_(tracer), receivers_(receivers), options_(options), progress_(progress),
           indices_(receivers_on_surfaces(receivers)), rays_(receivers.size(), 0),
-          planned_(receivers.size(), 0), error_(receivers.size(), 0), transfer_(empty_transfer()) {
-        estimate_errors(neighbours);
-    }
+          planned_(receivers.size(), 0), error_(receivers.size(), 0), transfer_(empty_transfer()) {}
 
-    AdaptiveResult run(double target, const Progress& progress) {
+    AdaptiveResult run(const MeshNeighbours& neighbours, double target) {
+        estimate_errors(neighbours);
         AdaptiveResult result;
         double correction = 1; // of the squared errors that the first rays predict, by what came out
         for (double share = 0;; share = 0.5 * (1 + share)) {
             const bool enough = plan(target * target * norm_ / correction);
-            progress.update(share);
+            progress_.update(share);
             extend();
             correction = check(result.rays_checked);
             result.error = norm_ > 0 ? std::sqrt(correction * predicted_ / norm_) : 0;
@@ -66,11 +48,16 @@ public:
         result.transfer = std::move(transfer_);
         result.rays = rays_;
         result.rays_checked += kFirstRays * indices_.size() + rays_on_dark_; // of the second scramble
-        progress.update(1);
+        progress_.update(1);
         return result;
     }
 
 private:
+    /// Stops in the middle of a round, too.
+    void trace(std::span<const std::uint32_t> indices, const TraceOptions& options, Transfer& transfer) {
+        trace_receivers(tracer_, receivers_, indices, options, transfer, {{}, progress_.stop});
+    }
+
     Transfer empty_transfer() const { return zero_transfer(options_.order, 1, receivers_.size()); }
 
     double area(std::uint32_t p) const { return static_cast<double>(receivers_.areas[p]); }
@@ -85,10 +72,10 @@ private:
     void estimate_errors(const MeshNeighbours& neighbours) {
         TraceOptions options = options_;
         options.rays = static_cast<int>(kFirstRays);
-        trace_receivers(tracer_, receivers_, indices_, options, transfer_, progress_);
+        trace(indices_, options, transfer_);
         options.seed += kSecondScramble;
         Transfer second = empty_transfer();
-        trace_receivers(tracer_, receivers_, indices_, options, second, progress_);
+        trace(indices_, options, second);
         std::vector<double> own(receivers_.size(), 0);
         for (const std::uint32_t p : indices_) {
             rays_[p] = planned_[p] = kFirstRays;
@@ -124,7 +111,7 @@ private:
         options.rays = static_cast<int>(kDarkRays);
         options.seed += 3 * kSecondScramble;
         Transfer light = empty_transfer();
-        trace_receivers(tracer_, receivers_, some, options, light, progress_);
+        trace(some, options, light);
         rays_on_dark_ = some.size() * kDarkRays;
         double missed = 0, areas = 0;
         for (const std::uint32_t p : some) {
@@ -184,7 +171,7 @@ private:
             TraceOptions options = options_;
             options.first_ray = rays;
             options.rays = static_cast<int>(rays);
-            trace_receivers(tracer_, receivers_, members, options, added, progress_);
+            trace(members, options, added);
             for (const std::uint32_t p : members) {
                 for (std::size_t k = 0; k < added.dimension(); ++k)
                     transfer_.vector(p)[k] = 0.5f * (transfer_.vector(p)[k] + added.vector(p)[k]);
@@ -214,7 +201,7 @@ private:
             TraceOptions options = options_;
             options.rays = static_cast<int>(rays);
             options.seed += 2 * kSecondScramble;
-            trace_receivers(tracer_, receivers_, members, options, again, progress_);
+            trace(members, options, again);
             rays_checked += rays * members.size();
             for (const std::uint32_t p : members)
                 ratios += 0.5 * area(p) * squared_distance(transfer_.vector(p), again.vector(p)) /
@@ -227,7 +214,7 @@ private:
     Tracer& tracer_;
     const Receivers& receivers_;
     TraceOptions options_;
-    Progress progress_; ///< to stop in the middle of a round
+    const Progress& progress_;
     std::vector<std::uint32_t> indices_;
     std::vector<std::uint32_t> rays_, planned_; ///< [receivers]
     std::vector<double> error_;                 ///< squared, predicted for kFirstRays, [receivers]
@@ -240,49 +227,7 @@ private:
 
 AdaptiveResult adaptive_transfer(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
                                  const TraceOptions& options, double target, const Progress& progress) {
-    return AdaptiveSampler(tracer, receivers, neighbours, options, progress).run(target, progress);
-}
-
-double sampling_error(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,
-                      const Transfer& transfer, std::size_t& rays, const Progress& progress) {
-    const std::vector<std::uint32_t> all = receivers_on_surfaces(receivers);
-    const auto area = [&](std::uint32_t p) { return static_cast<double>(receivers.areas[p]); };
-    // Few receivers carry most of the error: they are chosen by what they are likely to contribute. Half-open
-    // ones err most; a floor stands for what visibility does not tell.
-    const auto likely = [&](std::uint32_t p) {
-        const double visible = static_cast<double>(transfer.vector(p)[0]) / kY00;
-        return area(p) * (0.02 + std::clamp(visible * (1 - visible), 0.0, 0.25));
-    };
-    double sum = 0, norm = 0;
-    for (const std::uint32_t p : all) {
-        sum += likely(p);
-        norm += area(p) * squared_norm(transfer.vector(p));
-    }
-    if (!(norm > 0))
-        return 0;
-    const auto wanted =
-        static_cast<double>(std::clamp(all.size() / kReceiversPerCheck, kLeastChecked, kMostChecked));
-    const double step = sum / wanted;
-    std::map<std::uint32_t, double> weights; // of the receivers that are sampled again
-    double reached = 0, next = 0.5 * step;
-    for (const std::uint32_t p : all) {
-        reached += likely(p);
-        for (; next < reached; next += step)
-            weights[p] += step / likely(p);
-    }
-    std::vector<std::uint32_t> some;
-    for (const auto& [p, weight] : weights)
-        some.push_back(p);
-    TraceOptions other = options;
-    other.seed += kSecondScramble;
-    Transfer again = zero_transfer(options.order, 1, receivers.size());
-    trace_receivers(tracer, receivers, some, other, again, {{}, progress.stop});
-    rays += some.size() * static_cast<std::size_t>(options.rays);
-    double error = 0;
-    for (const auto& [p, weight] : weights) // both have the error
-        error += weight * area(p) * squared_distance(transfer.vector(p), again.vector(p)) / 2;
-    // The norm of what was sampled has the error in it, which counts where hardly a ray finds the light.
-    return std::sqrt(error / std::max(norm - error, 0.1 * norm));
+    return AdaptiveSampler(tracer, receivers, options, progress).run(neighbours, target);
 }
 
 } // namespace prt

@@ -2,7 +2,8 @@
 
 // Rays where they are needed.
 
-#include "prt/bake.h"
+#include "prt/support/progress.h"
+#include "prt/tracer.h"
 #include "scene/mesh_neighbours.h"
 
 namespace prt {
@@ -21,10 +22,5 @@ struct AdaptiveResult {
 /// extended (docs/math.md, section 9).
 AdaptiveResult adaptive_transfer(Tracer& tracer, const Receivers& receivers, const MeshNeighbours& neighbours,
                                  const TraceOptions& options, double target, const Progress& progress);
-
-/// Estimated relative L2 error of `transfer`, which was sampled with `options`: some of its receivers are
-/// sampled again, independently.
-double sampling_error(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,
-                      const Transfer& transfer, std::size_t& rays, const Progress& progress = {});
 
 } // namespace prt

@@ -1,27 +1,90 @@
-# install() and the package that find_package(prtkit) reads.
+# install(), the package that find_package(prtkit) reads, and pkg-config files: one of each per library, so that a
+# missing package of one does not break another.
 include(CMakePackageConfigHelpers)
 
+# pkg-config's names of packages, and libraries of those that it does not know.
+set(pkg_config_of_OpenEXR OpenEXR)
+set(pkg_config_of_TinyGLTF tinygltf)
+set(pkg_config_of_glfw3 glfw3)
+set(pkg_config_of_Vulkan vulkan)
+set(libraries_of_Threads -pthread)
+set(libraries_of_meshoptimizer -lmeshoptimizer)
+set(libraries_of_Ceres "-lceres -lglog")
+set(libraries_of_embree -lembree3)
+
+# prtkit_links_of(<target>): what linking with an installed <target> takes: `uses`, components of prtkit, and `packages`,
+# names for find_package() or PkgConfig::<module>.
+function(prtkit_links_of target)
+    set(uses "")
+    set(packages "")
+    get_target_property(links ${target} INTERFACE_LINK_LIBRARIES)
+    foreach(link IN LISTS links)
+        string(REGEX REPLACE "^\\$<LINK_ONLY:(.*)>$" "\\1" link "${link}")
+        if(link MATCHES "^prt::(.+)$")
+            list(APPEND uses ${CMAKE_MATCH_1})
+        elseif(link MATCHES "^PkgConfig::")
+            list(APPEND packages ${link})
+        elseif(link MATCHES "^([A-Za-z0-9_]+)::")
+            list(APPEND packages ${CMAKE_MATCH_1})
+        elseif(link STREQUAL "embree")
+            list(APPEND packages embree)
+        elseif(link STREQUAL "glfw")
+            list(APPEND packages glfw3)
+        endif()
+    endforeach()
+    set(uses ${uses} PARENT_SCOPE)
+    set(packages ${packages} PARENT_SCOPE)
+endfunction()
+
+# prtkit_pkg_config(<component>): installs prtkit.pc for the bare runtime, prtkit-<component>.pc for others. All but the C
+# interface are static, so that what they are linked with is required of whoever links them.
+function(prtkit_pkg_config component)
+    set(PC_NAME prtkit-${component})
+    set(PC_LIBS -lprt_${component})
+    if(component STREQUAL "runtime")
+        set(PC_NAME prtkit)
+    elseif(component STREQUAL "c")
+        set(PC_LIBS -lprt)
+    endif()
+    list(TRANSFORM uses PREPEND prtkit-)
+    string(REPLACE prtkit-runtime prtkit PC_REQUIRES "${uses}")
+    foreach(package IN LISTS packages)
+        if(package MATCHES "^PkgConfig::(.+)$")
+            list(APPEND PC_REQUIRES ${CMAKE_MATCH_1})
+        else()
+            list(APPEND PC_REQUIRES ${pkg_config_of_${package}})
+            list(APPEND PC_LIBS ${libraries_of_${package}})
+        endif()
+    endforeach()
+    list(JOIN PC_REQUIRES " " PC_REQUIRES)
+    list(JOIN PC_LIBS " " PC_LIBS)
+    configure_file(cmake/prtkit.pc.in ${PC_NAME}.pc @ONLY)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${PC_NAME}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endfunction()
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/prtkit)
+file(RELATIVE_PATH prefix_from_pkgconfig ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
 get_property(libraries GLOBAL PROPERTY PRTKIT_LIBRARIES)
+foreach(library IN LISTS libraries)
+    get_target_property(component ${library} EXPORT_NAME)
+    prtkit_links_of(${library})
+    list(APPEND components ${component})
+    string(APPEND component_links "set(prtkit_${component}_uses ${uses})\nset(prtkit_${component}_packages ${packages})\n")
+    install(TARGETS ${library} EXPORT prtkit-${component}
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT prtkit-${component} NAMESPACE prt:: DESTINATION ${package_folder})
+    prtkit_pkg_config(${component})
+endforeach()
+configure_package_config_file(cmake/prtkitConfig.cmake.in prtkitConfig.cmake INSTALL_DESTINATION ${package_folder})
+write_basic_package_version_file(prtkitConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/prtkitConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/prtkitConfigVersion.cmake
+    DESTINATION ${package_folder})
+
 get_property(header_folders GLOBAL PROPERTY PRTKIT_HEADER_FOLDERS)
-install(TARGETS ${libraries} EXPORT prtkit ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY ${header_folders} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY shaders/ DESTINATION ${CMAKE_INSTALL_DATADIR}/prtkit/shaders)
-install(EXPORT prtkit NAMESPACE prt:: FILE prtkitTargets.cmake DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/prtkit)
 foreach(program prt prt-viewer)
     if(TARGET ${program})
         install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
     endif()
-endforeach()
-
-configure_package_config_file(cmake/prtkitConfig.cmake.in prtkitConfig.cmake
-    INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/prtkit)
-write_basic_package_version_file(prtkitConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/prtkitConfig.cmake ${CMAKE_CURRENT_BINARY_DIR}/prtkitConfigVersion.cmake
-    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/prtkit)
-
-# pkg-config: prtkit for the bare runtime in C++, prtkit-c for the C interface.
-file(RELATIVE_PATH prefix_from_pkgconfig ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-foreach(name prtkit prtkit-c)
-    configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
-    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endforeach()

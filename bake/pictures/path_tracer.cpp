@@ -1,10 +1,12 @@
-#include "prt/path_tracer.h"
+// Path tracing: next-event estimation and cosine sampling, combined by the balance heuristic (E. Veach,
+// "Robust Monte Carlo Methods for Light Transport Simulation", 1997).
 
-#include "scene/interpolated.h"
-#include "trace/sample_sequence.h"
+#include "prt/path_tracer.h"
 
 #include "prt/support/parallel.h"
 #include "prt/support/tangent_frame.h"
+#include "scene/interpolated.h"
+#include "trace/sample_sequence.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -63,6 +65,25 @@ struct SurfaceHit {
     bool scatters; ///< that side of it
 };
 
+/// The side of a surface that a path goes on from.
+struct Side {
+    SurfaceHit hit;
+    glm::vec3 normal, face;
+
+    bool faces(const glm::vec3& towards) const {
+        return glm::dot(normal, towards) > 0 && glm::dot(face, towards) > 0;
+    }
+};
+
+struct Path {
+    Ray ray; ///< that comes next
+    glm::vec3 radiance{0}, throughput{1};
+    std::optional<float> density = {}; ///< of the ray's direction by the cosine; none: the camera's own ray
+    int vertices = 0;
+
+    bool from_camera() const { return !density; }
+};
+
 /// What all paths of a picture share.
 struct Tracing {
     const RayScene& rays;
@@ -71,30 +92,38 @@ struct Tracing {
     const DistantLight& light;
     const PathTraceOptions& options;
 
-    std::optional<SurfaceHit> nearest(const glm::vec3& origin, const glm::vec3& direction, float from) const;
+    std::optional<SurfaceHit> nearest(const Ray& ray) const;
     /// Share of light that reaches `origin` from far away along `direction`.
     float transmittance(const glm::vec3& origin, const glm::vec3& direction) const;
     glm::vec3 origin_off(const SurfaceHit& hit, const glm::vec3& direction) const;
-    glm::vec3 path(const glm::vec3& origin, const glm::vec3& direction, PathSamples& samples) const;
+    /// What the camera sees of a surface, which need not be what light sees of it.
+    Scattering seen_scattering(const SurfaceHit& hit) const;
+    void add_background(Path& path) const;
+    /// One of the two sides, by how much it scatters; none where neither does.
+    std::optional<Side> choose_side(const SurfaceHit& hit, Path& path, PathSamples& samples) const;
+    void add_direct_light(const Side& side, Path& path, PathSamples& samples) const;
+    /// Goes on in a direction by the cosine; false where the path ends.
+    bool scatter(const Side& side, Path& path, PathSamples& samples) const;
+    /// That a path through the ray of the camera brings.
+    glm::vec3 radiance(const Ray& camera_ray, PathSamples& samples) const;
 };
 
-std::optional<SurfaceHit> Tracing::nearest(const glm::vec3& origin, const glm::vec3& direction,
-                                           float from) const {
-    const std::optional<RayHit> met = rays.nearest({origin, direction, from});
+std::optional<SurfaceHit> Tracing::nearest(const Ray& ray) const {
+    const std::optional<RayHit> met = rays.nearest(ray);
     if (!met)
         return std::nullopt;
     SurfaceHit hit;
     hit.id = met->triangle;
     hit.distance = met->distance;
     hit.point = {met->triangle, met->uv, 0};
-    hit.position = origin + direction * met->distance;
+    hit.position = ray.origin + ray.direction * met->distance;
     const RayScene::Triangle triangle = rays.triangle(hit.id);
     const Primitive& primitive = scene.primitives[triangle.primitive];
     const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
     const glm::uvec3& t = primitive.triangles[triangle.triangle];
     hit.face = glm::cross(vertices.positions[t.y] - vertices.positions[t.x],
                           vertices.positions[t.z] - vertices.positions[t.x]);
-    hit.back = glm::dot(hit.face, direction) > 0;
+    hit.back = glm::dot(hit.face, ray.direction) > 0;
     hit.scatters = !hit.back || surfaces.two_sided(hit.id);
     glm::vec3 normal = interpolated(vertices.normals, t, hit.point.uv);
     hit.face = glm::normalize(hit.back ? -hit.face : hit.face);
@@ -123,72 +152,85 @@ glm::vec3 Tracing::origin_off(const SurfaceHit& hit, const glm::vec3& direction)
     return hit.position + hit.face * (side * rays.triangle_offset(hit.id));
 }
 
-glm::vec3 Tracing::path(const glm::vec3& camera, const glm::vec3& view, PathSamples& samples) const {
-    glm::vec3 radiance(0), throughput(1), origin = camera, direction = view;
-    float from = 0;
-    float cosine_density = 0; // of `direction`; 0: the camera's own ray
-    int vertex = 0;
+Scattering Tracing::seen_scattering(const SurfaceHit& hit) const {
+    if (!surfaces.transmits(hit.id)) // all of the base color, as renderers multiply by it
+        return {options.textured ? surfaces.base_color(hit.point) : glm::vec3(1), glm::vec3(0)};
+    const Scattering scattering = surfaces.scattering(hit.point);
+    if (options.textured)
+        return scattering;
+    // The share of the base color that each side has.
+    const glm::vec3 base = glm::max(surfaces.base_color(hit.point), glm::vec3(1e-6f));
+    return {scattering.reflected / base, scattering.transmitted / base};
+}
+
+void Tracing::add_background(Path& path) const {
+    if (path.from_camera() && !options.background)
+        return;
+    const float light_density = path.from_camera() ? 0.0f : light.density(path.ray.direction);
+    const float weight = path.from_camera() ? 1.0f : *path.density / (*path.density + light_density);
+    path.radiance += path.throughput * light.radiance(path.ray.direction) * weight;
+}
+
+std::optional<Side> Tracing::choose_side(const SurfaceHit& hit, Path& path, PathSamples& samples) const {
+    const Scattering scattering = path.from_camera() ? seen_scattering(hit) : surfaces.scattering(hit.point);
+    const float reflected = largest(scattering.reflected), transmitted = largest(scattering.transmitted);
+    if (!(reflected + transmitted > 0))
+        return std::nullopt;
+    const bool through = samples.next().x * (reflected + transmitted) >= reflected;
+    const float share = (through ? transmitted : reflected) / (reflected + transmitted);
+    path.throughput *= (through ? scattering.transmitted : scattering.reflected) / share;
+    return through ? Side{hit, -hit.normal, -hit.face} : Side{hit, hit.normal, hit.face};
+}
+
+void Tracing::add_direct_light(const Side& side, Path& path, PathSamples& samples) const {
+    for (const Sun& sun : light.suns())
+        if (side.faces(sun.towards))
+            path.radiance += path.throughput * sun.irradiance * glm::dot(side.normal, sun.towards) / kPi *
+                             transmittance(origin_off(side.hit, sun.towards), sun.towards);
+    const DistantLight::Sample sample = light.sample(samples.next());
+    if (sample.density > 0 && side.faces(sample.direction)) {
+        const float cosine = glm::dot(side.normal, sample.direction) / kPi;
+        path.radiance += path.throughput * sample.radiance * (cosine / (sample.density + cosine)) *
+                         transmittance(origin_off(side.hit, sample.direction), sample.direction);
+    }
+}
+
+bool Tracing::scatter(const Side& side, Path& path, PathSamples& samples) const {
+    const glm::vec3 direction = cosine_direction(side.normal, samples.next());
+    if (!side.faces(direction)) // below the facet, though above the interpolated normal
+        return false;
+    path.density = glm::dot(side.normal, direction) / kPi;
+    path.ray = {origin_off(side.hit, direction), direction};
+    if (++path.vertices < kFirstRoulette || options.bounces >= 0)
+        return true;
+    const float survival = std::min(0.98f, largest(path.throughput));
+    if (samples.next().x >= survival)
+        return false;
+    path.throughput /= survival;
+    return true;
+}
+
+glm::vec3 Tracing::radiance(const Ray& camera_ray, PathSamples& samples) const {
+    Path path{camera_ray};
     for (;;) {
-        const std::optional<SurfaceHit> hit = nearest(origin, direction, from);
+        const std::optional<SurfaceHit> hit = nearest(path.ray);
         if (!hit) {
-            const bool seen = cosine_density == 0;
-            if (seen && !options.background)
-                return radiance;
-            const float light_density = seen ? 0.0f : light.density(direction);
-            const float weight = seen ? 1.0f : cosine_density / (cosine_density + light_density);
-            return radiance + throughput * light.radiance(direction) * weight;
+            add_background(path);
+            return path.radiance;
         }
-        const bool seen = cosine_density == 0;
         // The camera looks through back sides, as pictures do; light does not pass them.
-        if ((seen && !hit->scatters) || samples.next().x >= surfaces.coverage(hit->point)) {
-            from = std::nextafter(hit->distance, kInfinity);
+        if ((path.from_camera() && !hit->scatters) || samples.next().x >= surfaces.coverage(hit->point)) {
+            path.ray.from = std::nextafter(hit->distance, kInfinity);
             continue;
         }
-        if (!hit->scatters || (options.bounces >= 0 && vertex > options.bounces))
-            return radiance;
-        Scattering scattering = surfaces.scattering(hit->point);
-        if (seen && !surfaces.transmits(hit->id)) { // all of the base colour, as renderers multiply by it
-            scattering = {options.textured ? surfaces.base_color(hit->point) : glm::vec3(1), glm::vec3(0)};
-        } else if (seen && !options.textured) { // the share of the base colour that each side has
-            const glm::vec3 base = glm::max(surfaces.base_color(hit->point), glm::vec3(1e-6f));
-            scattering = {scattering.reflected / base, scattering.transmitted / base};
-        }
-        const float reflected = largest(scattering.reflected), transmitted = largest(scattering.transmitted);
-        if (!(reflected + transmitted > 0))
-            return radiance;
-        // One of the two sides, by how much it scatters.
-        const bool through = samples.next().x * (reflected + transmitted) >= reflected;
-        const float share = (through ? transmitted : reflected) / (reflected + transmitted);
-        throughput *= (through ? scattering.transmitted : scattering.reflected) / share;
-        const glm::vec3 normal = through ? -hit->normal : hit->normal,
-                        face = through ? -hit->face : hit->face;
-
-        const auto lit = [&](const glm::vec3& towards) {
-            return glm::dot(normal, towards) > 0 && glm::dot(face, towards) > 0;
-        };
-        for (const Sun& sun : light.suns())
-            if (lit(sun.towards))
-                radiance += throughput * sun.irradiance * glm::dot(normal, sun.towards) / kPi *
-                            transmittance(origin_off(*hit, sun.towards), sun.towards);
-        const DistantLight::Sample sample = light.sample(samples.next());
-        if (sample.density > 0 && lit(sample.direction)) {
-            const float cosine = glm::dot(normal, sample.direction) / kPi;
-            radiance += throughput * sample.radiance * (cosine / (sample.density + cosine)) *
-                        transmittance(origin_off(*hit, sample.direction), sample.direction);
-        }
-
-        direction = cosine_direction(normal, samples.next());
-        if (!lit(direction)) // below the facet, though above the interpolated normal
-            return radiance;
-        cosine_density = glm::dot(normal, direction) / kPi;
-        origin = origin_off(*hit, direction);
-        from = 0;
-        if (++vertex >= kFirstRoulette && options.bounces < 0) {
-            const float survival = std::min(0.98f, largest(throughput));
-            if (samples.next().x >= survival)
-                return radiance;
-            throughput /= survival;
-        }
+        if (!hit->scatters || (options.bounces >= 0 && path.vertices > options.bounces))
+            return path.radiance;
+        const std::optional<Side> side = choose_side(*hit, path, samples);
+        if (!side)
+            return path.radiance;
+        add_direct_light(*side, path, samples);
+        if (!scatter(*side, path, samples))
+            return path.radiance;
     }
 }
 
@@ -217,7 +259,7 @@ void PathTracer::add_pass(int threads, std::stop_token stop) {
                 const glm::dvec2 at = options_.antialiased ? glm::dvec2(samples.next()) : glm::dvec2(0.5);
                 const glm::vec3 view =
                     unit_direction(frame_, options_, x + at.x, static_cast<double>(y) + at.y);
-                sums_[i] += tracing.path(options_.camera.position, view, samples);
+                sums_[i] += tracing.radiance({options_.camera.position, view}, samples);
             }
             ++counts_[y];
         }
@@ -238,12 +280,11 @@ std::vector<bool> PathTracer::surface_mask() const {
     std::vector<bool> mask;
     for (int y = 0; y < options_.height; ++y)
         for (int x = 0; x < options_.width; ++x) {
-            const glm::vec3 view = unit_direction(frame_, options_, x + 0.5, y + 0.5);
-            float from = 0;
-            auto hit = tracing.nearest(options_.camera.position, view, from);
+            Ray ray{options_.camera.position, unit_direction(frame_, options_, x + 0.5, y + 0.5)};
+            auto hit = tracing.nearest(ray);
             while (hit && (!hit->scatters || scene_.surfaces().coverage(hit->point) < 0.5f)) {
-                from = std::nextafter(hit->distance, kInfinity);
-                hit = tracing.nearest(options_.camera.position, view, from);
+                ray.from = std::nextafter(hit->distance, kInfinity);
+                hit = tracing.nearest(ray);
             }
             mask.push_back(hit.has_value());
         }

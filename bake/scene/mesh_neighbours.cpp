@@ -1,3 +1,5 @@
+// Finds which receivers hang together, across seams of the mesh.
+
 #include "scene/mesh_neighbours.h"
 
 #include <algorithm>
@@ -24,57 +26,20 @@ std::vector<std::uint32_t> places_of(const Receivers& receivers, std::size_t fro
     return place;
 }
 
-} // namespace
-
-MeshNeighbours::MeshNeighbours(const Surfaces& surfaces, const Receivers& receivers, std::size_t fronts)
-    : place_(places_of(receivers, fronts)), first_(receivers.size() + 1, 0) {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-    edges.reserve(6 * surfaces.triangles());
+std::vector<Edge> edges_between(std::span<const std::uint32_t> place, const Surfaces& surfaces) {
+    std::vector<Edge> edges;
+    edges.reserve(3 * surfaces.triangles());
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
         const glm::uvec3& c = surfaces.corners(t);
         for (int i = 0; i < 3; ++i)
-            for (const int j : {(i + 1) % 3, (i + 2) % 3})
-                if (place_[c[i]] != place_[c[j]])
-                    edges.emplace_back(place_[c[i]], place_[c[j]]);
+            edges.push_back({place[c[i]], place[c[(i + 1) % 3]]});
     }
-    std::sort(edges.begin(), edges.end());
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    for (const auto& [from, to] : edges)
-        ++first_[from + 1];
-    for (std::size_t i = 1; i < first_.size(); ++i)
-        first_[i] += first_[i - 1];
-    neighbours_.reserve(edges.size());
-    for (const auto& [from, to] : edges)
-        neighbours_.push_back(to);
+    return unique_edges(std::move(edges));
 }
 
-Refill::Refill(const MeshNeighbours& neighbours, const std::vector<bool>& sealed) {
-    std::vector<bool> known(sealed.size());
-    std::vector<std::uint32_t> waiting;
-    for (std::uint32_t p = 0; p < sealed.size(); ++p) {
-        known[p] = !sealed[p];
-        if (sealed[p])
-            waiting.push_back(p);
-    }
-    while (!waiting.empty()) {
-        const std::size_t before = steps_.size();
-        std::vector<std::uint32_t> still;
-        for (const std::uint32_t p : waiting) {
-            Step step{p, {}};
-            for (const std::uint32_t q : neighbours.of(p))
-                if (known[q])
-                    step.sources.push_back(q);
-            if (step.sources.empty())
-                still.push_back(p);
-            else
-                steps_.push_back(std::move(step));
-        }
-        if (steps_.size() == before)
-            return;
-        for (std::size_t s = before; s < steps_.size(); ++s)
-            known[steps_[s].receiver] = true; // only now: a ring is filled from the one before
-        waiting = std::move(still);
-    }
-}
+} // namespace
+
+MeshNeighbours::MeshNeighbours(const Surfaces& surfaces, const Receivers& receivers, std::size_t fronts)
+    : place_(places_of(receivers, fronts)), adjacency_(edges_between(place_, surfaces), receivers.size()) {}
 
 } // namespace prt

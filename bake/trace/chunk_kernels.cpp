@@ -1,3 +1,5 @@
+// Directions of a chunk of rays, and the sum of their basis functions, as many at a time as registers hold.
+
 #include "trace/chunk_kernels.h"
 
 #include "prt/sh_basis.h"
@@ -89,28 +91,10 @@ PRT_TARGET_CLONES
 void add_basis(int order, const ChunkDirections& directions, int count, const float* weights,
                std::span<double> sums) {
     assert(order >= 1 && order <= kMaxOrder && count <= kChunk);
-    switch (order) {
-    case 1:
-        return add_basis_of_order<1>(directions, count, weights, sums.data());
-    case 2:
-        return add_basis_of_order<2>(directions, count, weights, sums.data());
-    case 3:
-        return add_basis_of_order<3>(directions, count, weights, sums.data());
-    case 4:
-        return add_basis_of_order<4>(directions, count, weights, sums.data());
-    case 5:
-        return add_basis_of_order<5>(directions, count, weights, sums.data());
-    case 6:
-        return add_basis_of_order<6>(directions, count, weights, sums.data());
-    case 7:
-        return add_basis_of_order<7>(directions, count, weights, sums.data());
-    case 8:
-        return add_basis_of_order<8>(directions, count, weights, sums.data());
-    case 9:
-        return add_basis_of_order<9>(directions, count, weights, sums.data());
-    default:
-        return add_basis_of_order<10>(directions, count, weights, sums.data());
-    }
+    with_order(
+        order, [&]<int Order>() __attribute__((always_inline)) {
+            add_basis_of_order<Order>(directions, count, weights, sums.data());
+        });
 }
 
 } // namespace prt

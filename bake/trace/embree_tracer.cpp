@@ -11,6 +11,7 @@
 #include "trace/chunk_kernels.h"
 
 #include <embree3/rtcore.h>
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
@@ -110,52 +111,65 @@ Hit hit_of(const Plan& plan, const glm::vec3& normal, const RTCRayHit16& packet,
 
 constexpr float kLeastTransmittance = PRT_LEAST_TRANSMITTANCE;
 
+/// A packet of rays on their way through what lets a share of them pass.
+struct alignas(64) Walk {
+    int valid[kPacket];
+    RTCRayHit16 packet;
+    float left[kPacket]; ///< share of each ray
+};
+
+/// Notes what the valid rays met. Those of which something is left go on; returns how many.
+int note_hits(const Plan& plan, bool alpha, Walk& walk, Work& work) {
+    RTCRayHit16& packet = walk.packet;
+    int active = 0;
+    for (int lane = 0; lane < kPacket; ++lane) {
+        if (walk.valid[lane] == 0)
+            continue;
+        walk.valid[lane] = 0;
+        if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID)
+            continue;
+        float& left = walk.left[lane];
+        Hit hit = hit_of(plan, work.normal, packet, lane, left);
+        const float coverage =
+            alpha ? plan.surfaces.coverage({hit.triangle, {hit.u, hit.v}, hit.footprint}) : 1.0f;
+        const float passes = left * (1 - coverage);
+        left = passes < kLeastTransmittance ? 0.0f : passes;
+        hit.weight -= left;
+        if (hit.weight > 0)
+            work.hits.push_back(hit);
+        if (left > 0) {
+            packet.ray.tnear[lane] = std::nextafter(packet.ray.tfar[lane], kInfinity);
+            packet.ray.tfar[lane] = kInfinity;
+            walk.valid[lane] = -1;
+            ++active;
+        }
+    }
+    return active;
+}
+
 /// Follows each of the rays [first, end) through cut-outs and blended surfaces until it ends, and notes what
 /// it met.
 void trace_hits(const Plan& plan, int first, int end, Work& work) {
     RTCIntersectContext context = make_context(RTC_INTERSECT_CONTEXT_FLAG_COHERENT);
-    RTCRayHit16 packet;
-    set_origin(packet.ray, work.origin);
+    Walk walk;
+    set_origin(walk.packet.ray, work.origin);
     const bool alpha = plan.surfaces.traits().alpha;
-    alignas(64) int valid[kPacket];
     for (int begin = first; begin < end; begin += kPacket) {
         const int lanes = std::min(kPacket, end - begin);
-        set_directions(packet.ray, work.directions, begin, lanes);
-        float left[kPacket];
+        set_directions(walk.packet.ray, work.directions, begin, lanes);
         for (int lane = 0; lane < kPacket; ++lane) {
-            left[lane] = 1;
-            valid[lane] = lane < lanes ? -1 : 0;
+            walk.left[lane] = 1;
+            walk.valid[lane] = lane < lanes ? -1 : 0;
         }
         int active = lanes;
         while (active > 0) {
-            std::fill_n(packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
-            std::fill_n(packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
-            rtcIntersect16(valid, plan.rays.handle(), &context, &packet);
-            active = 0;
-            for (int lane = 0; lane < kPacket; ++lane) {
-                if (valid[lane] == 0)
-                    continue;
-                valid[lane] = 0;
-                if (packet.hit.geomID[lane] == RTC_INVALID_GEOMETRY_ID)
-                    continue;
-                Hit hit = hit_of(plan, work.normal, packet, lane, left[lane]);
-                const float coverage =
-                    alpha ? plan.surfaces.coverage({hit.triangle, {hit.u, hit.v}, hit.footprint}) : 1.0f;
-                const float passes = left[lane] * (1 - coverage);
-                left[lane] = passes < kLeastTransmittance ? 0.0f : passes;
-                hit.weight -= left[lane];
-                if (hit.weight > 0)
-                    work.hits.push_back(hit);
-                if (left[lane] > 0) {
-                    packet.ray.tnear[lane] = std::nextafter(packet.ray.tfar[lane], kInfinity);
-                    packet.ray.tfar[lane] = kInfinity;
-                    valid[lane] = -1;
-                    ++active;
-                }
-            }
+            std::fill_n(walk.packet.hit.geomID, kPacket, RTC_INVALID_GEOMETRY_ID);
+            std::fill_n(walk.packet.hit.instID[0], kPacket, RTC_INVALID_GEOMETRY_ID);
+            rtcIntersect16(walk.valid, plan.rays.handle(), &context, &walk.packet);
+            active = note_hits(plan, alpha, walk, work);
         }
         for (int lane = 0; lane < lanes; ++lane)
-            work.blocked[begin + lane] = 1 - left[lane];
+            work.blocked[begin + lane] = 1 - walk.left[lane];
     }
 }
 
@@ -193,46 +207,60 @@ int keep_shares(Work& work, int count, bool of_blocked, bool& whole) {
     return static_cast<int>(kept);
 }
 
+/// Finds what the rays of `chunk`, in work.directions, meet.
+void trace_chunk(const Plan& plan, const SobolChunk& chunk, bool with_hits, Work& work) {
+    if (plan.surfaces.traits().alpha)
+        trace_hits(plan, 0, chunk.rays, work);
+    else if (with_hits)
+        trace_some_hits(plan, chunk, work);
+    else
+        trace_occlusion(plan, 0, chunk.rays, work);
+}
+
+/// Lobes of the rays of a receiver, [order²].
+struct Sums {
+    std::array<double, kMaxOrder * kMaxOrder> open{}, blocked{};
+    int control = 0; ///< rays of the chunks that use the control variate
+};
+
+/// Adds the blocked or the open rays of a chunk, whichever are fewer.
+void add_chunk(int order, int rays, Work& work, Sums& sums) {
+    double hits = 0;
+    for (int i = 0; i < rays; ++i)
+        hits += static_cast<double>(work.blocked[i]);
+    const bool mostly_open = 2 * hits <= rays;
+    bool whole = true;
+    const int kept = keep_shares(work, rays, mostly_open, whole);
+    add_basis(order, work.directions, kept, whole ? nullptr : work.blocked,
+              mostly_open ? sums.blocked : sums.open);
+    sums.control += mostly_open ? rays : 0;
+}
+
 void trace_receiver(const Plan& plan, const Receivers& receivers, std::uint32_t index, bool with_hits,
                     Work& work, std::span<float> vector) {
     const TraceOptions& options = plan.options;
-    const auto coefficients = static_cast<std::size_t>(coefficient_count(options.order));
-    std::array<double, kMaxOrder * kMaxOrder> lobe{}, open{}, blocked{};
     work.normal = receivers.normals[index];
     work.origin = plan.rays.ray_origin(receivers, index);
-    clamped_cosine_lobe(options.order, glm::dvec3(work.normal), lobe);
-    const TangentFrame frame = tangent_frame(work.normal);
     work.hits.clear();
+    const TangentFrame frame = tangent_frame(work.normal);
     const std::uint32_t seed = receiver_seed(index, options.seed);
-
-    int control = 0; // rays of the chunks that use the control variate
+    Sums sums;
     for (int c = 0; c < plan.chunks(); ++c) {
         const SobolChunk& chunk = plan.chunk(c);
         const Stopwatch trace;
         generate_directions(chunk, sobol_offset(options.first_ray + static_cast<std::uint32_t>(c * kChunk)),
                             seed, frame, work.directions);
-        if (plan.surfaces.traits().alpha) {
-            trace_hits(plan, 0, chunk.rays, work);
-        } else if (with_hits) {
-            trace_some_hits(plan, chunk, work);
-        } else {
-            trace_occlusion(plan, 0, chunk.rays, work);
-        }
+        trace_chunk(plan, chunk, with_hits, work);
         work.seconds_trace += trace.seconds();
         const Stopwatch accumulate;
-        double hits = 0;
-        for (int i = 0; i < chunk.rays; ++i)
-            hits += static_cast<double>(work.blocked[i]);
-        const bool mostly_open = 2 * hits <= chunk.rays;
-        bool whole = true;
-        const int kept = keep_shares(work, chunk.rays, mostly_open, whole);
-        add_basis(options.order, work.directions, kept, whole ? nullptr : work.blocked,
-                  mostly_open ? blocked : open);
-        control += mostly_open ? chunk.rays : 0;
+        add_chunk(options.order, chunk.rays, work, sums);
         work.seconds_accumulate += accumulate.seconds();
     }
-    for (std::size_t i = 0; i < coefficients; ++i)
-        vector[i] = static_cast<float>((control * lobe[i] - blocked[i] + open[i]) / options.rays);
+    std::array<double, kMaxOrder * kMaxOrder> lobe{};
+    clamped_cosine_lobe(options.order, glm::dvec3(work.normal), lobe);
+    for (std::size_t i = 0; i < vector.size(); ++i)
+        vector[i] =
+            static_cast<float>((sums.control * lobe[i] - sums.blocked[i] + sums.open[i]) / options.rays);
 }
 
 } // namespace
@@ -242,7 +270,7 @@ EmbreeTracer::EmbreeTracer(const TraceScene& scene) : scene_(scene) {
 }
 
 std::string EmbreeTracer::device() const {
-    return "Embree 3, " + std::to_string(thread_count(scene_.threads())) + " threads";
+    return fmt::format("Embree 3, {} threads", thread_count(scene_.threads()));
 }
 
 std::size_t EmbreeTracer::batch_size(const TraceOptions& options) const {

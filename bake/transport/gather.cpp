@@ -1,8 +1,9 @@
+// Gathers the light of surfaces into rows, one for each receiver (docs/math.md, section 7).
+
 #include "transport/gather.h"
 
 #include "prt/sh_basis.h"
 #include "prt/support/parallel.h"
-#include "scene/ray_starts.h"
 #include "transport/sparse_rows.h"
 
 #include <algorithm>
@@ -55,38 +56,6 @@ private:
 };
 
 } // namespace
-
-std::uint32_t TransportReceivers::back_of(std::uint32_t front) const {
-    return back.empty() ? kNoReceiver : back[front];
-}
-
-TransportReceivers transport_receivers(Receivers fronts, const Surfaces& surfaces) {
-    TransportReceivers result{std::move(fronts), {}, 0};
-    result.fronts = result.receivers.size();
-    Receivers& all = result.receivers;
-    std::vector<glm::vec3> starts;
-    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
-        if (!surfaces.two_sided(t))
-            continue;
-        if (result.back.empty()) {
-            result.back.assign(result.fronts, kNoReceiver);
-            if (!all.starts.empty())
-                starts = ray_starts(surfaces.scene(), Side::back);
-        }
-        for (int corner = 0; corner < 3; ++corner) {
-            const std::uint32_t front = surfaces.corners(t)[corner];
-            if (result.back[front] != kNoReceiver)
-                continue;
-            result.back[front] = static_cast<std::uint32_t>(all.size());
-            all.positions.push_back(all.positions[front]);
-            all.normals.push_back(-all.normals[front]);
-            all.areas.push_back(all.areas[front]);
-            if (!starts.empty())
-                all.starts.push_back(starts[front]);
-        }
-    }
-    return result;
-}
 
 std::vector<glm::vec3> shared_reflectance(const Surfaces& surfaces, const TransportReceivers& receivers) {
     std::vector<glm::vec3> reflectance(receivers.receivers.size(), glm::vec3(-1));

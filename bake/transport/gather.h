@@ -4,6 +4,7 @@
 
 #include "prt/surfaces.h"
 #include "prt/tracer.h"
+#include "transport/transport_receivers.h"
 
 #include <glm/vec3.hpp>
 
@@ -13,21 +14,6 @@
 #include <vector>
 
 namespace prt {
-
-/// Receivers of the transport: those of the scene, then the back sides of those on surfaces that scatter on
-/// both sides.
-struct TransportReceivers {
-    Receivers receivers;
-    std::vector<std::uint32_t>
-        back; ///< [scene's receivers]: index of the back side, kNoReceiver where none is
-    std::size_t fronts = 0;
-
-    std::uint32_t back_of(std::uint32_t front) const;
-};
-inline constexpr std::uint32_t kNoReceiver = ~0u;
-
-/// Adds back sides to `fronts` where `surfaces` scatter on both sides.
-TransportReceivers transport_receivers(Receivers fronts, const Surfaces& surfaces);
 
 /// Reflectance of the surface at each receiver, [receivers], where it is the same wherever the receiver is a
 /// corner; empty where some surface varies within a triangle or lets light through.

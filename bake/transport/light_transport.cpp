@@ -1,3 +1,5 @@
+// Sums bounces: one after the other, or all at once by a Krylov solver (docs/math.md, section 7).
+
 #include "transport/light_transport.h"
 
 #include "prt/bake.h"
@@ -48,11 +50,11 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
 }
 
 /// Adds bounce after bounce, until so little remains.
-BounceResult bounce_often(Transfer& transfer, const TransportOperators& operators, int bounces,
-                          double least_remaining, int threads, const Progress& progress) {
+Propagated bounce_often(Transfer transfer, const TransportOperators& operators, int bounces,
+                        double least_remaining, int threads, const Progress& progress) {
     const ColumnOperator bounce = bounce_operator(operators, transfer.order, transfer.channels, threads);
     const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.order));
-    BounceResult result;
+    Propagated result;
     std::vector<float> now = transfer.vectors, next(now.size());
     double before = largest_norm(now, coefficients);
     while (result.bounces < bounces) {
@@ -68,24 +70,26 @@ BounceResult bounce_often(Transfer& transfer, const TransportOperators& operator
                            : ratio < 1               ? energy * ratio / (1 - ratio) / total
                                                      : 1;
         before = energy;
-        if (result.remaining < least_remaining)
-            return result;
+        result.converged = result.remaining < least_remaining;
+        if (result.converged)
+            break;
         progress.update(static_cast<double>(result.bounces) / bounces);
     }
-    result.converged = least_remaining == 0;
+    result.converged |= least_remaining == 0;
+    result.transfer = std::move(transfer);
     return result;
 }
 
 /// The sum over all bounces (docs/math.md, eq. 21).
-BounceResult bounce_endlessly(Transfer& transfer, const TransportOperators& operators, int threads,
-                              const Progress& progress) {
+Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operators, int threads,
+                            const Progress& progress) {
     // A few coefficients at a time, since the solver keeps a vector for each of its steps.
     const int order = std::min(transfer.order, 3), width = coefficient_count(order),
               coefficients = coefficient_count(transfer.order), channels = transfer.channels;
     const auto columns = static_cast<std::size_t>(channels * width);
     std::vector<float> some(transfer.receivers() * columns);
     const ColumnOperator bounce = bounce_operator(operators, order, channels, threads);
-    BounceResult result;
+    Propagated result;
     for (int first = 0; first < coefficients; first += width) {
         progress.update(static_cast<double>(first) / coefficients);
         const auto exchange = [&](auto&& visit) { // the last ones may be fewer
@@ -99,11 +103,8 @@ BounceResult bounce_endlessly(Transfer& transfer, const TransportOperators& oper
                                 : nullptr);
         };
         exchange([](float& here, const float* there) { here = there ? *there : 0.0f; });
-        const KrylovResult solved =
-            solve_fixed_point(bounce, some, {.columns = columns, .threads = threads, .check = [&] {
-                                                 if (progress.stop.stop_requested())
-                                                     throw Cancelled();
-                                             }});
+        const KrylovResult solved = solve_fixed_point(
+            bounce, some, {.columns = columns, .threads = threads, .check = [&] { progress.check(); }});
         exchange([](float here, float* there) {
             if (there)
                 *there = here;
@@ -112,24 +113,25 @@ BounceResult bounce_endlessly(Transfer& transfer, const TransportOperators& oper
         result.remaining = std::max(result.remaining, solved.remaining);
         result.converged = result.converged && solved.converged;
     }
+    result.transfer = std::move(transfer);
     return result;
 }
 
 } // namespace
 
-BounceResult propagate(Transfer& transfer, const TransportOperators& operators, int bounces, int threads,
-                       const Progress& progress) {
-    exit_from_incident(operators, transfer.order, transfer.channels, transfer.vectors, threads);
+Propagated propagate(Transfer direct, const TransportOperators& operators, int bounces, int threads,
+                     const Progress& progress) {
+    exit_from_incident(operators, direct.order, direct.channels, direct.vectors, threads);
     if (!operators.gather || bounces == 0)
-        return {};
+        return {.transfer = std::move(direct)};
     if (bounces != kEndlessBounces)
-        return bounce_often(transfer, operators, bounces, 0, threads, progress);
+        return bounce_often(std::move(direct), operators, bounces, 0, threads, progress);
     // Media may return more light than they took (docs/math.md, section 8): a solution of the equation need
     // then be no sum over bounces, so that the sum itself is taken.
     constexpr int kMostBounces = 10000;
     return operators.diffusion.empty()
-               ? bounce_endlessly(transfer, operators, threads, progress)
-               : bounce_often(transfer, operators, kMostBounces, 1e-5, threads, progress);
+               ? bounce_endlessly(std::move(direct), operators, threads, progress)
+               : bounce_often(std::move(direct), operators, kMostBounces, 1e-5, threads, progress);
 }
 
 void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers) {

@@ -4,22 +4,25 @@
 
 #include "prt/support/progress.h"
 #include "prt/transfer.h"
-#include "scene/mesh_neighbours.h"
+#include "scene/refill.h"
 #include "transport/diffusion.h"
 #include "transport/gather.h"
+
+#include <span>
 
 namespace prt {
 
 /// The linear operators of a scene. Incident transfer becomes exit transfer by `refill`, then `diffusion`;
 /// exit transfer becomes the incident transfer of the next bounce by `gather`.
 struct TransportOperators {
-    Refill refill;
-    std::vector<DiffusionOperator> diffusion;
+    const Refill& refill;
+    std::span<const DiffusionOperator> diffusion;
     const GatherOperator* gather = nullptr; ///< null: no bounces
 };
 
-struct BounceResult {
-    int bounces = 0; ///< done; for endless ones how often the solver applied the operators
+struct Propagated {
+    Transfer transfer; ///< exit transfer, direct light and bounces
+    int bounces = 0;   ///< done; for endless ones how often the solver applied the operators
     /// Energy of the bounces not done, estimated as a geometric series: largest norm of a receiver's
     /// transfer, over that of the sum. For endless ones the estimated error of the solution, over its largest
     /// element.
@@ -27,10 +30,9 @@ struct BounceResult {
     bool converged = true; ///< endless bounces reached the solver's tolerance
 };
 
-/// Replaces the direct transfer in `transfer` by the sum over direct light and `bounces` bounces (or
-/// kEndlessBounces).
-BounceResult propagate(Transfer& transfer, const TransportOperators& operators, int bounces, int threads,
-                       const Progress& progress);
+/// The sum over `direct` light and `bounces` bounces of it (or kEndlessBounces).
+Propagated propagate(Transfer direct, const TransportOperators& operators, int bounces, int threads,
+                     const Progress& progress);
 
 /// Light through thin sheets: replaces the transfer of front receivers by (1 - f) T_front + f c/rho T_back,
 /// so that it serves a receiver of base colour rho whose surface transmits f c (docs/math.md, eq. 22).

@@ -1,3 +1,5 @@
+// Multiplies sparse rows with transfer vectors, a register at a time.
+
 #include "transport/sparse_rows.h"
 
 #include "prt/sh_basis.h"
@@ -72,28 +74,10 @@ template <int Order>
 PRT_TARGET_CLONES
 void apply_rows(int order, int channels, bool one_weight, std::span<const SparseRow> rows, const float* from,
                 float* to) {
-    switch (order) {
-    case 1:
-        return apply_rows_of_order<1>(channels, one_weight, rows, from, to);
-    case 2:
-        return apply_rows_of_order<2>(channels, one_weight, rows, from, to);
-    case 3:
-        return apply_rows_of_order<3>(channels, one_weight, rows, from, to);
-    case 4:
-        return apply_rows_of_order<4>(channels, one_weight, rows, from, to);
-    case 5:
-        return apply_rows_of_order<5>(channels, one_weight, rows, from, to);
-    case 6:
-        return apply_rows_of_order<6>(channels, one_weight, rows, from, to);
-    case 7:
-        return apply_rows_of_order<7>(channels, one_weight, rows, from, to);
-    case 8:
-        return apply_rows_of_order<8>(channels, one_weight, rows, from, to);
-    case 9:
-        return apply_rows_of_order<9>(channels, one_weight, rows, from, to);
-    default:
-        return apply_rows_of_order<10>(channels, one_weight, rows, from, to);
-    }
+    with_order(
+        order, [&]<int Order>() __attribute__((always_inline)) {
+            apply_rows_of_order<Order>(channels, one_weight, rows, from, to);
+        });
 }
 
 } // namespace prt

@@ -23,8 +23,8 @@ struct BakeArguments {
 const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
 const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
                                                         {"raster", BakeMethod::raster}};
-const std::map<std::string, Storage> kStorages = {
-    {"auto", Storage::automatic}, {"float32", Storage::float32}, {"float16", Storage::float16}};
+const std::map<std::string, std::optional<TransferStorage>> kStorages = {
+    {"auto", std::nullopt}, {"float32", TransferStorage::float32}, {"float16", TransferStorage::float16}};
 const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
                                                          {"ignore", BadTextures::ignore}};
 
@@ -77,7 +77,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "--subsurface",
             [&options](const std::vector<std::string>& texts) {
                 for (const std::string& text : texts)
-                    options.subsurface.push_back(parse_medium(text));
+                    options.subsurface.media.push_back(parse_medium(text));
             },
             "light spreads under the surface of a material, or of all: marble, skin1, whole-milk and others, "
             "or "
@@ -85,7 +85,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
         ->allow_extra_args(false) // one each time, so that the scene may follow
         ->type_name("[MATERIAL=]MEDIUM");
     command
-        ->add_option("--metres-per-unit", options.metres_per_unit,
+        ->add_option("--metres-per-unit", options.subsurface.metres_per_unit,
                      "size of the scene's unit, where it is not glTF's metre; only media care")
         ->capture_default_str();
     choice(command, "--bad-textures", options.bad_textures, kBadTextures,
@@ -118,27 +118,27 @@ void add_method(CLI::App* command, BakeOptions& options) {
 }
 
 Json statistics_json(const BakeStatistics& s) {
-    return {{"receivers", s.receivers},
-            {"receivers_traced", s.traced},
-            {"back_sides", s.back_sides},
-            {"receivers_sealed", s.sealed},
-            {"receivers_refilled", s.refilled},
+    return {{"receivers", s.receivers.all},
+            {"receivers_traced", s.receivers.traced},
+            {"back_sides", s.receivers.back_sides},
+            {"receivers_sealed", s.receivers.sealed},
+            {"receivers_refilled", s.receivers.refilled},
             {"triangles", s.triangles},
             {"rays", s.rays},
             {"device", s.device},
-            {"seconds", s.seconds},
-            {"seconds_build", s.seconds_build},
-            {"seconds_trace", s.seconds_tracing.trace},
-            {"seconds_accumulate", s.seconds_tracing.accumulate},
-            {"seconds_transfer", s.seconds_tracing.transfer},
-            {"seconds_transport", s.seconds_transport},
+            {"seconds", s.seconds.all},
+            {"seconds_build", s.seconds.build},
+            {"seconds_trace", s.seconds.tracing.trace},
+            {"seconds_accumulate", s.seconds.tracing.accumulate},
+            {"seconds_transfer", s.seconds.tracing.transfer},
+            {"seconds_transport", s.seconds.transport},
             {"rays_per_second", s.rays_per_second},
             {"mean_visibility", s.mean_visibility},
             {"sampling_error_relative_l2", s.sampling_error},
             {"float16_error_relative_l2", s.rounding_error},
             {"remaining_energy", s.remaining_energy},
-            {"gather_entries", s.gather_entries},
-            {"gather_bytes", s.gather_bytes},
+            {"gather_entries", s.gather.entries},
+            {"gather_bytes", s.gather.bytes},
             {"notices", s.notices}};
 }
 
@@ -155,8 +155,9 @@ void add_sentences(const BakeArguments& a, const BakeResult& result, Report& rep
                     raster ? "directions" : "rays"));
     say(fmt::format("{} on the {}: {{device}}", raster ? "depth maps" : "rays",
                     result.baked.record.backend == Backend::cpu ? "CPU" : "GPU"));
-    if (s.receivers > s.traced)
-        say(fmt::format("{} receivers are on no surface and have zero transfer", s.receivers - s.traced));
+    if (s.receivers.all > s.receivers.traced)
+        say(fmt::format("{} receivers are on no surface and have zero transfer",
+                        s.receivers.all - s.receivers.traced));
     for (std::size_t i = 0; i < s.notices.size(); ++i)
         say(fmt::format("{{notices/{}}}", i));
     say(fmt::format("{{seconds:.3f}} s: build {{seconds_build:.3f}}, trace {{seconds_trace:.3f}}, accumulate "
@@ -168,7 +169,7 @@ void add_sentences(const BakeArguments& a, const BakeResult& result, Report& rep
             "{sampling_error_relative_l2:.3f%} estimated");
     else if (s.sampling_error > 0)
         say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
-    if (s.gather_entries > 0)
+    if (s.gather.entries > 0)
         say("bounces: {gather_entries} pairs of receivers that light each other, {gather_bytes:.1fM} MB; at "
             "most {remaining_energy:.2g%} of a receiver's light is missing");
     say("{mean_visibility:.1f%} of the light of a uniform sky arrives, on average");

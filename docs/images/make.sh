@@ -17,8 +17,8 @@ sky=$work/sky.exr
 bake() { [ -f "$work/$2.baked.glb" ] || "$prt" bake "$work/$1.glb" -o "$work/$2.baked.glb" "${@:3}" >/dev/null; }
 ship() { "$prt" compress "$work/$1.baked.glb" -o "$work/$1.shipped.glb" --preset "$2" >/dev/null; }
 render() { "$prt" render "$work/$1.glb" --env "$sky" -o "$work/$2.png" --size 840x472 --samples 4 "${@:3}"; }
-room_view=(--camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45)
-tree_view=(--camera 1.5,1.7,5.5 --look-at 0,1.9,0)
+room_view=(--camera "1.2,1.9,4.2" --look-at "0,1.8,-5" --fov 45)
+tree_view=(--camera "1.5,1.7,5.5" --look-at "0,1.9,0")
 
 bake knot knot --bounces 1
 bake room room --bounces 3

@@ -1,7 +1,7 @@
 // A game that relights a model: game SHIPPED.glb SKY.exr OUTPUT.png [frames]
 //
-// What an engine does is all here; only the window is missing, so that it runs anywhere: after so many
-// frames, in which the sky turns once, it writes the last as a picture.
+// What an engine does is all here, top to bottom; only the window is missing, so that it runs anywhere: after
+// so many frames, in which the sky turns once, it writes the last as a picture.
 
 #include "prt/constant_former.h"
 #include "prt/dering.h"
@@ -11,6 +11,7 @@
 #include "prt/scene.h"
 #include "prt/sh_rotation.h"
 #include "prt/shader_source.h"
+#include "shared_layout.h" // where the shader has its attributes
 
 #include <epoxy/gl.h>
 #include <glm/glm.hpp>
@@ -20,20 +21,43 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace {
 
 constexpr int kWidth = 640, kHeight = 400;
+constexpr int kConstantsUnit = 0, kClustersUnit = 1; // texture units
 
-const char* const kFragmentShader = R"(#version 330 core
-in vec3 radiance;
-out vec4 pixel;
-uniform vec3 albedo;
-uniform float exposure;
-void main() { pixel = vec4(pow(1.0 - exp(-exposure * albedo * max(radiance, 0.0)), vec3(1.0 / 2.2)), 1.0); })";
+struct World {
+    prt::Scene scene;
+    prt::ClusteredTransfer transfer;
+    prt::Light sky;
+};
 
-GLuint shader(GLenum stage, const std::string& source) {
+struct Mesh {
+    GLuint vertex_array;
+    GLsizei indices;
+    glm::vec3 albedo;
+};
+
+// ---- Once: the model with its transfer, and the sky.
+
+World load(const char* model, const char* sky) {
+    const prt::GltfDocument document = prt::load_gltf(model);
+    prt::Scene scene = prt::extract_scene(document);
+    auto compressed = prt::read_clustered(document, scene);
+    if (!compressed)
+        throw std::runtime_error("the model is not compressed");
+    const prt::Environment environment = prt::load_environment(sky).environment;
+    const prt::Light light = prt::project(environment, compressed->transfer.bases.order);
+    return {std::move(scene), std::move(compressed->transfer), prt::deringed(light)}; // nowhere negative
+}
+
+// ---- Once: the program. prtkit writes the vertex shader for the model, the fragment shader is the game's.
+
+GLuint compile(GLenum stage, const std::string& source) {
     const GLuint name = glCreateShader(stage);
     const char* text = source.c_str();
     glShaderSource(name, 1, &text, nullptr);
@@ -45,18 +69,98 @@ GLuint shader(GLenum stage, const std::string& source) {
     return name;
 }
 
+GLuint link(const prt::ClusteredTransfer& transfer) {
+    std::ifstream file(GAME_FOLDER "/game.frag");
+    const std::string fragment{std::istreambuf_iterator<char>(file), {}};
+    const std::string vertex =
+        prt::relight_shader(transfer, prt::ConstantSource::texture, prt::ShaderLanguage::glsl330);
+    const GLuint program = glCreateProgram();
+    glAttachShader(program, compile(GL_VERTEX_SHADER, vertex));
+    glAttachShader(program, compile(GL_FRAGMENT_SHADER, fragment));
+    glLinkProgram(program);
+    glUseProgram(program);
+    glUniform1i(glGetUniformLocation(program, "prt_constants"), kConstantsUnit);
+    glUniform1i(glGetUniformLocation(program, "prt_clusters"), kClustersUnit);
+    return program;
+}
+
+// ---- Once: vertices. Their weights stand in one buffer for the whole model, their clusters in another.
+
 template <class T>
 GLuint buffer(GLenum target, const std::vector<T>& values) {
     GLuint name = 0;
     glGenBuffers(1, &name);
     glBindBuffer(target, name);
-    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), GL_DYNAMIC_DRAW);
+    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), GL_STATIC_DRAW);
     return name;
 }
 
-/// A texture whose rows are kConstantTextureWidth texels of `values`.
+const void* offset(std::size_t bytes) {
+    return reinterpret_cast<const void*>(bytes);
+}
+
+/// Attributes of packed weights, in the bound buffer: words, four an attribute, that hold the cluster, too.
+void attach_words(const prt::ClusteredReceivers& receivers, std::size_t first) {
+    const std::size_t stride = receivers.stride();
+    for (int word = 0; word < receivers.words; word += 4) {
+        const auto location = static_cast<GLuint>(PRT_LOCATION_WEIGHTS + word / 4);
+        glEnableVertexAttribArray(location);
+        glVertexAttribIPointer(location, std::min(4, receivers.words - word), GL_UNSIGNED_INT,
+                               static_cast<GLsizei>(stride),
+                               offset(first * stride + static_cast<std::size_t>(word) * sizeof(GLuint)));
+    }
+}
+
+/// Attributes of other weights: floats or normalised integers, four an attribute.
+void attach_weights(const prt::ClusteredReceivers& receivers, std::size_t first) {
+    const GLenum type = receivers.format == prt::WeightFormat::float32   ? GL_FLOAT
+                        : receivers.format == prt::WeightFormat::snorm16 ? GL_SHORT
+                                                                         : GL_BYTE;
+    const std::size_t stride = receivers.stride(), size = prt::bytes_per_weight(receivers.format);
+    for (int weight = 0; weight < receivers.components; weight += 4) {
+        const auto location = static_cast<GLuint>(PRT_LOCATION_WEIGHTS + weight / 4);
+        glEnableVertexAttribArray(location);
+        glVertexAttribPointer(location, 4, type, GL_TRUE, static_cast<GLsizei>(stride),
+                              offset(first * stride + static_cast<std::size_t>(weight) * size));
+    }
+}
+
+void attach_transfer(const prt::ClusteredReceivers& receivers, GLuint weights, GLuint clusters,
+                     std::size_t first) {
+    glBindBuffer(GL_ARRAY_BUFFER, weights);
+    if (receivers.format == prt::WeightFormat::packed)
+        return attach_words(receivers, first);
+    attach_weights(receivers, first);
+    glBindBuffer(GL_ARRAY_BUFFER, clusters);
+    glEnableVertexAttribArray(PRT_LOCATION_CLUSTER);
+    glVertexAttribIPointer(PRT_LOCATION_CLUSTER, 1, GL_UNSIGNED_SHORT, 0, offset(first * sizeof(GLushort)));
+}
+
+std::vector<Mesh> upload_meshes(const World& world) {
+    const prt::ClusteredReceivers& receivers = world.transfer.receivers;
+    const GLuint weights = buffer(GL_ARRAY_BUFFER, receivers.weights),
+                 clusters = buffer(GL_ARRAY_BUFFER, receivers.clusters);
+    std::vector<Mesh> meshes;
+    for (const prt::Primitive& primitive : world.scene.primitives) {
+        const prt::VertexArray& vertices = world.scene.vertex_arrays[primitive.vertices];
+        Mesh mesh{0, static_cast<GLsizei>(3 * primitive.triangles.size()),
+                  glm::vec3(world.scene.materials[primitive.material].base_color)};
+        glGenVertexArrays(1, &mesh.vertex_array);
+        glBindVertexArray(mesh.vertex_array);
+        buffer(GL_ARRAY_BUFFER, vertices.positions);
+        glEnableVertexAttribArray(PRT_LOCATION_POSITION);
+        glVertexAttribPointer(PRT_LOCATION_POSITION, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+        attach_transfer(receivers, weights, clusters, vertices.first_receiver);
+        buffer(GL_ELEMENT_ARRAY_BUFFER, primitive.triangles);
+        meshes.push_back(mesh);
+    }
+    return meshes;
+}
+
+// ---- Once: the tables that the vertex shader reads, as textures of kConstantTextureWidth texels a row.
+
 template <class T>
-GLuint texture(int unit, GLint internal, GLenum format, GLenum type, std::vector<T>& values) {
+void make_table(int unit, GLint internal, GLenum format, GLenum type, std::vector<T>& values) {
     const int width = prt::kConstantTextureWidth;
     const int height = (static_cast<int>(values.size()) + width - 1) / width;
     values.resize(static_cast<std::size_t>(width * height));
@@ -67,45 +171,20 @@ GLuint texture(int unit, GLint internal, GLenum format, GLenum type, std::vector
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexImage2D(GL_TEXTURE_2D, 0, internal, width, height, 0, format, type, values.data());
-    return name;
 }
 
-void play(const char* model, const char* sky, const char* picture, int frames) {
-    // Once: model, sky, shader.
-    const prt::GltfDocument document = prt::load_gltf(model);
-    const prt::Scene scene = prt::extract_scene(document);
-    const auto compressed = prt::read_clustered(document, scene);
-    if (!compressed)
-        throw std::runtime_error("the model is not compressed");
-    const prt::ClusteredTransfer& transfer = compressed->transfer;
-    const prt::ConstantFormer former(transfer);
-    const prt::Light light = prt::deringed(
-        prt::project(prt::load_environment(sky).environment, former.order())); // nowhere negative
-
-    const auto context = prt::GlContext::create(prt::GlDevice::any);
-    if (!context)
-        throw std::runtime_error("no OpenGL");
-    const GLuint program = glCreateProgram();
-    glAttachShader(program,
-                   shader(GL_VERTEX_SHADER, prt::relight_shader(transfer, prt::ConstantSource::texture,
-                                                                prt::ShaderLanguage::glsl330)));
-    glAttachShader(program, shader(GL_FRAGMENT_SHADER, kFragmentShader));
-    glLinkProgram(program);
-    glUseProgram(program);
-
-    // Once: the weights of all vertices in one buffer (here packed words), the table of clusters, the
-    // constants.
-    if (transfer.receivers.format != prt::WeightFormat::packed)
-        throw std::runtime_error("this page shows packed weights only");
-    const GLuint words = buffer(GL_ARRAY_BUFFER, transfer.receivers.weights);
+/// Makes both tables. Returns the constants, which change with the light.
+std::vector<glm::vec4> make_tables(const prt::ClusteredTransfer& transfer) {
     auto layouts = prt::cluster_layouts(transfer.bases);
-    std::vector<glm::vec4> constants(former.rows());
-    std::vector<glm::vec3> turned(light.coefficients.size());
-    texture(1, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, layouts);
-    texture(0, GL_RGBA32F, GL_RGBA, GL_FLOAT, constants);
-    glUniform1i(glGetUniformLocation(program, "prt_constants"), 0);
-    glUniform1i(glGetUniformLocation(program, "prt_clusters"), 1);
+    make_table(kClustersUnit, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, layouts);
+    std::vector<glm::vec4> constants(prt::constant_rows(transfer.bases));
+    make_table(kConstantsUnit, GL_RGBA32F, GL_RGBA, GL_FLOAT, constants);
+    return constants;
+}
 
+// ---- Once: a screen and a camera.
+
+void make_screen() {
     GLuint framebuffer = 0, targets[2] = {};
     glGenFramebuffers(1, &framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -118,64 +197,55 @@ void play(const char* model, const char* sky, const char* picture, int frames) {
     }
     glViewport(0, 0, kWidth, kHeight);
     glEnable(GL_DEPTH_TEST);
+}
 
-    struct Mesh {
-        GLuint vertex_array;
-        GLsizei indices;
-        glm::vec3 albedo;
-    };
-    std::vector<Mesh> meshes;
-    for (const prt::Primitive& primitive : scene.primitives) {
-        const prt::VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
-        Mesh mesh{0, static_cast<GLsizei>(3 * primitive.triangles.size()),
-                  glm::vec3(scene.materials[primitive.material].base_color)};
-        glGenVertexArrays(1, &mesh.vertex_array);
-        glBindVertexArray(mesh.vertex_array);
-        buffer(GL_ARRAY_BUFFER, vertices.positions);
-        glEnableVertexAttribArray(0);
-        glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-        glBindBuffer(GL_ARRAY_BUFFER, words);
-        const std::size_t stride = transfer.receivers.stride();
-        for (int first = 0; first < transfer.receivers.words; first += 4) { // four words an attribute
-            const auto location = static_cast<GLuint>(4 + first / 4);
-            glEnableVertexAttribArray(location);
-            glVertexAttribIPointer(location, std::min(4, transfer.receivers.words - first), GL_UNSIGNED_INT,
-                                   static_cast<GLsizei>(stride),
-                                   reinterpret_cast<const void*>(vertices.first_receiver * stride +
-                                                                 static_cast<std::size_t>(first) * 4));
-        }
-        buffer(GL_ELEMENT_ARRAY_BUFFER, primitive.triangles);
-        meshes.push_back(mesh);
-    }
-    const prt::Bounds box = prt::bounds(scene);
-    const glm::vec3 centre = 0.5f * (box.low + box.high);
+void set_camera(GLuint program, const World& world) {
+    const prt::Bounds box = prt::bounds(world.scene);
+    const glm::vec3 center = 0.5f * (box.low + box.high);
     const float size = glm::length(box.high - box.low);
     const glm::mat4 view_projection =
         glm::perspective(0.6f, float(kWidth) / float(kHeight), 0.01f * size, 10 * size) *
-        glm::lookAt(centre + size * glm::vec3(0.6f, 0.6f, 1.1f), centre, glm::vec3(0, 1, 0));
+        glm::lookAt(center + size * glm::vec3(0.6f, 0.6f, 1.1f), center, glm::vec3(0, 1, 0));
     glUniformMatrix4fv(glGetUniformLocation(program, "view_projection"), 1, GL_FALSE,
                        glm::value_ptr(view_projection));
-    const float mean = glm::dot(light.coefficients[0], glm::vec3(0.2126f, 0.7152f, 0.0722f)) * 0.282095f;
+    // The mean luminance of the sky is its first coefficient times the first basis function.
+    const float mean = glm::dot(world.sky.coefficients[0], glm::vec3(0.2126f, 0.7152f, 0.0722f)) * 0.282095f;
     glUniform1f(glGetUniformLocation(program, "exposure"), 1.5f / mean);
+}
 
-    // Every frame: turn the light, form the constants, upload, draw.
-    for (int frame = 0; frame < frames; ++frame) {
-        prt::ShRotation::about_y(light.order, glm::two_pi<double>() * (frame + 1) / frames)
-            .apply(light.coefficients, turned);
-        former.form(turned, constants);
-        glActiveTexture(GL_TEXTURE0);
-        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, prt::kConstantTextureWidth,
-                        static_cast<GLsizei>(constants.size()) / prt::kConstantTextureWidth, GL_RGBA,
-                        GL_FLOAT, constants.data());
-        glClearColor(0.05f, 0.06f, 0.08f, 1);
-        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-        for (const Mesh& mesh : meshes) {
-            glUniform3fv(glGetUniformLocation(program, "albedo"), 1, glm::value_ptr(mesh.albedo));
-            glBindVertexArray(mesh.vertex_array);
-            glDrawElements(GL_TRIANGLES, mesh.indices, GL_UNSIGNED_INT, nullptr);
-        }
+// ---- Every frame: upload the constants of the light that is, draw.
+
+void draw(GLuint program, const std::vector<Mesh>& meshes, const std::vector<glm::vec4>& constants) {
+    glActiveTexture(GL_TEXTURE0 + kConstantsUnit);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, prt::kConstantTextureWidth,
+                    static_cast<GLsizei>(constants.size()) / prt::kConstantTextureWidth, GL_RGBA, GL_FLOAT,
+                    constants.data());
+    glClearColor(0.05f, 0.06f, 0.08f, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    for (const Mesh& mesh : meshes) {
+        glUniform3fv(glGetUniformLocation(program, "albedo"), 1, glm::value_ptr(mesh.albedo));
+        glBindVertexArray(mesh.vertex_array);
+        glDrawElements(GL_TRIANGLES, mesh.indices, GL_UNSIGNED_INT, nullptr);
     }
+}
 
+void play(const World& world, int frames) {
+    make_screen();
+    const GLuint program = link(world.transfer);
+    set_camera(program, world);
+    const std::vector<Mesh> meshes = upload_meshes(world);
+    std::vector<glm::vec4> constants = make_tables(world.transfer);
+    const prt::ConstantFormer former(world.transfer);
+    std::vector<glm::vec3> turned(world.sky.coefficients.size());
+    for (int frame = 0; frame < frames; ++frame) {
+        const double angle = glm::two_pi<double>() * (frame + 1) / frames;
+        prt::ShRotation::about_y(world.sky.order, angle).apply(world.sky.coefficients, turned);
+        former.form(turned, constants);
+        draw(program, meshes, constants);
+    }
+}
+
+void save(const char* picture) {
     std::vector<glm::u8vec3> pixels(static_cast<std::size_t>(kWidth) * kHeight), upright(pixels.size());
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
@@ -194,7 +264,12 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        play(argv[1], argv[2], argv[3], argc > 4 ? std::max(1, std::atoi(argv[4])) : 60);
+        const World world = load(argv[1], argv[2]);
+        const auto context = prt::GlContext::create(prt::GlDevice::any);
+        if (!context)
+            throw std::runtime_error("no OpenGL");
+        play(world, argc > 4 ? std::max(1, std::atoi(argv[4])) : 60);
+        save(argv[3]);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "game: %s\n", error.what());
         return 1;

@@ -1,3 +1,4 @@
+// The C interface: statuses and messages for exceptions, arrays of floats for the types of C++.
 #include "prt/prt.h"
 
 #include "prt/constant_former.h"
@@ -66,15 +67,19 @@ prt_status guarded(prt_message* message, Body&& body) noexcept {
     } catch (const TooSmall& error) {
         say(message, error.what());
         return PRT_TOO_SMALL;
-    } catch (const std::exception& error) {
+    } catch (const Error& error) {
         say(message, error.what());
         return PRT_BAD_ARGUMENT;
+    } catch (const std::exception& error) { // of a library, or a mistake in this one
+        say(message, error.what());
+        return PRT_INTERNAL;
     }
 }
 
 template <class... Pointers>
 void check_pointers(const Pointers*... pointers) {
-    if ((... || (pointers == nullptr)))
+    const bool any_null = (... || (pointers == nullptr));
+    if (any_null)
         throw Error("a pointer is null");
 }
 
@@ -317,23 +322,23 @@ void prt_model_destroy(prt_model* model) {
     delete model;
 }
 
-prt_model_info prt_model_get_info(const prt_model* model) {
-    prt_model_info info{};
-    if (!model)
-        return info;
-    const prt::ClusteredReceivers& receivers = model->transfer.receivers;
-    info.order = model->former.order();
-    info.channels = model->former.channels();
-    info.receivers = receivers.size();
-    info.clusters = model->layouts.size();
-    info.rows = model->former.rows();
-    info.format = static_cast<prt_weight_format>(receivers.format);
-    info.stride = receivers.stride();
-    info.weights = receivers.weights.data();
-    info.cluster_of = receivers.clusters.data();
-    info.cluster_table = reinterpret_cast<const std::uint32_t*>(model->layouts.data());
-    info.meshes = model->scene.primitives.size();
-    return info;
+prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, out);
+        const prt::ClusteredReceivers& receivers = model->transfer.receivers;
+        *out = {};
+        out->order = model->former.order();
+        out->channels = model->former.channels();
+        out->receivers = receivers.size();
+        out->clusters = model->layouts.size();
+        out->rows = model->former.rows();
+        out->format = static_cast<prt_weight_format>(receivers.format);
+        out->stride = receivers.stride();
+        out->weights = receivers.weights.data();
+        out->cluster_of = receivers.clusters.data();
+        out->cluster_table = reinterpret_cast<const std::uint32_t*>(model->layouts.data());
+        out->meshes = model->scene.primitives.size();
+    });
 }
 
 prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out, prt_message* message) {

@@ -15,7 +15,7 @@ namespace prt {
 /// Elements of bands l < kMaxOrder, band after band, each (2l+1)² with rows m = -l..l of the result.
 class QuarterTurn {
 public:
-    consteval QuarterTurn() {
+    constexpr QuarterTurn() {
         values_[0] = 1;
         // Band 1 is the rotation itself, in the order (y, z, x): y goes to z, z to -y.
         values_[offset(1) + 1] = -1;
@@ -38,31 +38,31 @@ public:
     }
 
     /// Element of band l, row and column 0..2l.
-    consteval double at(std::size_t l, std::size_t row, std::size_t column) const {
+    constexpr double at(std::size_t l, std::size_t row, std::size_t column) const {
         return values_[offset(static_cast<int>(l)) + row * (2 * l + 1) + column];
     }
 
 private:
-    static consteval std::size_t offset(int l) {
+    static constexpr std::size_t offset(int l) {
         return static_cast<std::size_t>(l * (2 * l - 1) * (2 * l + 1) / 3); // sum of (2k+1)² for k < l
     }
-    static consteval double root(double value) { return value > 0 ? detail::square_root(value) : 0; }
-    static consteval int magnitude(int m) { return m < 0 ? -m : m; }
+    static constexpr double root(double value) { return value > 0 ? detail::square_root(value) : 0; }
+    static constexpr int magnitude(int m) { return m < 0 ? -m : m; }
 
-    consteval double first(int m, int n) const {
+    constexpr double first(int m, int n) const {
         return values_[offset(1) + static_cast<std::size_t>((m + 1) * 3 + n + 1)];
     }
-    consteval double previous(int l, int m, int n) const {
+    constexpr double previous(int l, int m, int n) const {
         return values_[offset(l - 1) + static_cast<std::size_t>((m + l - 1) * (2 * l - 1) + n + l - 1)];
     }
-    consteval double p(int l, int i, int m, int n) const {
+    constexpr double p(int l, int i, int m, int n) const {
         if (n == l)
             return first(i, 1) * previous(l, m, l - 1) - first(i, -1) * previous(l, m, 1 - l);
         if (n == -l)
             return first(i, 1) * previous(l, m, 1 - l) + first(i, -1) * previous(l, m, l - 1);
         return first(i, 0) * previous(l, m, n);
     }
-    consteval double v_term(int l, int m, int n) const {
+    constexpr double v_term(int l, int m, int n) const {
         if (m == 0)
             return p(l, 1, 1, n) + p(l, -1, -1, n);
         if (m == 1)
@@ -71,10 +71,10 @@ private:
             return root(2) * p(l, -1, 0, n);
         return m > 0 ? p(l, 1, m - 1, n) - p(l, -1, 1 - m, n) : p(l, 1, m + 1, n) + p(l, -1, -m - 1, n);
     }
-    consteval double w_term(int l, int m, int n) const {
+    constexpr double w_term(int l, int m, int n) const {
         return m > 0 ? p(l, 1, m + 1, n) + p(l, -1, -m - 1, n) : p(l, 1, m - 1, n) - p(l, -1, 1 - m, n);
     }
-    consteval double element(int l, int m, int n) const {
+    constexpr double element(int l, int m, int n) const {
         const double am = magnitude(m);
         const double denominator = magnitude(n) == l ? 2.0 * l * (2 * l - 1) : double(l + n) * (l - n);
         const double u = root((l + am) * (l - am) / denominator);

@@ -29,7 +29,7 @@ constexpr std::size_t place_in_band(std::size_t l, bool minus, std::size_t k) {
 
 /// Of the quarter turn of band l.
 template <bool Inverse>
-consteval double lane_factor(std::size_t l, bool to_minus, std::size_t to, bool from_minus,
+constexpr double lane_factor(std::size_t l, bool to_minus, std::size_t to, bool from_minus,
                              std::size_t from) {
     if (to > l || from > l || (to_minus && to == l) || (from_minus && from == l))
         return 0;
@@ -41,11 +41,11 @@ template <bool Inverse, bool ToMinus, std::size_t To, std::size_t... From>
 [[gnu::always_inline]] inline Bands turned_lanes(const Sides& c, std::index_sequence<From...>) {
     Bands sum{};
     const auto add = [&]<bool Minus, std::size_t K>() __attribute__((always_inline)) {
-        constexpr Bands factor = {
+        constexpr double factor[kLanes] = {
             lane_factor<Inverse>(2, ToMinus, To, Minus, K), lane_factor<Inverse>(3, ToMinus, To, Minus, K),
             lane_factor<Inverse>(4, ToMinus, To, Minus, K), lane_factor<Inverse>(5, ToMinus, To, Minus, K)};
         if constexpr (factor[0] != 0 || factor[1] != 0 || factor[2] != 0 || factor[3] != 0)
-            sum += factor * c.at[Minus][K];
+            sum += Bands{factor[0], factor[1], factor[2], factor[3]} * c.at[Minus][K];
     };
     (add.template operator()<false, From>(), ...);
     (add.template operator()<true, From>(), ...);

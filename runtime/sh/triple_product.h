@@ -16,13 +16,13 @@ inline constexpr std::size_t kTripleCount = kTripleOrder * kTripleOrder;
 
 class TripleProducts {
 public:
-    consteval TripleProducts() {
+    constexpr TripleProducts() {
         for (std::size_t i = 0; i < kTripleCount; ++i)
             for (std::size_t j = 0; j < kTripleCount; ++j)
                 for (std::size_t k = 0; k < kTripleCount; ++k)
                     values_[(i * kTripleCount + j) * kTripleCount + k] = integral(i, j, k);
     }
-    consteval double at(std::size_t i, std::size_t j, std::size_t k) const {
+    constexpr double at(std::size_t i, std::size_t j, std::size_t k) const {
         return values_[(i * kTripleCount + j) * kTripleCount + k];
     }
 
@@ -36,7 +36,7 @@ private:
         std::array<Monomial, 2> term;
     };
 
-    static consteval std::array<Polynomial, kTripleCount> functions() {
+    static constexpr std::array<Polynomial, kTripleCount> functions() {
         using std::numbers::pi;
         const double a = detail::square_root(1 / (4 * pi)), b = detail::square_root(3 / (4 * pi)),
                      c = detail::square_root(15 / (4 * pi)), d = detail::square_root(5 / (16 * pi));
@@ -52,21 +52,21 @@ private:
     }
 
     /// n!! of odd n, 1 for -1.
-    static consteval double odd_factorial(int n) {
+    static constexpr double odd_factorial(int n) {
         double product = 1;
         for (; n > 1; n -= 2)
             product *= n;
         return product;
     }
     /// ∫ x^a y^b z^c dw.
-    static consteval double moment(int a, int b, int c) {
+    static constexpr double moment(int a, int b, int c) {
         if (a % 2 != 0 || b % 2 != 0 || c % 2 != 0)
             return 0;
         return 4 * std::numbers::pi * odd_factorial(a - 1) * odd_factorial(b - 1) * odd_factorial(c - 1) /
                odd_factorial(a + b + c + 1);
     }
 
-    static consteval double integral(std::size_t i, std::size_t j, std::size_t k) {
+    static constexpr double integral(std::size_t i, std::size_t j, std::size_t k) {
         const auto y = functions();
         double sum = 0;
         for (int p = 0; p < y[i].terms; ++p)

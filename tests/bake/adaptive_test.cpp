@@ -54,7 +54,7 @@ TEST(TargetError, TakesFewerRaysThanTheSameForAll) {
     options.target_error = 0.01;
     const BakeResult adaptive = bake(scene, options);
     options.target_error.reset();
-    options.rays = static_cast<int>(adaptive.statistics.rays / adaptive.statistics.traced);
+    options.rays = static_cast<int>(adaptive.statistics.rays / adaptive.statistics.receivers.traced);
     const BakeResult uniform = bake(scene, options);
     EXPECT_LT(error_against_reference(scene, adaptive.baked.transfer),
               error_against_reference(scene, uniform.baked.transfer));
@@ -65,7 +65,7 @@ TEST(TargetError, OfOpenReceiversTakesTheFirstRaysOnly) {
     options.target_error = 1e-6;
     const BakeResult result = bake(test::SceneBuilder().floor({0, 0, 0}, 1, 4).build(), options);
     EXPECT_EQ(result.statistics.sampling_error, 0);
-    EXPECT_EQ(result.statistics.rays, 64 * result.statistics.traced);
+    EXPECT_EQ(result.statistics.rays, 64 * result.statistics.receivers.traced);
 }
 
 TEST(TargetError, FindsTheWindowOfADarkRoom) {
@@ -116,9 +116,9 @@ TEST(Storage, IsFloat16WhereSamplingErrsTenTimesAsMuch) {
     options.target_error = 5e-4;
     EXPECT_EQ(bake(scene, options).baked.storage, TransferStorage::float32);
     options.target_error.reset();
-    options.storage = Storage::float32;
+    options.storage = TransferStorage::float32;
     EXPECT_EQ(bake(scene, options).baked.storage, TransferStorage::float32);
-    options.storage = Storage::float16;
+    options.storage = TransferStorage::float16;
     const BakeResult result = bake(scene, options);
     EXPECT_EQ(result.baked.storage, TransferStorage::float16);
     Transfer rounded = result.baked.transfer;
@@ -137,7 +137,7 @@ TEST(SamplingError, OfFixedRaysIsNeitherLowNorScattered) {
         options.rays = rays;
         options.seed = seed;
         options.tracer.backend = Backend::cpu;
-        options.storage = Storage::float32;
+        options.storage = TransferStorage::float32;
         return bake(scene, options);
     };
     const Transfer reference = baked(1 << 14, 77).baked.transfer;

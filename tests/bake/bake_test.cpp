@@ -63,7 +63,7 @@ TEST(Bake, ReportsWhatItDid) {
     options.rays = 64;
     const Scene scene = sphere_over_floor();
     const BakeResult result = bake(scene, options);
-    EXPECT_EQ(result.statistics.receivers, scene.receivers());
+    EXPECT_EQ(result.statistics.receivers.all, scene.receivers());
     EXPECT_EQ(result.statistics.triangles, scene.triangles());
     EXPECT_GT(result.statistics.rays_per_second, 0);
     EXPECT_GT(result.statistics.mean_visibility, 0.5);

@@ -139,7 +139,7 @@ TEST(FootOfAWall, SeesHalfTheSkyWhateverTheSidesOfTheWall) {
             options.tracer.backend = Backend::cpu;
             options.order = 1;
             const BakeResult result = bake(scene, options);
-            EXPECT_EQ(result.statistics.sealed, 0u);
+            EXPECT_EQ(result.statistics.receivers.sealed, 0u);
             for (const std::size_t foot : {0u, 3u, 5u}) { // the vertices of the floor at the wall
                 const auto seen =
                     static_cast<double>(result.baked.transfer.vector(foot)[0]) * std::sqrt(4 * pi);

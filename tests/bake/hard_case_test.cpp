@@ -143,7 +143,7 @@ TEST(HardCase, ReceiversWithoutSurfaceAreSkipped) {
     BakeOptions options;
     options.rays = 64;
     const BakeResult result = bake(scene, options);
-    EXPECT_EQ(result.statistics.traced, 5u);
+    EXPECT_EQ(result.statistics.receivers.traced, 5u);
     for (const std::size_t p : {0u, 6u})
         for (const float v : result.baked.transfer.vector(p))
             EXPECT_EQ(v, 0);

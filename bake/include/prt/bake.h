@@ -13,12 +13,6 @@
 
 namespace prt {
 
-enum class Storage {
-    automatic, ///< float16 where its rounding is less than a tenth of the sampling error
-    float32,
-    float16,
-};
-
 /// What becomes of receivers that no light can reach because they lie inside solid geometry.
 enum class Inside {
     refill, ///< they take the values of their neighbours, so that no dark seams show where bodies meet
@@ -35,42 +29,56 @@ struct MediumChoice {
     Medium medium;
 };
 
+struct SubsurfaceOptions {
+    std::vector<MediumChoice> media; ///< instead of those of the materials
+    double metres_per_unit = 1;      ///< size of the scene's unit
+};
+
 struct BakeOptions {
     int order = 6;
     int rays = 1024;                    ///< per receiver; directions where method is raster
     std::optional<double> target_error; ///< relative L2 to reach, with as many rays as each receiver needs
     int bounces = 0;                    ///< or kEndlessBounces
     TracerChoice tracer;
-    std::vector<MediumChoice> subsurface;
-    double metres_per_unit = 1; ///< size of the scene's unit, for media
+    SubsurfaceOptions subsurface;
     BadTextures bad_textures = BadTextures::error;
     Inside inside = Inside::refill;
-    Storage storage = Storage::automatic;
+    /// None: float16 where its rounding is less than a tenth of the sampling error.
+    std::optional<TransferStorage> storage = {};
     double memory_limit = 0; ///< bytes; 0: what the machine or its container has
     int threads = 0;         ///< 0: all
     std::uint64_t seed = 0;
 };
 
 struct BakeStatistics {
-    std::size_t receivers = 0;  ///< all
-    std::size_t traced = 0;     ///< those on a surface; the others have zero transfer
-    std::size_t back_sides = 0; ///< traced beside them, where surfaces scatter on both sides
+    struct Receivers {
+        std::size_t all = 0;        ///< of the scene
+        std::size_t traced = 0;     ///< those on a surface; the others have zero transfer
+        std::size_t back_sides = 0; ///< traced beside them, where surfaces scatter on both sides
+        std::size_t sealed = 0;     ///< inside geometry, where no light reaches
+        std::size_t refilled = 0;   ///< of those, how many took the values of their neighbours
+    };
+    struct Seconds {
+        double build = 0; ///< acceleration structures and textures
+        TraceSeconds tracing;
+        double transport = 0; ///< bounces and subsurface scattering
+        double all = 0;
+    };
+    struct Gather {
+        std::size_t entries = 0, bytes = 0;
+    };
+    Receivers receivers;
     std::size_t triangles = 0;
-    std::size_t sealed = 0;   ///< receivers inside geometry, which no light reaches
-    std::size_t refilled = 0; ///< of those, how many took the values of their neighbours
-    std::size_t rays = 0;     ///< traced in all
+    std::size_t rays = 0; ///< traced in all
     std::string device;
-    double seconds_build = 0; ///< acceleration structures and textures
-    TraceSeconds seconds_tracing;
-    double seconds_transport = 0; ///< bounces and subsurface scattering
-    double seconds = 0;           ///< all
-    double rays_per_second = 0;   ///< all rays over all time
-    double mean_visibility = 0;   ///< area-weighted T_0 / Y_00 of the direct light
+    Seconds seconds;
+    double rays_per_second = 0; ///< all rays over all time
+    double mean_visibility = 0; ///< area-weighted T_0 / Y_00 of the direct light
     /// Estimated relative L2 error of the direct light by sampling, from independent samples.
     double sampling_error = 0;
-    double rounding_error = 0;   ///< relative L2 of storing float16
-    double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
-    std::size_t gather_entries = 0, gather_bytes = 0;
+    double rounding_error = 0;        ///< relative L2 of storing float16
+    double remaining_energy = 0;      ///< of the bounces that were not done, over the largest transfer
+    Gather gather;                    ///< the operator of the bounces
     std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
 };
 

@@ -33,8 +33,8 @@ export { ShLight } from "./sphericalHarmonics.js";
 const EXTENSION = "PRTKIT_clustered_pca";
 const TEXTURE_WIDTH = 256;
 
-function tableTexture(texels, data, format, type, internalFormat) {
-  const height = Math.max(1, Math.ceil(texels / TEXTURE_WIDTH));
+function tableTexture(count, data, format, type, internalFormat) {
+  const height = Math.max(1, Math.ceil(count / TEXTURE_WIDTH));
   const padded = new data.constructor(4 * TEXTURE_WIDTH * height);
   padded.set(data);
   const texture = new DataTexture(padded, TEXTURE_WIDTH, height, format, type);

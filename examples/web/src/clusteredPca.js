@@ -149,7 +149,7 @@ export function formConstants(clusters, rows, light, constants) {
     let red = 0;
     let green = 0;
     let blue = 0;
-    let at = r * channels * count;
+    const at = r * channels * count;
     if (channels === 1) {
       for (let i = 0; i < count; ++i) {
         const t = rows[at + i];

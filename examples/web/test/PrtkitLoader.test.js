@@ -67,7 +67,7 @@ test("packed weights become words, and the material keeps its colour", async () 
 });
 
 test("weights that are not packed stay as they are, beside the cluster", async () => {
-  const { packing, ...extension } = packed;
+  const { packing: _packing, ...extension } = packed;
   const weights = new BufferAttribute(new Int8Array(8), 4, true);
   const cluster = new BufferAttribute(new Uint8Array([0, 0]), 1);
   const { gltf, parser, mesh } = scene({ _prt_weights_0: weights, _prt_cluster: cluster }, extension);
@@ -78,7 +78,7 @@ test("weights that are not packed stay as they are, beside the cluster", async (
 });
 
 test("bytes of a vertex are those of the attributes that are bound", async () => {
-  const { packing, ...extension } = { ...packed, components: [5], bases: { bufferView: 0, componentType: 5126 } };
+  const { packing: _packing, ...extension } = { ...packed, components: [5], bases: { bufferView: 0, componentType: 5126 } };
   const attributes = {
     _prt_weights_0: new BufferAttribute(new Int16Array(8), 4, true),
     _prt_weights_1: new BufferAttribute(new Int16Array(8), 4, true),

@@ -107,7 +107,7 @@ async function render(page, file, angle, { position, target, fieldOfView }, sky 
 const THREE_TURN = 90;
 
 const { models } = JSON.parse(readFileSync(join(distFolder, "models/models.json"), "utf8"));
-const camera = { position: [3.2, 2.6, 6.4], target: [0, 0.4, 0], fieldOfView: 35 };
+const standardCamera = { position: [3.2, 2.6, 6.4], target: [0, 0.4, 0], fieldOfView: 35 };
 const query = (view) => ({
   camera: view.position.join(","),
   target: view.target.join(","),
@@ -118,7 +118,7 @@ const query = (view) => ({
 for (const [i, model] of models.entries())
   for (const [quality, level] of model.levels.entries())
     await check(`${model.name}, ${level.title}: the picture is that of prt render`, async (page, errors) => {
-      const view = { fieldOfView: 35, ...(model.camera ?? camera) };
+      const view = { fieldOfView: 35, ...(model.camera ?? standardCamera) };
       const angle = 40 * i - 30 + 75 * quality;
       await page.goto(url({ model: model.name, quality, angle, ...query(view) }));
       await picture(page);
@@ -155,10 +155,10 @@ const onlyWarmSky = async (page) => {
 
 await check("a Radiance sky lights as prt render does", async (page, errors) => {
   await onlyWarmSky(page);
-  await page.goto(url({ model: "knot", angle: 25, ...query(camera) }));
+  await page.goto(url({ model: "knot", angle: 25, ...query(standardCamera) }));
   await picture(page);
   const d = await difference(page, await canvas(page),
-    await render(page, models[0].levels[0].file, 25 + THREE_TURN, camera, warmSky));
+    await render(page, models[0].levels[0].file, 25 + THREE_TURN, standardCamera, warmSky));
   console.log(`  mean ${d.mean.toFixed(3)} of 255`);
   assert.deepEqual(errors, []);
   assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`); // a few texels fill the background
@@ -199,16 +199,16 @@ await check("the sky is where three's own background has it", async (page, error
 
 for (const window of ["none", "hann", "lanczos"])
   await check(`window ${window}: the picture is that of prt render`, async (page, errors) => {
-    await page.goto(url({ model: "knot", window, ...query(camera) }));
+    await page.goto(url({ model: "knot", window, ...query(standardCamera) }));
     await picture(page);
     const d = await difference(page, await canvas(page),
-      await render(page, models[0].levels[0].file, 0, camera, undefined, window));
+      await render(page, models[0].levels[0].file, 0, standardCamera, undefined, window));
     assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
     assert.deepEqual(errors, []);
   });
 
 await check("dragging with the right button turns the light", async (page, errors) => {
-  await page.goto(url({ model: "knot", ...query(camera) }));
+  await page.goto(url({ model: "knot", ...query(standardCamera) }));
   await picture(page);
   const before = await canvas(page);
   const count = await drawn(page);
@@ -222,7 +222,7 @@ await check("dragging with the right button turns the light", async (page, error
   assert.ok(Math.abs(angle - 90) < 1, `turned by ${angle}`);
   const after = await canvas(page);
   assert.ok((await difference(page, before, after)).mean > 5);
-  const d = await difference(page, after, await render(page, models[0].levels[0].file, angle, camera));
+  const d = await difference(page, after, await render(page, models[0].levels[0].file, angle, standardCamera));
   assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
   assert.deepEqual(errors, []);
 });

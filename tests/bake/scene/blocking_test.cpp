@@ -55,7 +55,7 @@ double beside_square(double half) {
 TEST(OneSidedCanopy, LeavesTheMiddleOfTheFloorTheSkyBesideIt) {
     const Scene scene = canopy();
     const BakeResult result = bake_kept(scene, Inside::refill);
-    EXPECT_EQ(result.statistics.sealed, 0u);
+    EXPECT_EQ(result.statistics.receivers.sealed, 0u);
     int middles = 0;
     for (std::size_t p = 0; p < scene.receivers(); ++p)
         if (scene.vertex_arrays[0].positions[p] == glm::vec3(0)) {
@@ -93,8 +93,8 @@ TEST(OneSidedHull, HalfSunkInOneSidedTerrainErrsAsEstimated) {
                             .build();
     // What the hull covers of the terrain sees nothing but the hull's inside: these are sealed in.
     const BakeResult refilled = bake_kept(scene, Inside::refill);
-    EXPECT_GT(refilled.statistics.sealed, 20u);
-    EXPECT_EQ(refilled.statistics.refilled, refilled.statistics.sealed);
+    EXPECT_GT(refilled.statistics.receivers.sealed, 20u);
+    EXPECT_EQ(refilled.statistics.receivers.refilled, refilled.statistics.receivers.sealed);
     const auto& positions = scene.vertex_arrays[0].positions;
     const test::ReferenceTransfer truth = test::reference_transfer(scene, 1024);
     for (std::size_t p = 0; p < scene.receivers(); ++p)
@@ -121,8 +121,8 @@ TEST(SealedIn, ReceiversTakeTheLightOfTheirNeighboursOrStayDark) {
     EXPECT_GT(under(bake_kept(scene, Inside::refill)).first, 0.2);
     const BakeResult kept = bake_kept(scene, Inside::keep);
     EXPECT_EQ(under(kept).second, 0);
-    EXPECT_GT(kept.statistics.sealed, 100u);
-    EXPECT_EQ(kept.statistics.refilled, 0u);
+    EXPECT_GT(kept.statistics.receivers.sealed, 100u);
+    EXPECT_EQ(kept.statistics.receivers.refilled, 0u);
 }
 
 TEST(SealedIn, AHoleThatLetsLightInLeavesReceiversAsTheyAre) {
@@ -240,7 +240,7 @@ TEST_P(LeaningNormal, LosesWhatLiesBelowItsOwnFaceAndNoMore) {
             EXPECT_NEAR(static_cast<double>(result.baked.transfer.vector(p)[0]) * std::sqrt(4 * pi), open,
                         0.04)
                 << p;
-        EXPECT_EQ(result.statistics.sealed, 0u);
+        EXPECT_EQ(result.statistics.receivers.sealed, 0u);
     }
 }
 

@@ -254,7 +254,7 @@ TEST(Leaf, TakesLightFromBehindThroughDiffuseTransmission) {
     const BakeResult result = bake(leaf, options);
     const Transfer& t = result.baked.transfer;
     ASSERT_EQ(t.channels, 3);
-    EXPECT_EQ(result.statistics.back_sides, leaf.receivers());
+    EXPECT_EQ(result.statistics.receivers.back_sides, leaf.receivers());
     std::array<double, 16> above{}, below{};
     clamped_cosine_lobe(4, {0, 1, 0}, above);
     clamped_cosine_lobe(4, {0, -1, 0}, below);
@@ -319,8 +319,8 @@ TEST(InsideGeometry, ABodyThatIsInsideAsAWholeStaysDark) {
     options.rays = 64;
     options.tracer.backend = Backend::cpu;
     const BakeResult result = bake(scene, options);
-    EXPECT_GT(result.statistics.sealed, 0u);
-    EXPECT_EQ(result.statistics.refilled, 0u);
+    EXPECT_GT(result.statistics.receivers.sealed, 0u);
+    EXPECT_EQ(result.statistics.receivers.refilled, 0u);
 }
 
 TEST(Textures, ThatAreMissingAreNamedUnlessNobodyLooksAtThem) {

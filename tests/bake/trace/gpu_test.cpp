@@ -278,7 +278,7 @@ TEST(GpuBake, OfEveryTransportIsTheCpus) {
         return relative_l2(cpu.baked.transfer, gpu.baked.transfer, areas);
     };
     EXPECT_LT(difference(options), 3e-3);
-    options.subsurface = {{"", {glm::dvec3(20, 30, 40), glm::dvec3(0.5), 1.3}}};
+    options.subsurface.media = {{"", {glm::dvec3(20, 30, 40), glm::dvec3(0.5), 1.3}}};
     EXPECT_LT(difference(options), 3e-3);
     options.subsurface.clear();
     options.bounces = 0;
@@ -301,7 +301,7 @@ TEST(GpuBake, MeetsEveryOneOfManyBlendedSheets) {
     options.rays = 128;
     options.bounces = 1;
     const BakeResult cpu = bake_on(Backend::cpu, scene, options), gpu = bake_on(Backend::gpu, scene, options);
-    EXPECT_GT(gpu.statistics.gather_entries, 1000u);
+    EXPECT_GT(gpu.statistics.gather.entries, 1000u);
     EXPECT_LT(relative_l2(cpu.baked.transfer, gpu.baked.transfer, receiver_areas(scene)), 3e-3);
 }
 

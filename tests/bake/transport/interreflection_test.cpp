@@ -369,7 +369,7 @@ TEST(Bounces, AreLeftOutWhereNothingScatters) {
     // Nothing to see: a single floor.
     const BakeResult floor = bake_bounces(SceneBuilder().floor({0, 0, 0}, 1).build(), 3, 64);
     EXPECT_EQ(floor.baked.record.bounces, 0);
-    EXPECT_EQ(floor.statistics.gather_entries, 0u);
+    EXPECT_EQ(floor.statistics.gather.entries, 0u);
 }
 
 TEST(Channels, AreThreeOnlyWhereColouredLightBounces) {

@@ -170,7 +170,7 @@ TEST(Subsurface, BlursShadowsAndKeepsTheirLight) {
                          mean_visibility(t, receiver_areas(scene)));
     };
     const auto [sharp, sharp_mean] = visibility();
-    options.subsurface = {{"", {glm::dvec3(20, 30, 40), glm::dvec3(0.5), 1.3}}};
+    options.subsurface.media = {{"", {glm::dvec3(20, 30, 40), glm::dvec3(0.5), 1.3}}};
     const auto [soft, soft_mean] = visibility();
     float darkest_sharp = 1, darkest_soft = 1;
     for (std::size_t p = 0; p < 24 * 24 * 6; ++p) {

@@ -4,9 +4,12 @@
  * and write a line for people to `message`, which may be null. Handles may be used from several threads at
  * once as long as nobody destroys them. Conventions, units and layouts are those of the C++ headers: SH with
  * Condon-Shortley phase, order N for N*N coefficients, right-handed axes with +Y up, linear Rec. 709.
+ * Stable: it changes with the minor version only.
  */
 #ifndef PRT_PRT_H
 #define PRT_PRT_H
+
+#include "prt/version.h"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -27,7 +30,8 @@ typedef enum prt_status {
                              matrix, what is not finite */
     PRT_BAD_FILE = 2,     /* missing, damaged, or without what is wanted */
     PRT_NO_MEMORY = 3,
-    PRT_TOO_SMALL = 4 /* the buffer; what it needs is written to *size */
+    PRT_TOO_SMALL = 4, /* the buffer; what it needs is written to *size */
+    PRT_INTERNAL = 5   /* none of these: a mistake in the library, which the message may help to find */
 } prt_status;
 
 typedef struct prt_message {
@@ -101,8 +105,8 @@ typedef struct prt_model_info {
     const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
     size_t meshes;
 } prt_model_info;
-/* Pointers live as long as the model. All 0 where `model` is NULL. */
-PRT_API prt_model_info prt_model_get_info(const prt_model* model);
+/* Pointers live as long as the model. */
+PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message);
 
 typedef struct prt_mesh {
     size_t vertices;

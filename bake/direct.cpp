@@ -1,0 +1,79 @@
+// Traces direct light: with as many rays everywhere, or with as many as each receiver needs.
+
+#include "direct.h"
+
+#include "adaptive.h"
+#include "prt/sh_basis.h"
+#include "prt/trace_receivers.h"
+#include "sampling_error.h"
+#include "trace_gather.h"
+
+#include <fmt/core.h>
+
+#include <numeric>
+
+namespace prt {
+namespace {
+
+/// Finds the rays that each receiver needs, and their direct light: [receivers].
+std::vector<std::uint32_t> trace_adaptively(const BakePlan& plan, Tracer& tracer, const TraceOptions& options,
+                                            DirectLight& direct, const Progress& progress) {
+    AdaptiveResult adaptive =
+        adaptive_transfer(tracer, plan.receivers(),
+                          MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts),
+                          options, *plan.options.target_error, progress);
+    direct.transfer = std::move(adaptive.transfer);
+    direct.rays = std::accumulate(adaptive.rays.begin(), adaptive.rays.end(), adaptive.rays_checked);
+    direct.sampling_error = adaptive.error;
+    if (!adaptive.reached)
+        direct.notices.push_back(
+            fmt::format("the error to reach was not reached with {} rays per receiver", kMostRays));
+    return std::move(adaptive.rays);
+}
+
+void add_gather(const BakePlan& plan, Tracer& tracer, std::span<const std::uint32_t> rays_of,
+                DirectLight& direct, const Progress& progress) {
+    TracedGather traced = trace_gather(plan, tracer, rays_of, direct.transfer, progress);
+    direct.rays += traced.rays;
+    if (traced.gather.entries() > 0)
+        direct.gather.emplace(std::move(traced.gather));
+    else
+        direct.notices.push_back("no bounces: no ray from a receiver meets a surface that scatters");
+}
+
+} // namespace
+
+DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const Progress& progress) {
+    const Receivers& receivers = plan.receivers();
+    const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
+    const TraceOptions options{
+        .order = plan.options.order, .rays = plan.options.rays, .seed = plan.options.seed};
+    const bool adaptive = plan.options.target_error.has_value();
+    DirectLight direct;
+    std::vector<std::uint32_t> rays_of(receivers.size(), static_cast<std::uint32_t>(options.rays));
+    if (adaptive)
+        rays_of = trace_adaptively(plan, tracer, options, direct,
+                                   plan.bounces != 0 ? progress.part(0, 0.5) : progress);
+    else
+        direct.transfer = zero_transfer(options.order, 1, receivers.size());
+    if (plan.bounces != 0) {
+        add_gather(plan, tracer, rays_of, direct, progress.part(adaptive ? 0.5 : 0, 1));
+    } else if (!adaptive) {
+        trace_receivers(tracer, receivers, indices, options, direct.transfer, progress);
+        direct.rays = indices.size() * static_cast<std::size_t>(options.rays);
+    }
+    if (!adaptive && tracer.method() == BakeMethod::trace) {
+        const SamplingError sampling =
+            sampling_error(tracer, receivers, options, direct.transfer, progress.stop);
+        direct.sampling_error = sampling.error;
+        direct.rays += sampling.rays;
+    }
+    direct.mean_rays = indices.empty()
+                           ? 0
+                           : static_cast<int>(std::accumulate(rays_of.begin(), rays_of.end(), 0.0) /
+                                              static_cast<double>(rays_of.size()));
+    direct.mean_visibility = mean_visibility(direct.transfer, plan.areas());
+    return direct;
+}
+
+} // namespace prt

@@ -1,0 +1,30 @@
+#pragma once
+
+// Direct light of a scene, and what its rays tell beside it.
+
+#include "plan.h"
+#include "prt/tracer.h"
+#include "transport/gather.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace prt {
+
+struct DirectLight {
+    Transfer transfer; ///< of receivers and back sides, one channel
+    std::optional<GatherOperator>
+        gather;                 ///< of the same rays, where there are bounces and they see something
+    std::size_t rays = 0;       ///< traced in all
+    int mean_rays = 0;          ///< that a receiver has
+    double mean_visibility = 0; ///< area-weighted T_0 / Y_00
+    double sampling_error = 0;  ///< estimated relative L2; 0 where the method does not tell
+    std::vector<std::string> notices;
+};
+
+/// The gather operator keeps references to `plan`.
+DirectLight trace_direct(const BakePlan& plan, Tracer& tracer, const Progress& progress);
+
+} // namespace prt

@@ -1,0 +1,61 @@
+// Estimates the bytes of a bake before they are asked for: a bake that does not fit would be killed at its
+// end.
+
+#include "memory.h"
+
+#include "available_memory.h"
+#include "prt/sh_basis.h"
+#include "prt/support/error.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace prt {
+namespace {
+
+double memory_there(const BakeOptions& options) {
+    return options.memory_limit > 0 ? options.memory_limit : available_memory();
+}
+
+double memory_needed(const BakePlan& plan) {
+    return estimate_memory(plan.options, plan.receivers().size(), plan.scene.surfaces().triangles(),
+                           plan.channels);
+}
+
+} // namespace
+
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
+                       int channels) {
+    const auto count = static_cast<double>(receivers);
+    const double vector = 4.0 * channels * coefficient_count(options.order);
+    // The transfer itself, once more in the file being written and once more joined to it.
+    double bytes = 3 * count * vector;
+    if (options.target_error)
+        bytes += 3 * count * vector;
+    // Embree's tree of high quality, our tables of triangles, the scene, its neighbours.
+    bytes += 400.0 * static_cast<double>(triangles) + 150 * count;
+    if (options.bounces == kEndlessBounces)
+        bytes +=
+            40 * count * 4 * channels * coefficient_count(std::min(options.order, 3)); // the solver's steps
+    else if (options.bounces != 0)
+        bytes += 2 * count * vector;
+    return bytes;
+}
+
+bool fits_memory(const BakePlan& plan, double more) {
+    return memory_needed(plan) + more <= memory_there(plan.options);
+}
+
+void check_memory(const BakePlan& plan, double more) {
+    const double there = memory_there(plan.options), needed = memory_needed(plan) + more;
+    if (there > 0 && needed > there)
+        throw Error(
+            fmt::format("the bake needs about {:.2g} GB of memory ({} receivers, order {}, {} rays{}), "
+                        "and {} {:.2g} GB",
+                        needed * 1e-9, plan.receivers().size(), plan.options.order, plan.options.rays,
+                        plan.bounces != 0 ? ", with bounces" : "",
+                        plan.options.memory_limit > 0 ? "the limit is" : "there are", there * 1e-9));
+}
+
+} // namespace prt

@@ -1,0 +1,108 @@
+// Decides what a bake of a scene takes.
+
+#include "plan.h"
+
+#include "prt/support/error.h"
+#include "scene/material_notices.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+namespace prt {
+namespace {
+
+TextureNeeds texture_needs(const BakeOptions& options) {
+    return options.bounces != 0 ? TextureNeeds::all : TextureNeeds::visibility;
+}
+
+std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOptions& options) {
+    std::vector<std::string> notices;
+    for (const auto& [image, encoding] : needed_images(scene.scene(), texture_needs(options)))
+        if (scene.textures()[static_cast<std::size_t>(image)].levels.empty())
+            notices.push_back(fmt::format(
+                "image {} is missing or damaged: the factors of its materials are used alone", image));
+    for (std::string& notice : material_notices(scene.scene(), options.bounces != 0))
+        notices.push_back(std::move(notice));
+    return notices;
+}
+
+/// One operator for each medium of each node.
+std::vector<DiffusionOperator> make_diffusion(const Scene& scene, const Media& media,
+                                              const Receivers& receivers) {
+    std::map<std::pair<std::size_t, int>, std::vector<glm::uvec3>> bodies;
+    for (const Primitive& primitive : scene.primitives) {
+        if (!media[primitive.material])
+            continue;
+        auto& triangles = bodies[{primitive.material, primitive.node}];
+        const auto first = static_cast<unsigned>(scene.vertex_arrays[primitive.vertices].first_receiver);
+        for (const glm::uvec3& t : primitive.triangles)
+            triangles.push_back(t + first);
+    }
+    std::vector<DiffusionOperator> diffusion;
+    for (auto& [key, triangles] : bodies)
+        diffusion.emplace_back(receivers, std::move(triangles), *media[key.first]);
+    return diffusion;
+}
+
+} // namespace
+
+Media choose_media(const Scene& scene, const BakeOptions& options) {
+    Media media;
+    for (const Material& material : scene.materials)
+        media.push_back(medium_of(material));
+    for (const MediumChoice& choice : options.subsurface.media) {
+        bool found = false;
+        for (std::size_t m = 0; m < scene.materials.size(); ++m)
+            if (choice.material.empty() || scene.materials[m].name == choice.material) {
+                media[m] = choice.medium;
+                found = true;
+            }
+        if (!found)
+            throw Error(fmt::format("no material is called '{}'", choice.material));
+    }
+    for (auto& medium : media)
+        if (medium) {
+            medium->scattering *= options.subsurface.metres_per_unit;
+            medium->absorption *= options.subsurface.metres_per_unit;
+        }
+    return media;
+}
+
+TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions& options) {
+    std::vector<bool> solid;
+    for (const auto& medium : media)
+        solid.push_back(medium.has_value());
+    return TraceScene(scene, load_textures(scene, options.bad_textures, texture_needs(options)),
+                      {.solid = std::move(solid), .threads = options.threads});
+}
+
+BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOptions& options) {
+    const SurfaceTraits& traits = scene.surfaces().traits();
+    BakePlan plan{.scene = scene,
+                  .options = options,
+                  .bounces = options.bounces,
+                  .transport = {},
+                  .diffusion = {},
+                  .notices = scene_notices(scene, options)};
+    if (plan.bounces != 0 && !traits.scattering) {
+        plan.bounces = 0;
+        plan.notices.push_back("no bounces: every surface is black");
+    }
+    const bool from_surfaces = plan.bounces != 0 || traits.transmission;
+    Receivers fronts = vertex_receivers(scene.scene());
+    plan.transport = std::make_unique<const TransportReceivers>(
+        from_surfaces ? with_back_sides(std::move(fronts), scene.surfaces())
+                      : without_back_sides(std::move(fronts)));
+    plan.diffusion = make_diffusion(scene.scene(), media, plan.receivers());
+    const bool grey_media =
+        std::all_of(plan.diffusion.begin(), plan.diffusion.end(), [](const auto& d) { return d.is_grey(); });
+    plan.channels = (traits.color && from_surfaces) || !grey_media ? 3 : 1;
+    if (plan.channels == 1)
+        plan.notices.push_back(fmt::format("one channel: {}", plan.bounces != 0 ? "every surface is grey"
+                                                                                : "direct light is white"));
+    return plan;
+}
+
+} // namespace prt

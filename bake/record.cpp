@@ -1,0 +1,104 @@
+// Writes down how a bake was made, and stores it in as few bits as its noise asks for.
+
+#include "record.h"
+
+#include <fmt/core.h>
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+/// Relative L2 error of `transfer` rounded to float16.
+double float16_rounding_error(const Transfer& transfer, std::span<const float> areas) {
+    double error = 0, norm = 0;
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
+        double point_error = 0, point_norm = 0;
+        for (const float value : transfer.vector(p)) {
+            const auto lost = static_cast<double>(value - glm::unpackHalf1x16(glm::packHalf1x16(value)));
+            point_error += lost * lost;
+            point_norm += static_cast<double>(value * value);
+        }
+        error += static_cast<double>(areas[p]) * point_error;
+        norm += static_cast<double>(areas[p]) * point_norm;
+    }
+    return norm > 0 ? std::sqrt(error / norm) : 0;
+}
+
+/// Receivers of the scene that rays were traced from.
+std::size_t traced_fronts(const BakePlan& plan) {
+    const std::vector<std::uint32_t> indices = receivers_on_surfaces(plan.receivers());
+    return static_cast<std::size_t>(std::lower_bound(indices.begin(), indices.end(), plan.transport->fronts) -
+                                    indices.begin());
+}
+
+/// All notices in the order in which they came up.
+std::vector<std::string> notices_of(const BakePlan& plan, const DirectLight& direct, const SealedIn& sealed,
+                                    const Propagated& exit) {
+    std::vector<std::string> notices = plan.notices;
+    notices.insert(notices.end(), direct.notices.begin(), direct.notices.end());
+    const std::size_t refilled = sealed.refill.size();
+    if (sealed.receivers > 0)
+        notices.push_back(fmt::format(
+            "{} receivers are sealed in by backs of faces; {} of them take the light of their neighbours{}",
+            sealed.receivers, refilled, refilled < sealed.receivers ? ", the others stay dark" : ""));
+    if (!exit.converged)
+        notices.push_back(fmt::format("the sum over all bounces still changes by {:.2g} after {} steps",
+                                      exit.remaining, exit.bounces));
+    return notices;
+}
+
+BakeStatistics statistics_of(const BakePlan& plan, const DirectLight& direct, const SealedIn& sealed,
+                             const Propagated& exit) {
+    BakeStatistics s;
+    const std::size_t fronts = plan.transport->fronts;
+    s.receivers = {.all = fronts,
+                   .traced = traced_fronts(plan),
+                   .back_sides = plan.receivers().size() - fronts,
+                   .sealed = sealed.receivers,
+                   .refilled = sealed.refill.size()};
+    s.triangles = plan.scene.surfaces().triangles();
+    s.rays = direct.rays + sealed.rays;
+    s.mean_visibility = direct.mean_visibility;
+    s.sampling_error = direct.sampling_error;
+    s.rounding_error = float16_rounding_error(exit.transfer, plan.areas());
+    s.remaining_energy = exit.remaining;
+    if (direct.gather)
+        s.gather = {.entries = direct.gather->entries(), .bytes = direct.gather->bytes()};
+    s.notices = notices_of(plan, direct, sealed, exit);
+    return s;
+}
+
+/// Float16 where its rounding is lost in the noise.
+TransferStorage choose_storage(BakeStatistics& s) {
+    if (!(s.rounding_error < 0.1 * s.sampling_error))
+        return TransferStorage::float32;
+    s.notices.push_back(fmt::format(
+        "stored as float16: its rounding, {:.2g} %, is below a tenth of the sampling error, {:.2g} %",
+        100 * s.rounding_error, 100 * s.sampling_error));
+    return TransferStorage::float16;
+}
+
+} // namespace
+
+BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight& direct,
+                  const SealedIn& sealed, Propagated exit) {
+    BakeResult result;
+    result.statistics = statistics_of(plan, direct, sealed, exit);
+    result.statistics.device = tracer.device();
+    BakedTransfer& baked = result.baked;
+    baked.storage = plan.options.storage ? *plan.options.storage : choose_storage(result.statistics);
+    baked.record = {.bounces = exit.bounces,
+                    .rays = direct.mean_rays,
+                    .seed = plan.options.seed,
+                    .method = tracer.method(),
+                    .backend = tracer.backend(),
+                    .receivers = receivers_id(plan.scene.scene()),
+                    .sampling_error = direct.sampling_error};
+    baked.transfer = std::move(exit.transfer);
+    return result;
+}
+
+} // namespace prt

@@ -1,0 +1,22 @@
+#pragma once
+
+// What a bake hands out.
+
+#include "direct.h"
+#include "transport/light_transport.h"
+
+namespace prt {
+
+/// Receivers of the scene that are sealed in, and what becomes of them.
+struct SealedIn {
+    std::size_t receivers = 0;
+    std::size_t rays = 0; ///< traced to find out
+    Refill refill;
+};
+
+/// The result with its record and its statistics, but for `seconds` and what follows from them. Decides on
+/// the storage.
+BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight& direct,
+                  const SealedIn& sealed, Propagated exit);
+
+} // namespace prt

@@ -1,0 +1,75 @@
+// Estimates the sampling error of direct light from a second, independent scramble of a few receivers, chosen
+// by importance (docs/math.md, section 9).
+
+#include "sampling_error.h"
+
+#include "prt/sh_basis.h"
+#include "prt/trace_receivers.h"
+#include "trace/scrambles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace prt {
+namespace {
+
+/// One receiver of so many is sampled again to estimate the error of a bake, within these bounds.
+constexpr std::size_t kReceiversPerCheck = 32, kLeastChecked = 256, kMostChecked = 1024;
+
+double area_of(const Receivers& receivers, std::uint32_t p) {
+    return static_cast<double>(receivers.areas[p]);
+}
+
+/// Receivers to sample again, and what each stands for. Few receivers carry most of the error: they are
+/// chosen by what they are likely to contribute. Half-open ones err most; a floor stands for what visibility
+/// does not tell.
+std::map<std::uint32_t, double> choose_receivers(const Receivers& receivers, const Transfer& transfer,
+                                                 std::span<const std::uint32_t> all) {
+    const auto likely = [&](std::uint32_t p) {
+        const double visible = static_cast<double>(transfer.vector(p)[0]) / kY00;
+        return area_of(receivers, p) * (0.02 + std::clamp(visible * (1 - visible), 0.0, 0.25));
+    };
+    double sum = 0;
+    for (const std::uint32_t p : all)
+        sum += likely(p);
+    const auto wanted =
+        static_cast<double>(std::clamp(all.size() / kReceiversPerCheck, kLeastChecked, kMostChecked));
+    const double step = sum / wanted;
+    std::map<std::uint32_t, double> weights;
+    double reached = 0, next = 0.5 * step;
+    for (const std::uint32_t p : all) {
+        reached += likely(p);
+        for (; next < reached; next += step)
+            weights[p] += step / likely(p);
+    }
+    return weights;
+}
+
+} // namespace
+
+SamplingError sampling_error(Tracer& tracer, const Receivers& receivers, const TraceOptions& options,
+                             const Transfer& transfer, const std::stop_token& stop) {
+    const std::vector<std::uint32_t> all = receivers_on_surfaces(receivers);
+    double norm = 0;
+    for (const std::uint32_t p : all)
+        norm += area_of(receivers, p) * squared_norm(transfer.vector(p));
+    if (!(norm > 0))
+        return {};
+    const std::map<std::uint32_t, double> weights = choose_receivers(receivers, transfer, all);
+    std::vector<std::uint32_t> some;
+    for (const auto& [p, weight] : weights)
+        some.push_back(p);
+    TraceOptions other = options;
+    other.seed += kSecondScramble;
+    Transfer again = zero_transfer(options.order, 1, receivers.size());
+    trace_receivers(tracer, receivers, some, other, again, {{}, stop});
+    double error = 0;
+    for (const auto& [p, weight] : weights) // both have the error
+        error += weight * area_of(receivers, p) * squared_distance(transfer.vector(p), again.vector(p)) / 2;
+    // The norm of what was sampled has the error in it, which counts where hardly a ray finds the light.
+    return {std::sqrt(error / std::max(norm - error, 0.1 * norm)),
+            some.size() * static_cast<std::size_t>(options.rays)};
+}
+
+} // namespace prt

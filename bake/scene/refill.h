@@ -1,0 +1,42 @@
+#pragma once
+
+// The repair of receivers that are sealed in.
+
+#include "scene/mesh_neighbours.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Replaces the values of marked receivers by the mean of their neighbours that have values, ring by ring.
+class Refill {
+public:
+    Refill() = default;
+    /// `sealed` [receivers]. A part of a mesh that is marked as a whole stays as it is.
+    Refill(const MeshNeighbours& neighbours, const std::vector<bool>& sealed);
+
+    /// `values` [receivers][stride].
+    template <class Value>
+    void apply(std::span<Value> values, std::size_t stride) const {
+        for (const Step& step : steps_) {
+            Value* const to = &values[step.receiver * stride];
+            std::fill_n(to, stride, Value(0));
+            for (const std::uint32_t source : step.sources)
+                for (std::size_t i = 0; i < stride; ++i)
+                    to[i] += values[source * stride + i] / static_cast<Value>(step.sources.size());
+        }
+    }
+    std::size_t size() const { return steps_.size(); }
+
+private:
+    struct Step {
+        std::uint32_t receiver;
+        std::vector<std::uint32_t> sources;
+    };
+    std::vector<Step> steps_; ///< in this order: later ones may use earlier ones
+};
+
+} // namespace prt

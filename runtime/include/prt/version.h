@@ -1,0 +1,9 @@
+#ifndef PRT_VERSION_H
+#define PRT_VERSION_H
+
+/* The version of prtkit, in C and C++. Stable. */
+#define PRTKIT_VERSION_MAJOR 0
+#define PRTKIT_VERSION_MINOR 1
+#define PRTKIT_VERSION_PATCH 0
+
+#endif

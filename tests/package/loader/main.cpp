@@ -1,0 +1,25 @@
+// Loads a compressed model and relights it; links prt::gltf and prt::shader alone.
+
+#include "prt/constant_former.h"
+#include "prt/gltf.h"
+#include "prt/shader_source.h"
+
+#include <cstdio>
+
+int main(int count, char** arguments) {
+    if (count != 2)
+        return 2;
+    const prt::GltfDocument document = prt::load_gltf(arguments[1]);
+    const prt::Scene scene = prt::extract_scene(document);
+    const prt::ClusteredTransfer transfer = prt::read_clustered(document, scene)->transfer;
+    const auto radiance =
+        prt::exit_radiance(transfer, prt::constant_light(transfer.bases.order, glm::vec3(1)));
+    double mean = 0;
+    for (const glm::vec3& r : radiance)
+        mean += static_cast<double>(r.g) / static_cast<double>(radiance.size());
+    const auto shader =
+        prt::relight_shader(transfer, prt::ConstantSource::texture, prt::ShaderLanguage::essl300);
+    std::printf("%zu receivers, mean radiance %g, a shader of %zu bytes\n", radiance.size(), mean,
+                shader.size());
+    return mean > 0.1 && mean < 1.1 && shader.starts_with("#version 300 es") ? 0 : 1;
+}
