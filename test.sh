@@ -15,7 +15,7 @@ sanitize() {
     build_and_test sanitize
 }
 
-# Over the joined sources of `sanitize`, whose headers are then read once for eight sources.
+# Over the joined sources of `sanitize`, whose headers are then read once for six sources.
 tidy() {
     cmake --preset sanitize >/dev/null
     local log=build/tidy.log

@@ -16,7 +16,7 @@ const std::map<std::string, EnvironmentLayout> kLayouts = {{"lat-long", Environm
                                                            {"cube", EnvironmentLayout::cube},
                                                            {"cube-faces", EnvironmentLayout::cube_faces},
                                                            {"angular", EnvironmentLayout::angular}};
-const std::map<std::string, LatLongCentre> kCenters = {{"x", LatLongCentre::x}, {"z", LatLongCentre::z}};
+const std::map<std::string, LatLongCenter> kCenters = {{"x", LatLongCenter::x}, {"z", LatLongCenter::z}};
 const std::map<std::string, BadPixels> kBadPixels = {
     {"error", BadPixels::error}, {"zero", BadPixels::zero}, {"clamp", BadPixels::clamp}};
 
@@ -63,7 +63,7 @@ void add_light_options(CLI::App* command, LightOptions& options) {
     choice(command, "--env-layout", options.environment.layout, kLayouts,
            "how to read an image that does not say; otherwise by its shape", "by shape");
     choice(
-        command, "--env-center", options.environment.centre, kCenters,
+        command, "--env-center", options.environment.center, kCenters,
         "what the centre column of a lat-long image looks at: z as OpenEXR says, x as three.js, glTF viewers "
         "and Blender show it",
         "z");

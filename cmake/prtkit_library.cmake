@@ -3,7 +3,8 @@ add_library(prtkit_settings INTERFACE)
 target_compile_features(prtkit_settings INTERFACE cxx_std_20)
 target_compile_options(prtkit_settings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
     -Wno-psabi     # vectors never cross a library's border
-    $<$<CXX_COMPILER_ID:Clang>:-Wno-align-mismatch> # vectors loaded at float's alignment, passed by value
+    # -Wconversion as GCC has it; vectors may be loaded at float's alignment and passed by value.
+    "$<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion;-Wno-align-mismatch>"
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>) # GCC 12 warns of its own std::string (bug 105651)
 if(PRTKIT_WERROR)
     target_compile_options(prtkit_settings INTERFACE -Werror)

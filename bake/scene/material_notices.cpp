@@ -1,3 +1,5 @@
+// Tells users where their materials and our model of light part.
+
 #include "scene/material_notices.h"
 
 #include <fmt/core.h>
@@ -13,7 +15,7 @@ std::vector<std::string> material_notices(const Scene& scene, bool with_bounces)
     int polished = 0, tinted = 0;
     for (const std::size_t index : used) {
         const Material& m = scene.materials[index];
-        polished += m.metallic > 0 && (m.roughness < 1 || m.metallic_roughness_texture.image >= 0);
+        polished += m.metal.factor > 0 && (m.metal.roughness < 1 || m.metal.texture.image >= 0);
         const glm::vec4& c = m.base_color;
         tinted += m.glass.factor > 0 && (c.r != c.g || c.g != c.b || m.base_color_texture.image >= 0);
     }

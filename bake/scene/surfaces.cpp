@@ -1,3 +1,6 @@
+// Tells from materials and textures what a point of a surface stops, reflects and transmits (docs/math.md,
+// section 6).
+
 #include "prt/surfaces.h"
 
 #include "prt/color.h"
@@ -90,7 +93,7 @@ Surfaces::Kind Surfaces::kind_of(const Primitive& primitive, bool solid) const {
     kind.thin = !solid && material.transmission.factor > 0;
     kind.two_sided = material.double_sided || kind.thin;
     const bool varies = textured || !vertices.colors.empty() ||
-                        (!kind.thin && (has_texture(vertices, material.metallic_roughness_texture) ||
+                        (!kind.thin && (has_texture(vertices, material.metal.texture) ||
                                         has_texture(vertices, material.glass.texture))) ||
                         (kind.thin && (has_texture(vertices, material.transmission.color_texture) ||
                                        has_texture(vertices, material.transmission.factor_texture)));
@@ -130,18 +133,18 @@ glm::vec3 Surfaces::numbers(const SurfacePoint& point, const TextureUse& use) co
     glm::vec3 values(texel(point, use, false));
     const bool loaded = use.image >= 0 && static_cast<std::size_t>(use.image) < textures_.size();
     if (loaded && textures_[static_cast<std::size_t>(use.image)].encoding == TextureEncoding::srgb)
-        for (int c = 0; c < 3; ++c) // an image that is colour elsewhere
+        for (int c = 0; c < 3; ++c) // an image that is color elsewhere
             values[c] = srgb_encode(values[c]);
     return values;
 }
 
-/// How much of the base colour is reflected diffusely (docs/math.md, section 6): metals reflect like a
+/// How much of the base color is reflected diffusely (docs/math.md, section 6): metals reflect like a
 /// mirror, in a lobe that comes close to diffuse as they get rough; glass passes the rest. Without a point
 /// textures count as 1.
 float Surfaces::diffuse_share(const Material& material, const SurfacePoint* point) const {
-    float metallic = material.metallic, roughness = material.roughness, glass = 1;
+    float metallic = material.metal.factor, roughness = material.metal.roughness, glass = 1;
     if (point) {
-        const glm::vec3 texel = numbers(*point, material.metallic_roughness_texture);
+        const glm::vec3 texel = numbers(*point, material.metal.texture);
         metallic *= texel.b;
         roughness *= texel.g;
         glass = numbers(*point, material.glass.texture).r;

@@ -106,7 +106,7 @@ bool finite(const float* values, std::size_t count) {
     return std::all_of(values, values + count, [](float value) { return std::isfinite(value); });
 }
 
-glm::vec3 colour(const float* rgb) {
+glm::vec3 color(const float* rgb) {
     if (!finite(rgb, 3))
         throw Error("a colour of light must be finite");
     return vec3(rgb);
@@ -119,12 +119,12 @@ glm::vec3 direction_of(const float* xyz) {
     return vec3(xyz);
 }
 
-glm::vec3* colours(float* light) {
+glm::vec3* colors(float* light) {
     return reinterpret_cast<glm::vec3*>(light); // three floats and nothing else
 }
 
 void put(const Light& light, float* to) {
-    std::copy(light.coefficients.begin(), light.coefficients.end(), colours(to));
+    std::copy(light.coefficients.begin(), light.coefficients.end(), colors(to));
 }
 
 Light light_from(int order, const float* from) {
@@ -148,10 +148,10 @@ prt::ConstantSource source_of(int constants) {
     return static_cast<prt::ConstantSource>(constants);
 }
 
-prt::LatLongCentre centre_of(int center) {
+prt::LatLongCenter center_of(int center) {
     if (center != PRT_CENTER_Z && center != PRT_CENTER_X)
-        throw Error("a lat-long image is centred on +Z or +X");
-    return center == PRT_CENTER_X ? prt::LatLongCentre::x : prt::LatLongCentre::z;
+        throw Error("a lat-long image is centerd on +Z or +X");
+    return center == PRT_CENTER_X ? prt::LatLongCenter::x : prt::LatLongCenter::z;
 }
 
 static_assert(static_cast<int>(prt::ShaderLanguage::vulkan) == PRT_VULKAN &&
@@ -214,7 +214,7 @@ prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, fl
 prt_status prt_light_constant(int order, const float radiance[3], float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(radiance, light);
-        put(prt::constant_light(order, colour(radiance)), light);
+        put(prt::constant_light(order, color(radiance)), light);
     });
 }
 
@@ -222,7 +222,7 @@ prt_status prt_light_directional(int order, const float towards[3], const float 
                                  prt_message* message) {
     return guarded(message, [&] {
         check_pointers(towards, irradiance, light);
-        put(prt::directional_light(order, vec3(towards), colour(irradiance)), light);
+        put(prt::directional_light(order, vec3(towards), color(irradiance)), light);
     });
 }
 
@@ -230,23 +230,23 @@ prt_status prt_light_cone(int order, const float axis[3], float half_angle, cons
                           float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(axis, radiance, light);
-        put(prt::cone_light(order, vec3(axis), static_cast<double>(half_angle), colour(radiance)), light);
+        put(prt::cone_light(order, vec3(axis), static_cast<double>(half_angle), color(radiance)), light);
     });
 }
 
-prt_status prt_light_sphere(int order, const float centre[3], float radius, const float radiance[3],
+prt_status prt_light_sphere(int order, const float center[3], float radius, const float radiance[3],
                             float* light, prt_message* message) {
     return guarded(message, [&] {
-        check_pointers(centre, radiance, light);
-        put(prt::sphere_light(order, vec3(centre), static_cast<double>(radius), colour(radiance)), light);
+        check_pointers(center, radiance, light);
+        put(prt::sphere_light(order, vec3(center), static_cast<double>(radius), color(radiance)), light);
     });
 }
 
-prt_status prt_light_disc(int order, const float centre[3], const float normal[3], float radius,
+prt_status prt_light_disc(int order, const float center[3], const float normal[3], float radius,
                           const float radiance[3], float* light, prt_message* message) {
     return guarded(message, [&] {
-        check_pointers(centre, normal, radiance, light);
-        put(prt::disc_light(order, vec3(centre), vec3(normal), static_cast<double>(radius), colour(radiance)),
+        check_pointers(center, normal, radiance, light);
+        put(prt::disc_light(order, vec3(center), vec3(normal), static_cast<double>(radius), color(radiance)),
             light);
     });
 }
@@ -255,7 +255,7 @@ prt_status prt_light_hemisphere(int order, const float up[3], const float top[3]
                                 float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(up, top, bottom, light);
-        put(prt::hemisphere_light(order, vec3(up), colour(top), colour(bottom)), light);
+        put(prt::hemisphere_light(order, vec3(up), color(top), color(bottom)), light);
     });
 }
 
@@ -267,7 +267,7 @@ prt_status prt_light_from_lat_long(int order, int width, int height, const float
             throw Error("the environment has no pixels");
         const auto* first = reinterpret_cast<const glm::vec3*>(pixels);
         prt::Environment environment;
-        environment.centre = centre_of(center);
+        environment.center = center_of(center);
         environment.image = {width, height, {first, first + pixel_count(width, height)}};
         prt::repair_pixels(environment.image, prt::BadPixels::error);
         put(prt::project(environment, order, threads), light);
@@ -279,7 +279,7 @@ prt_status prt_light_from_file(int order, const char* path, int center, float* l
         check_pointers(path, light);
         prt::check_order(order);
         prt::EnvironmentOptions options;
-        options.centre = centre_of(center);
+        options.center = center_of(center);
         as_file([&] { put(prt::project(prt::load_environment(path, options).environment, order), light); });
     });
 }
@@ -288,7 +288,7 @@ prt_status prt_light_rotate(int order, const float rotation[9], float* light, pr
     return guarded(message, [&] {
         check_pointers(rotation, light);
         prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation)))
-            .apply(std::span<glm::vec3>(colours(light), count_of(order)));
+            .apply(std::span<glm::vec3>(colors(light), count_of(order)));
     });
 }
 
@@ -376,7 +376,7 @@ prt_status prt_model_evaluate(const prt_model* model, const float* constants, fl
     return guarded(message, [&] {
         check_pointers(model, constants, radiance);
         prt::evaluate(model->transfer, {reinterpret_cast<const glm::vec4*>(constants), model->former.rows()},
-                      {colours(radiance), model->transfer.receivers.size()});
+                      {colors(radiance), model->transfer.receivers.size()});
     });
 }
 

@@ -1,3 +1,4 @@
+// Fits cones of light to the higher bands of a lighting, from its peaks on, by least squares (Ceres).
 #include "prt/sun_fit.h"
 
 #include "prt/color.h"
@@ -33,7 +34,7 @@ constexpr std::size_t kCount = static_cast<std::size_t>(coefficient_count(kOrder
 constexpr std::size_t kFirst = static_cast<std::size_t>(coefficient_count(kFirstBand));
 constexpr std::size_t kParameters = 7; ///< direction (any length), cosine of the half angle, irradiance
 
-using Colours = std::array<glm::dvec3, kCount>;
+using Colors = std::array<glm::dvec3, kCount>;
 
 /// Factors of a cone of irradiance 1 over Y_lm of its axis: 2 P_l'(t) / (l (l+1)) with the cosine t of the
 /// half angle, and 2 / (1 + t) for l = 0: eq. 35, which is eq. 9 without the differences that cancel for
@@ -58,7 +59,7 @@ std::array<T, kOrder> cone_factors(const T& t) {
 
 /// What the lights lack of the target's bands from kFirstBand on.
 struct Residual {
-    const Colours& target;
+    const Colors& target;
     std::size_t lights;
 
     template <class T>
@@ -84,9 +85,9 @@ struct Residual {
     }
 };
 
-/// The colour of the bands from kFirstBand on in direction `w`, over what a directional light of irradiance 1
+/// The color of the bands from kFirstBand on in direction `w`, over what a directional light of irradiance 1
 /// would have there.
-glm::dvec3 peak_irradiance(const Colours& left, const glm::dvec3& w) {
+glm::dvec3 peak_irradiance(const Colors& left, const glm::dvec3& w) {
     std::array<double, kCount> basis{};
     evaluate_sh(kOrder, w, std::span<double>(basis));
     glm::dvec3 value(0);
@@ -96,7 +97,7 @@ glm::dvec3 peak_irradiance(const Colours& left, const glm::dvec3& w) {
 }
 
 /// The direction where `left` has its highest peak: on a grid of two degrees, a tenth of the peaks' width.
-glm::dvec3 highest_peak(const Colours& left) {
+glm::dvec3 highest_peak(const Colors& left) {
     constexpr int kRows = 90;
     glm::dvec3 best(0, 1, 0);
     double highest = 0;
@@ -124,7 +125,7 @@ FittedLight light_of(const Parameters& p) {
     return light;
 }
 
-void refine(const Colours& target, std::vector<Parameters>& lights) {
+void refine(const Colors& target, std::vector<Parameters>& lights) {
     ceres::Problem problem;
     auto cost = std::make_unique<ceres::DynamicAutoDiffCostFunction<Residual, 7>>(
         new Residual{target, lights.size()});
@@ -150,11 +151,11 @@ void refine(const Colours& target, std::vector<Parameters>& lights) {
     ceres::Solve(options, &problem, &summary);
 }
 
-Colours colours_of(const Light& light) {
-    Colours colours;
+Colors colors_of(const Light& light) {
+    Colors colors;
     for (std::size_t i = 0; i < kCount; ++i)
-        colours[i] = glm::dvec3(light.coefficients[i]);
-    return colours;
+        colors[i] = glm::dvec3(light.coefficients[i]);
+    return colors;
 }
 
 } // namespace
@@ -174,9 +175,9 @@ SunFit fit_suns(const Light& environment, int order, int count) {
     if (count < 1)
         throw Error("at least one light is to be fitted, not " + std::to_string(count));
     const Light whole = truncated(environment, kOrder);
-    const Colours target = colours_of(whole);
+    const Colors target = colors_of(whole);
     std::vector<Parameters> found;
-    Colours left = target;
+    Colors left = target;
     for (int k = 0; k < count; ++k) {
         const glm::dvec3 w = highest_peak(left), e = glm::max(peak_irradiance(left, w), glm::dvec3(0));
         if (!(luminance(e) > 0))
@@ -185,7 +186,7 @@ SunFit fit_suns(const Light& environment, int order, int count) {
         refine(target, found);
         left = target;
         for (const Parameters& p : found) {
-            const Colours of_light = colours_of(as_light(light_of(p), kOrder));
+            const Colors of_light = colors_of(as_light(light_of(p), kOrder));
             for (std::size_t i = 0; i < kCount; ++i)
                 left[i] -= of_light[i];
         }

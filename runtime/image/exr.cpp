@@ -1,3 +1,4 @@
+// OpenEXR files: checked, read to linear Rec. 709 whatever their primaries, and written.
 #include "exr.h"
 
 #include "image_limits.h"

@@ -1,3 +1,4 @@
+// Images from files by their kind, and to files: Radiance HDR, PNG and JPEG by stb.
 #include "prt/image_file.h"
 
 #include "exr.h"
@@ -172,7 +173,7 @@ EnvironmentFile load_environment(const std::filesystem::path& path, const Enviro
     }
     try {
         result.environment.layout = layout_of(result.environment.image, layout);
-        result.environment.centre = options.centre;
+        result.environment.center = options.center;
         check_environment(result.environment);
         result.repaired_pixels = repair_pixels(result.environment.image, options.bad_pixels);
     } catch (const Error& error) {

@@ -28,13 +28,13 @@ struct EllipticCone {
     double wide, narrow; ///< tangents of its half angles, wide >= narrow
 };
 
-/// Of the disc's centre from the foot of the origin on its plane: the direction in the plane, and how far.
-/// Where the centre is next to the foot the difference of the two is rounding, of any direction, and it
+/// Of the disc's center from the foot of the origin on its plane: the direction in the plane, and how far.
+/// Where the center is next to the foot the difference of the two is rounding, of any direction, and it
 /// leaves the plane. So what leaves it is taken out, and what only rounding can be is no offset.
-std::pair<glm::dvec3, double> sideways(const glm::dvec3& centre, const glm::dvec3& normal, double height) {
+std::pair<glm::dvec3, double> sideways(const glm::dvec3& center, const glm::dvec3& normal, double height) {
     constexpr double kRounding = 1e-12; // of the height, and 1000 times that of doubles
     const auto in_plane = [&](const glm::dvec3& v) { return v - glm::dot(v, normal) * normal; };
-    const glm::dvec3 lateral = in_plane(centre + height * normal);
+    const glm::dvec3 lateral = in_plane(center + height * normal);
     const double offset = glm::length(lateral);
     if (offset > kRounding * height)
         return {glm::normalize(in_plane(lateral / offset)), offset};
@@ -43,8 +43,8 @@ std::pair<glm::dvec3, double> sideways(const glm::dvec3& centre, const glm::dvec
 }
 
 /// `normal` points from the disc to the side of the origin, which is `height` > 0 above it.
-EllipticCone cone_through(const glm::dvec3& centre, const glm::dvec3& normal, double height, double radius) {
-    const auto [side, offset] = sideways(centre, normal, height);
+EllipticCone cone_through(const glm::dvec3& center, const glm::dvec3& normal, double height, double radius) {
+    const auto [side, offset] = sideways(center, normal, height);
     // In the plane of symmetry the rim's nearest and farthest points are seen at angles a1 and a2 from the
     // direction straight down, tan a = (offset -+ radius) / height. Of their difference and sum, without
     // cancellation:
@@ -108,7 +108,7 @@ Coefficients covered(const EllipticCone& cone) {
 
 } // namespace
 
-Light disc_light(int order, const glm::vec3& centre, const glm::vec3& normal, double radius,
+Light disc_light(int order, const glm::vec3& center, const glm::vec3& normal, double radius,
                  const glm::vec3& radiance) {
     check_order(order);
     if (!(radius > 0 && std::isfinite(radius)))
@@ -116,7 +116,7 @@ Light disc_light(int order, const glm::vec3& centre, const glm::vec3& normal, do
     const double length = glm::length(glm::dvec3(normal));
     if (!(length > 0 && std::isfinite(length)))
         throw Error("a disc light needs a normal, not a vector of length " + std::to_string(length));
-    const glm::dvec3 n = glm::dvec3(normal) / length, c(centre);
+    const glm::dvec3 n = glm::dvec3(normal) / length, c(center);
     const double height = -glm::dot(n, c);
     if (!std::isfinite(height))
         throw Error("the centre of a disc light must be finite");

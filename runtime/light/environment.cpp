@@ -1,3 +1,4 @@
+// Environment maps: checks, repair of pixels, and the directions that pixels look in.
 #include "prt/environment.h"
 
 #include "prt/sh.h"
@@ -54,7 +55,7 @@ glm::vec3 bilinear(const Image& image, int x0, int x1, int y0, int y1, float u, 
 }
 
 /// Bilinear within the square of `size` texels whose first row is `top`, at the position (x, y) in units of
-/// texels whose centres are integers; beyond the border the border goes on.
+/// texels whose centers are integers; beyond the border the border goes on.
 glm::vec3 sample_square(const Image& image, int top, int size, double x, double y) {
     const int last = size - 1;
     x = std::clamp(x, 0.0, double(last));
@@ -175,7 +176,7 @@ glm::vec3 sample(const Environment& environment, const glm::vec3& direction) {
     case EnvironmentLayout::lat_long:
         break;
     }
-    if (environment.centre == LatLongCentre::x) // what is at +X in the world is where +Z is without a turn
+    if (environment.center == LatLongCenter::x) // what is at +X in the world is where +Z is without a turn
         return sample_lat_long(environment.image, {-direction.z, direction.y, direction.x});
     return sample_lat_long(environment.image, direction);
 }
@@ -207,7 +208,7 @@ Image resampled_lat_long(const Environment& environment) {
     check_environment(environment);
     const Image& image = environment.image;
     const bool lat_long = environment.layout == EnvironmentLayout::lat_long;
-    if (lat_long && environment.centre == LatLongCentre::z)
+    if (lat_long && environment.center == LatLongCenter::z)
         return image;
     // A face of a cube spans a quarter turn, an angular map a whole one, the result's height half of one.
     // Where a lat-long image has a quarter of its width in whole pixels, these fall on pixels.

@@ -1,3 +1,4 @@
+// Lights of simple shapes in closed form: zonal coefficients, turned to where the light is.
 #include "prt/light.h"
 
 #include "prt/dering.h"
@@ -85,14 +86,14 @@ Light hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, con
                zonal_light(order, up, 0.5f * (top - bottom), [](int l) { return l == 1 ? 4 * pi / 3 : 0; }));
 }
 
-Light sphere_light(int order, const glm::vec3& centre, double radius, const glm::vec3& radiance) {
-    const double distance = glm::length(glm::dvec3(centre));
+Light sphere_light(int order, const glm::vec3& center, double radius, const glm::vec3& radiance) {
+    const double distance = glm::length(glm::dvec3(center));
     if (!(radius > 0))
         throw Error("the radius of a spherical light must be positive");
     if (!(distance > radius))
         throw Error("the receiver is inside the spherical light: distance " + std::to_string(distance) +
                     ", radius " + std::to_string(radius));
-    return cone_light(order, centre, std::asin(radius / distance), radiance);
+    return cone_light(order, center, std::asin(radius / distance), radiance);
 }
 
 Light overcast_sky(int order, const glm::vec3& zenith) {

@@ -27,14 +27,14 @@ using std::numbers::pi;
 
 namespace {
 
-/// Per row of a lat-long image, Fourier sums over its pixels, exact for pixels of constant colour:
+/// Per row of a lat-long image, Fourier sums over its pixels, exact for pixels of constant color:
 /// sum over pixels of L(pixel) ∫ cos(m phi) dphi, and the same with sin.
 struct RowFourier {
     std::array<glm::dvec3, kMaxOrder> cosine{}, sine{};
 };
 
 /// The azimuth in the image's polar frame (x', y', z') = (z, x, y) equals the longitude. Holds for each m and
-/// column cos(m phi) and sin(m phi) at the column's centre. Where the width is a multiple of four, columns at
+/// column cos(m phi) and sin(m phi) at the column's center. Where the width is a multiple of four, columns at
 /// phi, -phi, pi - phi and phi - pi share them up to signs: a quarter of the columns will do.
 struct ColumnTables {
     bool folded;
@@ -132,44 +132,30 @@ std::array<double, kMaxOrder * kMaxOrder> row_legendre(int order, double theta0,
     return sum;
 }
 
-ProjectedColours project_lat_long(const Environment& environment, int order, int threads) {
-    const Image& image = environment.image;
-    const ColumnTables tables(order, image.width);
-    const GaussLegendre quadrature(pi / image.height > 0.2 ? 24 : 3); // as in points_for
-    const auto height = static_cast<std::size_t>(image.height);
-    std::vector<ProjectedColours> rows(height);
-    parallel_for(height, 8, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<double> parts(kParts * 3 * tables.columns);
-        for (std::size_t y = begin; y < end; ++y) {
-            RowFourier fourier;
-            row_fourier(&image.pixels[y * static_cast<std::size_t>(image.width)], image.width, order, tables,
-                        parts.data(), fourier);
-            const double row = static_cast<double>(y);
-            const auto legendre =
-                row_legendre(order, pi * row / image.height, pi * (row + 1) / image.height, quadrature);
-            for (int l = 0; l < order; ++l) {
-                for (int m = 0; m <= l; ++m) {
-                    const auto i = static_cast<std::size_t>(sh_index(l, m));
-                    rows[y][i] = legendre[i] * fourier.cosine[static_cast<std::size_t>(m)];
-                    if (m > 0)
-                        rows[y][static_cast<std::size_t>(sh_index(l, -m))] =
-                            legendre[i] * fourier.sine[static_cast<std::size_t>(m)];
-                }
-            }
+/// The coefficients of one row: its Legendre part times its Fourier sums.
+ProjectedColors in_bands(int order, const std::array<double, kMaxOrder * kMaxOrder>& legendre,
+                         const RowFourier& fourier) {
+    ProjectedColors row{};
+    for (int l = 0; l < order; ++l)
+        for (int m = 0; m <= l; ++m) {
+            const auto i = static_cast<std::size_t>(sh_index(l, m));
+            row[i] = legendre[i] * fourier.cosine[static_cast<std::size_t>(m)];
+            if (m > 0)
+                row[static_cast<std::size_t>(sh_index(l, -m))] =
+                    legendre[i] * fourier.sine[static_cast<std::size_t>(m)];
         }
-    });
-    ProjectedColours polar{};
-    for (const ProjectedColours& row : rows)
-        for (std::size_t i = 0; i < polar.size(); ++i)
-            polar[i] += row[i];
+    return row;
+}
 
-    // From the image's polar frame to ours: columns are the images of x', where the centre looks, y' to its
+/// From the image's polar frame to ours.
+ProjectedColors in_world(const ProjectedColors& polar, int order, LatLongCenter center) {
+    // Columns are the images of x', where the center looks, y' to its
     // left and z' up.
-    const glm::dmat3 frame = environment.centre == LatLongCentre::z
+    const glm::dmat3 frame = center == LatLongCenter::z
                                  ? glm::dmat3(glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0))
                                  : glm::dmat3(glm::dvec3(1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, 1, 0));
     const ShRotation to_world(order, frame);
-    ProjectedColours result{};
+    ProjectedColors result{};
     for (int channel = 0; channel < 3; ++channel) {
         std::array<double, kMaxOrder * kMaxOrder> in{}, out{};
         for (std::size_t i = 0; i < in.size(); ++i)
@@ -181,7 +167,32 @@ ProjectedColours project_lat_long(const Environment& environment, int order, int
     return result;
 }
 
-ProjectedColours project_layout(const Environment& environment, int order, int threads) {
+ProjectedColors project_lat_long(const Environment& environment, int order, int threads) {
+    const Image& image = environment.image;
+    const ColumnTables tables(order, image.width);
+    const GaussLegendre quadrature(pi / image.height > 0.2 ? 24 : 3); // as in points_for
+    const auto height = static_cast<std::size_t>(image.height);
+    std::vector<ProjectedColors> rows(height);
+    parallel_for(height, 8, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<double> parts(kParts * 3 * tables.columns);
+        for (std::size_t y = begin; y < end; ++y) {
+            RowFourier fourier;
+            row_fourier(&image.pixels[y * static_cast<std::size_t>(image.width)], image.width, order, tables,
+                        parts.data(), fourier);
+            const double row = static_cast<double>(y);
+            const auto legendre =
+                row_legendre(order, pi * row / image.height, pi * (row + 1) / image.height, quadrature);
+            rows[y] = in_bands(order, legendre, fourier);
+        }
+    });
+    ProjectedColors polar{};
+    for (const ProjectedColors& row : rows)
+        for (std::size_t i = 0; i < polar.size(); ++i)
+            polar[i] += row[i];
+    return in_world(polar, order, environment.center);
+}
+
+ProjectedColors project_layout(const Environment& environment, int order, int threads) {
     switch (environment.layout) {
     case EnvironmentLayout::cube:
     case EnvironmentLayout::cube_faces:
@@ -199,7 +210,7 @@ ProjectedColours project_layout(const Environment& environment, int order, int t
 Light project(const Environment& environment, int order, int threads) {
     check_order(order);
     check_environment(environment);
-    const ProjectedColours coefficients = project_layout(environment, order, threads);
+    const ProjectedColors coefficients = project_layout(environment, order, threads);
     Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)))};
     for (std::size_t i = 0; i < light.coefficients.size(); ++i)
         light.coefficients[i] = glm::vec3(coefficients[i]);

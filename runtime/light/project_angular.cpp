@@ -79,7 +79,7 @@ void add_scaled(const float* from, float factor, std::size_t count, float* to) {
 /// Of `count` floats of pixels that lie next to one another.
 PRT_TWO_CLONES
 void mean_along(const float* from, const MeanOfCell& mean, std::size_t count, float* to) {
-    const auto centre = static_cast<float>(mean.factor[0]), near = static_cast<float>(mean.factor[1]),
+    const auto center = static_cast<float>(mean.factor[0]), near = static_cast<float>(mean.factor[1]),
                far = static_cast<float>(mean.factor[2]);
     const auto at = [&](std::size_t i) __attribute__((always_inline)) {
         return lanes_at(from + i);
@@ -90,10 +90,10 @@ void mean_along(const float* from, const MeanOfCell& mean, std::size_t count, fl
     std::size_t i = 0;
     for (; i + kLaneCount <= count; i += kLaneCount)
         *reinterpret_cast<LanesInMemory*>(to + i) =
-            centre * at(i) + near * (before(i, 1) + at(i + 3)) + far * (before(i, 2) + at(i + 6));
+            center * at(i) + near * (before(i, 1) + at(i + 3)) + far * (before(i, 2) + at(i + 6));
     for (; i < count; ++i)
         to[i] =
-            centre * from[i] + near * (*(from + i - 3) + from[i + 3]) + far * (*(from + i - 6) + from[i + 6]);
+            center * from[i] + near * (*(from + i - 3) + from[i + 3]) + far * (*(from + i - 6) + from[i + 6]);
 }
 
 class AngularMap {
@@ -149,9 +149,9 @@ private:
 /// Nodes in the texels of one row that the rim cuts, of each of their rows the stretch within the circle.
 struct RimNodes {
     std::vector<float> s, t;
-    std::vector<glm::vec3> colours; ///< times the area
+    std::vector<glm::vec3> colors; ///< times the area
 
-    void add(const Cell& u, const Cell& v, const GaussLegendre& rim, const glm::vec3& colour) {
+    void add(const Cell& u, const Cell& v, const GaussLegendre& rim, const glm::vec3& color) {
         for (std::size_t j = 0; j < rim.nodes.size(); ++j) {
             const double y = v.at(rim.nodes[j]), reach = std::sqrt(std::max(0.0, 1 - y * y));
             const Cell chord{std::max(u.begin, -reach), std::min(u.end, reach)};
@@ -160,8 +160,8 @@ struct RimNodes {
             for (std::size_t i = 0; i < rim.nodes.size(); ++i) {
                 s.push_back(static_cast<float>(chord.at(rim.nodes[i])));
                 t.push_back(static_cast<float>(y));
-                colours.push_back(
-                    static_cast<float>(chord.half() * v.half() * rim.weights[i] * rim.weights[j]) * colour);
+                colors.push_back(
+                    static_cast<float>(chord.half() * v.half() * rim.weights[i] * rim.weights[j]) * color);
             }
         }
     }
@@ -188,14 +188,33 @@ void add_rim(const AngularMap& map, int y, const GaussLegendre& rim, int order, 
     put_disc_nodes(nodes.s.data(), nodes.t.data(), row.stride, row.directions.data(), row.weights.data());
     for (std::size_t i = 0; i < row.count; ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            parts[c * row.stride + i] = row.weights[i] * nodes.colours[i][static_cast<int>(c)];
+            parts[c * row.stride + i] = row.weights[i] * nodes.colors[i][static_cast<int>(c)];
     evaluate_sh(order, row.directions, row.basis);
     multiply_all(functions, row.stride, row.basis.data(), parts.data(), sums);
 }
 
+/// Puts directions and weights of the nodes `inner` of every texel of row `y` into `row`.
+void put_nodes(const AngularMap& map, int y, const GaussLegendre& inner, RowOfTexels& row) {
+    const std::size_t n = inner.nodes.size();
+    const int size = map.size();
+    std::vector<float> s(row.stride), t(row.stride);
+    for (std::size_t j = 0; j < n; ++j)
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t first = (j * n + i) * row.stride;
+            const double left = map.cell(0).at(inner.nodes[i]), step = 2.0 / size;
+            for (std::size_t x = 0; x < row.stride; ++x) // beyond the image, where the series blow up, 1
+                s[x] = static_cast<float>(std::min(1.0, left + step * static_cast<double>(x)));
+            std::ranges::fill(t, static_cast<float>(map.cell(y).at(inner.nodes[j])));
+            put_disc_nodes(s.data(), t.data(), row.stride, &row.directions[first], &row.weights[first]);
+            const auto area = static_cast<float>(inner.weights[i] * inner.weights[j] / size / size);
+            for (std::size_t x = 0; x < row.stride; ++x)
+                row.weights[first + x] *= area;
+        }
+}
+
 } // namespace
 
-ProjectedColours project_angular(const Image& image, int order, int threads) {
+ProjectedColors project_angular(const Image& image, int order, int threads) {
     const AngularMap map(image);
     const int size = map.size();
     const double texel = 2 * pi / size;
@@ -204,21 +223,7 @@ ProjectedColours project_angular(const Image& image, int order, int threads) {
                                                                            : size < 256 ? 6
                                                                                         : 2);
     const std::size_t n = inner.nodes.size();
-    const auto put_row = [&](int y, RowOfTexels& row) {
-        std::vector<float> s(row.stride), t(row.stride);
-        for (std::size_t j = 0; j < n; ++j)
-            for (std::size_t i = 0; i < n; ++i) {
-                const std::size_t first = (j * n + i) * row.stride;
-                const double left = map.cell(0).at(inner.nodes[i]), step = 2.0 / size;
-                for (std::size_t x = 0; x < row.stride; ++x) // beyond the image, where the series blow up, 1
-                    s[x] = static_cast<float>(std::min(1.0, left + step * static_cast<double>(x)));
-                std::ranges::fill(t, static_cast<float>(map.cell(y).at(inner.nodes[j])));
-                put_disc_nodes(s.data(), t.data(), row.stride, &row.directions[first], &row.weights[first]);
-                const auto area = static_cast<float>(inner.weights[i] * inner.weights[j] / size / size);
-                for (std::size_t x = 0; x < row.stride; ++x)
-                    row.weights[first + x] *= area;
-            }
-    };
+    const auto put_row = [&](int y, RowOfTexels& row) { put_nodes(map, y, inner, row); };
     const auto fold_row = [&](int, int y, std::size_t stride, float* parts) {
         std::vector<glm::vec3> above(static_cast<std::size_t>(size + 2 * kLongestReach)), below = above;
         map.pixels(y, mean, above);
@@ -227,7 +232,7 @@ ProjectedColours project_angular(const Image& image, int order, int threads) {
     };
     auto whole = project_squares(size, 1, n * n, order, threads, put_row, fold_row);
     const BySigns functions(order);
-    std::vector<ProjectedColours> rims((static_cast<std::size_t>(size) + kRowsOfBlock - 1) / kRowsOfBlock);
+    std::vector<ProjectedColors> rims((static_cast<std::size_t>(size) + kRowsOfBlock - 1) / kRowsOfBlock);
     parallel_for(
         static_cast<std::size_t>(size), kRowsOfBlock, threads, [&](std::size_t begin, std::size_t end) {
             LaneSums sums;
@@ -235,10 +240,10 @@ ProjectedColours project_angular(const Image& image, int order, int threads) {
                 add_rim(map, static_cast<int>(y), rim, order, functions, sums);
             add_lanes(static_cast<std::size_t>(coefficient_count(order)), sums, rims[begin / kRowsOfBlock]);
         });
-    for (const ProjectedColours& row : rims)
+    for (const ProjectedColors& row : rims)
         for (std::size_t i = 0; i < row.size(); ++i)
             whole[0][i] += row[i];
-    ProjectedColours result{};
+    ProjectedColors result{};
     add_square(whole[0], {1, 0, 0}, {0, -1, 0}, {0, 0, -1}, order, result);
     return result;
 }

@@ -10,12 +10,12 @@
 namespace prt {
 namespace {
 
-/// The part of a texel's cell that lies on the face, where border texels are centred on the border.
-Cell centred_cell(int size, int i) {
+/// The part of a texel's cell that lies on the face, where border texels are centerd on the border.
+Cell centerd_cell(int size, int i) {
     if (size == 1)
         return {-1, 1};
-    const double half = 1.0 / (size - 1), centre = 2.0 * i / (size - 1) - 1;
-    return {std::max(-1.0, centre - half), std::min(1.0, centre + half)};
+    const double half = 1.0 / (size - 1), center = 2.0 * i / (size - 1) - 1;
+    return {std::max(-1.0, center - half), std::min(1.0, center + half)};
 }
 
 /// At (s, t) of a cube's face, which is at distance sqrt(1 + s² + t²).
@@ -30,12 +30,12 @@ int points_for(double angle) {
     return angle > 0.2 ? 24 : angle > 0.04 ? 3 : 2;
 }
 
-ProjectedColours project_cube(const Environment& environment, int order, int threads) {
+ProjectedColors project_cube(const Environment& environment, int order, int threads) {
     const int size = environment.image.width;
     const bool exr = environment.layout == EnvironmentLayout::cube;
     const GaussLegendre quadrature(points_for(2.0 / size));
     const std::size_t n = quadrature.nodes.size();
-    const auto cell = [&](int i) { return exr ? centred_cell(size, i) : even_cell(size, i); };
+    const auto cell = [&](int i) { return exr ? centerd_cell(size, i) : even_cell(size, i); };
     const auto put_row = [&](int y, RowOfTexels& row) {
         const Cell v = cell(y);
         for (std::size_t x = 0; x < row.count; ++x) {
@@ -52,7 +52,7 @@ ProjectedColours project_cube(const Environment& environment, int order, int thr
         fold(&image.at(0, face * size + y), &image.at(0, face * size + size - 1 - y), size, y, stride, parts);
     };
     const auto faces = project_squares(size, 6, n * n, order, threads, put_row, fold_row);
-    ProjectedColours result{};
+    ProjectedColors result{};
     for (int face = 0; face < 6; ++face) {
         const auto at = [&](double u, double v) {
             return exr ? cube_direction(face, u, v) : cube_face_direction(face, u, v);

@@ -1,3 +1,4 @@
+// Values of a light on a grid of directions, and how far below its smallest value it can go.
 #include "light/radiance_grid.h"
 
 #include "prt/sh.h"

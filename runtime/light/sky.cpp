@@ -1,3 +1,4 @@
+// The clear sky of Preetham, Shirley and Smits (SIGGRAPH 1999), and its projection.
 #include "prt/sky.h"
 
 #include "prt/sh.h"

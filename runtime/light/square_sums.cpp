@@ -1,3 +1,4 @@
+// Sums over square images that share the basis between pixels mirrored in both axes.
 #include "light/square_sums.h"
 
 #include "prt/sh.h"
@@ -10,7 +11,7 @@
 namespace prt {
 namespace {
 
-/// Half of the lanes: sums of four functions in three colours fit the registers.
+/// Half of the lanes: sums of four functions in three colors fit the registers.
 using HalfLanes [[gnu::vector_size(sizeof(float) * kSumLanes)]] = float;
 
 [[gnu::always_inline]] inline HalfLanes half_lanes_at(const float* values) {
@@ -124,15 +125,15 @@ void multiply_all(const BySigns& functions, std::size_t stride, const float* tex
         multiply_part<1>(&functions.index[f], stride, texels, part, sums);
 }
 
-void add_lanes(std::size_t functions, const LaneSums& sums, ProjectedColours& result) {
+void add_lanes(std::size_t functions, const LaneSums& sums, ProjectedColors& result) {
     for (std::size_t i = 0; i < functions; ++i)
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t lane = 0; lane < kSumLanes; ++lane)
                 result[i][static_cast<int>(c)] += static_cast<double>(sums.at[i][c][lane]);
 }
 
-void add_square(const ProjectedColours& square, const glm::dvec3& right, const glm::dvec3& down,
-                const glm::dvec3& outward, int order, ProjectedColours& result) {
+void add_square(const ProjectedColors& square, const glm::dvec3& right, const glm::dvec3& down,
+                const glm::dvec3& outward, int order, ProjectedColors& result) {
     // In a left-handed frame y changes its sign.
     const double hand = glm::dot(glm::cross(right, down), outward) < 0 ? -1 : 1;
     const ShRotation rotation(order, glm::dmat3(right, hand * down, outward));

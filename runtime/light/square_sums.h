@@ -2,7 +2,7 @@
 
 // Sums over square images: the faces of a cube, and angular maps (docs/math.md, section 3).
 //
-// In the frame of a square (x right, y down, z where its centre looks) the basis functions are even or odd in
+// In the frame of a square (x right, y down, z where its center looks) the basis functions are even or odd in
 // x and in y. So the basis is integrated over the texels of a quarter, once for all faces, and four mirrored
 // pixels are added up with their signs before they are multiplied with it. A rotation per face ends it.
 
@@ -97,11 +97,11 @@ void multiply_parts(const BySigns& functions, std::size_t stride, const float* t
 void multiply_all(const BySigns& functions, std::size_t stride, const float* texels, const float* part,
                   LaneSums& sums);
 
-void add_lanes(std::size_t functions, const LaneSums& sums, ProjectedColours& result);
+void add_lanes(std::size_t functions, const LaneSums& sums, ProjectedColors& result);
 
 /// Adds `square`, whose axes are `right`, `down` and `outward`, to `result`.
-void add_square(const ProjectedColours& square, const glm::dvec3& right, const glm::dvec3& down,
-                const glm::dvec3& outward, int order, ProjectedColours& result);
+void add_square(const ProjectedColors& square, const glm::dvec3& right, const glm::dvec3& down,
+                const glm::dvec3& outward, int order, ProjectedColors& result);
 
 /// Rows whose sums are added up in float, and blocks of them that share their memory.
 inline constexpr std::size_t kRowsOfBlock = 8, kBlocksOfTask = 2;
@@ -109,13 +109,13 @@ inline constexpr std::size_t kRowsOfBlock = 8, kBlocksOfTask = 2;
 /// Projects the squares of `size` pixels that lie in a column, each in its own frame. `put_row(row, texels)`
 /// fills in directions and weights; `fold_row(square, row, stride, parts)` folds pixels.
 template <class PutRow, class FoldRow>
-std::vector<ProjectedColours> project_squares(int size, int squares, std::size_t points, int order,
-                                              int threads, PutRow&& put_row, FoldRow&& fold_row) {
+std::vector<ProjectedColors> project_squares(int size, int squares, std::size_t points, int order,
+                                             int threads, PutRow&& put_row, FoldRow&& fold_row) {
     const auto half = static_cast<std::size_t>((size + 1) / 2), columns = static_cast<std::size_t>(squares);
     const auto functions = static_cast<std::size_t>(coefficient_count(order));
     const std::size_t blocks = (half + kRowsOfBlock - 1) / kRowsOfBlock;
     const BySigns by_signs(order);
-    std::vector<ProjectedColours> sums(blocks * columns);
+    std::vector<ProjectedColors> sums(blocks * columns);
     parallel_for(blocks, kBlocksOfTask, threads, [&](std::size_t begin, std::size_t end) {
         RowOfTexels row(order, half, points);
         std::vector<float> parts(12 * row.stride, 0.0f);
@@ -133,7 +133,7 @@ std::vector<ProjectedColours> project_squares(int size, int squares, std::size_t
                 add_lanes(functions, lanes[square], sums[block * columns + square]);
         }
     });
-    std::vector<ProjectedColours> result(columns);
+    std::vector<ProjectedColors> result(columns);
     for (std::size_t block = 0; block < blocks; ++block)
         for (std::size_t square = 0; square < columns; ++square)
             for (std::size_t i = 0; i < functions; ++i)

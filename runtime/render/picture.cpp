@@ -1,3 +1,4 @@
+// What any renderer checks of a picture.
 #include "prt/picture.h"
 
 #include <cmath>

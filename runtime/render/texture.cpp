@@ -1,3 +1,4 @@
+// Mip chains by box filter, trilinear filtering, and the images that a scene needs.
 #include "prt/texture.h"
 
 #include "prt/support/error.h"
@@ -31,13 +32,13 @@ glm::vec4 decoded(const glm::u8vec4& texel, TextureEncoding encoding) {
     return {table[texel.r], table[texel.g], table[texel.b], static_cast<float>(texel.a) / 255.0f};
 }
 
-glm::u8vec4 encoded(const glm::vec4& colour, TextureEncoding encoding) {
+glm::u8vec4 encoded(const glm::vec4& color, TextureEncoding encoding) {
     glm::u8vec4 texel;
     for (int c = 0; c < 3; ++c) {
-        const float value = encoding == TextureEncoding::srgb ? srgb_encode(colour[c]) : colour[c];
+        const float value = encoding == TextureEncoding::srgb ? srgb_encode(color[c]) : color[c];
         texel[c] = static_cast<std::uint8_t>(std::lround(255 * value));
     }
-    texel.a = static_cast<std::uint8_t>(std::lround(255 * colour.a));
+    texel.a = static_cast<std::uint8_t>(std::lround(255 * color.a));
     return texel;
 }
 
@@ -134,8 +135,8 @@ std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds ne
         }
         if (m.glass.factor > 0 && needs != TextureNeeds::pictures)
             add(m.glass.texture, TextureEncoding::linear);
-        if (m.metallic > 0 && needs == TextureNeeds::all)
-            add(m.metallic_roughness_texture, TextureEncoding::linear);
+        if (m.metal.factor > 0 && needs == TextureNeeds::all)
+            add(m.metal.texture, TextureEncoding::linear);
     }
     return images;
 }

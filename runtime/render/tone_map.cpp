@@ -1,3 +1,4 @@
+// Tone mapping: the rational fit of Narkowicz (2016) to the ACES curve, and averages over samples.
 #include "prt/tone_map.h"
 
 #include "prt/color.h"

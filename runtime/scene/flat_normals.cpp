@@ -1,3 +1,4 @@
+// Normals of triangles for vertices that have none.
 #include "flat_normals.h"
 
 #include "triangle_normal.h"

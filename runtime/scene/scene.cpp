@@ -1,3 +1,4 @@
+// Facts of a scene: areas, bounds and the hash of its receivers.
 #include "prt/scene.h"
 
 #include "triangle_normal.h"

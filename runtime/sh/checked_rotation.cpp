@@ -1,3 +1,4 @@
+// Refuses matrices that are no rotations.
 #include "sh/checked_rotation.h"
 
 #include "prt/sh_rotation.h"

@@ -1,3 +1,4 @@
+// The SH basis in one or many directions, the lobe of the clamped cosine, and windows.
 #include "prt/sh.h"
 
 #include "prt/support/error.h"
@@ -57,6 +58,9 @@ void evaluate_sh(int order, const glm::dvec3& direction, std::span<double> basis
 namespace {
 
 /// Up to kLaneCount directions; the values of each coefficient go `stride` apart.
+///
+/// The recurrence stands here beside `sh_basis`, with the order known at run time only: `sh_basis` for ten
+/// orders and three widths of vectors is 213 kB of code instead of 10 (GCC 12, -O2).
 [[gnu::always_inline]] inline void evaluate_lanes(int order, const glm::vec3* directions, std::size_t count,
                                                   float* basis, std::size_t stride) {
     constexpr auto& k = detail::kLegendre;

@@ -1,3 +1,4 @@
+// Lighting between prtkit, three.js, glTF and D3DX (docs/conventions.md).
 #include "prt/sh_conventions.h"
 
 #include "prt/sh.h"

@@ -1,3 +1,4 @@
+// Values of SH vectors in directions, and convolution with kernels about an axis.
 #include "prt/sh_vector.h"
 
 #include "prt/sh.h"

@@ -1,3 +1,5 @@
+// Puts shaders together: version, defines, and files with their includes in place.
+
 #include "prt/shader_source.h"
 
 #include "embedded_files.h"

@@ -1,3 +1,4 @@
+// Messages of other libraries as one line.
 #include "prt/support/error.h"
 
 #include <algorithm>

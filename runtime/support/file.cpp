@@ -1,3 +1,4 @@
+// Files are written beside their place and renamed, so that none is ever half there.
 #include "prt/support/file.h"
 
 #include "prt/support/error.h"

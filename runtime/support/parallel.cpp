@@ -1,3 +1,5 @@
+// Splits a range over threads that live as long as the call. oneTBB would spare starting them, but a game
+// that links the runtime would link it, too, and have a second pool of threads beside its own.
 #include "prt/support/parallel.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Bases of clusters: layout, sizes, and rows from their code.
 #include "prt/clustered_bases.h"
 
 #include "prt/support/error.h"

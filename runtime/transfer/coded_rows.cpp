@@ -1,3 +1,4 @@
+// Integers in rows of few bits (docs/format.md).
 #include "prt/coded_rows.h"
 
 #include "prt/support/bits.h"

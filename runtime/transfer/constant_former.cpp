@@ -1,3 +1,4 @@
+// Constants of all clusters as one product of a matrix, 16 rows wide, with the lighting.
 #include "prt/constant_former.h"
 
 #include "prt/support/error.h"
@@ -19,13 +20,13 @@ template <std::size_t Channels>
                                                std::size_t last, std::size_t rows, glm::vec4* constants) {
     for (std::size_t block = first; block < last; ++block) {
         const float* from = matrix + block * Channels * count * kLanes;
-        Lanes colour[3] = {};
+        Lanes color[3] = {};
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t c = 0; c < 3; ++c)
-                colour[c] += lanes_at(from + ((Channels == 1 ? 0 : c) * count + i) * kLanes) * light[c][i];
+                color[c] += lanes_at(from + ((Channels == 1 ? 0 : c) * count + i) * kLanes) * light[c][i];
         const std::size_t kept = std::min(kLanes, rows - block * kLanes);
         for (std::size_t lane = 0; lane < kept; ++lane)
-            constants[block * kLanes + lane] = {colour[0][lane], colour[1][lane], colour[2][lane], 0};
+            constants[block * kLanes + lane] = {color[0][lane], color[1][lane], color[2][lane], 0};
     }
 }
 

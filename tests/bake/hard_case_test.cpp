@@ -65,11 +65,12 @@ TEST_P(Magnitude, ScaledAndMovedScenesHaveTheSameTransfer) {
     const auto [scale, offset] = GetParam();
     const auto builder = [] { return SceneBuilder().floor({0, 0, 0}, 3, 4).sphere({0, 1, 0}, 0.5f, 12); };
     const Transfer t = bake_scene(builder().build(), 512);
-    const Transfer moved = bake_scene(
-        builder()
-            .transform([&](const glm::vec3& p) { return p * scale + glm::vec3(offset, 0, -offset); })
-            .build(),
-        512);
+    const Transfer moved = bake_scene(builder()
+                                          .transform([scale = scale, offset = offset](const glm::vec3& p) {
+                                              return p * scale + glm::vec3(offset, 0, -offset);
+                                          })
+                                          .build(),
+                                      512);
     // Moved by 1000 sizes the sphere itself is rounded by 1e-4 of its size; rays through that shell may
     // change.
     const double tolerance = offset == 0 ? 1e-5 : 5e-3;

@@ -30,12 +30,6 @@ GlObject make_map(GLenum target) {
     return {GlKind::texture, name};
 }
 
-GlObject make_framebuffer() {
-    GLuint name = 0;
-    glCreateFramebuffers(1, &name);
-    return {GlKind::framebuffer, name};
-}
-
 } // namespace
 
 DepthMaps::DepthMaps(const GpuScene& scene, const Bounds& bounds, int resolution, bool blends)
@@ -55,9 +49,7 @@ DepthMaps::DepthMaps(const GpuScene& scene, const Bounds& bounds, int resolution
     target_ = make_framebuffer();
     glNamedFramebufferDrawBuffer(target_.name(), GL_NONE);
     program_ = make_program("bake_raster.vert", "bake_raster.frag", scene.defines());
-    GLuint name = 0;
-    glCreateVertexArrays(1, &name);
-    no_vertices_ = GlObject(GlKind::vertex_array, name);
+    no_vertices_ = make_vertex_array();
     if (blends)
         make_layers();
 }

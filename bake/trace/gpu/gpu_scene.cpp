@@ -16,9 +16,6 @@ namespace {
 
 using gpu::AlphaMaterial, gpu::AlphaTriangle;
 
-static_assert(PRT_ALPHA_OPAQUE == static_cast<int>(AlphaMode::opaque) &&
-              PRT_ALPHA_MASK == static_cast<int>(AlphaMode::mask) &&
-              PRT_ALPHA_BLEND == static_cast<int>(AlphaMode::blend));
 static_assert(PRT_WRAP_REPEAT == static_cast<int>(Wrap::repeat) &&
               PRT_WRAP_MIRROR == static_cast<int>(Wrap::mirror) &&
               PRT_WRAP_CLAMP == static_cast<int>(Wrap::clamp));

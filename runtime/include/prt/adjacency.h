@@ -1,6 +1,6 @@
 #pragma once
 
-// Receivers that a mesh joins: edges, and the neighbours of each receiver.
+// Receivers that a mesh joins: edges, and the neighbours of each receiver. Experimental.
 
 #include <cstddef>
 #include <cstdint>

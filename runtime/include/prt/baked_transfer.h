@@ -1,6 +1,6 @@
 #pragma once
 
-// What a bake makes and a compression keeps: transfer and the record of how it was made.
+// What a bake makes and a compression keeps: transfer and the record of how it was made. Stable.
 
 #include "prt/clustered_transfer.h"
 #include "prt/transfer.h"

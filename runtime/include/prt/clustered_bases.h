@@ -1,7 +1,7 @@
 #pragma once
 
 // The clusters of compressed transfer: means, directions, how their weights are stored, and the code of a
-// file.
+// file. Stable.
 
 #include "prt/coded_rows.h"
 #include "prt/sh_basis.h"

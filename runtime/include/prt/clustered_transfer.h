@@ -3,9 +3,10 @@
 // Compressed transfer (clustered PCA; Sloan, Hall, Hart and Snyder 2003): in memory, per frame, per receiver.
 //
 // Each frame, or each time the lighting changes:
-//     form_constants(transfer, light, constants);          // M_k·L and B_kj·L of all clusters
+//     former.form(light.coefficients, constants);          // M_k·L and B_kj·L: prt/constant_former.h
 // then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or here:
 //     R = constants[first_k] + sum_j w_j constants[first_k + 1 + j]   // docs/math.md, eq. 14
+// Stable.
 
 #include "prt/clustered_bases.h"
 #include "prt/light.h"
@@ -69,11 +70,6 @@ std::size_t bits_per_receiver(const ClusteredTransfer& transfer);
 
 /// Rows of constants: a mean and m_k directions for each cluster.
 std::size_t constant_rows(const ClusteredBases& bases);
-
-/// Writes for every cluster M_k·L and B_kj·L to `constants` [constant_rows] as (r, g, b, 0). For packed
-/// weights what turns q into w is worked in, so that the shader multiplies q itself. Throws `Error` if
-/// `light` has fewer bands. Each frame: prt/constant_former.h, which prepares the bases once.
-void form_constants(const ClusteredTransfer& transfer, const Light& light, std::span<glm::vec4> constants);
 
 /// Exit radiance for albedo 1 of every receiver, `radiance` [receivers], from formed constants: what the
 /// vertex shader computes.

@@ -1,6 +1,7 @@
 #pragma once
 
 // Rows of numbers in few bits: how a file keeps the means and directions of its clusters (docs/format.md).
+// Experimental.
 
 #include <cstddef>
 #include <cstdint>

@@ -8,7 +8,7 @@
 //
 // Several models share a lighting: each has its former. A model that turns wants the lighting turned the
 // other way: `ShRotation(order, inverse of the model's rotation).apply(light, turned)`. Constants are linear
-// in the lighting: those of two lightings can be blended instead of formed anew.
+// in the lighting: those of two lightings can be blended instead of formed anew. Stable.
 
 #include "prt/clustered_transfer.h"
 #include "prt/support/glm_layout.h"

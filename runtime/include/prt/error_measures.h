@@ -1,6 +1,6 @@
 #pragma once
 
-// The error measures of docs/math.md, section 6.
+// The error measures of docs/math.md, section 6. Experimental.
 
 #include "prt/adjacency.h"
 #include "prt/light.h"
@@ -13,7 +13,7 @@
 namespace prt {
 
 /// sqrt( sum_p a_p |T_p - T'_p|² / sum_p a_p |T_p|² ); 0 when both are zero. A grey transfer compares with a
-/// coloured one as three equal channels. Throws `Error` when receivers or orders differ.
+/// colored one as three equal channels. Throws `Error` when receivers or orders differ.
 double relative_l2(const Transfer& reference, const Transfer& approximation, std::span<const float> areas);
 
 /// Relative L2 of exit radiance, albedo 1, three channels, both [receivers].

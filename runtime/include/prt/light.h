@@ -1,6 +1,6 @@
 #pragma once
 
-// Lighting as SH coefficients: L_c[i] = ∫ L_c(w) Y_i(w) dw, colours linear Rec. 709.
+// Lighting as SH coefficients: L_c[i] = ∫ L_c(w) Y_i(w) dw, colors linear Rec. 709. Stable.
 
 #include "prt/support/glm_layout.h"
 
@@ -33,15 +33,15 @@ Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm:
 /// the horizon. D3DXSHEvalHemisphereLight is 3/2 of it: `d3dx_hemisphere_light` of prt/sh_conventions.h.
 Light hemisphere_light(int order, const glm::vec3& up, const glm::vec3& top, const glm::vec3& bottom);
 
-/// A sphere of radiance `radiance` about `centre`, seen from the origin: the cone that it fills, of half
+/// A sphere of radiance `radiance` about `center`, seen from the origin: the cone that it fills, of half
 /// angle asin(radius / distance) (D3DXSHEvalSphericalLight). Throws `Error` where the origin is inside it.
-Light sphere_light(int order, const glm::vec3& centre, double radius, const glm::vec3& radiance);
+Light sphere_light(int order, const glm::vec3& center, double radius, const glm::vec3& radiance);
 
-/// A disc about `centre` that shines to the side of its unit normal `normal`, seen from the origin; nothing
+/// A disc about `center` that shines to the side of its unit normal `normal`, seen from the origin; nothing
 /// from behind or edge on. Exact to rounding wherever the origin is, next to the rim and in the disc's plane,
 /// too, at some 0.1 to 1 ms (docs/math.md, eq. 34). Throws `Error` for a radius that is not positive and for
 /// what is not finite.
-Light disc_light(int order, const glm::vec3& centre, const glm::vec3& normal, double radius,
+Light disc_light(int order, const glm::vec3& center, const glm::vec3& normal, double radius,
                  const glm::vec3& radiance);
 
 /// The CIE overcast sky about +Y over black ground: radiance `zenith` (1 + 2 y) / 3 for y >= 0.

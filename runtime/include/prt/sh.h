@@ -2,7 +2,7 @@
 
 // Spherical harmonics: evaluation and windows. prt/sh_vector.h: sums and products; prt/sh_rotation.h:
 // rotation. Conventions: docs/math.md, section 1. Everything here is thread-safe and allocates nothing unless
-// it returns a container.
+// it returns a container. Stable.
 
 #include "prt/sh_basis.h"
 #include "prt/support/glm_layout.h"

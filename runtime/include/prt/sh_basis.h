@@ -1,7 +1,7 @@
 #pragma once
 
 // The real spherical-harmonic basis as a template that any number type can run: float, double, or a SIMD
-// vector of floats. Most callers want `evaluate_sh` of prt/sh.h.
+// vector of floats. Most callers want `evaluate_sh` of prt/sh.h. Stable.
 
 #include <array>
 #include <cstddef>
@@ -104,11 +104,10 @@ template <int Order, class Real>
             sine = x * sine + y * cosine;
             cosine = rotated;
         }
-        Real before = Real{}, legendre = Real{};
+        Real before = Real{}, legendre = Real{}, next;
 #pragma GCC unroll 10
         for (int l = m; l < Order; ++l) {
             const auto li = static_cast<std::size_t>(l);
-            Real next;
             switch (l - m) { // the first of them as polynomials in z
             case 0:
                 next = Real{} + static_cast<Scalar>(k.sectoral[mi]);

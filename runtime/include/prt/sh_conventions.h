@@ -1,6 +1,6 @@
 #pragma once
 
-// Lighting in the conventions of others. docs/conventions.md compares them.
+// Lighting in the conventions of others. docs/conventions.md compares them. Stable.
 
 #include "prt/light.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Rotation of spherical harmonics.
+// Rotation of spherical harmonics. Stable.
 
 #include "prt/sh_basis.h"
 #include "prt/support/glm_layout.h"

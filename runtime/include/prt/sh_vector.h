@@ -2,7 +2,7 @@
 
 // Functions on the sphere as vectors of SH coefficients [order²]: sums, dot products, convolution, products.
 // For float and double. Everything is thread-safe and allocates
-// nothing, but for tables of `sh_product`. Nothing is checked but by assert.
+// nothing, but for tables of `sh_product`. Nothing is checked but by assert. Stable.
 
 #include "prt/sh_basis.h"
 #include "prt/support/glm_layout.h"

@@ -1,7 +1,7 @@
 #pragma once
 
 // An analytic clear sky: A. J. Preetham, P. Shirley and B. Smits, "A Practical Analytic Model for Daylight",
-// SIGGRAPH 1999.
+// SIGGRAPH 1999. Stable.
 
 #include "prt/light.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-// Raw transfer vectors, as the baker makes them.
+// Raw transfer vectors, as the baker makes them. Stable.
 
 #include "prt/light.h"
 #include "prt/sh_basis.h"
@@ -36,7 +36,7 @@ inline Transfer zero_transfer(int order, int channels, std::size_t receivers) {
     return transfer;
 }
 
-/// sum_i T[c][i] L_c[i] of one transfer vector [channels][order²]; channel 0 serves all colours when there is
+/// sum_i T[c][i] L_c[i] of one transfer vector [channels][order²]; channel 0 serves all colors when there is
 /// one.
 glm::vec3 exit_radiance(std::span<const float> transfer, int channels, const Light& light);
 

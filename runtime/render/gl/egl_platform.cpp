@@ -1,3 +1,5 @@
+// Contexts by EGL, which needs no display: devices by enumeration, then Mesa's surfaceless platform.
+
 #include "gl_platform.h"
 
 #include <epoxy/egl.h>

@@ -1,3 +1,5 @@
+// Finds an OpenGL 4.5 context: by EGL, else by a hidden window of GLFW.
+
 #include "prt/gl_context.h"
 
 #include "gl_platform.h"

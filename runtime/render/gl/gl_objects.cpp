@@ -1,3 +1,5 @@
+// OpenGL objects, made by direct state access (OpenGL 4.5), and programs compiled from the embedded shaders.
+
 #include "prt/gl_objects.h"
 
 #include "prt/shader_source.h"
@@ -98,6 +100,18 @@ void read_buffer(const GlObject& buffer, std::span<std::byte> to, const char* wh
 
 void bind_storage(std::uint32_t binding, const GlObject& buffer) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, buffer.name());
+}
+
+GlObject make_vertex_array() {
+    GLuint name = 0;
+    glCreateVertexArrays(1, &name);
+    return {GlKind::vertex_array, name};
+}
+
+GlObject make_framebuffer() {
+    GLuint name = 0;
+    glCreateFramebuffers(1, &name);
+    return {GlKind::framebuffer, name};
 }
 
 GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines,

@@ -1,3 +1,5 @@
+// Pictures by OpenGL: background, opaque primitives, then blended ones from far to near.
+
 #include "prt/gl_renderer.h"
 
 #include "prt/gl_scene.h"
@@ -14,7 +16,7 @@
 namespace prt {
 namespace {
 
-/// Colour and depth, both float, as large as the samples of the picture.
+/// Color and depth, both float, as large as the samples of the picture.
 struct Target {
     GlObject color, depth, framebuffer;
     int width, height;
@@ -29,12 +31,10 @@ struct Target {
                         std::to_string(largest) + " x " + std::to_string(largest));
         color = make_texture_2d(1, GL_RGBA32F, width, height);
         depth = make_texture_2d(1, GL_DEPTH_COMPONENT32F, width, height);
-        GLuint name = 0;
-        glCreateFramebuffers(1, &name);
-        framebuffer = GlObject(GlKind::framebuffer, name);
-        glNamedFramebufferTexture(name, GL_COLOR_ATTACHMENT0, color.name(), 0);
-        glNamedFramebufferTexture(name, GL_DEPTH_ATTACHMENT, depth.name(), 0);
-        if (glCheckNamedFramebufferStatus(name, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        framebuffer = make_framebuffer();
+        glNamedFramebufferTexture(framebuffer.name(), GL_COLOR_ATTACHMENT0, color.name(), 0);
+        glNamedFramebufferTexture(framebuffer.name(), GL_DEPTH_ATTACHMENT, depth.name(), 0);
+        if (glCheckNamedFramebufferStatus(framebuffer.name(), GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
             throw Error("this device cannot draw into float textures");
     }
 
@@ -97,12 +97,10 @@ private:
         glUniform3fv(uniform(program, "forward"), 1, glm::value_ptr(forward));
         glUniform3fv(uniform(program, "right"), 1, glm::value_ptr(right));
         glUniform3fv(uniform(program, "up"), 1, glm::value_ptr(up));
-        glUniform1f(uniform(program, "rotation"), picture_.background_rotation);
+        set_uniform(program, "rotation", picture_.background_rotation);
         glBindTextureUnit(PRT_UNIT_BACKGROUND, texture.name());
-        GLuint empty = 0;
-        glCreateVertexArrays(1, &empty);
-        const GlObject vertex_array(GlKind::vertex_array, empty);
-        glBindVertexArray(empty);
+        const GlObject empty = make_vertex_array();
+        glBindVertexArray(empty.name());
         glDisable(GL_DEPTH_TEST);
         glDisable(GL_CULL_FACE);
         glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -1,3 +1,5 @@
+// Geometry, textures and materials of a scene on the GPU.
+
 #include "prt/gl_scene.h"
 
 #include "shared_layout.h"
@@ -50,12 +52,16 @@ void attach_floats(GLuint vertex_array, const GlObject& buffer, GLuint location,
     glVertexArrayAttribBinding(vertex_array, location, location);
 }
 
-glm::vec3 centre_of(const Primitive& primitive, const VertexArray& vertices) {
+glm::vec3 center_of(const Primitive& primitive, const VertexArray& vertices) {
     glm::vec3 sum(0);
     for (const glm::uvec3& t : primitive.triangles)
         sum += vertices.positions[t.x];
     return sum / static_cast<float>(std::max<std::size_t>(1, primitive.triangles.size()));
 }
+
+static_assert(PRT_ALPHA_OPAQUE == static_cast<int>(AlphaMode::opaque) &&
+              PRT_ALPHA_MASK == static_cast<int>(AlphaMode::mask) &&
+              PRT_ALPHA_BLEND == static_cast<int>(AlphaMode::blend));
 
 } // namespace
 
@@ -76,7 +82,7 @@ GlScene::GlScene(const Scene& scene, std::span<const Texture> textures) : scene_
     }
     for (const Primitive& primitive : scene.primitives) {
         indices_.push_back(make_buffer(std::span<const glm::uvec3>(primitive.triangles)));
-        centres_.push_back(centre_of(primitive, scene.vertex_arrays[primitive.vertices]));
+        centers_.push_back(center_of(primitive, scene.vertex_arrays[primitive.vertices]));
         bytes_ += primitive.triangles.size() * sizeof(glm::uvec3);
     }
 }
@@ -84,9 +90,7 @@ GlScene::GlScene(const Scene& scene, std::span<const Texture> textures) : scene_
 GlVertexArrays GlScene::make_vertex_arrays() const {
     GlVertexArrays arrays;
     for (const Vertices& vertices : vertices_) {
-        GLuint name = 0;
-        glCreateVertexArrays(1, &name);
-        arrays.emplace_back(GlKind::vertex_array, name);
+        const GLuint name = arrays.emplace_back(make_vertex_array()).name();
         attach_floats(name, vertices.positions, PRT_LOCATION_POSITION, 3);
         attach_floats(name, vertices.normals, PRT_LOCATION_NORMAL, 3);
         if (vertices.colors.name() != 0)
@@ -111,7 +115,7 @@ std::vector<std::size_t> GlScene::blended_from_far(const glm::vec3& position) co
         if (is_blended(scene_.primitives[p]))
             blended.push_back(p);
     std::stable_sort(blended.begin(), blended.end(), [&](std::size_t a, std::size_t b) {
-        return glm::distance(position, centres_[a]) > glm::distance(position, centres_[b]);
+        return glm::distance(position, centers_[a]) > glm::distance(position, centers_[b]);
     });
     return blended;
 }
@@ -130,7 +134,7 @@ void GlScene::prepare(const GlObject& program, const GlVertexArrays& arrays, std
     glUniform4fv(uniform(program, "base_color"), 1, glm::value_ptr(material.base_color));
     glUniformMatrix3x2fv(uniform(program, "texture_transform"), 1, GL_FALSE, glm::value_ptr(use.transform));
     glUniform1i(uniform(program, "alpha_mode"), static_cast<int>(material.alpha_mode));
-    glUniform1f(uniform(program, "alpha_cutoff"), material.alpha_cutoff);
+    set_uniform(program, "alpha_cutoff", material.alpha_cutoff);
     glVertexAttrib4f(PRT_LOCATION_COLOR, 1, 1, 1, 1); // where there is no array
     glVertexAttrib2f(PRT_LOCATION_TEXCOORD, 0, 0);
     if (has_texture) {

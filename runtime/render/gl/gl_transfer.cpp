@@ -1,11 +1,15 @@
+// Compressed transfer as vertex attributes and storage buffers, and the vertex shader's result read back.
+
 #include "prt/gl_transfer.h"
 
 #include "prt/shader_source.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
 
 namespace prt {
@@ -24,6 +28,13 @@ GLenum component_type(WeightFormat format) {
     }
     return GL_FLOAT;
 }
+
+// The header of ClusterLayout is installed and includes no shader's; the table may also be a texture, which
+// has no structs. So both sides have it, and here they meet.
+static_assert(sizeof(ClusterLayout) == sizeof(glm::uvec4) &&
+              offsetof(ClusterLayout, first_row) == PRT_CLUSTER_FIRST_ROW * sizeof(std::uint32_t) &&
+              offsetof(ClusterLayout, components) == PRT_CLUSTER_COMPONENTS * sizeof(std::uint32_t) &&
+              offsetof(ClusterLayout, widths) == PRT_CLUSTER_WIDTHS * sizeof(std::uint32_t));
 
 } // namespace
 
@@ -80,8 +91,8 @@ void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {
 }
 
 void GlTransfer::use() const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CONSTANTS, constants_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CLUSTERS, layouts_.name());
+    bind_storage(PRT_BINDING_CONSTANTS, constants_);
+    bind_storage(PRT_BINDING_CLUSTERS, layouts_);
 }
 
 std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Light& light,
@@ -89,30 +100,25 @@ std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const
     GlTransfer on_gpu(transfer);
     on_gpu.set_light(light);
     const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");
-    GLuint name = 0;
-    glCreateVertexArrays(1, &name);
-    const GlObject vertex_array(GlKind::vertex_array, name);
-    on_gpu.attach(name, 0);
+    const GlObject vertex_array = make_vertex_array();
+    on_gpu.attach(vertex_array.name(), 0);
     std::vector<glm::vec3> radiance(transfer.receivers.size());
     const GlObject output = make_buffer(std::span<const glm::vec3>(radiance));
-    GLuint target = 0; // nothing is drawn, but without a window there is no framebuffer unless we make one
-    glCreateFramebuffers(1, &target);
-    const GlObject framebuffer(GlKind::framebuffer, target);
-    glNamedFramebufferParameteri(target, GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
-    glNamedFramebufferParameteri(target, GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
-    glBindFramebuffer(GL_FRAMEBUFFER, target);
+    // Nothing is drawn, but without a window there is no framebuffer unless we make one.
+    const GlObject framebuffer = make_framebuffer();
+    glNamedFramebufferParameteri(framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+    glNamedFramebufferParameteri(framebuffer.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
     glUseProgram(program.name());
     on_gpu.use();
-    glBindVertexArray(name);
+    glBindVertexArray(vertex_array.name());
     glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, output.name());
     glEnable(GL_RASTERIZER_DISCARD);
     glBeginTransformFeedback(GL_POINTS);
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(radiance.size()));
     glEndTransformFeedback();
     glDisable(GL_RASTERIZER_DISCARD);
-    glGetNamedBufferSubData(output.name(), 0, static_cast<GLsizeiptr>(radiance.size() * sizeof(glm::vec3)),
-                            radiance.data());
-    check_gl("reading the vertex shader's result back");
+    read_buffer(output, std::span(radiance), "reading the vertex shader's result back");
     return radiance;
 }
 

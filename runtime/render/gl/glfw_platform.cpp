@@ -1,3 +1,5 @@
+// Contexts by a hidden window of GLFW, for systems without EGL.
+
 #include "gl_platform.h"
 
 #include <epoxy/gl.h>

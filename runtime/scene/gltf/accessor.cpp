@@ -1,3 +1,4 @@
+// Reads accessors, sparse ones and normalised integers included, with every index checked.
 #include "gltf/accessor.h"
 
 #include "prt/support/error.h"

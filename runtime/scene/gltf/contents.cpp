@@ -1,3 +1,4 @@
+// Edits of a glTF document: what is added, and what is taken out with all that only it used.
 #include "gltf/contents.h"
 
 #include "prt/support/error.h"
@@ -53,16 +54,14 @@ void for_each_accessor_reference(Json& json, const std::function<void(Json&)>& v
         for (Json& accessor : attributes)
             visit(accessor);
     };
-    for (Json& mesh : member(json, "meshes", Json::value_t::array)) {
-        for (Json& primitive : mesh["primitives"]) {
-            all_of(primitive["attributes"]);
-            if (primitive.contains("indices"))
-                visit(primitive["indices"]);
-            if (primitive.contains("targets"))
-                for (Json& target : primitive["targets"])
-                    all_of(target);
-        }
-    }
+    for_each_primitive(json, [&](Json& primitive) {
+        all_of(primitive["attributes"]);
+        if (primitive.contains("indices"))
+            visit(primitive["indices"]);
+        if (primitive.contains("targets"))
+            for (Json& target : primitive["targets"])
+                all_of(target);
+    });
     if (json.contains("skins"))
         for (Json& skin : json["skins"])
             if (skin.contains("inverseBindMatrices"))
@@ -250,19 +249,17 @@ void GltfContents::remove_transfer() {
         if (owner["extensions"].empty())
             owner.erase("extensions");
     };
-    for (Json& mesh : member(json, "meshes", Json::value_t::array)) {
-        for (Json& primitive : mesh["primitives"]) {
-            take_extensions(primitive);
-            Json kept = Json::object();
-            for (auto it = primitive["attributes"].begin(); it != primitive["attributes"].end(); ++it) {
-                if (it.key().starts_with("_PRT_"))
-                    accessors.insert(it->get<std::size_t>());
-                else
-                    kept[it.key()] = *it;
-            }
-            primitive["attributes"] = std::move(kept);
+    for_each_primitive(json, [&](Json& primitive) {
+        take_extensions(primitive);
+        Json kept = Json::object();
+        for (auto it = primitive["attributes"].begin(); it != primitive["attributes"].end(); ++it) {
+            if (it.key().starts_with("_PRT_"))
+                accessors.insert(it->get<std::size_t>());
+            else
+                kept[it.key()] = *it;
         }
-    }
+        primitive["attributes"] = std::move(kept);
+    });
     take_extensions(json);
     for (const std::size_t accessor : accessors)
         if (json.contains("accessors") && accessor < json["accessors"].size())

@@ -51,6 +51,16 @@ inline constexpr const char* kClusteredExtension = "PRTKIT_clustered_pca";
 /// What an exception says of the file, without the inner words of the libraries that threw it.
 std::string in_plain_words(const std::exception& error);
 
+/// Calls `visit` with every primitive of every mesh, in the order of the file.
+template <class AnyJson, class Visit>
+void for_each_primitive(AnyJson& json, Visit&& visit) {
+    if (json.contains("meshes"))
+        for (auto& mesh : json["meshes"])
+            if (mesh.contains("primitives"))
+                for (auto& primitive : mesh["primitives"])
+                    visit(primitive);
+}
+
 /// The member `key` of `object`, made if it is not there.
 Json& member(Json& object, const char* key, Json::value_t type);
 

@@ -1,3 +1,4 @@
+// Reads .gltf and .glb with buffers and images into one document, and writes .glb.
 #include "prt/gltf.h"
 
 #include "gltf/accessor.h"
@@ -21,7 +22,7 @@ namespace prt {
 namespace {
 
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
-/// base colour is used. Textures of other formats are missed only where they are needed.
+/// base color is used. Textures of other formats are missed only where they are needed.
 constexpr std::array<std::string_view, 30> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,

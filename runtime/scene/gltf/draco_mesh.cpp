@@ -1,3 +1,4 @@
+// One compressed mesh by Google's Draco decoder.
 #include "gltf/draco_mesh.h"
 
 #include "gltf/accessor.h"

@@ -1,3 +1,4 @@
+// KHR_draco_mesh_compression: compressed primitives become plain ones when a file is read.
 #include "gltf/draco_primitives.h"
 
 #include "gltf/accessor.h"
@@ -180,19 +181,17 @@ private:
 } // namespace
 
 bool has_draco_primitives(const Json& json) {
-    for (const Json& mesh : json.value("meshes", Json::array()))
-        for (const Json& primitive : mesh.value("primitives", Json::array()))
-            if (draco_extension(primitive))
-                return true;
-    return false;
+    bool found = false;
+    for_each_primitive(json, [&](const Json& primitive) { found = found || draco_extension(primitive); });
+    return found;
 }
 
 Json without_draco_indices(Json json) {
-    for (Json& mesh : json["meshes"])
-        for (Json& primitive : mesh.at("primitives"))
-            if (draco_extension(primitive) && primitive.contains("indices") &&
-                !json.at("accessors").at(primitive["indices"].get<std::size_t>()).contains("bufferView"))
-                primitive.erase("indices");
+    for_each_primitive(json, [&](Json& primitive) {
+        if (draco_extension(primitive) && primitive.contains("indices") &&
+            !json.at("accessors").at(primitive["indices"].get<std::size_t>()).contains("bufferView"))
+            primitive.erase("indices");
+    });
     return json;
 }
 

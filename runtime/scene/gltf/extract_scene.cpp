@@ -1,3 +1,4 @@
+// Flattens a document into world-space vertices, triangles and materials.
 #include "prt/gltf.h"
 
 #include "flat_normals.h"

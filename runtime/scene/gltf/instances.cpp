@@ -1,3 +1,4 @@
+// EXT_mesh_gpu_instancing: instances become nodes.
 #include "gltf/instances.h"
 
 #include "gltf/accessor.h"

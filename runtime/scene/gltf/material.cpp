@@ -1,3 +1,4 @@
+// Materials with the extensions that matter to light that passes through.
 #include "gltf/material.h"
 
 #include "prt/support/error.h"
@@ -109,12 +110,12 @@ private:
         for (std::size_t c = 0; c < 4 && c < pbr.baseColorFactor.size(); ++c)
             material.base_color[static_cast<int>(c)] = static_cast<float>(pbr.baseColorFactor[c]);
         material.base_color_texture = texture_use(pbr.baseColorTexture);
-        material.metallic = static_cast<float>(pbr.metallicFactor);
-        material.roughness = static_cast<float>(pbr.roughnessFactor);
-        material.metallic_roughness_texture = texture_use(pbr.metallicRoughnessTexture);
+        material.metal.factor = static_cast<float>(pbr.metallicFactor);
+        material.metal.roughness = static_cast<float>(pbr.roughnessFactor);
+        material.metal.texture = texture_use(pbr.metallicRoughnessTexture);
         range_.clamp(material.base_color, "baseColorFactor of materials");
-        range_.clamp(material.metallic, "metallicFactor of materials");
-        range_.clamp(material.roughness, "roughnessFactor of materials");
+        range_.clamp(material.metal.factor, "metallicFactor of materials");
+        range_.clamp(material.metal.roughness, "roughnessFactor of materials");
     }
 
     DiffuseTransmission read_transmission(const tinygltf::Value& extension) {
@@ -131,8 +132,8 @@ private:
         Glass glass{number_member(extension, "transmissionFactor", 0),
                     texture_member(extension, "transmissionTexture")};
         range_.clamp(glass.factor, "transmissionFactor of materials");
-        if (material.metallic_roughness_texture.image < 0) // else its dielectric parts are what is glass
-            glass.factor *= 1 - material.metallic;
+        if (material.metal.texture.image < 0) // else its dielectric parts are what is glass
+            glass.factor *= 1 - material.metal.factor;
         return glass;
     }
 

@@ -1,3 +1,4 @@
+// EXT_meshopt_compression: views are decompressed when a file is read, compressed when it is written.
 #include "gltf/meshopt_views.h"
 
 #include "gltf/accessor.h"
@@ -83,23 +84,21 @@ struct ViewUse {
 std::vector<ViewUse> view_uses(const Json& json) {
     std::vector<ViewUse> uses(json.value("bufferViews", Json::array()).size());
     std::vector<ViewUse> by_accessor(json.value("accessors", Json::array()).size());
-    if (json.contains("meshes"))
-        for (const Json& mesh : json["meshes"])
-            for (const Json& primitive : mesh["primitives"]) {
-                const auto vertices = [&](const Json& attributes) {
-                    for (const auto& item : attributes.items())
-                        by_accessor.at(item.value().get<std::size_t>()).vertices = true;
-                };
-                vertices(primitive.at("attributes"));
-                if (primitive.contains("targets"))
-                    for (const Json& target : primitive["targets"])
-                        vertices(target);
-                if (primitive.contains("indices")) {
-                    ViewUse& use = by_accessor.at(primitive["indices"].get<std::size_t>());
-                    use.indices = true;
-                    use.triangles = use.triangles && primitive.value("mode", 4) == 4;
-                }
-            }
+    const auto vertices = [&](const Json& attributes) {
+        for (const auto& item : attributes.items())
+            by_accessor.at(item.value().get<std::size_t>()).vertices = true;
+    };
+    for_each_primitive(json, [&](const Json& primitive) {
+        vertices(primitive.at("attributes"));
+        if (primitive.contains("targets"))
+            for (const Json& target : primitive["targets"])
+                vertices(target);
+        if (primitive.contains("indices")) {
+            ViewUse& use = by_accessor.at(primitive["indices"].get<std::size_t>());
+            use.indices = true;
+            use.triangles = use.triangles && primitive.value("mode", 4) == 4;
+        }
+    });
     for (std::size_t a = 0; a < by_accessor.size(); ++a) {
         const Json& accessor = json["accessors"][a];
         if (accessor.contains("sparse"))

@@ -1,8 +1,9 @@
+// Vertices in the order of their clusters, in memory and in files, and what GPUs make of an order.
 #include "prt/reorder.h"
 
 #include "gltf/accessor.h"
 #include "gltf/contents.h"
-#include "gltf/gather.h"
+#include "gltf/gathered_accessor.h"
 #include "gltf/unshare.h"
 #include "prt/support/error.h"
 
@@ -99,7 +100,7 @@ void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<cons
                 const auto old = accessor.get<std::size_t>();
                 const auto [entry, is_new] = moved.try_emplace({old, array}, 0);
                 if (is_new)
-                    entry->second = gather(contents, accessor, source);
+                    entry->second = add_gathered_accessor(contents, accessor, source);
                 replaced.insert(old);
                 accessor = entry->second;
             }

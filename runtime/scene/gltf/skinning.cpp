@@ -1,3 +1,4 @@
+// Skins and morph targets in the pose of the file (glTF 2.0, section 3.7.3).
 #include "gltf/skinning.h"
 
 #include "gltf/accessor.h"

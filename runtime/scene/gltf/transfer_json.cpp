@@ -1,3 +1,4 @@
+// What both transfer extensions share: the record of the bake, shapes, and views of floats.
 #include "gltf/transfer_json.h"
 
 #include "gltf/accessor.h"

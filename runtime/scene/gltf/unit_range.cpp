@@ -1,3 +1,4 @@
+// Factors that glTF wants in 0..1.
 #include "gltf/unit_range.h"
 
 namespace prt {

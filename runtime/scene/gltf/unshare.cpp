@@ -1,7 +1,8 @@
+// Gives every node a mesh of its own, and primitives without normals flat ones, as a scene has them.
 #include "gltf/unshare.h"
 
 #include "gltf/accessor.h"
-#include "gltf/gather.h"
+#include "gltf/gathered_accessor.h"
 #include "triangle_normal.h"
 
 #include <glm/geometric.hpp>
@@ -64,7 +65,7 @@ void write_split_vertices(GltfContents& contents, Json& primitive_json, const Sc
     Json attributes = Json::object();
     for (auto it = old_attributes.begin(); it != old_attributes.end(); ++it)
         if (it.key() != "TANGENT") // meaningless without the normals it was made for
-            attributes[it.key()] = gather(contents, *it, vertices.source);
+            attributes[it.key()] = add_gathered_accessor(contents, *it, vertices.source);
     const std::size_t view =
         contents.add_buffer_view(std::as_bytes(std::span(normals)), sizeof(glm::vec3), true);
     attributes["NORMAL"] = contents.add_accessor({{"bufferView", view},
@@ -78,7 +79,7 @@ void write_split_vertices(GltfContents& contents, Json& primitive_json, const Sc
             target = Json::object();
             for (auto it = old_target.begin(); it != old_target.end(); ++it)
                 if (it.key() != "NORMAL" && it.key() != "TANGENT") // deltas of what the file did not have
-                    target[it.key()] = gather(contents, *it, vertices.source);
+                    target[it.key()] = add_gathered_accessor(contents, *it, vertices.source);
         }
 
     std::vector<std::uint32_t> indices;

@@ -155,9 +155,9 @@ TEST(Metal, ReflectsDiffuselyAsFarAsItIsRough) {
     Material& m = sheet.materials[0];
     m.base_color = {0.8f, 0.6f, 0.2f, 1};
     const auto reflected = [&](float metallic, float roughness, const std::vector<Texture>& textures) {
-        m.metallic = metallic;
-        m.roughness = roughness;
-        m.metallic_roughness_texture.image = textures.empty() ? -1 : 0;
+        m.metal.factor = metallic;
+        m.metal.roughness = roughness;
+        m.metal.texture.image = textures.empty() ? -1 : 0;
         return Surfaces(sheet, textures).scattering({0, {0.3f, 0.3f}, 1e-4f}).reflected.r;
     };
     EXPECT_FLOAT_EQ(reflected(0, 0.3f, {}), 0.8f);
@@ -168,15 +168,15 @@ TEST(Metal, ReflectsDiffuselyAsFarAsItIsRough) {
     // Metallic in blue, roughness in green, both as numbers: 51 is a fifth, not sRGB.
     EXPECT_NEAR(reflected(1, 1, {numbers({9, 51, 255, 9})}), 0.8f * 0.04f, 1e-6f);
     EXPECT_NEAR(reflected(1, 0, {numbers({9, 255, 51, 9})}), 0.8f * 0.8f, 1e-6f);
-    // The same image where it is colour elsewhere.
+    // The same image where it is color elsewhere.
     EXPECT_NEAR(reflected(1, 1, {make_texture({1, 1, {{9, 51, 255, 9}}})}), 0.8f * 0.04f, 1e-5f);
 }
 
 TEST(Metal, BouncesByThatShareAndSaysSo) {
     const auto bounced = [](float metallic, float roughness, std::size_t& notices) {
         Scene bowl = SceneBuilder().bowl({0, 0, 0}, 1, 12, 4).build();
-        bowl.materials[0].metallic = metallic;
-        bowl.materials[0].roughness = roughness;
+        bowl.materials[0].metal.factor = metallic;
+        bowl.materials[0].metal.roughness = roughness;
         BakeOptions options;
         options.order = 1;
         options.rays = 256;

@@ -38,7 +38,7 @@ TEST(Cube, DirectionsAreThoseOfOpenExr) {
 }
 
 TEST(LatLong, DirectionsAreThoseOfOpenExrButForItsHalfTexel) {
-    // OpenEXR puts the centres of the border texels on the border; with that undone both agree.
+    // OpenEXR puts the centers of the border texels on the border; with that undone both agree.
     constexpr int kWidth = 17, kHeight = 9;
     const Imath::Box2i window({0, 0}, {kWidth - 1, kHeight - 1});
     for (int y = 0; y < kHeight; ++y)

@@ -15,7 +15,7 @@ void expect_near(const glm::dvec3& a, const glm::dvec3& b) {
     EXPECT_NEAR(glm::distance(a, b), 0, 1e-12);
 }
 
-TEST(LatLong, TopIsUpCentreIsZAndXIsAQuarterToTheLeft) {
+TEST(LatLong, TopIsUpCenterIsZAndXIsAQuarterToTheLeft) {
     expect_near(lat_long_direction(8, 4, 4, 2), {0, 0, 1});
     expect_near(lat_long_direction(8, 4, 2, 2), {1, 0, 0});
     expect_near(lat_long_direction(8, 4, 6, 2), {-1, 0, 0});
@@ -33,7 +33,7 @@ TEST(LatLong, PositionUndoesDirection) {
         }
 }
 
-TEST(LatLong, SamplingAtATexelCentreGivesTheTexel) {
+TEST(LatLong, SamplingAtATexelCenterGivesTheTexel) {
     Environment environment{{8, 4, {}}, EnvironmentLayout::lat_long};
     for (int i = 0; i < 32; ++i)
         environment.image.pixels.emplace_back(i, 2 * i, 3 * i);

@@ -144,9 +144,9 @@ double largest_difference(const Light& a, const Light& b) {
 }
 
 TEST(Light, SphereIsTheConeThatItFills) {
-    const glm::vec3 centre(1, 2, -2);
-    EXPECT_LT(largest_difference(sphere_light(10, centre, 1.5, {1, 2, 3}),
-                                 cone_light(10, centre / 3.0f, std::asin(0.5), {1, 2, 3})),
+    const glm::vec3 center(1, 2, -2);
+    EXPECT_LT(largest_difference(sphere_light(10, center, 1.5, {1, 2, 3}),
+                                 cone_light(10, center / 3.0f, std::asin(0.5), {1, 2, 3})),
               1e-6);
     EXPECT_THROW(sphere_light(3, {0, 0, 1}, 1.5, {1, 1, 1}), Error);
     EXPECT_THROW(sphere_light(3, {0, 0, 1}, 0, {1, 1, 1}), Error);
@@ -176,7 +176,7 @@ std::pair<std::vector<double>, std::vector<double>> line_quadrature(int n) {
 }
 
 /// ∫ over the disc of Y(w) cos / distance², in polar coordinates on the disc: another way than along its rim.
-std::vector<double> disc_by_area(int order, const glm::dvec3& centre, const glm::dvec3& normal,
+std::vector<double> disc_by_area(int order, const glm::dvec3& center, const glm::dvec3& normal,
                                  double radius) {
     const glm::dvec3 u = glm::normalize(glm::cross(normal, glm::dvec3(0.3, 0.5, -0.8))),
                      v = glm::cross(normal, u);
@@ -186,7 +186,7 @@ std::vector<double> disc_by_area(int order, const glm::dvec3& centre, const glm:
     for (std::size_t n = 0; n < nodes.size(); ++n)
         for (int a = 0; a < kAngles; ++a) {
             const double r = 0.5 * radius * (1 + nodes[n]), t = 2 * std::numbers::pi * a / kAngles;
-            const glm::dvec3 p = centre + r * (std::cos(t) * u + std::sin(t) * v), w = glm::normalize(p);
+            const glm::dvec3 p = center + r * (std::cos(t) * u + std::sin(t) * v), w = glm::normalize(p);
             const double area = weights[n] * 0.5 * radius * r * 2 * std::numbers::pi / kAngles;
             const double solid_angle = area * -glm::dot(normal, w) / glm::dot(p, p);
             evaluate_sh(order, w, std::span<double>(y));
@@ -197,12 +197,12 @@ std::vector<double> disc_by_area(int order, const glm::dvec3& centre, const glm:
 }
 
 TEST(Light, DiscAgreesWithQuadratureOverItsArea) {
-    for (const auto& [centre, normal] : {std::pair(glm::vec3(0, 0, 2), glm::vec3(0, 0, -1)),
+    for (const auto& [center, normal] : {std::pair(glm::vec3(0, 0, 2), glm::vec3(0, 0, -1)),
                                          std::pair(glm::vec3(1, 2, -1), glm::vec3(0.2f, -1, 0.4f)),
                                          std::pair(glm::vec3(3, 0.2f, 0), glm::vec3(-0.3f, 0, 0.95f))}) {
         const glm::dvec3 n = glm::normalize(glm::dvec3(normal));
-        const Light light = disc_light(10, centre, normal, 1.2, {1, 1, 1});
-        const auto expected = disc_by_area(10, glm::dvec3(centre), n, 1.2);
+        const Light light = disc_light(10, center, normal, 1.2, {1, 1, 1});
+        const auto expected = disc_by_area(10, glm::dvec3(center), n, 1.2);
         for (std::size_t i = 0; i < expected.size(); ++i)
             EXPECT_NEAR(static_cast<double>(light.coefficients[i].r), expected[i], 1e-6) << i;
     }
@@ -217,10 +217,10 @@ TEST(Light, DiscThatFacesTheReceiverIsACone) {
     EXPECT_NEAR(wide.coefficients[0].r, 2 * std::numbers::pi * 0.2820948, 1e-5);
 }
 
-/// Off by `tilt` radians from the centre's direction, to any side.
-glm::vec3 tilted(const glm::vec3& centre, double tilt, std::mt19937& random) {
+/// Off by `tilt` radians from the center's direction, to any side.
+glm::vec3 tilted(const glm::vec3& center, double tilt, std::mt19937& random) {
     std::normal_distribution<double> gauss;
-    const glm::dvec3 axis = glm::normalize(glm::dvec3(centre)),
+    const glm::dvec3 axis = glm::normalize(glm::dvec3(center)),
                      side = glm::normalize(
                          glm::cross(axis, glm::dvec3(gauss(random), gauss(random), gauss(random))));
     return glm::vec3(-std::cos(tilt) * axis + std::sin(tilt) * side);
@@ -275,10 +275,10 @@ TEST(Light, DiscIsDarkFromBehindAndRefusesNonsense) {
 
 /// Another way, that minds neither the rim nor the plane of the disc: rings about the disc's normal, of each
 /// the arc that the disc covers.
-std::vector<double> disc_by_rings(int order, const glm::dvec3& centre, const glm::dvec3& normal,
+std::vector<double> disc_by_rings(int order, const glm::dvec3& center, const glm::dvec3& normal,
                                   double radius) {
-    const double height = -glm::dot(normal, centre);
-    const glm::dvec3 lateral = centre + height * normal;
+    const double height = -glm::dot(normal, center);
+    const glm::dvec3 lateral = center + height * normal;
     const double offset = glm::length(lateral);
     const glm::dvec3 u = offset > 0 ? lateral / offset : glm::dvec3(0, 0, 1), v = glm::cross(u, normal);
     std::vector<double> sum(static_cast<std::size_t>(coefficient_count(order)), 0), y(sum.size());
@@ -318,7 +318,7 @@ std::vector<double> disc_by_rings(int order, const glm::dvec3& centre, const glm
 }
 
 struct HardDisc {
-    glm::vec3 centre, normal;
+    glm::vec3 center, normal;
     double radius;
 };
 
@@ -332,12 +332,12 @@ TEST(Light, DiscsNextToTheRimGrazingAndFarAgreeWithRings) {
           HardDisc{{2, 0.3f, 1}, {0, -1, 0}, 2},
           HardDisc{{1, 2, -1}, glm::normalize(glm::vec3(0.2f, -1, 0.4f)), 1.2}}) {
         const glm::dvec3 n = glm::normalize(glm::dvec3(d.normal));
-        const Light light = disc_light(10, d.centre, d.normal, d.radius, {1, 1, 1});
-        const auto expected = disc_by_rings(10, glm::dvec3(d.centre), n, d.radius);
+        const Light light = disc_light(10, d.center, d.normal, d.radius, {1, 1, 1});
+        const auto expected = disc_by_rings(10, glm::dvec3(d.center), n, d.radius);
         for (std::size_t i = 0; i < expected.size(); ++i)
             EXPECT_NEAR(static_cast<double>(light.coefficients[i].r), expected[i],
                         1e-5 * std::abs(expected[0]))
-                << d.centre.x << " " << d.centre.y << " " << d.centre.z << ": " << i;
+                << d.center.x << " " << d.center.y << " " << d.center.z << ": " << i;
     }
 }
 

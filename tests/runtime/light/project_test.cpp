@@ -154,13 +154,13 @@ TEST(Project, AnEnvironmentOfTheWrongShapeIsAnError) {
 }
 
 /// A hot texel in the middle of the image, seen by three ways of reading it.
-TEST(Project, TheCentreOfALatLongImageLooksWhereItIsToldTo) {
+TEST(Project, TheCenterOfALatLongImageLooksWhereItIsToldTo) {
     for (const int width : {16, 18}) { // with and without a quarter in whole pixels
         Environment environment = lat_long(width, 9, [](const auto&) { return glm::dvec3(0); });
         environment.image.at(width / 2, 4) = environment.image.at(width / 2 - 1, 4) = glm::vec3(1);
-        environment.image.at(width / 4, 4) = glm::vec3(0.2f, 0, 0); // left of the centre
+        environment.image.at(width / 4, 4) = glm::vec3(0.2f, 0, 0); // left of the center
         const Light z = project(environment, 4);
-        environment.centre = LatLongCentre::x;
+        environment.center = LatLongCenter::x;
         const Light x = project(environment, 4);
         EXPECT_GT(radiance(z, {0, 0, 1}).g, 5 * std::abs(radiance(z, {1, 0, 0}).g));
         EXPECT_GT(radiance(x, {1, 0, 0}).g, 5 * std::abs(radiance(x, {0, 0, 1}).g));
@@ -184,7 +184,7 @@ Environment angular(int size, const Radiance& radiance) {
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x) {
             const double u = 2 * (x + 0.5) / size - 1, v = 2 * (y + 0.5) / size - 1;
-            // Texels whose centre is outside show what their nearest part within shows.
+            // Texels whose center is outside show what their nearest part within shows.
             const double shrink = std::min(1.0, 1 / std::hypot(u, v));
             environment.image.pixels.emplace_back(radiance(angular_direction(shrink * u, shrink * v)));
         }
@@ -316,7 +316,7 @@ TEST(Project, ADeltaSunIsADirectionalLightEverywhere) {
         const Light sun = directional_light(8, towards, glm::vec3(1e5f, 2e5f, 0.5e5f) * float(solid_angle));
         const Light expected = sum(sun, constant_light(8, glm::vec3(1e-3f)));
         const double scale = static_cast<double>(glm::length(expected.coefficients[0]));
-        // At a pole a texel is a sector, whose centroid is a sixth of a row from its centre: 5e-4 radians, by
+        // At a pole a texel is a sector, whose centroid is a sixth of a row from its center: 5e-4 radians, by
         // which a function of band 7 changes by at most 7 times as much.
         const double tolerance = y == 0 || y == kHeight - 1 ? 4e-3 : 1e-4;
         EXPECT_LT(largest_difference(project(environment, 8), expected), tolerance * scale) << x << " " << y;

@@ -145,11 +145,11 @@ TEST_F(Pictures, OfCompressedTransferAgree) {
     EXPECT_GT(d.compared, 0.6); // most of the picture was looked at
 }
 
-TEST_F(Pictures, OfColoursAgree) {
-    std::vector<glm::vec3> colours;
+TEST_F(Pictures, OfColorsAgree) {
+    std::vector<glm::vec3> colors;
     for (const glm::vec3& p : objects.scene.vertex_arrays[0].positions)
-        colours.push_back(0.5f + 0.4f * glm::sin(p * 3.0f));
-    picture.radiance = colours;
+        colors.push_back(0.5f + 0.4f * glm::sin(p * 3.0f));
+    picture.radiance = colors;
     picture.textured = false;
     picture.background = nullptr;
     const Difference d =
@@ -160,10 +160,10 @@ TEST_F(Pictures, OfColoursAgree) {
 
 TEST_F(Pictures, ShowTheSceneUprightAndTheRightWayRound) {
     objects.scene.primitives.pop_back(); // the pane would hide the sphere
-    std::vector<glm::vec3> colours;      // right of the middle red, above it green
+    std::vector<glm::vec3> colors;       // right of the middle red, above it green
     for (const glm::vec3& p : objects.scene.vertex_arrays[0].positions)
-        colours.emplace_back(p.x > 0, p.y > 0, 0);
-    picture.radiance = colours;
+        colors.emplace_back(p.x > 0, p.y > 0, 0);
+    picture.radiance = colors;
     picture.textured = false;
     picture.background = nullptr;
     picture.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.5f};
@@ -180,7 +180,7 @@ TEST_F(Pictures, SeeTheBackgroundWhereTheCameraLooks) {
     const std::vector<glm::vec3> black(objects.scene.receivers(), glm::vec3(0));
     picture.radiance = black;
     picture.background_rotation = 0;
-    picture.camera = {{0, 0, 30}, {0, 0, 60}, {0, 1, 0}, 0.5f}; // along +Z: the centre of the lat-long
+    picture.camera = {{0, 0, 30}, {0, 0, 60}, {0, 1, 0}, 0.5f}; // along +Z: the center of the lat-long
     for (const Image& image : {render_rays(picture, RayScene(objects.scene)), render_gl(picture, *context)}) {
         EXPECT_NEAR(image.at(kWidth / 2, kHeight / 2).r, 0.5f, 0.02f);
         EXPECT_NEAR(image.at(kWidth / 2, kHeight / 2).g, 0.5f, 0.02f);
@@ -202,13 +202,13 @@ Scene coincident_sheets(bool front_first) {
 TEST(RayRenderer, CoincidentSheetsShowTheOneThatFacesTheCamera) {
     for (const bool front_first : {true, false}) {
         const Scene scene = coincident_sheets(front_first);
-        std::vector<glm::vec3> colours; // of the sheets that face +Z red, of the others green
+        std::vector<glm::vec3> colors; // of the sheets that face +Z red, of the others green
         for (const VertexArray& array : scene.vertex_arrays)
             for (const glm::vec3& normal : array.normals)
-                colours.emplace_back(normal.z > 0, normal.z < 0, 0);
+                colors.emplace_back(normal.z > 0, normal.z < 0, 0);
         Picture picture;
         picture.scene = &scene;
-        picture.radiance = colours;
+        picture.radiance = colors;
         picture.width = picture.height = 48;
         picture.samples = 1;
         for (const float side : {1.0f, -1.0f}) {
@@ -238,7 +238,7 @@ TEST(RayRenderer, WhatIsCutOutDoesNotHideWhatLiesAtTheSamePlace) {
 }
 
 TEST(LightMeter, MeasuresWhatTheModelShowsAndNotTheSky) {
-    // A sheet of base colour c before a bright sky: its left half emits 2 c, its right half 6 c.
+    // A sheet of base color c before a bright sky: its left half emits 2 c, its right half 6 c.
     const glm::vec3 color(0.5f, 0.25f, 0.125f);
     const Scene scene = test::join(
         {test::painted(test::SceneBuilder().quad({-1, -1, 0}, {0, -1, 0}, {0, 1, 0}, {-1, 1, 0}).build(),

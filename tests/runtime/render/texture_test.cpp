@@ -30,7 +30,7 @@ TEST(Texture, OddSizesEndInOneTexel) {
     EXPECT_EQ(texture.levels.back().pixels[0], glm::u8vec4(50, 100, 150, 200));
 }
 
-TEST(Texture, TexelCentresAndWrapModes) {
+TEST(Texture, TexelCentersAndWrapModes) {
     Image8 image{4, 1, {}};
     for (int i = 0; i < 4; ++i)
         image.pixels.emplace_back(0, 0, 0, 10 * i);

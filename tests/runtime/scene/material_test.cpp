@@ -60,8 +60,8 @@ TEST(Clamped, IsWhateverLiesOutsideItsRangeWithOneNotice) {
     const Scene scene = parsed(file);
     const Material& m = scene.materials[0];
     EXPECT_EQ(m.base_color, glm::vec4(1, 0, 0.25f, 1));
-    EXPECT_EQ(m.metallic, 0);
-    EXPECT_EQ(m.roughness, 1);
+    EXPECT_EQ(m.metal.factor, 0);
+    EXPECT_EQ(m.metal.roughness, 1);
     EXPECT_EQ(m.transmission.factor, 1);
     EXPECT_EQ(m.transmission.color, glm::vec3(1, 0.5f, 0));
     EXPECT_EQ(m.glass.factor, 1);
@@ -88,17 +88,17 @@ TEST(SpecularGlossiness, GivesItsDiffuseColorAndNoMetal) {
     EXPECT_EQ(m.base_color, glm::vec4(0.8f, 0.4f, 0.2f, 0.5f));
     EXPECT_EQ(m.base_color_texture.image, 0);
     EXPECT_EQ(m.base_color_texture.texcoord, 1);
-    EXPECT_EQ(m.metallic, 0);
+    EXPECT_EQ(m.metal.factor, 0);
 }
 
 TEST(Metal, IsWhatTheFileSaysAndByDefaultRough) {
     const Material m =
         only_material({{"pbrMetallicRoughness", {{"metallicFactor", 0.75}, {"roughnessFactor", 0.25}}}});
-    EXPECT_EQ(m.metallic, 0.75f);
-    EXPECT_EQ(m.roughness, 0.25f);
+    EXPECT_EQ(m.metal.factor, 0.75f);
+    EXPECT_EQ(m.metal.roughness, 0.25f);
     const Material unsaid = only_material({{"name", "plain"}}); // glTF's default
-    EXPECT_EQ(unsaid.metallic, 1);
-    EXPECT_EQ(unsaid.roughness, 1);
+    EXPECT_EQ(unsaid.metal.factor, 1);
+    EXPECT_EQ(unsaid.metal.roughness, 1);
 }
 
 TEST(Glass, IsNotOfMetal) {
@@ -143,7 +143,7 @@ TEST(Textures, OfUnknownFormatOrWithoutImageAreLeftToWhoNeedsThem) {
     const Scene scene = parsed(file);
     const Material& m = scene.materials[0];
     EXPECT_EQ(m.base_color_texture.image, 0);
-    ASSERT_EQ(m.metallic_roughness_texture.image, 1);
+    ASSERT_EQ(m.metal.texture.image, 1);
     EXPECT_TRUE(scene.images[1].bytes.empty());
     EXPECT_EQ(scene.images[1].name, "the image of texture 1");
 }

@@ -14,7 +14,7 @@ namespace {
 
 using test::GlbFile;
 
-/// Two nodes share a mesh whose two primitives share vertices, with colours and a morph target; and an
+/// Two nodes share a mesh whose two primitives share vertices, with colors and a morph target; and an
 /// animation.
 GlbFile instanced_file() {
     GlbFile file = test::triangle_file();

@@ -109,13 +109,13 @@ GlbFile demanding_file() {
         file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 1}, test::kFloat, "VEC3", 3);
     file.json["accessors"][position]["min"] = {0, 0, 0};
     file.json["accessors"][position]["max"] = {1, 1, 1};
-    const auto colour =
+    const auto color =
         file.accessor(std::vector<std::uint8_t>{9, 0, 0, 255, 8, 0, 0, 255, 7, 0, 0, 255, 6, 0, 0, 255},
                       test::kUnsignedByte, "VEC4", 4, true);
     const auto indices =
         file.accessor(std::vector<std::uint8_t>{0, 1, 2, 0, 2, 3}, test::kUnsignedByte, "SCALAR", 1);
     file.json["meshes"][0]["primitives"].push_back(
-        {{"attributes", {{"POSITION", position}, {"COLOR_0", colour}}},
+        {{"attributes", {{"POSITION", position}, {"COLOR_0", color}}},
          {"indices", indices},
          {"extras", {{"keep", 1}}}});
     file.json["nodes"] = {{{"mesh", 0}, {"name", "first"}},
@@ -321,6 +321,8 @@ TEST(TransferInGltf, DamagedTransferIsRefused) {
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["version"] = 99; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["order"] = 11; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["channels"] = 2; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bake"]["method"] = "guess"; }), Error);
+    EXPECT_NO_THROW(read_changed([&](auto& j) { extension(j)["bake"].erase("method"); }));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = {100}; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = nlohmann::ordered_json::array(); }),
                  Error);

@@ -93,21 +93,21 @@ TEST(ShRotation, AxesAreThoseOfTheQuaternion) {
     }
 }
 
-TEST(ShRotation, FloatsAndColoursAreTheSame) {
+TEST(ShRotation, FloatsAndColorsAreTheSame) {
     const auto f = random_function(4);
     const ShRotation rotation(kOrder, turn(1.1, {3, -1, 2}));
     const auto expected = rotated(f, rotation);
     std::vector<float> in(f.begin(), f.end()), out(100);
     rotation.apply(std::span<const float>(in), std::span<float>(out));
-    std::vector<glm::vec3> colours;
+    std::vector<glm::vec3> colors;
     for (const float v : in)
-        colours.emplace_back(v, 2 * v, -v);
-    rotation.apply(std::span<glm::vec3>(colours));
+        colors.emplace_back(v, 2 * v, -v);
+    rotation.apply(std::span<glm::vec3>(colors));
     for (std::size_t i = 0; i < 100; ++i) {
         EXPECT_NEAR(static_cast<double>(out[i]), expected[i], 1e-6);
-        EXPECT_NEAR(static_cast<double>(colours[i].r), expected[i], 1e-6);
-        EXPECT_NEAR(static_cast<double>(colours[i].g), 2 * expected[i], 2e-6);
-        EXPECT_NEAR(static_cast<double>(colours[i].b), -expected[i], 1e-6);
+        EXPECT_NEAR(static_cast<double>(colors[i].r), expected[i], 1e-6);
+        EXPECT_NEAR(static_cast<double>(colors[i].g), 2 * expected[i], 2e-6);
+        EXPECT_NEAR(static_cast<double>(colors[i].b), -expected[i], 1e-6);
     }
 }
 

@@ -147,13 +147,13 @@ void bind_receivers(const ClusteredReceivers& receivers) {
 
 /// Nothing is drawn, but without a window there is no framebuffer unless we make one.
 void bind_small_framebuffer() {
-    GLuint framebuffer = 0, colour = 0;
-    glGenRenderbuffers(1, &colour);
-    glBindRenderbuffer(GL_RENDERBUFFER, colour);
+    GLuint framebuffer = 0, color = 0;
+    glGenRenderbuffers(1, &color);
+    glBindRenderbuffer(GL_RENDERBUFFER, color);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
     glGenFramebuffers(1, &framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, colour);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
 }
 
 std::vector<glm::vec3> radiance_of(const ClusteredTransfer& transfer, const Light& light,

@@ -57,7 +57,7 @@ TEST_P(Constants, AreDotProductsOfRowsAndLight) {
     std::vector<glm::vec4> constants(former.rows());
     former.form(light.coefficients, constants);
     std::size_t row = 0, bit = 0;
-    const auto product = [&](std::size_t r) {
+    const auto product = [&, channels = channels](std::size_t r) { // clang before 16 captures bindings so
         return exit_radiance({&t.bases.rows[r * t.bases.dimension()], t.bases.dimension()}, channels, light);
     };
     for (const int m : t.bases.components) {

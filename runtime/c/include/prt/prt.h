@@ -38,7 +38,7 @@ typedef struct prt_message {
     char text[256];
 } prt_message;
 
-/* A light: `order`, and order*order colours (r, g, b) of the caller's. */
+/* A light: `order`, and order*order colors (r, g, b) of the caller's. */
 
 /* Writes the order*order basis values in unit direction `direction` to `basis`. */
 PRT_API prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message);
@@ -54,13 +54,13 @@ PRT_API prt_status prt_light_directional(int order, const float towards[3], cons
                                          float* light, prt_message* message);
 PRT_API prt_status prt_light_cone(int order, const float axis[3], float half_angle, const float radiance[3],
                                   float* light, prt_message* message);
-PRT_API prt_status prt_light_sphere(int order, const float centre[3], float radius, const float radiance[3],
+PRT_API prt_status prt_light_sphere(int order, const float center[3], float radius, const float radiance[3],
                                     float* light, prt_message* message);
-PRT_API prt_status prt_light_disc(int order, const float centre[3], const float normal[3], float radius,
+PRT_API prt_status prt_light_disc(int order, const float center[3], const float normal[3], float radius,
                                   const float radiance[3], float* light, prt_message* message);
 PRT_API prt_status prt_light_hemisphere(int order, const float up[3], const float top[3],
                                         const float bottom[3], float* light, prt_message* message);
-/* What the centre column of a lat-long image looks at: +Z as OpenEXR says, or +X as three.js, glTF viewers
+/* What the center column of a lat-long image looks at: +Z as OpenEXR says, or +X as three.js, glTF viewers
  * and Blender show it. */
 typedef enum prt_center { PRT_CENTER_Z = 0, PRT_CENTER_X = 1 } prt_center;
 /* Pixels (r, g, b), rows from the top: top row +Y, `center` a prt_center. Bad pixels are an error. `threads`

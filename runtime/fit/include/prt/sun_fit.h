@@ -1,6 +1,6 @@
 #pragma once
 
-// Sun and sky apart: a game casts a sharp shadow from the sun and relights the rest with transfer.
+// Sun and sky apart: a game casts a sharp shadow from the sun and relights the rest with transfer. Stable.
 
 #include "prt/light.h"
 

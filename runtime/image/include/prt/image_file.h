@@ -1,6 +1,6 @@
 #pragma once
 
-// Reading and writing images: OpenEXR, Radiance HDR, PNG; PNG and JPEG textures.
+// Reading and writing images: OpenEXR, Radiance HDR, PNG; PNG and JPEG textures. Stable.
 
 #include "prt/environment.h"
 #include "prt/support/glm_layout.h"
@@ -19,7 +19,7 @@ struct EnvironmentOptions {
     /// How to read an image that does not say (EXR attribute `envmap`). Unset: by its shape, 2:1 or 1:6.
     std::optional<EnvironmentLayout> layout;
     BadPixels bad_pixels = BadPixels::error;
-    LatLongCentre centre = LatLongCentre::z; ///< files do not say it
+    LatLongCenter center = LatLongCenter::z; ///< files do not say it
 };
 
 struct EnvironmentFile {
@@ -36,7 +36,7 @@ struct EnvironmentFile {
 /// no environment map. Memory grows with what is decoded, not with what a header claims.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
-/// 8-bit RGBA pixels as stored, without any conversion of colour.
+/// 8-bit RGBA pixels as stored, without any conversion of color.
 struct Image8 {
     int width = 0, height = 0;
     std::vector<glm::u8vec4> pixels; ///< [height][width]

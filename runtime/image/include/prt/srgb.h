@@ -1,5 +1,7 @@
 #pragma once
 
+// The curve of sRGB. Experimental.
+
 namespace prt {
 
 /// The sRGB transfer function (IEC 61966-2-1) and its inverse.

@@ -1,6 +1,6 @@
 #pragma once
 
-// Numbers of a few bits in a row of bytes, lowest bit first.
+// Numbers of a few bits in a row of bytes, lowest bit first. Experimental.
 
 #include <cstddef>
 #include <cstdint>

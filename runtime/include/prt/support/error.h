@@ -1,5 +1,7 @@
 #pragma once
 
+// What is thrown. Stable.
+
 #include <stdexcept>
 #include <string>
 

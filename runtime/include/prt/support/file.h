@@ -1,5 +1,7 @@
 #pragma once
 
+// Files that are written whole or not at all. Experimental.
+
 #include <cstddef>
 #include <filesystem>
 #include <span>

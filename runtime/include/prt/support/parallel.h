@@ -1,5 +1,7 @@
 #pragma once
 
+// Work over several threads. Experimental.
+
 #include <cstddef>
 #include <functional>
 

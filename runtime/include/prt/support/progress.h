@@ -1,5 +1,7 @@
 #pragma once
 
+// How far long work is, and how it is stopped. Experimental.
+
 #include "prt/support/error.h"
 
 #include <functional>

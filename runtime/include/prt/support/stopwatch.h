@@ -1,5 +1,7 @@
 #pragma once
 
+// Wall time. Experimental.
+
 #include <chrono>
 
 namespace prt {

@@ -1,5 +1,7 @@
 #pragma once
 
+// Frames about normals. Experimental.
+
 #include <glm/vec3.hpp>
 
 #include <cmath>

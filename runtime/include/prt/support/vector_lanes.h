@@ -1,6 +1,7 @@
 #pragma once
 
 // Portable vector code: 16 floats as one value, and functions compiled for several vector widths.
+// Experimental.
 
 namespace prt {
 

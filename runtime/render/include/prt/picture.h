@@ -1,7 +1,7 @@
 #pragma once
 
 // What a renderer draws, whichever renderer it is. `render_gl` (prt/gl_renderer.h) and `render_rays`
-// (prt/ray_renderer.h) make the same picture of it.
+// (prt/ray_renderer.h) make the same picture of it. Experimental.
 
 #include "prt/camera.h"
 #include "prt/clustered_transfer.h"
@@ -19,13 +19,13 @@ struct Picture {
     const Scene* scene = nullptr;
     std::span<const Texture> textures; ///< load_textures(*scene)
 
-    /// Per receiver: exit radiance for albedo 1, or a colour to show.
+    /// Per receiver: exit radiance for albedo 1, or a color to show.
     std::span<const glm::vec3> radiance;
     /// Where set, OpenGL forms the exit radiance in the vertex shader from these instead of `radiance`.
     const ClusteredTransfer* transfer = nullptr;
     const Light* light = nullptr;
 
-    bool textured = true; ///< multiply by base colour; off for views that show a number
+    bool textured = true; ///< multiply by base color; off for views that show a number
     /// Lat-long picture behind the scene; null: black.
     const Image* background = nullptr;
     /// The background is turned about +Y by this, as in `rotated_about_y`. Radians.

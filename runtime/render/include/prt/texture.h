@@ -1,6 +1,7 @@
 #pragma once
 
 // Textures of materials: a mip chain that OpenGL can take as it is, and the same filtering on the CPU.
+// Experimental.
 
 #include "prt/image_file.h"
 #include "prt/scene.h"
@@ -14,7 +15,7 @@
 
 namespace prt {
 
-/// How red, green and blue are stored: colours by the sRGB curve, numbers as they are. Alpha is a number.
+/// How red, green and blue are stored: colors by the sRGB curve, numbers as they are. Alpha is a number.
 enum class TextureEncoding { srgb, linear };
 
 /// Each level is the average of 2 x 2 texels of the one before, decoded. Level 0 is the image; the last is
@@ -27,7 +28,7 @@ struct Texture {
 Texture make_texture(Image8 image, TextureEncoding encoding = TextureEncoding::srgb);
 
 /// Trilinear filtering at texture coordinates `uv` (glTF: origin at the top left) and level of detail `lod`,
-/// which is clamped to the levels there are. Returns linear colour and alpha.
+/// which is clamped to the levels there are. Returns linear color and alpha.
 glm::vec4 sample(const Texture& texture, const TextureUse& use, const glm::vec2& uv, float lod);
 
 /// What to do about textures that are missing or damaged.
@@ -38,13 +39,13 @@ enum class BadTextures {
 
 /// What textures are wanted for.
 enum class TextureNeeds {
-    pictures,   ///< base colour
+    pictures,   ///< base color
     visibility, ///< what rays pass through: cut-outs, blended surfaces, glass, leaves
     all,        ///< and what light bounces off
 };
 
 /// The images that the surfaces of `scene` use for that, with how they are encoded. One that holds both
-/// colours and numbers counts as colours.
+/// colors and numbers counts as colors.
 std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds needs);
 
 /// Those images as textures, by image index; others stay empty.

@@ -1,5 +1,7 @@
 #pragma once
 
+// From radiance to pixels that can be shown. Experimental.
+
 #include "prt/environment.h"
 #include "prt/light.h"
 #include "prt/sh_basis.h"

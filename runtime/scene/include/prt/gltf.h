@@ -1,6 +1,6 @@
 #pragma once
 
-// glTF 2.0 files: reading scenes, and reading and writing transfer in them (docs/format.md).
+// glTF 2.0 files: reading scenes, and reading and writing transfer in them (docs/format.md). Stable.
 
 #include "prt/baked_transfer.h"
 #include "prt/scene.h"

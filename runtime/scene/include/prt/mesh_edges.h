@@ -1,5 +1,7 @@
 #pragma once
 
+// The edges of a scene. Experimental.
+
 #include "prt/adjacency.h"
 #include "prt/scene.h"
 

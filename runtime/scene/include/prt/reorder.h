@@ -1,6 +1,6 @@
 #pragma once
 
-// The order of vertices: that in which the clusters of compressed transfer lie together.
+// The order of vertices: that in which the clusters of compressed transfer lie together. Experimental.
 
 #include "prt/clustered_transfer.h"
 #include "prt/gltf.h"

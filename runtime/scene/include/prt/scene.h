@@ -1,7 +1,7 @@
 #pragma once
 
 // A glTF scene, flattened: world-space vertices and triangles of the default scene, ready to bake and to
-// draw.
+// draw. Stable.
 
 #include "prt/support/glm_layout.h"
 
@@ -50,13 +50,18 @@ struct Volume {
     glm::vec3 attenuation_color{1};                                      ///< what is left after that distance
 };
 
+/// How metallic a surface is, and how rough.
+struct Metal {
+    float factor = 0, roughness = 1;
+    TextureUse texture; ///< times blue, times green
+};
+
 /// All factors lie in 0..1, as glTF wants them.
 struct Material {
     std::string name;
     glm::vec4 base_color{1}; ///< linear Rec. 709 and alpha
     TextureUse base_color_texture;
-    float metallic = 0, roughness = 1;
-    TextureUse metallic_roughness_texture; ///< times blue, times green
+    Metal metal;
     AlphaMode alpha_mode = AlphaMode::opaque;
     float alpha_cutoff = 0.5f;
     bool double_sided = false;

@@ -1,6 +1,6 @@
 #pragma once
 
-// The shaders of the runtime as text, for the graphics interface of a game.
+// The shaders of the runtime as text, for the graphics interface of a game. Stable.
 
 #include "prt/clustered_transfer.h"
 

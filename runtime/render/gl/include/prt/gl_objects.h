@@ -51,6 +51,9 @@ void read_buffer(const GlObject& buffer, std::span<T> to, const char* what) {
 }
 void bind_storage(std::uint32_t binding, const GlObject& buffer);
 
+GlObject make_vertex_array();
+GlObject make_framebuffer();
+
 /// A program of two files of shaders/, with lines of `defines` before them. `captured`: an output of the
 /// vertex shader that transform feedback records. Throws `Error` with the compiler's words when the driver
 /// refuses it.

@@ -25,7 +25,7 @@ public:
     GlScene(const Scene& scene, std::span<const Texture> textures);
 
     const Scene& scene() const { return scene_; }
-    /// With positions, colours and normals at their locations.
+    /// With positions, colors and normals at their locations.
     GlVertexArrays make_vertex_arrays() const;
     /// Points attribute `location` of all `arrays` at `components` floats per receiver in `buffer`.
     void attach_receivers(const GlVertexArrays& arrays, const GlObject& buffer, std::uint32_t location,
@@ -51,7 +51,7 @@ private:
     const Scene& scene_;
     std::vector<Vertices> vertices_; ///< [vertex arrays]
     std::vector<GlObject> indices_;  ///< [primitives]
-    std::vector<glm::vec3> centres_; ///< [primitives] mean of a corner of each triangle
+    std::vector<glm::vec3> centers_; ///< [primitives] mean of a corner of each triangle
     std::vector<GlObject> textures_; ///< [images]
     std::size_t bytes_ = 0;
 };

@@ -1,6 +1,7 @@
 #include "prt/error_measures.h"
 #include "prt/mesh_edges.h"
 
+#include "prt/mesh_edges.h"
 #include "prt/support/error.h"
 #include "support/scene_builder.h"
 

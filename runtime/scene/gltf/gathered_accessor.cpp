@@ -1,4 +1,5 @@
-#include "gltf/gather.h"
+// Accessors whose elements are those of another in a new order.
+#include "gltf/gathered_accessor.h"
 
 #include "gltf/accessor.h"
 
@@ -36,7 +37,8 @@ std::vector<double> stored_values(int component_type, std::span<const std::byte>
 
 } // namespace
 
-std::size_t gather(GltfContents& contents, const Json& reference, const std::vector<std::uint32_t>& source) {
+std::size_t add_gathered_accessor(GltfContents& contents, const Json& reference,
+                                  const std::vector<std::uint32_t>& source) {
     const int index = reference.get<int>();
     const tinygltf::Accessor& old = contents.model.accessors.at(static_cast<std::size_t>(index));
     const std::vector<std::byte> elements = read_elements(contents.model, index);

@@ -1,0 +1,23 @@
+#!/usr/bin/env bash
+# Writes the reference of all public headers to build/reference/html. Needs Doxygen (apt-get install doxygen).
+set -euo pipefail
+cd "$(dirname "$0")/.."
+mkdir -p build/reference
+doxygen - <<'SETTINGS'
+PROJECT_NAME = prtkit
+OUTPUT_DIRECTORY = build/reference
+INPUT = README.md docs/architecture.md docs/terminology.md runtime bake/include compress/include
+FILE_PATTERNS = *.h README.md architecture.md terminology.md
+EXCLUDE_PATTERNS = */runtime/sh/*.h */runtime/light/*.h */runtime/scene/gltf/* */runtime/image/*.h
+RECURSIVE = YES
+USE_MDFILE_AS_MAINPAGE = README.md
+EXTRACT_ALL = YES
+HIDE_UNDOC_RELATIONS = YES
+QUIET = YES
+WARN_IF_UNDOCUMENTED = NO
+GENERATE_LATEX = NO
+MACRO_EXPANSION = YES
+EXPAND_ONLY_PREDEF = YES
+PREDEFINED = PRT_API=
+SETTINGS
+echo "build/reference/html/index.html"

@@ -1,0 +1,54 @@
+// Weights of receivers: from their stored form, and packed into words.
+#include "transfer/packed_weights.h"
+
+#include "prt/clustered_transfer.h"
+
+#include <algorithm>
+
+namespace prt {
+
+void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLayout> layouts,
+                    std::size_t receiver, std::span<float> weights) {
+    const ClusteredReceivers& receivers = transfer.receivers;
+    const ClusterLayout& layout = layouts[receivers.clusters[receiver]];
+    const std::byte* from = receivers.weights.data() + receiver * receivers.stride();
+    auto position = static_cast<std::size_t>(receivers.cluster_bits);
+    for (std::size_t j = 0; j < layout.components; ++j) {
+        switch (receivers.format) {
+        case WeightFormat::float32:
+            weights[j] = load<float>(from + 4 * j);
+            break;
+        case WeightFormat::snorm16:
+            weights[j] = std::max(static_cast<float>(load<std::int16_t>(from + 2 * j)) / 32767.0f, -1.0f);
+            break;
+        case WeightFormat::snorm8:
+            weights[j] = std::max(static_cast<float>(load<std::int8_t>(from + j)) / 127.0f, -1.0f);
+            break;
+        case WeightFormat::packed: {
+            const int width = width_of(layout, j);
+            const auto largest = static_cast<float>((1u << width) - 1);
+            weights[j] = (2 * static_cast<float>(bits_at(from, position, width)) - largest) / largest;
+            position += static_cast<std::size_t>(width);
+            break;
+        }
+        }
+    }
+}
+
+void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& layout,
+                std::span<const std::uint32_t> values, std::span<std::uint32_t> words) {
+    std::fill(words.begin(), words.end(), 0u);
+    std::size_t position = 0;
+    const auto put = [&](std::uint32_t value, int width) {
+        const std::size_t word = position / 32, shift = position % 32;
+        words[word] |= value << shift;
+        if (shift + static_cast<std::size_t>(width) > 32)
+            words[word + 1] |= value >> (32 - shift);
+        position += static_cast<std::size_t>(width);
+    };
+    put(cluster, cluster_bits);
+    for (std::size_t j = 0; j < layout.components; ++j)
+        put(values[j], width_of(layout, j));
+}
+
+} // namespace prt

@@ -1,0 +1,62 @@
+#!/usr/bin/env bash
+# lint_shaders.sh FOLDER: compiles every shader of a folder, with the defines of its variants, by Khronos' reference
+# compiler: drivers take more than the language has. What games get has tests of its own, in all languages.
+set -euo pipefail
+cd "$1"
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+
+# expand FILE: the file with its includes in place, each once, as prt::shader_source does.
+expand() {
+    awk 'function put(name, line, part) {
+            if (seen[name]++) return
+            while ((getline line < name) > 0)
+                if (line ~ /^#include "/) { split(line, part, "\""); put(part[2]) } else print line
+        }
+        BEGIN { put(ARGV[1]); exit }' "$1"
+}
+
+# compiles FILE [DEFINE]... : a name, or a name and its value
+compiles() {
+    local source=$folder/$1
+    {
+        echo "#version 450 core"
+        for define in "${@:2}"; do echo "#define $define"; done
+        expand "$1"
+    } >"$source"
+    glslangValidator "$source" >"$folder/log" || {
+        echo "$*" && cat "$folder/log" && return 1
+    }
+}
+
+packed=(PRT_COMPRESSED PRT_CONSTANTS_BUFFER "PRT_PACKED_WORDS 5" "PRT_CLUSTER_BITS 8")
+for file in *.vert *.frag *.comp; do
+    case $file in
+        bake_trace.comp)
+            for defines in PRT_OPAQUE PRT_ALPHA PRT_HITS "PRT_ALPHA PRT_HITS"; do
+                # shellcheck disable=SC2086 # several defines
+                compiles "$file" "PRT_STACK_SIZE 30" "PRT_ORDER 10" $defines
+            done
+            ;;
+        bake_raster.*)
+            for defines in PRT_OPAQUE PRT_ALPHA "PRT_ALPHA PRT_PEEL"; do
+                # shellcheck disable=SC2086
+                compiles "$file" "PRT_ORDER 6" $defines
+            done
+            ;;
+        *.comp)
+            compiles "$file" "PRT_ROWS 40" "PRT_CHANNELS 1" "PRT_COEFFICIENTS 36"
+            compiles "$file" "PRT_ROWS 40" "PRT_CHANNELS 3" "PRT_COEFFICIENTS 36"
+            ;;
+        prt_relight.vert)
+            compiles "$file" "${packed[@]}"
+            ;;
+        scene.vert | viewer_*)
+            compiles "$file"
+            compiles "$file" "${packed[@]}"
+            compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 8"
+            compiles "$file" PRT_VERTEX_RADIANCE PRT_RADIANCE_GIVEN
+            ;;
+        *) compiles "$file" ;;
+    esac
+done
