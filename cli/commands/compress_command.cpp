@@ -6,6 +6,7 @@
 #include "prt/reorder.h"
 #include "prt/search.h"
 #include "prt/support/error.h"
+#include "report/trace_lines.h"
 
 #include <fmt/core.h>
 
@@ -17,7 +18,7 @@ namespace {
 enum class MetricChoice { natural, plain };
 
 struct CompressArguments {
-    Path baked, output, json;
+    Path baked, output, json, trace;
     SearchOptions options; ///< without a budget `options.compress` says it all
     MetricChoice metric = MetricChoice::natural;
     std::vector<Path> lights; ///< to compress for, instead of `metric`
@@ -248,7 +249,9 @@ SceneFile load_bake(const Path& path) {
 void run(const CompressArguments& a, Session& session) {
     std::vector<Path> inputs = a.lights;
     inputs.push_back(a.baked);
-    check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, inputs);
+    check_outputs(
+        {{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}, {a.trace, "--trace", {".jsonl"}}},
+        inputs);
     SceneFile model = load_bake(a.baked);
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
@@ -257,7 +260,11 @@ void run(const CompressArguments& a, Session& session) {
         throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
                                 transfer.dimension(), options.compress.coding.components));
     discard_transfer(model.document); // it is in `transfer`, and would be in memory twice
+    std::string trace;
+    if (!a.trace.empty())
+        options.compress.trace = [&](const CompressEvent& event) { trace += trace_line(event); };
     Outcome outcome = run_compressor(a, model, options, session);
+    session.write(a.trace, trace);
     const VertexReuse reuse_before = vertex_reuse(model.scene);
     save(a, model, outcome.result.transfer, session);
 
@@ -311,6 +318,10 @@ void add_compress(CLI::App& app, Session& session) {
     command->add_flag("--meshopt", a.meshopt, "write vertex data through EXT_meshopt_compression");
     command->add_option("--seed", a.options.compress.seed, "seed of the clustering")->capture_default_str();
     add_threads(command, a.options.compress.threads);
+    command
+        ->add_option("--trace", a.trace,
+                     "write how the result came about: a line of JSON for each round, split, merge and trial")
+        ->type_name("FILE.jsonl");
     add_json(command, a.json);
 }
 

@@ -1,0 +1,107 @@
+// The trace tells how a result came about, and changes nothing.
+
+#include "prt/search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace prt {
+namespace {
+
+/// Curved sheets of different sizes, so that vector quantisation starts with too many clusters on some.
+Transfer curved_sheets(std::size_t receivers) {
+    Transfer t = zero_transfer(3, 1, receivers);
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    for (std::size_t p = 0; p < receivers; ++p) {
+        const float u = uniform(random), v = uniform(random), size = p % 5 == 0 ? 3.0f : 0.5f;
+        for (std::size_t i = 0; i < t.dimension(); ++i)
+            t.vector(p)[i] = size * std::sin(static_cast<float>(1 + i % 3) * u + static_cast<float>(i) * v) +
+                             0.01f * uniform(random);
+    }
+    return t;
+}
+
+template <class Event>
+std::vector<Event> those_of(const std::vector<CompressEvent>& events) {
+    std::vector<Event> found;
+    for (const CompressEvent& event : events)
+        if (const Event* one = std::get_if<Event>(&event))
+            found.push_back(*one);
+    return found;
+}
+
+TEST(Trace, TellsHowTheResultCameAbout) {
+    const Transfer t = curved_sheets(1200);
+    const std::vector<float> areas(t.receivers(), 1.0f);
+    CompressOptions options{.clusters = 24, .coding = {.components = 3}};
+    const CompressResult without = compress(t, areas, {}, options);
+    std::vector<CompressEvent> events;
+    options.trace = [&](const CompressEvent& event) { events.push_back(event); };
+    const CompressResult with = compress(t, areas, {}, options);
+
+    EXPECT_EQ(with.transfer.bases.rows, without.transfer.bases.rows);
+    EXPECT_EQ(with.transfer.receivers.weights, without.transfer.receivers.weights);
+
+    ASSERT_TRUE(std::holds_alternative<ClustersSeeded>(events.front()));
+    EXPECT_EQ(std::get<ClustersSeeded>(events.front()).clusters, 24u);
+    // Merges make room for as many splits, in pairs; a sweep is kept exactly where it lowers the cost.
+    std::size_t splits = 0, merges = 0, emptied = 0;
+    for (const CompressEvent& event : events) {
+        if (const auto* merge = std::get_if<ClusterMerge>(&event)) {
+            ++merges;
+            emptied = merge->cluster;
+        } else if (const auto* split = std::get_if<ClusterSplit>(&event)) {
+            ++splits;
+            EXPECT_EQ(split->into, emptied);
+            EXPECT_GT(split->gain, 0);
+        } else if (const auto* moves = std::get_if<MovesTried>(&event)) {
+            EXPECT_GT(splits, 0u);
+            EXPECT_EQ(splits, merges);
+            EXPECT_TRUE(!moves->kept || moves->cost_after < moves->cost_before);
+            splits = merges = 0;
+        }
+    }
+    EXPECT_EQ(splits, 0u); // every one belongs to a sweep
+    EXPECT_FALSE(those_of<MovesTried>(events).empty());
+
+    const std::vector<ClusteringRound> rounds = those_of<ClusteringRound>(events);
+    ASSERT_GT(rounds.size(), 2u);
+    EXPECT_LT(rounds.back().cost, rounds.front().cost);
+    double least = 1;
+    for (const CodingRound& round : those_of<CodingRound>(events))
+        if (round.rounded)
+            least = std::min(least, round.error);
+    EXPECT_NEAR(std::sqrt(least), with.statistics.lit_rms, 0.02 * with.statistics.lit_rms);
+}
+
+TEST(Trace, TellsOfEveryTrialOfASearch) {
+    const Transfer t = curved_sheets(300);
+    std::vector<CompressEvent> events;
+    SearchOptions options;
+    options.budget.bytes_per_vertex = 10;
+    options.compress.trace = [&](const CompressEvent& event) { events.push_back(event); };
+    const SearchResult found = compress_within(t, std::vector<float>(300, 1.0f), {}, options);
+    const std::vector<SearchTrial> trials = those_of<SearchTrial>(events);
+    ASSERT_EQ(trials.size(), found.trials.size());
+    for (std::size_t i = 0; i < trials.size(); ++i)
+        EXPECT_EQ(trials[i].lit_rms, found.trials[i].lit_rms);
+}
+
+TEST(Trace, NoBarRunsBackwards) {
+    const Transfer t = curved_sheets(300);
+    double shown = 0;
+    const Progress progress{[&](double share) {
+                                EXPECT_GE(share, shown - 1e-12);
+                                shown = share;
+                            },
+                            {}};
+    const CompressOptions options{.clusters = 64, .coding = preset_u32()};
+    compress_preset(t, std::vector<float>(300, 1.0f), {}, options, progress); // too small: searches, too
+    EXPECT_EQ(shown, 1);
+}
+
+} // namespace
+} // namespace prt
