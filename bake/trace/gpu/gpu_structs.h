@@ -20,7 +20,7 @@ using glm::mat4, glm::vec2, glm::vec3, glm::vec4, glm::uvec2;
 
 #include "shared_structs.h"
 
-#define PRT_AT(type, member, offset) static_assert(offsetof(type, member) == offset)
+#define PRT_AT(type, member, offset) static_assert(offsetof(type, member) == (offset))
 static_assert(sizeof(Receiver) == 32);
 PRT_AT(Receiver, origin, 0);
 PRT_AT(Receiver, normal, 16);

@@ -10,6 +10,7 @@
 #include "trace/gpu/gl_tracer.h"
 #include "trace/gpu/wide_bvh.h"
 
+#include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -126,6 +127,34 @@ TEST(WideBvh, HoldsEveryTriangleOnceInsideItsBoxes) {
             }
         EXPECT_EQ(in_leaves, count);
     }
+}
+
+/// A number of a buffer's variable, as the driver lays it out; -1 where there is none.
+int layout_of(const GlObject& program, const char* variable, GLenum property) {
+    const GLuint index = glGetProgramResourceIndex(program.name(), GL_BUFFER_VARIABLE, variable);
+    GLint value = -1;
+    if (index != GL_INVALID_INDEX)
+        glGetProgramResourceiv(program.name(), GL_BUFFER_VARIABLE, index, 1, &property, 1, nullptr, &value);
+    return value;
+}
+
+TEST(GpuStructs, LieInMemoryAsTheDriverReadsThem) {
+    const auto context = GlContext::create(GlDevice::any);
+    const GlObject
+        trace = make_compute_program(
+            "bake_trace.comp",
+            "#define PRT_STACK_SIZE 9\n#define PRT_ORDER 2\n#define PRT_ALPHA\n#define PRT_HITS\n"),
+        raster = make_compute_program("bake_raster.comp", "#define PRT_ORDER 2\n");
+    const auto expect = [](const GlObject& program, const char* last, std::size_t offset, std::size_t size) {
+        EXPECT_EQ(layout_of(program, last, GL_OFFSET), static_cast<int>(offset)) << last;
+        EXPECT_EQ(layout_of(program, last, GL_TOP_LEVEL_ARRAY_STRIDE), static_cast<int>(size)) << last;
+    };
+    expect(trace, "receivers[0].normal", offsetof(gpu::Receiver, normal), sizeof(gpu::Receiver));
+    expect(trace, "hits[0].footprint", offsetof(gpu::HitRecord, footprint), sizeof(gpu::HitRecord));
+    expect(trace, "alpha_triangles[0].next", offsetof(gpu::AlphaTriangle, next), sizeof(gpu::AlphaTriangle));
+    expect(trace, "alpha_materials[0].wrap", offsetof(gpu::AlphaMaterial, wrap), sizeof(gpu::AlphaMaterial));
+    expect(trace, "nodes[0].high[0]", offsetof(gpu::WideNode, high), sizeof(gpu::WideNode));
+    expect(raster, "directions[0].basis[0]", offsetof(gpu::Direction, basis), sizeof(gpu::Direction));
 }
 
 TEST(GpuTrace, IsTheCpusToWhatGrazes) {
