@@ -1,3 +1,5 @@
+// Weighs the receivers that a picture shows by how much of it they fill.
+
 #include "prt/light_meter.h"
 
 #include "pictures/primary_rays.h"
@@ -11,15 +13,15 @@
 namespace prt {
 namespace {
 
-constexpr int kMostRays = 48; ///< along each axis
+constexpr int kMostAcross = 48; ///< along each axis
 /// Above the middle grey of photographs (0.18), at which plaster looks grey.
 constexpr float kMeanShown = 0.22f;
 
 } // namespace
 
 LightMeter::LightMeter(const Picture& picture, const RayScene& ray_scene) {
-    const PrimaryRays rays(picture, ray_scene, std::min(picture.width, kMostRays),
-                           std::min(picture.height, kMostRays));
+    const PrimaryRays rays(picture, ray_scene, std::min(picture.width, kMostAcross),
+                           std::min(picture.height, kMostAcross));
     struct Reading {
         std::uint32_t receiver;
         glm::vec3 weight;
