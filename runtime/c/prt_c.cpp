@@ -259,10 +259,12 @@ prt_status prt_light_hemisphere(int order, const float up[3], const float top[3]
     });
 }
 
-prt_status prt_light_from_lat_long(int order, int width, int height, const float* pixels, int center,
-                                   int threads, float* light, prt_message* message) {
+prt_status prt_light_from_lat_long(int order, const prt_image* image, int center, int threads, float* light,
+                                   prt_message* message) {
     return guarded(message, [&] {
-        check_pointers(pixels, light);
+        check_pointers(image, light);
+        const auto [width, height, pixels] = *image;
+        check_pointers(pixels);
         if (width < 1 || height < 1)
             throw Error("the environment has no pixels");
         const auto* first = reinterpret_cast<const glm::vec3*>(pixels);

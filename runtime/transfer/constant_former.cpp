@@ -14,16 +14,28 @@ namespace {
 
 constexpr std::size_t kLanes = kLaneCount;
 
-template <std::size_t Channels>
-[[gnu::always_inline]] inline void form_blocks(const float* matrix, std::size_t count,
-                                               const std::array<const float*, 3>& light, std::size_t first,
-                                               std::size_t last, std::size_t rows, glm::vec4* constants) {
-    for (std::size_t block = first; block < last; ++block) {
-        const float* from = matrix + block * Channels * count * kLanes;
+/// A lighting, its channels apart.
+struct Channels {
+    std::size_t count; ///< coefficients of each
+    std::array<const float*, 3> light;
+};
+
+/// Blocks of kLanes rows.
+struct Blocks {
+    std::size_t first, last;
+};
+
+template <std::size_t Stored>
+[[gnu::always_inline]] inline void form_blocks(const float* matrix, const Channels& channels,
+                                               const Blocks& blocks, std::size_t rows, glm::vec4* constants) {
+    const std::size_t count = channels.count;
+    const std::array<const float*, 3> light = channels.light;
+    for (std::size_t block = blocks.first; block < blocks.last; ++block) {
+        const float* from = matrix + block * Stored * count * kLanes;
         Lanes color[3] = {};
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t c = 0; c < 3; ++c)
-                color[c] += lanes_at(from + ((Channels == 1 ? 0 : c) * count + i) * kLanes) * light[c][i];
+                color[c] += lanes_at(from + ((Stored == 1 ? 0 : c) * count + i) * kLanes) * light[c][i];
         const std::size_t kept = std::min(kLanes, rows - block * kLanes);
         for (std::size_t lane = 0; lane < kept; ++lane)
             constants[block * kLanes + lane] = {color[0][lane], color[1][lane], color[2][lane], 0};
@@ -31,12 +43,12 @@ template <std::size_t Channels>
 }
 
 PRT_TARGET_CLONES
-void form_rows(int channels, const float* matrix, std::size_t count, const std::array<const float*, 3>& light,
-               std::size_t first, std::size_t last, std::size_t rows, glm::vec4* constants) {
-    if (channels == 1)
-        form_blocks<1>(matrix, count, light, first, last, rows, constants);
+void form_rows(int stored, const float* matrix, const Channels& channels, const Blocks& blocks,
+               std::size_t rows, glm::vec4* constants) {
+    if (stored == 1)
+        form_blocks<1>(matrix, channels, blocks, rows, constants);
     else
-        form_blocks<3>(matrix, count, light, first, last, rows, constants);
+        form_blocks<3>(matrix, channels, blocks, rows, constants);
 }
 
 /// Rows by which the stored weights are multiplied. A packed weight is w = 2 q / largest - 1, so that
@@ -90,8 +102,9 @@ void ConstantFormer::form(std::span<const glm::vec3> light, std::span<glm::vec4>
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t c = 0; c < 3; ++c)
             separate[c][i] = light[i][static_cast<int>(c)];
-    form_rows(channels_, matrix_.data(), count, {separate[0].data(), separate[1].data(), separate[2].data()},
-              first / kLanes, (std::min(last, rows_) + kLanes - 1) / kLanes, rows_, constants.data());
+    form_rows(channels_, matrix_.data(),
+              {count, {separate[0].data(), separate[1].data(), separate[2].data()}},
+              {first / kLanes, (std::min(last, rows_) + kLanes - 1) / kLanes}, rows_, constants.data());
 }
 
 void blend_constants(std::span<const glm::vec4> a, std::span<const glm::vec4> b, float share,

@@ -16,6 +16,7 @@
 #include <climits>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 namespace prt {
@@ -122,17 +123,12 @@ void check_required_extensions(const Json& json) {
 
 /// Keeps the file of an image that stands in a URI. Images in buffer views are taken later, with bounds
 /// checked.
-bool keep_encoded(tinygltf::Image* image, const int index, std::string*, std::string*, int, int,
-                  const unsigned char* bytes, int size, void* user) {
-    auto& images = *static_cast<std::vector<std::vector<std::byte>>*>(user);
-    const auto i = static_cast<std::size_t>(index);
+void keep_encoded(std::vector<std::vector<std::byte>>& images, std::size_t i, const tinygltf::Image& image,
+                  std::span<const std::byte> bytes) {
     if (images.size() <= i)
         images.resize(i + 1);
-    if (image->bufferView < 0) {
-        const auto* begin = reinterpret_cast<const std::byte*>(bytes);
-        images[i].assign(begin, begin + size);
-    }
-    return true;
+    if (image.bufferView < 0)
+        images[i].assign(bytes.begin(), bytes.end());
 }
 
 void load_model(GltfContents& contents, std::span<const std::byte> file, std::string_view text, bool binary,
@@ -140,7 +136,14 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
     if (file.size() > UINT_MAX)
         throw Error("is larger than 4 GB");
     tinygltf::TinyGLTF loader;
-    loader.SetImageLoader(keep_encoded, &contents.images);
+    const auto keep = [](tinygltf::Image* image, int index, auto... rest) { // tinygltf's nine parameters
+        const auto [error, warning, width, height, bytes, size, images] = std::tuple(rest...);
+        keep_encoded(*static_cast<std::vector<std::vector<std::byte>>*>(images),
+                     static_cast<std::size_t>(index), *image,
+                     std::as_bytes(std::span(bytes, static_cast<std::size_t>(size))));
+        return true;
+    };
+    loader.SetImageLoader(keep, &contents.images);
     std::string error, warning, folder = contents.path.parent_path().string();
     if (folder.empty())
         folder = ".";

@@ -87,13 +87,14 @@ static void test_lights(void) {
     EXPECT(strstr(message.text, "inside") != NULL);
     EXPECT(prt_light_directional(3, none, white, light, &message) == PRT_BAD_ARGUMENT);
     float pixels[6] = {1, 1, 1, 1, 1, 1};
-    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, PRT_CENTER_Z, 1, light, NULL) == PRT_OK);
+    const prt_image image = {2, 1, pixels}, empty = {0, 1, pixels};
+    EXPECT(prt_light_from_lat_long(3, &image, PRT_CENTER_Z, 1, light, NULL) == PRT_OK);
     EXPECT(fabsf(light[0] - 3.5449077f) < 1e-5f);
-    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, 7, 1, light, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_light_from_lat_long(3, &image, 7, 1, light, &message) == PRT_BAD_ARGUMENT);
     for (int i = 0; i < 3; ++i)
         pixels[i] = 0; /* the left half */
-    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, PRT_CENTER_Z, 1, light, NULL) == PRT_OK);
-    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, PRT_CENTER_X, 1, other, NULL) == PRT_OK);
+    EXPECT(prt_light_from_lat_long(3, &image, PRT_CENTER_Z, 1, light, NULL) == PRT_OK);
+    EXPECT(prt_light_from_lat_long(3, &image, PRT_CENTER_X, 1, other, NULL) == PRT_OK);
     EXPECT(light[9] > 0.5f && fabsf(light[6]) < 1e-5f); /* from -X, which is a positive coefficient */
     EXPECT(other[6] > 0.5f && fabsf(other[9]) < 1e-5f); /* from +Z */
     const float angles[4] = {NAN, -1, 4, 90};
@@ -102,9 +103,9 @@ static void test_lights(void) {
     const float no_rotation[9] = {NAN, 0, 0, 0, 1, 0, 0, 0, 1};
     EXPECT(prt_light_rotate(3, no_rotation, light, &message) == PRT_BAD_ARGUMENT);
     pixels[4] = NAN;
-    EXPECT(prt_light_from_lat_long(3, 2, 1, pixels, PRT_CENTER_Z, 1, light, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_light_from_lat_long(3, &image, PRT_CENTER_Z, 1, light, &message) == PRT_BAD_ARGUMENT);
     EXPECT(strstr(message.text, "--") == NULL); /* options of a program that is not there */
-    EXPECT(prt_light_from_lat_long(3, 0, 1, pixels, PRT_CENTER_Z, 1, light, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_light_from_lat_long(3, &empty, PRT_CENTER_Z, 1, light, &message) == PRT_BAD_ARGUMENT);
     EXPECT(prt_light_from_file(3, "no such file.exr", PRT_CENTER_Z, light, &message) == PRT_BAD_FILE);
     EXPECT(strstr(message.text, "no such file.exr") != NULL);
 }
@@ -128,8 +129,8 @@ static void test_light_that_is_not_finite(void) {
         EXPECT(prt_light_dering(3, light, &message) == PRT_BAD_ARGUMENT);
         EXPECT(strstr(message.text, "finite") != NULL);
     }
-    EXPECT(prt_light_from_lat_long(6, INT_MAX, INT_MAX, white, PRT_CENTER_Z, 1, light, &message) ==
-           PRT_BAD_ARGUMENT);
+    const prt_image huge = {INT_MAX, INT_MAX, white};
+    EXPECT(prt_light_from_lat_long(6, &huge, PRT_CENTER_Z, 1, light, &message) == PRT_BAD_ARGUMENT);
     EXPECT(strstr(message.text, "2147483647 x 2147483647") != NULL);
 }
 
@@ -139,7 +140,7 @@ static void test_sky(const char* path) {
     EXPECT(light[0] > 0 && light[2] > light[0]); /* day: blue above red */
 }
 
-static void test_model(const char* path) {
+static prt_model* load(const char* path) {
     prt_message message;
     prt_model* model = NULL;
     EXPECT(prt_model_load("no such file.glb", &model, &message) == PRT_BAD_FILE);
@@ -150,6 +151,11 @@ static void test_model(const char* path) {
         fprintf(stderr, "%s\n", message.text);
         exit(2);
     }
+    return model;
+}
+
+static void test_loading(const prt_model* model, const char* path) {
+    prt_message message;
     size_t size = 0;
     void* bytes = contents(path, &size);
     prt_model* again = NULL;
@@ -160,36 +166,50 @@ static void test_model(const char* path) {
            prt_model_get_info(again, &info_again, NULL) == PRT_OK);
     EXPECT(info.receivers == info_again.receivers && info.rows == info_again.rows);
     EXPECT(memcmp(info.weights, info_again.weights, info.receivers * info.stride) == 0);
+    EXPECT(prt_model_get_info(NULL, &info_again, &message) == PRT_BAD_ARGUMENT);
     prt_model_destroy(again);
+    prt_model_destroy(NULL);
+}
 
+static void test_meshes(const prt_model* model, const prt_model_info* info) {
     size_t vertices = 0;
-    for (size_t m = 0; m < info.meshes; ++m) {
+    for (size_t m = 0; m < info->meshes; ++m) {
         prt_mesh mesh;
         EXPECT(prt_model_get_mesh(model, m, &mesh, NULL) == PRT_OK);
-        EXPECT(mesh.first_receiver + mesh.vertices <= info.receivers);
+        EXPECT(mesh.first_receiver + mesh.vertices <= info->receivers);
         for (size_t i = 0; i < mesh.indices; ++i)
             EXPECT(mesh.index[i] < mesh.vertices);
         vertices += mesh.vertices;
     }
-    EXPECT(vertices >= info.receivers);
+    EXPECT(vertices >= info->receivers);
     prt_mesh none;
-    EXPECT(prt_model_get_mesh(model, info.meshes, &none, &message) == PRT_BAD_ARGUMENT);
+    prt_message message;
+    EXPECT(prt_model_get_mesh(model, info->meshes, &none, &message) == PRT_BAD_ARGUMENT);
+}
 
-    /* Under white light an open scene is about as bright as it is open: between 0 and 1. */
+/* Under white light an open scene is about as bright as it is open: between 0 and 1. */
+static void test_relighting(const prt_model* model, const prt_model_info* info) {
     const float white[3] = {1, 1, 1};
-    float* light = malloc(3 * sizeof(float) * (size_t)(info.order * info.order));
-    float* constants = malloc(4 * sizeof(float) * info.rows);
-    float* radiance = malloc(3 * sizeof(float) * info.receivers);
-    EXPECT(prt_light_constant(info.order, white, light, NULL) == PRT_OK);
-    EXPECT(prt_model_form_constants(model, info.order, light, constants, NULL) == PRT_OK);
+    float* light = malloc(3 * sizeof(float) * (size_t)(info->order * info->order));
+    float* constants = malloc(4 * sizeof(float) * info->rows);
+    float* radiance = malloc(3 * sizeof(float) * info->receivers);
+    EXPECT(prt_light_constant(info->order, white, light, NULL) == PRT_OK);
+    EXPECT(prt_model_form_constants(model, info->order, light, constants, NULL) == PRT_OK);
     EXPECT(prt_model_evaluate(model, constants, radiance, NULL) == PRT_OK);
     double mean = 0;
-    for (size_t p = 0; p < info.receivers; ++p)
-        mean += radiance[3 * p] / (double)info.receivers;
+    for (size_t p = 0; p < info->receivers; ++p)
+        mean += radiance[3 * p] / (double)info->receivers;
     EXPECT(mean > 0.1 && mean < 1.1);
-    EXPECT(prt_model_form_constants(model, info.order - 1, light, constants, &message) == PRT_BAD_ARGUMENT);
+    prt_message message;
+    EXPECT(prt_model_form_constants(model, info->order - 1, light, constants, &message) == PRT_BAD_ARGUMENT);
+    free(radiance);
+    free(constants);
+    free(light);
+}
 
-    size = 0;
+static void test_shader(const prt_model* model) {
+    prt_message message;
+    size_t size = 0;
     EXPECT(prt_model_shader(model, PRT_ESSL300, PRT_CONSTANTS_IN_TEXTURE, NULL, &size, &message) ==
            PRT_TOO_SMALL);
     char* source = malloc(size);
@@ -197,15 +217,20 @@ static void test_model(const char* path) {
     EXPECT(strncmp(source, "#version 300 es", 15) == 0 && strlen(source) + 1 == size);
     EXPECT(prt_model_shader(model, 77, PRT_CONSTANTS_IN_BUFFER, source, &size, &message) == PRT_BAD_ARGUMENT);
     EXPECT(prt_model_shader(model, PRT_GLSL450, -1, source, &size, &message) == PRT_BAD_ARGUMENT);
-    EXPECT(prt_model_get_info(NULL, &info_again, &message) == PRT_BAD_ARGUMENT);
     EXPECT(prt_model_shader(model, PRT_GLSL330, PRT_CONSTANTS_IN_BUFFER, source, &size, &message) ==
            PRT_BAD_ARGUMENT);
     free(source);
-    free(radiance);
-    free(constants);
-    free(light);
+}
+
+static void test_model(const char* path) {
+    prt_model* model = load(path);
+    prt_model_info info;
+    EXPECT(prt_model_get_info(model, &info, NULL) == PRT_OK);
+    test_loading(model, path);
+    test_meshes(model, &info);
+    test_relighting(model, &info);
+    test_shader(model);
     prt_model_destroy(model);
-    prt_model_destroy(NULL);
 }
 
 int main(int argc, char** argv) {

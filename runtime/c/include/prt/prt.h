@@ -63,10 +63,13 @@ PRT_API prt_status prt_light_hemisphere(int order, const float up[3], const floa
 /* What the center column of a lat-long image looks at: +Z as OpenEXR says, or +X as three.js, glTF viewers
  * and Blender show it. */
 typedef enum prt_center { PRT_CENTER_Z = 0, PRT_CENTER_X = 1 } prt_center;
-/* Pixels (r, g, b), rows from the top: top row +Y, `center` a prt_center. Bad pixels are an error. `threads`
- * 0: all. */
-PRT_API prt_status prt_light_from_lat_long(int order, int width, int height, const float* pixels, int center,
-                                           int threads, float* light, prt_message* message);
+typedef struct prt_image {
+    int width, height;
+    const float* pixels; /* (r, g, b), rows from the top */
+} prt_image;
+/* The top row is +Y, `center` a prt_center. Bad pixels are an error. `threads` 0: all. */
+PRT_API prt_status prt_light_from_lat_long(int order, const prt_image* image, int center, int threads,
+                                           float* light, prt_message* message);
 /* An environment map, .exr or .hdr; `center` counts where it is lat-long. */
 PRT_API prt_status prt_light_from_file(int order, const char* path, int center, float* light,
                                        prt_message* message);
