@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Installs what is missing, builds prtkit, and takes the example scenes down the whole road:
-# glTF -> bake -> compress -> evaluate -> pictures, all in out/.
+# Installs what is missing, builds the program, and takes the example scenes down the whole road:
+# glTF -> bake -> compress -> pictures -> evaluate, all in out/. Then builds the rest: the viewer and its tour.
 set -euo pipefail
 cd "$(dirname "$0")"
 cmake/install_packages.sh
 cmake --preset release >/dev/null
-cmake --build --preset release
+cmake --build --preset release --target prt example_scenes
 prt=build/release/cli/prt
 mkdir -p out
 build/release/examples/scenes/example_scenes out/scenes
@@ -17,9 +17,9 @@ road() {
     echo
     $prt bake "out/scenes/$name.glb" -o "out/$name.baked.glb" --bounces "$bounces"
     $prt compress "out/$name.baked.glb" -o "out/$name.shipped.glb" --preset "$preset"
-    $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" --html "out/$name.html" --json "out/$name.json"
     $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png" "${@:4}"
     $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png" "${@:4}"
+    $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" --html "out/$name.html" --json "out/$name.json"
 }
 road knot 0 u32
 road room 3 u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
@@ -27,6 +27,8 @@ road tree 3 u64 --camera 1.5,1.7,5.5 --look-at 0,1.9,0
 road terrain 0 u64 --camera 1,4.5,11 --look-at 0,2.6,0
 $prt render out/knot.shipped.glb --env "$sky" --show clusters -o out/knot.clusters.png
 $prt render out/knot.shipped.glb --env "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png
+echo
+cmake --build --preset release
 viewer=build/release/examples/viewer/prt-viewer
 cp examples/viewer/tour.json out/
 $viewer out/room.baked.glb out/room.shipped.glb out/scenes/sky.exr --headless out/tour.json
