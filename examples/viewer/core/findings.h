@@ -2,6 +2,7 @@
 
 // What work in the background finds. Values: nothing in them is changed once they are posted.
 
+#include "core/background_work.h"
 #include "core/light_rig.h"
 #include "pictures/model.h"
 #include "pictures/picture_kind.h"
@@ -63,5 +64,7 @@ struct Failure {
 
 using Finding =
     std::variant<LoadedModel, Baked, Compressed, Occlusion, EnvironmentFile, NumberPictures, Saved, Failure>;
+
+using Channel = BackgroundWork<Finding>::Channel;
 
 } // namespace viewer

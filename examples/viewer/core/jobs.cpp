@@ -10,8 +10,6 @@
 namespace viewer {
 namespace {
 
-using Channel = BackgroundWork::Channel;
-
 void find_occlusion(Channel& channel, const Model& model) {
     channel.enter(Stage::occlusion, "ambient occlusion");
     channel.post(std::make_shared<const std::vector<float>>(ambient_occlusion(model, channel.progress())));

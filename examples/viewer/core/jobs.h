@@ -2,7 +2,6 @@
 
 // All that the viewer does in the background.
 
-#include "core/background_work.h"
 #include "core/document.h"
 
 #include <array>
@@ -38,10 +37,10 @@ public:
     double share() const { return work(JobKind::model).share(); }
 
 private:
-    const BackgroundWork& work(JobKind kind) const { return works_[static_cast<std::size_t>(kind)]; }
-    void start(JobKind kind, std::function<void(BackgroundWork::Channel&)> work);
+    const BackgroundWork<Finding>& work(JobKind kind) const { return works_[static_cast<std::size_t>(kind)]; }
+    void start(JobKind kind, std::function<void(Channel&)> work);
 
-    std::array<BackgroundWork, 4> works_; ///< [JobKind]
+    std::array<BackgroundWork<Finding>, 4> works_; ///< [JobKind]
     std::vector<std::filesystem::path> environments_to_read_;
 };
 

@@ -58,7 +58,7 @@ LoadedModel load_together(const std::vector<std::filesystem::path>& paths, const
     return loaded;
 }
 
-Baked bake_in_stages(BackgroundWork::Channel& channel, const Model& model) {
+Baked bake_in_stages(Channel& channel, const Model& model) {
     Baked baked;
     for (const int rays : kBakeRays) {
         channel.enter(Stage::baking, fmt::format("baking with {} rays", rays));
@@ -74,7 +74,7 @@ Baked bake_in_stages(BackgroundWork::Channel& channel, const Model& model) {
     return baked;
 }
 
-Compressed compress_as(BackgroundWork::Channel& channel, const Model& model, const prt::Transfer& raw,
+Compressed compress_as(Channel& channel, const Model& model, const prt::Transfer& raw,
                        const CompressionSettings& how) {
     channel.enter(Stage::compressing, "compressing");
     prt::CompressResult result = compressed_as(how, truncated(raw, how.order), model, channel.progress());

@@ -2,7 +2,7 @@
 
 // What the viewer computes of transfer in the background.
 
-#include "core/background_work.h"
+#include "core/findings.h"
 
 namespace viewer {
 
@@ -14,9 +14,9 @@ inline constexpr int kBakeOrder = 6, kBakeBounces = 3;
 LoadedModel load_together(const std::vector<std::filesystem::path>& paths, const LoadedModel& open);
 
 /// Bakes with few rays first and then with more, and posts each result. Returns the last.
-Baked bake_in_stages(BackgroundWork::Channel& channel, const Model& model);
+Baked bake_in_stages(Channel& channel, const Model& model);
 
-Compressed compress_as(BackgroundWork::Channel& channel, const Model& model, const prt::Transfer& raw,
+Compressed compress_as(Channel& channel, const Model& model, const prt::Transfer& raw,
                        const CompressionSettings& how);
 
 /// Writes the model's file with `compressed` in it, for games. Throws `prt::Error` where it cannot, or where
