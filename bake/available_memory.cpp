@@ -1,3 +1,5 @@
+// Reads how much memory the machine has, and how much control groups leave of it.
+
 #include "available_memory.h"
 
 #include <algorithm>

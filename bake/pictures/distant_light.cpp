@@ -1,3 +1,5 @@
+// Samples an environment by its power, texel by texel.
+
 #include "prt/distant_light.h"
 
 #include "prt/color.h"

@@ -1,6 +1,9 @@
+// Weighs the receivers that a picture shows by how much of it they fill.
+
 #include "prt/light_meter.h"
 
 #include "pictures/primary_rays.h"
+#include "prt/color.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,16 +13,15 @@
 namespace prt {
 namespace {
 
-constexpr int kMostRays = 48; ///< along each axis
+constexpr int kMostAcross = 48; ///< along each axis
 /// Above the middle grey of photographs (0.18), at which plaster looks grey.
 constexpr float kMeanShown = 0.22f;
-constexpr glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
 
 } // namespace
 
 LightMeter::LightMeter(const Picture& picture, const RayScene& ray_scene) {
-    const PrimaryRays rays(picture, ray_scene, std::min(picture.width, kMostRays),
-                           std::min(picture.height, kMostRays));
+    const PrimaryRays rays(picture, ray_scene, std::min(picture.width, kMostAcross),
+                           std::min(picture.height, kMostAcross));
     struct Reading {
         std::uint32_t receiver;
         glm::vec3 weight;
@@ -33,8 +35,9 @@ LightMeter::LightMeter(const Picture& picture, const RayScene& ray_scene) {
                 const glm::vec2 uv = glm::clamp(surface.barycentrics, 0.0f, 1.0f);
                 const glm::vec3 corners(std::max(0.0f, 1 - uv.x - uv.y), uv.x, uv.y);
                 for (int corner = 0; corner < 3; ++corner)
-                    readings.push_back({surface.receivers[corner],
-                                        share * corners[corner] * kLuminance * glm::vec3(surface.base)});
+                    readings.push_back(
+                        {surface.receivers[corner],
+                         share * corners[corner] * glm::vec3(kLuminance) * glm::vec3(surface.base)});
                 covered += share;
             });
     std::stable_sort(readings.begin(), readings.end(),

@@ -20,7 +20,7 @@
 namespace prt {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFarAway = std::numeric_limits<float>::infinity();
 constexpr float kPi = std::numbers::pi_v<float>;
 /// Paths are ended at random from this vertex on, where their number is not bounded.
 constexpr int kFirstRoulette = 4;
@@ -66,7 +66,7 @@ struct SurfaceHit {
 };
 
 /// The side of a surface that a path goes on from.
-struct Side {
+struct LitSide {
     SurfaceHit hit;
     glm::vec3 normal, face;
 
@@ -100,10 +100,10 @@ struct Tracing {
     Scattering seen_scattering(const SurfaceHit& hit) const;
     void add_background(Path& path) const;
     /// One of the two sides, by how much it scatters; none where neither does.
-    std::optional<Side> choose_side(const SurfaceHit& hit, Path& path, PathSamples& samples) const;
-    void add_direct_light(const Side& side, Path& path, PathSamples& samples) const;
+    std::optional<LitSide> choose_side(const SurfaceHit& hit, Path& path, PathSamples& samples) const;
+    void add_direct_light(const LitSide& side, Path& path, PathSamples& samples) const;
     /// Goes on in a direction by the cosine; false where the path ends.
-    bool scatter(const Side& side, Path& path, PathSamples& samples) const;
+    bool scatter(const LitSide& side, Path& path, PathSamples& samples) const;
     /// That a path through the ray of the camera brings.
     glm::vec3 radiance(const Ray& camera_ray, PathSamples& samples) const;
 };
@@ -142,7 +142,7 @@ float Tracing::transmittance(const glm::vec3& origin, const glm::vec3& direction
         if (!met)
             break;
         left *= 1 - surfaces.coverage({met->triangle, met->uv, 0});
-        ray.from = std::nextafter(met->distance, kInfinity);
+        ray.from = std::nextafter(met->distance, kFarAway);
     }
     return left;
 }
@@ -171,7 +171,7 @@ void Tracing::add_background(Path& path) const {
     path.radiance += path.throughput * light.radiance(path.ray.direction) * weight;
 }
 
-std::optional<Side> Tracing::choose_side(const SurfaceHit& hit, Path& path, PathSamples& samples) const {
+std::optional<LitSide> Tracing::choose_side(const SurfaceHit& hit, Path& path, PathSamples& samples) const {
     const Scattering scattering = path.from_camera() ? seen_scattering(hit) : surfaces.scattering(hit.point);
     const float reflected = largest(scattering.reflected), transmitted = largest(scattering.transmitted);
     if (!(reflected + transmitted > 0))
@@ -179,10 +179,10 @@ std::optional<Side> Tracing::choose_side(const SurfaceHit& hit, Path& path, Path
     const bool through = samples.next().x * (reflected + transmitted) >= reflected;
     const float share = (through ? transmitted : reflected) / (reflected + transmitted);
     path.throughput *= (through ? scattering.transmitted : scattering.reflected) / share;
-    return through ? Side{hit, -hit.normal, -hit.face} : Side{hit, hit.normal, hit.face};
+    return through ? LitSide{hit, -hit.normal, -hit.face} : LitSide{hit, hit.normal, hit.face};
 }
 
-void Tracing::add_direct_light(const Side& side, Path& path, PathSamples& samples) const {
+void Tracing::add_direct_light(const LitSide& side, Path& path, PathSamples& samples) const {
     for (const Sun& sun : light.suns())
         if (side.faces(sun.towards))
             path.radiance += path.throughput * sun.irradiance * glm::dot(side.normal, sun.towards) / kPi *
@@ -195,7 +195,7 @@ void Tracing::add_direct_light(const Side& side, Path& path, PathSamples& sample
     }
 }
 
-bool Tracing::scatter(const Side& side, Path& path, PathSamples& samples) const {
+bool Tracing::scatter(const LitSide& side, Path& path, PathSamples& samples) const {
     const glm::vec3 direction = cosine_direction(side.normal, samples.next());
     if (!side.faces(direction)) // below the facet, though above the interpolated normal
         return false;
@@ -220,12 +220,12 @@ glm::vec3 Tracing::radiance(const Ray& camera_ray, PathSamples& samples) const {
         }
         // The camera looks through back sides, as pictures do; light does not pass them.
         if ((path.from_camera() && !hit->scatters) || samples.next().x >= surfaces.coverage(hit->point)) {
-            path.ray.from = std::nextafter(hit->distance, kInfinity);
+            path.ray.from = std::nextafter(hit->distance, kFarAway);
             continue;
         }
         if (!hit->scatters || (options.bounces >= 0 && path.vertices > options.bounces))
             return path.radiance;
-        const std::optional<Side> side = choose_side(*hit, path, samples);
+        const std::optional<LitSide> side = choose_side(*hit, path, samples);
         if (!side)
             return path.radiance;
         add_direct_light(*side, path, samples);
@@ -283,7 +283,7 @@ std::vector<bool> PathTracer::surface_mask() const {
             Ray ray{options_.camera.position, unit_direction(frame_, options_, x + 0.5, y + 0.5)};
             auto hit = tracing.nearest(ray);
             while (hit && (!hit->scatters || scene_.surfaces().coverage(hit->point) < 0.5f)) {
-                ray.from = std::nextafter(hit->distance, kInfinity);
+                ray.from = std::nextafter(hit->distance, kFarAway);
                 hit = tracing.nearest(ray);
             }
             mask.push_back(hit.has_value());

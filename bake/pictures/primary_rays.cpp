@@ -57,7 +57,9 @@ PrimaryRays::PrimaryRays(const Picture& picture, const RayScene& rays, int colum
     : picture_(picture), rays_(rays), frame_(camera_frame(picture.camera)), columns_(columns), rows_(rows) {}
 
 glm::vec3 PrimaryRays::direction(double x, double y) const {
-    return glm::vec3(view_direction(frame_, columns_, rows_, x + 0.5, y + 0.5));
+    return glm::vec3(view_direction(frame_, picture_.width, picture_.height,
+                                    (x + 0.5) * picture_.width / columns_,
+                                    (y + 0.5) * picture_.height / rows_));
 }
 
 bool PrimaryRays::next(const glm::vec3& along, int x, int y, float& from, SeenSurface& surface) const {

@@ -1,3 +1,5 @@
+// Draws pictures with primary rays.
+
 #include "prt/ray_renderer.h"
 
 #include "pictures/primary_rays.h"

@@ -1,3 +1,5 @@
+// Tells users where their materials and our model of light part.
+
 #include "scene/material_notices.h"
 
 #include <fmt/core.h>

@@ -1,3 +1,6 @@
+// Finds starts of rays in front of all faces of a vertex, by the nearest point of the hull of their normals
+// (E. G. Gilbert, SIAM J. Control 4, 1966).
+
 #include "scene/ray_starts.h"
 
 #include <glm/common.hpp>

@@ -1,3 +1,5 @@
+// Finds receivers inside geometry by what their rays end on.
+
 #include "scene/sealed.h"
 
 #include "prt/sh.h"

@@ -1,3 +1,6 @@
+// Tells from materials and textures what a point of a surface stops, reflects and transmits (docs/math.md,
+// section 6).
+
 #include "prt/surfaces.h"
 
 #include "prt/color.h"
@@ -130,12 +133,12 @@ glm::vec3 Surfaces::numbers(const SurfacePoint& point, const TextureUse& use) co
     glm::vec3 values(texel(point, use, false));
     const bool loaded = use.image >= 0 && static_cast<std::size_t>(use.image) < textures_.size();
     if (loaded && textures_[static_cast<std::size_t>(use.image)].encoding == TextureEncoding::srgb)
-        for (int c = 0; c < 3; ++c) // an image that is colour elsewhere
+        for (int c = 0; c < 3; ++c) // an image that is color elsewhere
             values[c] = srgb_encode(values[c]);
     return values;
 }
 
-/// How much of the base colour is reflected diffusely (docs/math.md, section 6): metals reflect like a
+/// How much of the base color is reflected diffusely (docs/math.md, section 6): metals reflect like a
 /// mirror, in a lobe that comes close to diffuse as they get rough; glass passes the rest. Without a point
 /// textures count as 1.
 float Surfaces::diffuse_share(const Material& material, const SurfacePoint* point) const {

@@ -11,7 +11,7 @@
 namespace prt {
 namespace {
 
-/// To [-1, 1): the upper 24 bits, at the centre of their interval so that neither end is hit.
+/// To [-1, 1): the upper 24 bits, at the center of their interval so that neither end is hit.
 [[gnu::always_inline]] inline float to_signed_unit(std::uint32_t v) {
     return (static_cast<float>(static_cast<std::int32_t>(v >> 8)) + 0.5f) * 0x1p-23f - 1.0f;
 }

@@ -1,3 +1,5 @@
+// Sobol points in the order that makes packets of rays narrow.
+
 #include "trace/sample_sequence.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Gathers subsurface light over a tree of the triangles of a body (Jensen and Buhler 2002).
+
 #include "transport/diffusion.h"
 
 #include "prt/sh_basis.h"
@@ -91,10 +93,10 @@ std::uint32_t DiffusionOperator::build(std::uint32_t begin, std::uint32_t end) {
         const double area = doubled_area(a, b, c) / 2;
         node.low = glm::min(node.low, glm::min(a, glm::min(b, c)));
         node.high = glm::max(node.high, glm::max(a, glm::max(b, c)));
-        node.centre += area * (a + b + c) / 3.0;
+        node.center += area * (a + b + c) / 3.0;
         node.area += area;
     }
-    node.centre /= node.area;
+    node.center /= node.area;
     nodes_.push_back(node);
     if (end - begin == 1)
         return index;
@@ -132,7 +134,7 @@ private:
         if (least > diffusion_.reach_)
             return;
         const glm::dvec3 size = node.high - node.low;
-        const double distance = glm::distance(at_, node.centre);
+        const double distance = glm::distance(at_, node.center);
         // K varies over the distance, but over no less than the depth of the sources below the surface; far
         // away it falls exponentially, by e over 1/sigma_tr.
         if (least > 0 && small(glm::dot(size, size), distance))
@@ -169,8 +171,8 @@ private:
         const double extent =
             std::max({glm::dot(p[1] - p[0], p[1] - p[0]), glm::dot(p[2] - p[1], p[2] - p[1]),
                       glm::dot(p[0] - p[2], p[0] - p[2])});
-        const glm::dvec3 centre = (p[0] + p[1] + p[2]) / 3.0;
-        const double distance = glm::distance(at_, centre), area = doubled_area(p[0], p[1], p[2]) / 2;
+        const glm::dvec3 center = (p[0] + p[1] + p[2]) / 3.0;
+        const double distance = glm::distance(at_, center), area = doubled_area(p[0], p[1], p[2]) / 2;
         if (distance - std::sqrt(extent) > diffusion_.reach_)
             return;
         if (depth == kMostDepth || small(extent, distance)) {

@@ -34,7 +34,7 @@ public:
 
 private:
     struct Node {
-        glm::dvec3 low, high, centre; ///< box of the corners, and the mean position
+        glm::dvec3 low, high, center; ///< box of the corners, and the mean position
         double area = 0;
         std::uint32_t begin = 0, end = 0; ///< triangles
         std::uint32_t right = 0;          ///< the left child follows; 0: a leaf, which is one triangle

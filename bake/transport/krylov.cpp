@@ -1,3 +1,5 @@
+// Solves for all bounces by restarted GMRES (Saad and Schultz 1986), many columns side by side.
+
 #include "transport/krylov.h"
 
 #include "prt/support/parallel.h"

@@ -135,7 +135,7 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
 }
 
 void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers) {
-    // Where the base colour is nearly black, no finite transfer can say what passes: it is taken as 1/255.
+    // Where the base color is nearly black, no finite transfer can say what passes: it is taken as 1/255.
     constexpr float kLeastBase = 1.0f / 255;
     const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.order));
     std::vector<bool> done(receivers.fronts);

@@ -1,3 +1,6 @@
+// The dipole and measured media of H. W. Jensen, S. R. Marschner, M. Levoy, P. Hanrahan, "A Practical Model
+// for Subsurface Light Transport", SIGGRAPH 2001.
+
 #include "prt/subsurface.h"
 
 #include <algorithm>

@@ -5,6 +5,7 @@
 #include "coding/seams.h"
 
 #include "coding/conjugate_gradients.h"
+#include "prt/adjacency.h"
 #include "tuning.h"
 
 #include <Eigen/Dense>
@@ -12,42 +13,15 @@
 namespace prt {
 namespace {
 
-/// Mesh neighbours of every receiver, with the significance of the edge.
-class EdgeLinks {
-public:
-    struct Link {
-        std::uint32_t other;
-        double significance;
-    };
-
-    /// The significance of an edge is the sum of what its ends have per edge, so that all edges together have
-    /// that of all receivers.
-    EdgeLinks(std::span<const Edge> edges, std::span<const float> significance)
-        : first_(significance.size() + 1, 0) {
-        std::vector<std::uint32_t> degree(significance.size(), 0);
-        for (const Edge& e : edges) {
-            ++degree[e.first];
-            ++degree[e.second];
-        }
-        for (std::size_t p = 0; p < significance.size(); ++p)
-            first_[p + 1] = first_[p] + degree[p];
-        links_.resize(first_.back());
-        std::vector<std::size_t> next(first_.begin(), first_.end() - 1);
-        for (const Edge& e : edges) {
-            const double of_edge = static_cast<double>(significance[e.first]) / degree[e.first] +
-                                   static_cast<double>(significance[e.second]) / degree[e.second];
-            links_[next[e.first]++] = {e.second, of_edge};
-            links_[next[e.second]++] = {e.first, of_edge};
-        }
-    }
-    std::span<const Link> of(std::size_t p) const {
-        return std::span(links_).subspan(first_[p], first_[p + 1] - first_[p]);
-    }
-
-private:
-    std::vector<std::size_t> first_;
-    std::vector<Link> links_;
-};
+/// What receivers have of significance per edge. That of an edge is the sum over its ends, so that all edges
+/// together have as much as all receivers.
+std::vector<double> significance_per_edge(const Adjacency& neighbours, std::span<const float> significance) {
+    std::vector<double> shares(significance.size());
+    for (std::size_t p = 0; p < shares.size(); ++p)
+        shares[p] = static_cast<double>(significance[p]) /
+                    static_cast<double>(std::max<std::size_t>(neighbours.degree(p), 1));
+    return shares;
+}
 
 using PointVector = Eigen::VectorXf;
 
@@ -59,7 +33,9 @@ public:
     SeamSmoother(const PointBlocks& points, std::span<const float> significance, std::span<const Edge> edges,
                  const QuantisedClusters& clusters, const SeamOptions& options, Codes& codes)
         : points_(points), significance_(significance), clusters_(clusters), options_(options), codes_(codes),
-          links_(edges, significance), dimension_(static_cast<Eigen::Index>(points.dimension)),
+          neighbours_(edges, significance.size()),
+          edge_shares_(significance_per_edge(neighbours_, significance)),
+          dimension_(static_cast<Eigen::Index>(points.dimension)),
           mean_error_(total_error(significance, codes.errors)) {}
 
     void solve_weights();
@@ -87,6 +63,8 @@ private:
         for (std::size_t j = 0; j < components(p); ++j)
             to += w[j] * row(codes_.clusters[p], j);
     }
+    /// The significance of an edge.
+    double edge(std::size_t p, std::size_t q) const { return edge_shares_[p] + edge_shares_[q]; }
     /// Code minus point.
     void error_of(std::size_t p, PointVector& error) const {
         points_.copy_point(p, error.data());
@@ -116,7 +94,8 @@ private:
     const QuantisedClusters& clusters_;
     const SeamOptions& options_;
     Codes& codes_;
-    EdgeLinks links_;
+    Adjacency neighbours_;
+    std::vector<double> edge_shares_; ///< [points]
     Eigen::Index dimension_;
     double mean_error_;
 };
@@ -130,9 +109,9 @@ std::vector<float> SeamSmoother::gradient(VectorOf&& vector_of) const {
             vector_of(p, own);
             g.setZero();
             g += significance_[p] * own;
-            for (const EdgeLinks::Link& link : links_.of(p)) {
-                vector_of(link.other, other);
-                g += static_cast<float>(options_.seam_price * link.significance) * (own - other);
+            for (const std::uint32_t q : neighbours_.of(p)) {
+                vector_of(q, other);
+                g += static_cast<float>(options_.seam_price * edge(p, q)) * (own - other);
             }
             for (std::size_t j = 0; j < components(p); ++j)
                 result[p * clusters_.max_components + j] = g.dot(row(codes_.clusters[p], j));
@@ -145,8 +124,8 @@ std::vector<float> SeamSmoother::inverse_diagonal() const {
     std::vector<float> result(points_.count * clusters_.max_components, 1.0f);
     for (std::size_t p = 0; p < points_.count; ++p) {
         auto total = static_cast<double>(significance_[p]);
-        for (const EdgeLinks::Link& link : links_.of(p))
-            total += options_.seam_price * link.significance;
+        for (const std::uint32_t q : neighbours_.of(p))
+            total += options_.seam_price * edge(p, q);
         for (std::size_t j = 0; j < components(p); ++j) {
             const double d = total * static_cast<double>(row(codes_.clusters[p], j).squaredNorm());
             result[p * clusters_.max_components + j] = d > 1e-30 ? static_cast<float>(1 / d) : 1.0f;
@@ -200,11 +179,11 @@ void SeamSmoother::pull_at(std::size_t p, Pull& pull) const {
     pull.total = static_cast<double>(significance_[p]);
     pull.vector.setZero(dimension_);
     pull.candidates.assign(1, codes_.clusters[p]);
-    for (const EdgeLinks::Link& link : links_.of(p)) {
-        pull.total += options_.seam_price * link.significance;
-        error_of(link.other, error);
-        pull.vector += static_cast<float>(options_.seam_price * link.significance) * error;
-        const std::uint32_t k = codes_.clusters[link.other];
+    for (const std::uint32_t q : neighbours_.of(p)) {
+        pull.total += options_.seam_price * edge(p, q);
+        error_of(q, error);
+        pull.vector += static_cast<float>(options_.seam_price * edge(p, q)) * error;
+        const std::uint32_t k = codes_.clusters[q];
         if (std::find(pull.candidates.begin(), pull.candidates.end(), k) == pull.candidates.end())
             pull.candidates.push_back(k);
     }
@@ -214,9 +193,9 @@ void SeamSmoother::pull_at(std::size_t p, Pull& pull) const {
 
 double SeamSmoother::cost_at(std::size_t p, const Pull& pull, std::uint32_t k, const PointVector& e) const {
     double cost = pull.total * static_cast<double>((e - pull.vector).squaredNorm());
-    for (const EdgeLinks::Link& link : links_.of(p))
-        if (codes_.clusters[link.other] != k)
-            cost += options_.border_price * mean_error_ * link.significance;
+    for (const std::uint32_t q : neighbours_.of(p))
+        if (codes_.clusters[q] != k)
+            cost += options_.border_price * mean_error_ * edge(p, q);
     return cost;
 }
 
@@ -248,7 +227,7 @@ std::size_t SeamSmoother::sweep(std::ptrdiff_t& spare) {
     Pull pull;
     BetterCode better;
     for (std::size_t p = 0; p < points_.count; ++p) {
-        if (links_.of(p).empty())
+        if (neighbours_.degree(p) == 0)
             continue;
         pull_at(p, pull);
         if (!(pull.total > 0) || !find_better(p, pull, spare, better))

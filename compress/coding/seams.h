@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coding/weight_coding.h"
-#include "prt/mesh_edges.h"
+#include "prt/adjacency.h"
 
 namespace prt {
 

@@ -43,20 +43,21 @@ void write(const std::filesystem::path& path, const std::string& text) {
     file.commit();
 }
 
-} // namespace
-
-int main(int argc, char** argv) {
-    CLI::App app("Measures unshadowed light, SSAO, baked AO and PRT against path tracing.", "prt-comparison");
+struct Arguments {
     std::vector<std::filesystem::path> scenes, skies;
     std::filesystem::path output, json, images;
     std::string note;
     comparison::Options options;
-    app.add_option("scenes", scenes, "glTF scenes")->required();
-    app.add_option("--sky", skies, "environment maps; pictures are under the first")->required();
-    app.add_option("-o,--output", output, "the page, Markdown")->required();
-    app.add_option("--images", images, "folder for its pictures, beside the page")->required();
-    app.add_option("--note", note, "last line of the page: where scenes and skies are from");
-    app.add_option("--json", json, "all figures");
+};
+
+void add_options(CLI::App& app, Arguments& arguments) {
+    comparison::Options& options = arguments.options;
+    app.add_option("scenes", arguments.scenes, "glTF scenes")->required();
+    app.add_option("--sky", arguments.skies, "environment maps; pictures are under the first")->required();
+    app.add_option("-o,--output", arguments.output, "the page, Markdown")->required();
+    app.add_option("--images", arguments.images, "folder for its pictures, beside the page")->required();
+    app.add_option("--note", arguments.note, "last line of the page: where scenes and skies are from");
+    app.add_option("--json", arguments.json, "all figures");
     app.add_option("--passes", options.passes, "paths per pixel of each reference")
         ->check(CLI::Range(1, 1 << 16))
         ->capture_default_str();
@@ -65,32 +66,45 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--width", options.width, "pixels")->check(CLI::Range(16, 8192))->capture_default_str();
     app.add_option("--height", options.height, "pixels")->check(CLI::Range(16, 8192))->capture_default_str();
+}
+
+void run(const Arguments& arguments) {
+    std::string why;
+    const auto context = prt::GlContext::create(prt::GlDevice::any, &why);
+    if (!context)
+        throw prt::Error("there is no OpenGL 4.5 (" + why + ")");
+    std::vector<comparison::Sky> skies;
+    for (const auto& sky : arguments.skies)
+        skies.push_back(comparison::load_sky(sky));
+    std::vector<comparison::SceneResult> results;
+    for (const auto& scene : arguments.scenes)
+        results.push_back(
+            comparison::measure(scene, skies, arguments.options, *context, [&](const std::string& what) {
+                std::printf("%s: %s\n", scene.stem().c_str(), what.c_str());
+                std::fflush(stdout);
+            }));
+    comparison::write_pictures(results, arguments.options, arguments.images);
+    const std::filesystem::path folder = arguments.output.parent_path();
+    const std::string images =
+        std::filesystem::relative(arguments.images, folder.empty() ? "." : folder).generic_string();
+    write(arguments.output, comparison::report(results, skies, arguments.options, images, arguments.note));
+    if (!arguments.json.empty())
+        write(arguments.json, json_of(results, skies).dump(2) + "\n");
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Measures unshadowed light, SSAO, baked AO and PRT against path tracing.", "prt-comparison");
+    Arguments arguments;
+    add_options(app, arguments);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : 2;
     }
     try {
-        std::string why;
-        const auto context = prt::GlContext::create(prt::GlDevice::any, &why);
-        if (!context)
-            throw prt::Error("there is no OpenGL 4.5 (" + why + ")");
-        std::vector<comparison::Sky> loaded;
-        for (const auto& sky : skies)
-            loaded.push_back(comparison::load_sky(sky));
-        std::vector<comparison::SceneResult> results;
-        for (const auto& scene : scenes)
-            results.push_back(
-                comparison::measure(scene, loaded, options, *context, [&](const std::string& what) {
-                    std::printf("%s: %s\n", scene.stem().c_str(), what.c_str());
-                    std::fflush(stdout);
-                }));
-        comparison::write_pictures(results, options, images);
-        const std::filesystem::path page_folder = output.parent_path().empty() ? "." : output.parent_path();
-        const std::string images_from_page = std::filesystem::relative(images, page_folder).generic_string();
-        write(output, comparison::report(results, loaded, options, images_from_page, note));
-        if (!json.empty())
-            write(json, json_of(results, loaded).dump(2) + "\n");
+        run(arguments);
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "prt-comparison: error: %s\n", error.what());

@@ -1,6 +1,6 @@
 #include "measure.h"
 
-#include "gpu/frame_renderer.h"
+#include "pictures/frame_renderer.h"
 
 #include "prt/bake.h"
 #include "prt/path_tracer.h"
@@ -48,7 +48,7 @@ public:
         view_.camera = prt::automatic_camera(
             model_->scene, static_cast<float>(options.width) / static_cast<float>(options.height), 0.61f);
         settings_.textured = settings_.background = false;
-        renderer_.resize(options.width, options.height, 1);
+        renderer_.resize({options.width, options.height, 1});
         result_.exposure = prt::automatic_exposure(skies.front().light);
     }
 
@@ -99,7 +99,7 @@ private:
     void set_light(const Sky& sky) { gpu_.set_light(prt::truncated(sky.light, light_order_)); }
 
     prt::Image draw(PictureKind kind) {
-        renderer_.draw(0, kind, gpu_, settings_, view_, 0, options_.width);
+        renderer_.draw(0, kind, gpu_, settings_, view_, {0, options_.width});
         return renderer_.read(0);
     }
 
@@ -136,8 +136,9 @@ private:
         row.method = std::move(method);
         row.bytes_per_vertex = bytes;
         row.errors = errors(kind, &row.picture);
-        row.frame_milliseconds =
-            milliseconds([&] { renderer_.draw(0, kind, gpu_, settings_, view_, 0, options_.width); });
+        row.frame_milliseconds = milliseconds([&] {
+            renderer_.draw(0, kind, gpu_, settings_, view_, {0, options_.width});
+        });
         row.relight_milliseconds = milliseconds([&] { set_light(skies_.front()); });
         result_.rows.push_back(std::move(row));
     }
@@ -194,7 +195,7 @@ private:
     std::shared_ptr<const viewer::Model> model_;
     viewer::GpuModel gpu_;
     viewer::FrameRenderer renderer_;
-    viewer::Settings settings_;
+    viewer::DrawSettings settings_;
     viewer::FrameView view_;
     int light_order_ = 6;
     std::vector<Reference> references_;

@@ -2,8 +2,8 @@
 
 // Error, bytes and time of every way to light a scene, against path tracing.
 
-#include "core/model.h"
-#include "core/picture_kind.h"
+#include "pictures/model.h"
+#include "pictures/picture_kind.h"
 
 #include "prt/environment.h"
 #include "prt/gl_context.h"
@@ -51,7 +51,7 @@ struct SceneResult {
         reference_noise; ///< [skies] relative L2 of one reference against the other, over sqrt 2
 };
 
-/// Everything of one scene; base colour 1 where the camera looks. `say` gets what is done next.
+/// Everything of one scene; base color 1 where the camera looks. `say` gets what is done next.
 SceneResult measure(const std::filesystem::path& scene, const std::vector<Sky>& skies, const Options& options,
                     const prt::GlContext& context, const std::function<void(const std::string&)>& say);
 

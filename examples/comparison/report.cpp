@@ -60,12 +60,27 @@ prt::Image ramp(int width, int height) {
     return image;
 }
 
-/// `image` as a tile whose left edge is at `x`.
-void paste(const std::vector<glm::u8vec3>& tile, int tile_width, int tile_height,
-           std::vector<glm::u8vec3>& sheet, int sheet_width, int x, int y) {
-    for (int row = 0; row < tile_height; ++row)
-        std::copy_n(tile.begin() + row * tile_width, tile_width, sheet.begin() + (y + row) * sheet_width + x);
-}
+/// Tiles of one size side by side, two rows of them.
+class Sheet {
+public:
+    Sheet(int columns, int tile_width, int tile_height)
+        : width_(columns * tile_width), tile_width_(tile_width), tile_height_(tile_height),
+          pixels_(static_cast<std::size_t>(width_) * static_cast<std::size_t>(2 * tile_height),
+                  glm::u8vec3(255)) {}
+
+    void paste(const std::vector<glm::u8vec3>& tile, int column, int row) {
+        for (int y = 0; y < tile_height_; ++y)
+            std::copy_n(tile.begin() + y * tile_width_, tile_width_,
+                        pixels_.begin() + (row * tile_height_ + y) * width_ + column * tile_width_);
+    }
+    void write(const std::filesystem::path& path) const {
+        prt::write_png(path, width_, 2 * tile_height_, pixels_);
+    }
+
+private:
+    int width_, tile_width_, tile_height_;
+    std::vector<glm::u8vec3> pixels_;
+};
 
 double mean(const Row& row) {
     double sum = 0;
@@ -94,38 +109,8 @@ std::string summary(const std::vector<SceneResult>& scenes) {
     return table + "\n";
 }
 
-} // namespace
-
-void write_pictures(const std::vector<SceneResult>& scenes, const Options& options,
-                    const std::filesystem::path& folder) {
-    std::filesystem::create_directories(folder);
-    const int factor = std::max(1, options.width / kTileWidth), width = options.width / factor,
-              height = options.height / factor;
-    for (const SceneResult& scene : scenes) {
-        const auto rows = shown(scene);
-        const int columns = 1 + static_cast<int>(rows.size()), sheet_width = columns * width;
-        std::vector<glm::u8vec3> sheet(
-            static_cast<std::size_t>(sheet_width) * static_cast<std::size_t>(2 * height), glm::u8vec3(255));
-        paste(prt::tone_mapped(scene.reference, factor, scene.exposure, prt::ToneMap::filmic), width, height,
-              sheet, sheet_width, 0, 0);
-        paste(prt::tone_mapped(ramp(width, height), 1, 1, prt::ToneMap::srgb), width, height, sheet,
-              sheet_width, 0, height);
-        for (int c = 1; c < columns; ++c) {
-            const prt::Image& picture = rows[static_cast<std::size_t>(c - 1)]->picture;
-            paste(prt::tone_mapped(picture, factor, scene.exposure, prt::ToneMap::filmic), width, height,
-                  sheet, sheet_width, c * width, 0);
-            paste(prt::tone_mapped(heat_of(scene, picture, factor), 1, 1, prt::ToneMap::srgb), width, height,
-                  sheet, sheet_width, c * width, height);
-        }
-        prt::write_png(folder / (scene.name + ".png"), sheet_width, 2 * height, sheet);
-    }
-}
-
-std::string report(const std::vector<SceneResult>& scenes, const std::vector<Sky>& skies,
-                   const Options& options, const std::string& images, const std::string& note) {
-    std::string page = "# What precomputed transfer is worth\n\n";
-    page += summary(scenes);
-    page += fmt::format(
+std::string explanation(const SceneResult& scene, const Options& options) {
+    return fmt::format(
         "Made by `prt-comparison` (at the end). Error: relative L2 of exit radiance, base colour 1, "
         "over all pixels that show the "
         "scene, {} x {}, against path tracing under the whole environment map with endless "
@@ -139,36 +124,75 @@ std::string report(const std::vector<SceneResult>& scenes, const std::vector<Sky
         "of the environment, as games do. SSAO has 16 samples and the best of five radii for "
         "each scene. The bake has {} rays, "
         "endless bounces.\n",
-        options.width, options.height, options.passes, scenes.front().device, options.bake_rays);
-    for (const SceneResult& scene : scenes) {
-        page += fmt::format("\n## {}\n\n{} vertices, {} triangles, {}.\n\n", scene.name, scene.vertices,
-                            scene.triangles, scene.channels == 1 ? "one channel" : "three channels");
-        page += fmt::format("![{}: reference and methods, and their errors]({}/{}.png)\n\n", scene.name,
-                            images, scene.name);
-        page += "*Path tracing";
-        for (const Row* row : shown(scene))
-            page += "; " + row->method;
-        page += fmt::format(". Under {}; below, the error (white: {:.0f} % of the mean).*\n\n",
-                            skies.front().name, 100 * kWhite);
-        page += "| method | bytes per vertex |";
-        for (const Sky& sky : skies)
-            page += " error, " + sky.name + " |";
-        page += " frame | light change |\n| --- | --- |";
-        for (std::size_t i = 0; i < skies.size() + 2; ++i)
-            page += " --- |";
-        page += "\n";
-        for (const Row& row : scene.rows) {
-            page += fmt::format("| {} | {:.4g} |", row.method, row.bytes_per_vertex);
-            for (const double error : row.errors)
-                page += fmt::format(" {:.2f} % |", 100 * error);
-            page +=
-                fmt::format(" {:.1f} ms | {:.3f} ms |\n", row.frame_milliseconds, row.relight_milliseconds);
-        }
-        page += "\nNoise of a reference:";
-        for (std::size_t i = 0; i < skies.size(); ++i)
-            page += fmt::format("{} {:.2f} %", i > 0 ? "," : "", 100 * scene.reference_noise[i]);
-        page += ".\n";
+        options.width, options.height, options.passes, scene.device, options.bake_rays);
+}
+
+std::string table(const SceneResult& scene, const std::vector<Sky>& skies) {
+    std::string table = "| method | bytes per vertex |";
+    for (const Sky& sky : skies)
+        table += " error, " + sky.name + " |";
+    table += " frame | light change |\n| --- | --- |";
+    for (std::size_t i = 0; i < skies.size() + 2; ++i)
+        table += " --- |";
+    table += "\n";
+    for (const Row& row : scene.rows) {
+        table += fmt::format("| {} | {:.4g} |", row.method, row.bytes_per_vertex);
+        for (const double error : row.errors)
+            table += fmt::format(" {:.2f} % |", 100 * error);
+        table += fmt::format(" {:.1f} ms | {:.3f} ms |\n", row.frame_milliseconds, row.relight_milliseconds);
     }
+    table += "\nNoise of a reference:";
+    for (std::size_t i = 0; i < skies.size(); ++i)
+        table += fmt::format("{} {:.2f} %", i > 0 ? "," : "", 100 * scene.reference_noise[i]);
+    return table + ".\n";
+}
+
+std::string section(const SceneResult& scene, const std::vector<Sky>& skies, const std::string& images) {
+    std::string text =
+        fmt::format("\n## {}\n\n{} vertices, {} triangles, {}.\n\n", scene.name, scene.vertices,
+                    scene.triangles, scene.channels == 1 ? "one channel" : "three channels");
+    text += fmt::format("![{}: reference and methods, and their errors]({}/{}.png)\n\n", scene.name, images,
+                        scene.name);
+    text += "*Path tracing";
+    for (const Row* row : shown(scene))
+        text += "; " + row->method;
+    text += fmt::format(". Under {}; below, the error (white: {:.0f} % of the mean).*\n\n",
+                        skies.front().name, 100 * kWhite);
+    return text + table(scene, skies);
+}
+
+} // namespace
+
+void write_pictures(const std::vector<SceneResult>& scenes, const Options& options,
+                    const std::filesystem::path& folder) {
+    std::filesystem::create_directories(folder);
+    const int factor = std::max(1, options.width / kTileWidth), width = options.width / factor,
+              height = options.height / factor;
+    for (const SceneResult& scene : scenes) {
+        const auto light = [&](const prt::Image& image) {
+            return prt::tone_mapped(image, factor, scene.exposure, prt::ToneMap::filmic);
+        };
+        const auto colors = [](const prt::Image& image) {
+            return prt::tone_mapped(image, 1, 1, prt::ToneMap::srgb);
+        };
+        Sheet sheet(1 + static_cast<int>(shown(scene).size()), width, height);
+        sheet.paste(light(scene.reference), 0, 0);
+        sheet.paste(colors(ramp(width, height)), 0, 1);
+        int column = 0;
+        for (const Row* row : shown(scene)) {
+            sheet.paste(light(row->picture), ++column, 0);
+            sheet.paste(colors(heat_of(scene, row->picture, factor)), column, 1);
+        }
+        sheet.write(folder / (scene.name + ".png"));
+    }
+}
+
+std::string report(const std::vector<SceneResult>& scenes, const std::vector<Sky>& skies,
+                   const Options& options, const std::string& images, const std::string& note) {
+    std::string page = "# What precomputed transfer is worth\n\n";
+    page += summary(scenes) + explanation(scenes.front(), options);
+    for (const SceneResult& scene : scenes)
+        page += section(scene, skies, images);
     page += "\n## Made by\n\n    prt-comparison";
     for (const SceneResult& scene : scenes)
         page += " " + scene.name + ".glb";

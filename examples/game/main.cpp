@@ -3,6 +3,7 @@
 // What an engine does is all here, top to bottom; only the window is missing, so that it runs anywhere: after
 // so many frames, in which the sky turns once, it writes the last as a picture.
 
+#include "prt/color.h"
 #include "prt/constant_former.h"
 #include "prt/dering.h"
 #include "prt/gl_context.h"
@@ -209,7 +210,7 @@ void set_camera(GLuint program, const World& world) {
     glUniformMatrix4fv(glGetUniformLocation(program, "view_projection"), 1, GL_FALSE,
                        glm::value_ptr(view_projection));
     // The mean luminance of the sky is its first coefficient times the first basis function.
-    const float mean = glm::dot(world.sky.coefficients[0], glm::vec3(0.2126f, 0.7152f, 0.0722f)) * 0.282095f;
+    const float mean = prt::luminance(world.sky.coefficients[0]) * static_cast<float>(prt::kY00);
     glUniform1f(glGetUniformLocation(program, "exposure"), 1.5f / mean);
 }
 

@@ -1,6 +1,6 @@
 // Blocks of buildings with streets between them, of random height.
 
-#include "mesh.h"
+#include "example_scenes.h"
 
 #include <glm/geometric.hpp>
 

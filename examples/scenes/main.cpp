@@ -1,7 +1,7 @@
 // Writes the example scenes and a sky into a folder: example_scenes FOLDER [city]
 
 #include "prt/image_file.h"
-#include "sky.h"
+#include "sky_image.h"
 #include "write_scene.h"
 
 #include <glm/geometric.hpp>

@@ -1,11 +1,9 @@
 #pragma once
 
-#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace examples {
@@ -15,16 +13,7 @@ struct Mesh {
     std::vector<std::uint32_t> indices;
 };
 
-struct Part {
-    std::string name;
-    glm::vec3 color; ///< linear base colour
-    Mesh mesh;
-    /// Of a leaf: the share of the light that passes, and its colour. Above 0 the part is double-sided.
-    float transmission = 0;
-    glm::vec3 transmission_color{1};
-};
-
-using ExampleScene = std::vector<Part>;
+inline constexpr float kTurn = 6.2831853f;
 
 /// A grid of (columns + 1) x (rows + 1) vertices over (u, v) in [0, 1]², front where u x v points. Normals by
 /// central differences of `surface`, which must be defined a little beyond [0, 1].
@@ -35,13 +24,5 @@ Mesh rectangle(const glm::vec3& corner, const glm::vec3& edge_u, const glm::vec3
 
 /// Appends `other` to `mesh`.
 void append(Mesh& mesh, const Mesh& other);
-
-ExampleScene torus_knot_over_plane();
-ExampleScene room_with_columns();
-ExampleScene terrain();
-/// A tree in full leaf: light comes through the leaves.
-ExampleScene tree();
-/// Some 15 000 buildings of 1.5 million vertices and 1.8 million triangles, to measure with.
-ExampleScene city();
 
 } // namespace examples

@@ -1,6 +1,6 @@
-// A room, open to the front and through a skylight, with two rows of columns and coloured side walls.
+// A room, open to the front and through a skylight, with two rows of columns and colored side walls.
 
-#include "mesh.h"
+#include "example_scenes.h"
 
 #include <cmath>
 
@@ -10,7 +10,7 @@ namespace {
 constexpr float kWidth = 8, kHeight = 4, kDepth = 10, kSpacing = 0.16f;
 
 Mesh column(float x, float z) {
-    constexpr float kRadius = 0.3f, kTurn = 6.2831853f;
+    constexpr float kRadius = 0.3f;
     return parametric_surface(24, 24, [&](float u, float v) {
         return glm::vec3(x + kRadius * std::sin(kTurn * u), v * kHeight, z + kRadius * std::cos(kTurn * u));
     });

@@ -1,6 +1,6 @@
 // Hills by fractal value noise.
 
-#include "mesh.h"
+#include "example_scenes.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 // A (2, 3) torus knot over a plane: soft contact shadows, and a surface that shadows itself.
 
-#include "mesh.h"
+#include "example_scenes.h"
 
 #include <glm/geometric.hpp>
 
@@ -8,8 +8,6 @@
 
 namespace examples {
 namespace {
-
-constexpr float kTurn = 6.2831853f;
 
 glm::vec3 knot_curve(float t) {
     const float radius = 1.0f + 0.4f * std::cos(3 * t);
@@ -19,11 +17,11 @@ glm::vec3 knot_curve(float t) {
 glm::vec3 knot_surface(float u, float v) {
     constexpr float kTube = 0.24f, kStep = 1e-3f;
     const float t = kTurn * u;
-    const glm::vec3 centre = knot_curve(t),
+    const glm::vec3 center = knot_curve(t),
                     tangent = glm::normalize(knot_curve(t + kStep) - knot_curve(t - kStep));
     const glm::vec3 side = glm::normalize(glm::cross(glm::vec3(0, 1, 0), tangent)),
                     up = glm::cross(tangent, side);
-    return centre + kTube * (std::cos(kTurn * v) * side - std::sin(kTurn * v) * up);
+    return center + kTube * (std::cos(kTurn * v) * side - std::sin(kTurn * v) * up);
 }
 
 } // namespace

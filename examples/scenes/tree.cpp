@@ -1,6 +1,6 @@
 // A trunk, and leaves spread over a crown, bent and turned at random.
 
-#include "mesh.h"
+#include "example_scenes.h"
 
 #include <glm/geometric.hpp>
 
@@ -9,8 +9,6 @@
 
 namespace examples {
 namespace {
-
-constexpr float kTurn = 6.2831853f;
 
 Mesh trunk() {
     return parametric_surface(16, 24, [](float u, float v) {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh.h"
+#include "example_scenes.h"
 
 #include <filesystem>
 

@@ -22,7 +22,7 @@ public:
     /// The receivers that it looks at, each once.
     std::span<const std::uint32_t> receivers() const { return receivers_; }
 
-    /// Mean luminance (Rec. 709) of exit radiance times base colour over what the model covers; 0 where it is
+    /// Mean luminance (Rec. 709) of exit radiance times base color over what the model covers; 0 where it is
     /// not seen. `radiance` [receivers()]: exit radiance for albedo 1.
     float luminance(std::span<const glm::vec3> radiance) const;
 

@@ -18,12 +18,14 @@ struct PathTraceOptions {
     Camera camera;
     int width = 640, height = 360;
     int bounces = kEndlessBounces; ///< between surfaces; endless: until roulette ends the path
-    /// Multiply by the base colour of what the camera sees; else exit radiance for albedo 1.
+    /// Multiply by the base color of what the camera sees; else exit radiance for albedo 1.
     bool textured = true;
     bool background = true; ///< show the environment behind the scene; else black
-    /// Rays through random points of each pixel; else through its centre.
+    /// Rays through random points of each pixel; else through its center.
     bool antialiased = true;
     std::uint64_t seed = 0;
+
+    friend bool operator==(const PathTraceOptions&, const PathTraceOptions&) = default;
 };
 
 /// Refines a picture pass by pass, a path per pixel each: next-event estimation and cosine sampling combined
@@ -41,7 +43,7 @@ public:
 
     /// The mean so far: linear radiance, [height][width].
     Image image() const;
-    /// Whether the ray through the centre of each pixel meets a surface that the camera sees. [height][width]
+    /// Whether the ray through the center of each pixel meets a surface that the camera sees. [height][width]
     std::vector<bool> surface_mask() const;
 
 private:

@@ -31,11 +31,11 @@ std::span<const NamedMedium> measured_media();
 
 /// The medium that glTF gives a material: KHR_materials_volume with a thickness and an attenuation, on a
 /// surface that lets diffuse light in (KHR_materials_diffuse_transmission). The attenuation is sigma_t'; the
-/// base colour is the reflectance of a thick slab, from which the dipole's albedo follows. Nothing where the
+/// base color is the reflectance of a thick slab, from which the dipole's albedo follows. Nothing where the
 /// material has no such inside.
 std::optional<Medium> medium_of(const Material& material);
 
-/// The dipole for one colour, on the surface of a half space.
+/// The dipole for one color, on the surface of a half space.
 class Dipole {
 public:
     /// Coefficients in 1/m.

@@ -26,8 +26,8 @@ struct Scattering {
     glm::vec3 reflected, transmitted;
 };
 
-/// Share of the light that glass without a texture lets through: its factor, dimmed by its base colour as
-/// luminance (Rec. 709), since what passes keeps its colour.
+/// Share of the light that glass without a texture lets through: its factor, dimmed by its base color as
+/// luminance (Rec. 709), since what passes keeps its color.
 float glass_transmittance(const Material& material);
 
 /// What some surface of a scene does.
@@ -81,7 +81,7 @@ private:
     };
     struct Kind {
         bool opaque = true, two_sided = false, thin = false;
-        std::optional<Scattering> constant; ///< where neither textures nor vertex colours vary it
+        std::optional<Scattering> constant; ///< where neither textures nor vertex colors vary it
     };
     Kind kind_of(const Primitive& primitive, bool solid) const;
     glm::vec4 texel(const SurfacePoint& point, const TextureUse& use, bool finest) const;

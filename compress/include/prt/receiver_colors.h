@@ -4,7 +4,7 @@
 // exposure.
 
 #include "prt/clustered_transfer.h"
-#include "prt/mesh_edges.h"
+#include "prt/adjacency.h"
 
 #include <glm/vec3.hpp>
 

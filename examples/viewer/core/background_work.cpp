@@ -1,19 +1,17 @@
 #include "core/background_work.h"
 
-#include "prt/support/error.h"
-
-#include <algorithm>
 #include <utility>
 
 namespace viewer {
 
-void BackgroundWork::Channel::stage(std::string name) {
+void BackgroundWork::Channel::enter(Stage stage, std::string label) {
     const std::lock_guard lock(mutex_);
-    stage_ = std::move(name);
+    stage_ = stage;
+    label_ = std::move(label);
     share_ = 0;
 }
 
-void BackgroundWork::Channel::post(std::function<void()> finding) {
+void BackgroundWork::Channel::post(Finding finding) {
     const std::lock_guard lock(mutex_);
     findings_.push_back(std::move(finding));
 }
@@ -37,38 +35,30 @@ void BackgroundWork::retire() {
     retired_.push_back(std::exchange(job_, {}));
 }
 
-void BackgroundWork::start(std::function<void(Channel&)> work,
-                           std::function<void(const std::string&)> failed) {
+void BackgroundWork::start(std::function<void(Channel&)> work) {
     retire();
     auto channel = std::make_shared<Channel>();
     job_.channel = channel;
-    job_.thread =
-        std::jthread([channel, work = std::move(work), failed = std::move(failed)](std::stop_token stop) {
-            channel->stop_ = std::move(stop);
-            try {
-                work(*channel);
-            } catch (const prt::Cancelled&) {
-                // whoever asked for it knows
-            } catch (const std::exception& error) { // also std::bad_alloc of a file that is too large
-                channel->post([failed, message = std::string(error.what())] { failed(message); });
-            }
-            const std::lock_guard lock(channel->mutex_);
-            channel->done_ = true;
-        });
+    job_.thread = std::jthread([channel, work = std::move(work)](std::stop_token stop) {
+        channel->stop_ = std::move(stop);
+        try {
+            work(*channel);
+        } catch (const prt::Cancelled&) {
+            // whoever asked for it knows
+        }
+        const std::lock_guard lock(channel->mutex_);
+        channel->done_ = true;
+    });
 }
 
-void BackgroundWork::stop() {
-    retire();
-}
-
-void BackgroundWork::collect() {
+std::vector<Finding> BackgroundWork::collect() {
     std::erase_if(retired_, [](const Job& job) {
         const std::lock_guard lock(job.channel->mutex_);
         return job.channel->done_;
     });
+    std::vector<Finding> findings;
     if (!job_.channel)
-        return;
-    std::vector<std::function<void()>> findings;
+        return findings;
     bool done = false;
     {
         const std::lock_guard lock(job_.channel->mutex_);
@@ -77,19 +67,21 @@ void BackgroundWork::collect() {
     }
     if (done)
         job_ = {};
-    for (const auto& finding : findings)
-        finding(); // may start other work
+    return findings;
 }
 
-bool BackgroundWork::busy() const {
-    return job_.channel != nullptr;
+Stage BackgroundWork::stage() const {
+    if (!job_.channel)
+        return Stage::starting;
+    const std::lock_guard lock(job_.channel->mutex_);
+    return job_.channel->stage_;
 }
 
-std::string BackgroundWork::stage() const {
+std::string BackgroundWork::label() const {
     if (!job_.channel)
         return {};
     const std::lock_guard lock(job_.channel->mutex_);
-    return job_.channel->stage_;
+    return job_.channel->label_;
 }
 
 double BackgroundWork::share() const {

@@ -2,16 +2,17 @@
 
 // Work beside the drawing: it posts what it finds, and the thread that draws takes it in between two frames.
 
+#include "core/findings.h"
+
 #include "prt/support/progress.h"
 
 #include <functional>
-#include <memory>
 #include <mutex>
-#include <string>
 #include <thread>
-#include <vector>
 
 namespace viewer {
+
+enum class Stage { starting, reading, baking, compressing, occlusion, saving };
 
 /// One piece of work at a time. Starting another stops the first without waiting for it; nothing that it
 /// posts afterwards counts.
@@ -20,31 +21,31 @@ public:
     /// What work sees of the outside.
     class Channel {
     public:
-        /// Says what is done next, for the panel.
-        void stage(std::string name);
-        /// `finding` runs on the thread that calls `collect`.
-        void post(std::function<void()> finding);
+        /// Says what is done next, to the panel in words.
+        void enter(Stage stage, std::string label);
+        void post(Finding finding);
         prt::Progress progress();
 
     private:
         friend class BackgroundWork;
         std::mutex mutex_;
-        std::string stage_;
+        Stage stage_ = Stage::starting;
+        std::string label_;
         double share_ = 0;
         bool done_ = false;
-        std::vector<std::function<void()>> findings_;
+        std::vector<Finding> findings_;
         std::stop_token stop_;
     };
 
     ~BackgroundWork();
-    /// `failed` gets the message of a `prt::Error` that `work` throws, on the thread that collects.
-    void start(std::function<void(Channel&)> work, std::function<void(const std::string&)> failed);
-    void stop();
-    /// Runs what was posted since the last call.
-    void collect();
+    /// `work` throws nothing but `prt::Cancelled`.
+    void start(std::function<void(Channel&)> work);
+    /// Returns what was posted since the last call.
+    std::vector<Finding> collect();
 
-    bool busy() const;
-    std::string stage() const;
+    bool busy() const { return job_.channel != nullptr; }
+    Stage stage() const;
+    std::string label() const;
     double share() const; ///< of the stage, 0..1
 
 private:

@@ -3,8 +3,6 @@
 #include "prt/sh.h"
 #include "prt/tone_map.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 namespace viewer {
@@ -50,37 +48,31 @@ std::vector<glm::vec3> compressed(const prt::ClusteredTransfer& transfer, const 
     return radiance;
 }
 
-std::string key_of(const ExposureMeter::Subject& s) {
-    const prt::Camera& c = s.camera;
-    return fmt::format("{} {} {} {} {} {} {} {} {} {} {}", static_cast<const void*>(s.model), s.width,
-                       s.height, s.textured, c.position.x, c.position.y, c.position.z, c.target.x, c.target.y,
-                       c.target.z, c.vertical_field_of_view);
+prt::LightMeter meter_of(const ExposureMeter::View& view) {
+    prt::Picture picture;
+    picture.scene = &view.model->scene;
+    picture.textures = view.model->trace->textures();
+    picture.camera = view.camera;
+    picture.width = view.width;
+    picture.height = view.height;
+    picture.textured = view.textured;
+    return {picture, view.model->trace->rays()};
 }
 
 } // namespace
 
-float ExposureMeter::exposure(const Subject& subject, const std::function<prt::Light()>& light) {
-    std::string key = key_of(subject);
-    if (key == seen_key_ && subject.radiance_version == radiance_version_)
+float ExposureMeter::exposure(const View& view, const Lit& lit, const std::function<prt::Light()>& light) {
+    if (view == view_ && lit.version == version_)
         return exposure_;
-    if (key != seen_key_) {
-        prt::Picture picture;
-        picture.scene = &subject.model->scene;
-        picture.textures = subject.model->trace->textures();
-        picture.camera = subject.camera;
-        picture.width = subject.width;
-        picture.height = subject.height;
-        picture.textured = subject.textured;
-        meter_.emplace(picture, subject.model->trace->rays());
-        seen_key_ = std::move(key);
-    }
-    radiance_version_ = subject.radiance_version;
+    if (view != view_)
+        meter_ = meter_of(view);
+    view_ = view;
+    version_ = lit.version;
     const prt::Light all = light();
     const Receivers receivers = meter_->receivers();
-    const std::vector<glm::vec3> radiance = subject.compressed
-                                                ? compressed(*subject.compressed, all, receivers)
-                                            : subject.raw ? baked(*subject.raw, all, receivers)
-                                                          : unshadowed(subject.model->scene, all, receivers);
+    const std::vector<glm::vec3> radiance = lit.compressed ? compressed(*lit.compressed, all, receivers)
+                                            : lit.raw      ? baked(*lit.raw, all, receivers)
+                                                           : unshadowed(view.model->scene, all, receivers);
     const float luminance = meter_->luminance(radiance);
     exposure_ = luminance > 0 ? prt::exposure_for(luminance) : prt::automatic_exposure(all);
     return exposure_;

@@ -2,10 +2,11 @@
 
 // Automatic exposure of what the camera sees of the model.
 
-#include "core/model.h"
+#include "core/document.h"
 
 #include "prt/light_meter.h"
 
+#include <cmath>
 #include <functional>
 #include <optional>
 
@@ -13,25 +14,32 @@ namespace viewer {
 
 class ExposureMeter {
 public:
-    /// What is measured; `radiance_version` tells lights and transfers apart. Either transfer may be null:
-    /// the compressed one counts first, and without any the light arrives unshadowed.
-    struct Subject {
+    /// What the camera sees.
+    struct View {
         const Model* model;
         prt::Camera camera;
         int width, height;
         bool textured;
+
+        friend bool operator==(const View&, const View&) = default;
+    };
+    /// What it is lit by. Either transfer may be null: the compressed one counts first, and without any the
+    /// light arrives unshadowed.
+    struct Lit {
         const prt::Transfer* raw;
         const prt::ClusteredTransfer* compressed;
-        std::uint64_t radiance_version;
+        RadianceVersion version; ///< tells lights and transfers apart
     };
     /// Factor on radiance; `light` is called where something has changed. Where nothing lit is seen of the
     /// model, the light is measured.
-    float exposure(const Subject& subject, const std::function<prt::Light()>& light);
+    float exposure(const View& view, const Lit& lit, const std::function<prt::Light()>& light);
+    /// Of the last exposure.
+    float stops() const { return std::log2(exposure_); }
 
 private:
-    std::string seen_key_; ///< model, camera and size that `meter_` belongs to
+    std::optional<View> view_; ///< that `meter_` belongs to
     std::optional<prt::LightMeter> meter_;
-    std::uint64_t radiance_version_ = 0;
+    RadianceVersion version_;
     float exposure_ = 1;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "core/model.h"
-#include "gpu/screen.h"
+#include "core/screen.h"
+#include "pictures/model.h"
 
 #include <glm/vec2.hpp>
 

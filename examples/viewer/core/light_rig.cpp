@@ -16,7 +16,6 @@ namespace viewer {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr glm::vec3 kLuminance(0.2126f, 0.7152f, 0.0722f);
 const glm::vec3 kGround(0.24f, 0.2f, 0.15f);
 
 glm::dvec3 sun_at(double hour) {
@@ -74,8 +73,10 @@ void add_cone(prt::Image& image, const glm::vec3& axis, double half_angle, const
         image.pixels[i] += radiance * static_cast<float>(wanted / covered);
 }
 
-double sphere_half_angle(const RigLight& light) {
-    return std::asin(std::clamp(static_cast<double>(light.size / light.distance), 0.0, 0.99));
+double half_angle(const RigLight& light) {
+    return light.kind == LightKind::sphere
+               ? std::asin(std::clamp(static_cast<double>(light.size / light.distance), 0.0, 0.99))
+               : static_cast<double>(light.size);
 }
 
 } // namespace
@@ -164,11 +165,8 @@ prt::Light LightRig::light(int order) const {
         if (!light.on)
             continue;
         const glm::vec3 radiance = light.color * (light.strength * unit());
-        if (light.kind == LightKind::cone)
-            sum = prt::sum(
-                sum, prt::cone_light(order, light.direction, static_cast<double>(light.size), radiance));
-        else if (light.kind == LightKind::sphere)
-            sum = prt::sum(sum, prt::cone_light(order, light.direction, sphere_half_angle(light), radiance));
+        if (light.kind == LightKind::cone || light.kind == LightKind::sphere)
+            sum = prt::sum(sum, prt::cone_light(order, light.direction, half_angle(light), radiance));
         else if (light.kind == LightKind::hemisphere)
             sum = prt::sum(sum, prt::hemisphere_light(order, light.direction, radiance, glm::vec3(0)));
     }
@@ -197,10 +195,8 @@ prt::DistantLight LightRig::distant_light() const {
         if (!light.on)
             continue;
         const glm::vec3 radiance = light.color * (light.strength * unit());
-        if (light.kind == LightKind::cone)
-            add_cone(image, light.direction, static_cast<double>(light.size), radiance);
-        else if (light.kind == LightKind::sphere)
-            add_cone(image, light.direction, sphere_half_angle(light), radiance);
+        if (light.kind == LightKind::cone || light.kind == LightKind::sphere)
+            add_cone(image, light.direction, half_angle(light), radiance);
         else if (light.kind == LightKind::hemisphere)
             for (int y = 0; y < image.height; ++y)
                 for (int x = 0; x < image.width; ++x) {

@@ -6,6 +6,7 @@
 #include "prt/environment.h"
 #include "prt/light.h"
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -15,11 +16,32 @@ namespace viewer {
 
 enum class LightKind { sun, cone, sphere, hemisphere };
 
+struct LightName {
+    LightKind kind;
+    const char* id; ///< for scripts and for people
+};
+inline constexpr std::array<LightName, 4> kLights = {{{LightKind::sun, "sun"},
+                                                      {LightKind::cone, "cone"},
+                                                      {LightKind::sphere, "sphere"},
+                                                      {LightKind::hemisphere, "hemisphere"}}};
+
+struct WindowName {
+    prt::Window window;
+    const char *id, *title, *tip; ///< for scripts; for people
+};
+inline constexpr std::array<WindowName, 4> kWindows = {
+    {{prt::Window::automatic, "auto", "auto: no negative light",
+      "The least filter of the bands under which no light is negative."},
+     {prt::Window::none, "none", "none",
+      "The bands as they are: sharpest, with dark and coloured rings about strong lights."},
+     {prt::Window::hann, "hann", "Hann", "Fades the bands out by a raised cosine, whatever the light."},
+     {prt::Window::lanczos, "lanczos", "Lanczos", "Fades the bands out by a sinc, whatever the light."}}};
+
 struct RigLight {
     LightKind kind = LightKind::sun;
     bool on = true;
     glm::vec3 direction{0, 1, 0}; ///< unit, towards the light
-    float distance = 2;           ///< sphere: to its centre, in radii of the scene
+    float distance = 2;           ///< sphere: to its center, in radii of the scene
     float size = 0.4f;            ///< cone: half angle, radians; sphere: radius, in radii of the scene
     glm::vec3 color{1, 0.9f, 0.75f};
     float strength = 3; ///< suns: irradiance over pi; others: radiance; over the mean of the environment

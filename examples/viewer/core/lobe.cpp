@@ -21,7 +21,7 @@ glm::vec3 direction(int ring, int segment) {
 
 } // namespace
 
-ColoredMesh make_lobe(int order, std::span<const float> function, const glm::vec3& centre, float radius,
+ColoredMesh make_lobe(int order, std::span<const float> function, const glm::vec3& center, float radius,
                       const glm::vec3& towards_eye) {
     ColoredMesh mesh;
     std::vector<float> values;
@@ -38,7 +38,7 @@ ColoredMesh make_lobe(int order, std::span<const float> function, const glm::vec
             const glm::vec3 d = direction(ring, segment);
             const float value =
                 values[static_cast<std::size_t>(ring) * kRow + static_cast<std::size_t>(segment)];
-            mesh.positions.push_back(centre + d * (scale * std::abs(value)));
+            mesh.positions.push_back(center + d * (scale * std::abs(value)));
             // Shaded as a ball, so that it looks round.
             const float shade = 0.35f + 0.65f * std::max(0.0f, glm::dot(d, towards_eye));
             mesh.colors.emplace_back(

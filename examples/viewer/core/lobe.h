@@ -1,6 +1,6 @@
 #pragma once
 
-// A function on the sphere as a surface: as far from the centre as its absolute value, red where positive,
+// A function on the sphere as a surface: as far from the center as its absolute value, red where positive,
 // blue where negative.
 
 #include <glm/vec3.hpp>
@@ -17,8 +17,8 @@ struct ColoredMesh {
     std::vector<glm::uvec3> triangles;
 };
 
-/// `function` [order²]; its largest absolute value lies at distance `radius` from `centre`.
-ColoredMesh make_lobe(int order, std::span<const float> function, const glm::vec3& centre, float radius,
+/// `function` [order²]; its largest absolute value lies at distance `radius` from `center`.
+ColoredMesh make_lobe(int order, std::span<const float> function, const glm::vec3& center, float radius,
                       const glm::vec3& towards_eye);
 
 } // namespace viewer

@@ -16,24 +16,29 @@ Reference::~Reference() {
     stop();
 }
 
-void Reference::stop() {
-    version_ = 0;
+void Reference::retire() {
     if (!job_.shared)
         return;
     job_.thread.request_stop();
     retired_.push_back(std::exchange(job_, {}));
 }
 
-void Reference::show(Subject subject) {
-    if (subject.version == version_)
+void Reference::stop() {
+    retire();
+    subject_.reset();
+    result_.reset();
+}
+
+void Reference::show(const Subject& subject, const LightRig& rig) {
+    if (subject == subject_)
         return;
-    stop();
-    version_ = subject.version;
+    retire();
+    subject_ = subject;
     auto shared = std::make_shared<Shared>();
     job_.shared = shared;
-    job_.thread = std::jthread([shared, subject = std::move(subject)](const std::stop_token& token) {
+    job_.thread = std::jthread([shared, subject, rig](const std::stop_token& token) {
         try {
-            trace(subject, *shared, token);
+            trace(subject, rig, *shared, token);
         } catch (const prt::Cancelled&) {
             // another picture is wanted
         }
@@ -42,11 +47,12 @@ void Reference::show(Subject subject) {
     });
 }
 
-void Reference::trace(const Subject& subject, Shared& shared, const std::stop_token& stop) {
+void Reference::trace(const Subject& subject, const LightRig& rig, Shared& shared,
+                      const std::stop_token& stop) {
     const Model& model = *subject.model;
     // One thread is left to draw.
     const int threads = std::max(1, prt::thread_count(0) - 1);
-    const prt::DistantLight light = subject.light();
+    const prt::DistantLight light = rig.distant_light();
     prt::PathTraceOptions coarse = subject.options;
     coarse.width = std::max(1, coarse.width / kCoarser);
     coarse.height = std::max(1, coarse.height / kCoarser);
@@ -57,21 +63,23 @@ void Reference::trace(const Subject& subject, Shared& shared, const std::stop_to
         for (int pass = 0; pass < (fine ? kMostPasses : 4); ++pass) {
             tracer.add_pass(threads, stop);
             const std::lock_guard lock(shared.mutex);
-            shared.result = Result{tracer.image(), surfaces, fine ? tracer.passes() : 0};
+            shared.result = Result{tracer.image(), surfaces};
             shared.passes = fine ? tracer.passes() : 0;
         }
     }
 }
 
-std::optional<Reference::Result> Reference::take() {
+const Reference::Result* Reference::result() {
     std::erase_if(retired_, [](const Job& job) {
         const std::lock_guard lock(job.shared->mutex);
         return job.shared->done;
     });
-    if (!job_.shared)
-        return std::nullopt;
-    const std::lock_guard lock(job_.shared->mutex);
-    return std::exchange(job_.shared->result, std::nullopt);
+    if (job_.shared) {
+        const std::lock_guard lock(job_.shared->mutex);
+        if (job_.shared->result)
+            result_ = std::exchange(job_.shared->result, std::nullopt);
+    }
+    return result_ ? &*result_ : nullptr;
 }
 
 int Reference::passes() const {

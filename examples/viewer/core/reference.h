@@ -2,11 +2,11 @@
 
 // A path-traced picture that refines in the background.
 
-#include "core/model.h"
+#include "core/light_rig.h"
+#include "pictures/model.h"
 
 #include "prt/path_tracer.h"
 
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -18,25 +18,26 @@ class Reference {
 public:
     ~Reference();
 
-    /// What the picture is of; `version` tells lights, options and models apart.
+    /// What the picture is of.
     struct Subject {
         std::shared_ptr<const Model> model;
-        std::function<prt::DistantLight()> light; ///< called in the background
         prt::PathTraceOptions options;
-        std::uint64_t version = 0;
+        std::uint64_t light_version = 0;
+
+        friend bool operator==(const Subject&, const Subject&) = default;
     };
     /// Starts anew where the subject is another: at once a coarse picture, then a fine one that refines.
-    void show(Subject subject);
+    /// `rig` is lit as its version says.
+    void show(const Subject& subject, const LightRig& rig);
     void stop();
 
     struct Result {
         prt::Image image;
         std::vector<bool> surfaces; ///< which pixels show the scene
-        int passes = 0;             ///< at full resolution; 0: coarse
     };
-    /// The newest picture where there is one since the last call.
-    std::optional<Result> take();
-    int passes() const;
+    /// The newest picture, at first that of the last subject; null: none yet.
+    const Result* result();
+    int passes() const; ///< at full resolution; 0: coarse
 
 private:
     struct Shared {
@@ -49,8 +50,12 @@ private:
         std::shared_ptr<Shared> shared;
         std::jthread thread;
     };
-    static void trace(const Subject& subject, Shared& shared, const std::stop_token& stop);
-    std::uint64_t version_ = 0;
+    static void trace(const Subject& subject, const LightRig& rig, Shared& shared,
+                      const std::stop_token& stop);
+    void retire();
+
+    std::optional<Subject> subject_;
+    std::optional<Result> result_;
     Job job_;
     std::vector<Job> retired_;
 };

@@ -58,11 +58,10 @@ LoadedModel load_together(const std::vector<std::filesystem::path>& paths, const
     return loaded;
 }
 
-Baked bake_in_stages(BackgroundWork::Channel& channel, const Model& model,
-                     const std::function<void(const Baked&)>& found) {
+Baked bake_in_stages(BackgroundWork::Channel& channel, const Model& model) {
     Baked baked;
     for (const int rays : kBakeRays) {
-        channel.stage(fmt::format("baking with {} rays", rays));
+        channel.enter(Stage::baking, fmt::format("baking with {} rays", rays));
         prt::BakeOptions options;
         options.order = kBakeOrder;
         options.rays = rays;
@@ -70,17 +69,16 @@ Baked bake_in_stages(BackgroundWork::Channel& channel, const Model& model,
         options.bad_textures = prt::BadTextures::ignore;
         prt::BakedTransfer result = prt::bake(model.scene, options, channel.progress()).baked;
         baked = {std::make_shared<const prt::Transfer>(std::move(result.transfer)), result.record};
-        channel.post([found, baked] { found(baked); });
+        channel.post(baked);
     }
     return baked;
 }
 
-std::shared_ptr<const prt::ClusteredTransfer> compress_as(BackgroundWork::Channel& channel,
-                                                          const Model& model, const prt::Transfer& raw,
-                                                          const CompressionSettings& how) {
-    channel.stage("compressing");
+Compressed compress_as(BackgroundWork::Channel& channel, const Model& model, const prt::Transfer& raw,
+                       const CompressionSettings& how) {
+    channel.enter(Stage::compressing, "compressing");
     prt::CompressResult result = compressed_as(how, truncated(raw, how.order), model, channel.progress());
-    return std::make_shared<const prt::ClusteredTransfer>(std::move(result.transfer));
+    return {std::make_shared<const prt::ClusteredTransfer>(std::move(result.transfer)), how};
 }
 
 void save_compressed(const Model& model, const prt::CompressedTransfer& compressed,

@@ -3,13 +3,6 @@
 // What the viewer computes of transfer in the background.
 
 #include "core/background_work.h"
-#include "core/model.h"
-#include "core/settings.h"
-
-#include <functional>
-#include <span>
-#include <utility>
-#include <vector>
 
 namespace viewer {
 
@@ -20,26 +13,18 @@ inline constexpr int kBakeOrder = 6, kBakeBounces = 3;
 /// nothing.
 LoadedModel load_together(const std::vector<std::filesystem::path>& paths, const LoadedModel& open);
 
-/// Transfer as it was baked, and how.
-struct Baked {
-    std::shared_ptr<const prt::Transfer> transfer;
-    prt::BakeRecord record;
-};
+/// Bakes with few rays first and then with more, and posts each result. Returns the last.
+Baked bake_in_stages(BackgroundWork::Channel& channel, const Model& model);
 
-/// Bakes with few rays first and then with more; posts each result to `found`. Returns the last.
-Baked bake_in_stages(BackgroundWork::Channel& channel, const Model& model,
-                     const std::function<void(const Baked&)>& found);
-
-std::shared_ptr<const prt::ClusteredTransfer> compress_as(BackgroundWork::Channel& channel,
-                                                          const Model& model, const prt::Transfer& raw,
-                                                          const CompressionSettings& how);
+Compressed compress_as(BackgroundWork::Channel& channel, const Model& model, const prt::Transfer& raw,
+                       const CompressionSettings& how);
 
 /// Writes the model's file with `compressed` in it, for games. Throws `prt::Error` where it cannot, or where
 /// the file has become another scene.
 void save_compressed(const Model& model, const prt::CompressedTransfer& compressed,
                      const std::filesystem::path& output);
 
-/// Colours of all pictures of numbers that there are; `raw` may be null.
+/// Colors of all pictures of numbers that there are; `raw` may be null.
 std::vector<std::pair<PictureKind, std::vector<glm::vec3>>>
 number_pictures(const Model& model, const prt::Transfer* raw, const prt::ClusteredTransfer& compressed,
                 const prt::Light& light);

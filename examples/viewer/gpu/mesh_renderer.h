@@ -8,7 +8,7 @@
 
 namespace viewer {
 
-/// Draws coloured meshes in front of what is there.
+/// Draws colored meshes in front of what is there.
 class MeshRenderer {
 public:
     MeshRenderer();

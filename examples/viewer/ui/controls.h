@@ -4,7 +4,6 @@
 
 #include "core/viewer.h"
 
-#include <array>
 #include <functional>
 
 namespace viewer {
@@ -16,13 +15,14 @@ enum class Button { left, middle, right };
 class Controls {
 public:
     explicit Controls(Viewer& viewer) : viewer_(viewer) {}
+    Viewer& viewer() { return viewer_; }
     void press(Button button, const glm::vec2& pixel);
     void move(const glm::vec2& pixel);
     void release() { drag_ = Drag::nothing; }
     void scroll(float notches) { viewer_.camera.zoom(notches); }
     /// False for a key that means nothing.
     bool key(char key);
-    std::function<void()> screenshot, quit; ///< called by their keys
+    std::function<void()> screenshot = [] {}, quit = [] {}; ///< called by their keys
 
     /// The light under the pointer or being dragged, -1: none.
     int light_at(const glm::vec2& pixel) const;
@@ -38,12 +38,5 @@ private:
 
 /// Where the handle of a light is in the scene.
 glm::vec3 handle_place(const Viewer& viewer, const RigLight& light);
-
-struct KeyHelp {
-    char key;
-    const char* what;
-};
-/// Every key and what it does.
-extern const std::array<KeyHelp, 20> kKeys;
 
 } // namespace viewer

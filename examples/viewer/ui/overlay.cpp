@@ -57,18 +57,19 @@ std::string side_label(const Viewer& viewer, PictureKind kind) {
     return fmt::format("{}: {}. Meanwhile: {}", name_of(kind).title, shown.note, name_of(shown.kind).title);
 }
 
-/// What the colours of a picture of numbers mean.
+/// What the colors of a picture of numbers mean.
 struct Legend {
-    bool heat = true; ///< a ramp from `low` to `high`; else colours that only tell apart
+    bool heat = true; ///< a ramp from `low` to `high`; else colors that only tell apart
     std::string low, high, note;
 };
 
 Legend legend_of(const Viewer& viewer, PictureKind kind) {
     switch (kind) {
     case PictureKind::clusters:
-        return {false, "", "", fmt::format("{} clusters, a colour each", viewer.figures().clusters)};
+        return {false, "", "", fmt::format("{} clusters, a colour each", viewer.figures().transfer.clusters)};
     case PictureKind::components:
-        return {true, "0", fmt::format("{}", viewer.most_components()), "components of the vertex' cluster"};
+        return {true, "0", fmt::format("{}", viewer.document().most_components()),
+                "components of the vertex' cluster"};
     case PictureKind::error:
         return {true, "0", fmt::format("{:.0f} %", 100 * prt::kWhiteError),
                 "of the mean radiance, this light"};
@@ -85,7 +86,7 @@ ImU32 display_color(const glm::vec3& linear) {
         {prt::srgb_encode(linear.r), prt::srgb_encode(linear.g), prt::srgb_encode(linear.b), 1});
 }
 
-/// Steps of colour between (x, y) and (x + width, y + height).
+/// Steps of color between (x, y) and (x + width, y + height).
 void draw_colors(ImDrawList& list, const Legend& legend, float x, float y, float width, float height) {
     const int steps = legend.heat ? 60 : 12;
     for (int i = 0; i < steps; ++i) {
@@ -145,7 +146,7 @@ float scaled(float pixels) {
 }
 
 void draw_overlay(const Viewer& viewer) {
-    if (!viewer.has_model())
+    if (!viewer.document().model())
         return;
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     const ImVec2 size = ImGui::GetIO().DisplaySize;

@@ -1,6 +1,6 @@
 #include "ui/panels.h"
 
-#include "ui/controls.h"
+#include "ui/commands.h"
 #include "ui/overlay.h"
 
 #include <fmt/core.h>
@@ -8,8 +8,8 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
-#include <array>
 #include <cfloat>
+#include <initializer_list>
 #include <string>
 
 namespace viewer {
@@ -40,77 +40,75 @@ void check(const char* label, bool& value, const char* what) {
     tip(what);
 }
 
-void choose_picture(const char* label, PictureKind& kind, const Viewer& viewer) {
-    const bool open = ImGui::BeginCombo(label, name_of(kind).title, ImGuiComboFlags_HeightLarge);
-    if (!open)
-        tip("What this side of the line shows. Keys 1 and 2 take the next.");
-    if (open) {
-        for (const PictureName& name : kPictures)
-            if (ImGui::Selectable(name.title, name.kind == kind))
-                kind = name.kind;
-        ImGui::EndCombo();
+/// The drop-down `command` for pictures.
+void choose_picture(const Command& command, PictureKind& kind) {
+    if (!ImGui::BeginCombo(command.label, name_of(kind).title, ImGuiComboFlags_HeightLarge))
+        return tip(command.tip);
+    for (const PictureName& name : kPictures)
+        if (ImGui::Selectable(name.title, name.kind == kind))
+            kind = name.kind;
+    ImGui::EndCombo();
+}
+
+/// What the table says of the setting.
+void control(Settings& settings, const Command& command) {
+    const Place place = command.place(settings);
+    const Range& range = command.range;
+    const ImGuiSliderFlags flags = range.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
+    if (PictureKind* const* kind = std::get_if<PictureKind*>(&place))
+        return choose_picture(command, **kind);
+    if (bool* const* value = std::get_if<bool*>(&place))
+        ImGui::Checkbox(command.label, *value);
+    else if (int* const* number = std::get_if<int*>(&place))
+        ImGui::SliderInt(command.label, *number, static_cast<int>(range.low), static_cast<int>(range.high));
+    else
+        ImGui::SliderFloat(command.label, std::get<float*>(place), range.low, range.high, range.format,
+                           flags);
+    tip(command.tip);
+}
+
+/// The settings called `ids`, in one line.
+void controls(Settings& settings, std::initializer_list<const char*> ids) {
+    for (const char* const* id = ids.begin(); id != ids.end(); ++id) {
+        if (id != ids.begin())
+            ImGui::SameLine();
+        control(settings, setting(*id));
     }
-    const std::string note = viewer.shown(kind).note;
+}
+
+void choose_side(Viewer& viewer, const char* id) {
+    control(viewer.settings, setting(id));
+    const PictureKind wanted = *std::get<PictureKind*>(setting(id).place(viewer.settings));
+    const std::string note = viewer.shown(wanted).note;
     if (!note.empty())
         ImGui::TextWrapped("%s", note.c_str());
 }
 
-bool shows_ssao(const Settings& s) {
-    const auto is = [](PictureKind kind) {
-        return kind == PictureKind::ssao || kind == PictureKind::ssao_normals;
-    };
-    return is(s.left) || is(s.right);
-}
-
-void ssao_controls(SsaoSettings& ssao) {
-    ImGui::SliderFloat("AO radius", &ssao.radius, 0.005f, 0.5f, "%.3f", ImGuiSliderFlags_Logarithmic);
-    tip("How far screen-space occlusion looks, as a share of the radius of the scene.");
-    ImGui::SliderFloat("AO bias", &ssao.bias, 0, 0.2f);
-    tip("How much nearer a surface must be to count, as a share of that radius; hides acne on flat walls.");
-    ImGui::SliderFloat("AO intensity", &ssao.intensity, 0.25f, 4);
-    tip("Exponent of the occlusion: above 1 darker.");
-    ImGui::SliderInt("AO samples", &ssao.samples, 2, 64);
-    tip("Depths that are read for each pixel.");
-}
-
 void picture_panel(Viewer& viewer) {
     Settings& s = viewer.settings;
-    choose_picture("left", s.left, viewer);
-    choose_picture("right", s.right, viewer);
-    check("difference", s.difference, "How far the two pictures are apart, as heat, with its figure. Key D.");
-    ImGui::SameLine();
-    check("wireframe", s.wireframe, "The triangles over both pictures. Key W.");
-    ImGui::SameLine();
-    check("lobe", s.lobe,
-          "The transfer vector of the vertex under the pointer: red adds light, blue takes it. Key L.");
-    if (s.difference) {
-        ImGui::SliderFloat("white", &s.white, 0.01f, 2, "%.2f of the mean", ImGuiSliderFlags_Logarithmic);
-        tip("The difference that is shown white, over the mean radiance of the right picture.");
-    }
-    ImGui::SliderFloat("exposure", &s.exposure_stops, -6, 6, "%+.2f stops");
-    tip("Brighter or darker than what is metered on the model. Keys [ and ].");
-    line("metered", fmt::format("{:+.2f} stops", viewer.automatic_stops()),
+    choose_side(viewer, "left");
+    choose_side(viewer, "right");
+    controls(s, {"difference", "wireframe", "lobe"});
+    if (s.difference)
+        controls(s, {"white"});
+    controls(s, {"exposure_stops"});
+    line("metered", fmt::format("{:+.2f} stops", viewer.lighting().meter.stops()),
          "What exposure 0 stands for: prt render --exposure takes the sum.");
-    check("background", s.background, "The sky behind the model. Key B.");
-    ImGui::SameLine();
-    check("base colour", s.textured, "Textures and colours; off shows light alone. Key T.");
-    check("deferred", s.deferred, "Through a G-buffer, as many games draw. Key G.");
-    ImGui::SameLine();
-    check("dithered AO", s.dithered, "Hides the steps of five bits of occlusion in the G-buffer.");
-    ImGui::SameLine();
-    check("culling", s.culling, "Leaves out clusters of triangles outside the view. Key C.");
+    controls(s, {"background", "textured"});
+    controls(s, {"deferred", "dithered", "culling"});
     if (ImGui::SmallButton("reset camera"))
         viewer.reset_camera();
     tip("The whole model, from where it was first seen. Key R.");
-    if (shows_ssao(s))
-        ssao_controls(s.ssao);
+    if (is_ssao(s.left) || is_ssao(s.right))
+        for (const char* id : {"ssao_radius", "ssao_bias", "ssao_intensity", "ssao_samples"})
+            controls(s, {id});
 }
 
 std::string sky_name(const Viewer& viewer) {
     if (viewer.lights.day)
         return "a clear day";
-    return viewer.lights.environment_on && !viewer.environment_name().empty() ? viewer.environment_name()
-                                                                              : "none";
+    const std::string environment = viewer.lighting().rig.environment_name();
+    return viewer.lights.environment_on && !environment.empty() ? environment : "none";
 }
 
 void choose_sky(Viewer& viewer) {
@@ -126,7 +124,7 @@ void choose_sky(Viewer& viewer) {
         l.day = true;
     if (ImGui::Selectable("none", !l.day && !l.environment_on))
         l.day = l.environment_on = false;
-    const auto& environments = viewer.environments();
+    const auto& environments = viewer.lighting().environments;
     for (std::size_t i = 0; i < environments.size(); ++i) {
         ImGui::PushID(static_cast<int>(i)); // files of one name
         if (ImGui::Selectable(environments[i]->name.c_str(), !l.day && environments[i]->name == current))
@@ -136,21 +134,8 @@ void choose_sky(Viewer& viewer) {
     ImGui::EndCombo();
 }
 
-struct WindowName {
-    const char *title, *what;
-    prt::Window window;
-};
-constexpr std::array<WindowName, 4> kWindows = {
-    {{"auto: no negative light", "The least filter of the bands under which no light is negative.",
-      prt::Window::automatic},
-     {"none", "The bands as they are: sharpest, with dark and coloured rings about strong lights.",
-      prt::Window::none},
-     {"Hann", "Fades the bands out by a raised cosine, whatever the light.", prt::Window::hann},
-     {"Lanczos", "Fades the bands out by a sinc, whatever the light.", prt::Window::lanczos}}};
-
 void choose_window(prt::Window& window) {
-    const auto current = std::find_if(kWindows.begin(), kWindows.end(),
-                                      [&](const WindowName& w) { return w.window == window; });
+    const auto current = std::ranges::find(kWindows, window, &WindowName::window);
     const bool open = ImGui::BeginCombo("window", current->title);
     if (!open)
         tip("Spherical harmonics ring about strong lights; a window over their bands tames that. The "
@@ -160,21 +145,15 @@ void choose_window(prt::Window& window) {
     for (const WindowName& name : kWindows) {
         if (ImGui::Selectable(name.title, name.window == window))
             window = name.window;
-        tip(name.what);
+        tip(name.tip);
     }
     ImGui::EndCombo();
 }
 
-constexpr std::array<std::pair<const char*, LightKind>, 4> kLightKinds = {
-    {{"sun", LightKind::sun},
-     {"cone", LightKind::cone},
-     {"sphere", LightKind::sphere},
-     {"hemisphere", LightKind::hemisphere}}};
-
 /// False where it is to be removed.
 bool light_controls(RigLight& light) {
     ImGui::Separator();
-    check(kLightKinds[static_cast<std::size_t>(light.kind)].first, light.on,
+    check(std::ranges::find(kLights, light.kind, &LightName::kind)->id, light.on,
           "On or off. Drag its handle to move it.");
     ImGui::SameLine();
     ImGui::ColorEdit3("##colour", &light.color.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
@@ -208,13 +187,13 @@ void light_panel(Viewer& viewer) {
         if (ImGui::SliderFloat("haze", &turbidity, 2, 10, "%.1f"))
             l.time.turbidity = static_cast<double>(turbidity);
         tip("Turbidity of the air: 2 clear, 10 hazy.");
-        check("let the day run", viewer.day_runs, "An hour a second. Space.");
+        control(viewer.settings, *std::ranges::find(commands(), ' ', &Command::key));
     }
     choose_window(l.window);
     ImGui::SliderAngle("turned", &l.rotation, -180, 180);
     tip("The sky about the vertical. Drag the picture with the right button.");
     ImGui::TextDisabled("add");
-    for (const auto& [name, kind] : kLightKinds) {
+    for (const auto& [kind, name] : kLights) {
         ImGui::SameLine();
         if (ImGui::SmallButton(name))
             l.lights.push_back(make_light(kind));
@@ -232,15 +211,15 @@ void light_panel(Viewer& viewer) {
 }
 
 void compression_controls(Viewer& viewer) {
-    if (viewer.busy())
-        ImGui::ProgressBar(static_cast<float>(viewer.share()), {-1, 0}, viewer.stage().c_str());
-    if (!viewer.busy() && viewer.has_model()) {
+    if (viewer.jobs().busy())
+        ImGui::ProgressBar(static_cast<float>(viewer.jobs().share()), {-1, 0}, viewer.jobs().label().c_str());
+    if (!viewer.jobs().busy() && viewer.document().model()) {
         if (ImGui::SmallButton("bake anew"))
             viewer.bake_anew();
         tip("Traces the model again with three bounces, though its file holds transfer.");
     }
     if (viewer.can_save()) {
-        if (!viewer.busy())
+        if (!viewer.jobs().busy())
             ImGui::SameLine();
         if (ImGui::SmallButton("save"))
             viewer.save();
@@ -248,9 +227,9 @@ void compression_controls(Viewer& viewer) {
             "overwritten. "
             "Key S.");
     }
-    if (!viewer.has_raw())
+    if (!viewer.document().raw())
         return;
-    ImGui::SliderInt("order", &viewer.compression.order, 1, viewer.raw_order());
+    ImGui::SliderInt("order", &viewer.compression.order, 1, viewer.document().raw_order());
     tip("Bands of spherical harmonics that are kept: more show sharper shadows.");
     ImGui::SliderInt("clusters", &viewer.compression.clusters, 1, 1024, "%d", ImGuiSliderFlags_Logarithmic);
     tip("Groups of vertices with a basis of their own: more are closer, and larger in the file and per "
@@ -261,23 +240,24 @@ void compression_controls(Viewer& viewer) {
 
 void figure_lines(const Figures& f) {
     line("frame",
-         fmt::format("{:.1f} ms, {:.0f}/s", f.frame_milliseconds, 1e3 / std::max(f.frame_milliseconds, 1e-3)),
+         fmt::format("{:.1f} ms, {:.0f}/s", f.milliseconds.frame, 1e3 / std::max(f.milliseconds.frame, 1e-3)),
          "From one frame to the next.");
-    line("GPU, frame", fmt::format("{:.2f} ms", f.gpu_milliseconds), "Both pictures and what is over them.");
-    line("GPU, vertices", fmt::format("{:.3f} ms", f.vertex_milliseconds),
+    line("GPU, frame", fmt::format("{:.2f} ms", f.milliseconds.gpu), "Both pictures and what is over them.");
+    line("GPU, vertices", fmt::format("{:.3f} ms", f.milliseconds.vertices),
          "The vertex stage of the right picture.");
-    line("constants", fmt::format("{:.3f} ms", f.constants_milliseconds),
+    line("constants", fmt::format("{:.3f} ms", f.milliseconds.constants),
          "Forming and uploading the constants of all clusters when the light changes.");
     line("vertices", fmt::format("{}", f.receivers));
     line("triangles", fmt::format("{} of {}", f.triangles_drawn, f.triangles));
-    if (f.bytes_per_vertex > 0)
+    if (f.transfer.bytes_per_vertex > 0)
         line("bytes per vertex",
-             fmt::format("{:.0f}, {:.2f} with bases", f.bytes_per_vertex, f.bytes_with_bases),
+             fmt::format("{:.0f}, {:.2f} with bases", f.transfer.bytes_per_vertex,
+                         f.transfer.bytes_with_bases),
              "Of compressed transfer, without and with what all vertices share.");
-    if (f.clusters > 0)
-        line("clusters in use", fmt::format("{}", f.clusters));
-    if (f.raw_bytes > 0)
-        line("uncompressed", fmt::format("{:.0f} a vertex", static_cast<double>(f.raw_bytes) /
+    if (f.transfer.clusters > 0)
+        line("clusters in use", fmt::format("{}", f.transfer.clusters));
+    if (f.transfer.raw_bytes > 0)
+        line("uncompressed", fmt::format("{:.0f} a vertex", static_cast<double>(f.transfer.raw_bytes) /
                                                                 static_cast<double>(f.receivers)));
     if (f.reference_passes > 0)
         line("reference", fmt::format("{} paths per pixel", f.reference_passes));
@@ -313,8 +293,9 @@ void help_window(bool& open) {
         line("middle drag, wheel", "move, zoom");
         line("drop files", "models and environments");
         line("Escape", "closes what is open");
-        for (const KeyHelp& key : kKeys)
-            line(key.key == ' ' ? "Space" : std::string(1, key.key).c_str(), key.what);
+        for (const Command& command : commands())
+            if (*command.help != 0)
+                line(command.key == ' ' ? "Space" : std::string(1, command.key).c_str(), command.help);
     }
     ImGui::End();
 }
@@ -329,7 +310,7 @@ void message_window(Viewer& viewer) {
     for (const std::string& text : viewer.messages())
         ImGui::TextWrapped("%s", text.c_str());
     if (ImGui::Button("OK"))
-        viewer.messages().clear();
+        viewer.dismiss_messages();
     ImGui::End();
 }
 
@@ -339,7 +320,7 @@ void close_topmost(Viewer& viewer) {
     if (!ImGui::GetCurrentContext()->OpenPopupStack.empty())
         ImGui::ClosePopupToLevel(ImGui::GetCurrentContext()->OpenPopupStack.Size - 1, true);
     else if (!viewer.messages().empty())
-        viewer.messages().clear();
+        viewer.dismiss_messages();
     else
         viewer.settings.help = false;
 }
@@ -352,9 +333,9 @@ void draw_panels(Viewer& viewer) {
         ImGui::SetNextWindowSize({width, 0}, ImGuiCond_FirstUseEver);
         ImGui::SetNextWindowSizeConstraints(
             {0, 0}, {FLT_MAX, std::max(scaled(60), ImGui::GetIO().DisplaySize.y - 2 * margin)});
-        const std::string title = viewer.has_model() ? viewer.model_name() : "prtkit";
+        const std::string title = viewer.document().model() ? viewer.document().name() : "prtkit";
         if (ImGui::Begin((title + "###main").c_str())) {
-            if (!viewer.has_model())
+            if (!viewer.document().model())
                 ImGui::TextWrapped(
                     "Drop a model (.glb, .gltf) on this window, and an environment map (.hdr, .exr).");
             if (ImGui::CollapsingHeader("Picture", ImGuiTreeNodeFlags_DefaultOpen))

@@ -35,6 +35,21 @@ struct CloseWindow {
 };
 using Window = std::unique_ptr<GLFWwindow, CloseWindow>;
 
+Window create_window(int width, int height) {
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
+    Window window(glfwCreateWindow(width, height, "prtkit", nullptr, nullptr));
+    if (!window) { // some drivers have no robust contexts
+        glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
+        window.reset(glfwCreateWindow(width, height, "prtkit", nullptr, nullptr));
+    }
+    if (!window)
+        throw prt::Error("this display has no OpenGL 4.5");
+    return window;
+}
+
 class Application {
 public:
     Application(const std::vector<std::filesystem::path>& files, int width, int height)
@@ -71,21 +86,15 @@ public:
 
 private:
     void make_window() {
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-        glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
-        glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-        glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
-        window_.reset(glfwCreateWindow(width_, height_, "prtkit", nullptr, nullptr));
-        if (!window_) { // some drivers have no robust contexts
-            glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_NO_ROBUSTNESS);
-            window_.reset(glfwCreateWindow(width_, height_, "prtkit", nullptr, nullptr));
-        }
-        if (!window_)
-            throw prt::Error("this display has no OpenGL 4.5");
-        GLFWwindow* window = window_.get();
-        glfwMakeContextCurrent(window);
+        window_ = create_window(width_, height_);
+        glfwMakeContextCurrent(window_.get());
         glfwSwapInterval(1);
-        glfwSetWindowUserPointer(window, this);
+        glfwSetWindowUserPointer(window_.get(), this);
+        set_pointer_callbacks(window_.get());
+        set_other_callbacks(window_.get());
+    }
+
+    static void set_pointer_callbacks(GLFWwindow* window) {
         glfwSetMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int mods) {
             ImGui_ImplGlfw_MouseButtonCallback(w, button, action, mods);
             self(w).pointer_button(button, action);
@@ -96,12 +105,14 @@ private:
             if (!entered)
                 self(w).viewer_->hover(std::nullopt);
         });
-        glfwSetWindowFocusCallback(window, ImGui_ImplGlfw_WindowFocusCallback);
         glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) {
             ImGui_ImplGlfw_ScrollCallback(w, x, y);
             if (!self(w).interface_->wants_pointer())
                 self(w).controls_->scroll(static_cast<float>(y));
         });
+    }
+
+    static void set_other_callbacks(GLFWwindow* window) {
         glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
             ImGui_ImplGlfw_KeyCallback(w, key, scancode, action, mods);
             if (action == GLFW_PRESS && key == GLFW_KEY_ESCAPE)
@@ -112,6 +123,7 @@ private:
                                                            : '\0');
         });
         glfwSetCharCallback(window, ImGui_ImplGlfw_CharCallback);
+        glfwSetWindowFocusCallback(window, ImGui_ImplGlfw_WindowFocusCallback);
         glfwSetWindowContentScaleCallback(window,
                                           [](GLFWwindow* w, float, float) { self(w).rescale_ = true; });
         glfwSetDropCallback(window, [](GLFWwindow* w, int count, const char** paths) {

@@ -7,10 +7,13 @@
 
 namespace prt {
 
-/// Luminance of a linear color by the weights of Rec. 709.
+/// The weights of Rec. 709.
+inline constexpr glm::dvec3 kLuminance(0.2126, 0.7152, 0.0722);
+
+/// Luminance of a linear color.
 template <class Real>
 Real luminance(const glm::vec<3, Real>& rgb) {
-    return glm::dot(rgb, glm::vec<3, Real>(0.2126, 0.7152, 0.0722));
+    return glm::dot(rgb, glm::vec<3, Real>(kLuminance));
 }
 
 } // namespace prt

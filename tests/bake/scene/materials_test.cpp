@@ -168,7 +168,7 @@ TEST(Metal, ReflectsDiffuselyAsFarAsItIsRough) {
     // Metallic in blue, roughness in green, both as numbers: 51 is a fifth, not sRGB.
     EXPECT_NEAR(reflected(1, 1, {numbers({9, 51, 255, 9})}), 0.8f * 0.04f, 1e-6f);
     EXPECT_NEAR(reflected(1, 0, {numbers({9, 255, 51, 9})}), 0.8f * 0.8f, 1e-6f);
-    // The same image where it is colour elsewhere.
+    // The same image where it is color elsewhere.
     EXPECT_NEAR(reflected(1, 1, {make_texture({1, 1, {{9, 51, 255, 9}}})}), 0.8f * 0.04f, 1e-5f);
 }
 

@@ -1,5 +1,6 @@
 #include "available_memory.h"
 #include "prt/bake.h"
+#include "prt/gltf.h"
 #include "prt/light.h"
 #include "prt/support/error.h"
 #include "support/glb_file.h"
@@ -372,7 +373,7 @@ TEST(Bounces, AreLeftOutWhereNothingScatters) {
     EXPECT_EQ(floor.statistics.gather.entries, 0u);
 }
 
-TEST(Channels, AreThreeOnlyWhereColouredLightBounces) {
+TEST(Channels, AreThreeOnlyWhereColoredLightBounces) {
     const Scene grey = make_bowl(0.5).scene;
     const Scene red = test::painted(grey, {0.9f, 0.1f, 0.1f});
     EXPECT_EQ(bake_bounces(grey, 1, 64).baked.transfer.channels, 1);

@@ -1,13 +1,17 @@
 // Dragging, and the geometry behind it.
 
+#include "ui/commands.h"
 #include "ui/controls.h"
 
 #include "prt/gl_context.h"
+#include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
+#include <sstream>
 
 namespace viewer {
 namespace {
@@ -26,18 +30,18 @@ TEST(Screen, PixelsAndDirectionsAreInverse) {
 }
 
 TEST(Screen, DirectionsOnASphereMeetThePixel) {
-    const glm::vec3 centre(0.2f, 0.4f, 0);
+    const glm::vec3 center(0.2f, 0.4f, 0);
     for (const bool far_side : {false, true})
         for (const glm::vec2 pixel : {glm::vec2(300, 170), {350, 200}, {320, 150}}) {
-            const glm::vec3 d = direction_on_sphere(kScreen, pixel, centre, 0.8f, far_side);
+            const glm::vec3 d = direction_on_sphere(kScreen, pixel, center, 0.8f, far_side);
             EXPECT_NEAR(glm::length(d), 1, 1e-5f);
-            const auto back = pixel_of(kScreen, centre + 0.8f * d);
+            const auto back = pixel_of(kScreen, center + 0.8f * d);
             ASSERT_TRUE(back);
             EXPECT_LT(glm::distance(*back, pixel), 0.05f);
-            EXPECT_EQ(glm::dot(d, kScreen.camera.position - centre) > 0, !far_side);
+            EXPECT_EQ(glm::dot(d, kScreen.camera.position - center) > 0, !far_side);
         }
     // Beside the sphere: its outline.
-    const glm::vec3 d = direction_on_sphere(kScreen, {0, 180}, centre, 0.8f, false);
+    const glm::vec3 d = direction_on_sphere(kScreen, {0, 180}, center, 0.8f, false);
     EXPECT_NEAR(glm::length(d), 1, 1e-5f);
 }
 
@@ -65,28 +69,85 @@ TEST(OrbitCamera, PanMovesTheTargetWithThePointer) {
     EXPECT_NEAR(after->y - before->y, -18, 0.5f);
 }
 
-TEST(Controls, EveryKeyOfTheHelpDoesSomething) {
+TEST(Controls, EveryKeyOfTheTableDoesSomething) {
     const auto context = prt::GlContext::create(prt::GlDevice::any);
     ASSERT_TRUE(context);
     Viewer viewer;
     Controls controls(viewer);
     int calls = 0;
     controls.screenshot = controls.quit = [&] { ++calls; };
-    for (const KeyHelp& help : kKeys) {
-        if (help.key == 'R') // without a model there is nothing to look at
+    for (const Command& command : commands()) {
+        if (command.key == 0 || command.key == 'R') // without a model there is nothing to look at
             continue;
-        viewer.messages().clear();
+        viewer.dismiss_messages();
         const Settings settings = viewer.settings;
         const LightSettings lights = viewer.lights;
-        const bool day_runs = viewer.day_runs;
         const int calls_before = calls;
-        EXPECT_TRUE(controls.key(help.key)) << help.key;
-        EXPECT_TRUE(!(viewer.settings == settings) || !(viewer.lights == lights) ||
-                    viewer.day_runs != day_runs || calls > calls_before || !viewer.messages().empty())
-            << help.key;
+        EXPECT_TRUE(controls.key(command.key)) << command.key;
+        EXPECT_TRUE(!(viewer.settings == settings) || !(viewer.lights == lights) || calls > calls_before ||
+                    !viewer.messages().empty())
+            << command.key;
     }
     EXPECT_EQ(calls, 2);
     EXPECT_FALSE(controls.key('\1'));
+    EXPECT_FALSE(controls.key(0));
+}
+
+TEST(Commands, HaveEachKeyAndEachNameOnce) {
+    std::set<std::string> ids;
+    std::set<char> keys;
+    for (const Command& command : commands()) {
+        EXPECT_TRUE(*command.id == 0 || ids.insert(command.id).second) << command.id;
+        EXPECT_TRUE(command.key == 0 || keys.insert(command.key).second) << command.key;
+        EXPECT_TRUE(command.place || command.press);
+        if (*command.id != 0) {
+            EXPECT_EQ(&setting(command.id), &command);
+        }
+    }
+    EXPECT_THROW(setting("nothing"), prt::Error);
+}
+
+/// What stands between backticks in `text`.
+std::set<std::string> quoted(const std::string& text) {
+    std::set<std::string> words;
+    for (std::size_t at = text.find('`'); at != std::string::npos; at = text.find('`', at + 1)) {
+        const std::size_t end = text.find('`', at + 1);
+        words.insert(text.substr(at + 1, end - at - 1));
+        at = end;
+    }
+    return words;
+}
+
+TEST(Commands, AreThoseOfTheDocumentation) {
+    std::ifstream page(PRT_DOCS "/viewer.md");
+    std::set<std::string> documented_keys, documented_ids;
+    for (std::string line; std::getline(page, line);) {
+        const std::string first = line.substr(0, line.find('|', 1));
+        if (line.starts_with("| `{\"set\""))
+            documented_ids = quoted(line.substr(first.size()));
+        if (!line.starts_with("| ") || first.find('`') != std::string::npos)
+            continue;
+        std::istringstream words(first.substr(2));
+        for (std::string word; words >> word;) {
+            if (word.size() > 1 && word.ends_with(','))
+                word.pop_back();
+            if (word.size() == 1 || word == "Space" || word == "Tab")
+                documented_keys.insert(word);
+        }
+    }
+    std::set<std::string> keys, ids;
+    for (const Command& command : commands()) {
+        if (command.key != 0)
+            keys.insert(command.key == ' '    ? "Space"
+                        : command.key == '\t' ? "Tab"
+                                              : std::string(1, command.key));
+        if (*command.id != 0)
+            ids.insert(command.id);
+    }
+    for (const PictureName& name : kPictures)
+        ids.insert(name.id);
+    EXPECT_EQ(documented_keys, keys);
+    EXPECT_EQ(documented_ids, ids);
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // Culling against brute force.
 
-#include "core/triangle_clusters.h"
+#include "pictures/triangle_clusters.h"
 
 #include "prt/camera.h"
 #include "support/scene_builder.h"

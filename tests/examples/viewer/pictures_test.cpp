@@ -1,7 +1,7 @@
 // Every picture of the viewer, drawn on the driver there is, against something computed in another way.
 
-#include "gpu/frame_renderer.h"
 #include "gpu/offscreen.h"
+#include "pictures/frame_renderer.h"
 
 #include "prt/bake.h"
 #include "prt/compress.h"
@@ -52,9 +52,9 @@ protected:
         context = prt::GlContext::create(prt::GlDevice::any, &why);
         ASSERT_TRUE(context) << why;
         renderer = std::make_unique<FrameRenderer>();
-        renderer->resize(kWidth, kHeight, 1);
-        settings.textured = false;
-        settings.background = false;
+        renderer->resize({kWidth, kHeight, 1});
+        settings.drawing.textured = false;
+        settings.drawing.background = false;
         load(ball());
     }
     void TearDown() override {
@@ -71,7 +71,7 @@ protected:
     }
 
     prt::Image drawn(PictureKind kind, int side = 1) {
-        renderer->draw(side, kind, *gpu, settings, view, 0, kWidth);
+        renderer->draw(side, kind, *gpu, settings.drawing, view, {0, kWidth});
         alpha.clear();
         return renderer->read(side, &alpha);
     }
@@ -81,7 +81,7 @@ protected:
         picture.scene = &model->scene;
         picture.textures = model->trace->textures();
         picture.radiance = radiance;
-        picture.textured = settings.textured;
+        picture.textured = settings.drawing.textured;
         picture.camera = view.camera;
         picture.width = kWidth;
         picture.height = kHeight;
@@ -155,9 +155,9 @@ TEST_F(ViewerPictures, OfRawTransferAreThoseOfCpp) {
     const prt::Transfer transfer = baked();
     gpu->set_raw(transfer);
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), kSame);
-    settings.textured = true;
+    settings.drawing.textured = true;
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), kSame);
-    settings.deferred = true; // base colour in 8 bits
+    settings.drawing.deferred = true; // base color in 8 bits
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), 0.006);
     // Another light.
     light = prt::rotated_about_y(light, 2);
@@ -165,7 +165,7 @@ TEST_F(ViewerPictures, OfRawTransferAreThoseOfCpp) {
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), 0.006);
 }
 
-TEST_F(ViewerPictures, OfColouredTransferAreThoseOfCpp) {
+TEST_F(ViewerPictures, OfColoredTransferAreThoseOfCpp) {
     const prt::Transfer transfer = baked();
     ASSERT_EQ(transfer.channels, 3);
     gpu->set_raw(transfer);
@@ -187,7 +187,7 @@ TEST_F(ViewerPictures, OfCompressedTransferAreThoseOfCpp) {
     gpu->set_compressed(transfer);
     const auto radiance = prt::exit_radiance(transfer, light);
     EXPECT_LT(mean_difference(drawn(PictureKind::prt_compressed), rays(radiance)), kSame);
-    settings.deferred = true;
+    settings.drawing.deferred = true;
     EXPECT_LT(mean_difference(drawn(PictureKind::prt_compressed), rays(radiance)), kSame);
 }
 
@@ -195,7 +195,7 @@ TEST_F(ViewerPictures, OfUnshadowedIrradianceAreTheLobesOfTheNormals) {
     // Three bands per pixel against three bands per vertex; the sphere's facets are fine.
     const auto radiance = prt::exit_radiance(prt::unshadowed_transfer(model->scene, 3), light);
     EXPECT_LT(mean_difference(drawn(PictureKind::unshadowed), rays(radiance)), 0.005);
-    settings.deferred = true;
+    settings.drawing.deferred = true;
     EXPECT_LT(mean_difference(drawn(PictureKind::unshadowed), rays(radiance)), 0.006);
 }
 
@@ -257,9 +257,9 @@ TEST_F(ViewerPictures, DeferredOcclusionDiffersFromForwardByLessThanItsFiveBits)
     gpu->set_occlusion(ambient_occlusion(*model, {}));
     gpu->set_light(prt::constant_light(6, glm::vec3(1)));
     const prt::Image forward = drawn(PictureKind::baked_ao);
-    settings.deferred = true;
+    settings.drawing.deferred = true;
     for (const bool dithered : {false, true}) {
-        settings.dithered = dithered;
+        settings.drawing.dithered = dithered;
         const prt::Image deferred = drawn(PictureKind::baked_ao);
         float largest = 0;
         for (std::size_t i = 0; i < alpha.size(); ++i)
@@ -273,7 +273,7 @@ TEST_F(ViewerPictures, DeferredOcclusionDiffersFromForwardByLessThanItsFiveBits)
 TEST_F(ViewerPictures, DitheringIsRightOnAverage) {
     load(SceneBuilder().floor({0, 0, 0}, 50, 1).build());
     view.camera = {{0, 4, 1}, {0, 0, 0}, {0, 1, 0}, 0.6f};
-    settings.deferred = true;
+    settings.drawing.deferred = true;
     for (const float open : {0.1f, 0.3871f, 0.513f, 0.9f, 1.0f, 0.0f}) {
         gpu->set_occlusion(std::vector<float>(model->scene.receivers(), open));
         const auto mean = [&] {
@@ -284,10 +284,10 @@ TEST_F(ViewerPictures, DitheringIsRightOnAverage) {
                 sum += level;
             return sum / static_cast<double>(levels.size()) / 31;
         };
-        settings.dithered = true;
+        settings.drawing.dithered = true;
         // Thresholds come in steps of 1/64 of a level, on 192 x 108 pixels that 8 does not divide.
         EXPECT_NEAR(mean(), static_cast<double>(open), 1.0 / 31 / 32) << open;
-        settings.dithered = false;
+        settings.drawing.dithered = false;
         EXPECT_NEAR(mean(), std::round(static_cast<double>(open) * 31) / 31, 1e-9) << open;
     }
 }
@@ -328,7 +328,7 @@ TEST_P(Ssao, LeavesAFlatPlaneOpen) {
 TEST_P(Ssao, DarkensACornerAndNothingFarFromIt) {
     load(corner());
     view.camera = {{0, 3, 9}, {0, 1, 0}, {0, 1, 0}, 0.6f};
-    settings.ssao.radius = 0.6f / model->radius;
+    settings.drawing.ssao.radius = 0.6f / model->radius;
     const auto values = occlusion();
     const float at_corner = at_place(values, {0, 0.05f, 0}), near = at_place(values, {0, 0, 0.3f}),
                 far = at_place(values, {0, 0, 2}), wall = at_place(values, {0, 2, 0});
@@ -336,11 +336,11 @@ TEST_P(Ssao, DarkensACornerAndNothingFarFromIt) {
     EXPECT_LT(at_corner, near + 0.03f);
     EXPECT_GT(far, 0.97f);
     EXPECT_GT(wall, 0.97f);
-    settings.ssao.intensity = 2;
+    settings.drawing.ssao.intensity = 2;
     const auto stronger = occlusion();
     EXPECT_NEAR(at_place(stronger, {0, 0.05f, 0}), at_corner * at_corner, 0.04f);
-    settings.ssao.intensity = 1;
-    settings.ssao.radius *= 3; // reaches farther
+    settings.drawing.ssao.intensity = 1;
+    settings.drawing.ssao.radius *= 3; // reaches farther
     EXPECT_LT(at_place(occlusion(), {0, 0, 0.7f}), at_place(values, {0, 0, 0.7f}) - 0.02f);
 }
 
@@ -351,7 +351,7 @@ TEST_P(Ssao, MakesNoHaloesAboutWhatIsFarInFront) {
              .quad({-1, -8, 4}, {0, -8, 4}, {0, 8, 4}, {-1, 8, 4})
              .build());
     view.camera = {{0, 0, 12}, {0, 0, 0}, {0, 1, 0}, 0.6f};
-    settings.ssao.radius = 0.4f / model->radius;
+    settings.drawing.ssao.radius = 0.4f / model->radius;
     const auto values = occlusion();
     for (float x = 0.1f; x < 2; x += 0.1f) // beside the board's edge, as seen from the camera
         EXPECT_GT(at_place(values, {1.5f * x, 0, 0}), 0.9f) << x;
@@ -359,7 +359,7 @@ TEST_P(Ssao, MakesNoHaloesAboutWhatIsFarInFront) {
 
 TEST_P(Ssao, IsMultipliedIntoTheIrradianceAndNothingElse) {
     load(corner());
-    settings.textured = true;
+    settings.drawing.textured = true;
     const prt::Image open = drawn(PictureKind::unshadowed), shaded = drawn(GetParam());
     const auto values = renderer->read_ssao();
     for (int y = 0; y < kHeight; ++y)
@@ -372,7 +372,7 @@ TEST_P(Ssao, IsMultipliedIntoTheIrradianceAndNothingElse) {
         }
 }
 
-TEST_F(ViewerPictures, OfNumbersAreTheirColours) {
+TEST_F(ViewerPictures, OfNumbersAreTheirColors) {
     const prt::ClusteredTransfer transfer = compressed(baked());
     const prt::Transfer raw = baked();
     const auto reference = prt::exit_radiance(raw, light),
@@ -396,10 +396,10 @@ TEST_F(ViewerPictures, AreTheSameWithAndWithoutCulling) {
     gpu->set_raw(baked());
     view.camera.target = {0.4f, -0.2f, 0};
     view.camera.position = {0.7f, 0, 1.1f};
-    settings.culling = false;
+    settings.drawing.culling = false;
     const prt::Image all = drawn(PictureKind::prt);
     EXPECT_EQ(gpu->drawn_triangles(), model->scene.triangles());
-    settings.culling = true;
+    settings.drawing.culling = true;
     const prt::Image culled = drawn(PictureKind::prt);
     EXPECT_LT(gpu->drawn_triangles(), model->scene.triangles() * 3 / 4);
     EXPECT_EQ(all.pixels, culled.pixels);
@@ -427,8 +427,8 @@ TEST_F(ViewerPictures, DifferenceIsTheSumOverThePixelsThatBothShow) {
 
 TEST_F(ViewerPictures, OnTheScreenAreToneMappedAsInCppAndSplit) {
     gpu->set_raw(baked());
-    settings.samples = 2;
-    renderer->resize(kWidth, kHeight, 2);
+    settings.drawing.samples = 2;
+    renderer->resize({kWidth, kHeight, 2});
     view.exposure = prt::automatic_exposure(light);
     settings.split = 0.25f;
     const prt::Image left = drawn(PictureKind::unshadowed, 0), right = drawn(PictureKind::prt, 1);
@@ -455,7 +455,7 @@ TEST_F(ViewerPictures, OfWiresAreDarkWhereTrianglesMeet) {
     gpu->set_light(prt::constant_light(6, glm::vec3(1)));
     view.camera = {{0, 3, 0.01f}, {0, 0, 0}, {0, 0, -1}, 0.6f};
     const prt::Image plain = drawn(PictureKind::unshadowed);
-    settings.wireframe = true;
+    settings.drawing.wireframe = true;
     const prt::Image wires = drawn(PictureKind::unshadowed);
     std::size_t changed = 0;
     for (std::size_t i = 0; i < plain.pixels.size(); ++i)

@@ -98,7 +98,7 @@ protected:
     }
     void open(const std::vector<std::filesystem::path>& paths) {
         viewer->open(paths);
-        frames_until([&] { return !viewer->busy(); });
+        frames_until([&] { return !viewer->jobs().busy(); });
     }
     PictureKind right() { return viewer->shown(viewer->settings.right).kind; }
 
@@ -113,8 +113,8 @@ TEST_F(ViewerTest, BakesWhatIsNotBakedAndShowsItBeforeItIsDone) {
     viewer->open({unbaked()});
     bool early = false;
     frames_until([&] {
-        early |= viewer->busy() && viewer->has_raw();
-        return !viewer->busy();
+        early |= viewer->jobs().busy() && viewer->document().raw();
+        return !viewer->jobs().busy();
     });
     EXPECT_TRUE(early);
     EXPECT_TRUE(viewer->messages().empty());
@@ -125,21 +125,21 @@ TEST_F(ViewerTest, BakesWhatIsNotBakedAndShowsItBeforeItIsDone) {
             frames_until([&] { return right() == name.kind; });
         EXPECT_EQ(right(), name.kind) << name.id;
     }
-    EXPECT_GT(viewer->figures().bytes_per_vertex, 0);
-    EXPECT_EQ(viewer->figures().order, 6);
+    EXPECT_GT(viewer->figures().transfer.bytes_per_vertex, 0);
+    EXPECT_EQ(viewer->figures().transfer.order, 6);
 }
 
 TEST_F(ViewerTest, OpensCompressedFilesAndSaysWhatTheyLack) {
     viewer->settings.right = PictureKind::prt;
     open({shipped()});
-    EXPECT_EQ(viewer->figures().order, 4);
-    EXPECT_EQ(viewer->figures().bytes_per_vertex, 4);
+    EXPECT_EQ(viewer->figures().transfer.order, 4);
+    EXPECT_EQ(viewer->figures().transfer.bytes_per_vertex, 4);
     EXPECT_EQ(right(), PictureKind::unshadowed);
     EXPECT_NE(viewer->shown(PictureKind::prt).note.find("bake to see it"), std::string::npos);
     EXPECT_EQ(viewer->shown(PictureKind::prt_compressed).kind, PictureKind::prt_compressed);
-    EXPECT_GT(viewer->figures().open_milliseconds, 0);
+    EXPECT_GT(viewer->figures().milliseconds.open, 0);
     viewer->bake_anew();
-    frames_until([&] { return !viewer->busy(); });
+    frames_until([&] { return !viewer->jobs().busy(); });
     EXPECT_EQ(right(), PictureKind::prt);
 }
 
@@ -190,18 +190,18 @@ TEST_F(ViewerTest, SurvivesWhatIsBroken) {
         {folder / "missing.exr", "missing.exr"},
     };
     for (const auto& [path, part] : files) {
-        viewer->messages().clear();
+        viewer->dismiss_messages();
         viewer->open({path});
         frames_until([&] { return !viewer->messages().empty(); });
         EXPECT_NE(viewer->messages().back().find(part), std::string::npos) << viewer->messages().back();
     }
     // A picture that is no environment.
     prt::write_exr(folder / "photograph.exr", {30, 20, std::vector<glm::vec3>(600, glm::vec3(1))});
-    viewer->messages().clear();
+    viewer->dismiss_messages();
     viewer->open({folder / "photograph.exr"});
     frames_until([&] { return !viewer->messages().empty(); });
     // And it still works.
-    viewer->messages().clear();
+    viewer->dismiss_messages();
     open({shipped()});
     EXPECT_TRUE(viewer->messages().empty());
     EXPECT_EQ(right(), PictureKind::prt_compressed);
@@ -213,10 +213,10 @@ TEST_F(ViewerTest, TakesEnvironments) {
     prt::write_exr(folder / "red.exr", {32, 16, std::vector<glm::vec3>(512, glm::vec3(1, 0, 0))},
                    prt::EnvironmentLayout::lat_long);
     viewer->open({folder / "red.exr"});
-    frames_until([&] { return !viewer->environments().empty(); });
+    frames_until([&] { return !viewer->lighting().environments.empty(); });
     EXPECT_FALSE(viewer->lights.day);
     viewer->settings.split = 0;
-    viewer->settings.textured = false;
+    viewer->settings.drawing.textured = false;
     frame();
     const prt::Image image = viewer->renderer().read(1);
     for (const glm::vec3& pixel : image.pixels)
@@ -234,8 +234,8 @@ TEST_F(ViewerTest, ListsEveryEnvironmentThatItIsGiven) {
     paths.insert(paths.begin() + 1, folder / "missing.exr");
     viewer->open(paths);
     viewer->open({paths[0]}); // before the others are read
-    frames_until([&] { return !viewer->busy(); });
-    EXPECT_EQ(viewer->environments().size(), 4u);
+    frames_until([&] { return !viewer->jobs().busy(); });
+    EXPECT_EQ(viewer->lighting().environments.size(), 4u);
     EXPECT_EQ(viewer->messages().size(), 1u);
     viewer->use_environment(0);
     frame();
@@ -245,31 +245,31 @@ TEST_F(ViewerTest, GivesSmallModelsNoMoreBasesThanTheirWeightsAreWorth) {
     open({baked(6)});
     const auto receivers = static_cast<double>(viewer->figures().receivers);
     EXPECT_LT(receivers, 1000);
-    EXPECT_EQ(viewer->figures().bytes_per_vertex, 4); // one word, as the preset says
+    EXPECT_EQ(viewer->figures().transfer.bytes_per_vertex, 4); // one word, as the preset says
     // Bases of twice the weights' bytes, or 4 KB; 256 clusters would take ten times that.
-    EXPECT_LE(viewer->figures().bytes_with_bases, 4 + std::max(8.0, 4096 / receivers));
+    EXPECT_LE(viewer->figures().transfer.bytes_with_bases, 4 + std::max(8.0, 4096 / receivers));
 }
 
 TEST_F(ViewerTest, SavesWhatItHasCompressedBesideTheModel) {
     open({baked()});
     viewer->compression = {3, 8, 2};
     frame();
-    frames_until([&] { return !viewer->busy(); });
+    frames_until([&] { return !viewer->jobs().busy(); });
     for (const char* name : {"baked.shipped.glb", "baked.shipped-2.glb"}) { // nothing is overwritten
         viewer->save();
-        frames_until([&] { return !viewer->busy(); });
+        frames_until([&] { return !viewer->jobs().busy(); });
         ASSERT_FALSE(viewer->messages().empty());
         EXPECT_NE(viewer->messages().back().find(name), std::string::npos) << viewer->messages().back();
         const prt::GltfDocument document = prt::load_gltf(folder / name);
         const auto saved = prt::read_clustered(document, prt::extract_scene(document));
         ASSERT_TRUE(saved);
         EXPECT_EQ(saved->transfer.bases.order, 3);
-        EXPECT_EQ(static_cast<int>(saved->transfer.bases.clusters()), viewer->figures().clusters);
+        EXPECT_EQ(static_cast<int>(saved->transfer.bases.clusters()), viewer->figures().transfer.clusters);
         EXPECT_EQ(saved->record.rays, 64); // those of the bake
         EXPECT_FALSE(prt::read_transfer(document, prt::extract_scene(document)));
     }
     viewer->save(folder / "missing" / "a.glb");
-    frames_until([&] { return !viewer->busy(); });
+    frames_until([&] { return !viewer->jobs().busy(); });
     EXPECT_NE(viewer->messages().back().find("a.glb"), std::string::npos) << viewer->messages().back();
 }
 
@@ -285,7 +285,7 @@ TEST_F(ViewerTest, ResetsTheCamera) {
 }
 
 TEST_F(ViewerTest, MetersTheModelAndNotTheSky) {
-    // An open floor of base colour c under light of radiance 4 shows 4 c, which comes to 0.22.
+    // An open floor of base color c under light of radiance 4 shows 4 c, which comes to 0.22.
     prt::test::GlbFile file = prt::test::scene_file(SceneBuilder().floor({0, 0, 0}, 1, 4).build());
     file.json["materials"] = {
         {{"pbrMetallicRoughness", {{"baseColorFactor", {0.25, 0.5, 0.125, 1}}, {"metallicFactor", 0}}}}};
@@ -293,12 +293,12 @@ TEST_F(ViewerTest, MetersTheModelAndNotTheSky) {
     file.write(folder / "floor.glb");
     prt::write_exr(folder / "four.exr", {4, 2, std::vector<glm::vec3>(8, glm::vec3(4))});
     open({folder / "floor.glb", folder / "four.exr"});
-    frames_until([&] { return !viewer->busy(); });
+    frames_until([&] { return !viewer->jobs().busy(); });
     const double luminance = 4 * (0.2126 * 0.25 + 0.7152 * 0.5 + 0.0722 * 0.125);
-    EXPECT_NEAR(viewer->automatic_stops(), std::log2(0.22 / luminance), 0.01);
-    viewer->settings.textured = false;
+    EXPECT_NEAR(viewer->lighting().meter.stops(), std::log2(0.22 / luminance), 0.01);
+    viewer->settings.drawing.textured = false;
     frame();
-    EXPECT_NEAR(viewer->automatic_stops(), std::log2(0.22 / 4), 0.01);
+    EXPECT_NEAR(viewer->lighting().meter.stops(), std::log2(0.22 / 4), 0.01);
     viewer->lights.day = false; // twice the light, half the exposure
     viewer->lights.lights = {make_light(LightKind::cone)};
     viewer->lights.lights[0].color = glm::vec3(1);
@@ -306,19 +306,19 @@ TEST_F(ViewerTest, MetersTheModelAndNotTheSky) {
     viewer->lights.lights[0].size = std::numbers::pi_v<float> / 2; // all of the sky, once more
     viewer->lights.lights[0].strength = 1;
     frame();
-    EXPECT_NEAR(viewer->automatic_stops(), std::log2(0.22 / 8), 0.03);
+    EXPECT_NEAR(viewer->lighting().meter.stops(), std::log2(0.22 / 8), 0.03);
 }
 
 TEST_F(ViewerTest, CompressesAnewWhereSlidersSaySo) {
     open({baked()});
-    const double before = viewer->figures().bytes_with_bases;
+    const double before = viewer->figures().transfer.bytes_with_bases;
     viewer->compression = {3, 8, 2};
     frame();
-    EXPECT_TRUE(viewer->busy());
-    frames_until([&] { return !viewer->busy(); });
-    EXPECT_EQ(viewer->figures().order, 3);
-    EXPECT_LE(viewer->figures().clusters, 8);
-    EXPECT_LT(viewer->figures().bytes_with_bases, before);
+    EXPECT_TRUE(viewer->jobs().busy());
+    frames_until([&] { return !viewer->jobs().busy(); });
+    EXPECT_EQ(viewer->figures().transfer.order, 3);
+    EXPECT_LE(viewer->figures().transfer.clusters, 8);
+    EXPECT_LT(viewer->figures().transfer.bytes_with_bases, before);
     EXPECT_EQ(right(), PictureKind::prt_compressed);
     // Order beyond the bake's is brought back to it.
     viewer->compression.order = 9;
@@ -363,7 +363,7 @@ TEST_F(ViewerTest, RefinesTheReference) {
 TEST_F(ViewerTest, ShowsTheReceiverUnderThePointer) {
     open({baked(), shipped()});
     viewer->settings.lobe = true;
-    const Model& model = *viewer->model();
+    const Model& model = *viewer->document().model();
     const glm::vec3 place = model.scene.vertex_arrays[0].positions[60];
     viewer->camera =
         OrbitCamera({place + 2.0f * model.scene.vertex_arrays[0].normals[60] + glm::vec3(0.01f, 0, 0.3f),

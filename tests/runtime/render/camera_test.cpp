@@ -42,6 +42,18 @@ TEST(Camera, FrameAgreesWithTheMatrix) {
     EXPECT_NEAR(clip.y / clip.w, -0.5f, 1e-5f);
 }
 
+TEST(Camera, PixelsLookWhereTheProjectionPutsThem) {
+    const Camera camera{{3, 2, 5}, {0.5f, -1, 0}, {0, 1, 0}, 0.8f};
+    const glm::mat4 matrix = view_projection(camera, {glm::vec3(-1), glm::vec3(1)}, 1.5f);
+    const CameraFrame frame = camera_frame(camera);
+    for (const glm::dvec2 at : {glm::dvec2(0, 0), glm::dvec2(300, 200), glm::dvec2(70.5, 150.5)}) {
+        const glm::vec3 direction(view_direction(frame, 300, 200, at.x, at.y));
+        const glm::vec4 clip = matrix * glm::vec4(camera.position + 4.0f * direction, 1);
+        EXPECT_NEAR(clip.x / clip.w, 2 * at.x / 300 - 1, 1e-5);
+        EXPECT_NEAR(clip.y / clip.w, 1 - 2 * at.y / 200, 1e-5);
+    }
+}
+
 TEST(Camera, LookingNowhereIsAnError) {
     EXPECT_THROW(camera_frame({{1, 1, 1}, {1, 1, 1}, {0, 1, 0}, 1}), Error);
     EXPECT_THROW(camera_frame({{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 1}), Error);

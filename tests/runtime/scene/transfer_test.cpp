@@ -321,6 +321,8 @@ TEST(TransferInGltf, DamagedTransferIsRefused) {
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["version"] = 99; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["order"] = 11; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["channels"] = 2; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bake"]["method"] = "guess"; }), Error);
+    EXPECT_NO_THROW(read_changed([&](auto& j) { extension(j)["bake"].erase("method"); }));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = {100}; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = nlohmann::ordered_json::array(); }),
                  Error);

@@ -16,6 +16,8 @@ struct Camera {
     glm::vec3 target{0};
     glm::vec3 up{0, 1, 0};
     float vertical_field_of_view = 0.61f; ///< radians
+
+    friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 /// Sees all of `scene` from the front, a little from the right and above (glTF models face +Z).

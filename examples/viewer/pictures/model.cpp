@@ -1,4 +1,4 @@
-#include "core/model.h"
+#include "pictures/model.h"
 
 #include "prt/bake.h"
 
@@ -21,7 +21,7 @@ std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path 
     model->areas = prt::receiver_areas(model->scene);
     model->edges = prt::mesh_edges(model->scene);
     model->box = prt::bounds(model->scene);
-    model->centre = 0.5f * (model->box.low + model->box.high);
+    model->center = 0.5f * (model->box.low + model->box.high);
     model->radius = std::max(0.5f * glm::distance(model->box.low, model->box.high), 1e-30f);
     model->receivers_id = prt::receivers_id(model->scene);
     for (prt::Primitive& primitive : model->scene.primitives)

@@ -2,12 +2,14 @@
 
 // A model on the GPU, with all that it can be lit by.
 
-#include "core/model.h"
-#include "core/settings.h"
+#include "pictures/model.h"
+#include "pictures/raw_transfer.h"
+#include "pictures/settings.h"
 
 #include "prt/gl_scene.h"
 #include "prt/gl_transfer.h"
 
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,7 +31,7 @@ public:
     const Model& model() const { return *model_; }
 
     void set_raw(const prt::Transfer& transfer);
-    void drop_raw();
+    void drop_raw() { raw_.reset(); }
     void set_compressed(const prt::ClusteredTransfer& transfer);
     void set_occlusion(std::span<const float> occlusion);
     void set_numbers(PictureKind kind, std::span<const glm::vec3> colors);
@@ -37,7 +39,7 @@ public:
     void set_light(const prt::Light& light);
     bool can_draw(PictureKind kind) const;
     /// Seconds that the constants of the compressed transfer took, forming and uploading.
-    double seconds_constants() const { return seconds_constants_; }
+    double seconds_constants() const { return compressed_ ? compressed_->seconds_constants : 0; }
 
     void draw_opaque(PictureKind kind, const GeometryPass& pass);
     /// Always forward.
@@ -45,19 +47,29 @@ public:
     /// Edges of all triangles.
     void draw_wires(const GeometryPass& pass, const glm::vec3& color);
     /// The first nine coefficients of exit radiance by normal: irradiance.glsl.
-    const glm::vec3* irradiance() const { return irradiance_; }
+    const std::array<glm::vec3, 9>& irradiance() const { return irradiance_; }
     std::size_t drawn_triangles() const { return drawn_triangles_; } ///< of the last opaque drawing
-    std::size_t geometry_bytes() const { return scene_.bytes(); }
 
 private:
     enum class Source { normals, raw, compressed, numbers };
     static Source source_of(PictureKind kind);
     struct Raw {
-        int order, channels;
-        std::size_t receivers;
-        prt::GlObject vectors, light, program;
+        RawTransfer transfer;
+        prt::GlVertexArrays arrays;
     };
-    void form_raw(const prt::Light& light);
+    struct Compressed {
+        prt::GlTransfer transfer;
+        prt::GlVertexArrays arrays;
+        double seconds_constants = 0;
+    };
+    struct Numbers {
+        std::map<PictureKind, prt::GlObject> colors;
+        prt::GlVertexArrays arrays;
+    };
+    struct Programs {
+        std::map<std::pair<Source, bool>, prt::GlObject> surfaces; ///< by source, and whether to a G-buffer
+        prt::GlObject wires;
+    };
     const prt::GlObject& program(Source source, bool gbuffer);
     const prt::GlObject& use(PictureKind kind, const GeometryPass& pass);
     const prt::GlVertexArrays& arrays(Source source) const;
@@ -65,17 +77,14 @@ private:
     std::shared_ptr<const Model> model_;
     std::size_t most_receivers_;
     prt::GlScene scene_;
+    prt::GlVertexArrays plain_;
     std::optional<prt::Light> light_;
+    std::array<glm::vec3, 9> irradiance_{};
     std::optional<Raw> raw_;
-    std::optional<prt::GlTransfer> compressed_;
-    prt::GlVertexArrays plain_, raw_arrays_, compressed_arrays_, number_arrays_;
-    prt::GlObject occlusion_, radiance_;
-    bool has_occlusion_ = false;
-    std::map<PictureKind, prt::GlObject> numbers_;
-    std::map<std::pair<Source, bool>, prt::GlObject> programs_;
-    prt::GlObject wires_;
-    glm::vec3 irradiance_[9] = {};
-    double seconds_constants_ = 0;
+    std::optional<Compressed> compressed_;
+    std::optional<prt::GlObject> occlusion_;
+    Numbers numbers_;
+    Programs programs_;
     std::size_t drawn_triangles_ = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "prt/error_measures.h"
 
+#include "prt/mesh_edges.h"
 #include "prt/support/error.h"
 #include "support/scene_builder.h"
 

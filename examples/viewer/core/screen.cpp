@@ -1,4 +1,4 @@
-#include "gpu/screen.h"
+#include "core/screen.h"
 
 #include <glm/geometric.hpp>
 
@@ -7,11 +7,10 @@
 namespace viewer {
 
 glm::vec3 direction_through(const Screen& screen, const glm::vec2& pixel) {
-    const prt::CameraFrame frame = prt::camera_frame(screen.camera);
-    const glm::dvec2 at = 2.0 * glm::dvec2(pixel) / glm::dvec2(screen.size) - 1.0;
-    const double aspect = static_cast<double>(screen.size.x / screen.size.y);
-    return glm::vec3(glm::normalize(frame.forward + frame.right * (frame.half_height * aspect * at.x) -
-                                    frame.up * (frame.half_height * at.y)));
+    const glm::ivec2 size(screen.size);
+    return glm::vec3(
+        glm::normalize(prt::view_direction(prt::camera_frame(screen.camera), size.x, size.y,
+                                           static_cast<double>(pixel.x), static_cast<double>(pixel.y))));
 }
 
 std::optional<glm::vec2> pixel_of(const Screen& screen, const glm::vec3& place) {
@@ -26,15 +25,15 @@ std::optional<glm::vec2> pixel_of(const Screen& screen, const glm::vec3& place) 
     return glm::vec2((at + 1.0) * 0.5 * glm::dvec2(screen.size));
 }
 
-glm::vec3 direction_on_sphere(const Screen& screen, const glm::vec2& pixel, const glm::vec3& centre,
+glm::vec3 direction_on_sphere(const Screen& screen, const glm::vec2& pixel, const glm::vec3& center,
                               float radius, bool far_side) {
-    const glm::vec3 d = direction_through(screen, pixel), to_centre = centre - screen.camera.position;
-    const float along = glm::dot(to_centre, d);
-    const glm::vec3 nearest = d * along - to_centre; // from the centre to the ray
+    const glm::vec3 d = direction_through(screen, pixel), to_center = center - screen.camera.position;
+    const float along = glm::dot(to_center, d);
+    const glm::vec3 nearest = d * along - to_center; // from the center to the ray
     const float inside = radius * radius - glm::dot(nearest, nearest);
     if (inside <= 0)
         return glm::normalize(nearest);
-    const bool from_within = glm::dot(to_centre, to_centre) < radius * radius;
+    const bool from_within = glm::dot(to_center, to_center) < radius * radius;
     return glm::normalize(nearest + d * (far_side || from_within ? std::sqrt(inside) : -std::sqrt(inside)));
 }
 

@@ -2,7 +2,9 @@
 
 // What one side of the viewer shows.
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 
 namespace viewer {
 
@@ -14,7 +16,7 @@ enum class PictureKind {
     prt,            ///< raw transfer
     prt_compressed, ///< compressed transfer
     reference,      ///< path tracing
-    clusters,       ///< a colour per cluster
+    clusters,       ///< a color per cluster
     components,     ///< how many directions the cluster has
     error,          ///< of the compression, under this light
     seams,          ///< jumps of that error between clusters
@@ -40,12 +42,23 @@ inline constexpr std::array<PictureName, 11> kPictures = {{
 }};
 
 inline const PictureName& name_of(PictureKind kind) {
-    return kPictures[static_cast<std::size_t>(kind)];
+    return *std::ranges::find(kPictures, kind, &PictureName::kind);
 }
 
-/// Colours that stand for numbers: shown as they are, without exposure and base colour.
+/// The next in the list; after the last the first.
+inline PictureKind next(PictureKind kind) {
+    const auto at = static_cast<std::size_t>(&name_of(kind) - kPictures.data());
+    return kPictures[(at + 1) % kPictures.size()].kind;
+}
+
+inline bool is_ssao(PictureKind kind) {
+    return kind == PictureKind::ssao || kind == PictureKind::ssao_normals;
+}
+
+/// Colors that stand for numbers: shown as they are, without exposure and base color.
 inline bool shows_numbers(PictureKind kind) {
-    return kind >= PictureKind::clusters;
+    return kind == PictureKind::clusters || kind == PictureKind::components || kind == PictureKind::error ||
+           kind == PictureKind::seams;
 }
 
 } // namespace viewer

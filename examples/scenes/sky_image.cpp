@@ -1,4 +1,4 @@
-#include "sky.h"
+#include "sky_image.h"
 
 #include "prt/sky.h"
 

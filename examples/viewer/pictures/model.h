@@ -2,7 +2,7 @@
 
 // A scene file in memory, and what the viewer computes of it once.
 
-#include "core/triangle_clusters.h"
+#include "pictures/triangle_clusters.h"
 
 #include "prt/gltf.h"
 #include "prt/mesh_edges.h"
@@ -25,7 +25,7 @@ struct Model {
     std::vector<float> areas;                           ///< [receivers]
     std::vector<prt::Edge> edges;
     prt::Bounds box{};
-    glm::vec3 centre{0};
+    glm::vec3 center{0};
     float radius = 1;
     std::string receivers_id;
     std::optional<prt::TraceScene> trace; ///< of `scene`

@@ -1,4 +1,4 @@
-#include "core/triangle_clusters.h"
+#include "pictures/triangle_clusters.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>

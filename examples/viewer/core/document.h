@@ -1,0 +1,46 @@
+#pragma once
+
+// The model that is open, and all that was found out about it.
+
+#include "core/findings.h"
+
+namespace viewer {
+
+/// Tells two states of the light on the model apart.
+struct RadianceVersion {
+    std::uint64_t transfer = 0, light = 0;
+
+    friend bool operator==(const RadianceVersion&, const RadianceVersion&) = default;
+};
+
+/// What transfer takes.
+struct TransferFigures {
+    std::size_t raw_bytes = 0;                         ///< as baked
+    double bytes_per_vertex = 0, bytes_with_bases = 0; ///< compressed
+    int clusters = 0, order = 0, channels = 0;
+};
+
+struct Document {
+    LoadedModel loaded;
+    Occlusion occlusion;
+    CompressionSettings compressed_as;  ///< the compressed transfer, or the one that is on its way
+    std::uint64_t transfer_version = 1; ///< counts up with every transfer
+
+    const Model* model() const { return loaded.model.get(); } ///< null: nothing is open
+    std::string name() const { return model() ? model()->path.filename().string() : std::string(); }
+    const prt::Transfer* raw() const { return loaded.raw.get(); }
+    const prt::ClusteredTransfer* compressed() const { return loaded.compressed.get(); }
+    int raw_order() const { return raw() ? raw()->order : 0; }
+    /// The largest number of components of a cluster.
+    int most_components() const { return compressed() ? compressed()->bases.max_components() : 0; }
+    /// Bands that the light needs: as many as the transfers have, three at least.
+    int light_order() const;
+
+    void open(const LoadedModel& model);
+    void set(const Baked& baked);
+    void set(const Compressed& compressed);
+};
+
+TransferFigures figures_of(const LoadedModel& loaded);
+
+} // namespace viewer

@@ -1,0 +1,67 @@
+#pragma once
+
+// What work in the background finds. Values: nothing in them is changed once they are posted.
+
+#include "core/light_rig.h"
+#include "pictures/model.h"
+#include "pictures/picture_kind.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace viewer {
+
+/// What is asked of the compressor; changed by sliders, carried out in the background.
+struct CompressionSettings {
+    int order = 6; ///< at most the bake's
+    int clusters = 256;
+    int components = 4;
+
+    friend bool operator==(const CompressionSettings&, const CompressionSettings&) = default;
+};
+
+/// Transfer as it was baked, and how.
+struct Baked {
+    std::shared_ptr<const prt::Transfer> transfer;
+    prt::BakeRecord record;
+};
+
+struct Compressed {
+    std::shared_ptr<const prt::ClusteredTransfer> transfer;
+    CompressionSettings how;
+};
+
+/// Share of the hemisphere that is open. [receivers]
+using Occlusion = std::shared_ptr<const std::vector<float>>;
+
+struct EnvironmentFile {
+    std::filesystem::path path;
+    std::shared_ptr<const LoadedEnvironment> environment; ///< null where it cannot be read
+    std::string why;                                      ///< then
+};
+
+/// Colors of all pictures of numbers that there are of `model`.
+struct NumberPictures {
+    std::shared_ptr<const Model> model;
+    std::vector<std::pair<PictureKind, std::vector<glm::vec3>>> colors;
+};
+
+struct Saved {
+    std::filesystem::path path;
+};
+
+enum class JobKind { model, environments, numbers, saving };
+
+/// A job ended with this message.
+struct Failure {
+    JobKind job;
+    std::string why;
+};
+
+using Finding =
+    std::variant<LoadedModel, Baked, Compressed, Occlusion, EnvironmentFile, NumberPictures, Saved, Failure>;
+
+} // namespace viewer

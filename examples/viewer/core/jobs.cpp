@@ -1,0 +1,116 @@
+#include "core/jobs.h"
+
+#include "core/transfer_work.h"
+
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace viewer {
+namespace {
+
+using Channel = BackgroundWork::Channel;
+
+void find_occlusion(Channel& channel, const Model& model) {
+    channel.enter(Stage::occlusion, "ambient occlusion");
+    channel.post(std::make_shared<const std::vector<float>>(ambient_occlusion(model, channel.progress())));
+}
+
+/// Computes and posts what `loaded` lacks.
+void complete(Channel& channel, LoadedModel loaded) {
+    if (!loaded.raw && !loaded.compressed)
+        loaded.raw = bake_in_stages(channel, *loaded.model).transfer;
+    if (!loaded.compressed)
+        channel.post(compress_as(channel, *loaded.model, *loaded.raw, {.order = loaded.raw->order}));
+    find_occlusion(channel, *loaded.model);
+}
+
+EnvironmentFile read_environment(const std::filesystem::path& path) {
+    try {
+        return {path, std::make_shared<const LoadedEnvironment>(load_environment(path.string())), ""};
+    } catch (const prt::Error& error) {
+        return {path, nullptr, error.what()}; // the others are read all the same
+    }
+}
+
+} // namespace
+
+void Jobs::start(JobKind kind, std::function<void(Channel&)> work) {
+    works_[static_cast<std::size_t>(kind)].start([kind, work = std::move(work)](Channel& channel) {
+        try {
+            work(channel);
+        } catch (const prt::Cancelled&) {
+            throw;
+        } catch (const std::exception& error) { // also std::bad_alloc of a file that is too large
+            channel.post(Failure{kind, error.what()});
+        }
+    });
+}
+
+void Jobs::open(const std::vector<std::filesystem::path>& paths, const LoadedModel& open) {
+    start(JobKind::model, [paths, open](Channel& channel) {
+        channel.enter(Stage::reading, "reading " + paths.front().filename().string());
+        const LoadedModel loaded = load_together(paths, open);
+        channel.post(loaded);
+        complete(channel, loaded);
+    });
+}
+
+void Jobs::bake(std::shared_ptr<const Model> model) {
+    start(JobKind::model, [model = std::move(model)](Channel& channel) {
+        complete(channel, {model, nullptr, nullptr, {}});
+    });
+}
+
+void Jobs::compress(const Document& document, const CompressionSettings& how) {
+    start(JobKind::model,
+          [loaded = document.loaded, how, with_occlusion = !document.occlusion](Channel& channel) {
+              channel.post(compress_as(channel, *loaded.model, *loaded.raw, how));
+              if (with_occlusion)
+                  find_occlusion(channel, *loaded.model);
+          });
+}
+
+void Jobs::read_environments(const std::vector<std::filesystem::path>& paths) {
+    environments_to_read_.insert(environments_to_read_.end(), paths.begin(), paths.end());
+    start(JobKind::environments, [all = environments_to_read_](Channel& channel) {
+        for (const std::filesystem::path& path : all)
+            channel.post(read_environment(path));
+    });
+}
+
+void Jobs::find_numbers(const Document& document, const prt::Light& light) {
+    start(JobKind::numbers, [loaded = document.loaded, light](Channel& channel) {
+        channel.post(NumberPictures{
+            loaded.model, number_pictures(*loaded.model, loaded.raw.get(), *loaded.compressed, light)});
+    });
+}
+
+void Jobs::save(const Document& document, const std::filesystem::path& output) {
+    start(JobKind::saving, [loaded = document.loaded, output](Channel& channel) {
+        channel.enter(Stage::saving, "saving " + output.filename().string());
+        save_compressed(*loaded.model, {*loaded.compressed, loaded.record}, output);
+        channel.post(Saved{output});
+    });
+}
+
+std::vector<Finding> Jobs::collect() {
+    std::vector<Finding> all;
+    for (const JobKind kind : {JobKind::environments, JobKind::model, JobKind::numbers, JobKind::saving})
+        std::ranges::move(works_[static_cast<std::size_t>(kind)].collect(), std::back_inserter(all));
+    for (const Finding& finding : all)
+        if (const auto* read = std::get_if<EnvironmentFile>(&finding))
+            std::erase(environments_to_read_, read->path);
+    return all;
+}
+
+bool Jobs::busy() const {
+    return busy(JobKind::model) || busy(JobKind::environments) || busy(JobKind::saving);
+}
+
+bool Jobs::may_compress() const {
+    return !busy(JobKind::model) || work(JobKind::model).stage() == Stage::compressing;
+}
+
+} // namespace viewer

@@ -1,0 +1,48 @@
+#pragma once
+
+// All that the viewer does in the background.
+
+#include "core/background_work.h"
+#include "core/document.h"
+
+#include <array>
+
+namespace viewer {
+
+/// One job of a kind at a time: another one stops the first, unless it says otherwise.
+class Jobs {
+public:
+    /// Reads models that hold the same scene, and takes over transfer from `open` where that is of it, too.
+    /// Then bakes, compresses and finds the occlusion, what of it is missing.
+    void open(const std::vector<std::filesystem::path>& paths, const LoadedModel& open);
+    /// Bakes `model`, compresses that and finds the occlusion.
+    void bake(std::shared_ptr<const Model> model);
+    /// Compresses what was baked anew; finds the occlusion where it is missing.
+    void compress(const Document& document, const CompressionSettings& how);
+    /// Reads environments; those that were still being read are read, too.
+    void read_environments(const std::vector<std::filesystem::path>& paths);
+    void find_numbers(const Document& document, const prt::Light& light);
+    /// Writes the model with its compressed transfer.
+    void save(const Document& document, const std::filesystem::path& output);
+
+    /// Returns what was found since the last call.
+    std::vector<Finding> collect();
+
+    bool busy(JobKind kind) const { return work(kind).busy(); }
+    /// Files are read or written, or the model is baked or compressed.
+    bool busy() const;
+    /// Nothing would be lost by compressing again.
+    bool may_compress() const;
+    /// Of the work on the model.
+    std::string label() const { return work(JobKind::model).label(); }
+    double share() const { return work(JobKind::model).share(); }
+
+private:
+    const BackgroundWork& work(JobKind kind) const { return works_[static_cast<std::size_t>(kind)]; }
+    void start(JobKind kind, std::function<void(BackgroundWork::Channel&)> work);
+
+    std::array<BackgroundWork, 4> works_; ///< [JobKind]
+    std::vector<std::filesystem::path> environments_to_read_;
+};
+
+} // namespace viewer

@@ -1,0 +1,172 @@
+// How the viewer draws a frame.
+
+#include "core/lobe.h"
+#include "core/viewer.h"
+
+#include <epoxy/gl.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace viewer {
+namespace {
+
+void clear(std::uint32_t framebuffer, const glm::ivec2& size) {
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glViewport(0, 0, size.x, size.y);
+    glClearColor(0.05f, 0.055f, 0.07f, 1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+} // namespace
+
+void Viewer::draw(std::uint32_t framebuffer, int width, int height) {
+    seen_.size = {width, height};
+    statistics_.begin_frame();
+    gpu_->renderer.resize({.width = width, .height = height, .samples = settings.drawing.samples});
+    follow_light();
+    find_numbers();
+    const FrameView view = frame_view();
+    gpu_->frame.begin();
+    if (!gpu_->model) {
+        clear(framebuffer, seen_.size);
+        gpu_->frame.end();
+        return;
+    }
+    const std::array<PictureKind, 2> kinds = {shown(settings.left).kind, shown(settings.right).kind};
+    draw_sides(kinds, view);
+    Figures& figures = statistics_.figures;
+    if (settings.difference)
+        figures.difference = gpu_->renderer.difference();
+    gpu_->renderer.composite(framebuffer, settings, view, kinds, figures.difference.mean);
+    gpu_->frame.end();
+    measure(kinds[1], view);
+    seen_.hovered.reset();
+    if (settings.lobe)
+        draw_lobe(framebuffer, view);
+    statistics_.end_opening();
+}
+
+void Viewer::follow_light() {
+    if (gpu_->model && gpu_->lit != version()) {
+        gpu_->model->set_light(light());
+        if (document_.compressed())
+            statistics_.figures.milliseconds.constants = 1e3 * gpu_->model->seconds_constants();
+        gpu_->lit = version();
+    }
+    const LightRig& rig = lighting_.rig;
+    if (gpu_->background_version != rig.background_version()) {
+        const prt::Image* image = rig.background();
+        gpu_->background = image ? prt::make_background(*image) : prt::GlObject();
+        gpu_->background_version = rig.background_version();
+    }
+}
+
+/// Asks for colors for numbers, of the newest transfer and light. What takes the CPU goes to the background.
+void Viewer::find_numbers() {
+    const bool wanted = shows_numbers(settings.left) || shows_numbers(settings.right);
+    if (!wanted || !document_.compressed() || gpu_->numbers == version() || jobs_.busy(JobKind::numbers))
+        return;
+    gpu_->numbers = version();
+    jobs_.find_numbers(document_, light());
+}
+
+FrameView Viewer::frame_view() {
+    FrameView view;
+    view.camera = camera.camera();
+    float exposure = 1;
+    if (document_.model())
+        exposure = lighting_.meter.exposure(
+            {.model = document_.model(),
+             .camera = view.camera,
+             .width = seen_.size.x,
+             .height = seen_.size.y,
+             .textured = settings.drawing.textured},
+            {.raw = document_.raw(), .compressed = document_.compressed(), .version = version()},
+            [this] { return light(); });
+    view.exposure = exposure * std::exp2(settings.exposure_stops);
+    view.background = gpu_->background.name() != 0 ? &gpu_->background : nullptr;
+    view.background_rotation = lights.rotation;
+    return view;
+}
+
+Viewer::Shown Viewer::shown(PictureKind wanted) const {
+    if (wanted == PictureKind::reference || !gpu_->model || gpu_->model->can_draw(wanted))
+        return {wanted, ""};
+    std::string why = "not there yet";
+    const bool needs_raw =
+        wanted == PictureKind::prt || wanted == PictureKind::error || wanted == PictureKind::seams;
+    if (needs_raw && !document_.raw() && !jobs_.busy(JobKind::model))
+        why = "the file holds compressed transfer only; bake to see it";
+    return {PictureKind::unshadowed, why};
+}
+
+void Viewer::draw_sides(const std::array<PictureKind, 2>& kinds, const FrameView& view) {
+    const int width = seen_.size.x,
+              split = static_cast<int>(std::lround(settings.split * static_cast<float>(width)));
+    for (int side = 0; side < 2; ++side) {
+        const int first = settings.difference || side == 0 ? 0 : split,
+                  last = settings.difference || side == 1 ? width : split;
+        const PictureKind kind = kinds[static_cast<std::size_t>(side)];
+        if (first >= last)
+            continue;
+        if (kind == PictureKind::reference)
+            show_reference(side, view);
+        else
+            gpu_->renderer.draw(side, kind, *gpu_->model, settings.drawing, view, {first, last});
+    }
+    if (!wants(PictureKind::reference))
+        reference_.stop();
+}
+
+void Viewer::show_reference(int side, const FrameView& view) {
+    reference_.show({.model = document_.loaded.model,
+                     .options = {.camera = view.camera,
+                                 .width = seen_.size.x,
+                                 .height = seen_.size.y,
+                                 .bounces = document_.loaded.record.bounces,
+                                 .textured = settings.drawing.textured,
+                                 .background = settings.drawing.background},
+                     .light_version = lighting_.rig.version()},
+                    lighting_.rig);
+    if (const Reference::Result* result = reference_.result())
+        gpu_->renderer.show(side, result->image, result->surfaces);
+}
+
+/// Takes the figures of the frame that was just drawn.
+void Viewer::measure(PictureKind right, const FrameView& view) {
+    Figures& figures = statistics_.figures;
+    figures.milliseconds.gpu = gpu_->frame.milliseconds();
+    figures.triangles_drawn = gpu_->model->drawn_triangles();
+    if (statistics_.times_vertices() && settings.panels && right != PictureKind::reference) {
+        gpu_->vertices.begin();
+        gpu_->renderer.draw_vertices_only(right, *gpu_->model, settings.drawing, view);
+        gpu_->vertices.end();
+        figures.milliseconds.vertices = gpu_->vertices.milliseconds();
+    }
+    figures.reference_passes = reference_.passes();
+    figures.receivers = document_.model()->scene.receivers();
+    figures.triangles = document_.model()->scene.triangles();
+    figures.transfer = figures_of(document_.loaded);
+}
+
+/// Of the receiver under the pointer.
+void Viewer::draw_lobe(std::uint32_t framebuffer, const FrameView& view) {
+    if (seen_.pointer)
+        seen_.hovered = find_hovered(*document_.model(), document_.raw(), document_.compressed(),
+                                     settings.right == PictureKind::prt, screen(), *seen_.pointer);
+    const std::optional<Hovered>& hovered = seen_.hovered;
+    if (!hovered || hovered->order == 0)
+        return;
+    const float radius = 0.2f * document_.model()->radius;
+    prt::Bounds box = document_.model()->box;
+    box.low -= glm::vec3(radius);
+    box.high += glm::vec3(radius);
+    const ColoredMesh lobe = make_lobe(hovered->order, hovered->vector, hovered->position, radius,
+                                       glm::normalize(view.camera.position - hovered->position));
+    const float aspect = static_cast<float>(seen_.size.x) / static_cast<float>(seen_.size.y);
+    gpu_->meshes.draw(lobe, prt::view_projection(view.camera, box, aspect), framebuffer);
+}
+
+} // namespace viewer

@@ -1,0 +1,59 @@
+#include "pictures/raw_transfer.h"
+
+#include "shared_layout.h"
+
+#include <epoxy/gl.h>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace viewer {
+namespace {
+
+prt::GlObject make_program(const prt::Transfer& transfer) {
+    return prt::make_compute_program("viewer_exit_radiance.comp",
+                                     "#define PRT_CHANNELS " + std::to_string(transfer.channels) +
+                                         "\n#define PRT_COEFFICIENTS " +
+                                         std::to_string(prt::coefficient_count(transfer.order)) + "\n");
+}
+
+} // namespace
+
+RawTransfer::RawTransfer(const prt::Transfer& transfer, std::size_t most_receivers)
+    : order_(transfer.order), receivers_(transfer.receivers()),
+      stride_(static_cast<std::size_t>(transfer.channels * prt::coefficient_count(order_)) * sizeof(float)),
+      most_receivers_(most_receivers), vectors_(prt::make_buffer(std::span<const float>(transfer.vectors))),
+      light_(prt::make_buffer(std::span<const glm::vec4>(
+          std::vector<glm::vec4>(static_cast<std::size_t>(prt::coefficient_count(order_)))))),
+      radiance_(prt::make_buffer(std::span<const glm::vec3>(std::vector<glm::vec3>(receivers_)))),
+      program_(make_program(transfer)) {}
+
+void RawTransfer::set_light(const prt::Light& light) {
+    std::vector<glm::vec4> coefficients;
+    for (int i = 0; i < prt::coefficient_count(order_); ++i)
+        coefficients.emplace_back(light.coefficients[static_cast<std::size_t>(i)], 0);
+    glNamedBufferSubData(light_.name(), 0, static_cast<GLsizeiptr>(coefficients.size() * sizeof(glm::vec4)),
+                         coefficients.data());
+    // A storage buffer is bound in pieces: a device may allow no more than 128 MB of it. Pieces of a multiple
+    // of 256 receivers keep every alignment.
+    GLint64 most = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    const std::size_t piece = std::max<std::size_t>(
+        256, std::min<std::size_t>(static_cast<std::size_t>(most) / stride_, most_receivers_) / 256 * 256);
+    glUseProgram(program_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_LIGHT, light_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_RECEIVERS, radiance_.name());
+    for (std::size_t first = 0; first < receivers_; first += piece) {
+        const std::size_t count = std::min(piece, receivers_ - first);
+        glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_MATRIX, vectors_.name(),
+                          static_cast<GLintptr>(first * stride_), static_cast<GLsizeiptr>(count * stride_));
+        glUniform1ui(prt::uniform(program_, "receivers"), static_cast<GLuint>(count));
+        glUniform1ui(prt::uniform(program_, "first"), static_cast<GLuint>(first));
+        glDispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
+    }
+    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+}
+
+} // namespace viewer

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "prt/gl_objects.h"
+#include "prt/light.h"
+#include "prt/transfer.h"
+
+namespace viewer {
+
+/// Transfer as it was baked, on the GPU: a compute shader forms exit radiance when the light changes.
+class RawTransfer {
+public:
+    /// `most_receivers`: that one dispatch takes, a multiple of 256.
+    RawTransfer(const prt::Transfer& transfer, std::size_t most_receivers);
+
+    int order() const { return order_; }
+    /// Forms the radiance. `light` has as many bands as the transfer at least.
+    void set_light(const prt::Light& light);
+    /// Three floats for each receiver.
+    const prt::GlObject& radiance() const { return radiance_; }
+
+private:
+    int order_;
+    std::size_t receivers_, stride_; ///< bytes of a receiver
+    std::size_t most_receivers_;
+    prt::GlObject vectors_, light_, radiance_, program_;
+};
+
+} // namespace viewer

@@ -1,0 +1,141 @@
+#include "ui/commands.h"
+
+#include "ui/controls.h"
+
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace viewer {
+namespace {
+
+/// The place that member pointers lead to, one after the other.
+template <auto... members>
+Place place(Settings& settings) {
+    return &(settings.*....*members);
+}
+
+constexpr auto kDrawing = &Settings::drawing;
+constexpr auto kSsao = &DrawSettings::ssao;
+
+void swap_sides(Controls& c) {
+    std::swap(c.viewer().settings.left, c.viewer().settings.right);
+}
+
+void switch_samples(Controls& c) {
+    int& samples = c.viewer().settings.drawing.samples;
+    samples = samples == 1 ? 2 : 1;
+}
+
+constexpr const char* kSideTip = "What this side of the line shows. Keys 1 and 2 take the next.";
+
+constexpr Command kCommands[] = {
+    {"left", '1', "left picture: the next", "left", kSideTip, place<&Settings::left>},
+    {"right", '2', "right picture: the next", "right", kSideTip, place<&Settings::right>},
+    {"", 'X', "swap left and right", "", "", nullptr, swap_sides},
+    {"difference", 'D', "difference of the two", "difference",
+     "How far the two pictures are apart, as heat, with its figure. Key D.", place<&Settings::difference>},
+    {"wireframe", 'W', "wireframe", "wireframe", "The triangles over both pictures. Key W.",
+     place<kDrawing, &DrawSettings::wireframe>},
+    {"lobe", 'L', "lobe of the transfer vector under the pointer", "lobe",
+     "The transfer vector of the vertex under the pointer: red adds light, blue takes it. Key L.",
+     place<&Settings::lobe>},
+    {"deferred", 'G', "forward or deferred", "deferred", "Through a G-buffer, as many games draw. Key G.",
+     place<kDrawing, &DrawSettings::deferred>},
+    {"culling", 'C', "culling outside the view", "culling",
+     "Leaves out clusters of triangles outside the view. Key C.", place<kDrawing, &DrawSettings::culling>},
+    {"background", 'B', "background", "background", "The sky behind the model. Key B.",
+     place<kDrawing, &DrawSettings::background>},
+    {"textured", 'T', "base colour", "base colour", "Textures and colours; off shows light alone. Key T.",
+     place<kDrawing, &DrawSettings::textured>},
+    {"", 'N', "day instead of the environment", "", "", nullptr,
+     [](Controls& c) { c.viewer().lights.day = !c.viewer().lights.day; }},
+    {"", ' ', "let the day run", "let the day run", "An hour a second. Space.", place<&Settings::day_runs>},
+    {"samples", 'A', "samples per pixel: 1, 4", "", "", place<kDrawing, &DrawSettings::samples>,
+     switch_samples},
+    {"", '[', "darker", "", "", nullptr, [](Controls& c) { c.viewer().settings.exposure_stops -= 0.25f; }},
+    {"", ']', "brighter", "", "", nullptr, [](Controls& c) { c.viewer().settings.exposure_stops += 0.25f; }},
+    {"", 'R', "reset the camera: the whole model", "", "", nullptr,
+     [](Controls& c) { c.viewer().reset_camera(); }},
+    {"", 'P', "screenshot", "", "", nullptr, [](Controls& c) { c.screenshot(); }},
+    {"", 'S', "save the compressed model", "", "", nullptr, [](Controls& c) { c.viewer().save(); }},
+    {"", 'Q', "quit", "", "", nullptr, [](Controls& c) { c.quit(); }},
+    {"help", 'H', "this help; Tab hides the panels", "", "", place<&Settings::help>},
+    {"panels", '\t', "", "", "", place<&Settings::panels>},
+    {"split", 0, "", "", "", place<&Settings::split>},
+    {"white",
+     0,
+     "",
+     "white",
+     "The difference that is shown white, over the mean radiance of the right picture.",
+     place<&Settings::white>,
+     nullptr,
+     {0.01f, 2, "%.2f of the mean", true}},
+    {"dithered", 0, "", "dithered AO", "Hides the steps of five bits of occlusion in the G-buffer.",
+     place<kDrawing, &DrawSettings::dithered>},
+    {"exposure_stops",
+     0,
+     "",
+     "exposure",
+     "Brighter or darker than what is metered on the model. Keys [ and ].",
+     place<&Settings::exposure_stops>,
+     nullptr,
+     {-6, 6, "%+.2f stops"}},
+    {"ssao_radius",
+     0,
+     "",
+     "AO radius",
+     "How far screen-space occlusion looks, as a share of the radius of the scene.",
+     place<kDrawing, kSsao, &SsaoSettings::radius>,
+     nullptr,
+     {0.005f, 0.5f, "%.3f", true}},
+    {"ssao_bias",
+     0,
+     "",
+     "AO bias",
+     "How much nearer a surface must be to count, as a share of that radius; hides acne on flat walls.",
+     place<kDrawing, kSsao, &SsaoSettings::bias>,
+     nullptr,
+     {0, 0.2f}},
+    {"ssao_intensity",
+     0,
+     "",
+     "AO intensity",
+     "Exponent of the occlusion: above 1 darker.",
+     place<kDrawing, kSsao, &SsaoSettings::intensity>,
+     nullptr,
+     {0.25f, 4}},
+    {"ssao_samples",
+     0,
+     "",
+     "AO samples",
+     "Depths that are read for each pixel.",
+     place<kDrawing, kSsao, &SsaoSettings::samples>,
+     nullptr,
+     {2, 64}},
+};
+
+} // namespace
+
+std::span<const Command> commands() {
+    return kCommands;
+}
+
+const Command& setting(std::string_view id) {
+    const auto found = std::ranges::find_if(
+        kCommands, [&](const Command& command) { return command.place && command.id == id; });
+    if (found == std::end(kCommands) || id.empty())
+        throw prt::Error("there is no setting called '" + std::string(id) + "'");
+    return *found;
+}
+
+void switch_setting(const Place& place) {
+    if (bool* const* value = std::get_if<bool*>(&place))
+        **value = !**value;
+    else if (PictureKind* const* kind = std::get_if<PictureKind*>(&place))
+        **kind = next(**kind);
+}
+
+} // namespace viewer
