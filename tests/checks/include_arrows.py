@@ -24,7 +24,7 @@ PARTS = {
     "compress": ("compress", "runtime scene", "glm Eigen"),
     "compress_study": ("compress/study", "runtime scene compress", "glm Eigen faiss"),
     "shaders": ("shaders", "", ""),
-    "cli": ("cli", "runtime shader fit image scene render gl bake compress", "glm fmt CLI nlohmann"),
+    "cli": ("cli", "runtime shader fit image scene render gl bake bake_gpu compress compress_study", "glm fmt CLI nlohmann"),
     "example_scenes": ("examples/scenes", "runtime image", "glm tinygltf"),
     "game": ("examples/game", "runtime shader image scene gl", "glm epoxy"),
     "viewer": ("examples/viewer", "runtime image scene render gl bake compress",

@@ -18,6 +18,8 @@ MOST_LINES = 60  # of any function
 MOST_LINES_OF_99_PERCENT = 45  # of the functions of a folder
 MOST_MEMBERS = 12
 MOST_PARAMETERS = 7
+PARAMETERS_GIVEN = {"keep_encoded",  # by tinygltf, which calls it
+                    "prt_light_from_lat_long"}  # by C, which has no spans
 
 
 def tags(root):
@@ -64,7 +66,7 @@ def main():
         folder = tag["path"].split("/")[0]
         if tag["kind"] == "function":
             lines[folder].append((tag.get("end", tag["line"]) - tag["line"] + 1, place))
-        if tag["kind"] in ("function", "prototype") and "signature" in tag:
+        if tag["kind"] in ("function", "prototype") and "signature" in tag and tag["name"] not in PARAMETERS_GIVEN:
             parameters.append((parameter_count(tag["signature"]), place))
         if tag["kind"] == "member" and "static" not in tag.get("properties", ""):
             members[f"{tag['path']} {tag['scope']}"] += 1
