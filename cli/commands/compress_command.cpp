@@ -18,7 +18,10 @@ namespace {
 enum class MetricChoice { natural, plain };
 
 struct CompressArguments {
-    Path baked, output, json, trace;
+    Path baked, output;
+    struct Reports {
+        Path json, trace;
+    } reports;
     SearchOptions options; ///< without a budget `options.compress` says it all
     MetricChoice metric = MetricChoice::natural;
     std::vector<Path> lights; ///< to compress for, instead of `metric`
@@ -249,9 +252,10 @@ SceneFile load_bake(const Path& path) {
 void run(const CompressArguments& a, Session& session) {
     std::vector<Path> inputs = a.lights;
     inputs.push_back(a.baked);
-    check_outputs(
-        {{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}, {a.trace, "--trace", {".jsonl"}}},
-        inputs);
+    check_outputs({{a.output, "--output", {".glb"}},
+                   {a.reports.json, "--json", {".json"}},
+                   {a.reports.trace, "--trace", {".jsonl"}}},
+                  inputs);
     SceneFile model = load_bake(a.baked);
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
@@ -261,10 +265,10 @@ void run(const CompressArguments& a, Session& session) {
                                 transfer.dimension(), options.compress.coding.components));
     discard_transfer(model.document); // it is in `transfer`, and would be in memory twice
     std::string trace;
-    if (!a.trace.empty())
+    if (!a.reports.trace.empty())
         options.compress.trace = [&](const CompressEvent& event) { trace += trace_line(event); };
     Outcome outcome = run_compressor(a, model, options, session);
-    session.write(a.trace, trace);
+    session.write(a.reports.trace, trace);
     const VertexReuse reuse_before = vertex_reuse(model.scene);
     save(a, model, outcome.result.transfer, session);
 
@@ -279,7 +283,7 @@ void run(const CompressArguments& a, Session& session) {
                          {"trials", trials_json(outcome.trials)},
                          {"seconds", s.seconds}});
     report.sentences = sentences(a, a.preset && !outcome.trials.empty());
-    publish(report, a.json, session);
+    publish(report, a.reports.json, session);
 }
 
 } // namespace
@@ -319,10 +323,10 @@ void add_compress(CLI::App& app, Session& session) {
     command->add_option("--seed", a.options.compress.seed, "seed of the clustering")->capture_default_str();
     add_threads(command, a.options.compress.threads);
     command
-        ->add_option("--trace", a.trace,
+        ->add_option("--trace", a.reports.trace,
                      "write how the result came about: a line of JSON for each round, split, merge and trial")
         ->type_name("FILE.jsonl");
-    add_json(command, a.json);
+    add_json(command, a.reports.json);
 }
 
 } // namespace prt::cli
