@@ -200,7 +200,7 @@ private:
                          shipped_.clusters, scale);
     }
 
-    /// Suns of one strength: errors are over what all of them light (docs/math.md, eq. 42).
+    /// Suns of one strength: errors are over what all of them light (docs/math.md, eq. 35).
     void add_worst_sun(Evaluation& evaluation) const {
         const DirectionalLights suns = directional_lights(reference().order);
         LitScale all;

@@ -75,7 +75,7 @@ inline constexpr float kReach = 3;
 /// rows.
 inline constexpr double kBitsPerRow = 64;
 /// Share of the error, times the components, that a bit more for a receiver's weights takes away: the fall of
-/// an optimal quantiser is log 4 = 1.39 per bit (docs/math.md, eq. 27).
+/// an optimal quantiser is log 4 = 1.39 per bit (docs/math.md, eq. 24).
 inline constexpr double kGainPerBit = 1.4;
 /// Rounds in which the price of a component and the points settle. By hand. [budget] with --shader-ops
 inline constexpr int kPriceRounds = 12;

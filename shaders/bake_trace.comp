@@ -1,4 +1,4 @@
-// Direct transfer of receivers by rays (docs/math.md, eq. 7): one workgroup a receiver. The workgroup traces a
+// Direct transfer of receivers by rays (docs/math.md, eq. 9): one workgroup a receiver. The workgroup traces a
 // chunk of rays, decides whether the blocked or the open ones are fewer, and sums their spherical harmonics on
 // chip. With PRT_HITS it also notes what some of the rays, or with PRT_ALPHA all of them, meet.
 

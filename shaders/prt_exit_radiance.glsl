@@ -1,4 +1,4 @@
-// Exit radiance of a vertex from compressed transfer (docs/math.md, eq. 14), for a receiver of albedo 1. For GLSL
+// Exit radiance of a vertex from compressed transfer (docs/math.md, eq. 29), for a receiver of albedo 1. For GLSL
 // 4.5 and 3.3, GLSL ES 3.0 and Vulkan; HLSL is made from the last (docs/integration.md).
 //
 // Define before including (prt::relight_defines writes the lines for a model)

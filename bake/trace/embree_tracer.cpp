@@ -1,4 +1,4 @@
-// Direct transfer by rays with the open lobe as control variate (docs/math.md, eq. 7): of the blocked and the
+// Direct transfer by rays with the open lobe as control variate (docs/math.md, eq. 9): of the blocked and the
 // open rays of a chunk the fewer are summed. Open receivers get the lobe exactly, fully blocked ones exactly
 // zero.
 

@@ -80,7 +80,7 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
     return result;
 }
 
-/// The sum over all bounces (docs/math.md, eq. 21).
+/// The sum over all bounces (docs/math.md, eq. 37).
 Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operators, int threads,
                             const Progress& progress) {
     // A few coefficients at a time, since the solver keeps a vector for each of its steps.

@@ -35,7 +35,7 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
                      const Progress& progress);
 
 /// Light through thin sheets: replaces the transfer of front receivers by (1 - f) T_front + f c/rho T_back,
-/// so that it serves a receiver of base color rho whose surface transmits f c (docs/math.md, eq. 22).
+/// so that it serves a receiver of base color rho whose surface transmits f c (docs/math.md, eq. 38).
 void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers);
 
 } // namespace prt

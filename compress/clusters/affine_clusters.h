@@ -5,7 +5,7 @@
 
 namespace prt {
 
-/// An affine subspace per cluster: its points are near mean + sum_j w_j row_j (docs/math.md, eq. 11). Without
+/// An affine subspace per cluster: its points are near mean + sum_j w_j row_j (docs/math.md, eq. 20). Without
 /// rows this is plain vector quantisation.
 struct AffineClusters {
     std::size_t dimension = 0, max_components = 0;

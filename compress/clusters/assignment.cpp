@@ -10,7 +10,7 @@ namespace prt {
 namespace {
 
 /// Squared distance of a block's points to an affine subspace: |d|² - |B d|² with d = x - mean (docs/math.md,
-/// eq. 13). In float it loses digits below 1e-6 |d|²; it only decides between clusters.
+/// eq. 23). In float it loses digits below 1e-6 |d|²; it only decides between clusters.
 [[gnu::always_inline]] inline Lanes squared_distance(const float* block, std::size_t dimension,
                                                      const float* mean, const float* directions,
                                                      std::size_t components) {

@@ -1,5 +1,5 @@
 // Codes for clusters and clusters for codes in turn, as the generalised Lloyd algorithm does (Gersho and Gray
-// 1992), with weights and bases on the grids of the file (docs/math.md, eq. 28 to 30).
+// 1992), with weights and bases on the grids of the file (docs/math.md, eq. 25 to 27).
 
 #include "coding/alternation.h"
 

@@ -1,5 +1,5 @@
 // Clusters for given codes: the centroid step of vector quantisation (Gersho and Gray 1992), for subspaces by
-// the normal equations of docs/math.md, eq. 29.
+// the normal equations of docs/math.md, eq. 26.
 
 #include "coding/refit.h"
 

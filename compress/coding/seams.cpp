@@ -1,4 +1,4 @@
-// Smooths the error over the mesh, docs/math.md, eq. 31: weights by conjugate gradients on its normal
+// Smooths the error over the mesh, docs/math.md, eq. 28: weights by conjugate gradients on its normal
 // equations, clusters receiver by receiver, as iterated conditional modes (Besag 1986) for the Potts model of
 // its last term.
 
@@ -42,7 +42,7 @@ public:
     void reassign();
 
 private:
-    /// Where receiver p is pulled by its neighbours: what eq. 31 costs at p is total |e - pull|², and what
+    /// Where receiver p is pulled by its neighbours: what eq. 28 costs at p is total |e - pull|², and what
     /// does not depend on the error e of p, and borders.
     struct Pull {
         double total = 0;
@@ -72,14 +72,14 @@ private:
         add_combination(p, codes_.of(p), error);
     }
 
-    /// What a change of the weights of each receiver changes: the quadratic form of eq. 31 applied to the
+    /// What a change of the weights of each receiver changes: the quadratic form of eq. 28 applied to the
     /// vectors that `vector_of(p, to)` gives, and then the rows. [points][max_components]
     template <class VectorOf>
     std::vector<float> gradient(VectorOf&& vector_of) const;
     std::vector<float> inverse_diagonal() const;
 
     void pull_at(std::size_t p, Pull& pull) const;
-    /// Of an error `e` at p with a code in cluster k, in eq. 31.
+    /// Of an error `e` at p with a code in cluster k, in eq. 28.
     double cost_at(std::size_t p, const Pull& pull, std::uint32_t k, const PointVector& e) const;
     /// The code nearest to `target` in cluster k; returns its error vector.
     PointVector code_in(std::uint32_t k, const PointVector& target, std::span<float> code) const;

@@ -6,14 +6,14 @@
 namespace prt {
 
 struct SeamOptions {
-    double seam_price = 0;      ///< mu of docs/math.md, eq. 31
-    double border_price = 0;    ///< beta of eq. 31, times the mean squared error
+    double seam_price = 0;      ///< mu of docs/math.md, eq. 28
+    double border_price = 0;    ///< beta of eq. 28, times the mean squared error
     double mean_components = 0; ///< receivers have at most so many on average; 0: any
     int threads = 0;
 };
 
 /// Trades error of receivers for smoothness of the error over the mesh. First all weights together, as real
-/// numbers, by conjugate gradients on the normal equations of eq. 31; then receiver by receiver the cluster,
+/// numbers, by conjugate gradients on the normal equations of eq. 28; then receiver by receiver the cluster,
 /// of its own and its neighbours', and the rounded weights that are best while the neighbours stay, until few
 /// change.
 void smooth_seams(const PointBlocks& points, std::span<const float> significance, std::span<const Edge> edges,

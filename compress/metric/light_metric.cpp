@@ -1,4 +1,4 @@
-// What an error of transfer costs, by second moments of lighting (docs/math.md, eq. 26); natural lighting
+// What an error of transfer costs, by second moments of lighting (docs/math.md, eq. 22); natural lighting
 // after Dror, Willsky and Adelson (2004, "Statistical characterization of real-world illumination").
 
 #include "prt/light_metric.h"

@@ -37,7 +37,7 @@ constexpr std::size_t kParameters = 7; ///< direction (any length), cosine of th
 using Colors = std::array<glm::dvec3, kCount>;
 
 /// Factors of a cone of irradiance 1 over Y_lm of its axis: 2 P_l'(t) / (l (l+1)) with the cosine t of the
-/// half angle, and 2 / (1 + t) for l = 0: eq. 35, which is eq. 9 without the differences that cancel for
+/// half angle, and 2 / (1 + t) for l = 0: eq. 14, which is eq. 12 without the differences that cancel for
 /// narrow cones.
 template <class T>
 std::array<T, kOrder> cone_factors(const T& t) {

@@ -1,5 +1,5 @@
 // The least filter under which lighting is nowhere negative: a quadratic program in the factors of the bands,
-// with one constraint per direction and channel (docs/math.md, eq. 37 to 40).
+// with one constraint per direction and channel (docs/math.md, eq. 16 to 19).
 
 #include "prt/dering.h"
 
@@ -165,7 +165,7 @@ private:
 };
 
 /// What a change of each band does to the exit radiance of receivers: its power times 1/l², the power of
-/// transfer (docs/math.md, eq. 38).
+/// transfer (docs/math.md, eq. 17).
 Row weights_of(const Light& light) {
     Row weights{};
     double total = 0;

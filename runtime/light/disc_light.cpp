@@ -1,5 +1,5 @@
 // Seen from the origin a disc fills an elliptic cone. About the axis of that cone its coefficients are
-// integrals over a quarter of an ellipse, of something smooth (docs/math.md, eq. 34).
+// integrals over a quarter of an ellipse, of something smooth (docs/math.md, eq. 13).
 
 #include "prt/light.h"
 #include "prt/sh.h"

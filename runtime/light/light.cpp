@@ -23,7 +23,7 @@ using std::numbers::pi;
 namespace {
 
 /// SH coefficients of an RGB function that is symmetric about `axis`: c_lm = zonal(l) Y_lm(axis), where
-/// zonal(l) = 2 pi ∫ f(t) P_l(t) dt (Funk-Hecke; docs/math.md, eq. 8).
+/// zonal(l) = 2 pi ∫ f(t) P_l(t) dt (Funk-Hecke; docs/math.md, eq. 11).
 Light zonal_light(int order, const glm::vec3& axis, const glm::vec3& scale,
                   const std::function<double(int)>& zonal) {
     check_order(order);

@@ -25,7 +25,7 @@ struct GridRadiance {
 GridRadiance radiance_on_grid(const Light& light, int rows);
 
 /// How far the least radiance over all directions can be below that on a grid, as a share of the grid's
-/// range (docs/math.md, eq. 39).
+/// range (docs/math.md, eq. 18).
 double share_between(int order, int rows);
 
 /// The fewest rows for which that share is at most `share`.

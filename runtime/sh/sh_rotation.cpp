@@ -1,4 +1,4 @@
-// Rotation of SH: bands 1 and 2 directly, others by turns about z and quarter turns (docs/math.md, eq. 32).
+// Rotation of SH: bands 1 and 2 directly, others by turns about z and quarter turns (docs/math.md, eq. 4).
 #include "prt/sh_rotation.h"
 
 #include "prt/sh.h"

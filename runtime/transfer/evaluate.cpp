@@ -1,4 +1,4 @@
-// Exit radiance of every receiver from formed constants, in vectors (docs/math.md, eq. 14).
+// Exit radiance of every receiver from formed constants, in vectors (docs/math.md, eq. 29).
 #include "prt/clustered_transfer.h"
 #include "prt/support/parallel.h"
 #include "prt/support/vector_lanes.h"

@@ -55,7 +55,7 @@ public:
     virtual std::string device() const = 0; ///< for reports: what it runs on
     /// How many receivers to give to `trace` at once so that a batch takes about a tenth of a second.
     virtual std::size_t batch_size(const TraceOptions& options) const = 0;
-    /// Shadowed direct transfer (docs/math.md, eq. 7) of receivers[indices[i]] for each i, to `vectors`
+    /// Shadowed direct transfer (docs/math.md, eq. 9) of receivers[indices[i]] for each i, to `vectors`
     /// [indices][order²]; with a `sink`, also what the rays met. `progress` is told by tracers whose calls
     /// take long.
     virtual void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,

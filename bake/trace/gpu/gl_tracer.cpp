@@ -1,5 +1,5 @@
 // Rays in a compute shader (shaders/bake_trace.comp): direct transfer with the open lobe as control variate
-// (docs/math.md, eq. 7), through the hierarchy of Ylitie, Karras and Laine (2017).
+// (docs/math.md, eq. 9), through the hierarchy of Ylitie, Karras and Laine (2017).
 
 #include "trace/gpu/gl_tracer.h"
 

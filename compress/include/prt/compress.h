@@ -63,10 +63,10 @@ struct CompressOptions {
     bool bases_count = false;
     /// What an error costs; nothing: `natural_metric`.
     std::optional<LightMetric> metric = {};
-    /// mu of docs/math.md, eq. 31: what a jump of the error along a mesh edge costs, in units of the error
+    /// mu of docs/math.md, eq. 28: what a jump of the error along a mesh edge costs, in units of the error
     /// itself.
     double seam_price = 1;
-    /// beta of eq. 31: what a neighbour in another cluster costs, in units of the mean squared error.
+    /// beta of eq. 28: what a neighbour in another cluster costs, in units of the mean squared error.
     double border_price = 0;
     std::uint64_t seed = 0;
     int threads = 0;          ///< 0: all

@@ -11,7 +11,7 @@
 namespace prt {
 
 /// Second moments of lighting, C_c[i][j] = E[ L_c[i] L_c[j] ]. The expected squared error of exit radiance of
-/// a transfer error d is sum_c d_c^T C_c d_c (docs/math.md, eq. 26).
+/// a transfer error d is sum_c d_c^T C_c d_c (docs/math.md, eq. 22).
 struct LightMetric {
     int order = 0;
     int channels = 1;

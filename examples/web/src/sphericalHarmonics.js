@@ -154,7 +154,7 @@ const CENTER_AZIMUTH = { x: Math.PI / 2, z: 0 };
 
 /**
  * Projects a lat-long image: +Y on top, columns from the centre to the right turn from +Z towards -X. The image is
- * constant over each texel, and the basis is integrated over it (docs/math.md, eq. 10).
+ * constant over each texel, and the basis is integrated over it (docs/math.md, eq. 15).
  *
  * `image`: { width, height, data, stride, topFirst, value, center }: numbers per pixel, whether the first row is +Y, what
  * turns a stored number into radiance, and which axis the centre looks at: "z" as in OpenEXR, "x" as in three.
@@ -341,7 +341,7 @@ function leastChange(order, weights, rows, tolerance) {
 
 /**
  * The factors of the bands [order] under which a light is nowhere negative in any channel, and which change what receivers
- * show the least: docs/math.md, eq. 37 to 40. `coefficients`: [order²][3], about any axis. 1 where nothing is negative.
+ * show the least: docs/math.md, eq. 16 to 19. `coefficients`: [order²][3], about any axis. 1 where nothing is negative.
  * Turning the light does not change them.
  */
 export function deringFactors(order, coefficients) {

@@ -5,7 +5,7 @@
 // Each frame, or each time the lighting changes:
 //     former.form(light.coefficients, constants);          // M_k·L and B_kj·L: prt/constant_former.h
 // then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or here:
-//     R = constants[first_k] + sum_j w_j constants[first_k + 1 + j]   // docs/math.md, eq. 14
+//     R = constants[first_k] + sum_j w_j constants[first_k + 1 + j]   // docs/math.md, eq. 29
 // Stable.
 
 #include "prt/clustered_bases.h"

@@ -5,7 +5,7 @@
 // The exit radiance of a receiver is the integral of light times its shadowed cosine. It is non-negative for
 // every receiver, whatever shadows it, where and only where the light is non-negative in every direction. So
 // that is what is asked of the filter, and of all filters that do it the one that changes exit radiance least
-// is taken: docs/math.md, eq. 37 to 40. Stable.
+// is taken: docs/math.md, eq. 16 to 19. Stable.
 
 #include "prt/light.h"
 #include "prt/sh_basis.h"

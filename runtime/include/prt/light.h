@@ -25,7 +25,7 @@ Light constant_light(int order, const glm::vec3& radiance);
 Light directional_light(int order, const glm::vec3& towards, const glm::vec3& irradiance);
 
 /// Radiance `radiance` inside the cone of half angle `half_angle` (radians, at most pi) about unit `axis`,
-/// zero outside, exact for cones as narrow as can be: docs/math.md, eq. 9. Throws `Error` for another half
+/// zero outside, exact for cones as narrow as can be: docs/math.md, eq. 12. Throws `Error` for another half
 /// angle.
 Light cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& radiance);
 
@@ -39,7 +39,7 @@ Light sphere_light(int order, const glm::vec3& center, double radius, const glm:
 
 /// A disc about `center` that shines to the side of its unit normal `normal`, seen from the origin; nothing
 /// from behind or edge on. Exact to rounding wherever the origin is, next to the rim and in the disc's plane,
-/// too, at some 0.1 to 1 ms (docs/math.md, eq. 34). Throws `Error` for a radius that is not positive and for
+/// too, at some 0.1 to 1 ms (docs/math.md, eq. 13). Throws `Error` for a radius that is not positive and for
 /// what is not finite.
 Light disc_light(int order, const glm::vec3& center, const glm::vec3& normal, double radius,
                  const glm::vec3& radiance);

@@ -25,7 +25,7 @@ void evaluate_sh(int order, const glm::dvec3& direction, std::span<double> basis
 void evaluate_sh(int order, std::span<const glm::vec3> directions, std::span<float> basis);
 
 /// The transfer vector of an open receiver with unit normal `normal`: (1/pi) ∫ max(n·w, 0) Y_i(w) dw, the
-/// clamped-cosine lobe (docs/math.md, eq. 6; Ramamoorthi and Hanrahan 2001, eq. 8). `lobe` is [order²].
+/// clamped-cosine lobe (docs/math.md, eq. 8; Ramamoorthi and Hanrahan 2001, eq. 8). `lobe` is [order²].
 void clamped_cosine_lobe(int order, const glm::dvec3& normal, std::span<double> lobe);
 
 /// Convolution factor A_l / pi of the clamped cosine for band l, any l >= 0.

@@ -20,7 +20,7 @@ inline constexpr double kRotationTolerance = 2e-3;
 
 /// Rotates SH vectors: for a function f with coefficients c, the result holds f'(w) = f(R^-1 w). Bands 1 and
 /// 2 are a vector and a quadratic form, which R turns as it is. For the others R is taken apart into R_z R_y
-/// R_z, and R_y into quarter turns about x and another R_z (docs/math.md, eq. 32): turns about z are products
+/// R_z, and R_y into quarter turns about x and another R_z (docs/math.md, eq. 4): turns about z are products
 /// with cosines and sines, the quarter turns are constant and three quarters of them zero. All arithmetic is
 /// in double, so that ten thousand steps lose nothing to speak of. Small, allocates nothing, thread-safe;
 /// serves every order up to the one it was made for.

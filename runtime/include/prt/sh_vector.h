@@ -55,7 +55,7 @@ void sh_convolve(int order, std::span<const double> function, std::span<const do
 
 /// The first `order` bands of the product of two functions of `order` bands, exact up to rounding: shadow
 /// times light, or light times what an object lets through. Up to order 3 by the table of triple products,
-/// above at the nodes of a quadrature that is exact for three times the degree (docs/math.md, eq. 33), which
+/// above at the nodes of a quadrature that is exact for three times the degree (docs/math.md, eq. 5), which
 /// takes far fewer operations there; its tables are made at the first call. `out` may be either.
 /// D3DXSHMultiply2 to 6 are this.
 void sh_product(int order, std::span<const float> a, std::span<const float> b, std::span<float> out);

@@ -14,7 +14,7 @@
 namespace prt {
 
 /// The transfer vectors of a list of receivers: exit radiance of a Lambertian receiver of albedo rho is
-/// R_c = rho_c · sum_i T[c][i] L_c[i] (docs/math.md, eq. 5).
+/// R_c = rho_c · sum_i T[c][i] L_c[i] (docs/math.md, eq. 7).
 struct Transfer {
     int order = 0;
     int channels = 1;           ///< 1: the same for red, green and blue; else 3
