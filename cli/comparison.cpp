@@ -4,6 +4,7 @@
 #include "evaluation_lights.h"
 #include "prt/dering.h"
 #include "prt/error_measures.h"
+#include "prt/mesh_edges.h"
 #include "prt/ray_renderer.h"
 #include "prt/receiver_colors.h"
 #include "prt/support/error.h"

@@ -3,8 +3,8 @@
 // Numbers of receivers as colors, for pictures. All are [receivers] and are shown as they are, without
 // exposure.
 
-#include "prt/clustered_transfer.h"
 #include "prt/adjacency.h"
+#include "prt/clustered_transfer.h"
 
 #include <glm/vec3.hpp>
 

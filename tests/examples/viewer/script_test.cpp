@@ -4,6 +4,7 @@
 
 #include "prt/bake.h"
 #include "prt/compress.h"
+#include "prt/gltf.h"
 #include "prt/image_file.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"

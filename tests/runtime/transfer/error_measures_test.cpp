@@ -1,5 +1,4 @@
 #include "prt/error_measures.h"
-#include "prt/mesh_edges.h"
 
 #include "prt/mesh_edges.h"
 #include "prt/support/error.h"
