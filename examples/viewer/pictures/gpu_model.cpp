@@ -36,14 +36,14 @@ GpuModel::GpuModel(std::shared_ptr<const Model> model, std::size_t most_receiver
 
 void GpuModel::set_raw(const prt::Transfer& transfer) {
     drop_raw(); // there may not be room for two
-    raw_.emplace(RawTransfer(transfer, most_receivers_), scene_.make_vertex_arrays());
+    raw_ = Raw{RawTransfer(transfer, most_receivers_), scene_.make_vertex_arrays()};
     scene_.attach_receivers(raw_->arrays, raw_->transfer.radiance(), PRT_LOCATION_RADIANCE, 3);
     if (light_ && light_->order >= transfer.order)
         raw_->transfer.set_light(*light_);
 }
 
 void GpuModel::set_compressed(const prt::ClusteredTransfer& transfer) {
-    compressed_.emplace(prt::GlTransfer(transfer), scene_.make_vertex_arrays());
+    compressed_ = Compressed{prt::GlTransfer(transfer), scene_.make_vertex_arrays()};
     for (std::size_t i = 0; i < compressed_->arrays.size(); ++i)
         compressed_->transfer.attach(compressed_->arrays[i].name(),
                                      model_->scene.vertex_arrays[i].first_receiver);
