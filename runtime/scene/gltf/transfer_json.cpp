@@ -23,7 +23,7 @@ Enum one_of(const Json& json, const char* key, std::initializer_list<Enum> value
     for (const Enum value : values)
         if (word == to_string(value))
             return value;
-    throw Error(std::string(key) + " of the bake is '" + word + "', which this program does not know");
+    throw Error(std::string(key) + " of the bake is a word that this program does not know");
 }
 
 } // namespace
