@@ -143,13 +143,12 @@ public:
 
     KrylovResult run(std::span<float> b_then_x) {
         const Vector b(b_then_x.begin(), b_then_x.end());
-        Vector residual = b;
         std::fill(b_then_x.begin(), b_then_x.end(), 0.0f);
         KrylovResult result;
         // The first round takes what floats allow; the next ones see what it missed of the slow modes.
         for (double reduction = 1e-7; !result.converged && rounds_ < options_.rounds; reduction = 1e-2) {
+            Vector residual = b;
             if (rounds_++ > 0) {
-                residual.resize(b.size());
                 k_.residual(b, b_then_x, residual);
                 ++applications_;
             }

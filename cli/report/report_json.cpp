@@ -7,9 +7,7 @@ namespace {
 
 /// As RFC 4180 quotes it.
 std::string csv_cell(const Json& value) {
-    const std::string text = value.is_string() ? value.get<std::string>()
-                             : value.is_null() ? ""
-                                               : value.dump();
+    std::string text = value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump();
     if (text.find_first_of(",\"\n\r") == std::string::npos)
         return text;
     std::string quoted = "\"";

@@ -27,8 +27,8 @@ ClusterMoments::ClusterMoments(std::size_t clusters, std::size_t dimension)
       values_(clusters * stride_, 0) {}
 
 void ClusterMoments::add(const float* point, double significance, std::span<double> moments) {
-    const std::size_t dimension =
-        static_cast<std::size_t>((std::sqrt(8.0 * static_cast<double>(moments.size()) + 1) - 3) / 2 + 0.5);
+    const std::size_t dimension = static_cast<std::size_t>(
+        std::llround((std::sqrt(8.0 * static_cast<double>(moments.size()) + 1) - 3) / 2));
     double* sums = &moments[1];
     double* products = sums + dimension;
     moments[0] += significance;

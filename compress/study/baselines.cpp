@@ -92,7 +92,8 @@ ClassicCode classic_code(const Transfer& transfer, const Frame& frame, const Clu
 } // namespace
 
 double bound_bytes(std::size_t bytes) {
-    return static_cast<double>((bytes + 3) / 4 * 4);
+    const std::size_t words = (bytes + 3) / 4;
+    return 4 * static_cast<double>(words);
 }
 
 BaselineResult truncated_sh(const Transfer& transfer, int bands) {

@@ -43,6 +43,7 @@ template <bool Inverse, std::size_t L, std::size_t Row, class Value, std::size_t
 [[gnu::always_inline]] inline Value turned_row(const Value* c, std::index_sequence<Column...>) {
     Value sum{};
     const auto add = [&]<std::size_t I>() __attribute__((always_inline)) {
+        // NOLINTNEXTLINE(bugprone-branch-clone): they are one where the factor is on the diagonal
         constexpr double factor = Inverse ? kQuarterTurn.at(L, I, Row) : kQuarterTurn.at(L, Row, I);
         if constexpr (factor != 0)
             sum += factor * c[I];

@@ -27,9 +27,9 @@ Order3 basis(const glm::dvec3& d) {
             s2 / 2 * (d.x * d.x - d.y * d.y)};
 }
 
-class Tracer {
+class BruteForce {
 public:
-    explicit Tracer(const Scene& scene)
+    explicit BruteForce(const Scene& scene)
         : device_(rtcNewDevice("threads=1"), rtcReleaseDevice),
           scene_(rtcNewScene(device_.get()), rtcReleaseScene) {
         rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -90,7 +90,7 @@ std::vector<glm::dvec3> open_ways(const Scene& scene) {
 }
 
 /// (1/pi) ∫ V max(n·w, 0) Y dw by the cosine's own density: polar strata, one jittered ray in each.
-Order3 transfer_at(const Tracer& tracer, const glm::dvec3& start, const glm::dvec3& normal, int rays,
+Order3 transfer_at(const BruteForce& tracer, const glm::dvec3& start, const glm::dvec3& normal, int rays,
                    std::mt19937_64& random) {
     const glm::dvec3 side = glm::normalize(
         glm::cross(normal, std::abs(normal.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
@@ -116,7 +116,7 @@ Order3 transfer_at(const Tracer& tracer, const glm::dvec3& start, const glm::dve
 } // namespace
 
 ReferenceTransfer reference_transfer(const Scene& scene, int rays) {
-    const Tracer tracer(scene);
+    const BruteForce tracer(scene);
     const std::vector<glm::dvec3> ways = open_ways(scene);
     const Bounds box = bounds(scene);
     const double height = 1e-6 * static_cast<double>(glm::length(box.high - box.low));

@@ -73,8 +73,9 @@ TEST(DistantLight, SamplesItsDirectionsWithTheDensityThatItStates) {
     constexpr int kAlong = 1 << 16, kAcross = 4;
     double sphere = 0, blue = 0, lobe = 0;
     for (int i = 0; i < kAlong * kAcross; ++i) {
-        const glm::vec2 u((static_cast<float>(i % kAlong) + 0.5f) / kAlong,
-                          (static_cast<float>(i / kAlong) + 0.5f) / kAcross);
+        const int column = i % kAlong, row = i / kAlong;
+        const glm::vec2 u((static_cast<float>(column) + 0.5f) / kAlong,
+                          (static_cast<float>(row) + 0.5f) / kAcross);
         const DistantLight::Sample s = light.sample(u);
         EXPECT_NEAR(light.density(s.direction), s.density, 1e-3f * s.density);
         EXPECT_EQ(light.radiance(s.direction), s.radiance);

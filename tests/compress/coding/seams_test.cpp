@@ -19,11 +19,12 @@ struct Grid {
         for (std::uint32_t y = 0; y < kSize; ++y)
             for (std::uint32_t x = 0; x < kSize; ++x) {
                 const std::uint32_t p = y * kSize + x;
-                for (std::uint32_t i = 0; i < 9; ++i)
+                for (std::uint32_t i = 0; i < 9; ++i) {
+                    const std::uint32_t along = (1 + i % 3) * x + (1 + i / 3) * y;
                     transfer.vector(p)[i] =
                         (i == 0 ? 2.0f : 0.0f) +
-                        std::sin(0.05f * static_cast<float>((1 + i % 3) * x + (1 + i / 3) * y) +
-                                 static_cast<float>(i * i));
+                        std::sin(0.05f * static_cast<float>(along) + static_cast<float>(i * i));
+                }
                 if (x + 1 < kSize)
                     edges.push_back({p, p + 1});
                 if (y + 1 < kSize)

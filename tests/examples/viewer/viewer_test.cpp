@@ -46,7 +46,7 @@ protected:
     }
 
     std::filesystem::path unbaked() const {
-        const std::filesystem::path path = folder / "ball.glb";
+        std::filesystem::path path = folder / "ball.glb";
         prt::test::scene_file(
             SceneBuilder().floor({0, -0.5f, 0}, 1.5f, 10).sphere({0, 0, 0}, 0.5f, 12).build())
             .write(path);

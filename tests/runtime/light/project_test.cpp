@@ -95,9 +95,10 @@ TEST(Project, ConeImageAgreesWithTheClosedForm) {
     for (int y = 0; y < 512; ++y)
         for (int x = 0; x < 1024; ++x) {
             int inside = 0;
-            for (int s = 0; s < 16; ++s)
-                inside += glm::dot(axis, lat_long_direction(1024, 512, x + (s % 4 + 0.5) / 4,
-                                                            y + (s / 4 + 0.5) / 4)) > std::cos(half_angle);
+            for (int j = 0; j < 4; ++j)
+                for (int i = 0; i < 4; ++i)
+                    inside += glm::dot(axis, lat_long_direction(1024, 512, x + (i + 0.5) / 4,
+                                                                y + (j + 0.5) / 4)) > std::cos(half_angle);
             environment.image.pixels.emplace_back(static_cast<float>(inside) / 16);
         }
     const Light light = project(environment, 10);
