@@ -60,7 +60,6 @@ for step in "$@"; do
         look | sanitize | tidy | threads | optimised) ;;
         *) echo "test.sh: there is no step '$step'" >&2; exit 2 ;;
     esac
-    start=$SECONDS
+    echo "test.sh: $step, after $((SECONDS / 60)) min $((SECONDS % 60)) s"
     "$step"
-    echo "test.sh: $step took $(((SECONDS - start) / 60)) min $(((SECONDS - start) % 60)) s"
 done
