@@ -25,8 +25,7 @@ bool is_model(const std::filesystem::path& path) {
 std::filesystem::path shipped_path(const std::filesystem::path& model) {
     for (int i = 1;; ++i) {
         const std::string number = i == 1 ? "" : fmt::format("-{}", i);
-        auto path =
-            model.parent_path() / fmt::format("{}.shipped{}.glb", model.stem().string(), number);
+        auto path = model.parent_path() / fmt::format("{}.shipped{}.glb", model.stem().string(), number);
         if (!std::filesystem::exists(path))
             return path;
     }
