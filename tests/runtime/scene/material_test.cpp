@@ -29,7 +29,7 @@ Scene parsed(const GlbFile& file) {
 /// A triangle with that material.
 GlbFile with_material(const nlohmann::ordered_json& material) {
     GlbFile file = test::triangle_file();
-    file.json["materials"] = {material};
+    file.json["materials"] = nlohmann::ordered_json::array({material});
     file.json["meshes"][0]["primitives"][0]["material"] = 0;
     return file;
 }
