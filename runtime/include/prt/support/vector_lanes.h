@@ -14,8 +14,15 @@ using Lanes [[gnu::vector_size(sizeof(float) * kLaneCount)]] = float;
 using LanesInMemory
     [[gnu::vector_size(sizeof(float) * kLaneCount), gnu::aligned(alignof(float)), gnu::may_alias]] = float;
 
+// Clang forgets the alignment behind a reference; gcc copies values of this size.
+#ifdef __clang__
+using LanesRead = Lanes;
+#else
+using LanesRead = const LanesInMemory&;
+#endif
+
 /// 16 consecutive floats.
-[[gnu::always_inline]] inline const LanesInMemory& lanes_at(const float* values) {
+[[gnu::always_inline]] inline LanesRead lanes_at(const float* values) {
     return *reinterpret_cast<const LanesInMemory*>(values);
 }
 
