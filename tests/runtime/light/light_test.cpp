@@ -4,6 +4,7 @@
 #include "prt/sh_conventions.h"
 #include "prt/sky.h"
 #include "prt/support/error.h"
+#include "support/light_difference.h"
 #include "support/quadrature.h"
 
 #include <glm/geometric.hpp>
@@ -18,6 +19,8 @@
 
 namespace prt {
 namespace {
+
+using test::largest_difference;
 
 using std::numbers::pi;
 
@@ -128,19 +131,6 @@ TEST(Light, AutomaticWindowMakesASunNonNegativeAndLeavesASkyAlone) {
 TEST(Light, MoreBandsThanThereAreCannotBeHad) {
     EXPECT_THROW(truncated(constant_light(3, glm::vec3(1)), 4), Error);
     EXPECT_EQ(truncated(constant_light(4, glm::vec3(1)), 3).coefficients.size(), 9u);
-}
-
-/// NaN where a coefficient is.
-double largest_difference(const Light& a, const Light& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
-        const double difference = static_cast<double>(glm::distance(a.coefficients[i], b.coefficients[i]));
-        if (!(difference <= largest))
-            largest = difference;
-        if (std::isnan(largest))
-            break;
-    }
-    return largest;
 }
 
 TEST(Light, SphereIsTheConeThatItFills) {

@@ -2,6 +2,7 @@
 
 #include "prt/sh.h"
 #include "prt/support/error.h"
+#include "support/light_difference.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -14,6 +15,8 @@
 
 namespace prt {
 namespace {
+
+using test::largest_difference;
 
 using Radiance = std::function<glm::dvec3(const glm::dvec3&)>;
 
@@ -33,19 +36,6 @@ Environment cube(int size, const Radiance& radiance) {
             environment.image.pixels.emplace_back(radiance(
                 cube_direction(y / size, 2.0 * x / (size - 1) - 1, 2.0 * (y % size) / (size - 1) - 1)));
     return environment;
-}
-
-/// NaN where a coefficient is.
-double largest_difference(const Light& a, const Light& b) {
-    double largest = 0;
-    for (std::size_t i = 0; i < a.coefficients.size(); ++i) {
-        const double difference = static_cast<double>(glm::distance(a.coefficients[i], b.coefficients[i]));
-        if (!(difference <= largest))
-            largest = difference;
-        if (std::isnan(largest))
-            break;
-    }
-    return largest;
 }
 
 struct Size {
