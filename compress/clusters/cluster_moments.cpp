@@ -26,9 +26,8 @@ ClusterMoments::ClusterMoments(std::size_t clusters, std::size_t dimension)
     : dimension_(dimension), stride_(1 + dimension + dimension * (dimension + 1) / 2),
       values_(clusters * stride_, 0) {}
 
-void ClusterMoments::add(const float* point, double significance, std::span<double> moments) {
-    const std::size_t dimension = static_cast<std::size_t>(
-        std::llround((std::sqrt(8.0 * static_cast<double>(moments.size()) + 1) - 3) / 2));
+void ClusterMoments::add(std::span<const float> point, double significance, std::span<double> moments) {
+    const std::size_t dimension = point.size();
     double* sums = &moments[1];
     double* products = sums + dimension;
     moments[0] += significance;
@@ -66,7 +65,7 @@ void ClusterMoments::update(const PointBlocks& points, std::span<const float> si
         for (std::size_t k = begin; k < end; ++k)
             for (const Change& change : changes[k]) {
                 points.copy_point(change.point, point.data());
-                add(point.data(), change.sign * static_cast<double>(significance[change.point]),
+                add(point, change.sign * static_cast<double>(significance[change.point]),
                     std::span(values_).subspan(k * stride_, stride_));
             }
     });

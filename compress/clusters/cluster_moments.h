@@ -26,7 +26,7 @@ public:
     };
     View view(std::size_t k) const { return {dimension_, std::span(values_).subspan(k * stride_, stride_)}; }
     std::size_t stride() const { return stride_; }
-    static void add(const float* point, double significance, std::span<double> moments);
+    static void add(std::span<const float> point, double significance, std::span<double> moments);
 
 private:
     std::size_t dimension_, stride_;

@@ -58,8 +58,7 @@ PossibleSplit Moves::split(std::size_t k, std::span<const std::uint32_t> members
         double along = 0;
         for (std::size_t i = 0; i < points_.dimension; ++i)
             along += static_cast<double>(fit.directions[i]) * static_cast<double>(point[i] - fit.mean[i]);
-        ClusterMoments::add(point.data(), static_cast<double>(rounds_.significance[p]),
-                            along > 0 ? high : low);
+        ClusterMoments::add(point, static_cast<double>(rounds_.significance[p]), along > 0 ? high : low);
         if (along > 0)
             result.leaving.push_back(p);
     }
