@@ -2,7 +2,7 @@
 // spherical harmonics of the directions. With PRT_PEEL: what one layer of blended surfaces lets through, for the
 // first direction.
 
-#include "shared_layout.h"
+#include "shared_bake.h"
 #include "shared_structs.h"
 #include "bake_sh.glsl"
 

@@ -1,7 +1,7 @@
 // Depth of what stops light altogether; with PRT_PEEL that of the next layer of blended surfaces beyond the last
 // one, and its coverage.
 
-#include "shared_layout.h"
+#include "shared_bake.h"
 #include "shared_structs.h"
 #ifdef PRT_ALPHA
 #include "bake_alpha.glsl"

@@ -1,6 +1,6 @@
 // Triangles of the scene as seen from far away.
 
-#include "shared_layout.h"
+#include "shared_bake.h"
 
 layout(std430, binding = PRT_BINDING_CORNERS) readonly buffer Corners {
     vec4 corners[]; // three per triangle; w of the second: place in the alpha table

@@ -2,24 +2,11 @@
 // by the hash of Laine and Karras (2011) in the form of Vegdahl (2021), through the concentric map of Shirley
 // and Chiu (1997).
 
+#include "shared_samples.h"
+
 layout(std430, binding = PRT_BINDING_SAMPLES) readonly buffer Samples {
     uvec2 sobol[]; // reversed Sobol points of a whole chunk, then of the last chunk
 };
-
-uint pcg_hash(uint v) {
-    uint state = v * 747796405u + 2891336453u;
-    uint word = ((state >> ((state >> 28) + 4u)) ^ state) * 277803737u;
-    return (word >> 22) ^ word;
-}
-
-uint laine_karras(uint v, uint seed) {
-    v ^= v * 0x3d20adeau;
-    v += seed;
-    v *= (seed >> 16) | 1u;
-    v ^= v * 0x05526c56u;
-    v ^= v * 0x53a22864u;
-    return v;
-}
 
 float to_signed_unit(uint v) {
     return (float(v >> 8) + 0.5) * (1.0 / 8388608.0) - 1.0;

@@ -2,7 +2,7 @@
 // chunk of rays, decides whether the blocked or the open ones are fewer, and sums their spherical harmonics on
 // chip. With PRT_HITS it also notes what some of the rays, or with PRT_ALPHA all of them, meet.
 
-#include "shared_layout.h"
+#include "shared_bake.h"
 #include "shared_structs.h"
 #include "bake_samples.glsl"
 #include "bake_bvh.glsl"

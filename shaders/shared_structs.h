@@ -3,11 +3,7 @@
 #ifndef PRT_SHARED_STRUCTS_H
 #define PRT_SHARED_STRUCTS_H
 
-#ifdef __cplusplus
-#define PRT_FUNCTION inline
-#else
-#define PRT_FUNCTION
-#endif
+#include "shared_bake.h"
 
 struct Receiver {
     vec4 origin; // of its rays, off the surface; w: seed of its samples, as bits

@@ -1,6 +1,6 @@
 // Two pictures on the screen: side by side at a split, or their difference as heat.
 
-#include "shared_layout.h"
+#include "shared_viewer.h"
 
 layout(binding = PRT_UNIT_LEFT) uniform sampler2D left_picture;
 layout(binding = PRT_UNIT_RIGHT) uniform sampler2D right_picture;

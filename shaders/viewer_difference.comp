@@ -1,14 +1,14 @@
 // Sums over the surfaces that two pictures show: squared difference, squared second picture, pixels, and the mean of
 // the second's channels; one row of sums per group, to be added up by the reader.
 
-#include "shared_layout.h"
+#include "shared_viewer.h"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
 layout(binding = PRT_UNIT_LEFT) uniform sampler2D left_picture;
 layout(binding = PRT_UNIT_RIGHT) uniform sampler2D right_picture;
 uniform ivec2 size;
-layout(std430, binding = PRT_BINDING_SUMS) writeonly buffer Sums {
+layout(std430, binding = PRT_BINDING_DIFFERENCE) writeonly buffer Sums {
     vec4 sums[];
 };
 

@@ -1,6 +1,7 @@
 // Exit radiance of every receiver from its raw transfer vector. Define PRT_CHANNELS and PRT_COEFFICIENTS (order²).
 
 #include "shared_layout.h"
+#include "shared_viewer.h"
 
 layout(local_size_x = 64) in;
 
@@ -10,7 +11,7 @@ layout(std430, binding = PRT_BINDING_MATRIX) readonly buffer Transfer {
 layout(std430, binding = PRT_BINDING_LIGHT) readonly buffer Light {
     vec4 light[];
 };
-layout(std430, binding = PRT_BINDING_RECEIVERS) writeonly buffer Radiance {
+layout(std430, binding = PRT_BINDING_RAW_RADIANCE) writeonly buffer Radiance {
     float radiance[]; // [receivers][3]
 };
 

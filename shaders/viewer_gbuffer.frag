@@ -2,7 +2,7 @@
 // exit radiance is already in the third target; the normal, octahedral (Meyer et al. 2010).
 
 #include "viewer_lighting.glsl"
-#include "shared_layout.h"
+#include "shared_viewer.h"
 
 layout(location = 0) out vec4 target_base;
 layout(location = 1) out vec2 target_normal;

@@ -1,6 +1,6 @@
 // Reading what viewer_gbuffer.frag wrote.
 
-#include "shared_layout.h"
+#include "shared_viewer.h"
 
 layout(binding = PRT_UNIT_GBUFFER_BASE) uniform sampler2D gbuffer_base;
 layout(binding = PRT_UNIT_GBUFFER_NORMAL) uniform sampler2D gbuffer_normal;

@@ -7,7 +7,7 @@
 #include "prt/sh.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
-#include "shared_layout.h"
+#include "shared_bake.h"
 #include "trace/chunk_kernels.h"
 
 #include <embree3/rtcore.h>

@@ -3,6 +3,7 @@
 // The samples of a receiver: cosine-distributed directions from Owen-scrambled Sobol points.
 
 #include "prt/support/vector_lanes.h"
+#include "shared_bake.h"
 
 #include <cstdint>
 #include <vector>
@@ -33,23 +34,8 @@ struct SobolOffset {
 };
 SobolOffset sobol_offset(std::uint32_t first);
 
-/// A well-mixed 32-bit hash (Jarzynski and Olano 2020, pcg).
-constexpr std::uint32_t pcg_hash(std::uint32_t v) {
-    const std::uint32_t state = v * 747796405u + 2891336453u;
-    const std::uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
-    return (word >> 22) ^ word;
-}
-
-/// Owen's scrambling of a bit-reversed point, by the hash of Laine and Karras (2011) in the form of Vegdahl
-/// (2021).
-[[gnu::always_inline]] inline std::uint32_t laine_karras(std::uint32_t v, std::uint32_t seed) {
-    v ^= v * 0x3d20adeau;
-    v += seed;
-    v *= (seed >> 16) | 1u;
-    v ^= v * 0x05526c56u;
-    v ^= v * 0x53a22864u;
-    return v;
-}
+using uint = std::uint32_t;
+#include "shared_samples.h"
 
 [[gnu::always_inline]] inline std::uint32_t reverse_bits(std::uint32_t v) {
     v = (v >> 16) | (v << 16);

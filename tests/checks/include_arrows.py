@@ -36,7 +36,7 @@ PARTS = {
 # What a folder or file may include although the table forbids it.
 EXCEPTIONS = {
     # The viewer's and the GL renderer's buffers have the layout of the shaders, which is installed for games, too.
-    ("examples/viewer", "shared_layout.h"), ("examples/viewer", "shared_structs.h"),
+    ("examples/viewer", "shared_layout.h"), ("examples/viewer", "shared_viewer.h"),
     ("examples/game", "shared_layout.h"),
     # Which tracer is made is decided in one place.
     ("bake/trace/make_tracer.cpp", "bake_gpu"),

@@ -3,7 +3,7 @@
 // The structs of shaders/shared_structs.h in C++, with the types of GLSL, and the check that they lie in
 // memory as std430 lays them out.
 
-#include "shared_layout.h"
+#include "shared_bake.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>

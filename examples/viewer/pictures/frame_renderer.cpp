@@ -2,6 +2,7 @@
 
 #include "prt/support/error.h"
 #include "shared_layout.h"
+#include "shared_viewer.h"
 
 #include <epoxy/gl.h>
 #include <glm/geometric.hpp>
@@ -282,7 +283,7 @@ Difference FrameRenderer::difference() {
     glUseProgram(sums.name());
     glUniform2i(prt::uniform(sums, "size"), size_.width, size_.height);
     bind_side_textures();
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_SUMS, sums_.buffer.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_DIFFERENCE, sums_.buffer.name());
     glDispatchCompute(static_cast<GLuint>(groups_along(size_.width)),
                       static_cast<GLuint>(groups_along(size_.height)), 1);
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);

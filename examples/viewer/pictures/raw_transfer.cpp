@@ -1,6 +1,7 @@
 #include "pictures/raw_transfer.h"
 
 #include "shared_layout.h"
+#include "shared_viewer.h"
 
 #include <epoxy/gl.h>
 #include <glm/vec4.hpp>
@@ -44,7 +45,7 @@ void RawTransfer::set_light(const prt::Light& light) {
         256, std::min<std::size_t>(static_cast<std::size_t>(most) / stride_, most_receivers_) / 256 * 256);
     glUseProgram(program_.name());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_LIGHT, light_.name());
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_RECEIVERS, radiance_.name());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_RAW_RADIANCE, radiance_.name());
     for (std::size_t first = 0; first < receivers_; first += piece) {
         const std::size_t count = std::min(piece, receivers_ - first);
         glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_MATRIX, vectors_.name(),

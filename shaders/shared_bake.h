@@ -1,0 +1,55 @@
+// Numbers that the baker's GLSL and C++ share.
+#ifndef PRT_SHARED_BAKE_H
+#define PRT_SHARED_BAKE_H
+
+#include "shared_layout.h"
+
+// A function that both compile.
+#ifdef __cplusplus
+#define PRT_FUNCTION [[gnu::always_inline]] constexpr
+#else
+#define PRT_FUNCTION
+#endif
+
+// Storage buffers.
+#define PRT_BINDING_NODES 1
+#define PRT_BINDING_CORNERS 2
+#define PRT_BINDING_SAMPLES 3
+#define PRT_BINDING_DIRECTIONS 3 // depth maps have no samples, and no hits below
+#define PRT_BINDING_RECEIVERS 4
+#define PRT_BINDING_SUMS 5
+#define PRT_BINDING_HITS 6
+#define PRT_BINDING_HIT_COUNT 7
+#define PRT_BINDING_BLOCKED 8
+#define PRT_BINDING_TOUCHING 6
+#define PRT_BINDING_TOUCHING_RANGES 7
+#define PRT_BINDING_PASSES 8
+#define PRT_BINDING_ALPHA_TRIANGLES 9
+#define PRT_BINDING_ALPHA_MATERIALS 10
+#define PRT_BINDING_ALPHA_TEXELS 11
+// Uniform blocks.
+#define PRT_BINDING_SH_FACTORS 0
+// Texture units.
+#define PRT_UNIT_OPAQUE_DEPTH 2
+#define PRT_UNIT_LAST_DEPTH 3
+#define PRT_UNIT_LAYER_COVERAGE 4
+
+// Surfaces: beside prt::AlphaMode, and prt::Wrap.
+#define PRT_ALPHA_GLASS 3
+#define PRT_WRAP_REPEAT 0
+#define PRT_WRAP_MIRROR 1
+#define PRT_WRAP_CLAMP 2
+
+// Spherical harmonics, and where the factors of band l and degree m of the recurrence stand.
+#define PRT_MOST_ORDER 10
+#define PRT_MOST_COEFFICIENTS (PRT_MOST_ORDER * PRT_MOST_ORDER)
+#define PRT_SH_FACTOR(l, m) (PRT_MOST_ORDER * (l) + (m))
+
+// A ray with less than this left is taken to end at the surface it meets.
+#define PRT_LEAST_TRANSMITTANCE (1.0 / 1024.0)
+
+// Rays that are generated and traced together, and the threads that do it.
+#define PRT_CHUNK 1024
+#define PRT_TRACE_THREADS 64
+
+#endif

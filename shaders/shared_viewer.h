@@ -1,0 +1,19 @@
+// Numbers that the viewer's GLSL and C++ share, beside those of shared_layout.h.
+#ifndef PRT_SHARED_VIEWER_H
+#define PRT_SHARED_VIEWER_H
+
+// Storage buffers: transfer that is not compressed, its exit radiance and the sums of two pictures' difference.
+#define PRT_BINDING_RAW_RADIANCE 4
+#define PRT_BINDING_DIFFERENCE 5
+
+// Texture units.
+#define PRT_UNIT_GBUFFER_BASE 2
+#define PRT_UNIT_GBUFFER_NORMAL 3
+#define PRT_UNIT_GBUFFER_RADIANCE 4
+#define PRT_UNIT_GBUFFER_DEPTH 5
+#define PRT_UNIT_SSAO 6
+#define PRT_UNIT_LEFT 2
+#define PRT_UNIT_RIGHT 3
+#define PRT_AO_LEVELS 31 // largest value of five bits
+
+#endif
