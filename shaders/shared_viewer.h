@@ -2,7 +2,7 @@
 #ifndef PRT_SHARED_VIEWER_H
 #define PRT_SHARED_VIEWER_H
 
-// Storage buffers: transfer that is not compressed, its exit radiance and the sums of two pictures' difference.
+// Storage buffers: exit radiance of transfer that is not compressed, and the sums of two pictures' difference.
 #define PRT_BINDING_RAW_RADIANCE 4
 #define PRT_BINDING_DIFFERENCE 5
 

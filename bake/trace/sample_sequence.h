@@ -11,7 +11,7 @@
 namespace prt {
 
 /// Rays are generated and traced in chunks of this many, each an aligned part of the Sobol sequence.
-inline constexpr int kChunk = 1024;
+inline constexpr int kChunk = PRT_CHUNK;
 /// Rays that are traced together.
 inline constexpr int kPacket = kLaneCount;
 
@@ -34,7 +34,7 @@ struct SobolOffset {
 };
 SobolOffset sobol_offset(std::uint32_t first);
 
-using uint = std::uint32_t;
+using uint = std::uint32_t; // as GLSL calls it, for the text that both compile
 #include "shared_samples.h"
 
 [[gnu::always_inline]] inline std::uint32_t reverse_bits(std::uint32_t v) {

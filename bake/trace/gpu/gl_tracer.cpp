@@ -21,7 +21,6 @@
 namespace prt {
 namespace {
 
-static_assert(PRT_CHUNK == kChunk);
 static_assert(PRT_MOST_ORDER == kMaxOrder);
 
 constexpr double kDispatchSeconds = 0.1;   ///< a desktop's driver kills what takes seconds
