@@ -16,6 +16,7 @@ class Suite(NamedTuple):
 
 # Tests of seconds, and of minutes.
 RUNTIME = Suite("runtime_tests")
+SMALL_ORDERS = Suite("runtime_tests", "*Sh*-All/ShOrder.*/6:All/ShOrder.*/7:All/ShOrder.*/8:All/ShOrder.*/9")
 COMPRESS = Suite("compress_tests", "-Search*:Sweep*")
 BAKE = Suite("bake_tests", "HitPoint*:Textures*:Glass*:Cut*:Blended*:Bad*:Leaf*:Metal*:Disc*:*Degrees*:*Orders*:Sobol*:Uniform*:Tangent*:"
              "AddBasis*:Direct*:InsideG*:Shell*:Ray*:BackFaces*:Channels*:Hard*:FootOf*:Reduced*:Dipole*:SphereB*:White*:Bounces*:Memory*")
@@ -25,7 +26,7 @@ RENDER, GPU = Suite("render_tests"), Suite("gpu_tests")
 
 # The longest folder that a path begins with tells.
 SUITES = {
-    "runtime/sh/": [Suite("runtime_tests", "*Sh*"), RUNTIME],
+    "runtime/sh/": [SMALL_ORDERS, RUNTIME],
     "runtime/light/": [Suite("runtime_tests", "Light*:Sky*:*Cube*:*Image*:LatLong*:OtherLayouts*"), RUNTIME],
     "runtime/transfer/": [Suite("runtime_tests", "*Clustered*:*Constants*:CodedRows*:Adjacency*:Evaluate*:Bits*:Edges*"), COMPRESS,
                           Suite("gltf_tests")],

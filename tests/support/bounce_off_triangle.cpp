@@ -148,7 +148,7 @@ std::ostream& operator<<(std::ostream& out, Varying varying) {
 
 BounceError bounce_off_triangle(Varying varying, Backend backend) {
     const Scene scene = scene_of(varying, seen_from_behind(varying));
-    const Transfer direct = baked(scene_of(varying, false), backend, 0), none = baked(scene, backend, 0),
+    const Transfer direct = baked(scene_of(varying, false), Backend::cpu, 0), none = baked(scene, backend, 0),
                    once = baked(scene, backend, 1);
     Vector bounce{};
     for (std::size_t i = 0; i < bounce.size(); ++i)
