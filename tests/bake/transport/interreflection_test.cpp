@@ -3,6 +3,7 @@
 #include "prt/gltf.h"
 #include "prt/light.h"
 #include "prt/support/error.h"
+#include "support/bounce_off_triangle.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
@@ -325,6 +326,14 @@ TEST(ColorBleeding, OfAWallOntoAFloorIsThatOfPathTracing) {
     EXPECT_GE(compared, 8);
     const glm::vec3 near = radiance[6 * 24 * 2]; // beside the wall, in the middle of the floor's edge
     EXPECT_GT(near.r, near.b + 0.02f);
+}
+
+TEST(HitPoint, OfATriangleThatVariesSendsWhatIsThere) {
+    for (const test::Varying varying : test::kAllVarying) {
+        const test::BounceError error = test::bounce_off_triangle(varying, Backend::cpu);
+        EXPECT_LT(error.baked, 0.01) << varying; // 4 096 rays, codes of 8 bits
+        EXPECT_GT(error.swapped, 0.05) << varying;
+    }
 }
 
 TEST(Bounces, AreTheSameToTheByteForAnyNumberOfThreads) {

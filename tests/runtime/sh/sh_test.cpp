@@ -158,6 +158,19 @@ TEST(ShRotation, IdentityChangesNothing) {
         EXPECT_NEAR(out[i], in[i], 1e-12);
 }
 
+TEST(Sh, WindowsAreASquaredCosineAndTheMeanOfACosine) {
+    constexpr int kSteps = 1000;
+    for (const double width : {1.0, 3.0, 6.5, 10.0})
+        for (int l = 0; l < 12; ++l) {
+            double mean = 0; // sin(t)/t is the integral of cos(t x) for x from 0 to 1
+            for (int i = 0; i < kSteps; ++i)
+                mean += std::cos(pi * l / width * (i + 0.5) / kSteps) / kSteps;
+            const double half = std::cos(pi * l / (2 * width));
+            EXPECT_NEAR(hann_window(l, width), l < width ? half * half : 0, 1e-12) << l << " " << width;
+            EXPECT_NEAR(lanczos_window(l, width), l < width ? mean : 0, 1e-6) << l << " " << width;
+        }
+}
+
 TEST(Sh, OrdersOutsideTheRangeAreRefused) {
     EXPECT_THROW(check_order(0), Error);
     EXPECT_THROW(check_order(11), Error);

@@ -202,5 +202,37 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
     }
 }
 
+TEST(ClusteredTransfer, PackedWeightsComeBackAlsoAcrossWords) {
+    // Directions are unit vectors and the mean is zero, so that what is decoded are the weights.
+    ClusteredTransfer t;
+    t.bases.order = 3;
+    t.bases.channels = 1;
+    t.bases.components = {8};
+    t.bases.bits = {7, 16, 5, 9, 13, 16, 11, 3}; // the fourth and the sixth lie across two words
+    t.bases.rows.assign(9 * 9, 0.0f);
+    for (std::size_t j = 0; j < 8; ++j)
+        t.bases.rows[(j + 1) * 9 + j] = 1;
+    t.receivers.format = WeightFormat::packed;
+    t.receivers.cluster_bits = 2;
+    t.receivers.words = 3;
+    std::mt19937 random(6);
+    std::vector<std::uint32_t> values;
+    for (std::size_t p = 0; p < 50; ++p) {
+        std::vector<std::uint32_t> words(3);
+        for (std::size_t j = 0; j < 8; ++j)
+            values.push_back(static_cast<std::uint32_t>(random() % (1u << t.bases.bits[j])));
+        pack_words(0, 2, cluster_layouts(t.bases)[0], std::span(values).last(8), words);
+        const auto* bytes = reinterpret_cast<const std::byte*>(words.data());
+        t.receivers.weights.insert(t.receivers.weights.end(), bytes, bytes + 12);
+        t.receivers.clusters.push_back(0);
+    }
+    const Transfer decoded = decode(t);
+    for (std::size_t p = 0; p < 50; ++p)
+        for (std::size_t j = 0; j < 8; ++j)
+            EXPECT_NEAR(static_cast<double>(decoded.vector(p)[j]),
+                        2.0 * values[8 * p + j] / ((1u << t.bases.bits[j]) - 1) - 1, 1e-6)
+                << p << " " << j;
+}
+
 } // namespace
 } // namespace prt

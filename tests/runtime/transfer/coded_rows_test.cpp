@@ -1,3 +1,4 @@
+#include "prt/clustered_bases.h"
 #include "prt/coded_rows.h"
 
 #include "prt/support/bits.h"
@@ -5,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 namespace prt {
@@ -76,6 +78,45 @@ TEST(CodedRows, ThatEndTooEarlyAreRefused) {
     RowCode code = encode_rows(std::vector<std::int32_t>{100, -100, 7, 8}, 2);
     code.bits.pop_back();
     EXPECT_THROW(decode_rows(code, 2), Error);
+}
+
+TEST(CodedBases, AreTheOriginInMeansAndScaledSumsOfTheAxes) {
+    // Two clusters of two directions and none, and one of one: rows 0, 3 and 4 are means.
+    const std::vector<int> components = {2, 0, 1};
+    const std::array<bool, 6> is_mean = {true, false, false, true, true, false};
+    constexpr std::size_t kAxes = 3, kDimension = 5;
+    std::mt19937 random(4);
+    const auto numbers = [&](std::size_t count) {
+        std::vector<std::int32_t> result(count);
+        for (std::int32_t& number : result)
+            number = static_cast<std::int32_t>(random() % 201) - 100;
+        return result;
+    };
+    const std::vector<std::int32_t> axes = numbers(kAxes * kDimension),
+                                    values = numbers(is_mean.size() * kAxes);
+    const CodedBases coded{{1, -2, 3, 0, 5},
+                           {0.5f, 0.25f, 2},
+                           0.125f,
+                           encode_rows(axes, kDimension),
+                           encode_rows(values, kAxes)};
+    const std::vector<float> rows = decode_bases(coded, components);
+    ASSERT_EQ(rows.size(), is_mean.size() * kDimension);
+    for (std::size_t row = 0; row < is_mean.size(); ++row)
+        for (std::size_t i = 0; i < kDimension; ++i) {
+            double sum = is_mean[row] ? static_cast<double>(coded.origin[i]) : 0;
+            for (std::size_t a = 0; a < kAxes; ++a)
+                sum += (is_mean[row] ? 1 : 2) * static_cast<double>(coded.step) *
+                       static_cast<double>(coded.scales[a]) * values[row * kAxes + a] *
+                       axes[a * kDimension + i];
+            EXPECT_EQ(static_cast<double>(rows[row * kDimension + i]), sum)
+                << row; // floats hold these numbers
+        }
+    // Five, three and one floats, a byte for each column, and the bits.
+    EXPECT_EQ(coded_bytes(coded),
+              (5 + 3 + 1) * 4 + 5 + coded.axes.bits.size() + 3 + coded.values.bits.size());
+    CodedBases other = coded;
+    other.origin.push_back(0);
+    EXPECT_THROW(decode_bases(other, components), Error);
 }
 
 } // namespace

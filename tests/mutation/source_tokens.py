@@ -1,0 +1,50 @@
+"""Cuts C++, GLSL and JavaScript into tokens: as much of their grammar as changing a token needs.
+
+What a change could not be seen through is left out: comments, strings, preprocessor lines, assertions, and
+what is thrown.
+"""
+import re
+from typing import NamedTuple
+
+
+class Token(NamedTuple):
+    kind: str  # "name", "number" or "sign"
+    text: str
+    begin: int  # offset in the source
+    end: int
+
+
+# In the order that they are tried.
+PATTERNS = re.compile(r"""
+    (?P<skipped> //[^\n]*(?:\\\n[^\n]*)* | /\*.*?\*/
+               | ^[ \t]*\#(?:[^\n\\]|\\.)*                     # a preprocessor line and those that it goes on in
+               | R"(?P<mark>[^(\s]*)\(.*?\)(?P=mark)"
+               | "(?:[^"\\\n]|\\.)*" | '(?:[^'\\\n]|\\.)*' | `(?:[^`\\]|\\.)*` | \s+ )
+  | (?P<name> [A-Za-z_$][\w$]* )
+  | (?P<number> (?:0[xX][\da-fA-F']+(?:\.[\da-fA-F]*)?(?:[pP][+-]?\d+)? | (?:\d[\d']*\.?\d*|\.\d+)(?:[eE][+-]?\d+)?) [uUlLfFn]* )
+  | (?P<sign> <<=|>>=|<=>|===|!==|->\*|\.\.\.|\+\+|--|->|::|&&|\|\||[-+*/%&|^!=<>]=|<<|>>|. )
+""", re.VERBOSE | re.MULTILINE | re.DOTALL)
+
+OPENING, CLOSING = "([{", ")]}"
+
+
+def tokens(source):
+    """All tokens but what is left out, in order."""
+    result = [Token(match.lastgroup, match.group(), match.start(), match.end())
+              for match in PATTERNS.finditer(source) if match.group("skipped") is None]
+    return list(without_messages(result))
+
+
+def without_messages(all_tokens):
+    """Leaves out assertions (`assert(...)`, `static_assert(...)`) and what is thrown, to its semicolon."""
+    end_at = None  # what ends the part that is left out, at its depth
+    depth = 0
+    for token in all_tokens:
+        if end_at is None and token.text in ("assert", "static_assert", "throw"):
+            end_at, depth = ";", 0
+        if end_at is None:
+            yield token
+            continue
+        depth += (token.text in OPENING) - (token.text in CLOSING)
+        if token.text == end_at and depth <= 0:
+            end_at = None

@@ -1,0 +1,54 @@
+"""Which tests can see what is wrong in a file. Cheap ones stand first: the rest is not built where these fail."""
+from typing import NamedTuple
+
+SUFFIXES = {".cpp", ".h", ".c", ".glsl", ".vert", ".frag", ".comp", ".js"}
+
+
+class Suite(NamedTuple):
+    program: str  # a target of the build, in its folder tests/; "node": the tests of the web loader
+    filter: str = "*"
+
+    def command(self, build, root):
+        if self.program == "node":
+            return ["node", "--test", *sorted(map(str, (root / "examples/web/test").glob("*.test.js")))]
+        return [str(build / "tests" / self.program), f"--gtest_filter={self.filter}", "--gtest_fail_fast", "--gtest_brief=1"]
+
+
+# Tests of seconds, and of minutes.
+RUNTIME = Suite("runtime_tests")
+SMALL_ORDERS = Suite("runtime_tests", "*Sh*-All/ShOrder.*/6:All/ShOrder.*/7:All/ShOrder.*/8:All/ShOrder.*/9")
+COMPRESS = Suite("compress_tests", "-Search*:Sweep*")
+BAKE = Suite("bake_tests", "HitPoint*:Textures*:Glass*:Cut*:Blended*:Bad*:Leaf*:Metal*:Disc*:*Degrees*:*Orders*:Sobol*:Uniform*:Tangent*:"
+             "AddBasis*:Direct*:InsideG*:Shell*:Ray*:BackFaces*:Channels*:Hard*:FootOf*:Reduced*:Dipole*:SphereB*:White*:Bounces*:Memory*")
+BOUNCES = Suite("bake_tests", "ColorB*:*PinHole*:ParallelPlates*:SphericalBowl*:Subsurface*:SmoothBoxes*:SealedIn*:OneSidedC*")
+WHOLE_BAKE = Suite("bake_tests", "PathTracer*:EndlessWall*:OneSided*:Bake*:Storage*:Diffusion*:SamplingError*:TargetError*")
+RENDER, GPU = Suite("render_tests"), Suite("gpu_tests")
+
+# The longest folder that a path begins with tells.
+SUITES = {
+    "runtime/sh/": [SMALL_ORDERS, RUNTIME],
+    "runtime/light/": [Suite("runtime_tests", "Light*:Sky*:*Cube*:*Image*:LatLong*:OtherLayouts*"), RUNTIME],
+    "runtime/transfer/": [Suite("runtime_tests", "*Clustered*:*Constants*:CodedRows*:Adjacency*:Evaluate*:Bits*:Edges*"), COMPRESS,
+                          Suite("gltf_tests")],
+    "runtime/support/": [RUNTIME],
+    "runtime/fit/": [Suite("runtime_tests", "SunFit*")],
+    "runtime/include/": [RUNTIME, COMPRESS],
+    "runtime/image/": [Suite("image_tests")],
+    "runtime/scene/": [Suite("gltf_tests")],
+    "runtime/render/": [RENDER],
+    "runtime/shader/": [RENDER],
+    "compress/": [COMPRESS, Suite("compress_tests", "Search*:Sweep*")],
+    "bake/": [BAKE, BOUNCES, WHOLE_BAKE],
+    "bake/transport/": [BAKE, BOUNCES],
+    "bake/trace/": [BAKE, BOUNCES],
+    "bake/trace/gpu/": [GPU],
+    "bake/pictures/": [Suite("bake_tests", "PathTracer*:DistantLight*:Storage*")],
+    "shaders/": [RENDER, GPU],
+    "examples/web/src/": [Suite("node")],
+}
+
+
+def suites_of(path):
+    """In the order that they are run; none where the table does not know the file."""
+    folders = [folder for folder in SUITES if path.startswith(folder)]
+    return SUITES[max(folders, key=len)] if folders else []
