@@ -15,7 +15,7 @@ void check_allowed(double bytes, std::size_t file_bytes, const std::string& what
                             : std::string("a million million MB");
     };
     throw Error(what + " would take " + megabytes(bytes) + ", more than the " + megabytes(most) +
-                " that a file of " + std::to_string(file_bytes) + " bytes may");
+                " that a file of " + std::to_string(file_bytes) + " bytes may take");
 }
 
 } // namespace prt

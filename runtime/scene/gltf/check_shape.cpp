@@ -33,12 +33,12 @@ constexpr std::pair<const char*, std::size_t> kLists[] = {{"accessors", sizeof(t
                                                           {"textures", sizeof(tinygltf::Texture)}};
 
 /// Members that are indices, counts or lengths wherever they stand.
-constexpr std::array<std::string_view, 22> kWholeNumbers = {
-    "buffer", "bufferView",    "byteLength", "byteOffset", "byteStride",
-    "camera", "count",         "index",      "indices",    "inverseBindMatrices",
-    "input",  "componentType", "mesh",       "mode",       "material",
-    "node",   "output",        "sampler",    "scene",      "skin",
-    "source", "texCoord"};
+constexpr std::array<std::string_view, 21> kWholeNumbers = {
+    "buffer",  "bufferView",    "byteLength", "byteOffset", "byteStride",
+    "camera",  "count",         "index",      "indices",    "inverseBindMatrices",
+    "input",   "componentType", "mesh",       "material",   "node",
+    "output",  "sampler",       "scene",      "skin",       "source",
+    "texCoord"};
 
 /// How the names of extensions begin whose numbers this program reads; what others mean by the same words is
 /// theirs.
@@ -130,6 +130,8 @@ double check_primitives(const Json& json) {
     for_each_primitive(json, [&](const Json& primitive) {
         if (!primitive.contains("attributes") || !primitive["attributes"].is_object())
             throw Error("is damaged glTF: a primitive has no attributes");
+        if (primitive.contains("mode")) // a word in EXT_meshopt_compression
+            check_whole(primitive["mode"], "mode");
         constexpr std::size_t kMapEntry = 80; // name and number
         std::size_t entries = primitive["attributes"].size();
         check_list(primitive, "targets");
