@@ -295,6 +295,7 @@ public:
         const auto* data = reinterpret_cast<const std::byte*>(bytes_.data());
         changed.binary.assign(data + 28 + length, data + bytes_.size());
         change(changed);
+        changed.json.erase("buffers"); // of the length that it has now
         changed.write(files_.folder / "changed.glb");
         const GltfDocument d = load_gltf(files_.folder / "changed.glb");
         read_clustered(d, extract_scene(d));
