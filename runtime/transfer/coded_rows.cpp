@@ -143,6 +143,9 @@ std::vector<std::int32_t> decode_rows(const RowCode& code, std::size_t rows) {
     std::vector<std::int32_t> values;
     if (code.drops.empty()) // rows of no values take no bits
         return values;
+    if (rows / 2 > code.bits.size()) // each has four bits at least: none are made of nothing
+        throw Error("the coded rows end too early");
+    values.reserve(rows * code.drops.size());
     BitReader reader(code.bits);
     const auto need = [&](int width) {
         if (!reader.has(width))

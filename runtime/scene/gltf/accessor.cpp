@@ -11,9 +11,6 @@
 namespace prt {
 namespace {
 
-/// Without a buffer view an accessor is zeros, so nothing but this bounds what its count makes us allocate.
-constexpr std::size_t kMostElementsWithoutData = std::size_t{1} << 26;
-
 std::string accessor_name(int accessor) {
     return "accessor " + std::to_string(accessor);
 }
@@ -25,46 +22,64 @@ Value load(const std::byte* from) {
     return value;
 }
 
-/// Copies `count` elements of `size` bytes that lie `stride` apart from `offset` on. Throws when they do not
-/// fit.
-void copy_strided(std::span<const unsigned char> from, std::size_t offset, std::size_t stride,
-                  std::size_t size, std::size_t count, std::byte* to, const std::string& name) {
-    if (count == 0)
+/// Elements that lie `stride` apart in a buffer view.
+struct StridedElements {
+    std::span<const unsigned char> view;
+    std::size_t offset, stride, size, count;
+
+    void copy(std::byte* to) const {
+        for (std::size_t i = 0; i < count; ++i)
+            std::memcpy(to + i * size, view.data() + offset + i * stride, size);
+    }
+};
+
+/// Throws where they pass the end of the view.
+void check_fits(const StridedElements& e, const std::string& name) {
+    if (e.stride < e.size)
+        throw Error(name + " has elements of " + std::to_string(e.size) + " bytes that lie " +
+                    std::to_string(e.stride) + " apart");
+    if (e.count == 0)
         return;
-    if (offset > from.size() || size > from.size() - offset ||
-        (count - 1) > (from.size() - offset - size) / stride)
-        throw Error(name + " reaches outside its buffer view: " + std::to_string(count) + " elements of " +
-                    std::to_string(size) + " bytes from " + std::to_string(offset) + " on, in " +
-                    std::to_string(from.size()) + " bytes");
-    for (std::size_t i = 0; i < count; ++i)
-        std::memcpy(to + i * size, from.data() + offset + i * stride, size);
+    if (e.offset > e.view.size() || e.size > e.view.size() - e.offset ||
+        (e.count - 1) > (e.view.size() - e.offset - e.size) / e.stride)
+        throw Error(name + " reaches outside its buffer view: " + std::to_string(e.count) + " elements of " +
+                    std::to_string(e.size) + " bytes from " + std::to_string(e.offset) + " on, in " +
+                    std::to_string(e.view.size()) + " bytes");
 }
 
-const tinygltf::Accessor& get_accessor(const tinygltf::Model& model, int index) {
-    if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size())
-        throw Error(accessor_name(index) + " is not there");
-    return model.accessors[static_cast<std::size_t>(index)];
-}
-
+/// Also of component types that are never read, which extensions may bring.
 std::size_t element_bytes(const tinygltf::Accessor& accessor) {
-    return component_bytes(accessor.componentType) * static_cast<std::size_t>(component_count(accessor.type));
+    const int bytes = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType));
+    if (bytes < 1)
+        throw Error("unknown component type " + std::to_string(accessor.componentType));
+    return static_cast<std::size_t>(bytes) * static_cast<std::size_t>(component_count(accessor.type));
 }
 
+StridedElements elements_of(const tinygltf::Model& model, const tinygltf::Accessor& accessor) {
+    const std::size_t size = element_bytes(accessor);
+    const auto bytes = buffer_view_bytes(model, accessor.bufferView);
+    const std::size_t stride = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
+    return {bytes, accessor.byteOffset, stride > 0 ? stride : size, size, accessor.count};
+}
+
+/// Indices or values that replace elements of an accessor.
+template <class Part>
+StridedElements replacements(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
+                             const Part& part, std::size_t size) {
+    return {buffer_view_bytes(model, part.bufferView), static_cast<std::size_t>(part.byteOffset), size, size,
+            static_cast<std::size_t>(accessor.sparse.count)};
+}
+
+/// Of an accessor that check_accessor has passed.
 void apply_sparse(const tinygltf::Model& model, const tinygltf::Accessor& accessor,
                   std::vector<std::byte>& elements, const std::string& name) {
     const auto& sparse = accessor.sparse;
-    if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count)
-        throw Error(name + " replaces more elements than it has");
     const auto count = static_cast<std::size_t>(sparse.count);
     const std::size_t size = element_bytes(accessor);
     const std::size_t index_size = component_bytes(sparse.indices.componentType);
     std::vector<std::byte> indices(count * index_size), values(count * size);
-    copy_strided(buffer_view_bytes(model, sparse.indices.bufferView),
-                 static_cast<std::size_t>(std::max(0, sparse.indices.byteOffset)), index_size, index_size,
-                 count, indices.data(), name);
-    copy_strided(buffer_view_bytes(model, sparse.values.bufferView),
-                 static_cast<std::size_t>(std::max(0, sparse.values.byteOffset)), size, size, count,
-                 values.data(), name);
+    replacements(model, accessor, sparse.indices, index_size).copy(indices.data());
+    replacements(model, accessor, sparse.values, size).copy(values.data());
     with_component_type(sparse.indices.componentType, [&](auto type) {
         for (std::size_t i = 0; i < count; ++i) {
             const auto index = static_cast<std::size_t>(load<decltype(type)>(&indices[i * sizeof type]));
@@ -120,28 +135,37 @@ std::span<const unsigned char> buffer_view_bytes(const tinygltf::Model& model, i
     return std::span(data).subspan(v.byteOffset, v.byteLength);
 }
 
-std::vector<std::byte> read_elements(const tinygltf::Model& model, int index) {
+const tinygltf::Accessor& get_accessor(const tinygltf::Model& model, int index) {
+    if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size())
+        throw Error(accessor_name(index) + " is not there");
+    return model.accessors[static_cast<std::size_t>(index)];
+}
+
+std::size_t check_accessor(const tinygltf::Model& model, int index) {
     const tinygltf::Accessor& accessor = get_accessor(model, index);
     const std::string name = accessor_name(index);
     const std::size_t size = element_bytes(accessor);
-    std::vector<std::byte> elements;
-    if (accessor.bufferView >= 0) {
-        const auto bytes = buffer_view_bytes(model, accessor.bufferView);
-        const std::size_t stated =
-            model.bufferViews[static_cast<std::size_t>(accessor.bufferView)].byteStride;
-        const std::size_t stride = stated > 0 ? stated : size;
-        if (accessor.count > bytes.size()) // even elements of one byte would not fit
-            throw Error(name + " reaches outside its buffer view: " + std::to_string(accessor.count) +
-                        " elements in " + std::to_string(bytes.size()) + " bytes");
-        elements.resize(accessor.count * size);
-        copy_strided(bytes, accessor.byteOffset, stride, size, accessor.count, elements.data(), name);
-    } else {
-        if (accessor.count > kMostElementsWithoutData)
-            throw Error(name + " claims " + std::to_string(accessor.count) + " elements without data");
-        elements.resize(accessor.count * size);
-    }
+    if (accessor.bufferView >= 0)
+        check_fits(elements_of(model, accessor), name);
+    const auto& sparse = accessor.sparse;
+    if (!sparse.isSparse)
+        return size;
+    if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count)
+        throw Error(name + " replaces more elements than it has");
+    check_fits(replacements(model, accessor, sparse.indices, component_bytes(sparse.indices.componentType)),
+               name);
+    check_fits(replacements(model, accessor, sparse.values, size), name);
+    return size;
+}
+
+std::vector<std::byte> read_elements(const tinygltf::Model& model, int index) {
+    const std::size_t size = check_accessor(model, index);
+    const tinygltf::Accessor& accessor = get_accessor(model, index);
+    std::vector<std::byte> elements(accessor.count * size);
+    if (accessor.bufferView >= 0)
+        elements_of(model, accessor).copy(elements.data());
     if (accessor.sparse.isSparse)
-        apply_sparse(model, accessor, elements, name);
+        apply_sparse(model, accessor, elements, accessor_name(index));
     return elements;
 }
 

@@ -12,6 +12,13 @@
 
 namespace prt {
 
+/// Throws `Error` when it is not there.
+const tinygltf::Accessor& get_accessor(const tinygltf::Model& model, int accessor);
+
+/// Throws `Error` naming the accessor when it, or what replaces its elements, reaches outside its buffer view
+/// or buffer. Returns the bytes of an element.
+std::size_t check_accessor(const tinygltf::Model& model, int accessor);
+
 /// Elements of an accessor, tightly packed, sparse substitutions made. Throws `Error` naming the accessor
 /// when it reaches outside its buffer view or buffer.
 std::vector<std::byte> read_elements(const tinygltf::Model& model, int accessor);

@@ -3,6 +3,7 @@
 #include "prt/gltf.h"
 
 #include "gltf/accessor.h"
+#include "gltf/allowance.h"
 #include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
 #include "prt/support/bits.h"
@@ -10,11 +11,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace prt {
 namespace {
 
-constexpr int kVersion = 2;
+constexpr int kClusteredVersion = 2;
 
 int weight_component_type(WeightFormat format) {
     switch (format) {
@@ -109,6 +111,8 @@ void read_weights(const GltfContents& contents, const Json& attributes, std::siz
             weight_format(description.componentType) != receivers.format)
             throw Error(name + " has another type or number than the others");
         const std::vector<std::byte> elements = read_elements(contents.model, accessor);
+        if (receivers.format == WeightFormat::float32)
+            check_magnitudes(read_floats(contents.model, accessor, 4), kLargestWeight, "the weights");
         for (std::size_t i = 0; i < count; ++i)
             std::memcpy(&receivers.weights[(first + i) * stride + group * size], &elements[i * size], size);
     }
@@ -134,7 +138,10 @@ Json write_row_code(GltfContents& contents, const RowCode& code) {
 
 RowCode read_row_code(const GltfContents& contents, const Json& json) {
     const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>()));
-    return {json.at("drops").get<std::vector<std::uint8_t>>(), {bytes.begin(), bytes.end()}};
+    RowCode code{{}, {bytes.begin(), bytes.end()}};
+    for (const Json& drop : json.at("drops"))
+        code.drops.push_back(static_cast<std::uint8_t>(whole_number(drop, "a drop", 0, kMostRowBits)));
+    return code;
 }
 
 Json write_bases(GltfContents& contents, const ClusteredBases& bases) {
@@ -148,24 +155,36 @@ Json write_bases(GltfContents& contents, const ClusteredBases& bases) {
             {"values", write_row_code(contents, coded.values)}};
 }
 
-void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& bases) {
-    if (!json.contains("values")) {
-        bases.rows =
-            read_float_view(contents, json, bases.first_rows().back() * bases.dimension(), "the bases");
-        return;
-    }
-    CodedBases& coded = bases.coded;
-    coded.origin = read_float_view(contents, json.at("origin"), bases.dimension(), "the origin");
-    coded.axes = read_row_code(contents, json.at("axes"));
-    coded.values = read_row_code(contents, json.at("values"));
-    coded.scales = read_float_view(contents, json.at("scales"), coded.values.drops.size(), "the scales");
-    coded.step = json.at("step").get<float>();
-    if (!std::isfinite(coded.step))
-        throw Error("the step of the bases is not finite");
-    bases.rows = decode_bases(coded, bases.components);
+/// Throws where the rows and what they are decoded from would take too much memory: a row of zeros has four
+/// bits, and none where there are no axes.
+void check_rows(const GltfContents& contents, std::size_t rows, std::size_t axes, std::size_t dimension) {
+    const auto values = static_cast<double>(rows) * static_cast<double>(axes + dimension) +
+                        static_cast<double>(axes) * static_cast<double>(dimension);
+    check_allowed(values * sizeof(float), contents.file_bytes, "its bases");
 }
 
-/// {"clusterBits": ..., "bufferView": ...}: the widths of packed weights, less one, in four bits each.
+void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& bases) {
+    const std::size_t rows = bases.first_rows().back(), dimension = bases.dimension();
+    if (!json.contains("values")) {
+        bases.rows = read_float_view(contents, json, rows * dimension, kLargestValue, "the bases");
+        return;
+    }
+    constexpr float kAnyFinite = std::numeric_limits<float>::max(); // small steps may have large scales
+    CodedBases& coded = bases.coded;
+    coded.origin = read_float_view(contents, json.at("origin"), dimension, kLargestValue, "the origin");
+    coded.axes = read_row_code(contents, json.at("axes"));
+    coded.values = read_row_code(contents, json.at("values"));
+    const std::size_t axes = coded.values.drops.size();
+    coded.scales = read_float_view(contents, json.at("scales"), axes, kAnyFinite, "the scales");
+    const Json& step = json.at("step");
+    coded.step = step.is_number() ? step.get<float>() : -1.0f;
+    if (!(coded.step >= 0) || !std::isfinite(coded.step))
+        throw Error("the step of the bases is " + step.dump() + ", no number from 0 on");
+    check_rows(contents, rows, axes, dimension);
+    bases.rows = decode_bases(coded, bases.components);
+    check_magnitudes(bases.rows, kLargestValue, "the decoded bases");
+}
+
 Json write_packing(GltfContents& contents, const ClusteredTransfer& transfer) {
     BitWriter writer;
     for (const std::uint8_t bits : transfer.bases.bits)
@@ -178,9 +197,10 @@ void read_packing(const GltfContents& contents, const Json& json, ClusteredTrans
     ClusteredBases& bases = transfer.bases;
     ClusteredReceivers& receivers = transfer.receivers;
     receivers.format = WeightFormat::packed;
-    receivers.cluster_bits = json.at("clusterBits").get<int>();
-    if (receivers.cluster_bits < 0 || receivers.cluster_bits > 16)
-        throw Error("clusters have " + std::to_string(receivers.cluster_bits) + " bits, of 0..16");
+    receivers.cluster_bits = whole_number(json.at("clusterBits"), "clusterBits", 0, 16);
+    if (bases.clusters() > std::size_t{1} << receivers.cluster_bits)
+        throw Error(std::to_string(bases.clusters()) + " clusters do not fit " +
+                    std::to_string(receivers.cluster_bits) + " bits");
     BitReader reader(std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>())));
     const std::size_t directions = bases.first_rows().back() - bases.clusters();
     std::size_t most = 0;
@@ -203,22 +223,15 @@ void read_packing(const GltfContents& contents, const Json& json, ClusteredTrans
 ClusteredBases read_clusters_of(const Json& extension) {
     ClusteredBases bases;
     read_shape(extension, bases.order, bases.channels);
-    for (const Json& count : extension.at("components")) {
-        const int components = count.get<int>();
-        if (components < 0 || static_cast<std::size_t>(components) > bases.dimension())
-            throw Error("a cluster has " + std::to_string(components) + " components, of 0.." +
-                        std::to_string(bases.dimension()));
-        bases.components.push_back(components);
-    }
+    const int most = static_cast<int>(bases.dimension());
+    for (const Json& count : extension.at("components"))
+        bases.components.push_back(whole_number(count, "the number of a cluster's components", 0, most));
     if (bases.components.empty() || bases.components.size() > 65536)
         throw Error("has " + std::to_string(bases.components.size()) + " clusters, of 1..65536");
     return bases;
 }
 
-} // namespace
-
-void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed) {
-    GltfContents& contents = document.contents();
+void write_into(GltfContents& contents, const Scene& scene, const CompressedTransfer& compressed) {
     const std::vector<Json*> primitives = unshare(contents, scene);
     contents.remove_transfer();
     const ClusteredBases& bases = compressed.transfer.bases;
@@ -237,7 +250,7 @@ void write_clustered(GltfDocument& document, const Scene& scene, const Compresse
     }
     for (std::size_t i = 0; i < primitives.size(); ++i)
         (*primitives[i])["attributes"].update(attributes[scene.primitives[i].vertices]);
-    Json& extension = contents.json["extensions"][kClusteredExtension] = {{"version", kVersion},
+    Json& extension = contents.json["extensions"][kClusteredExtension] = {{"version", kClusteredVersion},
                                                                           {"order", bases.order},
                                                                           {"channels", bases.channels},
                                                                           {"components", bases.components}};
@@ -248,9 +261,45 @@ void write_clustered(GltfDocument& document, const Scene& scene, const Compresse
     contents.use_extension(kClusteredExtension);
 }
 
+/// Room for the weights of all receivers, whose `attributes` name the first.
+void make_room(const GltfContents& contents, const Json& attributes, ClusteredReceivers& receivers) {
+    const bool packed = receivers.format == WeightFormat::packed;
+    if (!packed && receivers.components > 0) {
+        const auto first = attributes.at("_PRT_WEIGHTS_0").get<int>();
+        receivers.format = weight_format(get_accessor(contents.model, first).componentType);
+        if (receivers.format == WeightFormat::packed)
+            throw Error("_PRT_WEIGHTS_0 is packed, but the file does not say how");
+    }
+    check_allowed(static_cast<double>(receivers.size()) * static_cast<double>(receivers.stride()),
+                  contents.file_bytes, "its weights");
+    receivers.weights.resize(receivers.size() * receivers.stride());
+}
+
+/// Clusters and weights of one primitive.
+void read_receivers(const GltfContents& contents, const Json& attributes, const VertexArray& vertices,
+                    ClusteredTransfer& transfer) {
+    ClusteredReceivers& receivers = transfer.receivers;
+    const std::size_t clusters = transfer.bases.clusters();
+    const bool packed = receivers.words > 0;
+    if (!packed)
+        read_clusters(contents, attributes, clusters,
+                      std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()));
+    if (receivers.weights.empty())
+        make_room(contents, attributes, receivers);
+    read_weights(contents, attributes, vertices.first_receiver, vertices.size(), receivers);
+    if (packed)
+        unpack_clusters(vertices.first_receiver, vertices.size(), clusters, receivers);
+}
+
+} // namespace
+
+void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed) {
+    named(document, [&](GltfContents& contents) { write_into(contents, scene, compressed); });
+}
+
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene) {
     return named(document, [&](const GltfContents& contents) -> std::optional<CompressedTransfer> {
-        const Json* extension = find_extension(contents, kClusteredExtension, kVersion);
+        const Json* extension = find_extension(contents, kClusteredExtension, kClusteredVersion);
         if (!extension)
             return std::nullopt;
         CompressedTransfer compressed;
@@ -266,23 +315,9 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
             receivers.components = (bases.max_components() + 3) / 4 * 4;
         receivers.clusters.resize(scene.receivers());
         for (const Primitive& primitive : scene.primitives) {
-            const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
             try {
-                const Json& attributes = primitive_json(contents, primitive).at("attributes");
-                if (!packed)
-                    read_clusters(
-                        contents, attributes, bases.clusters(),
-                        std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()));
-                if (!packed && receivers.components > 0 && receivers.weights.empty()) {
-                    const auto first = attributes.at("_PRT_WEIGHTS_0").get<std::size_t>();
-                    receivers.format = weight_format(contents.model.accessors.at(first).componentType);
-                    if (receivers.format == WeightFormat::packed)
-                        throw Error("_PRT_WEIGHTS_0 is packed, but the file does not say how");
-                }
-                receivers.weights.resize(scene.receivers() * receivers.stride());
-                read_weights(contents, attributes, vertices.first_receiver, vertices.size(), receivers);
-                if (packed && receivers.words > 0)
-                    unpack_clusters(vertices.first_receiver, vertices.size(), bases.clusters(), receivers);
+                read_receivers(contents, primitive_json(contents, primitive).at("attributes"),
+                               scene.vertex_arrays[primitive.vertices], compressed.transfer);
             } catch (const std::exception& error) {
                 throw Error(primitive_name(primitive) + ": " + in_plain_words(error));
             }

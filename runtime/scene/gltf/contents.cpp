@@ -2,6 +2,7 @@
 #include "gltf/contents.h"
 
 #include "prt/support/error.h"
+#include "prt/support/printable.h"
 
 #include <algorithm>
 #include <functional>
@@ -68,9 +69,10 @@ void for_each_accessor_reference(Json& json, const std::function<void(Json&)>& v
                 visit(skin["inverseBindMatrices"]);
     if (json.contains("animations"))
         for (Json& animation : json["animations"])
-            for (Json& sampler : animation["samplers"])
-                for (const char* key : {"input", "output"})
-                    visit(sampler[key]);
+            if (animation.contains("samplers"))
+                for (Json& sampler : animation["samplers"])
+                    for (const char* key : {"input", "output"})
+                        visit(sampler[key]);
     if (json.contains("nodes"))
         for (Json& node : json["nodes"])
             if (node.contains("extensions") && node["extensions"].contains("EXT_mesh_gpu_instancing"))
@@ -261,44 +263,38 @@ void GltfContents::remove_transfer() {
         primitive["attributes"] = std::move(kept);
     });
     take_extensions(json);
-    for (const std::size_t accessor : accessors)
-        if (json.contains("accessors") && accessor < json["accessors"].size())
-            take_view(json["accessors"][accessor]);
-
-    erase_accessors(*this, accessors);
-    erase_views(*this, views);
+    remove_unused(std::move(accessors), std::move(views));
     for (const char* name : {kTransferExtension, kClusteredExtension})
         drop_extension(name);
 }
 
-void GltfContents::remove_replaced(std::set<std::size_t> accessors) {
+void GltfContents::remove_unused(std::set<std::size_t> accessors, std::set<std::size_t> views) {
     for_each_accessor_reference(json, [&](Json& accessor) {
         if (accessor.is_number_unsigned())
             accessors.erase(accessor.get<std::size_t>());
     });
-    std::set<std::size_t> views;
+    const auto for_each_view = [](Json& below, const auto& visit) {
+        for_each_object(below, [&](Json& object) {
+            if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
+                visit(object["bufferView"].get<std::size_t>());
+        });
+    };
     for (const std::size_t a : accessors)
-        if (a < json["accessors"].size())
-            for_each_object(json["accessors"][a], [&](Json& object) {
-                if (object.contains("bufferView"))
-                    views.insert(object["bufferView"].get<std::size_t>());
-            });
+        if (json.contains("accessors") && a < json["accessors"].size())
+            for_each_view(json["accessors"][a], [&](std::size_t view) { views.insert(view); });
     erase_accessors(*this, accessors);
-    for_each_object(json, [&](Json& object) {
-        if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
-            views.erase(object["bufferView"].get<std::size_t>());
-    });
+    for_each_view(json, [&](std::size_t view) { views.erase(view); });
     erase_views(*this, views);
 }
 
 std::string in_plain_words(const std::exception& error) {
-    std::string what = one_line(error.what());
+    const std::string what = printable(one_line(error.what()));
     if (dynamic_cast<const nlohmann::json::exception*>(
             &error)) // "[json.exception.type_error.302] type must be .."
         return "is damaged glTF: " + what.substr(what.starts_with("[json") ? what.find("] ") + 2 : 0);
     if (dynamic_cast<const std::out_of_range*>(&error))
         return "is damaged glTF: an index points outside of what the file holds";
-    if (dynamic_cast<const std::bad_alloc*>(&error))
+    if (dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error))
         return "there is not enough memory to read it";
     return what;
 }

@@ -23,6 +23,7 @@ struct GltfContents {
     Json json;
     std::vector<std::vector<std::byte>> images; ///< encoded, by image index
     std::vector<std::string> notices;           ///< what was changed when it was read, a line each
+    std::size_t file_bytes = 0;                 ///< of the file and of the buffers beside it
 
     /// The one buffer that all views of `json`, and of `model`, point into.
     std::vector<unsigned char>& binary() { return model.buffers.front().data; }
@@ -41,14 +42,15 @@ struct GltfContents {
     void cut_unused_bytes();
     /// Takes the extensions of prtkit out, with their attributes, accessors and data.
     void remove_transfer();
-    /// Takes those of `accessors` out that nothing refers to any more, with their data.
-    void remove_replaced(std::set<std::size_t> accessors);
+    /// Takes those of `accessors` and `views` out that nothing refers to any more, with their data.
+    void remove_unused(std::set<std::size_t> accessors, std::set<std::size_t> views = {});
 };
 
 inline constexpr const char* kTransferExtension = "PRTKIT_transfer";
 inline constexpr const char* kClusteredExtension = "PRTKIT_clustered_pca";
 
-/// What an exception says of the file, without the inner words of the libraries that threw it.
+/// What an exception says of the file, without the inner words of the libraries that threw it, as one line of
+/// printable characters.
 std::string in_plain_words(const std::exception& error);
 
 /// Calls `visit` with every primitive of every mesh, in the order of the file.

@@ -2,10 +2,14 @@
 #include "prt/gltf.h"
 
 #include "gltf/accessor.h"
+#include "gltf/allowance.h"
+#include "gltf/check_data.h"
+#include "gltf/check_shape.h"
 #include "gltf/contents.h"
 #include "gltf/draco_primitives.h"
 #include "gltf/glb.h"
 #include "gltf/instances.h"
+#include "gltf/json_text.h"
 #include "gltf/meshopt_views.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
@@ -87,29 +91,6 @@ void check_is_gltf(std::span<const std::byte> file, const std::filesystem::path&
                 ": export the scene as glTF 2.0 (.glb)");
 }
 
-/// Line and column of a byte of the file, both from 1.
-std::string place_of(std::string_view text, std::size_t byte) {
-    const std::string_view before = text.substr(0, std::min(byte, text.size()));
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    const std::size_t start = before.find_last_of('\n');
-    return "line " + std::to_string(line) + ", column " +
-           std::to_string(before.size() - (start == std::string_view::npos ? 0 : start + 1));
-}
-
-Json parse_json(std::string_view text) {
-    try {
-        Json json = Json::parse(text);
-        if (!json.is_object() || !json.contains("asset") || !json["asset"].is_object())
-            throw Error("is JSON, but no glTF: it has no asset");
-        const std::string version = json["asset"].value("version", "");
-        if (!version.starts_with("2."))
-            throw Error("is glTF of version '" + version + "', only 2 is supported");
-        return json;
-    } catch (const nlohmann::json::parse_error& error) {
-        throw Error("is damaged: its JSON cannot be read at " + place_of(text, error.byte));
-    }
-}
-
 void check_required_extensions(const Json& json) {
     if (!json.contains("extensionsRequired"))
         return;
@@ -129,6 +110,24 @@ void keep_encoded(std::vector<std::vector<std::byte>>& images, std::size_t i, co
         images.resize(i + 1);
     if (image.bufferView < 0)
         images[i].assign(bytes.begin(), bytes.end());
+}
+
+/// Images in buffer views, beside those in files that tinygltf has read.
+void take_images(GltfContents& contents, MissingImages missing) {
+    double total = 0;
+    contents.images.resize(contents.model.images.size());
+    for (std::size_t i = 0; i < contents.images.size(); ++i) {
+        const tinygltf::Image& image = contents.model.images[i];
+        if (image.bufferView >= 0) {
+            const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, image.bufferView));
+            total += static_cast<double>(bytes.size()); // several may name one view
+            check_allowed(2 * total, contents.file_bytes, "its images, still encoded,");
+            contents.images[i].assign(bytes.begin(), bytes.end());
+        }
+        if (contents.images[i].empty() && missing == MissingImages::error)
+            throw Error("image " + std::to_string(i) +
+                        (image.uri.empty() ? " is empty" : " '" + image.uri + "' cannot be read"));
+    }
 }
 
 void load_model(GltfContents& contents, std::span<const std::byte> file, std::string_view text, bool binary,
@@ -154,18 +153,11 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
                             : loader.LoadASCIIFromString(&contents.model, &error, &warning, text.data(),
                                                          static_cast<unsigned>(text.size()), folder);
     if (!loaded)
-        throw Error(one_line(error.empty() ? warning : error));
-    contents.images.resize(contents.model.images.size());
-    for (std::size_t i = 0; i < contents.images.size(); ++i) {
-        const tinygltf::Image& image = contents.model.images[i];
-        if (image.bufferView >= 0) {
-            const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, image.bufferView));
-            contents.images[i].assign(bytes.begin(), bytes.end());
-        }
-        if (contents.images[i].empty() && missing == MissingImages::error)
-            throw Error("image " + std::to_string(i) +
-                        (image.uri.empty() ? " is empty" : " '" + image.uri + "' cannot be read"));
-    }
+        throw Error(error.empty() ? warning : error);
+    for (const tinygltf::Buffer& buffer : contents.model.buffers)
+        if (!buffer.uri.empty())
+            contents.file_bytes += buffer.data.size();
+    take_images(contents, missing);
 }
 
 /// Joins all buffers into the first and lets the buffer views point there.
@@ -179,6 +171,7 @@ void join_buffers(GltfContents& contents) {
         all.resize((all.size() + 7) / 8 * 8);
         begin.push_back(all.size());
         all.insert(all.end(), buffers[b].data.begin(), buffers[b].data.end());
+        buffers[b].data = {};
     }
     for (tinygltf::BufferView& view : contents.model.bufferViews) {
         const auto buffer = static_cast<std::size_t>(view.buffer);
@@ -229,6 +222,21 @@ void embed_images(GltfContents& contents) {
     }
 }
 
+/// The whole file.
+std::vector<std::byte> glb_bytes(const GltfContents& contents, BufferCompression compression) {
+    CompressedGlb glb;
+    std::span<const std::byte> binary = contents.binary();
+    if (compression == BufferCompression::meshopt) {
+        glb = compress_views(contents);
+        binary = glb.binary;
+    } else {
+        glb.json = contents.json;
+    }
+    if (!binary.empty() && !glb.json.contains("buffers"))
+        glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
+    return make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
+}
+
 } // namespace
 
 GltfDocument::GltfDocument(std::unique_ptr<GltfContents> contents) : contents_(std::move(contents)) {}
@@ -251,17 +259,21 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
             binary ? glb_json(file)
                    : std::string_view(reinterpret_cast<const char*>(file.data()), file.size());
         contents->json = parse_json(text);
+        check_shape(contents->json, text.size());
         check_required_extensions(contents->json);
+        contents->file_bytes = file.size();
         const bool meshopt = has_meshopt_views(contents->json), draco = has_draco_primitives(contents->json);
         if (meshopt || draco) {
             Json plain = meshopt ? without_meshopt(contents->json) : contents->json;
             if (draco)
                 plain = without_draco_indices(std::move(plain));
+            check_views(plain);
             const std::string plain_text = plain.dump();
             const std::vector<std::byte> rebuilt =
                 binary ? make_glb(plain_text, glb_binary(file)) : std::vector<std::byte>{};
             load_model(*contents, rebuilt, plain_text, binary, missing);
         } else {
+            check_views(contents->json);
             load_model(*contents, file, text, binary, missing);
         }
         if (meshopt)
@@ -271,11 +283,10 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
         join_buffers(*contents);
         if (draco)
             contents->cut_unused_bytes();
+        check_data(*contents);
         expand_instances(*contents);
         embed_images(*contents);
-    } catch (const Error& error) {
-        throw Error(path.string() + ": " + one_line(error.what()));
-    } catch (const std::exception& error) {
+    } catch (const std::exception& error) { // ours, and those of the standard and the JSON library
         throw Error(path.string() + ": " + in_plain_words(error));
     }
     return GltfDocument(std::move(contents));
@@ -283,23 +294,12 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
 
 void save_glb(const GltfDocument& document, const std::filesystem::path& path,
               BufferCompression compression) {
-    const GltfContents& contents = document.contents();
-    CompressedGlb glb;
-    std::span<const std::byte> binary = contents.binary();
-    if (compression == BufferCompression::meshopt) {
-        glb = compress_views(contents);
-        binary = glb.binary;
-    } else {
-        glb.json = contents.json;
-    }
-    if (!binary.empty() && !glb.json.contains("buffers"))
-        glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
     OutputFile output(path);
     std::vector<std::byte> file;
     try {
-        file = make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
-    } catch (const Error& error) {
-        throw Error(path.string() + ": " + error.what());
+        file = glb_bytes(document.contents(), compression);
+    } catch (const std::exception& error) {
+        throw Error(path.string() + ": " + in_plain_words(error));
     }
     output.write(file);
     output.commit();

@@ -2,6 +2,7 @@
 #include "gltf/draco_primitives.h"
 
 #include "gltf/accessor.h"
+#include "gltf/allowance.h"
 #include "gltf/draco_mesh.h"
 #include "prt/support/error.h"
 
@@ -139,6 +140,8 @@ private:
     /// Puts `bytes` into a buffer of their own, and makes `view` one of all of it.
     void set_view(std::size_t view, std::vector<std::byte> bytes, std::size_t stride) {
         bytes.resize(std::max<std::size_t>(bytes.size(), 4)); // glTF knows no empty views
+        total_ += static_cast<double>(bytes.size());
+        check_allowed(2 * total_, contents_.file_bytes, "its data, decompressed,"); // also while joined
         Json& json = contents_.json["bufferViews"].at(view);
         json["buffer"] = contents_.model.buffers.size();
         json["byteOffset"] = 0;
@@ -176,6 +179,7 @@ private:
     GltfContents& contents_;
     std::map<std::size_t, std::pair<std::size_t, int>> filled_; ///< accessor: compressed view, attribute
     int index_type_ = TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT;
+    double total_ = 0; ///< bytes made
 };
 
 } // namespace

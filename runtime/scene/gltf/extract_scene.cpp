@@ -6,9 +6,11 @@
 #include "gltf/contents.h"
 #include "gltf/material.h"
 #include "gltf/node_transforms.h"
+#include "gltf/scene_size.h"
 #include "gltf/skinning.h"
 #include "gltf/triangles.h"
 #include "prt/support/error.h"
+#include "prt/support/printable.h"
 #include "triangle_normal.h"
 
 #include <glm/common.hpp>
@@ -45,14 +47,22 @@ int attribute(const tinygltf::Primitive& primitive, const std::string& name) {
     return found == primitive.attributes.end() ? -1 : found->second;
 }
 
-void read_texcoords(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
-                    VertexArray& vertices) {
+/// Reads the sets of texture coordinates; returns how many are not finite and become 0, as those are that
+/// some programs write for what is not mapped.
+std::size_t read_texcoords(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                           VertexArray& vertices) {
+    std::size_t replaced = 0;
     for (int set = 0;; ++set) {
         const int accessor = attribute(primitive, "TEXCOORD_" + std::to_string(set));
         if (accessor < 0)
-            return;
+            return replaced;
         vertices.texcoords.push_back(read_vectors<glm::vec2>(model, accessor));
         check_count(vertices.texcoords.back().size(), vertices.size(), "TEXCOORD");
+        for (glm::vec2& uv : vertices.texcoords.back())
+            if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+                uv = glm::vec2(0);
+                ++replaced;
+            }
     }
 }
 
@@ -103,12 +113,14 @@ glm::vec3 transformed_normal(const glm::vec3& normal, const glm::dmat4& matrix) 
 
 class SceneExtractor {
 public:
-    explicit SceneExtractor(const GltfContents& contents) : model_(contents.model) {
+    explicit SceneExtractor(const GltfContents& contents)
+        : model_(contents.model), file_bytes_(contents.file_bytes) {
         for (std::size_t i = 0; i < contents.images.size(); ++i) {
             const tinygltf::Image& image = model_.images[i];
             const std::string name = !image.uri.empty() ? image.uri : image.name;
             scene_.images.push_back(
-                {"image " + std::to_string(i) + (name.empty() ? "" : " '" + name + "'"), contents.images[i]});
+                {"image " + std::to_string(i) + (name.empty() ? "" : " '" + printable(name) + "'"),
+                 contents.images[i]});
         }
         read_materials(model_, scene_, range_);
         scene_.notices = contents.notices;
@@ -116,6 +128,7 @@ public:
 
     Scene extract() {
         const std::vector<NodeTransform> nodes = world_transforms(model_);
+        check_scene_size(model_, nodes, file_bytes_);
         for (const NodeTransform& node : nodes)
             add_node(node, nodes);
         if (scene_.triangles() == 0)
@@ -195,7 +208,7 @@ private:
             vertices.normals = read_vectors<glm::vec3>(model_, normals);
             check_count(vertices.normals.size(), vertices.size(), "NORMAL");
         }
-        read_texcoords(model_, file, vertices);
+        bad_texcoords_ += read_texcoords(model_, file, vertices);
         read_colors(model_, file, vertices);
         for (glm::vec4& color : vertices.colors)
             range_.clamp(color, "COLOR_0 of vertices");
@@ -273,6 +286,9 @@ private:
         if (hidden_nodes_ > 0)
             scene_.notices.emplace_back(std::to_string(hidden_nodes_) +
                                         " meshes are hidden (KHR_node_visibility) and left out");
+        if (bad_texcoords_ > 0)
+            scene_.notices.emplace_back(std::to_string(bad_texcoords_) +
+                                        " texture coordinates are not finite and become 0");
         if (!range_.notice().empty())
             scene_.notices.push_back(range_.notice());
         for (std::string& notice : unread_material_notices(model_, scene_))
@@ -286,13 +302,14 @@ private:
     }
 
     const tinygltf::Model& model_;
+    std::size_t file_bytes_;
     Scene scene_;
     std::vector<std::vector<glm::dvec3>> places_; ///< [vertex arrays][vertices] in the world
     using Attributes = std::map<std::string, int>;
     /// Vertex arrays by node, primitive (where it matters), attributes and morph targets.
     std::map<std::tuple<int, int, Attributes, std::vector<Attributes>>, std::size_t> shared_;
     UnitRange range_;
-    std::size_t flat_primitives_ = 0, skipped_primitives_ = 0, hidden_nodes_ = 0;
+    std::size_t flat_primitives_ = 0, skipped_primitives_ = 0, hidden_nodes_ = 0, bad_texcoords_ = 0;
     bool has_skins_ = false, has_morphs_ = false;
 };
 
@@ -301,8 +318,8 @@ private:
 Scene extract_scene(const GltfDocument& document) {
     try {
         return SceneExtractor(document.contents()).extract();
-    } catch (const Error& error) {
-        throw Error(document.contents().path.string() + ": " + error.what());
+    } catch (const std::exception& error) { // ours, and what the standard library throws
+        throw Error(document.contents().path.string() + ": " + in_plain_words(error));
     }
 }
 

@@ -17,19 +17,23 @@ Wrap wrap_mode(int mode) {
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? Wrap::mirror : Wrap::repeat;
 }
 
+/// A number of a transform: what is far beyond any picture stays a number that can be computed with.
+float bounded(const tinygltf::Value& number) {
+    constexpr double kMost = 1e6;
+    return static_cast<float>(std::clamp(number.GetNumberAsDouble(), -kMost, kMost));
+}
+
 glm::vec2 vec2_member(const tinygltf::Value& object, const char* name, const glm::vec2& otherwise) {
     if (!object.Has(name) || object.Get(name).ArrayLen() < 2)
         return otherwise;
-    return {static_cast<float>(object.Get(name).Get(0).GetNumberAsDouble()),
-            static_cast<float>(object.Get(name).Get(1).GetNumberAsDouble())};
+    return {bounded(object.Get(name).Get(0)), bounded(object.Get(name).Get(1))};
 }
 
 /// KHR_texture_transform: uv' = translation · rotation · scale · uv.
 glm::mat3x2 texture_transform(const tinygltf::Value& extension) {
     const glm::vec2 offset = vec2_member(extension, "offset", glm::vec2(0));
     const glm::vec2 scale = vec2_member(extension, "scale", glm::vec2(1));
-    const auto rotation =
-        extension.Has("rotation") ? static_cast<float>(extension.Get("rotation").GetNumberAsDouble()) : 0.0f;
+    const float rotation = extension.Has("rotation") ? bounded(extension.Get("rotation")) : 0.0f;
     const float c = std::cos(rotation), s = std::sin(rotation);
     return {c * scale.x, -s * scale.x, s * scale.y, c * scale.y, offset.x, offset.y};
 }
@@ -65,7 +69,7 @@ Vector color_member(const tinygltf::Value& object, const char* name) {
 
 Volume read_volume(const tinygltf::Value& extension) {
     Volume volume;
-    volume.thickness = number_member(extension, "thicknessFactor", 0);
+    volume.thickness = std::max(0.0f, number_member(extension, "thicknessFactor", 0));
     volume.attenuation_distance =
         number_member(extension, "attenuationDistance", volume.attenuation_distance);
     volume.attenuation_color = color_member<glm::vec3>(extension, "attenuationColor");
@@ -94,6 +98,7 @@ public:
             material.glass = read_glass(e->second, material);
         if (const auto e = extensions.find("KHR_materials_volume"); e != extensions.end())
             material.volume = read_volume(e->second);
+        range_.clamp(material.volume.attenuation_color, "attenuationColor of materials");
         return material;
     }
 

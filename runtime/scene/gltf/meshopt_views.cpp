@@ -2,6 +2,7 @@
 #include "gltf/meshopt_views.h"
 
 #include "gltf/accessor.h"
+#include "gltf/allowance.h"
 #include "prt/support/error.h"
 
 #include <meshoptimizer.h>
@@ -41,10 +42,19 @@ void erase_name(Json& json, const char* list) {
         json[list] = kept;
 }
 
-std::vector<unsigned char> decompressed(const Json& extension, std::span<const unsigned char> source) {
-    const auto count = extension.at("count").get<std::size_t>();
-    const auto stride = extension.at("byteStride").get<std::size_t>();
-    const std::string mode = extension.at("mode"), filter = extension.value("filter", "NONE");
+/// How a view was compressed.
+struct MeshoptCode {
+    std::size_t count, stride;
+    std::string mode, filter;
+};
+
+MeshoptCode read_code(const Json& extension) {
+    return {extension.at("count").get<std::size_t>(), extension.at("byteStride").get<std::size_t>(),
+            extension.at("mode"), extension.value("filter", "NONE")};
+}
+
+std::vector<unsigned char> decompressed(const MeshoptCode& code, std::span<const unsigned char> source) {
+    const auto& [count, stride, mode, filter] = code;
     const bool attributes = mode == "ATTRIBUTES";
     if (attributes ? stride == 0 || stride > 256 || stride % 4 != 0 : stride != 2 && stride != 4)
         throw Error("has a stride of " + std::to_string(stride) + " bytes");
@@ -190,7 +200,7 @@ Json without_meshopt(Json json) {
         if (const Json* extension = extension_of(view)) {
             const Json source = *extension;
             view = {{"buffer", source.at("buffer")},
-                    {"byteOffset", source.value("byteOffset", 0)},
+                    {"byteOffset", source.value("byteOffset", std::size_t{0})},
                     {"byteLength", source.at("byteLength")}};
         }
     if (json.contains("buffers"))
@@ -206,14 +216,18 @@ Json without_meshopt(Json json) {
 
 void decompress_views(GltfContents& contents) {
     Json& views = contents.json["bufferViews"];
+    double total = 0;
     for (std::size_t v = 0; v < views.size(); ++v) {
         const Json* extension = extension_of(views[v]);
         if (!extension)
             continue;
         try {
             const auto source = buffer_view_bytes(contents.model, static_cast<int>(v));
+            const MeshoptCode code = read_code(*extension);
+            total += static_cast<double>(code.count) * static_cast<double>(code.stride);
+            check_allowed(2 * total, contents.file_bytes, "and those before it"); // also while joined
             tinygltf::Buffer buffer;
-            buffer.data = decompressed(*extension, source);
+            buffer.data = decompressed(code, source);
             const std::size_t length = views[v].value("byteLength", buffer.data.size());
             if (length > buffer.data.size())
                 throw Error("has fewer bytes than it says");

@@ -4,6 +4,7 @@
 #include "gltf/accessor.h"
 #include "gltf/contents.h"
 #include "gltf/gathered_accessor.h"
+#include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
 #include "prt/support/error.h"
 
@@ -54,33 +55,7 @@ std::vector<std::uint32_t> sorted(const std::vector<Key>& keys) {
     return order;
 }
 
-} // namespace
-
-std::vector<std::uint32_t> order_by_cluster(const Scene& scene, const ClusteredReceivers& receivers) {
-    std::vector<std::uint32_t> order(receivers.size());
-    std::iota(order.begin(), order.end(), 0u);
-    for (const VertexArray& vertices : scene.vertex_arrays) {
-        const auto begin = order.begin() + static_cast<std::ptrdiff_t>(vertices.first_receiver);
-        std::stable_sort(
-            begin, begin + static_cast<std::ptrdiff_t>(vertices.size()),
-            [&](std::uint32_t a, std::uint32_t b) { return receivers.clusters[a] < receivers.clusters[b]; });
-    }
-    return order;
-}
-
-ClusteredReceivers reordered(const ClusteredReceivers& receivers, std::span<const std::uint32_t> order) {
-    ClusteredReceivers result = receivers;
-    const std::size_t stride = receivers.stride();
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        result.clusters[i] = receivers.clusters[order[i]];
-        if (stride > 0)
-            std::memcpy(&result.weights[i * stride], &receivers.weights[order[i] * stride], stride);
-    }
-    return result;
-}
-
-void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<const std::uint32_t> order) {
-    GltfContents& contents = document.contents();
+void reorder(GltfContents& contents, const Scene& scene, std::span<const std::uint32_t> order) {
     const std::vector<Json*> primitives = unshare(contents, scene);
     std::set<std::size_t> replaced;
     std::map<std::pair<std::size_t, std::size_t>, std::size_t>
@@ -119,7 +94,36 @@ void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<cons
             index = place.at(index);
         primitive["indices"] = new_indices(contents, indices);
     }
-    contents.remove_replaced(std::move(replaced));
+    contents.remove_unused(std::move(replaced));
+}
+
+} // namespace
+
+std::vector<std::uint32_t> order_by_cluster(const Scene& scene, const ClusteredReceivers& receivers) {
+    std::vector<std::uint32_t> order(receivers.size());
+    std::iota(order.begin(), order.end(), 0u);
+    for (const VertexArray& vertices : scene.vertex_arrays) {
+        const auto begin = order.begin() + static_cast<std::ptrdiff_t>(vertices.first_receiver);
+        std::stable_sort(
+            begin, begin + static_cast<std::ptrdiff_t>(vertices.size()),
+            [&](std::uint32_t a, std::uint32_t b) { return receivers.clusters[a] < receivers.clusters[b]; });
+    }
+    return order;
+}
+
+ClusteredReceivers reordered(const ClusteredReceivers& receivers, std::span<const std::uint32_t> order) {
+    ClusteredReceivers result = receivers;
+    const std::size_t stride = receivers.stride();
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        result.clusters[i] = receivers.clusters[order[i]];
+        if (stride > 0)
+            std::memcpy(&result.weights[i * stride], &receivers.weights[order[i] * stride], stride);
+    }
+    return result;
+}
+
+void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<const std::uint32_t> order) {
+    named(document, [&](GltfContents& contents) { reorder(contents, scene, order); });
 }
 
 std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& other) {

@@ -2,6 +2,7 @@
 
 #include "prt/gltf.h"
 
+#include "gltf/allowance.h"
 #include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
 
@@ -10,12 +11,9 @@
 namespace prt {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kTransferVersion = 1;
 
-} // namespace
-
-void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked) {
-    GltfContents& contents = document.contents();
+void write_into(GltfContents& contents, const Scene& scene, const BakedTransfer& baked) {
     const std::vector<Json*> primitives = unshare(contents, scene);
     contents.remove_transfer();
     const Transfer& transfer = baked.transfer;
@@ -28,22 +26,31 @@ void write_transfer(GltfDocument& document, const Scene& scene, const BakedTrans
     for (std::size_t i = 0; i < primitives.size(); ++i)
         (*primitives[i])["extensions"][kTransferExtension] = {
             {"vectors", views[scene.primitives[i].vertices]}};
-    contents.json["extensions"][kTransferExtension] = {{"version", kVersion},
+    contents.json["extensions"][kTransferExtension] = {{"version", kTransferVersion},
                                                        {"order", transfer.order},
                                                        {"channels", transfer.channels},
                                                        {"bake", record_json(baked.record)}};
     contents.use_extension(kTransferExtension);
 }
 
+} // namespace
+
+void write_transfer(GltfDocument& document, const Scene& scene, const BakedTransfer& baked) {
+    named(document, [&](GltfContents& contents) { write_into(contents, scene, baked); });
+}
+
 std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene) {
     return named(document, [&](const GltfContents& contents) -> std::optional<BakedTransfer> {
-        const Json* extension = find_extension(contents, kTransferExtension, kVersion);
+        const Json* extension = find_extension(contents, kTransferExtension, kTransferVersion);
         if (!extension)
             return std::nullopt;
         BakedTransfer baked;
         Transfer& transfer = baked.transfer;
         read_shape(*extension, transfer.order, transfer.channels);
         baked.record = read_record(extension->value("bake", Json::object()));
+        check_allowed(static_cast<double>(scene.receivers()) *
+                          static_cast<double>(transfer.dimension() * sizeof(float)),
+                      contents.file_bytes, "its transfer");
         transfer.vectors.resize(scene.receivers() * transfer.dimension());
         for (const Primitive& primitive : scene.primitives) {
             const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];

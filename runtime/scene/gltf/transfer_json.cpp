@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
 
 namespace prt {
 namespace {
@@ -26,27 +28,64 @@ Enum one_of(const Json& json, const char* key, std::initializer_list<Enum> value
     throw Error(std::string(key) + " of the bake is a word that this program does not know");
 }
 
+/// The member `key`, a whole number that is not negative, 0 where it is not there.
+template <class Number>
+Number count_or_zero(const Json& json, const char* key) {
+    if (!json.contains(key))
+        return 0;
+    const Json& value = json[key];
+    if (!value.is_number_integer() || value < 0 ||
+        value.get<std::uint64_t>() > std::uint64_t{std::numeric_limits<Number>::max()})
+        throw Error(std::string(key) + " of the bake is " + value.dump() + ", no whole number that fits");
+    return value.get<Number>();
+}
+
+/// The hash of the receivers: 16 digits; empty where it is not there.
+std::string read_hash(const Json& json) {
+    if (!json.contains("receivers"))
+        return {};
+    const std::string hash = json["receivers"];
+    if (hash.size() != 16 || hash.find_first_not_of("0123456789abcdef") != std::string::npos)
+        throw Error("receivers of the bake is no hash of 16 hexadecimal digits");
+    return hash;
+}
+
+/// The bytes of floats, or of float16, as many as are needed.
+std::span<const unsigned char> float_bytes(const GltfContents& contents, const Json& object,
+                                           std::size_t count, const std::string& what) {
+    const std::size_t size = is_half(object) ? sizeof(std::uint16_t) : sizeof(float);
+    const auto bytes = buffer_view_bytes(contents.model, object.at("bufferView").get<int>());
+    if (bytes.size() / size < count)
+        throw Error(what + " need " + std::to_string(count * size) + " bytes, but there are " +
+                    std::to_string(bytes.size()));
+    return bytes;
+}
+
 } // namespace
 
 Json record_json(const BakeRecord& record) {
-    return {{"method", to_string(record.method)},
-            {"backend", to_string(record.backend)},
-            {"raysPerReceiver", record.rays},
-            {"bounces", record.bounces},
-            {"seed", record.seed},
-            {"receivers", record.receivers},
-            {"samplingError", record.sampling_error}};
+    Json json = {{"method", to_string(record.method)},
+                 {"backend", to_string(record.backend)},
+                 {"raysPerReceiver", record.rays},
+                 {"bounces", record.bounces},
+                 {"seed", record.seed}};
+    if (!record.receivers.empty())
+        json["receivers"] = record.receivers;
+    json["samplingError"] = record.sampling_error;
+    return json;
 }
 
 BakeRecord read_record(const Json& json) {
     BakeRecord record;
     record.method = one_of(json, "method", {BakeMethod::trace, BakeMethod::raster});
     record.backend = one_of(json, "backend", {Backend::cpu, Backend::gpu});
-    record.rays = json.value("raysPerReceiver", 0);
-    record.bounces = json.value("bounces", 0);
-    record.seed = json.value("seed", std::uint64_t{0});
-    record.receivers = json.value("receivers", "");
+    record.rays = count_or_zero<int>(json, "raysPerReceiver");
+    record.bounces = count_or_zero<int>(json, "bounces");
+    record.seed = count_or_zero<std::uint64_t>(json, "seed");
+    record.receivers = read_hash(json);
     record.sampling_error = json.value("samplingError", 0.0);
+    if (!(record.sampling_error >= 0))
+        throw Error("samplingError of the bake is negative");
     return record;
 }
 
@@ -54,19 +93,31 @@ const Json* find_extension(const GltfContents& contents, const char* name, int e
     if (!contents.json.contains("extensions") || !contents.json["extensions"].contains(name))
         return nullptr;
     const Json& extension = contents.json["extensions"][name];
-    const int version = extension.value("version", 0);
-    if (version != expected_version)
-        throw Error(std::string(name) + " has version " + std::to_string(version) + ", this program reads " +
+    const Json version = extension.value("version", Json(0));
+    if (!version.is_number_integer() || version != expected_version)
+        throw Error(std::string(name) + " has version " + version.dump() + ", this program reads " +
                     std::to_string(expected_version));
     return &extension;
 }
 
 void read_shape(const Json& extension, int& order, int& channels) {
-    order = extension.at("order").get<int>();
-    check_order(order);
-    channels = extension.at("channels").get<int>();
-    if (channels != 1 && channels != 3)
-        throw Error("has " + std::to_string(channels) + " channels, only 1 or 3 make sense");
+    order = whole_number(extension.at("order"), "order", 1, kMaxOrder);
+    channels = whole_number(extension.at("channels"), "channels", 1, 3);
+    if (channels == 2)
+        throw Error("has 2 channels, only 1 or 3 make sense");
+}
+
+int whole_number(const Json& value, const std::string& name, int least, int most) {
+    if (!value.is_number_integer() || value < least || value > most)
+        throw Error(name + " is " + value.dump(-1, ' ', true, Json::error_handler_t::replace) +
+                    ", no whole number of " + std::to_string(least) + ".." + std::to_string(most));
+    return value.get<int>();
+}
+
+void check_magnitudes(std::span<const float> values, float largest, const std::string& what) {
+    if (!std::all_of(values.begin(), values.end(), [&](float v) { return std::abs(v) <= largest; })) // no NaN
+        throw Error(what + " hold values that are not finite or beyond " +
+                    std::to_string(static_cast<long long>(largest)));
 }
 
 const Json& primitive_json(const GltfContents& contents, const Primitive& primitive) {
@@ -90,11 +141,7 @@ void read_float_view(const GltfContents& contents, const Json& object, std::span
     if (type != TINYGLTF_COMPONENT_TYPE_FLOAT && type != kHalfComponentType)
         throw Error(what + " are of component type " + std::to_string(type) +
                     ", neither 5126 (float32) nor 5131 (float16)");
-    const std::size_t size = is_half(object) ? sizeof(std::uint16_t) : sizeof(float);
-    const auto bytes = buffer_view_bytes(contents.model, object.at("bufferView").get<int>());
-    if (bytes.size() < to.size() * size)
-        throw Error(what + " need " + std::to_string(to.size() * size) + " bytes, but there are " +
-                    std::to_string(bytes.size()));
+    const auto bytes = float_bytes(contents, object, to.size(), what);
     if (is_half(object)) {
         for (std::size_t i = 0; i < to.size(); ++i) {
             std::uint16_t half = 0;
@@ -104,14 +151,19 @@ void read_float_view(const GltfContents& contents, const Json& object, std::span
     } else if (!to.empty()) {
         std::memcpy(to.data(), bytes.data(), to.size_bytes());
     }
-    if (!std::all_of(to.begin(), to.end(), [](float v) { return std::isfinite(v); }))
-        throw Error(what + " hold values that are not finite");
+    check_magnitudes(to, kLargestValue, what);
 }
 
 std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,
-                                   const std::string& what) {
+                                   float largest, const std::string& what) {
+    const int type = object.value("componentType", TINYGLTF_COMPONENT_TYPE_FLOAT);
+    if (type != TINYGLTF_COMPONENT_TYPE_FLOAT)
+        throw Error(what + " are of component type " + std::to_string(type) + ", not 5126 (float32)");
+    const auto bytes = float_bytes(contents, object, count, what);
     std::vector<float> values(count);
-    read_float_view(contents, object, values, what);
+    if (count > 0)
+        std::memcpy(values.data(), bytes.data(), count * sizeof(float));
+    check_magnitudes(values, largest, what);
     return values;
 }
 

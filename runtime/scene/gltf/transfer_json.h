@@ -8,6 +8,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace prt {
 
@@ -25,23 +26,36 @@ void read_shape(const Json& extension, int& order, int& channels);
 const Json& primitive_json(const GltfContents& contents, const Primitive& primitive);
 std::string primitive_name(const Primitive& primitive);
 
+/// `value`, which stands in the file as `name`, as a whole number of `least`..`most`. Throws `Error` where it
+/// is none.
+int whole_number(const Json& value, const std::string& name, int least, int most);
+
+/// Largest magnitude of a value of transfer, and of a weight that is a float: light that is scattered often
+/// adds up to a few, and far beyond squares and sums of what is lit pass what a float holds.
+inline constexpr float kLargestValue = 1e6f, kLargestWeight = 1e9f;
+
+/// Throws `Error` unless all are finite and at most `largest`.
+void check_magnitudes(std::span<const float> values, float largest, const std::string& what);
+
 /// Whether {"bufferView": ..., "componentType": ...} holds float16.
 bool is_half(const Json& object);
 
 /// Reads floats of {"bufferView": ..., "componentType": 5126 or 5131} into `to`; throws unless there are as
-/// many, all finite.
+/// many, all values of transfer.
 void read_float_view(const GltfContents& contents, const Json& object, std::span<float> to,
                      const std::string& what);
+/// Reads `count` floats of {"bufferView": ..., "componentType": 5126}; throws unless there are as many, all
+/// at most `largest`.
 std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,
-                                   const std::string& what);
+                                   float largest, const std::string& what);
 Json write_float_view(GltfContents& contents, std::span<const float> values);
 Json write_half_view(GltfContents& contents, std::span<const float> values);
 
-/// What `read` makes of the contents; errors get the name of the file.
-template <class Read>
-auto named(const GltfDocument& document, Read&& read) {
+/// What `work` makes of the contents; errors get the name of the file.
+template <class Document, class Work>
+auto named(Document& document, Work&& work) {
     try {
-        return read(document.contents());
+        return work(document.contents());
     } catch (const std::exception& error) { // ours, and those of the JSON library on members of a wrong type
         throw Error(document.contents().path.string() + ": " + in_plain_words(error));
     }

@@ -8,6 +8,9 @@
 
 #include <cmath>
 #include <functional>
+#include <span>
+#include <string>
+#include <vector>
 
 namespace prt {
 namespace {
@@ -61,6 +64,69 @@ INSTANTIATE_TEST_SUITE_P(
                },
                ""},
         Damage{"accessor_of_no_view", [](GlbFile& f) { f.json["accessors"][0]["bufferView"] = 99; }, ""},
+        Damage{"accessor_of_negative_offset", [](GlbFile& f) { f.json["bufferViews"][0]["byteOffset"] = -1; },
+               "byteOffset is -1"},
+        Damage{"count_of_halves", [](GlbFile& f) { f.json["accessors"][0]["count"] = 2.5; }, "count is 2.5"},
+        Damage{"index_that_wraps_around",
+               [](GlbFile& f) { primitive(f)["attributes"]["POSITION"] = 1LL << 32; }, "POSITION is 42949"},
+        Damage{"overlapping_elements", [](GlbFile& f) { f.json["bufferViews"][0]["byteStride"] = 4; },
+               "lie 4 apart"},
+        Damage{"view_that_nobody_reads",
+               [](GlbFile& f) {
+                   f.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 8}, {"byteLength", 4096}});
+               },
+               "outside buffer"},
+        Damage{"accessor_that_nobody_reads",
+               [](GlbFile& f) {
+                   nlohmann::ordered_json unread = f.json["accessors"][0];
+                   unread["count"] = 4;
+                   f.json["accessors"].push_back(unread);
+               },
+               "accessor 3 reaches outside"},
+        Damage{"sparse_values_outside_view",
+               [](GlbFile& f) {
+                   f.json["accessors"][0]["sparse"] = {
+                       {"count", 3},
+                       {"indices", {{"bufferView", 2}, {"componentType", test::kUnsignedShort}}},
+                       {"values", {{"bufferView", 0}, {"byteOffset", 4}}}};
+               },
+               "accessor 0 reaches outside"},
+        Damage{"short_attribute_that_nobody_reads",
+               [](GlbFile& f) {
+                   primitive(f)["attributes"]["_FOO"] =
+                       f.accessor(std::vector<float>{1, 2}, test::kFloat, "SCALAR", 1);
+               },
+               "_FOO has 2 elements for 3 vertices"},
+        Damage{"short_morph_target",
+               [](GlbFile& f) {
+                   primitive(f)["targets"] = {
+                       {{"_FOO", f.accessor(std::vector<float>{1, 2}, test::kFloat, "SCALAR", 1)}}};
+               },
+               "_FOO has 2 elements for 3 vertices"},
+        Damage{"attribute_without_elements",
+               [](GlbFile& f) {
+                   f.json["accessors"].push_back(f.json["accessors"][0]);
+                   f.json["accessors"].back()["count"] = 0;
+                   primitive(f)["attributes"]["_FOO"] = f.json["accessors"].size() - 1;
+               },
+               "_FOO has 0 elements"},
+        Damage{"primitive_that_is_none",
+               [](GlbFile& f) {
+                   f.json["meshes"][0]["primitives"].insert(f.json["meshes"][0]["primitives"].begin(), 16);
+               },
+               "primitives"},
+        Damage{"primitive_without_attributes", [](GlbFile& f) { primitive(f).erase("attributes"); },
+               "no attributes"},
+        Damage{"attribute_that_is_an_object",
+               [](GlbFile& f) {
+                   primitive(f)["attributes"] = {{"a", {{"POSITION", 0}}}};
+               },
+               "no whole number"},
+        Damage{"second_buffer_in_the_chunk",
+               [](GlbFile& f) {
+                   f.json["buffers"] = {{{"byteLength", 64}}, {{"byteLength", 64}}};
+               },
+               "buffer 1 has no URI"},
         Damage{"no_such_accessor", [](GlbFile& f) { primitive(f)["attributes"]["POSITION"] = 55; }, "55"},
         Damage{"position_of_two_components", [](GlbFile& f) { f.json["accessors"][0]["type"] = "VEC2"; }, ""},
         Damage{"normals_of_other_number",
@@ -119,6 +185,11 @@ INSTANTIATE_TEST_SUITE_P(
                    f.json["images"] = {{{"uri", "gone.png"}}};
                },
                "gone.png"},
+        Damage{"name_that_a_terminal_obeys",
+               [](GlbFile& f) {
+                   f.json["images"] = {{{"uri", "\x1b[2J\r\ngone\xc2\x9b.png"}}};
+               },
+               "\\x1b[2J\\x0d gone\\u009b.png"},
         Damage{
             "image_outside_buffer",
             [](GlbFile& f) {
@@ -168,6 +239,79 @@ TEST(DamagedGlb, EveryByteChangedIsReadOrRefused) {
         } catch (const Error&) { // fine: the point is that nothing else happens
         }
     }
+}
+
+std::string refusal_of(const std::string& file, const char* name = "bad.glb") {
+    try {
+        extract_scene(parse_gltf(std::as_bytes(std::span(file)), name));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "was read";
+}
+
+TEST(HostileGltf, NestsNoDeeperThanItsReadersHaveStackFor) {
+    const std::string asset = "{\"asset\":{\"version\":\"2.0\"},";
+    const auto nested = [](std::size_t levels) {
+        return std::string(levels, '[') + "\"]\"" + std::string(levels, ']');
+    };
+    for (const char* member : {"\"extras\"", "\"unknown\"", "\"extensions\""})
+        for (const std::size_t levels : {std::size_t{1000}, std::size_t{100'000}, std::size_t{1'000'000}})
+            EXPECT_NE(
+                refusal_of(asset + member + ":" + nested(levels) + "}", "bad.gltf").find("nests its JSON"),
+                std::string::npos);
+    EXPECT_NE(refusal_of(asset + "\"extras\":" + nested(200) + "}", "bad.gltf").find("no triangles"),
+              std::string::npos);
+    GlbFile binary = test::triangle_file();
+    for (int level = 0; level < 1000; ++level)
+        binary.json["extras"] = nlohmann::ordered_json::array({std::move(binary.json["extras"])});
+    EXPECT_NE(refusal_of(binary.bytes()).find("nests its JSON"), std::string::npos);
+}
+
+TEST(HostileGltf, ZerosAndInstancesAreBounded) {
+    GlbFile zeros = test::triangle_file();
+    for (std::size_t a : {0, 1}) {
+        zeros.json["accessors"][a]["count"] = 67'108'864;
+        zeros.json["accessors"][a].erase("bufferView");
+    }
+    EXPECT_NE(refusal_of(zeros.bytes()).find("accessor 0 without data would take 805 MB"), std::string::npos);
+    // Each within the bound, all together not.
+    GlbFile often = test::triangle_file();
+    for (std::size_t a : {0, 1}) {
+        often.json["accessors"][a]["count"] = 1'000'000;
+        often.json["accessors"][a].erase("bufferView");
+    }
+    for (int i = 0; i < 8; ++i)
+        often.json["nodes"].push_back({{"mesh", 0}});
+    often.json["scenes"][0]["nodes"] = {0, 1, 2, 3, 4, 5, 6, 7};
+    EXPECT_NE(refusal_of(often.bytes()).find("with its instances and morph targets, would take"),
+              std::string::npos);
+    often.json["scenes"][0]["nodes"] = {0};
+    EXPECT_EQ(refusal_of(often.bytes()), "was read");
+}
+
+TEST(HostileGltf, ListsAreBoundedByWhatTheirReaderMakesOfThem) {
+    GlbFile file = test::triangle_file();
+    file.json["materials"] = std::vector<nlohmann::ordered_json>(400'000, nlohmann::ordered_json::object());
+    EXPECT_NE(refusal_of(file.bytes()).find("its JSON would take"), std::string::npos);
+}
+
+TEST(HostileGltf, ImagesThatShareTheirBytesAreBounded) {
+    GlbFile file = test::triangle_file();
+    const std::size_t view = file.view(std::vector<std::byte>(1'000'000));
+    for (int i = 0; i < 300; ++i)
+        file.json["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});
+    EXPECT_NE(refusal_of(file.bytes()).find("its images, still encoded, would take"), std::string::npos);
+}
+
+TEST(HostileGltf, CompressedViewsAreBounded) {
+    GlbFile file = test::triangle_file();
+    const std::size_t view = file.view(std::vector<std::byte>(20'000));
+    file.json["bufferViews"][view]["extensions"]["EXT_meshopt_compression"] = {
+        {"buffer", 0},          {"byteOffset", file.json["bufferViews"][view]["byteOffset"]},
+        {"byteLength", 20'000}, {"byteStride", 256},
+        {"count", 20'000'000},  {"mode", "ATTRIBUTES"}};
+    EXPECT_NE(refusal_of(file.bytes()).find("would take 10240 MB"), std::string::npos);
 }
 
 TEST(DamagedGltfText, IsRefused) {

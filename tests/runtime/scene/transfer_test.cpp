@@ -8,10 +8,12 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <random>
 
 namespace prt {
@@ -97,8 +99,15 @@ CompressedTransfer random_compressed(const Scene& scene, int clusters, WeightFor
     for (std::size_t p = 0; p < scene.receivers(); ++p)
         r.clusters.push_back(static_cast<std::uint16_t>(random() % static_cast<unsigned>(clusters)));
     r.weights.resize(scene.receivers() * static_cast<std::size_t>(r.components) * bytes_per_weight(format));
+    if (format == WeightFormat::float32) {
+        std::vector<float> floats(r.weights.size() / sizeof(float));
+        for (float& v : floats)
+            v = static_cast<float>(random() % 1000) / 100 - 5;
+        std::memcpy(r.weights.data(), floats.data(), r.weights.size());
+        return c;
+    }
     for (std::byte& v : r.weights)
-        v = static_cast<std::byte>(random() % 127); // any bytes are floats or integers
+        v = static_cast<std::byte>(random() % 127);
     return c;
 }
 
@@ -276,13 +285,17 @@ public:
         bytes_.assign((std::istreambuf_iterator<char>(file)), {});
     }
     void operator()(const std::function<void(nlohmann::ordered_json&)>& change) const {
+        in_file([&](GlbFile& file) { change(file.json); });
+    }
+    void in_file(const std::function<void(GlbFile&)>& change) const {
         GlbFile changed;
         changed.json = good_;
-        change(changed.json);
         std::uint32_t length = 0;
         std::memcpy(&length, bytes_.data() + 12, 4);
         const auto* data = reinterpret_cast<const std::byte*>(bytes_.data());
         changed.binary.assign(data + 28 + length, data + bytes_.size());
+        change(changed);
+        changed.json.erase("buffers"); // of the length that it has now
         changed.write(files_.folder / "changed.glb");
         const GltfDocument d = load_gltf(files_.folder / "changed.glb");
         read_clustered(d, extract_scene(d));
@@ -335,6 +348,127 @@ TEST(TransferInGltf, DamagedTransferIsRefused) {
     EXPECT_THROW(
         read_changed([&](auto& j) { j["meshes"][0]["primitives"][0]["attributes"]["_PRT_CLUSTER"] = 0; }),
         Error);
+}
+
+std::string refusal(const Damage& read_changed, const std::function<void(GlbFile&)>& change) {
+    try {
+        read_changed.in_file(change);
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "was read";
+}
+
+/// Puts `value` over float `index` of a buffer view.
+void put_float(GlbFile& file, const nlohmann::ordered_json& view, std::size_t index, float value) {
+    const auto offset = file.json["bufferViews"][view.get<std::size_t>()]["byteOffset"].get<std::size_t>();
+    std::memcpy(&file.binary[offset + index * sizeof value], &value, sizeof value);
+}
+
+TEST(TransferInGltf, EverythingThatTheSchemaForbidsIsRefused) {
+    const Damage read_changed(WeightFormat::packed);
+    const auto bases = [](auto& j) -> auto& {
+        return extension(j)["bases"];
+    };
+    const std::function<void(nlohmann::ordered_json&)> changes[] = {
+        [&](auto& j) { extension(j)["version"] = 2.5; },
+        [&](auto& j) { extension(j)["order"] = 3.5; },
+        [&](auto& j) { extension(j)["channels"] = 3.5; },
+        [&](auto& j) { extension(j)["components"][1] = 1.5; },
+        [&](auto& j) { extension(j)["components"][1] = (1LL << 33) + 1; },
+        [&](auto& j) { extension(j)["components"][0] = -1; },
+        [&](auto& j) { extension(j)["packing"]["clusterBits"] = 0; }, // for two clusters
+        [&](auto& j) { extension(j)["packing"]["clusterBits"] = 1.5; },
+        [&](auto& j) { bases(j)["step"] = -0.01; },
+        [&](auto& j) { bases(j)["step"] = "small"; },
+        [&](auto& j) { bases(j)["step"] = 1e39; },
+        [&](auto& j) { bases(j)["axes"]["drops"][0] = 16; },
+        [&](auto& j) { bases(j)["values"]["drops"][0] = 257; },
+        [&](auto& j) { bases(j)["values"]["drops"][0] = 0.5; },
+        [&](auto& j) { bases(j)["origin"]["componentType"] = 5131; },
+        [&](auto& j) { extension(j)["bake"]["raysPerReceiver"] = -1; },
+        [&](auto& j) { extension(j)["bake"]["raysPerReceiver"] = 1LL << 33; },
+        [&](auto& j) { extension(j)["bake"]["bounces"] = 1.5; },
+        [&](auto& j) { extension(j)["bake"]["seed"] = -3; },
+        [&](auto& j) { extension(j)["bake"]["receivers"] = "\x1b[31mred        "; },
+        [&](auto& j) { extension(j)["bake"]["samplingError"] = -1; },
+        [&](auto& j) { extension(j)["bake"]["samplingError"] = nullptr; }};
+    for (std::size_t i = 0; i < std::size(changes); ++i)
+        EXPECT_THROW(read_changed(changes[i]), Error) << i;
+}
+
+TEST(TransferInGltf, DecodedBasesAreFinite) {
+    const Damage read_changed(WeightFormat::packed);
+    const auto huge = [](GlbFile& file) {
+        auto& bases = extension(file.json)["bases"];
+        bases["step"] = 3e38;
+        put_float(file, bases["scales"]["bufferView"], 0, 3e38f);
+    };
+    EXPECT_NE(refusal(read_changed, huge).find("decoded bases"), std::string::npos);
+}
+
+TEST(TransferInGltf, WeightsAndVectorsAreFiniteAndNotHuge) {
+    const Damage read_changed(WeightFormat::float32);
+    for (const float value : {std::nanf(""), std::numeric_limits<float>::infinity(), 3e38f}) {
+        const auto weight = [&](GlbFile& file) {
+            const auto accessor =
+                file.json["meshes"][0]["primitives"][0]["attributes"]["_PRT_WEIGHTS_0"].get<std::size_t>();
+            put_float(file, file.json["accessors"][accessor]["bufferView"], 1, value);
+        };
+        EXPECT_NE(refusal(read_changed, weight).find("the weights"), std::string::npos);
+        const auto basis = [&](GlbFile& file) {
+            put_float(file, extension(file.json)["bases"]["bufferView"], 2, value);
+        };
+        EXPECT_NE(refusal(read_changed, basis).find("the bases"), std::string::npos);
+
+        const OnDisk files(test::triangle_file());
+        GltfDocument document = load_gltf(files.source);
+        const Scene scene = extract_scene(document);
+        BakedTransfer baked = random_bake(scene, 2, 1);
+        baked.transfer.vectors[3] = value;
+        write_transfer(document, scene, baked);
+        save_glb(document, files.written);
+        EXPECT_THROW(read_transfer(load_gltf(files.written), scene), Error);
+    }
+}
+
+TEST(TransferInGltf, WhatTheFileDoesNotHoldIsNotAllocated) {
+    const Damage read_plain(WeightFormat::snorm8), read_coded(WeightFormat::packed);
+    const auto many_clusters = [](GlbFile& file) {
+        extension(file.json)["components"] = std::vector<int>(65536, 27);
+    };
+    EXPECT_NE(refusal(read_plain, many_clusters).find("bytes, but there are"), std::string::npos);
+    // A row of zeros has four bits and becomes as many values as there are axes.
+    const auto many_axes = [&](GlbFile& file) {
+        auto& e = extension(file.json);
+        e["components"] = std::vector<int>(2048, 16);
+        e["packing"]["clusterBits"] = 11;
+        e["packing"]["bufferView"] = file.view(std::vector<std::byte>(2048 * 8));
+        e["bases"]["values"] = {{"drops", std::vector<int>(20000, 0)},
+                                {"bufferView", file.view(std::vector<std::byte>(17 * 2048 / 2))}};
+        e["bases"]["scales"]["bufferView"] = file.view(std::vector<std::byte>(80000));
+    };
+    EXPECT_NE(refusal(read_coded, many_axes).find("its bases would take"), std::string::npos);
+}
+
+TEST(TransferInGltf, DataThatTransferSharesWithGeometryStays) {
+    const OnDisk files(test::triangle_file());
+    GltfDocument document = load_gltf(files.source);
+    const Scene scene = extract_scene(document);
+    write_transfer(document, scene, random_bake(scene, 1, 1));
+    save_glb(document, files.written);
+    GlbFile shared = test::triangle_file();
+    shared.json["extensions"]["PRTKIT_transfer"] = json_of(files.written)["extensions"]["PRTKIT_transfer"];
+    auto& primitive = shared.json["meshes"][0]["primitives"][0];
+    primitive["extensions"]["PRTKIT_transfer"]["vectors"] = {{"bufferView", 0}}; // of the positions
+    primitive["attributes"]["_PRT_CLUSTER"] = 1;                                 // the normals
+    shared.write(files.source);
+    GltfDocument again = load_gltf(files.source);
+    write_transfer(again, extract_scene(again), random_bake(scene, 1, 1));
+    save_glb(again, files.written);
+    const Scene after = extract_scene(load_gltf(files.written));
+    EXPECT_EQ(after.vertex_arrays[0].positions, scene.vertex_arrays[0].positions);
+    EXPECT_EQ(after.vertex_arrays[0].normals, scene.vertex_arrays[0].normals);
 }
 
 } // namespace

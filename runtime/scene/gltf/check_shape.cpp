@@ -1,0 +1,178 @@
+// The shape of a glTF file's JSON: lists, whole numbers, and how much there is of them.
+#include "gltf/check_shape.h"
+
+#include "gltf/allowance.h"
+#include "gltf/draco_primitives.h"
+#include "gltf/meshopt_views.h"
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <array>
+#include <climits>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace prt {
+namespace {
+
+/// Lists at the top level, and what tinygltf keeps for each element.
+constexpr std::pair<const char*, std::size_t> kLists[] = {{"accessors", sizeof(tinygltf::Accessor)},
+                                                          {"animations", sizeof(tinygltf::Animation)},
+                                                          {"bufferViews", sizeof(tinygltf::BufferView)},
+                                                          {"buffers", sizeof(tinygltf::Buffer)},
+                                                          {"cameras", sizeof(tinygltf::Camera)},
+                                                          {"images", sizeof(tinygltf::Image)},
+                                                          {"materials", sizeof(tinygltf::Material)},
+                                                          {"meshes", sizeof(tinygltf::Mesh)},
+                                                          {"nodes", sizeof(tinygltf::Node)},
+                                                          {"samplers", sizeof(tinygltf::Sampler)},
+                                                          {"scenes", sizeof(tinygltf::Scene)},
+                                                          {"skins", sizeof(tinygltf::Skin)},
+                                                          {"textures", sizeof(tinygltf::Texture)}};
+
+/// Members that are indices, counts or lengths wherever they stand.
+constexpr std::array<std::string_view, 21> kWholeNumbers = {
+    "buffer",  "bufferView",    "byteLength", "byteOffset", "byteStride",
+    "camera",  "count",         "index",      "indices",    "inverseBindMatrices",
+    "input",   "componentType", "mesh",       "material",   "node",
+    "output",  "sampler",       "scene",      "skin",       "source",
+    "texCoord"};
+
+/// How the names of extensions begin whose numbers this program reads; what others mean by the same words is
+/// theirs.
+constexpr std::array<std::string_view, 8> kReadExtensions = {
+    "PRTKIT_",        kMeshoptExtension, kDracoExtension, "EXT_mesh_gpu_instancing",
+    "KHR_materials_", "KHR_texture_",    "EXT_texture_",  "MSFT_texture_"};
+
+bool is_read(std::string_view extension) {
+    return std::any_of(kReadExtensions.begin(), kReadExtensions.end(),
+                       [&](std::string_view begin) { return extension.starts_with(begin); });
+}
+
+void check_whole(const Json& value, const std::string& name) {
+    // tinygltf keeps indices in an int, and lengths and counts in 64 bits.
+    const bool length = name.starts_with("byte") || name == "count";
+    const std::uint64_t most = length ? std::uint64_t{1} << 53 : INT_MAX;
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most)
+        throw Error("is damaged glTF: " + name + " is " +
+                    value.dump(-1, ' ', true, Json::error_handler_t::replace) + ", no whole number of 0.." +
+                    std::to_string(most));
+}
+
+/// Names and the accessors, or other things, that they mean.
+void check_attributes(const Json& attributes) {
+    for (const auto& [name, value] : attributes.items()) {
+        if (name.find('\0') != std::string::npos)
+            throw Error("is damaged glTF: the name of an attribute holds a zero");
+        check_whole(value, name);
+    }
+}
+
+/// How many values stand within `json`, with itself.
+std::size_t count_values(const Json& json) {
+    std::size_t count = 1;
+    if (json.is_structured())
+        for (const Json& value : json)
+            count += count_values(value);
+    return count;
+}
+
+/// Looks at the numbers of everything that is read below `json`; returns how many values tinygltf keeps as
+/// they stand there.
+std::size_t check_values(const Json& json) {
+    std::size_t kept = 0;
+    if (json.is_array()) {
+        for (const Json& value : json)
+            kept += value.is_structured() ? check_values(value) : 0;
+        return kept;
+    }
+    for (const auto& [key, value] : json.items()) {
+        if (key == "extras") {
+            kept += count_values(value);
+        } else if (key == "extensions") {
+            kept += count_values(value);
+            for (const auto& [name, extension] : value.items())
+                if (is_read(name) && extension.is_structured())
+                    check_values(extension);
+        } else if (value.is_structured()) {
+            kept += check_values(value);
+            if (key == "attributes" && value.is_object())
+                check_attributes(value);
+        } else if (std::find(kWholeNumbers.begin(), kWholeNumbers.end(), key) != kWholeNumbers.end()) {
+            check_whole(value, key);
+        }
+    }
+    return kept;
+}
+
+const Json& list_of(const Json& owner, const char* name) {
+    static const Json kNothing = Json::array();
+    const auto list = owner.find(name);
+    return list == owner.end() ? kNothing : *list;
+}
+
+void check_list(const Json& owner, const char* name) {
+    const Json& list = list_of(owner, name);
+    if (!list.is_array())
+        throw Error(std::string("is damaged glTF: ") + name + " is no list");
+    for (const Json& element : list)
+        if (!element.is_object())
+            throw Error(std::string("is damaged glTF: ") + name + " holds something that is no object");
+}
+
+/// Bytes that tinygltf takes for the primitives.
+double check_primitives(const Json& json) {
+    double bytes = 0;
+    for (const Json& mesh : list_of(json, "meshes"))
+        check_list(mesh, "primitives");
+    for_each_primitive(json, [&](const Json& primitive) {
+        if (!primitive.contains("attributes") || !primitive["attributes"].is_object())
+            throw Error("is damaged glTF: a primitive has no attributes");
+        if (primitive.contains("mode")) // a word in EXT_meshopt_compression
+            check_whole(primitive["mode"], "mode");
+        constexpr std::size_t kMapEntry = 80; // name and number
+        std::size_t entries = primitive["attributes"].size();
+        check_list(primitive, "targets");
+        for (const Json& target : list_of(primitive, "targets")) {
+            check_attributes(target);
+            entries += target.size() + 1;
+        }
+        bytes += static_cast<double>(sizeof(tinygltf::Primitive) + entries * kMapEntry);
+    });
+    return bytes;
+}
+
+} // namespace
+
+void check_shape(const Json& json, std::size_t text_bytes) {
+    double bytes = 0;
+    for (const auto& [name, size] : kLists) {
+        check_list(json, name);
+        bytes += static_cast<double>(list_of(json, name).size() * size);
+    }
+    bytes += static_cast<double>(check_values(json) * sizeof(tinygltf::Value));
+    bytes += check_primitives(json);
+    check_allowed(bytes, text_bytes, "its JSON");
+}
+
+void check_views(const Json& json) {
+    const Json &buffers = list_of(json, "buffers"), &views = list_of(json, "bufferViews");
+    for (std::size_t b = 1; b < buffers.size(); ++b)
+        if (!buffers[b].contains("uri"))
+            throw Error("buffer " + std::to_string(b) + " has no URI");
+    for (std::size_t v = 0; v < views.size(); ++v) {
+        const std::string name = "buffer view " + std::to_string(v);
+        const auto buffer = views[v].at("buffer").get<std::size_t>();
+        if (buffer >= buffers.size())
+            throw Error(name + " names buffer " + std::to_string(buffer) + ", which is not there");
+        const auto size = buffers[buffer].at("byteLength").get<std::size_t>();
+        const auto offset = views[v].value("byteOffset", std::size_t{0});
+        if (offset > size || views[v].at("byteLength").get<std::size_t>() > size - offset)
+            throw Error(name + " reaches outside buffer " + std::to_string(buffer) + ", which has " +
+                        std::to_string(size) + " bytes");
+    }
+}
+
+} // namespace prt

@@ -1,0 +1,59 @@
+// Parses the JSON of a glTF file.
+#include "gltf/json_text.h"
+
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <string>
+
+namespace prt {
+namespace {
+
+/// Line and column of a byte of the file, both from 1.
+std::string place_of(std::string_view text, std::size_t byte) {
+    const std::string_view before = text.substr(0, std::min(byte, text.size()));
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const std::size_t start = before.find_last_of('\n');
+    return "line " + std::to_string(line) + ", column " +
+           std::to_string(before.size() - (start == std::string_view::npos ? 0 : start + 1));
+}
+
+/// Throws where objects and arrays are within one another too often.
+void check_depth(std::string_view text) {
+    constexpr int kMostLevels = 256;
+    int level = 0;
+    bool quoted = false;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '"')
+            quoted = !quoted;
+        else if (quoted)
+            i += c == '\\' ? 1 : 0;
+        else if (c == '{' || c == '[')
+            ++level;
+        else if (c == '}' || c == ']')
+            --level;
+        if (level > kMostLevels)
+            throw Error("nests its JSON deeper than " + std::to_string(kMostLevels) + " levels at " +
+                        place_of(text, i + 1));
+    }
+}
+
+} // namespace
+
+Json parse_json(std::string_view text) {
+    check_depth(text);
+    try {
+        Json json = Json::parse(text);
+        if (!json.is_object() || !json.contains("asset") || !json["asset"].is_object())
+            throw Error("is JSON, but no glTF: it has no asset");
+        const std::string version = json["asset"].value("version", "");
+        if (!version.starts_with("2."))
+            throw Error("is glTF of version '" + version + "', only 2 is supported");
+        return json;
+    } catch (const nlohmann::json::parse_error& error) {
+        throw Error("is damaged: its JSON cannot be read at " + place_of(text, error.byte));
+    }
+}
+
+} // namespace prt

@@ -1,0 +1,15 @@
+#pragma once
+
+// The JSON of a glTF file.
+
+#include "gltf/contents.h"
+
+#include <string_view>
+
+namespace prt {
+
+/// The glTF that `text` holds. Throws `Error` where it is none, and with the line and column where it is
+/// damaged or nests deeper than the readers of JSON, which call themselves, have stack for.
+Json parse_json(std::string_view text);
+
+} // namespace prt

@@ -1,0 +1,71 @@
+// Vertices, indices and morph targets of all nodes, counted.
+#include "gltf/scene_size.h"
+
+#include "gltf/accessor.h"
+#include "gltf/allowance.h"
+#include "gltf/triangles.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace prt {
+namespace {
+
+using Attributes = std::map<std::string, int>;
+
+// Bytes while a scene is read: of a vertex its places in float and double and its normal, of an element of an
+// attribute or morph target the largest, of an index itself and its share of a triangle, of a primitive
+// itself and its names.
+constexpr double kVertex = 64, kElement = 16, kIndex = 8, kPrimitive = 256;
+
+double count_of(const tinygltf::Model& model, int accessor) {
+    return static_cast<double>(get_accessor(model, accessor).count);
+}
+
+/// Bytes that one instance of `mesh` takes.
+double instance_bytes(const tinygltf::Model& model, const tinygltf::Mesh& mesh) {
+    std::set<std::pair<Attributes, std::vector<Attributes>>> seen;
+    double bytes = 0;
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+        bytes += kPrimitive;
+        const auto position = primitive.attributes.find("POSITION");
+        if (!is_triangle_mode(primitive.mode) || position == primitive.attributes.end())
+            continue;
+        const double indices = primitive.indices >= 0 ? count_of(model, primitive.indices) : 0;
+        double vertices = count_of(model, position->second);
+        bytes += kIndex * std::max(indices, vertices);
+        if (primitive.attributes.contains("NORMAL")) {
+            if (!seen.emplace(primitive.attributes, primitive.targets).second)
+                continue; // shared with a primitive before
+        } else {
+            vertices = std::max(vertices, indices); // flat normals part them
+        }
+        std::size_t elements = primitive.attributes.size();
+        for (const Attributes& target : primitive.targets)
+            elements += target.size();
+        bytes += vertices * (kVertex + kElement * static_cast<double>(elements));
+    }
+    return bytes;
+}
+
+} // namespace
+
+void check_scene_size(const tinygltf::Model& model, std::span<const NodeTransform> nodes,
+                      std::size_t file_bytes) {
+    std::vector<double> of_mesh;
+    for (const tinygltf::Mesh& mesh : model.meshes)
+        of_mesh.push_back(instance_bytes(model, mesh));
+    double bytes = 0;
+    for (const NodeTransform& node : nodes) {
+        const int mesh = model.nodes[static_cast<std::size_t>(node.node)].mesh;
+        if (node.visible && mesh >= 0 && static_cast<std::size_t>(mesh) < of_mesh.size())
+            bytes += of_mesh[static_cast<std::size_t>(mesh)];
+    }
+    check_allowed(bytes, file_bytes, "the scene, with its instances and morph targets,");
+}
+
+} // namespace prt
