@@ -113,7 +113,8 @@ Table clusters_table(const Evaluation& evaluation) {
 class Comparison {
 public:
     Comparison(const ComparisonOptions& a, SceneFile& baked)
-        : a_(a), baked_(baked), model_(load_scene_file(a.shipped)), shipped_(candidate(model_, a.shipped)) {
+        : a_(a), baked_(baked), model_(load_scene_file(a.shipped, a.reading)),
+          shipped_(candidate(model_, a.shipped)) {
         check_belong_together(baked, a.baked, model_, a.shipped);
         put_in_order_of(model_.scene, baked);
         areas_ = receiver_areas(baked.scene);

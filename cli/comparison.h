@@ -11,6 +11,7 @@ namespace prt::cli {
 
 struct ComparisonOptions {
     Path baked, shipped;
+    GltfOptions reading;   ///< of `shipped`
     bool pictures = false; ///< of both and their difference, under the light that shows it best
     int threads = 0;
 };

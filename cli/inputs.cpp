@@ -46,8 +46,8 @@ void put_in_order_of(const Scene& scene, SceneFile& baked) {
     baked.scene = scene;
 }
 
-SceneFile load_scene_file(const Path& path) {
-    GltfDocument document = load_gltf(path);
+SceneFile load_scene_file(const Path& path, const GltfOptions& options) {
+    GltfDocument document = load_gltf(path, options);
     Scene scene = extract_scene(document);
     auto baked = read_transfer(document, scene);
     auto compressed = read_clustered(document, scene);
@@ -55,6 +55,18 @@ SceneFile load_scene_file(const Path& path) {
         print_notices(path.string(), scene.notices);
     return {std::move(document), std::move(scene), std::move(baked), std::move(compressed)};
 }
+
+namespace {
+
+Light projected(const Path& path, const Environment& environment, int order, int threads) {
+    try {
+        return project(environment, order, threads);
+    } catch (const Error& error) {
+        throw Error(path.string() + ": " + error.what());
+    }
+}
+
+} // namespace
 
 LoadedLight load_light(const Path& path, int order, const LightOptions& options, int threads) {
     LoadedLight result;
@@ -73,7 +85,7 @@ LoadedLight load_light(const Path& path, int order, const LightOptions& options,
             print_notices(path.string(),
                           {"has 8 bits per channel: it is read as sRGB, and what is brighter than "
                            "white (suns, lamps) is clipped"});
-        result.light = project(file.environment, order, threads);
+        result.light = projected(path, file.environment, order, threads);
         result.environment = std::move(file.environment);
     }
     result.light = windowed(result.light, options.window);

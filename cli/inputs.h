@@ -32,7 +32,7 @@ struct SceneFile {
     /// How the transfer was baked; null where there is none.
     const BakeRecord* record() const;
 };
-SceneFile load_scene_file(const Path& path);
+SceneFile load_scene_file(const Path& path, const GltfOptions& options = {});
 
 /// Puts the receivers of a bake in the order that they have in another file of the same scene, whose vertices
 /// prt compress --reorder may have moved.

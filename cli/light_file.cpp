@@ -1,5 +1,6 @@
 #include "light_file.h"
 
+#include "prt/check_light.h"
 #include "prt/sh.h"
 #include "prt/sun_fit.h"
 #include "prt/support/error.h"
@@ -132,8 +133,11 @@ Light read_light_json(const std::filesystem::path& path) {
         const Json json = parsed(file);
         if (!json.is_object() || !json.contains("prtkit_light") || json["prtkit_light"] != 1)
             throw Error("is JSON, but no light of prt project");
-        const Light light = coefficients_of(json);
-        return json.contains("lights") ? sum(light, lights_of(json["lights"], light.order)) : light;
+        Light light = coefficients_of(json);
+        if (json.contains("lights"))
+            light = sum(light, lights_of(json["lights"], light.order));
+        check_light(light);
+        return light;
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
     }

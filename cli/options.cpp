@@ -29,6 +29,11 @@ void add_output(CLI::App* command, Path& output, const std::string& text) {
     command->add_option("-o,--output", output, text)->required()->type_name("FILE")->check(empty);
 }
 
+void add_reading(CLI::App* command, GltfOptions& reading) {
+    command->add_flag("--allow-outside", reading.allow_outside,
+                      "a scene's buffers and images may lie outside its folder: for scenes that you trust");
+}
+
 void add_threads(CLI::App* command, int& threads) {
     command->add_option("--threads", threads, "number of threads, 0: all")
         ->capture_default_str()

@@ -42,6 +42,8 @@ CLI::Option* choice(CLI::App* command, const std::string& name, Target& target,
 
 /// -o, --output: the file that a command is for.
 void add_output(CLI::App* command, Path& output, const std::string& text);
+/// --allow-outside, of every command that reads a scene.
+void add_reading(CLI::App* command, GltfOptions& reading);
 void add_threads(CLI::App* command, int& threads);
 void add_json(CLI::App* command, Path& json);
 void add_reports(CLI::App* command, ReportFiles& files);

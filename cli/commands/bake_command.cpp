@@ -18,6 +18,7 @@ struct BakeArguments {
     Path scene, output, json;
     std::vector<std::string> no_shadow; ///< names of materials
     BakeOptions options;
+    GltfOptions reading;
 };
 
 const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
@@ -224,9 +225,10 @@ BakeResult baked(const BakeArguments& a, Scene& scene, Session& session) {
 
 void run(const BakeArguments& a, Session& session) {
     check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.scene});
-    const auto missing =
+    GltfOptions reading = a.reading;
+    reading.missing_images =
         a.options.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
-    GltfDocument document = load_gltf(a.scene, missing);
+    GltfDocument document = load_gltf(a.scene, reading);
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
     const BakeResult result = baked(a, scene, session);
@@ -264,6 +266,7 @@ void add_bake(CLI::App& app, Session& session) {
     choice(command, "--storage", a.options.storage, kStorages,
            "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
     command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
+    add_reading(command, a.reading);
     add_threads(command, a.options.threads);
     add_json(command, a.json);
 }

@@ -13,11 +13,12 @@ struct BenchArguments {
     Path scene;
     ReportFiles files;
     BenchOptions options;
+    GltfOptions reading;
     bool classic = false;
 };
 
 Report scene_report(const BenchArguments& a, Session& session) {
-    const GltfDocument document = load_gltf(a.scene);
+    const GltfDocument document = load_gltf(a.scene, a.reading);
     const Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
     ProgressBar bar = session.progress_bar("measuring");
@@ -79,6 +80,7 @@ void add_bench(CLI::App& app, Session& session) {
     command->add_option("--most-seconds", a.options.most_seconds, "leave runs out that would take longer")
         ->capture_default_str();
     command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
+    add_reading(command, a.reading);
     add_threads(command, a.options.threads);
     add_reports(command, a.files);
 }

@@ -29,7 +29,10 @@ struct CompressArguments {
     bool components_given = false;
     bool preset = false; ///< `options.compress` is one, to be fitted to the mesh
     bool best_effort = false;
-    bool meshopt = false, reorder = false;
+    struct Writing {
+        bool meshopt = false, reorder = false;
+    } writing;
+    GltfOptions reading;
 };
 
 const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::packed},
@@ -159,14 +162,15 @@ Outcome run_compressor(const CompressArguments& a, const SceneFile& model, const
 
 /// Puts the result into the scene's file, in the order that is asked for, and writes that.
 void save(const CompressArguments& a, SceneFile& model, ClusteredTransfer& result, Session& session) {
-    if (a.reorder) {
+    if (a.writing.reorder) {
         const std::vector<std::uint32_t> order = order_by_cluster(model.scene, result.receivers);
         reorder_vertices(model.document, model.scene, order);
         result.receivers = reordered(result.receivers, order);
     }
     write_clustered(model.document, model.scene, {result, model.baked->record});
     session.write([&] {
-        save_glb(model.document, a.output, a.meshopt ? BufferCompression::meshopt : BufferCompression::none);
+        save_glb(model.document, a.output,
+                 a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none);
     });
 }
 
@@ -231,7 +235,7 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
     list.emplace_back(
         "GPU: {bytes_attributes} bytes of attributes, {bytes_bases} of bases, {bytes_constants} "
         "of constants per lighting; uncompressed {bytes_uncompressed}");
-    if (a.reorder)
+    if (a.writing.reorder)
         list.emplace_back(
             "vertices transformed per triangle {vertices_transformed_per_triangle:.3f}, before "
             "{vertices_transformed_per_triangle_before:.3f}; fetched {vertex_overfetch:.2f} times, before "
@@ -240,8 +244,8 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
     return list;
 }
 
-SceneFile load_bake(const Path& path) {
-    SceneFile model = load_scene_file(path);
+SceneFile load_bake(const Path& path, const GltfOptions& reading) {
+    SceneFile model = load_scene_file(path, reading);
     if (!model.baked)
         throw Error(path.string() + (model.compressed
                                          ? ": is compressed already; compress the bake it came from"
@@ -256,7 +260,7 @@ void run(const CompressArguments& a, Session& session) {
                    {a.reports.json, "--json", {".json"}},
                    {a.reports.trace, "--trace", {".jsonl"}}},
                   inputs);
-    SceneFile model = load_bake(a.baked);
+    SceneFile model = load_bake(a.baked, a.reading);
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
     options.compress.metric = chosen_metric(a, transfer);
@@ -318,9 +322,10 @@ void add_compress(CLI::App& app, Session& session) {
         ->add_option("--potts-weight", a.options.compress.border_price,
                      "price of a neighbour in another cluster, in mean squared errors")
         ->capture_default_str();
-    command->add_flag("--reorder", a.reorder, "put the vertices of a cluster side by side");
-    command->add_flag("--meshopt", a.meshopt, "write vertex data through EXT_meshopt_compression");
+    command->add_flag("--reorder", a.writing.reorder, "put the vertices of a cluster side by side");
+    command->add_flag("--meshopt", a.writing.meshopt, "write vertex data through EXT_meshopt_compression");
     command->add_option("--seed", a.options.compress.seed, "seed of the clustering")->capture_default_str();
+    add_reading(command, a.reading);
     add_threads(command, a.options.compress.threads);
     command
         ->add_option("--trace", a.reports.trace,

@@ -21,6 +21,7 @@ struct EvaluateArguments {
     LightOptions light_options;
     int rotations = 1; ///< of each light about +Y
     bool sweep = false;
+    GltfOptions reading;
     int threads = 0;
 };
 
@@ -84,15 +85,18 @@ void check(const EvaluateArguments& a) {
 
 void run(const EvaluateArguments& a, Session& session) {
     check(a);
-    SceneFile baked = load_scene_file(a.baked);
+    SceneFile baked = load_scene_file(a.baked, a.reading);
     if (!baked.baked)
         throw Error(a.baked.string() + ": holds no raw transfer; the first file is the output of prt bake");
     const std::vector<LoadedLight> lights = lights_of(a, baked.baked->transfer.order);
     Report report = empty_report(a, session);
     if (!a.shipped.empty())
-        add_comparison(
-            {.baked = a.baked, .shipped = a.shipped, .pictures = !a.files.html.empty(), .threads = a.threads},
-            baked, lights, report);
+        add_comparison({.baked = a.baked,
+                        .shipped = a.shipped,
+                        .reading = a.reading,
+                        .pictures = !a.files.html.empty(),
+                        .threads = a.threads},
+                       baked, lights, report);
     add_sizes_of_bake(a, baked.baked->transfer, report);
     if (a.sweep)
         add_sweep(run_sweep(a, baked, lights, session), report);
@@ -121,6 +125,7 @@ void add_evaluate(CLI::App& app, Session& session) {
     command->add_flag(
         "--sweep", a.sweep,
         "error against size and shader cost of this compressor and of those it came from; minutes");
+    add_reading(command, a.reading);
     add_threads(command, a.threads);
     add_reports(command, a.files);
 }

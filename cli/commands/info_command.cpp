@@ -12,6 +12,7 @@ namespace {
 
 struct InfoArguments {
     Path file, json;
+    GltfOptions reading;
 };
 
 /// "{images} image", "{images} images"
@@ -101,7 +102,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
 
 void run(const InfoArguments& a, Session& session) {
     check_outputs({{a.json, "--json", {".json"}}}, {a.file});
-    const SceneFile model = load_scene_file(a.file);
+    const SceneFile model = load_scene_file(a.file, a.reading);
     Report report;
     add_scene(a.file, model.scene, report);
     if (model.baked)
@@ -120,6 +121,7 @@ void add_info(CLI::App& app, Session& session) {
     auto& a = arguments_for<InfoArguments>(command,
                                            [&session](const InfoArguments& given) { run(given, session); });
     command->add_option("file", a.file, "any .gltf or .glb")->required();
+    add_reading(command, a.reading);
     add_json(command, a.json);
 }
 

@@ -48,6 +48,7 @@ struct RenderArguments {
     View view;
     Backend backend = Backend::automatic;
     Look look;
+    GltfOptions reading;
     int threads = 0;
 };
 
@@ -126,7 +127,7 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile&
     case Show::ao: // exit radiance under uniform light of radiance 1
         return lit_colors(model, constant_light(std::max(1, model.order()), glm::vec3(1)), a.threads);
     case Show::error: {
-        SceneFile baked = load_scene_file(a.baked);
+        SceneFile baked = load_scene_file(a.baked, a.reading);
         if (!baked.baked)
             throw Error(a.baked.string() + ": holds no raw transfer; --baked is the output of prt bake");
         check_belong_together(baked, a.baked, model, a.model);
@@ -259,7 +260,7 @@ void run(const RenderArguments& a, Session& session) {
     check_together(a);
     check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
                   {a.model, a.environment, a.baked});
-    const SceneFile model = load_scene_file(a.model);
+    const SceneFile model = load_scene_file(a.model, a.reading);
     if (!model.record())
         print_notices(a.model.string(), {"holds no transfer and is drawn without shadows"});
     const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
@@ -337,6 +338,7 @@ void add_render(CLI::App& app, Session& session) {
         ->check(CLI::Range(1, 16));
     command->add_flag("!--no-background", a.look.background, "do not show the environment behind the scene");
     add_light_options(command, a.light_options);
+    add_reading(command, a.reading);
     add_threads(command, a.threads);
     add_json(command, a.json);
 }

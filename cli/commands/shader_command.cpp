@@ -18,6 +18,7 @@ struct ShaderArguments {
     ShaderLanguage language = ShaderLanguage::glsl450;
     std::optional<ConstantSource> constants; ///< unset: what the language can do
     bool compute = false;
+    GltfOptions reading;
 };
 
 const std::map<std::string, ShaderLanguage> kLanguages = {{"glsl450", ShaderLanguage::glsl450},
@@ -50,7 +51,7 @@ void warn_of_large_blocks(const Path& model, const ClusteredTransfer& transfer) 
 
 void run(const ShaderArguments& a, Session& session) {
     check_outputs({{a.output, "--output"}}, {a.model});
-    const SceneFile model = load_scene_file(a.model);
+    const SceneFile model = load_scene_file(a.model, a.reading);
     if (!model.compressed)
         throw Error(a.model.string() + ": holds no compressed transfer; run prt compress first");
     const ClusteredTransfer& transfer = model.compressed->transfer;
@@ -79,6 +80,7 @@ void add_shader(CLI::App& app, Session& session) {
            "buffer, texture where the language has no buffers");
     command->add_flag("--compute", a.compute,
                       "the compute shader that forms the constants instead of the vertex shader");
+    add_reading(command, a.reading);
 }
 
 } // namespace prt::cli

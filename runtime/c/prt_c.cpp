@@ -305,7 +305,9 @@ prt_status prt_model_load(const char* path, prt_model** model, prt_message* mess
     return guarded(message, [&] {
         check_pointers(path, model);
         *model = nullptr;
-        as_file([&] { *model = make_model(prt::load_gltf(path, prt::MissingImages::ignore), path); });
+        as_file([&] {
+            *model = make_model(prt::load_gltf(path, {.missing_images = prt::MissingImages::ignore}), path);
+        });
     });
 }
 
@@ -315,7 +317,8 @@ prt_status prt_model_load_memory(const void* bytes, size_t size, prt_model** mod
         *model = nullptr;
         const std::span file(static_cast<const std::byte*>(bytes), size);
         as_file([&] {
-            *model = make_model(prt::parse_gltf(file, "memory", prt::MissingImages::ignore), "memory");
+            *model = make_model(
+                prt::parse_gltf(file, "memory", {.missing_images = prt::MissingImages::ignore}), "memory");
         });
     });
 }

@@ -1,58 +1,57 @@
 // OpenEXR files: checked, read to linear Rec. 709 whatever their primaries, and written.
 #include "exr.h"
 
-#include "image_limits.h"
+#include "exr_header.h"
 #include "prt/image_file.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 
 #include <ImathBox.h>
 #include <ImathMatrix.h>
+#include <OpenEXR/Iex.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
-#include <OpenEXR/ImfStdIO.h>
-#include <OpenEXR/ImfTestFile.h>
-#include <OpenEXR/ImfTileDescriptionAttribute.h>
-#include <OpenEXR/ImfXdr.h>
+#include <OpenEXR/ImfVersion.h>
 
 #include <algorithm>
+#include <cstring>
 #include <exception>
 #include <string>
 
 namespace prt {
 namespace {
 
-constexpr int kLargestSide = 65536;
+/// A file in memory as OpenEXR reads one.
+class MemoryStream : public Imf::IStream {
+public:
+    explicit MemoryStream(std::span<const std::byte> file) : Imf::IStream("EXR"), file_(file) {}
+
+    bool read(char to[], int count) override {
+        if (count < 0 || position_ > file_.size() ||
+            static_cast<std::size_t>(count) > file_.size() - position_)
+            throw Iex::InputExc("it ends too early");
+        std::memcpy(to, file_.data() + position_, static_cast<std::size_t>(count));
+        position_ += static_cast<std::size_t>(count);
+        return position_ < file_.size();
+    }
+    std::uint64_t tellg() override { return position_; }
+    void seekg(std::uint64_t position) override { position_ = position; }
+
+private:
+    std::span<const std::byte> file_;
+    std::size_t position_ = 0;
+};
 
 /// Rows to decode at once: about four million pixels, so that a header's claim costs no memory until it is
 /// true.
 int rows_per_strip(int width) {
     return std::clamp((1 << 22) / width, 1, 256);
-}
-
-void check_size(const Imath::Box2i& window) {
-    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
-    const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
-    if (width < 1 || height < 1)
-        throw Error("its data window is empty");
-    if (width > kLargestSide || height > 6 * std::int64_t{kLargestSide} || width * height > kMostPixels)
-        throw Error("its data window of " + std::to_string(width) + " x " + std::to_string(height) +
-                    " pixels is larger than this program reads");
-}
-
-/// A tile is decoded whole, so its size is memory, whatever the image's.
-void check_tiles(const Imf::Header& header) {
-    if (!header.hasTileDescription())
-        return;
-    const Imf::TileDescription& tile = header.tileDescription();
-    if (std::uint64_t{tile.xSize} * tile.ySize > (std::uint64_t{1} << 24))
-        throw Error("its tiles of " + std::to_string(tile.xSize) + " x " + std::to_string(tile.ySize) +
-                    " pixels are larger than this program reads");
 }
 
 void insert_rgb(Imf::FrameBuffer& buffer, const Imf::ChannelList& channels, glm::vec3* base,
@@ -80,6 +79,7 @@ Image read_in_strips(const Imath::Box2i& window, ReadStrip&& read_strip) {
     const int height = window.max.y - window.min.y + 1;
     const auto width = static_cast<std::size_t>(image.width);
     const int rows = rows_per_strip(image.width);
+    image.pixels.reserve(width * static_cast<std::size_t>(height)); // its pages are taken as they are written
     for (int y = 0; y < height; y += rows) {
         const int count = std::min(rows, height - y);
         image.pixels.resize(static_cast<std::size_t>(y + count) * width);
@@ -106,8 +106,9 @@ Image read_rgb(Imf::InputFile& file, const Imath::Box2i& window) {
     return image;
 }
 
-Image read_luminance_chroma(const std::string& path, const Imath::Box2i& window) {
-    Imf::RgbaInputFile file(path.c_str());
+Image read_luminance_chroma(std::span<const std::byte> bytes, const Imath::Box2i& window) {
+    MemoryStream stream(bytes);
+    Imf::RgbaInputFile file(stream);
     std::vector<Imf::Rgba> row;
     return read_in_strips(window, [&](glm::vec3* pixels, const Imath::Box2i& strip) {
         const auto width = static_cast<std::size_t>(strip.max.x - strip.min.x + 1);
@@ -131,27 +132,15 @@ void convert_primaries(Image& image, const Imf::Chromaticities& from) {
     }
 }
 
-/// Checks the header by itself: opening the file builds tables of all the lines and tiles that it claims.
-void check_header(const std::string& path) {
-    Imf::StdIFStream stream(path.c_str());
-    int magic = 0, version = 0;
-    Imf::Xdr::read<Imf::StreamIO>(stream, magic);
-    Imf::Xdr::read<Imf::StreamIO>(stream, version);
-    Imf::Header header;
-    header.readFrom(stream, version);
-    check_size(header.dataWindow());
-    check_tiles(header);
-}
-
-ExrFile read_exr_unnamed(const std::string& path) {
-    check_header(path);
-    Imf::InputFile file(path.c_str());
+ExrFile read_checked(std::span<const std::byte> bytes) {
+    MemoryStream stream(bytes);
+    Imf::InputFile file(stream);
     const Imf::Header& header = file.header();
     const Imath::Box2i window = header.dataWindow();
     const Imf::ChannelList& channels = header.channels();
     ExrFile result;
     if (channels.findChannel("RY") || channels.findChannel("BY"))
-        result.image = read_luminance_chroma(path, window);
+        result.image = read_luminance_chroma(bytes, window);
     else if (channels.findChannel("R") || channels.findChannel("G") || channels.findChannel("B") ||
              channels.findChannel("Y"))
         result.image = read_rgb(file, window);
@@ -170,17 +159,18 @@ ExrFile read_exr_unnamed(const std::string& path) {
 
 } // namespace
 
-bool is_exr(const std::filesystem::path& path) {
-    return Imf::isOpenExrFile(path.c_str());
+bool is_exr(std::span<const std::byte> file) {
+    return file.size() >= 4 && Imf::isImfMagic(reinterpret_cast<const char*>(file.data()));
 }
 
-ExrFile read_exr(const std::filesystem::path& path) {
+ExrFile read_exr(std::span<const std::byte> file) {
+    check_exr_header(file);
     try {
-        return read_exr_unnamed(path.string());
-    } catch (const Error& error) {
-        throw Error(path.string() + ": " + error.what());
+        return read_checked(file);
+    } catch (const Error&) {
+        throw;
     } catch (const std::exception& error) {
-        throw Error(path.string() + ": is a damaged or unsupported EXR: " + one_line(error.what()));
+        throw Error(std::string("is a damaged or unsupported EXR: ") + one_line(error.what()));
     }
 }
 

@@ -2,8 +2,9 @@
 
 #include "prt/environment.h"
 
-#include <filesystem>
+#include <cstddef>
 #include <optional>
+#include <span>
 
 namespace prt {
 
@@ -12,10 +13,10 @@ struct ExrFile {
     std::optional<EnvironmentLayout> layout; ///< what the attribute `envmap` says
 };
 
-/// Whether the file is there and starts like an OpenEXR file.
-bool is_exr(const std::filesystem::path& path);
+/// Whether a file starts like an OpenEXR file.
+bool is_exr(std::span<const std::byte> file);
 
-/// Throws `Error` that names the file.
-ExrFile read_exr(const std::filesystem::path& path);
+/// Throws `Error`.
+ExrFile read_exr(std::span<const std::byte> file);
 
 } // namespace prt

@@ -3,6 +3,7 @@
 
 #include "exr.h"
 #include "image_limits.h"
+#include "prt/image_size.h"
 #include "prt/srgb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
@@ -38,17 +39,9 @@ int stb_size(std::span<const std::byte> file) {
     return static_cast<int>(file.size());
 }
 
-void check_claimed_size(std::span<const std::byte> file) {
-    int width = 0, height = 0, channels = 0;
-    if (!stbi_info_from_memory(stb_bytes(file), stb_size(file), &width, &height, &channels))
-        throw Error(std::string("is a damaged or unsupported image: ") + stbi_failure_reason());
-    if (std::int64_t{width} * height > kMostPixels)
-        throw Error("claims " + std::to_string(width) + " x " + std::to_string(height) +
-                    " pixels, more than this program reads");
-}
-
 /// Hands a file in memory to stb piece by piece, to see whether it asks for more than there is: it would take
-/// zeros for what is missing and say nothing.
+/// zeros for what is missing and say nothing, and wait for ever for the end of runs of length zero. What is
+/// missing is therefore made up of bytes that end runs.
 struct ByteStream {
     std::span<const std::byte> rest;
     bool past_end = false;
@@ -56,9 +49,13 @@ struct ByteStream {
     static int read(void* user, char* to, int size) {
         auto& stream = *static_cast<ByteStream*>(user);
         const std::size_t count = std::min(static_cast<std::size_t>(size), stream.rest.size());
+        if (count == 0) {
+            stream.past_end = true;
+            std::memset(to, 0xff, static_cast<std::size_t>(size));
+            return size;
+        }
         std::memcpy(to, stream.rest.data(), count);
         stream.rest = stream.rest.subspan(count);
-        stream.past_end |= count == 0;
         return static_cast<int>(count);
     }
     static void skip(void* user, int count) {
@@ -70,17 +67,18 @@ struct ByteStream {
 };
 
 Image read_hdr(std::span<const std::byte> file) {
-    check_claimed_size(file);
+    const ImageSize size = image_size(file);
+    check_image_size(size.width, size.height, 2 * sizeof(glm::vec3), file.size()); // stb's and ours
     Image image;
     int channels = 0;
     const stbi_io_callbacks callbacks{ByteStream::read, ByteStream::skip, ByteStream::eof};
     ByteStream stream{file};
     const std::unique_ptr<float, StbFree> pixels(
         stbi_loadf_from_callbacks(&callbacks, &stream, &image.width, &image.height, &channels, 3));
-    if (!pixels)
-        throw Error(std::string("is a damaged or unsupported Radiance HDR: ") + stbi_failure_reason());
     if (stream.past_end)
         throw Error("is a damaged Radiance HDR: it ends before its last pixel");
+    if (!pixels)
+        throw Error(std::string("is a damaged or unsupported Radiance HDR: ") + stbi_failure_reason());
     image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::vec3));
     return image;
@@ -100,7 +98,10 @@ EnvironmentLayout layout_of(const Image& image, std::optional<EnvironmentLayout>
 }
 
 /// 8-bit sRGB as linear radiance up to 1.
-Image linear(const Image8& image) {
+Image read_low_dynamic_range(std::span<const std::byte> file) {
+    const ImageSize size = image_size(file);
+    check_image_size(size.width, size.height, sizeof(glm::u8vec4) + sizeof(glm::vec3), file.size());
+    const Image8 image = decode_image(file);
     std::array<float, 256> values;
     for (std::size_t i = 0; i < values.size(); ++i)
         values[i] = srgb_decode(static_cast<float>(i) / 255);
@@ -119,16 +120,16 @@ struct AnyImage {
 };
 
 AnyImage read_any(const std::filesystem::path& path) {
-    if (is_exr(path)) {
-        ExrFile exr = read_exr(path);
-        return {std::move(exr.image), exr.layout};
-    }
     const std::vector<std::byte> file = read_file(path);
     try {
+        if (is_exr(file)) {
+            ExrFile exr = read_exr(file);
+            return {std::move(exr.image), exr.layout};
+        }
         if (starts_with(file, "#?"))
             return {read_hdr(file), {}};
         if (starts_with(file, "\x89PNG") || starts_with(file, "\xff\xd8\xff"))
-            return {linear(decode_image(file)), {}, true};
+            return {read_low_dynamic_range(file), {}, true};
         throw Error("is no image that is read here: OpenEXR, Radiance HDR, PNG and JPEG are");
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
@@ -182,8 +183,17 @@ EnvironmentFile load_environment(const std::filesystem::path& path, const Enviro
     return result;
 }
 
+ImageSize image_size(std::span<const std::byte> file) {
+    ImageSize size;
+    int channels = 0;
+    if (!stbi_info_from_memory(stb_bytes(file), stb_size(file), &size.width, &size.height, &channels))
+        throw Error(std::string("is a damaged or unsupported image: ") + stbi_failure_reason());
+    return size;
+}
+
 Image8 decode_image(std::span<const std::byte> file) {
-    check_claimed_size(file);
+    const ImageSize size = image_size(file);
+    check_image_size(size.width, size.height, 2 * sizeof(glm::u8vec4), file.size()); // stb's and ours
     Image8 image;
     int channels = 0;
     const std::unique_ptr<stbi_uc, StbFree> pixels(

@@ -1,6 +1,7 @@
 // Lights of simple shapes in closed form: zonal coefficients, turned to where the light is.
 #include "prt/light.h"
 
+#include "prt/check_light.h"
 #include "prt/dering.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
@@ -51,6 +52,13 @@ Light with_window(const Light& light, double (*window)(int, double)) {
 }
 
 } // namespace
+
+void check_light(const Light& light) {
+    for (const glm::vec3& coefficient : light.coefficients)
+        for (int c = 0; c < 3; ++c)
+            if (!(std::abs(coefficient[c]) <= kMostLight))
+                throw Error("its light is brighter than what is computed with: a coefficient is beyond 1e18");
+}
 
 Light constant_light(int order, const glm::vec3& radiance) {
     return zonal_light(order, {0, 0, 1}, radiance, [](int l) { return l == 0 ? 4 * pi : 0; });

@@ -6,6 +6,7 @@
 // one exact rotation at the end.
 
 #include "light/projection.h"
+#include "prt/check_light.h"
 #include "prt/environment.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
@@ -214,6 +215,7 @@ Light project(const Environment& environment, int order, int threads) {
     Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)))};
     for (std::size_t i = 0; i < light.coefficients.size(); ++i)
         light.coefficients[i] = glm::vec3(coefficients[i]);
+    check_light(light);
     return light;
 }
 

@@ -1,6 +1,7 @@
 // Mip chains by box filter, trilinear filtering, and the images that a scene needs.
 #include "prt/texture.h"
 
+#include "prt/image_size.h"
 #include "prt/support/error.h"
 #include "prt/tone_map.h"
 
@@ -141,10 +142,35 @@ std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds ne
     return images;
 }
 
+namespace {
+
+/// Throws `Error` where what `images` claim is more than the scene's images can be given together: as much as
+/// one image may take, in a file as large as all of theirs.
+void check_memory(const Scene& scene, const std::map<int, TextureEncoding>& images) {
+    constexpr std::uint64_t kFree = std::uint64_t{192} << 20, kPerByte = 64, kBytesPerTexel = 6;
+    std::uint64_t bytes = 0, texels = 0;
+    for (const auto& [image, encoding] : images)
+        if (static_cast<std::size_t>(image) < scene.images.size())
+            try {
+                const std::span<const std::byte> file = scene.images[static_cast<std::size_t>(image)].bytes;
+                const ImageSize size = image_size(file);
+                bytes += file.size();
+                texels += static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+            } catch (const Error&) { // told, or ignored, when it is decoded
+            }
+    if (texels * kBytesPerTexel > kFree + kPerByte * bytes)
+        throw Error("its images claim " + std::to_string(texels) + " pixels in files of " +
+                    std::to_string(bytes) +
+                    " bytes: together they are given 192 MB of memory and 64 bytes for each byte of a file");
+}
+
+} // namespace
+
 std::vector<Texture> load_textures(const Scene& scene, BadTextures bad, TextureNeeds needs) {
     const std::map<int, TextureEncoding> images = needed_images(scene, needs);
     const std::size_t used = images.empty() ? 0 : static_cast<std::size_t>(images.rbegin()->first) + 1;
     std::vector<Texture> textures(std::max(scene.images.size(), used));
+    check_memory(scene, images);
     for (const auto& [image, encoding] : images) {
         EncodedImage nothing{"image " + std::to_string(image), {}};
         const bool there = static_cast<std::size_t>(image) < scene.images.size();

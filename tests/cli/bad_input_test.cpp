@@ -100,6 +100,25 @@ TEST_F(BadInput, PositionsThatAreNotFiniteAndNoTriangles) {
     refuse_bake(folder / "nothing.glb");
 }
 
+TEST_F(BadInput, LightBeyondWhatIsComputedWith) {
+    const auto light = folder.file(
+        "huge.json",
+        R"({"prtkit_light": 1, "order": 1, "coefficients": {"red": [3e38], "green": [0], "blue": [0]}})");
+    expect_refused(prt({"project", light.string(), "--order", "1", "-o", (folder / "light.json").string()}),
+                   light.string());
+}
+
+TEST_F(BadInput, ScenesReachOutsideTheirFolderWhereThatIsAllowed) {
+    GlbFile file = triangle_file();
+    file.json["images"] = {{{"uri", "../picture.png"}}};
+    std::filesystem::create_directory(folder / "scene");
+    folder.file("picture.png", "no picture");
+    const std::string scene = (folder / "scene/scene.glb").string();
+    file.write(scene);
+    expect_refused(prt({"info", scene}), scene);
+    EXPECT_EQ(prt({"info", scene, "--allow-outside"}).status, 0);
+}
+
 TEST_F(BadInput, UnsupportedExtensionIsNamed) {
     GlbFile file = triangle_file();
     file.json["extensionsRequired"] = {"EXT_unheard_of"};

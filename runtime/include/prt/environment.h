@@ -89,7 +89,7 @@ Image resampled_lat_long(const Environment& environment);
 /// Projects the environment, piecewise constant over its texels, into SH: the basis is integrated over each
 /// texel, not only taken at its center, so that an image of one pixel is exactly a constant light. Sums are
 /// in double, row by row in a fixed order: the result does not depend on `threads` (0: all). Throws as
-/// `check_environment`.
+/// `check_environment` and `check_light`.
 Light project(const Environment& environment, int order, int threads = 0);
 
 } // namespace prt

@@ -11,6 +11,7 @@
 #include "gltf/instances.h"
 #include "gltf/json_text.h"
 #include "gltf/meshopt_views.h"
+#include "gltf/side_files.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 
@@ -113,7 +114,7 @@ void keep_encoded(std::vector<std::vector<std::byte>>& images, std::size_t i, co
 }
 
 /// Images in buffer views, beside those in files that tinygltf has read.
-void take_images(GltfContents& contents, MissingImages missing) {
+void take_images(GltfContents& contents, const GltfOptions& options, const SideFiles& files) {
     double total = 0;
     contents.images.resize(contents.model.images.size());
     for (std::size_t i = 0; i < contents.images.size(); ++i) {
@@ -124,14 +125,16 @@ void take_images(GltfContents& contents, MissingImages missing) {
             check_allowed(2 * total, contents.file_bytes, "its images, still encoded,");
             contents.images[i].assign(bytes.begin(), bytes.end());
         }
-        if (contents.images[i].empty() && missing == MissingImages::error)
+        if (contents.images[i].empty() && options.missing_images == MissingImages::error)
             throw Error("image " + std::to_string(i) +
-                        (image.uri.empty() ? " is empty" : " '" + image.uri + "' cannot be read"));
+                        (image.uri.empty()
+                             ? " is empty"
+                             : " '" + image.uri + "' cannot be read: " + files.first_trouble()));
     }
 }
 
 void load_model(GltfContents& contents, std::span<const std::byte> file, std::string_view text, bool binary,
-                MissingImages missing) {
+                const GltfOptions& options) {
     if (file.size() > UINT_MAX)
         throw Error("is larger than 4 GB");
     tinygltf::TinyGLTF loader;
@@ -139,25 +142,25 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
         const auto [error, warning, width, height, bytes, size, images] = std::tuple(rest...);
         keep_encoded(*static_cast<std::vector<std::vector<std::byte>>*>(images),
                      static_cast<std::size_t>(index), *image,
-                     std::as_bytes(std::span(bytes, static_cast<std::size_t>(size))));
+                     std::as_bytes(std::span(bytes, static_cast<std::size_t>(std::max(size, 0))))); // to 2 GB
         return true;
     };
     loader.SetImageLoader(keep, &contents.images);
-    std::string error, warning, folder = contents.path.parent_path().string();
-    if (folder.empty())
-        folder = ".";
+    SideFiles files(contents.path, file.size(), options.allow_outside);
+    loader.SetFsCallbacks(files.callbacks());
+    std::string error, warning;
     const bool loaded = binary
                             ? loader.LoadBinaryFromMemory(&contents.model, &error, &warning,
                                                           reinterpret_cast<const unsigned char*>(file.data()),
-                                                          static_cast<unsigned>(file.size()), folder)
+                                                          static_cast<unsigned>(file.size()))
                             : loader.LoadASCIIFromString(&contents.model, &error, &warning, text.data(),
-                                                         static_cast<unsigned>(text.size()), folder);
+                                                         static_cast<unsigned>(text.size()), "");
     if (!loaded)
         throw Error(error.empty() ? warning : error);
     for (const tinygltf::Buffer& buffer : contents.model.buffers)
         if (!buffer.uri.empty())
             contents.file_bytes += buffer.data.size();
-    take_images(contents, missing);
+    take_images(contents, options, files);
 }
 
 /// Joins all buffers into the first and lets the buffer views point there.
@@ -244,12 +247,12 @@ GltfDocument::GltfDocument(GltfDocument&&) noexcept = default;
 GltfDocument& GltfDocument::operator=(GltfDocument&&) noexcept = default;
 GltfDocument::~GltfDocument() = default;
 
-GltfDocument load_gltf(const std::filesystem::path& path, MissingImages missing) {
-    return parse_gltf(read_file(path), path, missing);
+GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& options) {
+    return parse_gltf(read_file(path), path, options);
 }
 
 GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::path& path,
-                        MissingImages missing) {
+                        const GltfOptions& options) {
     auto contents = std::make_unique<GltfContents>();
     contents->path = path;
     try {
@@ -271,10 +274,10 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
             const std::string plain_text = plain.dump();
             const std::vector<std::byte> rebuilt =
                 binary ? make_glb(plain_text, glb_binary(file)) : std::vector<std::byte>{};
-            load_model(*contents, rebuilt, plain_text, binary, missing);
+            load_model(*contents, rebuilt, plain_text, binary, options);
         } else {
             check_views(contents->json);
-            load_model(*contents, file, text, binary, missing);
+            load_model(*contents, file, text, binary, options);
         }
         if (meshopt)
             decompress_views(*contents);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
+#include <tuple>
 
 namespace prt {
 namespace {
@@ -99,10 +101,25 @@ public:
         if (const auto e = extensions.find("KHR_materials_volume"); e != extensions.end())
             material.volume = read_volume(e->second);
         range_.clamp(material.volume.attenuation_color, "attenuationColor of materials");
+        for (TextureUse* colors : {&material.base_color_texture, &material.transmission.factor_texture,
+                                   &material.transmission.color_texture})
+            share_image(*colors, false);
+        for (TextureUse* numbers : {&material.metal.texture, &material.glass.texture})
+            share_image(*numbers, true);
         return material;
     }
 
 private:
+    /// Of images that are the same file or buffer view the first is used: it is decoded once.
+    void share_image(TextureUse& use, bool numbers) {
+        if (use.image < 0 || static_cast<std::size_t>(use.image) >= model_.images.size())
+            return;
+        const tinygltf::Image& image = model_.images[static_cast<std::size_t>(use.image)];
+        if (image.bufferView >= 0 || !image.uri.empty()) // else its bytes stand in the JSON
+            use.image =
+                first_images_.try_emplace({image.bufferView, image.uri, numbers}, use.image).first->second;
+    }
+
     void read_reflection(const tinygltf::Material& file, Material& material) {
         const auto glossy = file.extensions.find("KHR_materials_pbrSpecularGlossiness");
         if (glossy != file.extensions.end()) { // goes before what stands beside it
@@ -192,6 +209,7 @@ private:
     const tinygltf::Model& model_;
     Scene& scene_;
     UnitRange& range_;
+    std::map<std::tuple<int, std::string, bool>, int> first_images_; ///< by place and kind
 };
 
 std::string counted(std::size_t count, const char* one, const char* many) {

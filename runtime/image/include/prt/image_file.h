@@ -33,7 +33,7 @@ struct EnvironmentFile {
 /// or luminance-chroma; other primaries are converted), Radiance HDR, or PNG and JPEG, which are read as
 /// sRGB. A path that holds "{face}" stands for six files, with px, nx, py, ny, pz and nz in its place, laid
 /// out as `EnvironmentLayout::cube_faces`. Throws `Error` that names the file for anything that is damaged or
-/// no environment map. Memory grows with what is decoded, not with what a header claims.
+/// no environment map. Of what a header claims 192 MB are believed, and 64 bytes for each byte of the file.
 EnvironmentFile load_environment(const std::filesystem::path& path, const EnvironmentOptions& options = {});
 
 /// 8-bit RGBA pixels as stored, without any conversion of color.
@@ -42,7 +42,7 @@ struct Image8 {
     std::vector<glm::u8vec4> pixels; ///< [height][width]
 };
 
-/// Decodes a PNG or JPEG file in memory. Throws `Error` when it is damaged or something else.
+/// Decodes a PNG or JPEG file in memory. Throws `Error` when it is damaged, something else or too large.
 Image8 decode_image(std::span<const std::byte> file);
 
 /// An 8-bit RGB PNG in memory. `pixels` is [height][width].

@@ -10,7 +10,7 @@
 
 namespace prt {
 
-/// The whole file. Throws `Error` that names it when it is missing, a directory, empty or unreadable.
+/// A whole file to 4 GB, or a pipe to 1 GB. Throws `Error` that names it for all else, and if it is empty.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
 /// The path that writing to `path` ends at: symbolic links are followed, also one whose end is not there yet.

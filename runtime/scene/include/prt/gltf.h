@@ -30,15 +30,22 @@ private:
     std::unique_ptr<GltfContents> contents_;
 };
 
-/// What to do about images whose files are not there.
+/// What to do about images whose files are not there, or not to be read.
 enum class MissingImages { error, ignore };
 
+struct GltfOptions {
+    MissingImages missing_images = MissingImages::error;
+    /// Whether URIs may name files outside the folder of the scene, by "..", by links or from the root.
+    /// Others are regular files in that folder and below.
+    bool allow_outside = false;
+};
+
 /// Reads .gltf or .glb with its buffers and images. Throws `Error` that names the file and the place in it.
-GltfDocument load_gltf(const std::filesystem::path& path, MissingImages missing = MissingImages::error);
+GltfDocument load_gltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 /// The same from a file in memory. `path` is where it is from: for messages, and for the files beside it.
 GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::path& path,
-                        MissingImages missing = MissingImages::error);
+                        const GltfOptions& options = {});
 
 /// Flattens the default scene. Every node instance gets vertices of its own; skins and morph targets are
 /// taken in the pose of the file. Throws `Error` for accessors out of bounds, indices beyond the vertices,

@@ -1,0 +1,101 @@
+#include "exr_header.h"
+
+#include "image_limits.h"
+#include "prt/environment.h"
+#include "prt/support/error.h"
+
+#include <OpenEXR/openexr.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+namespace prt {
+namespace {
+
+/// What the callbacks of the core library see.
+struct Source {
+    std::span<const std::byte> file;
+    std::string trouble; ///< its last message
+};
+
+std::int64_t read_source(exr_const_context_t, void* user, void* to, std::uint64_t size, std::uint64_t offset,
+                         exr_stream_error_func_ptr_t) {
+    const std::span<const std::byte> file = static_cast<Source*>(user)->file;
+    const std::uint64_t begin = std::min<std::uint64_t>(offset, file.size());
+    const std::uint64_t count = std::min<std::uint64_t>(size, file.size() - begin);
+    if (count > 0)
+        std::memcpy(to, &file[begin], count);
+    return static_cast<std::int64_t>(count);
+}
+
+std::int64_t size_of_source(exr_const_context_t, void* user) {
+    return static_cast<std::int64_t>(static_cast<Source*>(user)->file.size());
+}
+
+void keep_message(exr_const_context_t context, exr_result_t, const char* message) {
+    void* user = nullptr;
+    if (message && exr_get_user_data(context, &user) == EXR_ERR_SUCCESS && user)
+        static_cast<Source*>(user)->trouble = message;
+}
+
+/// The headers of a file, open.
+class Headers {
+public:
+    explicit Headers(std::span<const std::byte> file) : source_{file, {}} {
+        exr_context_initializer_t setup = EXR_DEFAULT_CONTEXT_INITIALIZER;
+        setup.user_data = &source_;
+        setup.read_fn = read_source;
+        setup.size_fn = size_of_source;
+        setup.error_handler_fn = keep_message;
+        check(exr_start_read(&context_, "EXR", &setup));
+    }
+    ~Headers() { exr_finish(&context_); }
+    Headers(const Headers&) = delete;
+    Headers& operator=(const Headers&) = delete;
+
+    exr_context_t context() const { return context_; }
+    void check(exr_result_t result) const {
+        if (result != EXR_ERR_SUCCESS)
+            throw Error(
+                "is a damaged or unsupported EXR: " +
+                one_line(source_.trouble.empty() ? exr_get_default_error_message(result) : source_.trouble));
+    }
+
+private:
+    Source source_;
+    exr_context_t context_ = nullptr;
+};
+
+/// The table of a part holds 8 bytes for each of its chunks.
+void check_chunk_tables(const Headers& headers, std::size_t file_bytes) {
+    int parts = 0;
+    headers.check(exr_get_count(headers.context(), &parts));
+    std::uint64_t chunks = 0;
+    for (int part = 0; part < parts; ++part) {
+        std::int32_t count = 0;
+        headers.check(exr_get_chunk_count(headers.context(), part, &count));
+        chunks += static_cast<std::uint64_t>(std::max(count, 0));
+    }
+    if (chunks > file_bytes / 8)
+        throw Error("claims " + std::to_string(chunks) + " chunks of pixels, more than a file of " +
+                    std::to_string(file_bytes) + " bytes can hold");
+}
+
+} // namespace
+
+void check_exr_header(std::span<const std::byte> file) {
+    const Headers headers(file);
+    check_chunk_tables(headers, file.size());
+    exr_attr_box2i_t window{};
+    headers.check(exr_get_data_window(headers.context(), 0, &window));
+    std::uint64_t chunk = 0;
+    headers.check(exr_get_chunk_unpacked_size(headers.context(), 0, &chunk));
+    // A chunk is held packed, unpacked and between the two.
+    check_image_size(std::int64_t{window.max.x} - window.min.x + 1,
+                     std::int64_t{window.max.y} - window.min.y + 1, sizeof(glm::vec3), file.size(),
+                     3 * chunk);
+}
+
+} // namespace prt

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace prt {
+
+/// The files that the URIs of a scene name, as tinygltf asks for them. A scene may come from a stranger: it
+/// reaches regular files in its folder and below, after ".." and links are followed, and no others unless it
+/// is allowed to.
+class SideFiles {
+public:
+    /// Those of a scene of `scene_bytes` at `scene`.
+    SideFiles(const std::filesystem::path& scene, std::size_t scene_bytes, bool allow_outside);
+
+    /// They refer to this object. Names reach them as URIs say, without a folder.
+    tinygltf::FsCallbacks callbacks();
+    /// What was wrong with the first file that could not be read.
+    const std::string& first_trouble() const { return first_trouble_; }
+
+private:
+    std::filesystem::path place_of(const std::string& name) const;
+    std::vector<unsigned char> read(const std::string& name);
+    std::filesystem::path folder_;
+    bool allow_outside_;
+    std::set<std::filesystem::path> seen_;
+    std::uint64_t bytes_there_, bytes_read_ = 0; ///< of the scene and of all files once; as often as named
+    std::string first_trouble_;
+};
+
+} // namespace prt

@@ -1,0 +1,141 @@
+// Images that lie, end early, never end, or are too bright.
+#include "prt/environment.h"
+#include "prt/image_file.h"
+#include "prt/support/error.h"
+#include "prt/support/file.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <limits>
+#include <thread>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+namespace prt {
+namespace {
+
+/// What is said when the file is read as an environment; nothing when it is read.
+std::string refusal(const std::filesystem::path& path) {
+    try {
+        load_environment(path, {EnvironmentLayout::lat_long});
+    } catch (const Error& error) {
+        EXPECT_TRUE(std::string(error.what()).starts_with(path.string() + ": ")) << error.what();
+        EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+        return error.what();
+    }
+    return {};
+}
+
+std::string hdr_header(const std::string& size) {
+    return "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n" + size + "\n";
+}
+
+/// 16 x 8 pixels: rows of runs, or of single pixels.
+std::string hdr(bool runs) {
+    std::string file = hdr_header("-Y 8 +X 16");
+    for (int y = 0; y < 8; ++y) {
+        file += std::string("\x02\x02\x00\x10", 4);
+        for (int channel = 0; channel < 4; ++channel)
+            file += runs ? std::string("\x90\x80") : "\x10" + std::string(16, '\x80');
+    }
+    return file;
+}
+
+TEST(HdrFile, CutAnywhereEndsAndIsRefused) {
+    const test::TemporaryFolder folder;
+    for (const bool runs : {true, false}) {
+        const std::string whole = hdr(runs);
+        EXPECT_EQ(refusal(folder.file("whole.hdr", whole)), "");
+        for (std::size_t length = 1; length < whole.size(); ++length)
+            EXPECT_NE(refusal(folder.file("cut.hdr", whole.substr(0, length))), "") << length;
+    }
+}
+
+TEST(HdrFile, RunsOfNothingEnd) {
+    const test::TemporaryFolder folder;
+    const std::string zeros = hdr_header("-Y 8 +X 16") + std::string("\x02\x02\x00\x10", 4);
+    EXPECT_NE(refusal(folder.file("zeros.hdr", zeros + std::string(1000, '\0'))), "");
+}
+
+TEST(HdrFile, ClaimsAreHeldAgainstTheFile) {
+    const test::TemporaryFolder folder;
+    EXPECT_NE(refusal(folder.file("large.hdr", hdr_header("-Y 8192 +X 16384"))).find("claims 16384 x 8192"),
+              std::string::npos);
+    EXPECT_NE(refusal(folder.file("none.hdr", hdr_header("-Y 0 +X 0"))).find("no pixels"), std::string::npos);
+    EXPECT_NE(refusal(folder.file("less.hdr", hdr_header("-Y -4 +X 8"))), "");
+}
+
+/// The header of an EXR with `value` at `offset` of the value of an attribute.
+std::string exr_with(const test::TemporaryFolder& folder, const std::string& attribute, std::size_t offset,
+                     std::int32_t value) {
+    write_exr(folder / "small.exr", Image{8, 4, std::vector<glm::vec3>(32, glm::vec3(1))},
+              EnvironmentLayout::lat_long);
+    const auto bytes = read_file(folder / "small.exr");
+    std::string file(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::memcpy(&file[file.find(attribute) + attribute.size() + offset], &value, sizeof(value));
+    return file;
+}
+
+TEST(ExrFile, ClaimsAreHeldAgainstTheFile) {
+    const test::TemporaryFolder folder;
+    const std::string window("dataWindow\0box2i\0", 17);
+    const std::size_t kWidth = 4 + 8,
+                      kHeight = 4 + 12; // behind the attribute's size: the last column and row
+    for (const std::size_t side : {kWidth, kHeight})
+        for (const std::int32_t last :
+             {100'000'000, 2'000'000'000, std::numeric_limits<std::int32_t>::max(), -7})
+            EXPECT_NE(refusal(folder.file("large.exr", exr_with(folder, window, side, last))), "") << last;
+    const std::string channels("channels\0chlist\0", 16);
+    EXPECT_NE(refusal(folder.file("channels.exr", exr_with(folder, channels, 0, 2'000'000'000))), "");
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    EXPECT_LT(usage.ru_maxrss, 400'000) << "kilobytes";
+}
+
+TEST(ExrFile, CutAnywhereIsRefusedAndChangedAnywhereIsReadOrRefused) {
+    const test::TemporaryFolder folder;
+    const std::string whole = exr_with(folder, std::string("screenWindowWidth\0float\0", 24), 4, 0x3f800000);
+    EXPECT_EQ(refusal(folder.file("whole.exr", whole)), "");
+    for (std::size_t i = 4; i < whole.size(); i += 3) {
+        EXPECT_NE(refusal(folder.file("cut.exr", whole.substr(0, i))), "") << i;
+        std::string changed = whole;
+        changed[i] = static_cast<char>(changed[i] ^ (1 << i % 7));
+        refusal(folder.file("changed.exr", changed));
+    }
+}
+
+TEST(Png, ClaimsAreHeldAgainstTheFile) {
+    const test::TemporaryFolder folder;
+    std::string file("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0\x08\x06\0\0\0....", 37);
+    EXPECT_NE(refusal(folder.file("large.png", file)).find("claims 16384 x 16384"), std::string::npos);
+    EXPECT_THROW(decode_image(std::as_bytes(std::span(file))), Error);
+}
+
+TEST(Project, LightBeyondWhatIsComputedWithIsRefused) {
+    for (const EnvironmentLayout layout :
+         {EnvironmentLayout::lat_long, EnvironmentLayout::angular, EnvironmentLayout::cube}) {
+        const int height = layout == EnvironmentLayout::cube ? 48 : 8;
+        for (const float radiance : {3e38f, 1e25f}) {
+            const Image image{
+                8, height, std::vector<glm::vec3>(static_cast<std::size_t>(8 * height), glm::vec3(radiance))};
+            EXPECT_THROW(project({image, layout}, 6), Error) << radiance;
+        }
+    }
+}
+
+TEST(LoadEnvironment, ReadsPipesAndNothingThatNeverEnds) {
+    const test::TemporaryFolder folder;
+    ASSERT_EQ(mkfifo((folder / "sky.hdr").c_str(), 0600), 0);
+    EXPECT_NE(refusal(folder / "sky.hdr").find("nobody writes"), std::string::npos);
+    std::thread writer([&] { std::ofstream(folder / "sky.hdr", std::ios::binary) << hdr(true); });
+    EXPECT_EQ(refusal(folder / "sky.hdr"), "");
+    writer.join();
+    EXPECT_NE(refusal("/dev/zero").find("neither a regular file nor a pipe"), std::string::npos);
+}
+
+} // namespace
+} // namespace prt
