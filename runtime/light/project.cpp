@@ -5,6 +5,7 @@
 // 2N-1 instead of N² multiply-adds per pixel and channel. The image's pole is +Y and the basis's is +Z, hence
 // one exact rotation at the end.
 
+#include "light/finite_light.h"
 #include "light/projection.h"
 #include "prt/environment.h"
 #include "prt/sh.h"
@@ -20,6 +21,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace prt {
 
@@ -214,7 +216,7 @@ Light project(const Environment& environment, int order, int threads) {
     Light light{order, std::vector<glm::vec3>(static_cast<std::size_t>(coefficient_count(order)))};
     for (std::size_t i = 0; i < light.coefficients.size(); ++i)
         light.coefficients[i] = glm::vec3(coefficients[i]);
-    return light;
+    return finite_light(std::move(light));
 }
 
 } // namespace prt
