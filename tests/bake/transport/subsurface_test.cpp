@@ -195,7 +195,8 @@ Transfer bake_medium(double scattering, double absorption) {
     options.rays = 16;
     options.subsurface.media = {
         {"", {glm::dvec3(scattering, 1000, 1000), glm::dvec3(absorption, 1000, 1000)}}};
-    return bake(SceneBuilder().triangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}).build(), options).baked.transfer;
+    return bake(test::SceneBuilder().triangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}).build(), options)
+        .baked.transfer;
 }
 
 TEST(Subsurface, OfTheDensestAndThinnestMediaIsFinite) {
