@@ -12,6 +12,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace prt {
 namespace {
@@ -32,12 +33,13 @@ void check_options(const BakeOptions& options) {
     check_order(options.order);
     if (options.rays < 1 || options.rays > kMostRays)
         throw Error(fmt::format("rays per receiver must lie in 1..{}, not {}", kMostRays, options.rays));
-    if (options.bounces < 0 && options.bounces != kEndlessBounces)
-        throw Error(fmt::format("{} bounces cannot be", options.bounces));
-    if (options.target_error && !(*options.target_error > 0))
-        throw Error("the error to reach must be above 0");
-    if (!(options.subsurface.metres_per_unit > 0))
-        throw Error("metres per unit must be above 0");
+    if (options.bounces != kEndlessBounces && (options.bounces < 0 || options.bounces > kMostBounces))
+        throw Error(
+            fmt::format("bounces must lie in 0..{} or be endless, not {}", kMostBounces, options.bounces));
+    if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
+        throw Error("the error to reach must be finite and above 0");
+    if (!(options.subsurface.metres_per_unit > 0 && std::isfinite(options.subsurface.metres_per_unit)))
+        throw Error("metres per unit must be finite and above 0");
     if (options.tracer.method == BakeMethod::raster)
         check_raster_options(options);
 }

@@ -46,6 +46,17 @@ std::vector<DiffusionOperator> make_diffusion(const Scene& scene, const Media& m
     return diffusion;
 }
 
+void check_medium(const Medium& medium, const std::string& material) {
+    for (int c = 0; c < 3; ++c)
+        if (!(medium.scattering[c] >= kLeastScattering && medium.scattering[c] <= kMostCoefficient &&
+              medium.absorption[c] >= 0 && medium.absorption[c] <= kMostCoefficient))
+            throw Error(
+                fmt::format("the medium of material '{}' scatters {:.3g} and absorbs {:.3g} per unit: "
+                            "they must lie in {:.0e}..{:.0e} and 0..{:.0e}",
+                            material, medium.scattering[c], medium.absorption[c], kLeastScattering,
+                            kMostCoefficient, kMostCoefficient));
+}
+
 } // namespace
 
 Media choose_media(const Scene& scene, const BakeOptions& options) {
@@ -62,10 +73,11 @@ Media choose_media(const Scene& scene, const BakeOptions& options) {
         if (!found)
             throw Error(fmt::format("no material is called '{}'", choice.material));
     }
-    for (auto& medium : media)
-        if (medium) {
+    for (std::size_t m = 0; m < media.size(); ++m)
+        if (auto& medium = media[m]) {
             medium->scattering *= options.subsurface.metres_per_unit;
             medium->absorption *= options.subsurface.metres_per_unit;
+            check_medium(*medium, scene.materials[m].name);
         }
     return media;
 }

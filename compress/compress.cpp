@@ -142,7 +142,7 @@ double mean_components_of(const ClusteredTransfer& transfer) {
 
 CompressResult compress(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
                         const CompressOptions& options, const Progress& progress) {
-    check_input(transfer, areas, options);
+    check_input(transfer, areas, edges, options);
     const Stopwatch stopwatch;
     const Task task{transfer, options, significance_of(areas),
                     options.metric ? *options.metric : natural_metric(transfer.order, transfer.channels)};

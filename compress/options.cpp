@@ -37,14 +37,23 @@ void check_options(const CompressOptions& o) {
         out_of_range("clusters must lie in 1..65536", o.clusters);
     if (o.coding.components < 0)
         out_of_range("components must not be negative", o.coding.components);
-    if (!(o.mean_components >= 0))
-        out_of_range("components per vertex must not be negative", o.mean_components);
+    if (!(o.mean_components >= 0 && std::isfinite(o.mean_components)))
+        out_of_range("components per vertex must be finite and not negative", o.mean_components);
     if (o.coding.format == WeightFormat::packed)
         check_packed(o.coding, o.clusters);
-    if (!(o.seam_price >= 0) || !(o.border_price >= 0))
-        out_of_range("seam weights must not be negative", std::min(o.seam_price, o.border_price));
+    for (const double price : {o.seam_price, o.border_price})
+        if (!(price >= 0 && price <= kMostPrice))
+            out_of_range("seam weights must lie in 0..1e6", price);
     if (o.basis_share && !(*o.basis_share >= 0 && *o.basis_share < 1))
         out_of_range("the share of the bases must lie in 0..1", *o.basis_share);
+}
+
+void check_finite(const Transfer& transfer, std::span<const float> areas) {
+    if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(),
+                     [](float v) { return std::abs(v) <= kMostTransfer; }))
+        throw Error("the transfer holds values that are not finite, or beyond 1e12");
+    if (!std::all_of(areas.begin(), areas.end(), [](float area) { return std::isfinite(area); }))
+        throw Error("the areas of receivers are not finite");
 }
 
 } // namespace
@@ -57,7 +66,8 @@ WeightCoding preset_u64() {
     return {.components = 9, .fixed_bits = {9, 8, 7, 7, 6, 6, 5, 4, 4}, .cluster_bits = 8};
 }
 
-void check_input(const Transfer& transfer, std::span<const float> areas, const CompressOptions& options) {
+void check_input(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
+                 const CompressOptions& options) {
     check_order(transfer.order);
     check_options(options);
     const std::optional<LightMetric>& metric = options.metric;
@@ -68,9 +78,11 @@ void check_input(const Transfer& transfer, std::span<const float> areas, const C
     if (areas.size() != transfer.receivers())
         throw Error("there are areas for " + std::to_string(areas.size()) + " receivers of " +
                     std::to_string(transfer.receivers()));
-    if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(),
-                     [](float v) { return std::isfinite(v); }))
-        throw Error("the transfer holds values that are not finite");
+    check_finite(transfer, areas);
+    for (const Edge& edge : edges)
+        if (edge.first >= transfer.receivers() || edge.second >= transfer.receivers())
+            throw Error("an edge joins receivers " + std::to_string(edge.first) + " and " +
+                        std::to_string(edge.second) + " of " + std::to_string(transfer.receivers()));
 }
 
 double basis_share(const CompressOptions& options) {

@@ -128,7 +128,6 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
         return bounce_often(std::move(direct), operators, bounces, 0, threads, progress);
     // Media may return more light than they took (docs/math.md, section 8): a solution of the equation need
     // then be no sum over bounces, so that the sum itself is taken.
-    constexpr int kMostBounces = 10000;
     return operators.diffusion.empty()
                ? bounce_endlessly(std::move(direct), operators, threads, progress)
                : bounce_often(std::move(direct), operators, kMostBounces, 1e-5, threads, progress);

@@ -14,6 +14,7 @@
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -164,7 +165,8 @@ float choose_exposure(const Exposure& exposure, const Picture& picture, const Ra
     for (const std::uint32_t receiver : meter.receivers())
         radiance.push_back(picture.radiance[receiver]);
     const float luminance = meter.luminance(radiance);
-    return stops * (luminance > 0 ? exposure_for(luminance) : automatic_exposure(light));
+    const float automatic = luminance > 0 ? exposure_for(luminance) : automatic_exposure(light);
+    return std::clamp(stops * automatic, 1e-30f, 1e30f); // beyond, floats do not hold what it is a factor of
 }
 
 /// A picture that shows nothing yet.

@@ -15,6 +15,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -33,6 +34,8 @@ namespace {
 
 using prt::Error;
 using prt::Light;
+
+constexpr std::size_t kMostCoefficients = prt::kMaxOrder * prt::kMaxOrder;
 
 /// What a file or a function says no to, told apart by where it was asked.
 struct BadFile : Error {
@@ -102,9 +105,31 @@ glm::vec3 vec3(const float* v) {
     return glm::make_vec3(v);
 }
 
-bool finite(const float* values, std::size_t count) {
-    return std::all_of(values, values + count, [](float value) { return std::isfinite(value); });
+/// Whether all values lie in -most..most. Without a way out of the loop it runs in vectors.
+bool within(float most, const float* values, std::size_t count) {
+    bool inside = true;
+    for (std::size_t i = 0; i < count; ++i)
+        inside &= std::abs(values[i]) <= most; // nor is NaN
+    return inside;
 }
+
+bool finite(const float* values, std::size_t count) {
+    return within(std::numeric_limits<float>::max(), values, count);
+}
+
+/// The coefficients of a function on the sphere, as it comes in or goes out.
+void check_function(const float* function, std::size_t count) {
+    if (!finite(function, count))
+        throw Error("the coefficients of a function must be finite, and its products no larger than floats");
+}
+
+void check_colors(const float* light, std::size_t count) {
+    if (!finite(light, 3 * count))
+        throw Error("the coefficients of a light must be finite");
+}
+
+/// Of light and constants that a model is lit by.
+constexpr float kBrightest = 1e20f, kLargestConstant = 1e30f;
 
 glm::vec3 color(const float* rgb) {
     if (!finite(rgb, 3))
@@ -129,8 +154,7 @@ void put(const Light& light, float* to) {
 
 Light light_from(int order, const float* from) {
     const std::size_t count = count_of(order);
-    if (!finite(from, 3 * count))
-        throw Error("the coefficients of a light must be finite");
+    check_colors(from, count);
     const auto* first = reinterpret_cast<const glm::vec3*>(from);
     return {order, {first, first + count}};
 }
@@ -189,7 +213,11 @@ extern "C" {
 prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(direction, basis);
-        prt::evaluate_sh(order, direction_of(direction), std::span(basis, count_of(order)));
+        const std::size_t count = count_of(order);
+        std::array<float, kMostCoefficients> values;
+        prt::evaluate_sh(order, direction_of(direction), std::span(values).first(count));
+        check_function(values.data(), count);
+        std::copy_n(values.begin(), count, basis);
     });
 }
 
@@ -197,7 +225,12 @@ prt_status prt_sh_multiply(int order, const float* a, const float* b, float* out
     return guarded(message, [&] {
         check_pointers(a, b, out);
         const std::size_t count = count_of(order);
-        prt::sh_product(order, std::span(a, count), std::span(b, count), std::span(out, count));
+        check_function(a, count);
+        check_function(b, count);
+        std::array<float, kMostCoefficients> product;
+        prt::sh_product(order, std::span(a, count), std::span(b, count), std::span(product).first(count));
+        check_function(product.data(), count);
+        std::copy_n(product.begin(), count, out);
     });
 }
 
@@ -206,8 +239,12 @@ prt_status prt_sh_rotate(int order, const float rotation[9], const float* in, fl
     return guarded(message, [&] {
         check_pointers(rotation, in, out);
         const std::size_t count = count_of(order);
+        check_function(in, count);
+        std::array<float, kMostCoefficients> turned;
         prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation)))
-            .apply(std::span(in, count), std::span(out, count));
+            .apply(std::span(in, count), std::span(turned).first(count));
+        check_function(turned.data(), count);
+        std::copy_n(turned.begin(), count, out);
     });
 }
 
@@ -289,8 +326,10 @@ prt_status prt_light_from_file(int order, const char* path, int center, float* l
 prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(rotation, light);
-        prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation)))
-            .apply(std::span<glm::vec3>(colors(light), count_of(order)));
+        Light turned = light_from(order, light);
+        prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation))).apply(turned.coefficients);
+        check_colors(&turned.coefficients[0].x, turned.coefficients.size());
+        put(turned, light);
     });
 }
 
@@ -371,8 +410,13 @@ prt_status prt_model_form_constants(const prt_model* model, int order, const flo
                                     prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, light, constants);
-        model->former.form({reinterpret_cast<const glm::vec3*>(light), count_of(order)},
-                           {reinterpret_cast<glm::vec4*>(constants), model->former.rows()});
+        const std::size_t count = count_of(order), rows = model->former.rows();
+        if (!within(kBrightest, light, 3 * count))
+            throw Error("the coefficients of a light must be finite and at most 1e20");
+        model->former.form({reinterpret_cast<const glm::vec3*>(light), count},
+                           {reinterpret_cast<glm::vec4*>(constants), rows});
+        if (!within(kLargestConstant, constants, 4 * rows))
+            throw Error("the light is too bright for the model: constants pass 1e30");
     });
 }
 
@@ -380,6 +424,8 @@ prt_status prt_model_evaluate(const prt_model* model, const float* constants, fl
                               prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, constants, radiance);
+        if (!within(kLargestConstant, constants, 4 * model->former.rows()))
+            throw Error("constants must be finite and at most 1e30");
         prt::evaluate(model->transfer, {reinterpret_cast<const glm::vec4*>(constants), model->former.rows()},
                       {colors(radiance), model->transfer.receivers.size()});
     });

@@ -3,13 +3,16 @@
 
 #include "prt/dering.h"
 
+#include "light/finite_light.h"
 #include "light/radiance_grid.h"
 #include "prt/sh.h"
+#include "prt/support/error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace prt {
@@ -184,10 +187,11 @@ Row weights_of(const Light& light) {
 /// One row for every point and channel with a positive mean, in shares of the mean.
 void add_rows(const Light& light, std::span<const LowPoint> points, LeastChange& problem) {
     std::array<float, kMaxOrder * kMaxOrder> basis{};
+    const glm::dvec3 means(usable_mean(light, 0), usable_mean(light, 1), usable_mean(light, 2));
     for (const LowPoint& point : points) {
         evaluate_sh(light.order, point.direction, std::span<float>(basis));
         for (int c = 0; c < 3; ++c) {
-            const double mean = static_cast<double>(light.coefficients[0][c]) * kY00;
+            const double mean = means[c];
             if (!(mean > 0))
                 continue;
             Row row{1};
@@ -201,9 +205,19 @@ void add_rows(const Light& light, std::span<const LowPoint> points, LeastChange&
     }
 }
 
+/// Values of the basis are below 10, so that floats hold them times such coefficients.
+void check_brightness(const Light& light) {
+    constexpr float kBrightest = 1e37f;
+    check_finite(light.coefficients);
+    for (const glm::vec3& v : light.coefficients)
+        if (std::max({std::abs(v.r), std::abs(v.g), std::abs(v.b)}) > kBrightest)
+            throw Error("lighting of more than 1e37 cannot be deringed");
+}
+
 } // namespace
 
 BandFactors dering_factors(const Light& light) {
+    check_brightness(light);
     BandFactors factors;
     factors.fill(1);
     LeastChange problem(light.order, weights_of(light));
@@ -241,7 +255,7 @@ Light with_band_factors(const Light& light, const BandFactors& factors) {
         for (int m = -l; m <= l; ++m)
             result.coefficients[static_cast<std::size_t>(sh_index(l, m))] *=
                 static_cast<float>(factors[static_cast<std::size_t>(l)]);
-    return result;
+    return finite_light(std::move(result));
 }
 
 } // namespace prt

@@ -1,6 +1,7 @@
 // Seen from the origin a disc fills an elliptic cone. About the axis of that cone its coefficients are
 // integrals over a quarter of an ellipse, of something smooth (docs/math.md, eq. 13).
 
+#include "light/finite_light.h"
 #include "prt/light.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
@@ -93,7 +94,7 @@ Coefficients covered(const EllipticCone& cone) {
     static const GaussLegendre nodes(16);
     const double width = std::max(cone.narrow, 1.0) / cone.wide;
     const int halvings =
-        width < 1 ? std::clamp(static_cast<int>(std::ceil(-std::log2(width))), 0, kMostHalvings) : 0;
+        width < 1 ? static_cast<int>(std::min<double>(std::ceil(-std::log2(width)), kMostHalvings)) : 0;
     Coefficients sum{};
     for (int interval = 0; interval <= halvings + 1; ++interval) {
         // Distances from pi/2.
@@ -132,7 +133,7 @@ Light disc_light(int order, const glm::vec3& center, const glm::vec3& normal, do
     ShRotation(kMaxOrder, cone.frame).apply(std::span<const double>(about_axis), std::span<double>(sum));
     for (std::size_t i = 0; i < light.coefficients.size(); ++i)
         light.coefficients[i] = glm::vec3(glm::dvec3(radiance) * sum[i]);
-    return light;
+    return finite_light(std::move(light));
 }
 
 } // namespace prt

@@ -58,8 +58,8 @@ glm::vec3 bilinear(const Image& image, int x0, int x1, int y0, int y1, float u, 
 /// texels whose centers are integers; beyond the border the border goes on.
 glm::vec3 sample_square(const Image& image, int top, int size, double x, double y) {
     const int last = size - 1;
-    x = std::clamp(x, 0.0, double(last));
-    y = std::clamp(y, 0.0, double(last));
+    x = x > 0 ? std::min(x, double(last)) : 0; // what is not a number, too
+    y = y > 0 ? std::min(y, double(last)) : 0;
     const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
     return bilinear(image, x0, std::min(x0 + 1, last), top + y0, top + std::min(y0 + 1, last),
                     static_cast<float>(x - x0), static_cast<float>(y - y0));
@@ -157,7 +157,10 @@ glm::dvec3 angular_direction(double u, double v) {
 }
 
 glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction) {
-    const glm::dvec2 position = lat_long_position(image.width, image.height, glm::dvec3(direction)) - 0.5;
+    glm::dvec2 position = lat_long_position(image.width, image.height, glm::dvec3(direction)) - 0.5;
+    for (int axis = 0; axis < 2; ++axis)
+        if (!(position[axis] > -1)) // no number: of a direction that is none
+            position[axis] = -1;
     const double x = std::floor(position.x), y = std::floor(position.y);
     const auto wrap = [&](int i) { return (i % image.width + image.width) % image.width; };
     const auto clamp = [&](int i) { return std::clamp(i, 0, image.height - 1); };

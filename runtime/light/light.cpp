@@ -1,6 +1,7 @@
 // Lights of simple shapes in closed form: zonal coefficients, turned to where the light is.
 #include "prt/light.h"
 
+#include "light/finite_light.h"
 #include "prt/check_light.h"
 #include "prt/dering.h"
 #include "prt/sh.h"
@@ -16,6 +17,7 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <utility>
 
 namespace prt {
 
@@ -41,7 +43,7 @@ Light zonal_light(int order, const glm::vec3& axis, const glm::vec3& scale,
             light.coefficients[i] = glm::vec3(glm::dvec3(scale) * (factor * basis[i]));
         }
     }
-    return light;
+    return finite_light(std::move(light));
 }
 
 Light with_window(const Light& light, double (*window)(int, double)) {
@@ -125,7 +127,7 @@ Light scaled_to_exit_radiance(const Light& light, const glm::vec3& normal, const
         for (glm::vec3& v : result.coefficients)
             v[c] *= static_cast<float>(static_cast<double>(exit_radiance[c]) / now[c]);
     }
-    return result;
+    return finite_light(std::move(result));
 }
 
 namespace {
@@ -143,7 +145,7 @@ Light sum(const Light& a, const Light& b) {
     Light result = a;
     for (std::size_t i = 0; i < result.coefficients.size(); ++i)
         result.coefficients[i] += b.coefficients[i];
-    return result;
+    return finite_light(std::move(result));
 }
 
 Light blended(const Light& a, const Light& b, float share) {
@@ -151,7 +153,7 @@ Light blended(const Light& a, const Light& b, float share) {
     Light result = a;
     for (std::size_t i = 0; i < result.coefficients.size(); ++i)
         result.coefficients[i] += share * (b.coefficients[i] - a.coefficients[i]);
-    return result;
+    return finite_light(std::move(result));
 }
 
 glm::vec3 radiance(const Light& light, const glm::vec3& direction) {
@@ -168,13 +170,13 @@ Light truncated(const Light& light, int order) {
         throw Error("the lighting has order " + std::to_string(light.order) + ", but order " +
                     std::to_string(order) + " is needed");
     const auto count = static_cast<std::ptrdiff_t>(coefficient_count(order));
-    return {order, {light.coefficients.begin(), light.coefficients.begin() + count}};
+    return finite_light({order, {light.coefficients.begin(), light.coefficients.begin() + count}});
 }
 
 Light rotated_about_y(const Light& light, double angle) {
     Light result = light;
     ShRotation::about_y(light.order, angle).apply(result.coefficients);
-    return result;
+    return finite_light(std::move(result));
 }
 
 Light windowed(const Light& light, Window window) {

@@ -52,7 +52,7 @@ float ring_values(const Ring& ring, int order, const float* cosines, const float
 std::vector<glm::vec3> in_shares(const Light& light) {
     std::vector<glm::vec3> result = light.coefficients;
     for (int c = 0; c < 3; ++c) {
-        const double mean = kY00 * static_cast<double>(light.coefficients[0][c]);
+        const double mean = usable_mean(light, c);
         for (glm::vec3& v : result)
             v[c] = mean > 0 ? static_cast<float>(static_cast<double>(v[c]) / mean) : 0.0f;
         result[0][c] = static_cast<float>(1 / kY00);
@@ -76,6 +76,15 @@ Ring ring_at(double theta, int order, const std::vector<glm::vec3>& coefficients
 }
 
 } // namespace
+
+double usable_mean(const Light& light, int c) {
+    constexpr double kLeastShare = 1e-6;
+    const auto first = static_cast<double>(light.coefficients[0][c]);
+    double largest = 0;
+    for (const glm::vec3& v : light.coefficients)
+        largest = std::max(largest, std::abs(static_cast<double>(v[c])));
+    return first > 0 && first >= kLeastShare * largest ? kY00 * first : 0;
+}
 
 GridRadiance radiance_on_grid(const Light& light, int rows) {
     const auto columns = static_cast<std::size_t>(2 * rows), order = static_cast<std::size_t>(light.order);

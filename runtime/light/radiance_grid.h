@@ -21,7 +21,12 @@ struct GridRadiance {
     double range() const { return largest - least; }
 };
 
-/// All channels with a positive mean in `rows` rings of 2 `rows` directions. `rows` is a multiple of 16.
+/// The mean radiance of channel `c`; 0 where it is not positive, or less than a millionth of a coefficient:
+/// light that is nowhere negative has none so far above it (docs/math.md, eq. 2), and shares of it would be
+/// rounding and overflow.
+double usable_mean(const Light& light, int c);
+
+/// All channels with a usable mean in `rows` rings of 2 `rows` directions. `rows` is a multiple of 16.
 GridRadiance radiance_on_grid(const Light& light, int rows);
 
 /// How far the least radiance over all directions can be below that on a grid, as a share of the grid's

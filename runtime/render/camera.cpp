@@ -62,6 +62,11 @@ Camera automatic_camera(const Scene& scene, float aspect, float vertical_field_o
 }
 
 CameraFrame camera_frame(const Camera& camera) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(camera.position[axis]) <= kFarthestCamera &&
+              std::abs(camera.target[axis]) <= kFarthestCamera))
+            throw Error(
+                "the camera, or what it looks at, is not finite or farther than 1e18 m from the scene");
     const glm::dvec3 view(camera.target - camera.position);
     const glm::dvec3 side = glm::cross(view, glm::dvec3(camera.up));
     if (!(glm::length(side) > 0))

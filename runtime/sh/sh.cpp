@@ -152,7 +152,9 @@ double lanczos_window(int l, double width) {
     if (l == 0)
         return 1;
     const double t = pi * l / width;
-    return l < width ? std::sin(t) / t : 0;
+    if (!(l < width))
+        return 0;
+    return t > 0 ? std::sin(t) / t : 1; // endlessly wide
 }
 
 } // namespace prt

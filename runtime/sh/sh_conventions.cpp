@@ -1,12 +1,14 @@
 // Lighting between prtkit, three.js, glTF and D3DX (docs/conventions.md).
 #include "prt/sh_conventions.h"
 
+#include "light/finite_light.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -52,7 +54,7 @@ std::array<glm::vec3, 9> to_three_js(const Light& light) {
 Light from_three_js(const std::array<glm::vec3, 9>& coefficients) {
     Light light{kBands, {coefficients.begin(), coefficients.end()}};
     flip_condon_shortley(kBands, std::span<glm::vec3>(light.coefficients));
-    return light;
+    return finite_light(std::move(light));
 }
 
 std::array<glm::vec3, 9> to_gltf_irradiance(const Light& light) {
@@ -60,6 +62,7 @@ std::array<glm::vec3, 9> to_gltf_irradiance(const Light& light) {
     for (int l = 0; l < kBands; ++l)
         for (int m = -l; m <= l; ++m)
             result[static_cast<std::size_t>(sh_index(l, m))] *= irradiance_factor(l);
+    check_finite(result);
     return result;
 }
 
@@ -68,7 +71,7 @@ Light from_gltf_irradiance(const std::array<glm::vec3, 9>& coefficients) {
     for (int l = 0; l < kBands; ++l)
         for (int m = -l; m <= l; ++m)
             light.coefficients[static_cast<std::size_t>(sh_index(l, m))] /= irradiance_factor(l);
-    return light;
+    return finite_light(std::move(light));
 }
 
 Light d3dx_directional_light(int order, const glm::vec3& towards, const glm::vec3& intensity) {
@@ -76,7 +79,7 @@ Light d3dx_directional_light(int order, const glm::vec3& towards, const glm::vec
         scaled_to_exit_radiance(directional_light(order, towards, glm::vec3(1)), towards, glm::vec3(1));
     for (glm::vec3& c : light.coefficients)
         c *= intensity;
-    return light;
+    return finite_light(std::move(light));
 }
 
 Light d3dx_cone_light(int order, const glm::vec3& axis, double half_angle, const glm::vec3& intensity) {

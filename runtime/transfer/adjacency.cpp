@@ -2,6 +2,7 @@
 #include "prt/adjacency.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 namespace prt {
@@ -19,6 +20,7 @@ std::vector<Edge> unique_edges(std::vector<Edge> edges) {
 Adjacency::Adjacency(std::span<const Edge> edges, std::size_t receivers)
     : first_(receivers + 1, 0), neighbours_(2 * edges.size()) {
     for (const Edge& e : edges) {
+        assert(e.first < receivers && e.second < receivers);
         ++first_[e.first + 1];
         ++first_[e.second + 1];
     }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 
 namespace prt {
 namespace {
@@ -19,11 +20,33 @@ double ratio(double error, double reference) {
     return error > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
+void check_finite(std::span<const glm::vec3> radiance) {
+    for (const glm::vec3& r : radiance)
+        if (!std::isfinite(r.x) || !std::isfinite(r.y) || !std::isfinite(r.z))
+            throw Error("exit radiance is not finite, so that no error can be told");
+}
+
+void check_finite(std::span<const float> numbers, const char* what) {
+    if (!std::all_of(numbers.begin(), numbers.end(), [](float v) { return std::isfinite(v); }))
+        throw Error(std::string(what) + " are not finite, so that no error can be told");
+}
+
+/// What every measure of exit radiance is given.
+void check_lit(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
+               std::span<const float> areas) {
+    check_finite(reference);
+    check_finite(approximation);
+    check_finite(areas, "areas of receivers");
+}
+
 } // namespace
 
 double relative_l2(const Transfer& reference, const Transfer& approximation, std::span<const float> areas) {
     if (reference.order != approximation.order || reference.receivers() != approximation.receivers())
         throw Error("the transfers have different orders or numbers of receivers");
+    check_finite(reference.vectors, "transfer vectors");
+    check_finite(approximation.vectors, "transfer vectors");
+    check_finite(areas, "areas of receivers");
     const int channels = std::max(reference.channels, approximation.channels);
     const auto count = static_cast<std::size_t>(coefficient_count(reference.order));
     double error = 0, norm = 0;
@@ -114,6 +137,7 @@ private:
 
 double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                std::span<const float> areas) {
+    check_lit(reference, approximation, areas);
     double error = 0, norm = 0;
     for (std::size_t p = 0; p < reference.size(); ++p) {
         const double a = static_cast<double>(areas[p]);
@@ -125,6 +149,7 @@ double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> 
 }
 
 LitScale lit_scale(std::span<const glm::vec3> reference, std::span<const float> areas) {
+    check_lit(reference, {}, areas);
     LitScale scale;
     double area = 0;
     for (std::size_t p = 0; p < reference.size(); ++p) {
@@ -141,6 +166,7 @@ LitError lit_error(std::span<const glm::vec3> reference, std::span<const glm::ve
                    std::span<const float> areas, std::span<const Edge> edges,
                    std::optional<std::span<const std::uint16_t>> clusters,
                    const std::optional<LitScale>& scale) {
+    check_lit(reference, approximation, areas);
     double area = 0, largest = 0, squares = 0;
     std::vector<glm::dvec3> differences(reference.size());
     std::vector<double> sizes;

@@ -83,6 +83,20 @@ TEST(Bake, RefusesWhatItCannotDo) {
         options.rays = rays;
         EXPECT_THROW(bake(scene, options), Error);
     }
+    options.rays = 16;
+    for (const int bounces : {-2, kMostBounces + 1, 2147483647}) { // the last would take years
+        options.bounces = bounces;
+        EXPECT_THROW(bake(scene, options), Error);
+    }
+    options.bounces = 0;
+    for (const double number : {0.0, std::nan(""), HUGE_VAL}) {
+        BakeOptions bad = options;
+        bad.target_error = number;
+        EXPECT_THROW(bake(scene, bad), Error);
+        bad = options;
+        bad.subsurface.metres_per_unit = number;
+        EXPECT_THROW(bake(scene, bad), Error);
+    }
 }
 
 TEST(Bake, StopsWhenAsked) {

@@ -312,8 +312,43 @@ TEST(Compress, RefusesWhatItCannotDo) {
     refused([](CompressOptions& o) { o.mean_components = -2; });
     refused([](CompressOptions& o) { o.basis_share = 1; });
     refused([](CompressOptions& o) { o.metric = natural_metric(4, 1); });
+    refused([](CompressOptions& o) { o.seam_price = 2 * kMostPrice; });
+    refused([](CompressOptions& o) { o.border_price = std::nan(""); });
+    refused([](CompressOptions& o) { o.mean_components = std::numeric_limits<double>::infinity(); });
     const CompressOptions options;
     EXPECT_THROW(compress(fine, std::vector<float>(9, 1.0f), {}, options), Error);
+}
+
+TEST(Compress, RefusesAreasTransferAndEdgesThatCannotBe) {
+    const Transfer fine = random_transfer(10, 3, 1, 1);
+    const std::vector<float> ones(10, 1.0f);
+    for (const float area : {std::nanf(""), INFINITY}) { // as of triangles whose corners floats do not hold
+        std::vector<float> areas = ones;
+        areas[4] = area;
+        EXPECT_THROW(compress(fine, areas, {}, {}), Error) << area;
+    }
+    for (const float value : {INFINITY, -3e38f}) {
+        Transfer t = fine;
+        t.vectors[7] = value;
+        EXPECT_THROW(compress(t, ones, {}, {}), Error) << value;
+    }
+    for (const Edge edge : {Edge{0, 10}, Edge{4000000000u, 1}})
+        EXPECT_THROW(compress(fine, ones, std::vector{edge}, {}), Error) << edge.first;
+}
+
+TEST(Compress, OfTheLargestTransferAndAreasIsFinite) {
+    Transfer t = random_transfer(40, 3, 1, 1);
+    const auto expect_finite = [](const CompressResult& result) {
+        EXPECT_TRUE(std::isfinite(result.statistics.lit_rms));
+        for (const float v : decode(result.transfer).vectors)
+            EXPECT_TRUE(std::isfinite(v));
+    };
+    expect_finite(compress(t, std::vector<float>(40, 3e38f), {}, {}));
+    expect_finite(compress(t, std::vector<float>(40, 1e-45f), {}, {}));
+    expect_finite(compress(t, std::vector<float>(40, 0.0f), std::vector{Edge{0, 1}}, {}));
+    t.vectors[7] = kMostTransfer;
+    t.vectors[50] = -kMostTransfer;
+    expect_finite(compress(t, std::vector<float>(40, 1.0f), std::vector{Edge{0, 1}}, {}));
 }
 
 TEST(Compress, StopsWhenAsked) {

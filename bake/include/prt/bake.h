@@ -21,6 +21,8 @@ enum class Inside {
 
 /// Bounce until nothing is left.
 inline constexpr int kEndlessBounces = -1;
+/// More than that need not be asked for: endless bounces through media end there, too.
+inline constexpr int kMostBounces = 10000;
 inline constexpr int kMostRays = 1 << 24; ///< per receiver
 
 /// A medium for the materials of that name; for all materials where the name is empty.

@@ -22,6 +22,10 @@ struct Medium {
     double ior = 1.3;         ///< index of refraction
 };
 
+/// What the coefficients of a medium may be, in 1/m of the scene's unit: scattering from the least to the
+/// most, absorption from 0 to the most. The densest measured one has 2e4.
+inline constexpr double kLeastScattering = 1e-9, kMostCoefficient = 1e9;
+
 /// The measured media of Jensen et al. 2001, figure 5: "marble", "skin1", "whole-milk" and so on.
 struct NamedMedium {
     std::string_view name;

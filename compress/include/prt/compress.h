@@ -26,6 +26,12 @@ namespace prt {
 inline constexpr int kMostPackedWords = 8;
 inline constexpr int kMostPackedBits = 32 * kMostPackedWords - 16;
 
+/// Largest coefficient of transfer that is compressed: a real one is 1 where all light arrives, a few hundred
+/// behind nearly black sheets, and the squares of these can be summed in floats.
+inline constexpr float kMostTransfer = 1e12f;
+/// Largest price of seams and borders.
+inline constexpr double kMostPrice = 1e6;
+
 /// How a receiver's weights are written.
 struct WeightCoding {
     WeightFormat format = WeightFormat::packed;
@@ -98,8 +104,9 @@ struct CompressResult {
 
 /// Compresses `transfer`; an error counts by `areas` [receivers]. Receivers of area 0 are coded but do not
 /// count. `edges` are needed where seams have a weight. Deterministic from the seed, whatever the number of
-/// threads. Thread-safe. Throws `Error` for options outside their range and transfer that is not finite, and
-/// `Cancelled`. Memory: about twice the input; time: proportional to receivers × clusters × components.
+/// threads. Thread-safe. Throws `Error` for options outside their range, transfer beyond `kMostTransfer`,
+/// areas that are not finite and edges of receivers that are not there, and `Cancelled`. Memory: about twice
+/// the input; time: proportional to receivers × clusters × components.
 CompressResult compress(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
                         const CompressOptions& options, const Progress& progress = {});
 

@@ -20,8 +20,9 @@ using BandFactors = std::array<double, kMaxOrder>;
 /// The factors in 0..1 under which `light` is nowhere negative in any channel, and which change the exit
 /// radiance of receivers least. They are the same for all channels, so that no hue shifts, and 1 where
 /// nothing is negative. Turning the light does not change them: a light is deringed once and then rotated. A
-/// channel whose mean is not positive cannot be helped and is left out. At order 6 it takes
-/// 0.3 to 0.9 ms on a quiet core, by how many rounds the light needs.
+/// channel whose mean is not positive, or less than a millionth of a coefficient, cannot be helped and is
+/// left out. Throws `Error` for a light that is not finite, or above 1e37. At order 6 it takes 0.3 to 0.9 ms
+/// on a quiet core, by how many rounds the light needs.
 BandFactors dering_factors(const Light& light);
 
 /// `light` times its `dering_factors`: what `windowed(light, Window::automatic)` gives.

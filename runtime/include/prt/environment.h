@@ -78,7 +78,8 @@ glm::dvec3 cube_face_direction(int face, double u, double v);
 /// Unit direction at (u, v) of an angular map, u right and v down in [-1, 1], u² + v² <= 1.
 glm::dvec3 angular_direction(double u, double v);
 
-/// Bilinearly filtered radiance in unit direction `direction`.
+/// Bilinearly filtered radiance in unit direction `direction`, of an environment that `check_environment`
+/// lets pass; some pixels' in a direction that is not finite.
 glm::vec3 sample(const Environment& environment, const glm::vec3& direction);
 glm::vec3 sample_lat_long(const Image& image, const glm::vec3& direction);
 

@@ -1,6 +1,7 @@
 #pragma once
 
-// The error measures of docs/math.md, section 6. Experimental.
+// The error measures of docs/math.md, section 6. They throw `Error` for numbers that are not finite, and are
+// infinite where an error has nothing but black to compare with. Experimental.
 
 #include "prt/adjacency.h"
 #include "prt/light.h"

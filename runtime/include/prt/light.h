@@ -10,6 +10,8 @@
 
 namespace prt {
 
+/// Every function that makes or changes one gives finite coefficients or throws `Error`: for a color, a
+/// direction or an angle that is not finite, and where floats do not hold what a color comes to.
 struct Light {
     int order = 0;
     std::vector<glm::vec3> coefficients; ///< [order²] of RGB

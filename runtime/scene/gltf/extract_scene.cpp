@@ -78,6 +78,13 @@ void read_colors(const tinygltf::Model& model, const tinygltf::Primitive& primit
     check_count(vertices.colors.size(), vertices.size(), "COLOR_0");
 }
 
+void check_place(const glm::dvec3& place, std::size_t vertex) {
+    for (int axis = 0; axis < 3; ++axis)
+        if (!(std::abs(place[axis]) <= kFarthestVertex))
+            throw Error("the position of vertex " + std::to_string(vertex) +
+                        " is not finite, or farther than 1e9 m from the world's origin");
+}
+
 /// Adds the morph targets at the weights that mesh or node give (glTF 2.0, 3.7.2.2).
 void apply_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                          const std::vector<double>& weights, VertexArray& vertices) {
@@ -225,10 +232,7 @@ private:
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const glm::dmat4& matrix = skin.empty() ? node_transform.world : skin[i];
             places.emplace_back(matrix * glm::dvec4(vertices.positions[i], 1));
-            const glm::vec3 as_float(places[i]);
-            for (int axis = 0; axis < 3; ++axis)
-                if (!std::isfinite(as_float[axis]))
-                    throw Error("the position of vertex " + std::to_string(i) + " is not finite");
+            check_place(places[i], i);
             if (!vertices.normals.empty())
                 vertices.normals[i] = transformed_normal(vertices.normals[i], matrix);
         }

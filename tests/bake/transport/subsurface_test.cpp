@@ -1,6 +1,7 @@
 #include "prt/bake.h"
 #include "prt/light.h"
 #include "prt/subsurface.h"
+#include "prt/support/error.h"
 #include "support/scene_builder.h"
 #include "transport/diffusion.h"
 
@@ -185,6 +186,33 @@ TEST(Subsurface, BlursShadowsAndKeepsTheirLight) {
     // A vertex in the corner of the floor has a quarter of a plane round it, to which light spreads.
     EXPECT_NEAR(soft[0].x, sharp[0].x / 4, 0.01f);
     EXPECT_NEAR(soft_mean, sharp_mean, 0.1 * sharp_mean); // but for what leaves over the floor's edge
+}
+
+/// A triangle that is filled with a medium of those coefficients in red, and of 2000/m in green and blue.
+Transfer bake_medium(double scattering, double absorption) {
+    BakeOptions options;
+    options.order = 2;
+    options.rays = 16;
+    options.subsurface.media = {
+        {"", {glm::dvec3(scattering, 1000, 1000), glm::dvec3(absorption, 1000, 1000)}}};
+    return bake(test::SceneBuilder().triangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}).build(), options)
+        .baked.transfer;
+}
+
+TEST(Subsurface, OfTheDensestAndThinnestMediaIsFinite) {
+    for (const double scattering : {kLeastScattering, kMostCoefficient})
+        for (const double absorption : {0.0, kLeastScattering, kMostCoefficient})
+            for (const float v : bake_medium(scattering, absorption).vectors)
+                ASSERT_TRUE(std::isfinite(v)) << scattering << " " << absorption;
+}
+
+TEST(Subsurface, RefusesMediaThatCannotBe) {
+    const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+    for (const double bad : {-1.0, 2 * kMostCoefficient, 1e41, infinity, nan}) {
+        EXPECT_THROW(bake_medium(bad, 1), Error) << bad;
+        EXPECT_THROW(bake_medium(1, bad), Error) << bad;
+    }
+    EXPECT_THROW(bake_medium(0, 1), Error);
 }
 
 TEST(Subsurface, ComesFromTheMaterialsVolume) {

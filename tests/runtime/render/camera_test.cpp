@@ -57,6 +57,10 @@ TEST(Camera, PixelsLookWhereTheProjectionPutsThem) {
 TEST(Camera, LookingNowhereIsAnError) {
     EXPECT_THROW(camera_frame({{1, 1, 1}, {1, 1, 1}, {0, 1, 0}, 1}), Error);
     EXPECT_THROW(camera_frame({{0, 5, 0}, {0, 0, 0}, {0, 1, 0}, 1}), Error);
+    for (const float far : {2 * kFarthestCamera, -INFINITY, std::nanf("")}) {
+        EXPECT_THROW(camera_frame({{far, 0, 0}, {0, 0, 0}, {0, 1, 0}, 1}), Error) << far;
+        EXPECT_THROW(camera_frame({{0, 0, 1}, {0, 0, far}, {0, 1, 0}, 1}), Error) << far;
+    }
 }
 
 TEST(ToneMap, SrgbCurvesAreInverse) {

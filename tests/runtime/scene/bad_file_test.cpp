@@ -164,6 +164,16 @@ INSTANTIATE_TEST_SUITE_P(
                    f.json["nodes"][0]["scale"] = {1e39, 1, 1};
                },
                "not finite"},
+        Damage{"scaled_too_far",
+               [](GlbFile& f) {
+                   f.json["nodes"][0]["scale"] = {1, 1.01 * kFarthestVertex, 1};
+               },
+               "vertex 2 is not finite, or farther than 1e9 m"},
+        Damage{"moved_too_far",
+               [](GlbFile& f) {
+                   f.json["nodes"][0]["translation"] = {0, 0, -3e18};
+               },
+               "vertex 0 is not finite, or farther than 1e9 m"},
         Damage{"no_meshes",
                [](GlbFile& f) {
                    f.json.erase("meshes");

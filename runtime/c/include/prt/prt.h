@@ -38,7 +38,9 @@ typedef struct prt_message {
     char text[256];
 } prt_message;
 
-/* A light: `order`, and order*order colors (r, g, b) of the caller's. */
+/* A light: `order`, and order*order colors (r, g, b) of the caller's. Everything that is written is finite:
+ * numbers that are not, or that floats do not hold the result of, are a PRT_BAD_ARGUMENT, after which what
+ * the pointers lead to is as it was. Directions are unit. */
 
 /* Writes the order*order basis values in unit direction `direction` to `basis`. */
 PRT_API prt_status prt_sh_evaluate(int order, const float direction[3], float* basis, prt_message* message);
@@ -124,10 +126,12 @@ typedef struct prt_mesh {
 PRT_API prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out,
                                       prt_message* message);
 
-/* Writes the constants of all clusters, [rows][4]. Allocates nothing. */
+/* Writes the constants of all clusters, [rows][4]. Allocates nothing. Coefficients of the light are at most
+ * 1e20, constants at most 1e30; after PRT_BAD_ARGUMENT for these `constants` may be written. */
 PRT_API prt_status prt_model_form_constants(const prt_model* model, int order, const float* light,
                                             float* constants, prt_message* message);
-/* What the vertex shader computes: exit radiance for albedo 1, [receivers][3]. */
+/* What the vertex shader computes from constants of at most 1e30: exit radiance for albedo 1, [receivers][3].
+ */
 PRT_API prt_status prt_model_evaluate(const prt_model* model, const float* constants, float* radiance,
                                       prt_message* message);
 

@@ -29,7 +29,8 @@ struct SunFit {
 /// below 4, is the remainder's; the lights are those whose higher bands come nearest to the lighting's:
 /// starting at the highest peaks, then together by least squares (Ceres). The remainder has `order` bands;
 /// with the lights it adds up to `environment` exactly in them. Throws `Error` for an order
-/// outside 1..kMaxOrder, lighting of fewer than kMaxOrder bands, and a count that is not positive.
+/// outside 1..kMaxOrder, lighting of fewer than kMaxOrder bands or not finite, and a count that is not
+/// positive.
 SunFit fit_suns(const Light& environment, int order, int count);
 
 /// A fitted light as SH coefficients.

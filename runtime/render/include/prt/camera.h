@@ -10,6 +10,10 @@
 
 namespace prt {
 
+/// The farthest that a camera, and what it looks at, may lie from the scene's origin along each axis, metres:
+/// Embree takes rays that start up to 1.8e18 away. An automatic camera never comes near it.
+inline constexpr float kFarthestCamera = 1e18f;
+
 /// A pinhole camera. `up` must not point along the view.
 struct Camera {
     glm::vec3 position{0, 0, 1};
@@ -28,6 +32,7 @@ struct CameraFrame {
     glm::dvec3 forward, right, up;
     double half_height;
 };
+/// Throws `Error` for a camera that looks along `up` or at itself, or lies beyond `kFarthestCamera`.
 CameraFrame camera_frame(const Camera& camera);
 
 /// The direction, not unit, in which the position (x, y) of an image of `width` x `height` is seen; (0, 0) is

@@ -18,6 +18,12 @@
 
 namespace prt {
 
+/// The farthest that a vertex may lie from the world's origin along each axis, metres. Up to there floats
+/// hold what is made of positions: the most is the square of a triangle's doubled area, (2 sqrt(3) 1e9)^4
+/// = 1.4e38. Doubles place vertices to a tenth of a micrometre there. `extract_scene` refuses what lies
+/// beyond.
+inline constexpr double kFarthestVertex = 1e9;
+
 enum class AlphaMode { opaque, mask, blend };
 enum class Wrap { repeat, mirror, clamp };
 

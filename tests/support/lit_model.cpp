@@ -1,0 +1,36 @@
+#include "support/lit_model.h"
+
+#include "prt/gltf.h"
+#include "prt/support/file.h"
+#include "support/glb_file.h"
+#include "support/temporary_folder.h"
+
+#include <random>
+
+namespace prt::test {
+
+std::vector<std::byte> lit_model() {
+    const TemporaryFolder folder;
+    triangle_file().write(folder / "scene.glb");
+    GltfDocument document = load_gltf(folder / "scene.glb");
+    const Scene scene = extract_scene(document);
+    CompressedTransfer compressed;
+    ClusteredTransfer& transfer = compressed.transfer;
+    transfer.bases.order = 3;
+    transfer.bases.channels = 1;
+    transfer.bases.components = {4, 2};
+    std::mt19937 random(5);
+    for (std::size_t i = 0; i < 8 * transfer.bases.dimension(); ++i)
+        transfer.bases.rows.push_back(static_cast<float>(random() % 1000) / 1000);
+    transfer.receivers.format = WeightFormat::snorm8;
+    transfer.receivers.components = 4;
+    transfer.receivers.clusters = {0, 1, 0};
+    transfer.receivers.weights = {std::byte{127}, std::byte{3}, std::byte{5}, std::byte{7},
+                                  std::byte{9},   std::byte{1}, std::byte{0}, std::byte{0},
+                                  std::byte{1},   std::byte{2}, std::byte{3}, std::byte{4}};
+    write_clustered(document, scene, compressed);
+    save_glb(document, folder / "lit.glb");
+    return read_file(folder / "lit.glb");
+}
+
+} // namespace prt::test
