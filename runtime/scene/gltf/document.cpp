@@ -7,6 +7,7 @@
 #include "gltf/glb.h"
 #include "gltf/instances.h"
 #include "gltf/meshopt_views.h"
+#include "prt/encode_glb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 
@@ -281,8 +282,7 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
     return GltfDocument(std::move(contents));
 }
 
-void save_glb(const GltfDocument& document, const std::filesystem::path& path,
-              BufferCompression compression) {
+std::vector<std::byte> encode_glb(const GltfDocument& document, BufferCompression compression) {
     const GltfContents& contents = document.contents();
     CompressedGlb glb;
     std::span<const std::byte> binary = contents.binary();
@@ -294,10 +294,15 @@ void save_glb(const GltfDocument& document, const std::filesystem::path& path,
     }
     if (!binary.empty() && !glb.json.contains("buffers"))
         glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
+    return make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
+}
+
+void save_glb(const GltfDocument& document, const std::filesystem::path& path,
+              BufferCompression compression) {
     OutputFile output(path);
     std::vector<std::byte> file;
     try {
-        file = make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
+        file = encode_glb(document, compression);
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());
     }
