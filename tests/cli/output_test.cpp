@@ -153,9 +153,10 @@ TEST_F(Output, OfTwoThatWriteOneFileOneIsWhole) {
 
 TEST_F(Output, ACancelledPictureLeavesNothing) {
     ASSERT_EQ(shell(bake("")).status, 0);
-    folder.file("light.json", R"({"prtkit_light": 1, "order": 1,
-                                  "coefficients": {"red": [1], "green": [1], "blue": [1]}})");
-    const std::string render = PRT_PROGRAM " render good.glb --env light.json -o p.exr --backend cpu ";
+    folder.file("light.json", R"({"prtkit_light": 1, "order": 2,
+                                  "coefficients": {"red": [1, 0, 0, 0], "green": [1, 0, 0, 0],
+                                                   "blue": [1, 0, 0, 0]}})");
+    const std::string render = PRT_PROGRAM " render out.glb --env light.json -o p.exr --backend cpu ";
     for (const char* after : {"0", "2"}) { // seconds; signals that come before it listens are ignored
         const Outcome outcome = shell(render + "--size 4096x4096 --samples 1 & sleep " + after +
                                       "; while kill -INT $! 2>/dev/null; do sleep 0.1; done; wait $!");
@@ -167,7 +168,7 @@ TEST_F(Output, ACancelledPictureLeavesNothing) {
 }
 
 TEST_F(Output, LittleOfEverythingIsEnoughOrOneLine) {
-    for (const char* limit : {"ulimit -n 8", "ulimit -v 1000000", "ulimit -u 1", "ulimit -f 1"}) {
+    for (const char* limit : {"ulimit -n 8", "ulimit -v 1000000", "ulimit -f 1"}) {
         std::filesystem::remove(folder / "out.glb");
         const Outcome outcome = shell(std::string(limit) + "; " + bake(""));
         EXPECT_LE(outcome.status, 1) << limit << outcome.err;
