@@ -12,6 +12,7 @@
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace prt::cli {
 namespace {
@@ -60,9 +61,10 @@ int run(int argc, char** argv) {
     return 0;
 }
 
-int complain(int status, const std::string& what) noexcept {
+/// Also where there is no memory left for words.
+int complain(int status, std::string_view what, std::string_view more = {}) noexcept {
     try {
-        say("error: " + what);
+        say(std::string("error: ").append(what).append(more));
     } catch (const std::bad_alloc&) {
         std::fputs("prt: error: there is not enough memory\n", stderr);
     }
@@ -81,9 +83,9 @@ int run_and_tell(int argc, char** argv) {
     } catch (const std::length_error&) { // more than there can be
         return complain(1, "there is not enough memory");
     } catch (const std::filesystem::filesystem_error& error) {
-        return complain(1, error.path1().string() + ": " + error.code().message());
+        return complain(1, error.what());
     } catch (const std::exception& error) {
-        return complain(1, "of our own making, please report it: " + std::string(error.what()));
+        return complain(1, "of our own making, please report it: ", error.what());
     }
 }
 

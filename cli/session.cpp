@@ -6,7 +6,6 @@
 #include <fmt/core.h>
 
 #include <atomic>
-#include <condition_variable>
 #include <csignal>
 #include <cstdlib>
 #include <system_error>
@@ -49,11 +48,9 @@ void Interrupt::pass() {
 }
 
 void Interrupt::watch(const std::stop_token& finished) {
-    std::mutex mutex;
-    std::condition_variable_any end;
     const auto pause = [&] {
-        std::unique_lock lock(mutex);
-        end.wait_for(lock, finished, kPoll, [] { return false; });
+        std::unique_lock lock(mutex_);
+        idle_.wait_for(lock, finished, kPoll, [] { return false; });
     };
     while (!finished.stop_requested()) {
         pause();

@@ -4,6 +4,7 @@
 #include "staged_outputs.h"
 
 #include <chrono>
+#include <condition_variable>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -37,6 +38,7 @@ private:
     std::stop_source stop_;
     std::mutex mutex_; ///< held while one of the two ends is chosen
     bool passed_ = false;
+    std::condition_variable_any idle_; ///< made here, where failing to is no end of the thread
     std::jthread watcher_;
 };
 

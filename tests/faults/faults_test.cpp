@@ -195,14 +195,15 @@ TEST_F(Faults, AKilledRunLeavesWholeFilesAndTheNextCleansUp) {
     spread({"write", "rename", "sync"}, "tmpfile", kill);
 }
 
-TEST_F(Faults, OneThreadIsEnough) {
+/// Embree builds its trees in threads of its own library, and says so where it gets none.
+TEST_F(Faults, OneThreadIsEnoughOrOneLine) {
     for (const Command& command : commands()) {
-        SCOPED_TRACE(command.words[0]);
-        const TemporaryFolder folder;
-        prepare(folder, command, false);
-        const Outcome outcome = run_in(folder, command, {"PRT_FAULT=thread:1:all"});
-        EXPECT_EQ(outcome.status, 0) << outcome.err;
-        expect_whole(folder, command, false, true);
+        fail_once(command, "thread:1:all", "", false);
+        if (command.words[0] == "compress") {
+            const TemporaryFolder folder;
+            prepare(folder, command, false);
+            EXPECT_EQ(run_in(folder, command, {"PRT_FAULT=thread:1:all"}).status, 0);
+        }
     }
 }
 
