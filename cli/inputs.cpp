@@ -47,7 +47,10 @@ void put_in_order_of(const Scene& scene, SceneFile& baked) {
 }
 
 SceneFile load_scene_file(const Path& path, const GltfOptions& options) {
-    GltfDocument document = load_gltf(path, options);
+    return scene_file_of(load_gltf(path, options), path);
+}
+
+SceneFile scene_file_of(GltfDocument document, const Path& path) {
     Scene scene = extract_scene(document);
     auto baked = read_transfer(document, scene);
     auto compressed = read_clustered(document, scene);

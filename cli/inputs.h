@@ -5,6 +5,7 @@
 #include "prt/gltf.h"
 #include "prt/image_file.h"
 #include "prt/light.h"
+#include "prt/support/error.h"
 #include "session.h"
 
 #include <optional>
@@ -33,6 +34,20 @@ struct SceneFile {
     const BakeRecord* record() const;
 };
 SceneFile load_scene_file(const Path& path, const GltfOptions& options = {});
+/// The same of a document that was read from `path`.
+SceneFile scene_file_of(GltfDocument document, const Path& path);
+
+/// Calls `work`, whose errors are about `file`: they name it.
+template <class Work>
+auto about(const Path& file, Work work) {
+    try {
+        return work();
+    } catch (const Cancelled&) {
+        throw;
+    } catch (const Error& error) {
+        throw Error(file.string() + ": " + error.what());
+    }
+}
 
 /// Puts the receivers of a bake in the order that they have in another file of the same scene, whose vertices
 /// prt compress --reorder may have moved.

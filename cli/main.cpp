@@ -2,12 +2,17 @@
 #include "known_names.h"
 #include "prt/support/error.h"
 #include "session.h"
+#include "terminal.h"
 
 #include <CLI/CLI.hpp>
-#include <fmt/core.h>
 
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
 #include <new>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace prt::cli {
 namespace {
@@ -37,36 +42,59 @@ void add_commands(CLI::App& app, Session& session) {
     add_info(app, session);
 }
 
-int complain(int status, const char* what) {
-    fmt::print(stderr, "prt: error: {}\n", what);
+/// Throws what went wrong. By then no thread is left that could say so, too.
+int run(int argc, char** argv) {
+    Session session(command_line(argc, argv));
+    CLI::App app("prtkit: bakes, compresses and relights precomputed radiance transfer", "prt");
+    add_commands(app, session);
+    if (argc < 2) {
+        print(app.help());
+        throw CLI::ParseError("which command? They are listed above", CLI::ExitCodes::RequiredError);
+    }
+    check_names(app, {argv + 1, static_cast<std::size_t>(argc - 1)});
+    try {
+        app.parse(argc, argv); // calls the command
+    } catch (const CLI::Success& nothing_to_do) {
+        app.exit(nothing_to_do); // prints help
+    }
+    session.finish();
+    return 0;
+}
+
+/// Also where there is no memory left for words.
+int complain(int status, std::string_view what, std::string_view more = {}) noexcept {
+    try {
+        say(std::string("error: ").append(what).append(more));
+    } catch (const std::bad_alloc&) {
+        std::fputs("prt: error: there is not enough memory\n", stderr);
+    }
     return status;
+}
+
+int run_and_tell(int argc, char** argv) {
+    try {
+        return run(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        return complain(2, error.what());
+    } catch (const Error& error) {
+        return complain(1, error.what());
+    } catch (const std::bad_alloc&) {
+        return complain(1, "there is not enough memory");
+    } catch (const std::length_error&) { // more than there can be
+        return complain(1, "there is not enough memory");
+    } catch (const std::filesystem::filesystem_error& error) {
+        return complain(1, error.what());
+    } catch (const std::exception& error) {
+        return complain(1, "of our own making, please report it: ", error.what());
+    }
 }
 
 } // namespace
 } // namespace prt::cli
 
 int main(int argc, char** argv) {
-    using namespace prt::cli;
-    Session session(command_line(argc, argv));
-    CLI::App app("prtkit: bakes, compresses and relights precomputed radiance transfer", "prt");
-    add_commands(app, session);
-    if (argc < 2) {
-        fmt::print("{}", app.help());
-        return complain(2, "which command? They are listed above");
-    }
-    try {
-        check_names(app, {argv + 1, static_cast<std::size_t>(argc - 1)});
-        app.parse(argc, argv); // calls the command
-        if (std::fflush(stdout) != 0)
-            throw prt::Error("standard output cannot be written");
-        return 0;
-    } catch (const CLI::Success& nothing_to_do) {
-        return app.exit(nothing_to_do);
-    } catch (const CLI::ParseError& error) {
-        return complain(2, error.what());
-    } catch (const std::bad_alloc&) {
-        return complain(1, "there is not enough memory");
-    } catch (const std::exception& error) {
-        return complain(1, error.what());
-    }
+    for (const int signal : {SIGPIPE, SIGXFSZ}) // writing fails instead
+        std::signal(signal, SIG_IGN);
+    prt::cli::occupy_standard_streams();
+    return prt::cli::run_and_tell(argc, argv);
 }

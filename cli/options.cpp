@@ -1,6 +1,10 @@
 #include "options.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdlib>
 
 namespace prt::cli {
@@ -22,11 +26,41 @@ const std::map<std::string, BadPixels> kBadPixels = {
 
 } // namespace
 
-void add_output(CLI::App* command, Path& output, const std::string& text) {
-    const auto empty = [](const std::string& name) {
-        return name.empty() ? std::string("the name of the file is empty") : std::string();
+CLI::Validator real_in(double low, double high) {
+    const std::string range = fmt::format("[{} - {}]", low, high);
+    const auto check = [low, high, range](const std::string& text) {
+        const std::optional<double> value = real_number(text);
+        return value && *value >= low && *value <= high ? std::string() : text + " is no number in " + range;
     };
-    command->add_option("-o,--output", output, text)->required()->type_name("FILE")->check(empty);
+    return {check, "FLOAT in " + range};
+}
+
+CLI::Validator above_zero() {
+    const auto check = [](const std::string& text) {
+        const std::optional<double> value = real_number(text);
+        return value && *value > 0 && std::isfinite(*value) ? std::string()
+                                                            : text + " is no finite number above 0";
+    };
+    return {check, "POSITIVE"};
+}
+
+CLI::Validator seed() {
+    const auto check = [](const std::string& text) {
+        std::uint64_t value = 0;
+        const char* end = text.data() + text.size();
+        const auto [stop, error] = std::from_chars(text.data(), end, value);
+        return error == std::errc() && stop == end ? std::string()
+                                                   : text + " is no whole number in [0 - 2^64 - 1]";
+    };
+    return {check, "UINT64"};
+}
+
+std::string named(const std::string& name) {
+    return name.empty() ? "the name of the file is empty" : "";
+}
+
+void add_output(CLI::App* command, Path& output, const std::string& text) {
+    command->add_option("-o,--output", output, text)->required()->type_name("FILE")->check(named);
 }
 
 void add_reading(CLI::App* command, GltfOptions& reading) {
@@ -41,14 +75,19 @@ void add_threads(CLI::App* command, int& threads) {
 }
 
 void add_json(CLI::App* command, Path& json) {
-    command->add_option("--json", json, "also write all figures to this file")->type_name("FILE");
+    command->add_option("--json", json, "also write all figures to this file")
+        ->type_name("FILE")
+        ->check(named);
 }
 
 void add_reports(CLI::App* command, ReportFiles& files) {
     add_json(command, files.json);
-    command->add_option("--html", files.html, "also write a report page to this file")->type_name("FILE");
+    command->add_option("--html", files.html, "also write a report page to this file")
+        ->type_name("FILE")
+        ->check(named);
     command->add_option("--csv", files.csv, "also write all figures to this file, one a line")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->check(named);
 }
 
 void add_backend(CLI::App* command, Backend& backend, const std::string& text) {
@@ -64,7 +103,8 @@ void add_light_options(CLI::App* command, LightOptions& options) {
     command
         ->add_option("--rotate", options.rotation_degrees,
                      "turn the environment about +Y, degrees, counter-clockwise from above")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(real_in(-1e6, 1e6));
     choice(command, "--env-layout", options.environment.layout, kLayouts,
            "how to read an image that does not say; otherwise by its shape", "by shape");
     choice(

@@ -40,6 +40,13 @@ CLI::Option* choice(CLI::App* command, const std::string& name, Target& target,
         ->default_str(otherwise);
 }
 
+/// What an argument must be; else it is wrong usage, and the command does not begin.
+CLI::Validator real_in(double low, double high); ///< and no NaN
+CLI::Validator above_zero();                     ///< and finite
+CLI::Validator seed();
+/// The error of a file's name, or nothing.
+std::string named(const std::string& name);
+
 /// -o, --output: the file that a command is for.
 void add_output(CLI::App* command, Path& output, const std::string& text);
 /// --allow-outside, of every command that reads a scene.

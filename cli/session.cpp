@@ -1,12 +1,14 @@
 #include "session.h"
 
-#include "prt/support/file.h"
+#include "prt/support/error.h"
+#include "terminal.h"
 
 #include <fmt/core.h>
 
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <system_error>
 
 #include <unistd.h>
 
@@ -23,31 +25,54 @@ constexpr auto kPoll = std::chrono::milliseconds(50);
 
 } // namespace
 
-Interrupt::Interrupt() {
+Interrupt::Interrupt(std::function<void()> before_end) : before_end_(std::move(before_end)) {
+    try {
+        watcher_ = std::jthread([this](const std::stop_token& finished) { watch(finished); });
+    } catch (const std::system_error&) {
+        return;
+    }
     struct sigaction action = {};
     action.sa_handler = [](int) { interrupted = true; };
     action.sa_flags = SA_RESTART;
     for (const int signal : {SIGINT, SIGTERM})
         sigaction(signal, &action, nullptr);
-    watcher_ = std::jthread([this](const std::stop_token& finished) { watch(finished); });
 }
 
 Interrupt::~Interrupt() = default;
 
+void Interrupt::pass() {
+    const std::lock_guard lock(mutex_);
+    if (interrupted)
+        throw Cancelled();
+    passed_ = true;
+}
+
 void Interrupt::watch(const std::stop_token& finished) {
+    const auto pause = [&] {
+        std::unique_lock lock(mutex_);
+        idle_.wait_for(lock, finished, kPoll, [] { return false; });
+    };
     while (!finished.stop_requested()) {
-        std::this_thread::sleep_for(kPoll);
+        pause();
         if (!interrupted)
             continue;
         stop_.request_stop();
         for (auto waited = kPoll; !finished.stop_requested(); waited += kPoll) {
-            std::this_thread::sleep_for(kPoll);
-            if (waited >= kPatience && writing_ == 0) {
-                fmt::print(stderr, "\nprt: error: cancelled\n");
-                std::_Exit(1);
-            }
+            pause();
+            if (waited >= kPatience && !finished.stop_requested())
+                end_by_force();
         }
     }
+}
+
+void Interrupt::end_by_force() {
+    const std::lock_guard lock(mutex_);
+    if (passed_)
+        return;
+    before_end_();
+    show("\n");
+    say("error: cancelled");
+    std::_Exit(1);
 }
 
 ProgressBar::ProgressBar(std::string_view title, std::stop_token stop)
@@ -55,14 +80,14 @@ ProgressBar::ProgressBar(std::string_view title, std::stop_token stop)
 
 ProgressBar::~ProgressBar() {
     if (terminal_)
-        fmt::print(stderr, "\r\033[K");
+        show("\r\033[K");
 }
 
 Progress ProgressBar::progress() {
-    return {[this](double fraction) { show(fraction); }, stop_};
+    return {[this](double fraction) { draw(fraction); }, stop_};
 }
 
-void ProgressBar::show(double fraction) {
+void ProgressBar::draw(double fraction) {
     const auto now = Clock::now();
     const auto interval = terminal_ ? std::chrono::milliseconds(100) : std::chrono::milliseconds(5000);
     if (now - shown_ < interval)
@@ -74,31 +99,32 @@ void ProgressBar::show(double fraction) {
     if (terminal_) {
         constexpr int kWidth = 30;
         const int filled = static_cast<int>(fraction * kWidth);
-        fmt::print(stderr, "\r\033[K{} [{}{}] {:3.0f} %{}", title_,
-                   std::string(static_cast<std::size_t>(filled), '#'),
-                   std::string(static_cast<std::size_t>(kWidth - filled), '.'), 100 * fraction, left);
+        show(fmt::format("\r\033[K{} [{}{}] {:3.0f} %{}", title_,
+                         std::string(static_cast<std::size_t>(filled), '#'),
+                         std::string(static_cast<std::size_t>(kWidth - filled), '.'), 100 * fraction, left));
     } else {
-        fmt::print(stderr, "{}: {:.0f} %{}\n", title_, 100 * fraction, left);
+        show(fmt::format("{}: {:.0f} %{}\n", title_, 100 * fraction, left));
     }
 }
 
-void Session::write(const std::function<void()>& save) {
-    const Interrupt::WritingScope writing(interrupt_);
-    save();
+std::uintmax_t Session::write(const Path& path, std::span<const std::byte> bytes) {
+    if (path.empty())
+        return 0;
+    OutputFile& file = output(path);
+    file.write(bytes);
+    return file.size();
 }
 
-void Session::write(const Path& path, std::string_view text) {
-    if (!path.empty())
-        write([&] {
-            OutputFile file(path);
-            file.write(text);
-            file.commit();
-        });
+void Session::finish() {
+    flush_output();
+    outputs_.finish();
+    interrupt_.pass();
+    outputs_.publish();
 }
 
 void print_notices(std::string_view file, const std::vector<std::string>& notices) {
     for (const std::string& notice : notices)
-        fmt::print(stderr, "prt: note: {}: {}\n", file, notice);
+        say(fmt::format("note: {}: {}", file, notice));
 }
 
 } // namespace prt::cli

@@ -1,11 +1,15 @@
 #pragma once
 
 #include "prt/support/progress.h"
+#include "staged_outputs.h"
 
-#include <atomic>
 #include <chrono>
+#include <condition_variable>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -17,29 +21,24 @@ namespace prt::cli {
 using Path = std::filesystem::path;
 
 /// Ctrl-C and SIGTERM. Work that watches the stop token ends by itself; what does not is ended by force
-/// before a second has passed, unless a file is being written.
+/// before a second has passed. Where no thread can be had to watch, the signals end the program at once.
 class Interrupt {
 public:
-    Interrupt();
+    /// `before_end` is called before the program is ended by force, from another thread.
+    explicit Interrupt(std::function<void()> before_end);
     ~Interrupt();
     std::stop_token token() const { return stop_.get_token(); }
-
-    /// While alive, the program is not ended by force.
-    class WritingScope {
-    public:
-        explicit WritingScope(Interrupt& interrupt) : interrupt_(interrupt) { ++interrupt_.writing_; }
-        ~WritingScope() { --interrupt_.writing_; }
-        WritingScope(const WritingScope&) = delete;
-        WritingScope& operator=(const WritingScope&) = delete;
-
-    private:
-        Interrupt& interrupt_;
-    };
+    /// From here on the program is not ended any more. Throws `Cancelled` where it was to end before.
+    void pass();
 
 private:
     void watch(const std::stop_token& finished);
+    void end_by_force();
+    std::function<void()> before_end_;
     std::stop_source stop_;
-    std::atomic<int> writing_ = 0;
+    std::mutex mutex_; ///< held while one of the two ends is chosen
+    bool passed_ = false;
+    std::condition_variable_any idle_; ///< made here, where failing to is no end of the thread
     std::jthread watcher_;
 };
 
@@ -54,7 +53,7 @@ public:
 
 private:
     using Clock = std::chrono::steady_clock;
-    void show(double fraction);
+    void draw(double fraction);
     std::string title_;
     std::stop_token stop_;
     bool terminal_;
@@ -69,14 +68,21 @@ public:
     const std::string& command_line() const { return command_line_; }
 
     ProgressBar progress_bar(std::string_view title) const { return {title, interrupt_.token()}; }
-    /// Calls `save`, which writes a file and is not cut short.
-    void write(const std::function<void()>& save);
-    /// Writes `text`, all or nothing. An empty path: nothing is written.
-    void write(const Path& path, std::string_view text);
+    /// A file to fill, published by `finish`.
+    OutputFile& output(const Path& path) { return outputs_.add(path); }
+    /// Writes such a file. An empty path: nothing is written. Returns its size in bytes.
+    std::uintmax_t write(const Path& path, std::span<const std::byte> bytes);
+    std::uintmax_t write(const Path& path, std::string_view text) {
+        return write(path, std::as_bytes(std::span(text)));
+    }
+    /// Says that all went well: everything that was printed and written arrives, or nothing of what was
+    /// written. Throws `Error`.
+    void finish();
 
 private:
     std::string command_line_;
-    Interrupt interrupt_;
+    StagedOutputs outputs_;
+    Interrupt interrupt_{[this] { outputs_.remove_names(); }};
 };
 
 /// A line on stderr for each notice about `file`.

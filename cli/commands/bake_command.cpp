@@ -2,14 +2,14 @@
 
 #include "options.h"
 #include "outputs.h"
-#include "prt/gltf.h"
+#include "prt/encode_glb.h"
+#include "prt/sh.h"
 #include "prt/support/error.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 
 namespace prt::cli {
 namespace {
@@ -29,13 +29,25 @@ const std::map<std::string, std::optional<TransferStorage>> kStorages = {
 const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
                                                          {"ignore", BadTextures::ignore}};
 
+constexpr int kMostBounces = 10000; ///< what is left then nobody sees; inf solves for all of them at once
+
 int parse_bounces(const std::string& text) {
     if (text == "inf")
         return kEndlessBounces;
     const std::optional<int> bounces = whole_number(text);
-    if (!bounces || *bounces < 0)
-        throw CLI::ValidationError("--bounces", "'" + text + "' is neither a number of bounces nor inf");
+    if (!bounces || *bounces < 0 || *bounces > kMostBounces)
+        throw CLI::ValidationError(
+            "--bounces",
+            fmt::format("'{}' is neither a number of bounces in 0..{} nor inf", text, kMostBounces));
     return *bounces;
+}
+
+/// Coefficients of media in 1/mm: light that scatters each 10 m to each 0.1 micrometre.
+constexpr double kLeastScattering = 1e-4, kMostCoefficient = 1e4;
+
+/// Whether all three are, and none is NaN.
+bool all_in(const glm::dvec3& v, double low, double high) {
+    return v.x >= low && v.x <= high && v.y >= low && v.y <= high && v.z >= low && v.z <= high;
 }
 
 /// [MATERIAL=]MEDIUM, where MEDIUM is a name or six coefficients in 1/mm.
@@ -57,10 +69,12 @@ MediumChoice parse_medium(const std::string& text) {
     int used = 0;
     if (std::sscanf(medium.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &s.x, &s.y, &s.z, &a.x, &a.y, &a.z, &used) !=
             6 ||
-        static_cast<std::size_t>(used) != medium.size() || !(std::min({s.x, s.y, s.z}) > 0) ||
-        !(std::min({a.x, a.y, a.z}) >= 0))
-        throw CLI::ValidationError("--subsurface", "'" + medium + "' is neither one of " + names +
-                                                       "nor six coefficients sr,sg,sb,ar,ag,ab in 1/mm");
+        static_cast<std::size_t>(used) != medium.size() || !all_in(s, kLeastScattering, kMostCoefficient) ||
+        !all_in(a, 0, kMostCoefficient))
+        throw CLI::ValidationError("--subsurface",
+                                   "'" + medium + "' is neither one of " + names +
+                                       "nor six coefficients sr,sg,sb,ar,ag,ab in 1/mm, scattering "
+                                       "from 1e-4 and none above 1e4");
     s *= 1000.0;
     a *= 1000.0;
     return choice;
@@ -88,7 +102,8 @@ void add_transport(CLI::App* command, BakeOptions& options) {
     command
         ->add_option("--metres-per-unit", options.subsurface.metres_per_unit,
                      "size of the scene's unit, where it is not glTF's metre; only media care")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(real_in(1e-9, 1e9));
     choice(command, "--bad-textures", options.bad_textures, kBadTextures,
            "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
            "use the factors of their materials alone",
@@ -115,7 +130,8 @@ void add_method(CLI::App* command, BakeOptions& options) {
     command
         ->add_option("--raster-resolution", options.tracer.raster_resolution,
                      "texels along each side of a depth map")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(CLI::Range(16, 16384));
 }
 
 Json statistics_json(const BakeStatistics& s) {
@@ -179,7 +195,7 @@ void add_sentences(const BakeArguments& a, const BakeResult& result, Report& rep
             "--no-shadow MATERIAL lets it pass");
 }
 
-Report report_of(const BakeArguments& a, const BakeResult& result, const Scene& scene) {
+Report report_of(const BakeArguments& a, const BakeResult& result, const Scene& scene, std::uintmax_t bytes) {
     Report report;
     add_figures(report, {{"output", a.output.string()},
                          {"order", a.options.order},
@@ -192,7 +208,7 @@ Report report_of(const BakeArguments& a, const BakeResult& result, const Scene& 
     for (const std::string& notice : scene.notices)
         statistics["notices"].push_back(notice);
     add_figures(report, statistics);
-    add_figures(report, {{"bytes_file", std::filesystem::file_size(a.output)}});
+    add_figures(report, {{"bytes_file", bytes}});
     add_sentences(a, result, report);
     return report;
 }
@@ -212,15 +228,9 @@ void leave_out_shadows(Scene& scene, const std::vector<std::string>& names) {
 }
 
 BakeResult baked(const BakeArguments& a, Scene& scene, Session& session) {
-    try {
-        leave_out_shadows(scene, a.no_shadow);
-        ProgressBar bar = session.progress_bar("baking");
-        return bake(scene, a.options, bar.progress());
-    } catch (const Cancelled&) {
-        throw;
-    } catch (const Error& error) {
-        throw Error(a.scene.string() + ": " + error.what());
-    }
+    leave_out_shadows(scene, a.no_shadow);
+    ProgressBar bar = session.progress_bar("baking");
+    return bake(scene, a.options, bar.progress());
 }
 
 void run(const BakeArguments& a, Session& session) {
@@ -231,10 +241,12 @@ void run(const BakeArguments& a, Session& session) {
     GltfDocument document = load_gltf(a.scene, reading);
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
-    const BakeResult result = baked(a, scene, session);
-    write_transfer(document, scene, result.baked);
-    session.write([&] { save_glb(document, a.output); });
-    publish(report_of(a, result, scene), a.json, session);
+    const BakeResult result = about(a.scene, [&] { return baked(a, scene, session); });
+    const std::vector<std::byte> file = about(a.scene, [&] {
+        write_transfer(document, scene, result.baked);
+        return encode_glb(document);
+    });
+    publish(report_of(a, result, scene, session.write(a.output, file)), a.json, session);
 }
 
 } // namespace
@@ -243,17 +255,20 @@ void add_bake(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("bake", "Bake transfer vectors for every vertex of a glTF scene");
     auto& a = arguments_for<BakeArguments>(command,
                                            [&session](const BakeArguments& given) { run(given, session); });
-    command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required();
+    command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
     add_output(command, a.output, "baked .glb to write");
     command->add_option("--order", a.options.order, "SH order N, 1..10: N² coefficients")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMaxOrder));
     CLI::Option* rays =
         command->add_option("--rays", a.options.rays, "rays per receiver; directions where method is raster")
-            ->capture_default_str();
+            ->capture_default_str()
+            ->check(CLI::Range(1, kMostRays));
     command
         ->add_option(
             "--target-error", a.options.target_error,
             "relative L2 error of the direct light to reach, with as many rays as each receiver needs")
+        ->check(above_zero())
         ->excludes(rays);
     add_transport(command, a.options);
     command
@@ -265,7 +280,9 @@ void add_bake(CLI::App& app, Session& session) {
     add_method(command, a.options);
     choice(command, "--storage", a.options.storage, kStorages,
            "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
-    command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
+    command->add_option("--seed", a.options.seed, "seed of the samples")
+        ->capture_default_str()
+        ->check(seed());
     add_reading(command, a.reading);
     add_threads(command, a.options.threads);
     add_json(command, a.json);

@@ -60,7 +60,7 @@ void add_bench(CLI::App& app, Session& session) {
         "bench", "Measure speed against error of the bake, on every backend and by every method");
     auto& a = arguments_for<BenchArguments>(command,
                                             [&session](const BenchArguments& given) { run(given, session); });
-    CLI::Option* scene = command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb");
+    CLI::Option* scene = command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->check(named);
     command->add_flag("--classic", a.classic, "generated meshes like those of Hill's table of 2004")
         ->excludes(scene);
     command->add_option("--order", a.options.order, "SH order N")
@@ -78,8 +78,11 @@ void add_bench(CLI::App& app, Session& session) {
         ->capture_default_str()
         ->check(CLI::Range(16, 16384));
     command->add_option("--most-seconds", a.options.most_seconds, "leave runs out that would take longer")
-        ->capture_default_str();
-    command->add_option("--seed", a.options.seed, "seed of the samples")->capture_default_str();
+        ->capture_default_str()
+        ->check(real_in(0, 1e9));
+    command->add_option("--seed", a.options.seed, "seed of the samples")
+        ->capture_default_str()
+        ->check(seed());
     add_reading(command, a.reading);
     add_threads(command, a.options.threads);
     add_reports(command, a.files);

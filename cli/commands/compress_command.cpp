@@ -2,15 +2,15 @@
 
 #include "options.h"
 #include "outputs.h"
+#include "prt/encode_glb.h"
 #include "prt/error_measures.h"
 #include "prt/reorder.h"
 #include "prt/search.h"
+#include "prt/sh.h"
 #include "prt/support/error.h"
 #include "report/trace_lines.h"
 
 #include <fmt/core.h>
-
-#include <filesystem>
 
 namespace prt::cli {
 namespace {
@@ -42,17 +42,23 @@ const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::p
 const std::map<std::string, MetricChoice> kMetrics = {{"natural", MetricChoice::natural},
                                                       {"plain", MetricChoice::plain}};
 
+struct CountRange {
+    int low, high;
+};
+
 /// A number, or auto: the search chooses.
-void count_or_auto(CLI::App* command, const std::string& name, int& target, bool& choose,
+void count_or_auto(CLI::App* command, const std::string& name, CountRange range, int& target, bool& choose,
                    const std::string& text) {
     command
         ->add_option_function<std::string>(
             name,
-            [name, &target, &choose](const std::string& value) {
+            [name, range, &target, &choose](const std::string& value) {
                 choose = value == "auto";
                 const std::optional<int> number = choose ? target : whole_number(value);
-                if (!number)
-                    throw CLI::ValidationError(name, "'" + value + "' is neither a number nor auto");
+                if (!number || (!choose && (*number < range.low || *number > range.high)))
+                    throw CLI::ValidationError(name,
+                                               fmt::format("'{}' is neither a number in {}..{} nor auto",
+                                                           value, range.low, range.high));
                 target = *number;
             },
             text)
@@ -72,20 +78,28 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
         ->check(CLI::IsMember({"u32", "u64", "custom"}))
         ->type_name("u32|u64|custom")
         ->default_str("u32, custom with other sizes");
-    count_or_auto(command, "--clusters", o.compress.clusters, o.choose_clusters,
+    count_or_auto(command, "--clusters", {1, 65536}, o.compress.clusters, o.choose_clusters,
                   "number of clusters, 1..65536");
-    count_or_auto(command, "--components", o.compress.coding.components, o.choose_components,
-                  "most PCA components of a cluster");
-    command->add_option("--bits", o.compress.coding.bits,
-                        "bits of a vertex's weights together, where they are packed");
+    count_or_auto(command, "--components", {0, 3 * coefficient_count(kMaxOrder)},
+                  o.compress.coding.components, o.choose_components, "most PCA components of a cluster");
+    command
+        ->add_option("--bits", o.compress.coding.bits,
+                     "bits of a vertex's weights together, where they are packed")
+        ->check(CLI::Range(0, kMostPackedBits));
     choice(command, "--weights", o.compress.coding.format, kWeights,
            "packed: bits by variance; or 8 or 16 bits each, or float", "packed");
-    command->add_option("--max-error", o.budget.max_error,
-                        "the cheapest whose expected lit_rms under the metric is at most this");
-    command->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
-                        "the best of at most this size: whole 32-bit words, as a game binds them, and bases");
-    command->add_option("--shader-ops", o.budget.mean_components,
-                        "components that the vertex shader adds, on average over the vertices, at most");
+    command
+        ->add_option("--max-error", o.budget.max_error,
+                     "the cheapest whose expected lit_rms under the metric is at most this")
+        ->check(above_zero());
+    command
+        ->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
+                     "the best of at most this size: whole 32-bit words, as a game binds them, and bases")
+        ->check(above_zero());
+    command
+        ->add_option("--shader-ops", o.budget.mean_components,
+                     "components that the vertex shader adds, on average over the vertices, at most")
+        ->check(above_zero());
 }
 
 /// What the options mean together: u32 where no size is given, a search where a budget is.
@@ -160,18 +174,24 @@ Outcome run_compressor(const CompressArguments& a, const SceneFile& model, const
     return {std::move(found.result), std::move(found.trials)};
 }
 
-/// Puts the result into the scene's file, in the order that is asked for, and writes that.
-void save(const CompressArguments& a, SceneFile& model, ClusteredTransfer& result, Session& session) {
+/// The scene's file with the result, in the order that is asked for.
+std::vector<std::byte> encoded(const CompressArguments& a, SceneFile& model, ClusteredTransfer& result) {
     if (a.writing.reorder) {
         const std::vector<std::uint32_t> order = order_by_cluster(model.scene, result.receivers);
         reorder_vertices(model.document, model.scene, order);
         result.receivers = reordered(result.receivers, order);
     }
     write_clustered(model.document, model.scene, {result, model.baked->record});
-    session.write([&] {
-        save_glb(model.document, a.output,
-                 a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none);
-    });
+    return encode_glb(model.document, a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none);
+}
+
+/// What is about to be published, as everybody will read it.
+SceneFile read_back(const CompressArguments& a, std::span<const std::byte> file) {
+    try {
+        return scene_file_of(parse_gltf(file, a.output), a.output);
+    } catch (const Error& error) {
+        throw Error(a.baked.string() + ": cannot be compressed, nobody could read " + error.what());
+    }
 }
 
 Json trials_json(const std::vector<SearchTrial>& trials) {
@@ -274,16 +294,16 @@ void run(const CompressArguments& a, Session& session) {
     Outcome outcome = run_compressor(a, model, options, session);
     session.write(a.reports.trace, trace);
     const VertexReuse reuse_before = vertex_reuse(model.scene);
-    save(a, model, outcome.result.transfer, session);
-
-    const SceneFile written = load_scene_file(a.output);
+    const std::vector<std::byte> file =
+        about(a.baked, [&] { return encoded(a, model, outcome.result.transfer); });
+    const SceneFile written = read_back(a, file);
     put_in_order_of(written.scene, model);
     const CompressStatistics& s = outcome.result.statistics;
     Report report;
     add_figures(report, {{"output", a.output.string()}});
     add_figures(report, result_json(s, options.compress, transfer, written));
     add_figures(report, reuse_json(reuse_before, vertex_reuse(written.scene)));
-    add_figures(report, {{"bytes_file", std::filesystem::file_size(a.output)},
+    add_figures(report, {{"bytes_file", session.write(a.output, file)},
                          {"trials", trials_json(outcome.trials)},
                          {"seconds", s.seconds}});
     report.sentences = sentences(a, a.preset && !outcome.trials.empty());
@@ -298,7 +318,7 @@ void add_compress(CLI::App& app, Session& session) {
         resolve(*command, given);
         run(given, session);
     });
-    command->add_option("baked", a.baked, "output of prt bake")->required();
+    command->add_option("baked", a.baked, "output of prt bake")->required()->check(named);
     add_output(command, a.output, "compressed .glb to write");
     add_sizes(command, a.options);
     command->add_flag("--best-effort", a.best_effort, "write the nearest where nothing keeps the budget");
@@ -312,24 +332,30 @@ void add_compress(CLI::App& app, Session& session) {
             "repeat it for each of several")
         ->allow_extra_args(false) // one each time, so that the bake may follow
         ->excludes(metric)
+        ->check(named)
         ->type_name("FILE");
     add_light_options(command, a.light_options);
     command
         ->add_option("--seam-weight", a.options.compress.seam_price,
                      "what jumps of the error along mesh edges cost, 0: nothing")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(real_in(0, 1e9));
     command
         ->add_option("--potts-weight", a.options.compress.border_price,
                      "price of a neighbour in another cluster, in mean squared errors")
-        ->capture_default_str();
+        ->capture_default_str()
+        ->check(real_in(0, 1e9));
     command->add_flag("--reorder", a.writing.reorder, "put the vertices of a cluster side by side");
     command->add_flag("--meshopt", a.writing.meshopt, "write vertex data through EXT_meshopt_compression");
-    command->add_option("--seed", a.options.compress.seed, "seed of the clustering")->capture_default_str();
+    command->add_option("--seed", a.options.compress.seed, "seed of the clustering")
+        ->capture_default_str()
+        ->check(seed());
     add_reading(command, a.reading);
     add_threads(command, a.options.compress.threads);
     command
         ->add_option("--trace", a.reports.trace,
                      "write how the result came about: a line of JSON for each round, split, merge and trial")
+        ->check(named)
         ->type_name("FILE.jsonl");
     add_json(command, a.reports.json);
 }

@@ -110,13 +110,15 @@ void add_evaluate(CLI::App& app, Session& session) {
         app.add_subcommand("evaluate", "Measure the error of a compressed file against its bake");
     auto& a = arguments_for<EvaluateArguments>(
         command, [&session](const EvaluateArguments& given) { run(given, session); });
-    command->add_option("baked", a.baked, "output of prt bake, the reference")->required();
-    command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene");
+    command->add_option("baked", a.baked, "output of prt bake, the reference")->required()->check(named);
+    command->add_option("shipped", a.shipped, "output of prt compress, or another bake of the same scene")
+        ->check(named);
     command
         ->add_option("--lights", a.lights,
                      "environment (.exr, .hdr, .png, .jpg) or light (.json), repeated for each of several; "
                      "otherwise a uniform light, an overcast sky and a sun")
         ->allow_extra_args(false) // one each time, so that the files may follow
+        ->check(named)
         ->type_name("FILE");
     add_light_options(command, a.light_options);
     command->add_option("--rotations", a.rotations, "turn each light about +Y by this many equal angles")

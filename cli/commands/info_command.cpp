@@ -120,7 +120,7 @@ void add_info(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("info", "Say what a glTF file holds");
     auto& a = arguments_for<InfoArguments>(command,
                                            [&session](const InfoArguments& given) { run(given, session); });
-    command->add_option("file", a.file, "any .gltf or .glb")->required();
+    command->add_option("file", a.file, "any .gltf or .glb")->required()->check(named);
     add_reading(command, a.reading);
     add_json(command, a.json);
 }

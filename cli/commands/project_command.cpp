@@ -79,7 +79,6 @@ std::pair<LoadedLight, std::vector<FittedLight>> project(const ProjectArguments&
 void run(const ProjectArguments& a, Session& session) {
     // A light file is known by its name.
     check_outputs({{a.output, "--output", {".json"}, true}, {a.json, "--json", {".json"}}}, {a.environment});
-    check_order(a.order);
     if (a.suns > 0 && suffix_of(a.environment) == ".json")
         throw Error(a.environment.string() + ": is a light file, and suns are fitted to images");
     const Stopwatch stopwatch;
@@ -119,9 +118,12 @@ void add_project(CLI::App& app, Session& session) {
         ->add_option("environment", a.environment,
                      "environment map, .exr, .hdr, .png or .jpg; with {face} in its name six files px, nx, "
                      "py, ny, pz, nz")
-        ->required();
+        ->required()
+        ->check(named);
     add_output(command, a.output, "light to write, .json");
-    command->add_option("--order", a.order, "SH order N, 1..10")->capture_default_str();
+    command->add_option("--order", a.order, "SH order N, 1..10")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMaxOrder));
     command
         ->add_option("--suns", a.suns,
                      "fit so many lights to it, write them apart, and the rest as coefficients")

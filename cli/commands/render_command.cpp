@@ -10,6 +10,7 @@
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "prt/tone_map.h"
+#include "prt/write_exr.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
@@ -61,8 +62,8 @@ void parse_vector(const std::string& name, const std::string& text, std::optiona
     glm::dvec3 v(0);
     int used = 0;
     if (std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &v.x, &v.y, &v.z, &used) != 3 ||
-        static_cast<std::size_t>(used) != text.size())
-        throw CLI::ValidationError(name, "'" + text + "' is not x,y,z");
+        static_cast<std::size_t>(used) != text.size() || !std::isfinite(v.x + v.y + v.z))
+        throw CLI::ValidationError(name, "'" + text + "' is not x,y,z, three finite numbers");
     target = v;
 }
 
@@ -83,15 +84,17 @@ void parse_size(const std::string& text, int& width, int& height) {
         throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT in 1..16384");
 }
 
+constexpr double kMostStops = 100; ///< floats go from -126 to 127
+
 Exposure parse_exposure(const std::string& text) {
     Exposure exposure;
     exposure.automatic = text.starts_with("auto");
     const std::string number = exposure.automatic ? text.substr(4) : text;
     const bool sign_follows = number.empty() || number[0] == '+' || number[0] == '-';
     const std::optional<double> stops = number.empty() ? exposure.stops : real_number(number);
-    if ((exposure.automatic && !sign_follows) || text.empty() || !stops || !std::isfinite(*stops))
+    if ((exposure.automatic && !sign_follows) || text.empty() || !stops || !(std::abs(*stops) <= kMostStops))
         throw CLI::ValidationError("--exposure", "'" + text +
-                                                     "' is neither a number of stops nor auto, "
+                                                     "' is neither a number of stops in -100..100 nor auto, "
                                                      "auto+STOPS or auto-STOPS");
     exposure.stops = *stops;
     return exposure;
@@ -219,13 +222,13 @@ Rendered render(const RenderArguments& a, const Picture& picture, const Light& l
     return result;
 }
 
-void write_picture(const RenderArguments& a, const Rendered& rendered) {
+void write_picture(const RenderArguments& a, const Rendered& rendered, Session& session) {
     if (suffix_of(a.output) == ".exr")
-        return write_exr(a.output, downsampled(rendered.image, a.view.samples));
+        return write_exr(session.output(a.output), downsampled(rendered.image, a.view.samples));
     // Views of numbers are shown as they are.
     const auto pixels = tone_mapped(rendered.image, a.view.samples, rendered.exposure.value_or(1.0f),
                                     rendered.exposure ? a.look.tone_map : ToneMap::srgb);
-    write_png(a.output, a.view.width, a.view.height, pixels);
+    session.write(a.output, encode_png(a.view.width, a.view.height, pixels));
 }
 
 Report report_of(const RenderArguments& a, const Picture& picture, const Rendered& rendered,
@@ -282,7 +285,7 @@ void run(const RenderArguments& a, Session& session) {
     if (context)
         light_in_shader(a, model, light.light, picture);
     const Rendered rendered = render(a, picture, light.light, context.get());
-    session.write([&] { write_picture(a, rendered); });
+    write_picture(a, rendered, session);
     publish(report_of(a, picture, rendered, context.get()), a.json, session);
 }
 
@@ -299,7 +302,7 @@ void add_view(CLI::App* command, View& view) {
                   "point the camera looks at; otherwise the middle of the scene");
     command->add_option("--fov", view.field_of_view_degrees, "vertical field of view, degrees")
         ->capture_default_str()
-        ->check(CLI::Range(1.0, 170.0));
+        ->check(real_in(1, 170));
 }
 
 void add_exposure(CLI::App* command, Look& look) {
@@ -321,9 +324,11 @@ void add_render(CLI::App& app, Session& session) {
         command, [&session](const RenderArguments& given) { run(given, session); });
     command
         ->add_option("model", a.model, "any .gltf or .glb: compressed, baked, or neither (then unshadowed)")
-        ->required();
+        ->required()
+        ->check(named);
     command->add_option("--env", a.environment, "environment (.exr, .hdr, .png, .jpg) or light (.json)")
         ->required()
+        ->check(named)
         ->type_name("FILE");
     add_output(command, a.output, "picture to write, .png or .exr");
     add_view(command, a.view);
@@ -333,7 +338,9 @@ void add_render(CLI::App& app, Session& session) {
         command, "--show", a.look.show, kShows,
         "lit; the clusters; the error against --baked (white: 10 % of the mean radiance); ambient occlusion",
         "lit");
-    command->add_option("--baked", a.baked, "the bake that --show error compares with")->type_name("FILE");
+    command->add_option("--baked", a.baked, "the bake that --show error compares with")
+        ->type_name("FILE")
+        ->check(named);
     add_exposure(command, a.look);
     command->add_option("--samples", a.view.samples, "samples per pixel along each axis")
         ->capture_default_str()

@@ -4,6 +4,8 @@
 #include "outputs.h"
 #include "prt/shader_source.h"
 #include "prt/support/error.h"
+#include "prt/support/printable.h"
+#include "terminal.h"
 
 #include <fmt/core.h>
 #include <glm/vec4.hpp>
@@ -61,8 +63,8 @@ void run(const ShaderArguments& a, Session& session) {
     if (!a.compute && constants == ConstantSource::block)
         warn_of_large_blocks(a.model, transfer);
     session.write(a.output, source);
-    fmt::print("{}: {} clusters, {} rows of constants, attributes from prt_exit_radiance.glsl\n",
-               a.output.string(), transfer.bases.clusters(), constant_rows(transfer.bases));
+    print(fmt::format("{}: {} clusters, {} rows of constants, attributes from prt_exit_radiance.glsl\n",
+                      printable(a.output.string()), transfer.bases.clusters(), constant_rows(transfer.bases)));
 }
 
 } // namespace
@@ -71,7 +73,7 @@ void add_shader(CLI::App& app, Session& session) {
     CLI::App* command = app.add_subcommand("shader", "Write the shader that relights a compressed model");
     auto& a = arguments_for<ShaderArguments>(
         command, [&session](const ShaderArguments& given) { run(given, session); });
-    command->add_option("model", a.model, "output of prt compress")->required();
+    command->add_option("model", a.model, "output of prt compress")->required()->check(named);
     add_output(command, a.output, "GLSL to write");
     choice(command, "--language", a.language, kLanguages,
            "vulkan is GLSL to compile to SPIR-V, and from there to HLSL", "glsl450");

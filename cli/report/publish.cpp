@@ -1,19 +1,20 @@
 #include "report/publish.h"
 
+#include "terminal.h"
+
 #include <fmt/chrono.h>
-#include <fmt/core.h>
 
 #include <chrono>
 
 namespace prt::cli {
 
 void publish(const Report& report, const Path& json, Session& session) {
-    fmt::print("{}", report_text(report));
+    print(report_text(report));
     session.write(json, json_text(report_json(report)));
 }
 
 void publish(const Report& report, const ReportFiles& files, Session& session) {
-    fmt::print("{}", report_text(report));
+    print(report_text(report));
     Json json = report_json(report);
     json["version"] = PRTKIT_VERSION;
     session.write(files.json, json_text(json));

@@ -1,4 +1,5 @@
 #include "report/report.h"
+#include "prt/support/printable.h"
 
 #include <fmt/core.h>
 
@@ -63,7 +64,7 @@ std::string table_text(const Table& table) {
 /// A figure in a sentence.
 std::string in_words(const Json& value, std::string format) {
     if (value.is_string())
-        return value.get<std::string>();
+        return printable(value.get<std::string>());
     if (format.empty())
         return value.dump();
     const char last = format.back();
@@ -116,7 +117,7 @@ std::string shown(const Json& value, const Column& column) {
     if (value.is_null())
         return "-";
     if (value.is_string())
-        return value.get<std::string>();
+        return printable(value.get<std::string>());
     if (!value.is_number())
         return value.dump();
     if (value.is_number_integer() && column.unit == Unit::plain)
@@ -135,9 +136,9 @@ std::string shown(const Json& value, const Column& column) {
 std::string report_text(const Report& report) {
     if (!report.sentences.empty())
         return sentences_text(report);
-    std::string text = report.verdict.empty() ? report.title + "\n" : report.verdict + "\n";
+    std::string text = report.verdict.empty() ? printable(report.title) + "\n" : report.verdict + "\n";
     for (const auto& [name, value] : report.origin)
-        text += fmt::format("  {}: {}\n", name, value);
+        text += fmt::format("  {}: {}\n", name, printable(value));
     for (const Figure& figure : report.figures)
         if (!figure.column.title.empty())
             text += fmt::format("  {}: {}\n", figure.column.title, shown(figure.value, figure.column));
@@ -145,7 +146,7 @@ std::string report_text(const Report& report) {
         if (rows_for_people(table) > 0)
             text += table_text(table);
     for (const std::string& note : report.notes)
-        text += "  left out: " + note + "\n";
+        text += "  left out: " + printable(note) + "\n";
     return text;
 }
 

@@ -12,9 +12,12 @@
 
 int main(int argc, char** argv) {
     const bool with_city = argc == 3 && std::string_view(argv[2]) == "city";
-    if (argc != 2 && !with_city) {
-        std::fprintf(stderr, "usage: example_scenes FOLDER [city]\n");
-        return 2;
+    const bool help =
+        argc == 2 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h");
+    const bool option = argc == 2 && argv[1][0] == '-'; // a folder of such a name: ./-name
+    if (help || option || (argc != 2 && !with_city)) {
+        std::fprintf(help ? stdout : stderr, "usage: example_scenes FOLDER [city]\n");
+        return help ? 0 : 2;
     }
     try {
         const std::filesystem::path folder = argv[1];

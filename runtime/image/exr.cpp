@@ -5,6 +5,7 @@
 #include "prt/image_file.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
+#include "prt/write_exr.h"
 
 #include <ImathBox.h>
 #include <ImathMatrix.h>
@@ -174,9 +175,7 @@ ExrFile read_exr(std::span<const std::byte> file) {
     }
 }
 
-void write_exr(const std::filesystem::path& path, const Image& image,
-               std::optional<EnvironmentLayout> layout) {
-    OutputFile output(path);
+void write_exr(const OutputFile& output, const Image& image, std::optional<EnvironmentLayout> layout) {
     try {
         Imf::Header header(image.width, image.height);
         header.compression() = Imf::ZIP_COMPRESSION;
@@ -192,8 +191,14 @@ void write_exr(const std::filesystem::path& path, const Image& image,
         file.setFrameBuffer(buffer);
         file.writePixels(image.height);
     } catch (const std::exception& error) {
-        throw Error(path.string() + ": cannot be written: " + one_line(error.what()));
+        throw Error(output.path().string() + ": cannot be written: " + one_line(error.what()));
     }
+}
+
+void write_exr(const std::filesystem::path& path, const Image& image,
+               std::optional<EnvironmentLayout> layout) {
+    OutputFile output(path);
+    write_exr(output, image, layout);
     output.commit();
 }
 

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -44,8 +45,11 @@ void parallel_for(std::size_t count, std::size_t grain, int threads,
 
     {
         std::vector<std::jthread> helpers;
-        for (std::size_t i = 1; i < workers; ++i)
-            helpers.emplace_back(work);
+        try {
+            for (std::size_t i = 1; i < workers; ++i)
+                helpers.emplace_back(work);
+        } catch (const std::system_error&) { // no thread to be had: those that are there do it all
+        }
         work();
     }
     if (failure)

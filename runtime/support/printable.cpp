@@ -51,11 +51,10 @@ std::string hexadecimal(std::uint32_t value, int digits) {
 
 } // namespace
 
-std::string printable(std::string_view text) {
-    constexpr std::size_t kMostBytes = 1000;
+std::string printable(std::string_view text, std::size_t most_bytes) {
     std::string result;
     while (!text.empty()) {
-        if (result.size() > kMostBytes)
+        if (result.size() > most_bytes)
             return result + " ...";
         const Character character = first_character(text);
         const std::size_t bytes = std::max<std::size_t>(character.bytes, 1);

@@ -127,14 +127,6 @@ TEST_F(BadInput, UnsupportedExtensionIsNamed) {
               std::string::npos);
 }
 
-TEST_F(BadInput, OrdersAndRaysOutOfRange) {
-    const auto scene = good();
-    refuse_bake(scene, {"--order", "0"});
-    refuse_bake(scene, {"--order", "11"});
-    refuse_bake(scene, {"--rays", "0"});
-    refuse_bake(scene, {"--rays", "-4"});
-}
-
 TEST_F(BadInput, NoOpenGlIsSaidUnlessTheBackendIsAutomatic) {
     const auto without_opengl = [&](const char* backend) {
         return run("env",
@@ -155,8 +147,6 @@ TEST_F(BadInput, RasterWithBouncesOrOnTheCpu) {
 
 TEST_F(BadInput, MediaForMaterialsThatAreNotThere) {
     refuse_bake(good(), {"--subsurface", "porcelain=marble"});
-    refuse_bake(good(), {"--subsurface", "marble", "--metres-per-unit", "0"});
-    refuse_bake(good(), {"--target-error", "0"});
 }
 
 TEST_F(BadInput, MissingTexturesAreNamedAndMayBeIgnored) {
@@ -246,13 +236,6 @@ TEST_F(BadInput, TooManyComponentsAreRefused) {
     const std::string baked = (folder / "baked.glb").string();
     ASSERT_EQ(prt({"bake", good().string(), "-o", baked, "--rays", "4", "--order", "2"}).status, 0);
     expect_refused(prt({"compress", baked, "-o", out, "--components", "5"}), "0..4");
-    expect_refused(prt({"compress", baked, "-o", out, "--clusters", "0"}), "clusters");
-    expect_refused(prt({"compress", baked, "-o", out, "--clusters", "-3"}), "clusters");
-    expect_refused(prt({"compress", baked, "-o", out, "--bits", "1000"}), "0..240");
-    expect_refused(prt({"compress", baked, "-o", out, "--seam-weight", "-1"}), "seam");
-    for (const char* budget : {"--max-error", "--bytes-per-vertex", "--shader-ops"})
-        for (const char* value : {"0", "-0.5", "inf"})
-            expect_refused(prt({"compress", baked, "-o", out, budget, value}), "makes no sense");
     // Four coefficients in less than a byte, exactly: budgets that contradict each other.
     expect_refused(prt({"compress", baked, "-o", out, "--max-error", "1e-9", "--bytes-per-vertex", "0.5"}),
                    "nothing keeps the budget");
@@ -268,8 +251,6 @@ TEST_F(BadInput, EnvironmentsThatAreNone) {
         EXPECT_FALSE(std::filesystem::exists(light));
     }
     EXPECT_EQ(prt({"project", (folder / "nan.exr").string(), "-o", light, "--bad-pixels", "zero"}).status, 0);
-    expect_refused(prt({"project", (folder / "photo.exr").string(), "-o", light, "--order", "11"}),
-                   "order 11");
     folder.file("bad.json", "{\"prtkit_light\": 1, \"order\": 6}");
     const std::string baked = (folder / "baked.glb").string();
     ASSERT_EQ(prt({"bake", good().string(), "-o", baked, "--rays", "4"}).status, 0);
@@ -350,8 +331,8 @@ TEST_F(BadLightFile, SunsAreFittedToImagesAlone) {
 
 TEST_F(BadInput, PlacesThatCannotBeWritten) {
     const std::string scene = good().string();
-    for (const std::string& place :
-         {std::string("/no/such/folder/out.glb"), std::string("/dev/null"), folder.path().string()})
+    for (const std::string& place : {std::string("/no/such/folder/out.glb"), folder.path().string(),
+                                     (folder / (std::string(252, 'n') + ".glb")).string()})
         expect_refused(prt({"bake", scene, "-o", place, "--rays", "4"}), place);
     if (std::filesystem::exists("/proc/self"))
         expect_refused(prt({"bake", scene, "-o", "/proc/out.glb", "--rays", "4"}), "/proc/out.glb");

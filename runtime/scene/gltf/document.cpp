@@ -12,6 +12,7 @@
 #include "gltf/json_text.h"
 #include "gltf/meshopt_views.h"
 #include "gltf/side_files.h"
+#include "prt/encode_glb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 
@@ -225,21 +226,6 @@ void embed_images(GltfContents& contents) {
     }
 }
 
-/// The whole file.
-std::vector<std::byte> glb_bytes(const GltfContents& contents, BufferCompression compression) {
-    CompressedGlb glb;
-    std::span<const std::byte> binary = contents.binary();
-    if (compression == BufferCompression::meshopt) {
-        glb = compress_views(contents);
-        binary = glb.binary;
-    } else {
-        glb.json = contents.json;
-    }
-    if (!binary.empty() && !glb.json.contains("buffers"))
-        glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
-    return make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
-}
-
 } // namespace
 
 GltfDocument::GltfDocument(std::unique_ptr<GltfContents> contents) : contents_(std::move(contents)) {}
@@ -295,12 +281,27 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
     return GltfDocument(std::move(contents));
 }
 
+std::vector<std::byte> encode_glb(const GltfDocument& document, BufferCompression compression) {
+    const GltfContents& contents = document.contents();
+    CompressedGlb glb;
+    std::span<const std::byte> binary = contents.binary();
+    if (compression == BufferCompression::meshopt) {
+        glb = compress_views(contents);
+        binary = glb.binary;
+    } else {
+        glb.json = contents.json;
+    }
+    if (!binary.empty() && !glb.json.contains("buffers"))
+        glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
+    return make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
+}
+
 void save_glb(const GltfDocument& document, const std::filesystem::path& path,
               BufferCompression compression) {
     OutputFile output(path);
     std::vector<std::byte> file;
     try {
-        file = glb_bytes(document.contents(), compression);
+        file = encode_glb(document, compression);
     } catch (const std::exception& error) {
         throw Error(path.string() + ": " + in_plain_words(error));
     }

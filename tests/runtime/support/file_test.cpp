@@ -5,6 +5,15 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 namespace prt {
 namespace {
 
@@ -48,11 +57,11 @@ TEST(OutputFile, LeavesTheOldFileWhenAbandoned) {
     EXPECT_EQ(folder.files(), 1u);
 }
 
-TEST(OutputFile, RefusesWhatIsNoRegularFile) {
+TEST(OutputFile, RefusesFoldersAndNamesThatCannotBe) {
     const test::TemporaryFolder folder;
     EXPECT_THROW(OutputFile(folder.path()), Error);
-    EXPECT_THROW(OutputFile("/dev/null"), Error);
     EXPECT_THROW(OutputFile(folder / "no/such/folder"), Error);
+    EXPECT_THROW(OutputFile(folder / std::string(256, 'n')), Error);
 }
 
 TEST(OutputFile, FollowsLinksInsteadOfReplacingThem) {
@@ -69,6 +78,68 @@ TEST(OutputFile, FollowsLinksInsteadOfReplacingThem) {
     for (const char* name : {"target", "later"})
         EXPECT_EQ(read_file(folder / name).size(), 3u);
     EXPECT_EQ(std::to_integer<char>(read_file(folder / "target")[0]), 'n');
+}
+
+TEST(OutputFile, TakesTheLongestNameThatThereIs) {
+    const test::TemporaryFolder folder;
+    for (const char* text : {"new", "newer"}) {
+        OutputFile file(folder / std::string(255, 'n'));
+        file.write(text);
+        EXPECT_EQ(file.size(), std::string_view(text).size());
+        file.commit();
+        EXPECT_EQ(text_of(folder / std::string(255, 'n')), text);
+    }
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(OutputFile, IsTakenBackUnlessItIsKept) {
+    const test::TemporaryFolder folder;
+    folder.file("old", "old");
+    for (const char* name : {"old", "none"}) {
+        OutputFile file(folder / name);
+        file.write("new");
+        file.finish();
+        file.publish();
+        EXPECT_EQ(text_of(folder / name), "new");
+    }
+    EXPECT_EQ(text_of(folder / "old"), "old");
+    EXPECT_EQ(folder.files(), 1u);
+}
+
+TEST(OutputFile, WritesIntoPipesAndDevices) {
+    const test::TemporaryFolder folder;
+    ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+    std::string read;
+    std::jthread reader([&] { std::getline(std::ifstream(folder / "pipe"), read); });
+    OutputFile pipe(folder / "pipe");
+    pipe.write("new");
+    pipe.commit();
+    reader.join();
+    EXPECT_EQ(read, "new");
+    EXPECT_TRUE(std::filesystem::is_fifo(folder / "pipe"));
+    OutputFile nowhere("/dev/null");
+    nowhere.write("new");
+    nowhere.commit();
+    EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+    OutputFile full("/dev/full");
+    full.write("new");
+    EXPECT_THROW(full.commit(), Error);
+}
+
+TEST(OutputFile, RemovesWhatAKilledProcessLeftButNotWhatIsBeingWritten) {
+    const test::TemporaryFolder folder;
+    const std::string begin = ".prtkit-af63dc4c8601ec8c-"; // of "a", by Fowler, Noll and Vo
+    folder.file(begin + "1-1", "left");
+    folder.file(begin + "1-2", "another still writes");
+    folder.file(".prtkit-af63df4c8601f1a5-1-1", "of b");
+    const int other = ::open((folder / (begin + "1-2")).c_str(), O_RDONLY);
+    ASSERT_EQ(::flock(other, LOCK_EX), 0);
+    OutputFile file(folder / "a");
+    file.write("new");
+    file.commit();
+    ::close(other);
+    EXPECT_FALSE(std::filesystem::exists(folder / (begin + "1-1")));
+    EXPECT_EQ(folder.files(), 3u);
 }
 
 } // namespace

@@ -1,0 +1,16 @@
+#pragma once
+
+// glTF files in memory. Experimental.
+
+#include "prt/gltf.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace prt {
+
+/// What `save_glb` writes. Throws `Error` when it would pass 4 GB.
+std::vector<std::byte> encode_glb(const GltfDocument& document,
+                                  BufferCompression compression = BufferCompression::none);
+
+} // namespace prt
