@@ -135,6 +135,9 @@ void write_model_seeds(const Path& to) {
     test::triangle_file().write(folder / "triangle.glb");
     floor_file(2).write(folder / "floor.glb");
     dressed_file().write(folder / "dressed.glb");
+    const Scene shadows =
+        test::SceneBuilder().floor(glm::vec3(0), 1, 3).sphere(glm::vec3(0, 0.5f, 0), 0.4f, 3).build();
+    test::scene_file(shadows).write(folder / "shadows.glb");
     instanced_file().write(folder / "instanced.glb");
     save_glb(document_of(floor_file(6)), folder / "floor.meshopt.glb", BufferCompression::meshopt);
     GlbFile text = test::triangle_file();
