@@ -6,8 +6,8 @@ mkdir -p build/reference
 doxygen - <<'SETTINGS'
 PROJECT_NAME = prtkit
 OUTPUT_DIRECTORY = build/reference
-INPUT = README.md docs/architecture.md docs/terminology.md runtime bake/include compress/include
-FILE_PATTERNS = *.h README.md architecture.md terminology.md
+INPUT = README.md CONTRIBUTING.md CHANGELOG.md docs runtime bake/include compress/include
+FILE_PATTERNS = *.h *.md
 EXCLUDE_PATTERNS = */runtime/sh/*.h */runtime/light/*.h */runtime/scene/gltf/* */runtime/image/*.h
 RECURSIVE = YES
 USE_MDFILE_AS_MAINPAGE = README.md
@@ -16,6 +16,7 @@ HIDE_UNDOC_RELATIONS = YES
 QUIET = YES
 WARN_IF_UNDOCUMENTED = NO
 GENERATE_LATEX = NO
+HAVE_DOT = NO
 MACRO_EXPANSION = YES
 EXPAND_ONLY_PREDEF = YES
 PREDEFINED = PRT_API=

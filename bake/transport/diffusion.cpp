@@ -85,8 +85,8 @@ glm::vec3 DiffusionOperator::kernel(double squared_distance) const {
 
 std::uint32_t DiffusionOperator::build(std::uint32_t begin, std::uint32_t end) {
     const auto index = static_cast<std::uint32_t>(nodes_.size());
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    Node node{glm::dvec3(kInfinity), glm::dvec3(-kInfinity), glm::dvec3(0), 0, begin, end, 0};
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    Node node{glm::dvec3(kFar), glm::dvec3(-kFar), glm::dvec3(0), 0, begin, end, 0};
     for (std::uint32_t i = begin; i < end; ++i) {
         const glm::uvec3& t = triangles_[i];
         const glm::dvec3 a = position(t.x), b = position(t.y), c = position(t.z);

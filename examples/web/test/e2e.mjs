@@ -36,6 +36,7 @@ const browser = await chromium.launch({
 let failed = 0;
 async function check(name, body) {
   const page = await browser.newPage({ viewport: { width, height } });
+  page.setDefaultTimeout(120_000); // a busy machine is not a fault of the page
   const errors = [];
   page.on("pageerror", (error) => errors.push(error.message));
   page.on("console", (line) => line.type() === "error" && errors.push(line.text()));
@@ -51,7 +52,7 @@ async function check(name, body) {
 
 const url = (query) => `http://127.0.0.1:${port}/?${new URLSearchParams(query)}`;
 const picture = (page, past = 0) =>
-  page.waitForFunction((n) => globalThis.prtkitPicture?.drawn > n, past, { timeout: 60000 });
+  page.waitForFunction((n) => globalThis.prtkitPicture?.drawn > n, past, { timeout: 120_000 });
 const drawn = (page) => page.evaluate(() => globalThis.prtkitPicture.drawn);
 const canvas = (page) => page.evaluate(() => document.getElementById("view").toDataURL("image/png"));
 const dataUrl = (file) => `data:image/png;base64,${readFileSync(file).toString("base64")}`;

@@ -219,9 +219,9 @@ TEST(WhiteFurnace, IsExactlyOneWhateverTheGeometry) {
 }
 
 // Brute force by another method: random walks against every triangle, in double precision.
-class PathTracer {
+class BouncedPaths {
 public:
-    explicit PathTracer(const Scene& scene) {
+    explicit BouncedPaths(const Scene& scene) {
         for (const Primitive& primitive : scene.primitives)
             for (const glm::uvec3& t : primitive.triangles) {
                 const auto& p = scene.vertex_arrays[primitive.vertices].positions;
@@ -305,7 +305,7 @@ TEST(ColorBleeding, OfAWallOntoAFloorIsThatOfPathTracing) {
     const auto coarse = [](const glm::vec3& c, const glm::vec3& u, const glm::vec3& v) {
         return SceneBuilder().quad(c, c + u, c + u + v, c + v).build();
     };
-    PathTracer tracer(
+    BouncedPaths tracer(
         test::join({test::painted(coarse(corner, z, x), white), test::painted(coarse(corner, y, z), red)}));
 
     const BakeResult result = bake_bounces(scene, 3, 4096);

@@ -25,7 +25,7 @@ enum class ConstantSource {
 
 inline constexpr int kConstantTextureWidth = 256;
 
-/// Source of a file of shaders/: #version, `defines` (lines), then the file with its includes in place, each
+/// Source of a file of shaders/: version line, `defines` (lines), then the file with its includes in place, each
 /// once. Throws `Error` for a file that is not there.
 std::string shader_source(std::string_view name, std::string_view defines,
                           ShaderLanguage language = ShaderLanguage::glsl450);
