@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what is missing, checks how sources look, builds with warnings as errors by clang and by gcc, and runs all
-# tests: under the address and undefined-behaviour sanitizers, what runs in threads under the thread sanitizer, and
-# everything optimised, with the web page.
-#   ./test.sh [look | sanitize | tidy | threads | optimised]...   all, in this order, where none is named
+# tests: under the address and undefined-behaviour sanitizers, there also with inputs that are wrong, what runs in threads
+# under the thread sanitizer, and everything optimised, with the web page.
+#   ./test.sh [look | sanitize | fuzz | tidy | threads | optimised]...   all, in this order, where none is named
 set -euo pipefail
 cd "$(dirname "$0")"
 
@@ -13,6 +13,13 @@ look() {
 
 sanitize() {
     build_and_test sanitize
+}
+
+# A bounded number of fuzzed and mutated inputs, in the build of `sanitize`; docs/fuzzing.md says how to run more.
+fuzz() {
+    cmake --preset sanitize >/dev/null
+    cmake --build --preset fuzz
+    ctest --preset fuzz
 }
 
 # Over the joined sources of `sanitize`, whose headers are then read once for six sources.
@@ -54,10 +61,10 @@ build_and_test() {
 
 cmake/install_packages.sh
 npm install --silent --no-audit --no-fund --no-package-lock --prefix build/validator gltf-validator@2.0.0-dev.3.10 >/dev/null
-[ $# -gt 0 ] || set -- look sanitize tidy threads optimised
+[ $# -gt 0 ] || set -- look sanitize fuzz tidy threads optimised
 for step in "$@"; do
     case "$step" in
-        look | sanitize | tidy | threads | optimised) ;;
+        look | sanitize | fuzz | tidy | threads | optimised) ;;
         *) echo "test.sh: there is no step '$step'" >&2; exit 2 ;;
     esac
     echo "test.sh: $step, after $((SECONDS / 60)) min $((SECONDS % 60)) s"

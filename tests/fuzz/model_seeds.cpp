@@ -1,0 +1,158 @@
+// Seeds: models.
+#include "seeds.h"
+
+#include "prt/compress.h"
+#include "prt/gltf.h"
+#include "prt/image_file.h"
+#include "support/glb_file.h"
+#include "support/scene_builder.h"
+
+#include <array>
+#include <fstream>
+#include <string>
+#include <utility>
+
+namespace prt::fuzz {
+namespace {
+
+using test::GlbFile;
+
+std::string base64(std::span<const std::byte> bytes) {
+    constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        unsigned group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = 256 * group + (i + k < bytes.size() ? static_cast<unsigned>(bytes[i + k]) : 0);
+        for (std::size_t k = 0; k < 4; ++k)
+            text += i + k <= bytes.size() ? kDigits[(group >> (18 - 6 * k)) % 64] : '=';
+    }
+    return text;
+}
+
+GlbFile floor_file(int cells) {
+    return test::scene_file(test::SceneBuilder().floor(glm::vec3(0), 1, cells).build());
+}
+
+/// One of every optional part: texture, materials with extensions, colors, morph target, skin.
+GlbFile dressed_file() {
+    GlbFile file = test::triangle_file();
+    auto& primitive = file.json["meshes"][0]["primitives"][0];
+    auto& attributes = primitive["attributes"];
+    attributes["TEXCOORD_0"] = file.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, test::kFloat, "VEC2", 2);
+    attributes["COLOR_0"] =
+        file.accessor(std::vector<std::uint8_t>{255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255},
+                      test::kUnsignedByte, "VEC4", 4, true, 4);
+    attributes["JOINTS_0"] = file.accessor(std::vector<std::uint8_t>(12, 0), test::kUnsignedByte, "VEC4", 4);
+    attributes["WEIGHTS_0"] =
+        file.accessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}, test::kFloat, "VEC4", 4);
+    primitive["targets"] = {{{"POSITION", file.accessor(std::vector<float>{0, 0, 1, 0, 0, 0, 0, 0, 0},
+                                                        test::kFloat, "VEC3", 3)}}};
+    primitive["material"] = 0;
+    file.json["meshes"][0]["weights"] = {0.5};
+    file.json["skins"] = {{{"joints", {1}}}};
+    file.json["nodes"] = {{{"mesh", 0}, {"skin", 0}, {"children", {1}}}, {{"translation", {0, 0, 1}}}};
+    const std::vector<glm::u8vec3> pixels(4, glm::u8vec3(200, 100, 50));
+    file.json["images"] = {{{"bufferView", file.view(encode_png(2, 2, pixels))}, {"mimeType", "image/png"}}};
+    file.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}}};
+    file.json["textures"] = {{{"source", 0}, {"sampler", 0}}};
+    file.json["materials"] = {
+        {{"name", "leaf"},
+         {"alphaMode", "MASK"},
+         {"doubleSided", true},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {1, 0.5, 0.25, 1}},
+           {"baseColorTexture",
+            {{"index", 0},
+             {"extensions", {{"KHR_texture_transform", {{"offset", {0.5, 0}}, {"rotation", 1}}}}}}}}},
+         {"extensions",
+          {{"KHR_materials_diffuse_transmission", {{"diffuseTransmissionFactor", 0.5}}},
+           {"KHR_materials_transmission", {{"transmissionFactor", 0.5}}},
+           {"KHR_materials_volume", {{"thicknessFactor", 1}, {"attenuationDistance", 2}}}}}}};
+    return file;
+}
+
+/// Instances, a node with a matrix, one that mirrors, a sparse accessor.
+GlbFile instanced_file() {
+    GlbFile file = test::triangle_file();
+    const std::size_t moves = file.accessor(std::vector<float>{0, 0, 0, 2, 0, 0}, test::kFloat, "VEC3", 3);
+    const std::array<std::uint16_t, 1> changed = {1};
+    const std::array<float, 3> value = {2, 0, 0};
+    const std::size_t where = file.view(std::as_bytes(std::span(changed)));
+    const std::size_t what = file.view(std::as_bytes(std::span(value)));
+    file.json["accessors"][0]["sparse"] = {{"count", 1},
+                                           {"indices", {{"bufferView", where}, {"componentType", 5123}}},
+                                           {"values", {{"bufferView", what}}}};
+    file.json["nodes"] = {
+        {{"mesh", 0},
+         {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", moves}}}}}}}},
+        {{"mesh", 0}, {"scale", {-1, 1, 1}}, {"rotation", {0, 0.6, 0, 0.8}}},
+        {{"children", {1}}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 3, 1}}}};
+    file.json["scenes"] = {{{"nodes", {0, 2}}}};
+    file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+    return file;
+}
+
+BakedTransfer bake_of(const Scene& scene, int order, int channels) {
+    BakedTransfer baked{{order, channels, {}}, {.bounces = 1, .rays = 16, .receivers = receivers_id(scene)}};
+    baked.transfer.vectors.resize(scene.receivers() * baked.transfer.dimension());
+    for (std::size_t i = 0; i < baked.transfer.vectors.size(); ++i)
+        baked.transfer.vectors[i] = 0.1f + static_cast<float>(i * 7919 % 101) / 101;
+    return baked;
+}
+
+GltfDocument document_of(const GlbFile& file) {
+    const std::string text = file.bytes();
+    return parse_gltf(std::as_bytes(std::span(text)), "seed.glb");
+}
+
+void write_bakes(const Path& folder) {
+    for (const int channels : {1, 3})
+        for (const TransferStorage storage : {TransferStorage::float32, TransferStorage::float16}) {
+            GltfDocument document = document_of(floor_file(1));
+            const Scene scene = extract_scene(document);
+            BakedTransfer baked = bake_of(scene, 2, channels);
+            baked.storage = storage;
+            write_transfer(document, scene, baked);
+            save_glb(document, folder / ("baked" + std::to_string(channels) + to_string(storage) + ".glb"));
+        }
+}
+
+void write_shipped(const Path& folder, const std::string& name, const CompressOptions& options) {
+    GltfDocument document = document_of(floor_file(2));
+    const Scene scene = extract_scene(document);
+    const BakedTransfer baked = bake_of(scene, 3, 1);
+    const CompressResult result = compress(baked.transfer, receiver_areas(scene), mesh_edges(scene), options);
+    write_clustered(document, scene, {result.transfer, baked.record});
+    save_glb(document, folder / (name + ".glb"));
+    save_glb(document, folder / (name + ".meshopt.glb"), BufferCompression::meshopt);
+}
+
+} // namespace
+
+void write_model_seeds(const Path& to) {
+    const Path folder = to / "models";
+    test::triangle_file().write(folder / "triangle.glb");
+    floor_file(2).write(folder / "floor.glb");
+    dressed_file().write(folder / "dressed.glb");
+    const Scene shadows =
+        test::SceneBuilder().floor(glm::vec3(0), 1, 3).sphere(glm::vec3(0, 0.5f, 0), 0.4f, 3).build();
+    test::scene_file(shadows).write(folder / "shadows.glb");
+    instanced_file().write(folder / "instanced.glb");
+    save_glb(document_of(floor_file(6)), folder / "floor.meshopt.glb", BufferCompression::meshopt);
+    GlbFile text = test::triangle_file();
+    text.json["buffers"] = {{{"byteLength", text.binary.size()},
+                             {"uri", "data:application/octet-stream;base64," + base64(text.binary)}}};
+    std::ofstream(folder / "triangle.gltf") << text.json.dump(1);
+    write_bakes(folder);
+    constexpr std::pair<const char*, WeightFormat> kFormats[] = {{"float32", WeightFormat::float32},
+                                                                 {"snorm16", WeightFormat::snorm16},
+                                                                 {"snorm8", WeightFormat::snorm8},
+                                                                 {"packed", WeightFormat::packed}};
+    for (const auto& [name, format] : kFormats)
+        write_shipped(folder, name, {.clusters = 3, .coding = {.format = format, .components = 4}});
+    write_shipped(folder, "plain", {.clusters = 2, .coding = {.components = 3}, .basis_share = 0});
+    write_shipped(folder, "u64", {.clusters = 4, .coding = preset_u64()});
+}
+
+} // namespace prt::fuzz

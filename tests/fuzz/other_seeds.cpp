@@ -1,0 +1,85 @@
+// Seeds: compressed buffer views, light files, and transfer for the round trip.
+#include "seeds.h"
+
+#include <meshoptimizer.h>
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <numeric>
+#include <string>
+#include <vector>
+
+namespace prt::fuzz {
+namespace {
+
+void write(const Path& path, const std::string& bytes) {
+    std::ofstream(path, std::ios::binary) << bytes;
+}
+
+/// As meshopt_target.cpp reads them: mode and filter, stride / 4 - 1 or / 2 - 1 above; the number of
+/// elements.
+std::string view_seed(int choice, std::size_t count, const std::vector<unsigned char>& data) {
+    std::string seed{char(choice), char(count % 256), char(count / 256)};
+    return seed.append(data.begin(), data.end());
+}
+
+void write_view_seeds(const Path& folder) {
+    constexpr std::size_t kCount = 48;
+    std::vector<unsigned> indices(kCount);
+    for (std::size_t i = 0; i < kCount; ++i)
+        indices[i] = static_cast<unsigned>(i / 3 + i % 3);
+    meshopt_encodeIndexVersion(1);
+    meshopt_encodeVertexVersion(0);
+    std::vector<unsigned char> triangles(meshopt_encodeIndexBufferBound(kCount, kCount));
+    triangles.resize(meshopt_encodeIndexBuffer(triangles.data(), triangles.size(), indices.data(), kCount));
+    std::vector<unsigned char> list(meshopt_encodeIndexSequenceBound(kCount, kCount));
+    list.resize(meshopt_encodeIndexSequence(list.data(), list.size(), indices.data(), kCount));
+    for (const int width : {0, 1}) {
+        write(folder / ("triangles" + std::to_string(width)), view_seed(1 + 16 * width, kCount, triangles));
+        write(folder / ("indices" + std::to_string(width)), view_seed(2 + 16 * width, kCount, list));
+    }
+    for (const int filter : {0, 1, 2, 3})
+        for (const int width : {0, 1, 2, 7}) {
+            const std::size_t stride = 4 * static_cast<std::size_t>(width + 1);
+            std::vector<unsigned char> vertices(kCount * stride);
+            std::iota(vertices.begin(), vertices.end(), static_cast<unsigned char>(0));
+            std::vector<unsigned char> data(meshopt_encodeVertexBufferBound(kCount, stride));
+            data.resize(
+                meshopt_encodeVertexBuffer(data.data(), data.size(), vertices.data(), kCount, stride));
+            write(folder / ("vertices" + std::to_string(filter) + std::to_string(width)),
+                  view_seed(4 * filter + 16 * width, kCount, data));
+        }
+}
+
+void write_light_seeds(const Path& folder) {
+    for (const int order : {1, 2, 6}) {
+        const std::vector<double> values(static_cast<std::size_t>(order * order), 0.5);
+        const nlohmann::ordered_json light = {
+            {"prtkit_light", 1},
+            {"order", order},
+            {"coefficients", {{"red", values}, {"green", values}, {"blue", values}}},
+            {"lights", {{{"towards", {0, 1, 0}}, {"irradiance", {3, 2, 1}}, {"half_angle_radians", 0.004}}}}};
+        write(folder / ("light" + std::to_string(order)), light.dump());
+    }
+}
+
+void write_round_trip_seeds(const Path& folder) {
+    std::string values(256, '\0');
+    std::iota(values.begin(), values.end(), '\x01');
+    for (int format = 0; format < 8; ++format)
+        for (int channels = 0; channels < 2; ++channels)
+            write(folder / (std::to_string(format) + std::to_string(channels)),
+                  std::string({char(channels), char(channels), '\x03', char(format), '\x04', '\x18', '\x20',
+                               '\x41'}) +
+                      values);
+}
+
+} // namespace
+
+void write_other_seeds(const Path& folder) {
+    write_view_seeds(folder / "meshopt");
+    write_light_seeds(folder / "light");
+    write_round_trip_seeds(folder / "round_trip");
+}
+
+} // namespace prt::fuzz

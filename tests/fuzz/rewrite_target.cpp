@@ -1,0 +1,93 @@
+// A model that was read is given transfer, written, plain or compressed, and is then read as what it was: so
+// do bake and compress.
+#include "input_file.h"
+#include "whole_model.h"
+
+#include "prt/reorder.h"
+#include "prt/support/file.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace prt::fuzz {
+namespace {
+
+/// What the bits of the input's last byte ask for.
+constexpr unsigned kWithMeshopt = 1, kWithClusters = 2, kWithNewOrder = 4;
+
+BakedTransfer some_transfer(const Scene& scene) {
+    BakedTransfer baked{{1, 1, {}}, {.rays = 1, .receivers = receivers_id(scene)}};
+    baked.transfer.vectors.resize(scene.receivers());
+    std::iota(baked.transfer.vectors.begin(), baked.transfer.vectors.end(), 0.f);
+    return baked;
+}
+
+CompressedTransfer some_clusters(const Scene& scene) {
+    CompressedTransfer compressed;
+    compressed.record.receivers = receivers_id(scene);
+    ClusteredTransfer& transfer = compressed.transfer;
+    transfer.bases = {.order = 1, .channels = 1, .components = {1}, .rows = {0, 1}, .bits = {}, .coded = {}};
+    transfer.receivers.format = WeightFormat::snorm8;
+    transfer.receivers.components = 4;
+    transfer.receivers.clusters.resize(scene.receivers());
+    transfer.receivers.weights.resize(4 * scene.receivers());
+    for (std::size_t i = 0; i < transfer.receivers.weights.size(); i += 4)
+        transfer.receivers.weights[i] = static_cast<std::byte>(i / 4 % 128);
+    return compressed;
+}
+
+/// What was written is read, or the writer is at fault.
+WholeModel read_again(const InputFile& file, std::size_t receivers) {
+    try {
+        WholeModel model = read_whole(read_file(file.path()), file.path());
+        expect(model.scene.receivers() == receivers, "the written file has another number of vertices");
+        return model;
+    } catch (const Error& error) {
+        std::fprintf(stderr, "fuzz: %s\n", error.what());
+        expect(false, "what was written cannot be read");
+        throw;
+    }
+}
+
+void reverse_vertices(WholeModel& model) {
+    std::vector<std::uint32_t> order(model.scene.receivers());
+    std::iota(order.begin(), order.end(), 0u);
+    for (const VertexArray& vertices : model.scene.vertex_arrays) {
+        const auto begin = order.begin() + static_cast<std::ptrdiff_t>(vertices.first_receiver);
+        std::reverse(begin, begin + static_cast<std::ptrdiff_t>(vertices.size()));
+    }
+    reorder_vertices(model.document, model.scene, order);
+}
+
+void rewrite(WholeModel model, const InputFile& file, unsigned bits) {
+    const std::size_t receivers = model.scene.receivers();
+    if (receivers > 20'000) // takes long and shows no more
+        return;
+    write_transfer(model.document, model.scene, some_transfer(model.scene));
+    save_glb(model.document, file.path());
+    WholeModel baked = read_again(file, receivers);
+    expect(baked.baked.has_value(), "the written file has lost its transfer");
+    if (bits & kWithNewOrder)
+        reverse_vertices(baked);
+    if (bits & kWithClusters)
+        write_clustered(baked.document, baked.scene, some_clusters(baked.scene));
+    else
+        write_transfer(baked.document, baked.scene, some_transfer(baked.scene));
+    save_glb(baked.document, file.path(),
+             bits & kWithMeshopt ? BufferCompression::meshopt : BufferCompression::none);
+    const WholeModel last = read_again(file, receivers);
+    expect(bits & kWithClusters ? last.compressed.has_value() : last.baked.has_value(),
+           "the written file has lost its transfer");
+}
+
+} // namespace
+} // namespace prt::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    using namespace prt::fuzz;
+    static const InputFile file("rewritten.glb");
+    return take([&] {
+        const unsigned bits = size > 0 ? data[size - 1] : 0;
+        rewrite(read_whole(bytes(data, size), file.path()), file, bits);
+    });
+}

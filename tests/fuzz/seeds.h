@@ -1,0 +1,20 @@
+#pragma once
+
+// Seed corpora: small files that are right, of every kind that the targets read. Each function fills folders.
+
+#include <filesystem>
+
+namespace prt::fuzz {
+
+using Path = std::filesystem::path;
+
+/// `models`: scenes as .glb and .gltf, bakes, and shipped files of every weight format.
+void write_model_seeds(const Path& folder);
+
+/// `exr`, `hdr`, `pictures`: lat-long maps of every kind.
+void write_environment_seeds(const Path& folder);
+
+/// `meshopt`, `light`, `round_trip`: inputs of the other targets.
+void write_other_seeds(const Path& folder);
+
+} // namespace prt::fuzz

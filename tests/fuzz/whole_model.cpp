@@ -1,0 +1,79 @@
+// Reads a model as the program does and looks at everything that was read.
+#include "whole_model.h"
+
+#include "target.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <utility>
+
+namespace prt::fuzz {
+namespace {
+
+template <class Vector>
+void expect_finite_vectors(const std::vector<Vector>& vectors, const char* what) {
+    for (const Vector& vector : vectors)
+        expect_finite(std::span(glm::value_ptr(vector), Vector::length()), what);
+}
+
+void check_materials(const Scene& scene) {
+    const auto image_is_there = [&](const TextureUse& use) {
+        expect(use.image >= -1 && use.image < static_cast<int>(scene.images.size()), "no such image");
+        for (int i = 0; i < 3; ++i)
+            expect_finite(std::span<const float>(glm::value_ptr(use.transform[i]), 2), "a texture transform");
+    };
+    for (const Material& material : scene.materials) {
+        for (const TextureUse* use :
+             {&material.base_color_texture, &material.metal.texture, &material.transmission.factor_texture,
+              &material.transmission.color_texture, &material.glass.texture})
+            image_is_there(*use);
+        expect_finite(std::span<const float>(glm::value_ptr(material.base_color), 4), "a base color");
+        const float factors[] = {material.alpha_cutoff, material.metal.factor, material.transmission.factor,
+                                 material.glass.factor, material.volume.thickness};
+        expect_finite(std::span<const float>(factors), "a factor of a material");
+    }
+}
+
+void check_scene(const Scene& scene) {
+    expect_finite(std::span<const double>(glm::value_ptr(scene.origin), 3), "the origin");
+    for (const VertexArray& vertices : scene.vertex_arrays) {
+        expect_finite_vectors(vertices.positions, "positions");
+        expect_finite_vectors(vertices.normals, "normals");
+        expect_finite_vectors(vertices.colors, "vertex colors");
+        for (const auto& set : vertices.texcoords) {
+            expect_finite_vectors(set, "texture coordinates");
+            expect(set.empty() || set.size() == vertices.size(), "texture coordinates for other vertices");
+        }
+        expect(vertices.normals.size() == vertices.size(), "normals for other vertices");
+    }
+    for (const Primitive& primitive : scene.primitives) {
+        expect(primitive.vertices < scene.vertex_arrays.size(), "no such vertices");
+        expect(primitive.material < scene.materials.size(), "no such material");
+        for (const glm::uvec3& triangle : primitive.triangles)
+            for (int c = 0; c < 3; ++c)
+                expect(triangle[c] < scene.vertex_arrays[primitive.vertices].size(), "an index is outside");
+    }
+    check_materials(scene);
+    expect_finite(std::span<const float>(receiver_areas(scene)), "areas");
+}
+
+} // namespace
+
+WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::path& path) {
+    GltfDocument document = parse_gltf(file, path);
+    Scene scene = extract_scene(document);
+    check_scene(scene);
+    auto baked = read_transfer(document, scene);
+    auto compressed = read_clustered(document, scene);
+    if (baked) {
+        expect(baked->transfer.receivers() == scene.receivers(), "transfer for other vertices");
+        expect_finite(std::span<const float>(baked->transfer.vectors), "transfer");
+    }
+    if (compressed) {
+        expect(compressed->transfer.receivers.size() == scene.receivers(), "weights for other vertices");
+        expect_finite(std::span<const float>(compressed->transfer.bases.rows), "bases");
+    }
+    return {std::move(document), std::move(scene), std::move(baked), std::move(compressed)};
+}
+
+} // namespace prt::fuzz

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "prt/gltf.h"
+
+#include <optional>
+
+namespace prt::fuzz {
+
+/// What a file holds, all of it read.
+struct WholeModel {
+    GltfDocument document;
+    Scene scene;
+    std::optional<BakedTransfer> baked;
+    std::optional<CompressedTransfer> compressed;
+};
+
+/// Reads as the program does and expects that all numbers are finite and all indices are inside. Throws
+/// `Error` where the file is refused.
+WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::path& path);
+
+} // namespace prt::fuzz

@@ -1,0 +1,200 @@
+#!/usr/bin/env python3
+"""Runs prt on models that are wrong in one or a few places, and says where it breaks.
+
+mutate.py PRT SCENE.glb... [--cases N] [--first I] [--seed S] [--jobs J] [--keep FOLDER]
+The scenes are baked and compressed first; then every case changes one of all these files (mutations.py) and gives it to
+one command. Case I of seed S is always the same. A case is right where
+- the status is 0 or 1, with no report of a sanitizer, in bounded time and memory;
+- 1: one line on stderr says why, and no output is left;
+- 0: what was written is read again, and every figure is finite;
+- and all that is printed are printable characters, with no name of a library's inner part.
+Otherwise it is printed, and its file stays in --keep. Status 1 where there is one.
+"""
+import argparse
+import concurrent.futures
+import json
+import os
+import pathlib
+import random
+import re
+import subprocess
+import sys
+import tempfile
+
+from mutations import mutate
+
+SECONDS = 60  # of one command, sanitized, on a busy machine; an idle one takes a few
+ENVIRONMENT = dict(os.environ, UBSAN_OPTIONS="print_stacktrace=1",
+                   ASAN_OPTIONS="detect_leaks=0:quarantine_size_mb=16:hard_rss_limit_mb=1024:max_allocation_size_mb=512")
+INNER = re.compile(r"std::|vector::|basic_string|\[json\.exception|terminate called|Assertion|Sanitizer|runtime error")
+NO_NUMBER = re.compile(r"(?<![\w./-])-?(nan|inf)(?![\w./-])")
+NULLS = {"seam_place_metres"}  # where there is no seam
+LIGHT = {"prtkit_light": 1, "order": 1, "coefficients": {channel: [1] for channel in ("red", "green", "blue")}}
+
+# How each kind of file is used: {file} is the changed one, {baked} and {shipped} are those that it came from.
+SCENE = [["info", "{file}"],
+         ["bake", "{file}", "-o", "out.glb", "--rays", "4", "--order", "2", "--backend", "cpu"],
+         ["bake", "{file}", "-o", "out.glb", "--rays", "4", "--order", "2", "--backend", "cpu", "--bounces", "1"],
+         ["render", "{file}", "--env", "light.json", "-o", "out.exr", "--size", "16x8", "--samples", "1", "--backend", "cpu"]]
+COMPRESS = ["compress", "{file}", "-o", "out.glb"]
+BAKED = SCENE[:2] + SCENE[3:] + [COMPRESS, COMPRESS + ["--meshopt"], COMPRESS + ["--reorder"],
+                                 COMPRESS + ["--weights", "16", "--preset", "custom", "--clusters", "3", "--components", "2"],
+                                 ["evaluate", "{file}", "{shipped}"]]
+SHIPPED = SCENE[:1] + SCENE[3:] + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.vert"]] + SCENE[1:2]
+SHIPMENTS = [["--meshopt"], ["--preset", "custom", "--weights", "8", "--clusters", "2", "--components", "3"],
+             ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3"], ["--preset", "u64", "--reorder"]]
+
+
+class Bases:
+    """The files that cases are made of: scenes, their bakes, and what these were compressed to."""
+
+    def __init__(self, program, scenes, folder):
+        self.files = []
+        for scene in scenes:
+            baked = folder / f"{scene.stem}.baked.glb"
+            self.make(program, ["bake", scene, "-o", baked, "--rays", "16", "--order", "3", "--backend", "cpu", "--storage",
+                                "float16" if len(self.files) % 2 else "float32"])
+            shipped = [folder / f"{scene.stem}.{i}.glb" for i in range(len(SHIPMENTS))]
+            for path, options in zip(shipped, SHIPMENTS):
+                self.make(program, ["compress", baked, "-o", path, *options])
+            names = {"baked": str(baked), "shipped": str(shipped[0])}
+            self.files += [(scene.read_bytes(), SCENE, names)] * 2 + [(baked.read_bytes(), BAKED, names)] * 3
+            self.files += [(path.read_bytes(), SHIPPED, names) for path in shipped]
+
+    @staticmethod
+    def make(program, arguments):
+        subprocess.run([program, *map(str, arguments)], check=True, env=ENVIRONMENT, stdout=subprocess.DEVNULL)
+
+
+def run(program, arguments, folder):
+    """Status, stdout and stderr; the status is -1 where time is over."""
+    try:
+        done = subprocess.run([program, *arguments], cwd=folder, env=ENVIRONMENT, capture_output=True, timeout=SECONDS,
+                              stdin=subprocess.DEVNULL)
+        return done.returncode, done.stdout, done.stderr
+    except subprocess.TimeoutExpired:
+        return -1, b"", b""
+
+
+def wrong_text(data):
+    """What is wrong with a text for people; nothing where all is right."""
+    try:
+        text = data.decode()
+    except UnicodeDecodeError:
+        return "prints what is no UTF-8"
+    odd = [c for c in text.replace("\n", "") if not c.isprintable()]
+    if odd:
+        return f"prints {odd[0]!r}"
+    inner = INNER.search(text)
+    return f"says '{inner.group()}'" if inner else None
+
+
+def shortened(error):
+    """The lines of a report that say what is wrong and where in our sources; else its end."""
+    lines = [line for line in error.decode(errors="backslashreplace").splitlines()
+             if re.search(r"prt: error|ERROR:|runtime error|SUMMARY|terminate called|Assertion| in prt::", line)]
+    return "\n    ".join(line.strip()[:240] for line in lines[:8]) or error.decode(errors="backslashreplace")[-500:]
+
+
+def nulls(report, name=""):
+    """The names of members that are null."""
+    if report is None:
+        yield name
+    for key, value in report.items() if isinstance(report, dict) else enumerate(report) if isinstance(report, list) else ():
+        yield from nulls(value, key if isinstance(key, str) else name)
+
+
+def numbers_are_finite(path):
+    """Every figure of a report is there and finite: JSON has null for those that are not."""
+    def refuse(word):
+        raise ValueError(f"{path.name} holds {word}")
+    report = json.loads(path.read_text(encoding="utf-8"), parse_constant=refuse)
+    for name in set(nulls(report)) - NULLS:
+        refuse(f"null for {name}")
+
+
+def wrong_output(program, folder):
+    """What is wrong with what a command that says 0 has written."""
+    try:
+        for path in folder.glob("*.report.json"):
+            numbers_are_finite(path)
+    except ValueError as error:
+        return str(error)
+    for name, reader in (("out.glb", ["info", "out.glb"]), ("out.exr", ["project", "out.exr", "-o", "check.json"])):
+        if (folder / name).exists():
+            status, _, error = run(program, reader, folder)
+            if status != 0:
+                return f"{name} cannot be read again: {error.decode(errors='replace').strip()}"
+    return None
+
+
+def finding(program, arguments, folder, before):
+    """Runs a command; what is wrong, or nothing."""
+    status, out, error = run(program, arguments, folder)
+    if status not in (0, 1):
+        return "takes too long" if status == -1 else f"ends with {status}: " + shortened(error)
+    wrong = wrong_text(out) or wrong_text(error)
+    if wrong:
+        return wrong + ": " + shortened(error)
+    if status == 0:
+        if NO_NUMBER.search(out.decode()):
+            return "prints a figure that is not finite: " + out.decode()
+        return wrong_output(program, folder)
+    lines = [line for line in error.decode().splitlines() if line.startswith("prt: error")]
+    if len(lines) != 1 or not error.endswith((lines[0] + "\n").encode()):
+        return f"says {len(lines)} lines of error: {error.decode()}"
+    left = sorted(path.name for path in folder.iterdir() if path.name not in before)
+    return f"leaves {left} with status 1: {lines[0]}" if left else None
+
+
+def check_case(program, bases, seed, case, keep):
+    """Makes a case and checks it; the line to print where it is a finding."""
+    choose = random.Random(f"{seed} {case}")
+    data, commands, names = choose.choice(bases.files)
+    command = choose.choice(commands)
+    changed = mutate(choose, data)
+    with tempfile.TemporaryDirectory(prefix="prt-mutate-") as name:
+        folder = pathlib.Path(name)
+        (folder / "case.glb").write_bytes(changed)
+        (folder / "light.json").write_text(json.dumps(LIGHT), encoding="utf-8")
+        arguments = [part.format(file="case.glb", **names) for part in command]
+        if command[0] != "shader":
+            arguments += ["--json", "case.report.json"]
+        before = {"case.glb", "light.json"}
+        wrong = finding(program, arguments, folder, before)
+        if wrong is None and (folder / "case.glb").read_bytes() != changed:
+            wrong = "has changed its input"
+    if wrong is None:
+        return None
+    if keep:
+        keep.mkdir(parents=True, exist_ok=True)
+        (keep / f"{seed}-{case}.glb").write_bytes(changed)
+    return f"case {case}: prt {' '.join(arguments)}: {wrong}"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("program", type=pathlib.Path)
+    parser.add_argument("scenes", type=pathlib.Path, nargs="+")
+    parser.add_argument("--cases", type=int, default=300)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--keep", type=pathlib.Path)
+    arguments = parser.parse_args()
+    program = arguments.program.resolve()
+    found = 0
+    with tempfile.TemporaryDirectory(prefix="prt-mutate-") as folder:
+        bases = Bases(program, [scene.resolve() for scene in arguments.scenes], pathlib.Path(folder))
+        with concurrent.futures.ThreadPoolExecutor(arguments.jobs) as workers:
+            cases = range(arguments.first, arguments.first + arguments.cases)
+            for line in workers.map(lambda case: check_case(program, bases, arguments.seed, case, arguments.keep), cases):
+                if line:
+                    found += 1
+                    print(line, flush=True)
+    print(f"{arguments.cases} cases, {found} findings")
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
