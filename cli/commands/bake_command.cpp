@@ -29,8 +29,6 @@ const std::map<std::string, std::optional<TransferStorage>> kStorages = {
 const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
                                                          {"ignore", BadTextures::ignore}};
 
-constexpr int kMostBounces = 10000; ///< what is left then nobody sees; inf solves for all of them at once
-
 int parse_bounces(const std::string& text) {
     if (text == "inf")
         return kEndlessBounces;
@@ -42,8 +40,7 @@ int parse_bounces(const std::string& text) {
     return *bounces;
 }
 
-/// Coefficients of media in 1/mm: light that scatters each 10 m to each 0.1 micrometre.
-constexpr double kLeastScattering = 1e-4, kMostCoefficient = 1e4;
+constexpr double kPerMillimetre = 1000; ///< in 1/m
 
 /// Whether all three are, and none is NaN.
 bool all_in(const glm::dvec3& v, double low, double high) {
@@ -69,14 +66,15 @@ MediumChoice parse_medium(const std::string& text) {
     int used = 0;
     if (std::sscanf(medium.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &s.x, &s.y, &s.z, &a.x, &a.y, &a.z, &used) !=
             6 ||
-        static_cast<std::size_t>(used) != medium.size() || !all_in(s, kLeastScattering, kMostCoefficient) ||
-        !all_in(a, 0, kMostCoefficient))
+        static_cast<std::size_t>(used) != medium.size() ||
+        !all_in(s * kPerMillimetre, kLeastScattering, kMostCoefficient) ||
+        !all_in(a * kPerMillimetre, 0, kMostCoefficient))
         throw CLI::ValidationError("--subsurface",
                                    "'" + medium + "' is neither one of " + names +
                                        "nor six coefficients sr,sg,sb,ar,ag,ab in 1/mm, scattering "
-                                       "from 1e-4 and none above 1e4");
-    s *= 1000.0;
-    a *= 1000.0;
+                                       "from 1e-12 and none above 1e6");
+    s *= kPerMillimetre;
+    a *= kPerMillimetre;
     return choice;
 }
 

@@ -182,7 +182,8 @@ std::vector<std::byte> encoded(const CompressArguments& a, SceneFile& model, Clu
         result.receivers = reordered(result.receivers, order);
     }
     write_clustered(model.document, model.scene, {result, model.baked->record});
-    return encode_glb(model.document, a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none);
+    return encode_glb(model.document,
+                      a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none);
 }
 
 /// What is about to be published, as everybody will read it.

@@ -10,7 +10,6 @@
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "prt/tone_map.h"
-#include "prt/write_exr.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
@@ -223,8 +222,10 @@ Rendered render(const RenderArguments& a, const Picture& picture, const Light& l
 }
 
 void write_picture(const RenderArguments& a, const Rendered& rendered, Session& session) {
-    if (suffix_of(a.output) == ".exr")
-        return write_exr(session.output(a.output), downsampled(rendered.image, a.view.samples));
+    if (suffix_of(a.output) == ".exr") {
+        session.write(a.output, encode_exr(downsampled(rendered.image, a.view.samples)));
+        return;
+    }
     // Views of numbers are shown as they are.
     const auto pixels = tone_mapped(rendered.image, a.view.samples, rendered.exposure.value_or(1.0f),
                                     rendered.exposure ? a.look.tone_map : ToneMap::srgb);

@@ -64,7 +64,8 @@ void run(const ShaderArguments& a, Session& session) {
         warn_of_large_blocks(a.model, transfer);
     session.write(a.output, source);
     print(fmt::format("{}: {} clusters, {} rows of constants, attributes from prt_exit_radiance.glsl\n",
-                      printable(a.output.string()), transfer.bases.clusters(), constant_rows(transfer.bases)));
+                      printable(a.output.string()), transfer.bases.clusters(),
+                      constant_rows(transfer.bases)));
 }
 
 } // namespace

@@ -1,11 +1,10 @@
-// OpenEXR files: checked, read to linear Rec. 709 whatever their primaries, and written.
+// Reads OpenEXR files: checked first, to linear Rec. 709 whatever their primaries.
 #include "exr.h"
 
 #include "exr_header.h"
 #include "prt/image_file.h"
 #include "prt/support/error.h"
-#include "prt/support/file.h"
-#include "prt/write_exr.h"
+#include "prt/support/printable.h"
 
 #include <ImathBox.h>
 #include <ImathMatrix.h>
@@ -15,7 +14,6 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
-#include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfVersion.h>
@@ -171,35 +169,8 @@ ExrFile read_exr(std::span<const std::byte> file) {
     } catch (const Error&) {
         throw;
     } catch (const std::exception& error) {
-        throw Error(std::string("is a damaged or unsupported EXR: ") + one_line(error.what()));
+        throw Error(std::string("is a damaged or unsupported EXR: ") + printable(one_line(error.what())));
     }
-}
-
-void write_exr(const OutputFile& output, const Image& image, std::optional<EnvironmentLayout> layout) {
-    try {
-        Imf::Header header(image.width, image.height);
-        header.compression() = Imf::ZIP_COMPRESSION;
-        if (layout == EnvironmentLayout::cube || layout == EnvironmentLayout::lat_long)
-            Imf::addEnvmap(header,
-                           *layout == EnvironmentLayout::cube ? Imf::ENVMAP_CUBE : Imf::ENVMAP_LATLONG);
-        for (const char* name : {"R", "G", "B"})
-            header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-        Imf::FrameBuffer buffer;
-        insert_rgb(buffer, header.channels(), const_cast<glm::vec3*>(image.pixels.data()),
-                   header.dataWindow());
-        Imf::OutputFile file(output.temporary_path().c_str(), header);
-        file.setFrameBuffer(buffer);
-        file.writePixels(image.height);
-    } catch (const std::exception& error) {
-        throw Error(output.path().string() + ": cannot be written: " + one_line(error.what()));
-    }
-}
-
-void write_exr(const std::filesystem::path& path, const Image& image,
-               std::optional<EnvironmentLayout> layout) {
-    OutputFile output(path);
-    write_exr(output, image, layout);
-    output.commit();
 }
 
 } // namespace prt

@@ -3,6 +3,7 @@
 #include "image_limits.h"
 #include "prt/environment.h"
 #include "prt/support/error.h"
+#include "prt/support/printable.h"
 
 #include <OpenEXR/openexr.h>
 
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <string_view>
 
 namespace prt {
 namespace {
@@ -58,15 +60,50 @@ public:
     exr_context_t context() const { return context_; }
     void check(exr_result_t result) const {
         if (result != EXR_ERR_SUCCESS)
-            throw Error(
-                "is a damaged or unsupported EXR: " +
-                one_line(source_.trouble.empty() ? exr_get_default_error_message(result) : source_.trouble));
+            throw Error("is a damaged or unsupported EXR: " +
+                        printable(one_line(source_.trouble.empty() ? exr_get_default_error_message(result)
+                                                                   : source_.trouble)));
     }
 
 private:
     Source source_;
     exr_context_t context_ = nullptr;
 };
+
+/// Takes the header of a part off `rest`.
+void skip_header(std::string_view& rest) {
+    while (!rest.empty() && rest.front() != 0) {
+        for (int name_and_type = 0; name_and_type < 2 && !rest.empty(); ++name_and_type)
+            rest.remove_prefix(std::min(rest.find('\0'), rest.size() - 1) + 1);
+        std::uint32_t size = 0;
+        if (rest.size() < sizeof(size))
+            throw Error("is a damaged EXR: it ends within its header");
+        std::memcpy(&size, rest.data(), sizeof(size));
+        rest.remove_prefix(sizeof(size));
+        if (size > rest.size())
+            throw Error("is a damaged EXR: an attribute claims " + std::to_string(size) + " bytes, of " +
+                        std::to_string(rest.size()) + " that are left");
+        rest.remove_prefix(size);
+    }
+    rest.remove_prefix(std::min(rest.size(), std::size_t{1}));
+}
+
+/// Throws unless the values of all attributes lie within the file. The core library and `Imf::InputFile` do
+/// not agree on where damaged headers end, so that what the one has checked the other may not have read.
+/// A header is names, types, sizes and values, ended by an empty name ("OpenEXR File Layout", openexr.com).
+void check_attributes(std::span<const std::byte> file) {
+    constexpr std::size_t kVersion = 4, kFirstHeader = 8;
+    constexpr std::uint32_t kMultiPart = 0x1000;
+    if (file.size() < kFirstHeader)
+        return;
+    std::uint32_t version = 0;
+    std::memcpy(&version, &file[kVersion], sizeof(version));
+    std::string_view rest(reinterpret_cast<const char*>(file.data()), file.size());
+    rest.remove_prefix(kFirstHeader);
+    do
+        skip_header(rest);
+    while ((version & kMultiPart) != 0 && !rest.empty() && rest.front() != 0);
+}
 
 /// The table of a part holds 8 bytes for each of its chunks.
 void check_chunk_tables(const Headers& headers, std::size_t file_bytes) {
@@ -86,6 +123,7 @@ void check_chunk_tables(const Headers& headers, std::size_t file_bytes) {
 } // namespace
 
 void check_exr_header(std::span<const std::byte> file) {
+    check_attributes(file);
     const Headers headers(file);
     check_chunk_tables(headers, file.size());
     exr_attr_box2i_t window{};

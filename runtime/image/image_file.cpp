@@ -7,6 +7,7 @@
 #include "prt/srgb.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
+#include "prt/support/printable.h"
 
 #include <stb/stb_image.h>
 #include <stb/stb_image_write.h>
@@ -78,7 +79,8 @@ Image read_hdr(std::span<const std::byte> file) {
     if (stream.past_end)
         throw Error("is a damaged Radiance HDR: it ends before its last pixel");
     if (!pixels)
-        throw Error(std::string("is a damaged or unsupported Radiance HDR: ") + stbi_failure_reason());
+        throw Error(std::string("is a damaged or unsupported Radiance HDR: ") +
+                    printable(stbi_failure_reason()));
     image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::vec3));
     return image;
@@ -187,7 +189,7 @@ ImageSize image_size(std::span<const std::byte> file) {
     ImageSize size;
     int channels = 0;
     if (!stbi_info_from_memory(stb_bytes(file), stb_size(file), &size.width, &size.height, &channels))
-        throw Error(std::string("is a damaged or unsupported image: ") + stbi_failure_reason());
+        throw Error(std::string("is a damaged or unsupported image: ") + printable(stbi_failure_reason()));
     return size;
 }
 
@@ -199,7 +201,7 @@ Image8 decode_image(std::span<const std::byte> file) {
     const std::unique_ptr<stbi_uc, StbFree> pixels(
         stbi_load_from_memory(stb_bytes(file), stb_size(file), &image.width, &image.height, &channels, 4));
     if (!pixels)
-        throw Error(std::string("is a damaged or unsupported image: ") + stbi_failure_reason());
+        throw Error(std::string("is a damaged or unsupported image: ") + printable(stbi_failure_reason()));
     image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::u8vec4));
     return image;

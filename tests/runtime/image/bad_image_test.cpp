@@ -91,6 +91,9 @@ TEST(ExrFile, ClaimsAreHeldAgainstTheFile) {
             EXPECT_NE(refusal(folder.file("large.exr", exr_with(folder, window, side, last))), "") << last;
     const std::string channels("channels\0chlist\0", 16);
     EXPECT_NE(refusal(folder.file("channels.exr", exr_with(folder, channels, 0, 2'000'000'000))), "");
+    std::string untyped = exr_with(folder, channels, 0, 55); // as it is
+    untyped.insert(8, std::string("odd\0\0", 5) + "\1\2\3\x70");
+    EXPECT_NE(refusal(folder.file("untyped.exr", untyped)).find("an attribute claims"), std::string::npos);
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     EXPECT_LT(usage.ru_maxrss, 400'000) << "kilobytes";
@@ -113,6 +116,15 @@ TEST(Png, ClaimsAreHeldAgainstTheFile) {
     std::string file("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0\x08\x06\0\0\0....", 37);
     EXPECT_NE(refusal(folder.file("large.png", file)).find("claims 16384 x 16384"), std::string::npos);
     EXPECT_THROW(decode_image(std::as_bytes(std::span(file))), Error);
+}
+
+TEST(Png, BytesOfTheFileInMessagesArePrintable) {
+    const test::TemporaryFolder folder;
+    std::string file("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\1\x08\6\0\0\0....\0\0\0\4A\x1b\n\x80", 45);
+    const std::string message = refusal(folder.file("chunk.png", file + std::string(12, '\0')));
+    EXPECT_NE(message, "");
+    for (const char c : message)
+        EXPECT_TRUE(c >= ' ' && c <= '~') << message;
 }
 
 TEST(Project, LightBeyondWhatIsComputedWithIsRefused) {

@@ -22,7 +22,7 @@ class SideFile : public testing::Test {
 protected:
     SideFile() {
         fs::create_directories(folder / "scene/parts");
-        const std::string bytes(data().begin(), data().end());
+        const std::string bytes = data();
         folder.file("secret.bin", bytes);
         folder.file("scene/own.bin", bytes);
         folder.file("scene/parts/a b.bin", bytes);
@@ -74,9 +74,9 @@ TEST_F(SideFile, InTheFolderAndBelowIsRead) {
 }
 
 TEST_F(SideFile, OutsideTheFolderIsReadWhereThatIsAllowed) {
-    for (const std::string uri : {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"),
-                                  std::string("parts/../../secret.bin"), std::string("outward.bin"),
-                                  std::string("up/secret.bin"), (folder / "secret.bin").string()}) {
+    for (const std::string& uri : {std::string("../secret.bin"), std::string("%2e%2e/secret.bin"),
+                                   std::string("parts/../../secret.bin"), std::string("outward.bin"),
+                                   std::string("up/secret.bin"), (folder / "secret.bin").string()}) {
         EXPECT_NE(refusal_of_buffer(uri).find("outside the folder"), std::string::npos) << uri;
         EXPECT_NE(refusal_of_image(uri).find("outside the folder"), std::string::npos) << uri;
         EXPECT_EQ(refusal_of_buffer(uri, {.allow_outside = true}), "") << uri;

@@ -51,8 +51,11 @@ std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8
 /// Writes an 8-bit RGB PNG. `pixels` is [height][width].
 void write_png(const std::filesystem::path& path, int width, int height, std::span<const glm::u8vec3> pixels);
 
-/// Writes 32-bit float RGB, ZIP-compressed, marked as an environment map when `layout` is one of OpenEXR's
-/// two.
+/// An OpenEXR file in memory: 32-bit float RGB, ZIP-compressed, marked as an environment map when `layout` is
+/// one of OpenEXR's two.
+std::vector<std::byte> encode_exr(const Image& image, std::optional<EnvironmentLayout> layout = std::nullopt);
+
+/// Writes such a file.
 void write_exr(const std::filesystem::path& path, const Image& image,
                std::optional<EnvironmentLayout> layout = std::nullopt);
 

@@ -33,8 +33,6 @@ public:
 
     /// As it was named.
     const std::filesystem::path& path() const { return path_; }
-    /// Where to write, for libraries that open files themselves.
-    const std::filesystem::path& temporary_path() const { return unnamed_.empty() ? beside_ : unnamed_; }
     /// Whether what is written cannot be taken back: a pipe, a device, an open descriptor.
     bool is_stream() const { return stream_; }
     /// Appends. Throws `Error` when the disk is full.
