@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "inputs.h"
 #include "options.h"
 #include "outputs.h"
 #include "report/bench_report.h"
@@ -22,7 +23,8 @@ Report scene_report(const BenchArguments& a, Session& session) {
     const Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
     ProgressBar bar = session.progress_bar("measuring");
-    Report report = bench_report(run_bench(a.scene.string(), scene, a.options, bar.progress()));
+    Report report = bench_report(
+        about(a.scene, [&] { return run_bench(a.scene.string(), scene, a.options, bar.progress()); }));
     report.notices = scene.notices;
     return report;
 }
