@@ -70,11 +70,31 @@ private:
     exr_context_t context_ = nullptr;
 };
 
+/// Whether a list of channels ends where its attribute does: `Imf::InputFile` reads to the end of the list.
+/// After each name stand 16 bytes; an empty one ends the list.
+bool ends_with_its_channels(std::string_view list) {
+    while (!list.empty() && list.front() != 0) {
+        constexpr std::size_t kChannel = 16;
+        const std::size_t name = list.find('\0');
+        if (name == std::string_view::npos || list.size() - name - 1 < kChannel)
+            return false;
+        list.remove_prefix(name + 1 + kChannel);
+    }
+    return list.size() == 1;
+}
+
+/// Takes a text with a zero behind it off `rest`.
+std::string_view take_text(std::string_view& rest) {
+    const std::string_view text = rest.substr(0, rest.find('\0'));
+    rest.remove_prefix(std::min(text.size() + 1, rest.size()));
+    return text;
+}
+
 /// Takes the header of a part off `rest`.
 void skip_header(std::string_view& rest) {
     while (!rest.empty() && rest.front() != 0) {
-        for (int name_and_type = 0; name_and_type < 2 && !rest.empty(); ++name_and_type)
-            rest.remove_prefix(std::min(rest.find('\0'), rest.size() - 1) + 1);
+        take_text(rest); // its name
+        const std::string_view type = take_text(rest);
         std::uint32_t size = 0;
         if (rest.size() < sizeof(size))
             throw Error("is a damaged EXR: it ends within its header");
@@ -83,6 +103,8 @@ void skip_header(std::string_view& rest) {
         if (size > rest.size())
             throw Error("is a damaged EXR: an attribute claims " + std::to_string(size) + " bytes, of " +
                         std::to_string(rest.size()) + " that are left");
+        if (type == "chlist" && !ends_with_its_channels(rest.substr(0, size)))
+            throw Error("is a damaged EXR: its list of channels does not end where it should");
         rest.remove_prefix(size);
     }
     rest.remove_prefix(std::min(rest.size(), std::size_t{1}));

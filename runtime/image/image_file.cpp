@@ -2,7 +2,9 @@
 #include "prt/image_file.h"
 
 #include "exr.h"
+#include "image_kind.h"
 #include "image_limits.h"
+#include "png_check.h"
 #include "prt/image_size.h"
 #include "prt/srgb.h"
 #include "prt/support/error.h"
@@ -21,10 +23,6 @@
 
 namespace prt {
 namespace {
-
-bool starts_with(std::span<const std::byte> file, std::string_view magic) {
-    return file.size() >= magic.size() && std::memcmp(file.data(), magic.data(), magic.size()) == 0;
-}
 
 struct StbFree {
     void operator()(void* pixels) const { stbi_image_free(pixels); }
@@ -66,6 +64,14 @@ struct ByteStream {
     }
     static int eof(void* user) { return static_cast<ByteStream*>(user)->rest.empty(); }
 };
+
+/// What stb and `decode_image` hold at once. Of a JPEG: samples, coefficients of three channels, and pixels;
+/// of a PNG: inflated bytes and pixels, then both kinds of pixels.
+std::size_t bytes_per_pixel(std::span<const std::byte> file) {
+    if (is_jpeg(file))
+        return 13;
+    return stbi_is_16_bit_from_memory(stb_bytes(file), stb_size(file)) ? 16 : 8;
+}
 
 Image read_hdr(std::span<const std::byte> file) {
     const ImageSize size = image_size(file);
@@ -128,9 +134,9 @@ AnyImage read_any(const std::filesystem::path& path) {
             ExrFile exr = read_exr(file);
             return {std::move(exr.image), exr.layout};
         }
-        if (starts_with(file, "#?"))
+        if (is_hdr(file))
             return {read_hdr(file), {}};
-        if (starts_with(file, "\x89PNG") || starts_with(file, "\xff\xd8\xff"))
+        if (is_png(file) || is_jpeg(file))
             return {read_low_dynamic_range(file), {}, true};
         throw Error("is no image that is read here: OpenEXR, Radiance HDR, PNG and JPEG are");
     } catch (const Error& error) {
@@ -186,6 +192,8 @@ EnvironmentFile load_environment(const std::filesystem::path& path, const Enviro
 }
 
 ImageSize image_size(std::span<const std::byte> file) {
+    if (!is_png(file) && !is_jpeg(file) && !is_hdr(file)) // stb reads more kinds, with less care
+        throw Error("is no image that is read here: PNG and JPEG are");
     ImageSize size;
     int channels = 0;
     if (!stbi_info_from_memory(stb_bytes(file), stb_size(file), &size.width, &size.height, &channels))
@@ -194,8 +202,12 @@ ImageSize image_size(std::span<const std::byte> file) {
 }
 
 Image8 decode_image(std::span<const std::byte> file) {
+    if (is_hdr(file))
+        throw Error("is a Radiance HDR, not a PNG or JPEG");
     const ImageSize size = image_size(file);
-    check_image_size(size.width, size.height, 2 * sizeof(glm::u8vec4), file.size()); // stb's and ours
+    check_image_size(size.width, size.height, bytes_per_pixel(file), file.size());
+    if (is_png(file))
+        check_png(file, size);
     Image8 image;
     int channels = 0;
     const std::unique_ptr<stbi_uc, StbFree> pixels(

@@ -99,7 +99,7 @@ void expand_instances(GltfContents& contents) {
             instances += expand(contents, n);
             found = true;
         } catch (const std::exception& error) { // ours, and those of the JSON library
-            throw Error("node " + std::to_string(n) + ": " + error.what());
+            throw Error("node " + std::to_string(n) + ": " + in_plain_words(error));
         }
         if (instances > kMostInstances)
             throw Error("has more than " + std::to_string(kMostInstances) + " instances of meshes");

@@ -113,14 +113,38 @@ TEST(ExrFile, CutAnywhereIsRefusedAndChangedAnywhereIsReadOrRefused) {
 
 TEST(Png, ClaimsAreHeldAgainstTheFile) {
     const test::TemporaryFolder folder;
-    std::string file("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0\x08\x06\0\0\0....", 37);
+    std::string file("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\x40\0\x08\x06\0\0\0....", 33);
     EXPECT_NE(refusal(folder.file("large.png", file)).find("claims 16384 x 16384"), std::string::npos);
     EXPECT_THROW(decode_image(std::as_bytes(std::span(file))), Error);
 }
 
+/// A chunk of a PNG, without a true checksum, which stb does not look at.
+std::string chunk(const std::string& type, const std::string& contents) {
+    std::string length(4, '\0');
+    for (std::size_t i = 0; i < 4; ++i)
+        length[i] = static_cast<char>(contents.size() >> (24 - 8 * i) & 255u);
+    return length + type + contents + "....";
+}
+
+/// Zeros by deflate, 258 for each two bits (RFC 1951: a literal, then matches of distance 1).
+std::string inflating_zeros(std::size_t bytes) {
+    std::string stream("\x78\xda\xec\xc1\x01\x01\0\0\0\x80\x90\xfe\xaf\xee\x08\x0a", 16);
+    return stream + std::string(bytes, '\0');
+}
+
+TEST(Png, OneThatInflatesToMoreThanItSaysIsRefused) {
+    const std::string header =
+        std::string("\x89PNG\r\n\x1a\n") + chunk("IHDR", std::string("\0\0\0\x10\0\0\0\x10\x08\2\0\0\0", 13));
+    const std::string bomb = header + chunk("IDAT", inflating_zeros(1 << 20)) + chunk("IEND", "");
+    EXPECT_THROW(decode_image(std::as_bytes(std::span(bomb))), Error);
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    EXPECT_LT(usage.ru_maxrss, 400'000) << "kilobytes";
+}
+
 TEST(Png, BytesOfTheFileInMessagesArePrintable) {
     const test::TemporaryFolder folder;
-    std::string file("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\1\x08\6\0\0\0....\0\0\0\4A\x1b\n\x80", 45);
+    std::string file("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\1\x08\6\0\0\0....\0\0\0\4A\x1b\n\x80", 41);
     const std::string message = refusal(folder.file("chunk.png", file + std::string(12, '\0')));
     EXPECT_NE(message, "");
     for (const char c : message)

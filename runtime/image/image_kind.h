@@ -1,0 +1,31 @@
+#pragma once
+
+// What files of images begin with.
+
+#include <cstddef>
+#include <cstring>
+#include <span>
+#include <string_view>
+
+namespace prt {
+
+inline bool begins_with(std::span<const std::byte> file, std::string_view magic) {
+    return file.size() >= magic.size() && std::memcmp(file.data(), magic.data(), magic.size()) == 0;
+}
+
+inline constexpr std::string_view kPngMagic = "\x89PNG\r\n\x1a\n";
+
+inline bool is_png(std::span<const std::byte> file) {
+    return begins_with(file, kPngMagic);
+}
+
+inline bool is_jpeg(std::span<const std::byte> file) {
+    return begins_with(file, "\xff\xd8\xff");
+}
+
+/// Radiance HDR.
+inline bool is_hdr(std::span<const std::byte> file) {
+    return begins_with(file, "#?");
+}
+
+} // namespace prt
