@@ -116,8 +116,8 @@ int whole_number(const Json& value, const std::string& name, int least, int most
 
 void check_magnitudes(std::span<const float> values, float largest, const std::string& what) {
     if (!std::all_of(values.begin(), values.end(), [&](float v) { return std::abs(v) <= largest; })) // no NaN
-        throw Error(what + " hold values that are not finite or beyond " +
-                    std::to_string(static_cast<long long>(largest)));
+        throw Error(what + " hold values that are not finite" +
+                    (largest < 1e18f ? " or beyond " + std::to_string(static_cast<long long>(largest)) : ""));
 }
 
 const Json& primitive_json(const GltfContents& contents, const Primitive& primitive) {
