@@ -12,6 +12,7 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -70,6 +71,33 @@ private:
     exr_context_t context_ = nullptr;
 };
 
+/// Bytes of the types of attributes that have always as many: `Imf::InputFile` reads those, whatever the
+/// header says.
+constexpr std::pair<std::string_view, std::size_t> kSizes[] = {{"box2f", 16},
+                                                               {"box2i", 16},
+                                                               {"chromaticities", 32},
+                                                               {"compression", 1},
+                                                               {"deepImageState", 1},
+                                                               {"double", 8},
+                                                               {"envmap", 1},
+                                                               {"float", 4},
+                                                               {"int", 4},
+                                                               {"keycode", 28},
+                                                               {"m33d", 72},
+                                                               {"m33f", 36},
+                                                               {"m44d", 128},
+                                                               {"m44f", 64},
+                                                               {"lineOrder", 1},
+                                                               {"v2d", 16},
+                                                               {"rational", 8},
+                                                               {"tiledesc", 9},
+                                                               {"timecode", 8},
+                                                               {"v2f", 8},
+                                                               {"v2i", 8},
+                                                               {"v3d", 24},
+                                                               {"v3f", 12},
+                                                               {"v3i", 12}};
+
 /// Whether a list of channels ends where its attribute does: `Imf::InputFile` reads to the end of the list.
 /// After each name stand 16 bytes; an empty one ends the list.
 bool ends_with_its_channels(std::string_view list) {
@@ -81,6 +109,25 @@ bool ends_with_its_channels(std::string_view list) {
         list.remove_prefix(name + 1 + kChannel);
     }
     return list.size() == 1;
+}
+
+/// Width, height and a pixel of four bytes for each.
+bool is_preview(std::string_view value) {
+    std::uint32_t size[2] = {};
+    if (value.size() < sizeof(size))
+        return false;
+    std::memcpy(size, value.data(), sizeof(size));
+    return (value.size() - sizeof(size)) / 4 == std::uint64_t{size[0]} * size[1] && value.size() % 4 == 0;
+}
+
+/// Whether `Imf::InputFile` will take `value` whole, and nothing behind it.
+bool has_size_of_its_type(std::string_view type, std::string_view value) {
+    if (type == "chlist")
+        return ends_with_its_channels(value);
+    if (type == "preview")
+        return is_preview(value);
+    const auto* known = std::ranges::find(kSizes, type, &std::pair<std::string_view, std::size_t>::first);
+    return known == std::end(kSizes) || known->second == value.size();
 }
 
 /// Takes a text with a zero behind it off `rest`.
@@ -103,8 +150,9 @@ void skip_header(std::string_view& rest) {
         if (size > rest.size())
             throw Error("is a damaged EXR: an attribute claims " + std::to_string(size) + " bytes, of " +
                         std::to_string(rest.size()) + " that are left");
-        if (type == "chlist" && !ends_with_its_channels(rest.substr(0, size)))
-            throw Error("is a damaged EXR: its list of channels does not end where it should");
+        if (!has_size_of_its_type(type, rest.substr(0, size)))
+            throw Error("is a damaged EXR: an attribute of type '" + printable(type) + "' has " +
+                        std::to_string(size) + " bytes");
         rest.remove_prefix(size);
     }
     rest.remove_prefix(std::min(rest.size(), std::size_t{1}));

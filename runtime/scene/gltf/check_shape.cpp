@@ -51,6 +51,12 @@ bool is_read(std::string_view extension) {
                        [&](std::string_view begin) { return extension.starts_with(begin); });
 }
 
+/// Whether this member has to be one. The indices of sparse accessors are an object.
+bool is_whole_number(const std::string& key, const Json& value) {
+    return std::find(kWholeNumbers.begin(), kWholeNumbers.end(), key) != kWholeNumbers.end() &&
+           (key != "indices" || !value.is_object());
+}
+
 void check_whole(const Json& value, const std::string& name) {
     // tinygltf keeps indices in an int, and lengths and counts in 64 bits.
     const bool length = name.starts_with("byte") || name == "count";
@@ -96,12 +102,12 @@ std::size_t check_values(const Json& json) {
             for (const auto& [name, extension] : value.items())
                 if (is_read(name) && extension.is_structured())
                     check_values(extension);
+        } else if (is_whole_number(key, value)) {
+            check_whole(value, key);
         } else if (value.is_structured()) {
             kept += check_values(value);
             if (key == "attributes" && value.is_object())
                 check_attributes(value);
-        } else if (std::find(kWholeNumbers.begin(), kWholeNumbers.end(), key) != kWholeNumbers.end()) {
-            check_whole(value, key);
         }
     }
     return kept;
@@ -130,8 +136,9 @@ double check_primitives(const Json& json) {
     for_each_primitive(json, [&](const Json& primitive) {
         if (!primitive.contains("attributes") || !primitive["attributes"].is_object())
             throw Error("is damaged glTF: a primitive has no attributes");
-        if (primitive.contains("mode")) // a word in EXT_meshopt_compression
-            check_whole(primitive["mode"], "mode");
+        for (const char* name : {"indices", "mode"}) // elsewhere an object, or a word
+            if (primitive.contains(name))
+                check_whole(primitive[name], name);
         constexpr std::size_t kMapEntry = 80; // name and number
         std::size_t entries = primitive["attributes"].size();
         check_list(primitive, "targets");

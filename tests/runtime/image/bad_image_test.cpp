@@ -94,6 +94,9 @@ TEST(ExrFile, ClaimsAreHeldAgainstTheFile) {
     std::string untyped = exr_with(folder, channels, 0, 55); // as it is
     untyped.insert(8, std::string("odd\0\0", 5) + "\1\2\3\x70");
     EXPECT_NE(refusal(folder.file("untyped.exr", untyped)).find("an attribute claims"), std::string::npos);
+    for (const std::string& attribute : {window, channels})
+        EXPECT_NE(refusal(folder.file("long.exr", exr_with(folder, attribute, 0, 70))).find("has 70 bytes"),
+                  std::string::npos);
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     EXPECT_LT(usage.ru_maxrss, 400'000) << "kilobytes";

@@ -52,6 +52,21 @@ INSTANTIATE_TEST_SUITE_P(
                ""},
         Damage{"view_outside_buffer", [](GlbFile& f) { f.json["bufferViews"][0]["byteLength"] = 4000; },
                "outside buffer"},
+        Damage{"view_that_is_an_object",
+               [](GlbFile& f) {
+                   f.json["accessors"][0]["bufferView"] = {{"bufferView", 0}};
+               },
+               "no whole number"},
+        Damage{"indices_that_are_an_object",
+               [](GlbFile& f) {
+                   f.json["meshes"][0]["primitives"][0]["indices"] = {{"bufferView", 0}};
+               },
+               "no whole number"},
+        Damage{"instances_without_attributes",
+               [](GlbFile& f) {
+                   f.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = nlohmann::json::object();
+               },
+               "node 0: is damaged glTF"},
         Damage{"view_of_no_buffer", [](GlbFile& f) { f.json["bufferViews"][0]["buffer"] = 7; }, ""},
         Damage{"accessor_outside_view", [](GlbFile& f) { f.json["accessors"][0]["count"] = 4; }, "outside"},
         Damage{"accessor_offset_outside", [](GlbFile& f) { f.json["accessors"][0]["byteOffset"] = 4000; },
