@@ -37,7 +37,7 @@ SceneFile load_scene_file(const Path& path, const GltfOptions& options = {});
 /// The same of a document that was read from `path`.
 SceneFile scene_file_of(GltfDocument document, const Path& path);
 
-/// Calls `work`, whose errors are about `file`: they name it.
+/// Calls `work`, whose errors are about `file`: they name it, once.
 template <class Work>
 auto about(const Path& file, Work work) {
     try {
@@ -45,7 +45,8 @@ auto about(const Path& file, Work work) {
     } catch (const Cancelled&) {
         throw;
     } catch (const Error& error) {
-        throw Error(file.string() + ": " + error.what());
+        const std::string what = error.what(), name = file.string() + ": ";
+        throw Error(what.starts_with(name) ? what : name + what);
     }
 }
 

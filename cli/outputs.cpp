@@ -30,14 +30,14 @@ bool same_file(const Path& a, const Path& b) {
            std::filesystem::weakly_canonical(followed(b), error);
 }
 
-void check_suffix(const Output& output) {
+/// A stream, as /dev/null is, needs no suffix where there is no choice of formats.
+void check_suffix(const Output& output, bool stream) {
+    const bool needed = output.suffix_needed && (!stream || output.suffixes.size() > 1);
     const std::string suffix = suffix_of(output.path);
     const auto is_in = [&](const auto& list) {
         return std::find(list.begin(), list.end(), suffix) != list.end();
     };
-    if (suffix.empty()            ? !output.suffix_needed
-        : output.suffixes.empty() ? !is_in(kTelling)
-                                  : is_in(output.suffixes))
+    if (suffix.empty() ? !needed : output.suffixes.empty() ? !is_in(kTelling) : is_in(output.suffixes))
         return;
     if (output.suffixes.empty())
         throw Error(fmt::format("{}: {} writes text, which is no {} file", output.path.string(),
@@ -76,7 +76,7 @@ void check_outputs(const std::vector<Output>& outputs, const std::vector<Path>& 
         const Output& output = asked[i];
         const std::string name = output.path.string();
         const OutputFile place(output.path); // leaves nothing behind
-        check_suffix(output);
+        check_suffix(output, place.is_stream());
         for (const Path& input : inputs)
             for (const Path& file : files_of(input))
                 if (!file.empty() && same_file(file, output.path))

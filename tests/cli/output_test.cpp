@@ -107,6 +107,7 @@ TEST_F(Output, StreamsAreWrittenToAndStay) {
     EXPECT_NE(shell(PRT_PROGRAM " info good.glb --json /dev/stdout | cat").out.find("\n{\n"),
               std::string::npos);
     EXPECT_EQ(shell(bake("--json /dev/null")).status, 0);
+    EXPECT_EQ(shell(PRT_PROGRAM " bake good.glb -o /dev/null --rays 4 --order 2 --backend cpu").status, 0);
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
     const Outcome pipe = shell("mkfifo pipe; cat pipe & " PRT_PROGRAM " info good.glb --json pipe; wait");
     EXPECT_TRUE(pipe.out.ends_with("}\n")) << pipe.out << pipe.err;

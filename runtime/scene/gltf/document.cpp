@@ -226,6 +226,21 @@ void embed_images(GltfContents& contents) {
     }
 }
 
+/// The whole file.
+std::vector<std::byte> glb_bytes(const GltfContents& contents, BufferCompression compression) {
+    CompressedGlb glb;
+    std::span<const std::byte> binary = contents.binary();
+    if (compression == BufferCompression::meshopt) {
+        glb = compress_views(contents);
+        binary = glb.binary;
+    } else {
+        glb.json = contents.json;
+    }
+    if (!binary.empty() && !glb.json.contains("buffers"))
+        glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
+    return make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
+}
+
 } // namespace
 
 GltfDocument::GltfDocument(std::unique_ptr<GltfContents> contents) : contents_(std::move(contents)) {}
@@ -282,18 +297,11 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
 }
 
 std::vector<std::byte> encode_glb(const GltfDocument& document, BufferCompression compression) {
-    const GltfContents& contents = document.contents();
-    CompressedGlb glb;
-    std::span<const std::byte> binary = contents.binary();
-    if (compression == BufferCompression::meshopt) {
-        glb = compress_views(contents);
-        binary = glb.binary;
-    } else {
-        glb.json = contents.json;
+    try {
+        return glb_bytes(document.contents(), compression);
+    } catch (const std::exception& error) { // ours, and those of the standard and the JSON library
+        throw Error(in_plain_words(error));
     }
-    if (!binary.empty() && !glb.json.contains("buffers"))
-        glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
-    return make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
 }
 
 void save_glb(const GltfDocument& document, const std::filesystem::path& path,
@@ -302,8 +310,8 @@ void save_glb(const GltfDocument& document, const std::filesystem::path& path,
     std::vector<std::byte> file;
     try {
         file = encode_glb(document, compression);
-    } catch (const std::exception& error) {
-        throw Error(path.string() + ": " + in_plain_words(error));
+    } catch (const Error& error) {
+        throw Error(path.string() + ": " + error.what());
     }
     output.write(file);
     output.commit();
