@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace prt::fuzz {
@@ -29,12 +30,25 @@ void expect_finite(std::span<const Number> values, const char* what) {
         expect(std::isfinite(value), what);
 }
 
+/// What a message says itself: what it quotes is the file's, which libFuzzer fills with the words below.
+inline std::string without_quotes(std::string_view message) {
+    std::string own;
+    char quote = 0;
+    for (const char c : message) {
+        if (quote == 0 && c != '"' && c != '\'')
+            own += c;
+        quote = quote == c ? '\0' : quote == 0 && (c == '"' || c == '\'') ? c : quote;
+    }
+    return own;
+}
+
 /// A message is one line in our words: no name of a library's inner part.
 inline void expect_plain(std::string_view message) {
+    const std::string own = without_quotes(message);
     expect(!message.empty() && message.find('\n') == std::string_view::npos, "a message is not one line");
     for (const char* inner : {"std::bad_alloc", "std::length_error", "std::vector larger than", "vector::_M_",
                               "basic_string::", "[json.exception"})
-        if (message.find(inner) != std::string_view::npos) {
+        if (own.find(inner) != std::string::npos) {
             std::fprintf(stderr, "fuzz: message: %.*s\n", static_cast<int>(message.size()), message.data());
             expect(false, "a message shows what a library calls its inner parts");
         }
