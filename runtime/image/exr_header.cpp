@@ -200,10 +200,12 @@ void check_exr_header(std::span<const std::byte> file) {
     headers.check(exr_get_data_window(headers.context(), 0, &window));
     std::uint64_t chunk = 0;
     headers.check(exr_get_chunk_unpacked_size(headers.context(), 0, &chunk));
-    // A chunk is held packed, unpacked and between the two.
-    check_image_size(std::int64_t{window.max.x} - window.min.x + 1,
-                     std::int64_t{window.max.y} - window.min.y + 1, sizeof(glm::vec3), file.size(),
-                     3 * chunk);
+    // A chunk is held packed, unpacked and between the two; chroma is rebuilt from some 32 rows of halves.
+    constexpr std::uint64_t kChromaRows = 40, kHalves = 8;
+    const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
+    check_image_size(width, std::int64_t{window.max.y} - window.min.y + 1, sizeof(glm::vec3), file.size(),
+                     3 * chunk + kChromaRows * kHalves *
+                                     static_cast<std::uint64_t>(std::max<std::int64_t>(width, 0)));
 }
 
 } // namespace prt

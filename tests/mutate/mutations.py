@@ -182,7 +182,8 @@ def change_floats(random, model):
 
 def scale_floats(random, model):
     """Takes a whole view of floats to another scale."""
-    views = [view for view in model.json.get("bufferViews", []) if isinstance(view, dict)]
+    listed = model.json.get("bufferViews")
+    views = [view for view in listed if isinstance(view, dict)] if isinstance(listed, list) else []
     if not views:
         return
     view, scale = random.choice(views), random.choice([1e-30, 1e-10, 1e10, 1e18, 2e18, 1e25, 1e35])
