@@ -52,21 +52,26 @@ public:
         setup.read_fn = read_source;
         setup.size_fn = size_of_source;
         setup.error_handler_fn = keep_message;
-        check(exr_start_read(&context_, "EXR", &setup));
+        if (const exr_result_t result = exr_start_read(&context_, "EXR", &setup); result != EXR_ERR_SUCCESS)
+            refuse(result);
     }
     ~Headers() { exr_finish(&context_); }
     Headers(const Headers&) = delete;
     Headers& operator=(const Headers&) = delete;
 
     exr_context_t context() const { return context_; }
+    /// The library tells of damaged attributes and goes on with others of its own, which are not the file's.
     void check(exr_result_t result) const {
-        if (result != EXR_ERR_SUCCESS)
-            throw Error("is a damaged or unsupported EXR: " +
-                        printable(one_line(source_.trouble.empty() ? exr_get_default_error_message(result)
-                                                                   : source_.trouble)));
+        if (result != EXR_ERR_SUCCESS || !source_.trouble.empty())
+            refuse(result);
     }
 
 private:
+    [[noreturn]] void refuse(exr_result_t result) const {
+        throw Error("is a damaged or unsupported EXR: " +
+                    printable(one_line(source_.trouble.empty() ? exr_get_default_error_message(result)
+                                                               : source_.trouble)));
+    }
     Source source_;
     exr_context_t context_ = nullptr;
 };
