@@ -8,6 +8,8 @@
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
@@ -71,6 +73,21 @@ int complain(int status, std::string_view what, std::string_view more = {}) noex
     return status;
 }
 
+/// Destructors of JSON ask for memory, and end the program where there is none. What was to be written has no
+/// name yet, or one that the next run removes.
+[[noreturn]] void end_without_memory() {
+    const std::exception_ptr error = std::current_exception();
+    try {
+        if (error)
+            std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+        std::fputs("prt: error: there is not enough memory\n", stderr);
+        std::_Exit(1);
+    } catch (...) {
+    }
+    std::abort();
+}
+
 int run_and_tell(int argc, char** argv) {
     try {
         return run(argc, argv);
@@ -95,6 +112,7 @@ int run_and_tell(int argc, char** argv) {
 int main(int argc, char** argv) {
     for (const int signal : {SIGPIPE, SIGXFSZ}) // writing fails instead
         std::signal(signal, SIG_IGN);
+    std::set_terminate(prt::cli::end_without_memory);
     prt::cli::occupy_standard_streams();
     return prt::cli::run_and_tell(argc, argv);
 }

@@ -10,9 +10,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <memory>
 #include <string>
 #include <system_error>
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/mman.h>
@@ -59,20 +61,27 @@ bool lock(int descriptor) {
     return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0;
 }
 
+struct CloseFolder {
+    void operator()(DIR* folder) const { ::closedir(folder); }
+};
+
 /// Removes hidden files beside `target` that nobody writes any more.
 void remove_leftovers(const Path& target) {
     const std::string prefix = hidden_prefix(target);
-    const Path folder = target.parent_path();
-    std::error_code error;
-    std::filesystem::directory_iterator entry(folder.empty() ? Path(".") : folder, error);
-    for (; !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) {
-        if (!entry->path().filename().string().starts_with(prefix))
+    const Path folder = target.parent_path().empty() ? Path(".") : target.parent_path();
+    // The iterator of the standard library ends the program where it gets no memory.
+    const std::unique_ptr<DIR, CloseFolder> entries(::opendir(folder.c_str()));
+    if (!entries)
+        return;
+    while (const dirent* entry = ::readdir(entries.get())) {
+        if (!std::string_view(entry->d_name).starts_with(prefix))
             continue;
-        const int descriptor = ::open(entry->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        const Path path = folder / entry->d_name;
+        const int descriptor = ::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
         if (descriptor < 0)
             continue;
         if (lock(descriptor))
-            ::unlink(entry->path().c_str());
+            ::unlink(path.c_str());
         ::close(descriptor);
     }
 }

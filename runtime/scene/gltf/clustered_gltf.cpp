@@ -250,10 +250,10 @@ void write_into(GltfContents& contents, const Scene& scene, const CompressedTran
     }
     for (std::size_t i = 0; i < primitives.size(); ++i)
         (*primitives[i])["attributes"].update(attributes[scene.primitives[i].vertices]);
-    Json& extension = contents.json["extensions"][kClusteredExtension] = {{"version", kClusteredVersion},
-                                                                          {"order", bases.order},
-                                                                          {"channels", bases.channels},
-                                                                          {"components", bases.components}};
+    Json& extension = extensions_of(contents.json)[kClusteredExtension] = {{"version", kClusteredVersion},
+                                                                           {"order", bases.order},
+                                                                           {"channels", bases.channels},
+                                                                           {"components", bases.components}};
     extension["bases"] = write_bases(contents, bases);
     if (receivers.format == WeightFormat::packed)
         extension["packing"] = write_packing(contents, compressed.transfer);

@@ -181,6 +181,10 @@ Json& member(Json& object, const char* key, Json::value_t type) {
     return object[key];
 }
 
+Json& extensions_of(Json& object) {
+    return member(object, "extensions", Json::value_t::object);
+}
+
 std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std::size_t stride,
                                           bool vertices) {
     static constexpr std::byte kNothing[4] = {}; // glTF knows no empty views

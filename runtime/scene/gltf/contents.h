@@ -63,7 +63,9 @@ void for_each_primitive(AnyJson& json, Visit&& visit) {
                     visit(primitive);
 }
 
-/// The member `key` of `object`, made if it is not there.
+/// The member `key` of `object`, made if it is not there. Not by `object[key][..]`: where memory ends while a
+/// null becomes an object, it is left as one without members, which cannot be destroyed (nlohmann-json 3.11).
 Json& member(Json& object, const char* key, Json::value_t type);
+Json& extensions_of(Json& object);
 
 } // namespace prt

@@ -276,13 +276,13 @@ CompressedGlb compress_views(const GltfContents& contents) {
         packed->extension["byteOffset"] = append(result.binary, std::as_bytes(std::span(packed->bytes)));
         view["buffer"] = 1;
         view["byteOffset"] = fallback;
-        view["extensions"][kMeshoptExtension] = packed->extension;
+        extensions_of(view)[kMeshoptExtension] = packed->extension;
         fallback += (bytes.size() + 7) / 8 * 8;
     }
     if (fallback == 0)
         return uncompressed();
     Json stand_in = {{"byteLength", fallback}};
-    stand_in["extensions"][kMeshoptExtension] = {{"fallback", true}};
+    extensions_of(stand_in)[kMeshoptExtension] = {{"fallback", true}};
     result.json["buffers"] = Json::array({Json{{"byteLength", result.binary.size()}}, stand_in});
     for (const char* list : {"extensionsUsed", "extensionsRequired"})
         member(result.json, list, Json::value_t::array).push_back(kMeshoptExtension);

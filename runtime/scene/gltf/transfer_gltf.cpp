@@ -24,12 +24,12 @@ void write_into(GltfContents& contents, const Scene& scene, const BakedTransfer&
                                             .subspan(vertices.first_receiver * transfer.dimension(),
                                                      vertices.size() * transfer.dimension())));
     for (std::size_t i = 0; i < primitives.size(); ++i)
-        (*primitives[i])["extensions"][kTransferExtension] = {
+        extensions_of(*primitives[i])[kTransferExtension] = {
             {"vectors", views[scene.primitives[i].vertices]}};
-    contents.json["extensions"][kTransferExtension] = {{"version", kTransferVersion},
-                                                       {"order", transfer.order},
-                                                       {"channels", transfer.channels},
-                                                       {"bake", record_json(baked.record)}};
+    extensions_of(contents.json)[kTransferExtension] = {{"version", kTransferVersion},
+                                                        {"order", transfer.order},
+                                                        {"channels", transfer.channels},
+                                                        {"bake", record_json(baked.record)}};
     contents.use_extension(kTransferExtension);
 }
 
