@@ -124,6 +124,9 @@ public:
     Evaluation measure(const std::vector<LoadedLight>& lights) const {
         Evaluation evaluation;
         evaluation.relative_l2 = relative_l2(reference(), shipped_.transfer, areas_);
+        if (!std::isfinite(evaluation.relative_l2))
+            throw Error(a_.baked.string() + ": lets no light through anywhere, and " + a_.shipped.string() +
+                        " does: no error is relative to that");
         ClusterShares shares(model_.compressed ? model_.compressed->transfer.bases.clusters() : 0);
         for (const LoadedLight& light : lights) {
             const auto wanted = wanted_under(light.light), lit = shipped_.radiance(light.light, a_.threads);

@@ -69,6 +69,8 @@ void check_whole(const Json& value, const std::string& name) {
 
 /// Names and the accessors, or other things, that they mean.
 void check_attributes(const Json& attributes) {
+    if (!attributes.is_object())
+        throw Error("is damaged glTF: attributes are no object");
     for (const auto& [name, value] : attributes.items()) {
         if (name.find('\0') != std::string::npos)
             throw Error("is damaged glTF: the name of an attribute holds a zero");
@@ -104,10 +106,10 @@ std::size_t check_values(const Json& json) {
                     check_values(extension);
         } else if (is_whole_number(key, value)) {
             check_whole(value, key);
+        } else if (key == "attributes") {
+            check_attributes(value);
         } else if (value.is_structured()) {
             kept += check_values(value);
-            if (key == "attributes" && value.is_object())
-                check_attributes(value);
         }
     }
     return kept;

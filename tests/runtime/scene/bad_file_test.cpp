@@ -52,6 +52,11 @@ INSTANTIATE_TEST_SUITE_P(
                ""},
         Damage{"view_outside_buffer", [](GlbFile& f) { f.json["bufferViews"][0]["byteLength"] = 4000; },
                "outside buffer"},
+        Damage{"attributes_that_are_a_number",
+               [](GlbFile& f) {
+                   f.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = {{"attributes", 3e38}};
+               },
+               "attributes are no object"},
         Damage{"view_that_is_an_object",
                [](GlbFile& f) {
                    f.json["accessors"][0]["bufferView"] = {{"bufferView", 0}};
