@@ -228,7 +228,7 @@ void decompress_views(GltfContents& contents) {
             check_allowed(2 * total, contents.file_bytes, "and those before it"); // also while joined
             tinygltf::Buffer buffer;
             buffer.data = decompressed(code, source);
-            const std::size_t length = views[v].value("byteLength", buffer.data.size());
+            const auto length = views[v].at("byteLength").get<std::size_t>();
             if (length > buffer.data.size())
                 throw Error("has fewer bytes than it says");
             tinygltf::BufferView& view = contents.model.bufferViews[v];

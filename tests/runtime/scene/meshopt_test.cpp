@@ -136,6 +136,7 @@ TEST(Meshopt, DamagedDataIsRefused) {
     expect_refused([&](auto& json, auto&) { view(json)["mode"] = "MAGIC"; });
     expect_refused([&](auto& json, auto&) { view(json)["filter"] = "MAGIC"; });
     expect_refused([&](auto& json, auto&) { view(json)["byteLength"] = 1u << 30; });
+    expect_refused([&](auto& json, auto&) { view(json).erase("byteLength"); });
     expect_refused([&](auto& json, auto&) { view(json).erase("buffer"); });
     expect_refused([&](auto& json, auto& binary) {
         binary[view(json)["byteOffset"].template get<std::size_t>()] = std::byte{7};
