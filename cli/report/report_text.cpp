@@ -1,5 +1,5 @@
-#include "report/report.h"
 #include "prt/support/printable.h"
+#include "report/report.h"
 
 #include <fmt/core.h>
 

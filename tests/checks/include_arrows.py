@@ -47,7 +47,7 @@ PACKAGES = {  # how their headers begin
     "epoxy/": "epoxy", "GLFW/": "glfw", "embree3/": "embree", "fmt/": "fmt", "CLI/": "CLI", "faiss/": "faiss",
     "imgui": "imgui", "backends/imgui": "imgui",
 }
-SYSTEM = re.compile(r"^[a-z_]+$|^(std[a-z]+|string|math|time|signal|errno|limits|unistd|fcntl|poll|dlfcn|windows)\.h$|^sys/|^linux/")
+SYSTEM = re.compile(r"^[a-z_]+$|^(std[a-z]+|string|math|time|signal|errno|limits|unistd|dirent|fcntl|poll|dlfcn|windows)\.h$|^sys/|^linux/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)
 
 
