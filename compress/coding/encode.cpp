@@ -57,6 +57,12 @@ std::vector<std::int32_t> integer_axes(const Frame& frame, std::size_t axes, dou
     return values;
 }
 
+/// Axes up to the last that has not become zero. Beside one of 1e10 times their deviation others do.
+std::size_t axes_left(std::span<const std::int32_t> values, std::size_t full) {
+    const auto last = std::find_if(values.rbegin(), values.rend(), [](std::int32_t v) { return v != 0; });
+    return (static_cast<std::size_t>(values.rend() - last) + full - 1) / full;
+}
+
 ClusteredBases make_bases(const Frame& frame, const QuantisedClusters& clusters,
                           const CodedBases& coded_frame, double step) {
     ClusteredBases bases;
@@ -140,8 +146,7 @@ void store_weight(std::byte* to, float weight, WeightFormat format) {
 } // namespace
 
 CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error) {
-    const auto full = static_cast<Eigen::Index>(frame.full()),
-               kept = static_cast<Eigen::Index>(frame.dimension);
+    const auto full = static_cast<Eigen::Index>(frame.full());
     const auto count = static_cast<Eigen::Index>(metric.order * metric.order);
     Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(full, full);
     for (int c = 0; c < metric.channels; ++c)
@@ -150,8 +155,8 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
     moments *= frame.scale * frame.scale;
 
     // Rounding every value of every axis to `unit` adds axes · trace · unit² / 12.
-    double unit =
-        std::sqrt(12 * most_error / (static_cast<double>(std::max<Eigen::Index>(kept, 1)) * moments.trace()));
+    double unit = std::sqrt(
+        12 * most_error / (static_cast<double>(std::max<std::size_t>(frame.dimension, 1)) * moments.trace()));
     double largest = 0;
     for (std::size_t i = 0; i < frame.dimension; ++i)
         for (std::size_t a = 0; a < frame.full(); ++a)
@@ -164,7 +169,9 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
         coded.origin.push_back(static_cast<float>(v));
         v = static_cast<double>(coded.origin.back());
     }
-    const std::vector<std::int32_t> values = integer_axes(frame, frame.dimension, unit);
+    std::vector<std::int32_t> values = integer_axes(frame, frame.dimension, unit);
+    truncate(frame, axes_left(values, frame.full()));
+    values.resize(frame.dimension * frame.full());
     coded.axes = encode_rows(values, frame.full());
     for (std::size_t i = 0; i < frame.dimension; ++i) {
         coded.scales.push_back(static_cast<float>(unit / std::sqrt(frame.variances[i])));
@@ -172,6 +179,7 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
             frame.synthesis[i * frame.full() + a] =
                 static_cast<double>(coded.scales[i]) * values[i * frame.full() + a];
     }
+    const auto kept = static_cast<Eigen::Index>(frame.dimension);
     if (kept == 0) // all receivers alike
         return coded;
     // Coordinates over the rounded axes are those that come nearest in the metric.

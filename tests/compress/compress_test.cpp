@@ -256,6 +256,19 @@ TEST(HardCase, AHugeOutlierIsKeptAndSpoilsNothing) {
             EXPECT_NEAR(decoded.vector(p)[i], t.vector(p)[i], 1e-3f);
 }
 
+TEST(HardCase, AxesThatVanishBesideOthersAreLeftOut) {
+    Transfer t{3, 1, std::vector<float>(27, 0.0f)};
+    t.vector(0)[1] = -256;
+    t.vector(1)[3] = 1.4e-5f;
+    t.vector(2)[5] = 8.5e-4f;
+    CompressOptions options;
+    options.seam_price = 1;
+    const std::vector<Edge> edges = {{0, 1}, {1, 2}};
+    const CompressResult result = compress(t, std::vector<float>(3, 1.0f), edges, options);
+    EXPECT_LT(error_of(t, result), 1e-3);
+    EXPECT_LE(result.transfer.bases.coded.scales.size(), 2u);
+}
+
 TEST(HardCase, NearZeroCovarianceIsRoundingAndNotADirection) {
     Transfer t = random_transfer(1, 3, 1, 2);
     const std::vector<float> one = t.vectors;

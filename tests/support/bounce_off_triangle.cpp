@@ -113,7 +113,8 @@ Vector quadrature(Varying varying, const Transfer& direct, const std::array<std:
     for (int i = 0; i < kSteps; ++i)
         for (int j = 0; j < 2 * (kSteps - i) - 1; ++j) { // triangles of a row, upright and upside down
             const double third = j % 2 == 0 ? 1.0 / 3 : 2.0 / 3;
-            const double v = (i + third) / kSteps, u = (j / 2 + third) / kSteps;
+            const int column = j / 2;
+            const double v = (i + third) / kSteps, u = (column + third) / kSteps;
             const std::array<double, 3> at = {1 - u - v, u, v};
             const glm::dvec3 x = at[0] * kCorners[0] + at[1] * kCorners[1] + at[2] * kCorners[2];
             const double d2 = glm::dot(x, x);

@@ -292,7 +292,7 @@ void GltfContents::remove_unused(std::set<std::size_t> accessors, std::set<std::
 }
 
 std::string in_plain_words(const std::exception& error) {
-    const std::string what = printable(one_line(error.what()));
+    std::string what = printable(one_line(error.what()));
     if (dynamic_cast<const nlohmann::json::exception*>(
             &error)) // "[json.exception.type_error.302] type must be .."
         return "is damaged glTF: " + what.substr(what.starts_with("[json") ? what.find("] ") + 2 : 0);

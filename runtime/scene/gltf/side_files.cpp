@@ -44,7 +44,8 @@ fs::path SideFiles::place_of(const std::string& name) const {
     if (name.find('\0') != std::string::npos)
         throw Error("is no name of a file");
     std::error_code error;
-    const fs::path folder = fs::canonical(folder_, error), path = fs::weakly_canonical(folder / name, error);
+    const fs::path folder = fs::canonical(folder_, error);
+    fs::path path = fs::weakly_canonical(folder / name, error);
     if (error)
         throw Error(error.message());
     if (!allow_outside_ && !is_below(path, folder))

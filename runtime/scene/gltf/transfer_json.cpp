@@ -44,7 +44,7 @@ Number count_or_zero(const Json& json, const char* key) {
 std::string read_hash(const Json& json) {
     if (!json.contains("receivers"))
         return {};
-    const std::string hash = json["receivers"];
+    std::string hash = json["receivers"];
     if (hash.size() != 16 || hash.find_first_not_of("0123456789abcdef") != std::string::npos)
         throw Error("receivers of the bake is no hash of 16 hexadecimal digits");
     return hash;

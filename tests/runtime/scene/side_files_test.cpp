@@ -54,7 +54,7 @@ protected:
         try {
             load_gltf(path, options);
         } catch (const Error& error) {
-            const std::string message = error.what();
+            std::string message = error.what();
             EXPECT_TRUE(message.starts_with(path.string() + ": ")) << message;
             EXPECT_EQ(message.find('\n'), std::string::npos) << message;
             EXPECT_EQ(message.find("std::"), std::string::npos) << message;
@@ -90,8 +90,7 @@ TEST_F(SideFile, WhatIsNoRegularFileIsRefusedAtOnce) {
     for (const bool outside : {false, true})
         for (const char* uri :
              {"pipe.bin", ".", "parts", "%00", "gone.bin", "", "/dev/zero", "http://a.b/c"}) {
-            EXPECT_NE(refusal_of_buffer(uri, {.allow_outside = outside}) == "", std::string(uri).size() > 0)
-                << uri;
+            EXPECT_EQ(refusal_of_buffer(uri, {.allow_outside = outside}).empty(), *uri == 0) << uri;
             EXPECT_NE(refusal_of_image(uri, {.allow_outside = outside}), "") << uri;
         }
 }
