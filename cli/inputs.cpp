@@ -59,18 +59,6 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
     return {std::move(document), std::move(scene), std::move(baked), std::move(compressed)};
 }
 
-namespace {
-
-Light projected(const Path& path, const Environment& environment, int order, int threads) {
-    try {
-        return project(environment, order, threads);
-    } catch (const Error& error) {
-        throw Error(path.string() + ": " + error.what());
-    }
-}
-
-} // namespace
-
 LoadedLight load_light(const Path& path, int order, const LightOptions& options, int threads) {
     LoadedLight result;
     result.name = path.filename().string();
@@ -88,7 +76,7 @@ LoadedLight load_light(const Path& path, int order, const LightOptions& options,
             print_notices(path.string(),
                           {"has 8 bits per channel: it is read as sRGB, and what is brighter than "
                            "white (suns, lamps) is clipped"});
-        result.light = projected(path, file.environment, order, threads);
+        result.light = about(path, [&] { return project(file.environment, order, threads); });
         result.environment = std::move(file.environment);
     }
     result.light = windowed(result.light, options.window);

@@ -63,12 +63,14 @@ int run(int argc, char** argv) {
     return 0;
 }
 
+constexpr const char* kNoMemory = "there is not enough memory";
+
 /// Also where there is no memory left for words.
 int complain(int status, std::string_view what, std::string_view more = {}) noexcept {
     try {
         say(std::string("error: ").append(what).append(more));
     } catch (const std::bad_alloc&) {
-        std::fputs("prt: error: there is not enough memory\n", stderr);
+        std::fprintf(stderr, "prt: error: %s\n", kNoMemory);
     }
     return status;
 }
@@ -81,7 +83,7 @@ int complain(int status, std::string_view what, std::string_view more = {}) noex
         if (error)
             std::rethrow_exception(error);
     } catch (const std::bad_alloc&) {
-        std::fputs("prt: error: there is not enough memory\n", stderr);
+        std::fprintf(stderr, "prt: error: %s\n", kNoMemory);
         std::_Exit(1);
     } catch (...) {
     }
@@ -96,9 +98,9 @@ int run_and_tell(int argc, char** argv) {
     } catch (const Error& error) {
         return complain(1, error.what());
     } catch (const std::bad_alloc&) {
-        return complain(1, "there is not enough memory");
+        return complain(1, kNoMemory);
     } catch (const std::length_error&) { // more than there can be
-        return complain(1, "there is not enough memory");
+        return complain(1, kNoMemory);
     } catch (const std::filesystem::filesystem_error& error) {
         return complain(1, error.what());
     } catch (const std::exception& error) {

@@ -174,10 +174,7 @@ SunFit fit_suns(const Light& environment, int order, int count) {
     check_order(order);
     if (count < 1)
         throw Error("at least one light is to be fitted, not " + std::to_string(count));
-    const Light whole = truncated(environment, kOrder);
-    for (const glm::vec3& c : whole.coefficients)
-        if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z))
-            throw Error("the lighting that suns are fitted to is not finite");
+    const Light whole = truncated(environment, kOrder); // which refuses what is not finite
     const Colors target = colors_of(whole);
     std::vector<Parameters> found;
     Colors left = target;
