@@ -1,6 +1,7 @@
 #include "report/report.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace prt::cli {
 namespace {
@@ -19,8 +20,12 @@ std::string csv_cell(const Json& value) {
 } // namespace
 
 void add_figures(Report& report, const Json& object) {
-    for (const auto& [key, value] : object.items())
-        report.figures.push_back({{key}, value});
+    for (const auto& [key, value] : object.items()) {
+        Figure figure; // not in braces: GCC 12 destroys the key twice where memory ends in the value
+        figure.column.key = key;
+        figure.value = value;
+        report.figures.push_back(std::move(figure));
+    }
 }
 
 std::string json_text(const Json& json) {

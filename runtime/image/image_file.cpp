@@ -1,4 +1,4 @@
-// Images from files by their kind, and to files: Radiance HDR, PNG and JPEG by stb.
+// Images from files by their kind: Radiance HDR, PNG and JPEG by stb.
 #include "prt/image_file.h"
 
 #include "exr.h"
@@ -12,7 +12,6 @@
 #include "prt/support/printable.h"
 
 #include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
 
 #include <algorithm>
 #include <array>
@@ -217,25 +216,6 @@ Image8 decode_image(std::span<const std::byte> file) {
     image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
     std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::u8vec4));
     return image;
-}
-
-std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec3> pixels) {
-    const auto append = [](void* context, void* data, int size) {
-        auto& bytes = *static_cast<std::vector<std::byte>*>(context);
-        const auto* begin = static_cast<const std::byte*>(data);
-        bytes.insert(bytes.end(), begin, begin + size);
-    };
-    std::vector<std::byte> file;
-    if (!stbi_write_png_to_func(append, &file, width, height, 3, pixels.data(), 3 * width))
-        throw Error("the image could not be encoded");
-    return file;
-}
-
-void write_png(const std::filesystem::path& path, int width, int height,
-               std::span<const glm::u8vec3> pixels) {
-    OutputFile output(path);
-    output.write(encode_png(width, height, pixels));
-    output.commit();
 }
 
 } // namespace prt

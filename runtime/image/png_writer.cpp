@@ -1,0 +1,59 @@
+// PNG files by stb, packed by zlib: the packer of stb ends the program where memory does.
+#include "prt/image_file.h"
+
+#include "prt/support/error.h"
+#include "prt/support/file.h"
+
+#include <zlib.h>
+
+#include <climits>
+#include <cstdlib>
+#include <memory>
+
+namespace {
+
+/// What stb asks of a packer: `size` bytes packed into memory that free() takes, null where there is none.
+unsigned char* packed_by_zlib(unsigned char* data, int size, int* packed_size, int level) {
+    uLongf most = compressBound(static_cast<uLong>(size));
+    auto* packed = static_cast<unsigned char*>(std::malloc(most));
+    if (!packed)
+        return nullptr;
+    if (most > INT_MAX || compress2(packed, &most, data, static_cast<uLong>(size), level) != Z_OK) {
+        std::free(packed);
+        return nullptr;
+    }
+    *packed_size = static_cast<int>(most);
+    return packed;
+}
+
+} // namespace
+
+// stb's own, of this file alone, so that they do not meet those of a library.
+#define STBIW_ZLIB_COMPRESS packed_by_zlib
+#define STB_IMAGE_WRITE_STATIC
+#define STB_IMAGE_WRITE_IMPLEMENTATION
+#include <stb/stb_image_write.h>
+
+namespace prt {
+
+std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec3> pixels) {
+    struct Free {
+        void operator()(unsigned char* bytes) const { std::free(bytes); }
+    };
+    int size = 0;
+    const std::unique_ptr<unsigned char, Free> file(stbi_write_png_to_mem(
+        reinterpret_cast<const unsigned char*>(pixels.data()), 3 * width, width, height, 3, &size));
+    if (!file)
+        throw Error("the image could not be encoded: there is not enough memory");
+    const auto* begin = reinterpret_cast<const std::byte*>(file.get());
+    return {begin, begin + size};
+}
+
+void write_png(const std::filesystem::path& path, int width, int height,
+               std::span<const glm::u8vec3> pixels) {
+    OutputFile output(path);
+    output.write(encode_png(width, height, pixels));
+    output.commit();
+}
+
+} // namespace prt
