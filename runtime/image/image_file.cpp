@@ -193,6 +193,8 @@ EnvironmentFile load_environment(const std::filesystem::path& path, const Enviro
 ImageSize image_size(std::span<const std::byte> file) {
     if (!is_png(file) && !is_jpeg(file) && !is_hdr(file)) // stb reads more kinds, with less care
         throw Error("is no image that is read here: PNG and JPEG are");
+    if (is_png(file))
+        check_png_chunks(file);
     ImageSize size;
     int channels = 0;
     if (!stbi_info_from_memory(stb_bytes(file), stb_size(file), &size.width, &size.height, &channels))

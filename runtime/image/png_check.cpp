@@ -3,13 +3,15 @@
 #include "image_kind.h"
 #include "image_limits.h"
 #include "prt/support/error.h"
+#include "prt/support/printable.h"
 
 #include <stb/stb_image.h>
 
 #include <algorithm>
 #include <climits>
 #include <cstdint>
-#include <cstring>
+#include <optional>
+#include <string_view>
 #include <vector>
 
 namespace prt {
@@ -20,27 +22,49 @@ std::uint32_t big_endian(std::span<const std::byte> bytes) {
            std::to_integer<std::uint32_t>(bytes[2]) << 8 | std::to_integer<std::uint32_t>(bytes[3]);
 }
 
-/// The contents of all IDAT chunks: pixels, deflated (PNG, third edition, sections 5.3 and 11.2.3).
-std::vector<std::byte> deflated_pixels(std::span<const std::byte> file) {
+struct Chunk {
+    std::string_view type; ///< four bytes
+    std::size_t length = 0;
+    std::span<const std::byte> data; ///< shorter where the file ends
+};
+
+/// Takes the next chunk from `rest` (PNG, third edition, section 5.3); none at the end.
+std::optional<Chunk> next_chunk(std::span<const std::byte>& rest) {
     constexpr std::size_t kLengthAndType = 8, kChecksum = 4;
+    if (rest.size() < kLengthAndType)
+        return std::nullopt;
+    Chunk chunk{{reinterpret_cast<const char*>(&rest[4]), 4}, big_endian(rest), {}};
+    if (chunk.type == "IEND")
+        return std::nullopt;
+    rest = rest.subspan(kLengthAndType);
+    chunk.data = rest.first(std::min(chunk.length, rest.size()));
+    rest = rest.subspan(std::min(chunk.length + kChecksum, rest.size()));
+    return chunk;
+}
+
+/// The contents of all IDAT chunks: pixels, deflated (section 11.2.3).
+std::vector<std::byte> deflated_pixels(std::span<const std::byte> file) {
     std::vector<std::byte> pixels;
     auto rest = file.subspan(kPngMagic.size());
-    while (rest.size() >= kLengthAndType) {
-        const std::size_t length = big_endian(rest);
-        const bool holds_pixels = std::memcmp(&rest[4], "IDAT", 4) == 0;
-        if (std::memcmp(&rest[4], "IEND", 4) == 0)
-            break;
-        rest = rest.subspan(kLengthAndType);
-        if (length > rest.size())
+    while (const auto chunk = next_chunk(rest)) {
+        if (chunk->length > chunk->data.size())
             throw Error("is a damaged PNG: a chunk reaches beyond its end");
-        if (holds_pixels)
-            pixels.insert(pixels.end(), rest.begin(), rest.begin() + static_cast<std::ptrdiff_t>(length));
-        rest = rest.subspan(std::min(length + kChecksum, rest.size()));
+        if (chunk->type == "IDAT")
+            pixels.insert(pixels.end(), chunk->data.begin(), chunk->data.end());
     }
     return pixels;
 }
 
 } // namespace
+
+void check_png_chunks(std::span<const std::byte> file) {
+    auto rest = file.subspan(kPngMagic.size());
+    while (const auto chunk = next_chunk(rest)) {
+        const bool critical = (chunk->type[0] & 0x20) == 0; // section 5.4
+        if (critical && chunk->type != "IHDR" && chunk->type != "PLTE" && chunk->type != "IDAT")
+            throw Error("is a damaged PNG: it has a critical chunk '" + printable(chunk->type) + "'");
+    }
+}
 
 void check_png(std::span<const std::byte> file, ImageSize size) {
     constexpr std::size_t kMostInflation = 1032; // of deflate

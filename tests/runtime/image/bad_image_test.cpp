@@ -149,7 +149,7 @@ TEST(Png, BytesOfTheFileInMessagesArePrintable) {
     const test::TemporaryFolder folder;
     std::string file("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\2\0\0\0\1\x08\6\0\0\0....\0\0\0\4A\x1b\n\x80", 41);
     const std::string message = refusal(folder.file("chunk.png", file + std::string(12, '\0')));
-    EXPECT_NE(message, "");
+    EXPECT_NE(message.find("critical chunk"), std::string::npos) << message;
     for (const char c : message)
         EXPECT_TRUE(c >= ' ' && c <= '~') << message;
 }
