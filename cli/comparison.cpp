@@ -147,22 +147,21 @@ public:
     }
 
     void add_sizes(Report& report) const {
-        report.figures.push_back({{"bytes_file_shipped", "bytes of the file, shipped"},
-                                  static_cast<std::size_t>(std::filesystem::file_size(a_.shipped))});
+        add_figure(report, {"bytes_file_shipped", "bytes of the file, shipped"},
+                   static_cast<std::size_t>(std::filesystem::file_size(a_.shipped)));
         if (!model_.compressed)
             return;
         const ClusteredTransfer& t = model_.compressed->transfer;
         const double with_bases =
             static_cast<double>(bytes_per_receiver(t)) +
             static_cast<double>(basis_bytes(t.bases)) / static_cast<double>(t.receivers.size());
-        report.figures.insert(
-            report.figures.end(),
-            {{{"bytes_bound_per_vertex", "bytes per vertex to bind"}, bytes_per_receiver(t)},
-             {{"bytes_bound_per_vertex_with_bases", "bytes per vertex with the bases"}, with_bases},
-             {{"bits_used_per_vertex", "bits per vertex in use"}, bits_per_receiver(t)},
-             {{"bytes_bases", "bytes of bases"}, basis_bytes(t.bases)},
-             {{"clusters", "clusters"}, t.bases.clusters()},
-             {{"components_most", "components, at most"}, t.bases.max_components()}});
+        add_figure(report, {"bytes_bound_per_vertex", "bytes per vertex to bind"}, bytes_per_receiver(t));
+        add_figure(report, {"bytes_bound_per_vertex_with_bases", "bytes per vertex with the bases"},
+                   with_bases);
+        add_figure(report, {"bits_used_per_vertex", "bits per vertex in use"}, bits_per_receiver(t));
+        add_figure(report, {"bytes_bases", "bytes of bases"}, basis_bytes(t.bases));
+        add_figure(report, {"clusters", "clusters"}, t.bases.clusters());
+        add_figure(report, {"components_most", "components, at most"}, t.bases.max_components());
     }
 
     Verdict verdict(const Evaluation& evaluation) const {
@@ -277,9 +276,9 @@ void add_comparison(const ComparisonOptions& options, SceneFile& baked,
     const Comparison comparison(options, baked);
     const Evaluation evaluation = comparison.measure(lights);
     report.verdict = in_one_line(comparison.verdict(evaluation));
-    report.figures.push_back(
-        {{"relative_l2", "relative L2 of the transfer", Unit::percent, 4}, evaluation.relative_l2});
-    report.figures.push_back({{"worst_directional_light"}, evaluation.worst_sun});
+    add_figure(report, {"relative_l2", "relative L2 of the transfer", Unit::percent, 4},
+               evaluation.relative_l2);
+    add_figure(report, {"worst_directional_light"}, evaluation.worst_sun);
     comparison.add_sizes(report);
     report.tables.push_back(lights_table(evaluation, baked.scene));
     if (!evaluation.clusters.empty())

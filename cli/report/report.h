@@ -82,6 +82,8 @@ struct Report {
     std::vector<std::string> sentences;
 };
 
+void add_figure(Report& report, Column column, Json value);
+
 /// Adds the items of an object as figures.
 void add_figures(Report& report, const Json& object);
 

@@ -19,13 +19,15 @@ std::string csv_cell(const Json& value) {
 
 } // namespace
 
+// Not in nested braces: GCC 12 destroys the column twice where memory ends in the value.
+void add_figure(Report& report, Column column, Json value) {
+    Figure figure{.column = std::move(column), .value = std::move(value)};
+    report.figures.push_back(std::move(figure));
+}
+
 void add_figures(Report& report, const Json& object) {
-    for (const auto& [key, value] : object.items()) {
-        Figure figure; // not in braces: GCC 12 destroys the key twice where memory ends in the value
-        figure.column.key = key;
-        figure.value = value;
-        report.figures.push_back(std::move(figure));
-    }
+    for (const auto& [key, value] : object.items())
+        add_figure(report, {key}, value);
 }
 
 std::string json_text(const Json& json) {
