@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 namespace prt {
 namespace {
@@ -49,19 +50,24 @@ TEST(Trace, TellsHowTheResultCameAbout) {
     EXPECT_EQ(std::get<ClustersSeeded>(events.front()).clusters, 24u);
     // Merges make room for as many splits, in pairs; a sweep is kept exactly where it lowers the cost.
     std::size_t splits = 0, merges = 0, emptied = 0;
+    std::set<std::size_t> touched;
     for (const CompressEvent& event : events) {
         if (const auto* merge = std::get_if<ClusterMerge>(&event)) {
             ++merges;
             emptied = merge->cluster;
+            EXPECT_TRUE(touched.insert(merge->cluster).second) << "a cluster moves once in a sweep";
+            EXPECT_TRUE(touched.insert(merge->into).second);
         } else if (const auto* split = std::get_if<ClusterSplit>(&event)) {
             ++splits;
             EXPECT_EQ(split->into, emptied);
+            EXPECT_TRUE(touched.insert(split->cluster).second);
             EXPECT_GT(split->gain, 0);
         } else if (const auto* moves = std::get_if<MovesTried>(&event)) {
             EXPECT_GT(splits, 0u);
             EXPECT_EQ(splits, merges);
             EXPECT_TRUE(!moves->kept || moves->cost_after < moves->cost_before);
             splits = merges = 0;
+            touched.clear();
         }
     }
     EXPECT_EQ(splits, 0u); // every one belongs to a sweep
