@@ -68,9 +68,11 @@ public:
 
 private:
     [[noreturn]] void refuse(exr_result_t result) const {
+        constexpr std::size_t kMostReport = 200; // bytes: it may quote whatever the file holds
         throw Error("is a damaged or unsupported EXR: " +
                     printable(one_line(source_.trouble.empty() ? exr_get_default_error_message(result)
-                                                               : source_.trouble)));
+                                                               : source_.trouble),
+                              kMostReport));
     }
     Source source_;
     exr_context_t context_ = nullptr;

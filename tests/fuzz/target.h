@@ -30,16 +30,15 @@ void expect_finite(std::span<const Number> values, const char* what) {
         expect(std::isfinite(value), what);
 }
 
-/// What a message says itself: what it quotes is the file's, which libFuzzer fills with the words below.
+/// What a message says itself: what it quotes, from the first quote to the last, is the file's, which
+/// libFuzzer fills with the words below and with quotes.
 inline std::string without_quotes(std::string_view message) {
-    std::string own;
-    char quote = 0;
-    for (const char c : message) {
-        if (quote == 0 && c != '"' && c != '\'')
-            own += c;
-        quote = quote == c ? '\0' : quote == 0 && (c == '"' || c == '\'') ? c : quote;
-    }
-    return own;
+    const std::size_t first = message.find_first_of("\"'");
+    if (first == std::string_view::npos)
+        return std::string(message);
+    const std::size_t last = message.rfind(message[first]); // the first, where the end was cut off
+    return std::string(message.substr(0, first)) +
+           std::string(message.substr(last == first ? message.size() : last));
 }
 
 /// A message is one line in our words: no name of a library's inner part.
