@@ -44,7 +44,8 @@ SUITES = {
     "bake/trace/gpu/": [GPU],
     "bake/pictures/": [Suite("bake_tests", "PathTracer*:DistantLight*:Storage*")],
     "shaders/": [RENDER, GPU],
-    "examples/web/src/": [Suite("node")],
+    # Of the web page the package alone: the rest is seen in Chromium.
+    **{f"examples/web/src/{name}.js": [Suite("node")] for name in ("PrtkitLoader", "clusteredPca", "sphericalHarmonics")},
 }
 
 

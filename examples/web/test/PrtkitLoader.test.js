@@ -93,6 +93,25 @@ test("bytes of a vertex are those of the attributes that are bound", async () =>
   assert.equal(gltf.userData.prtkit.bytesPerVertex, 4 + 2 * 4 * 2);
 });
 
+test("tables longer than a row of their texture go on in the next", async () => {
+  const count = 300; // clusters without components: as many rows of constants
+  const { packing: _packing, ...extension } = { ...packed, components: new Array(count).fill(0) };
+  const cluster = new BufferAttribute(new Uint16Array([0, count - 1]), 1);
+  const { gltf, parser } = scene({ _prt_cluster: cluster }, extension);
+  parser.getDependency = async () => bytesOf(...Array.from({ length: count }, (_, k) => k));
+  await new PrtkitPlugin(parser).afterRoot(gltf);
+  const { constantsTexture, clustersTexture } = gltf.userData.prtkit;
+  gltf.userData.prtkit.setLight(white());
+  for (const { image } of [constantsTexture, clustersTexture]) {
+    assert.equal(image.data.length, 4 * image.width * image.height);
+    assert.ok(image.width * image.height >= count && image.width * (image.height - 1) < count);
+  }
+  for (let k = 0; k < count; ++k) {
+    assert.equal(clustersTexture.image.data[4 * k], k);
+    assert.ok(Math.abs(constantsTexture.image.data[4 * k] - k * Math.sqrt(4 * Math.PI)) < 1e-3);
+  }
+});
+
 test("files without the extension are left alone", async () => {
   const { gltf, parser, mesh } = scene({}, null);
   const { material } = mesh;

@@ -104,7 +104,9 @@ test("rows may come from below", () => {
 });
 
 test("orders outside 1..10 are refused", () => {
-  for (const order of [0, 11, NaN]) assert.throws(() => projectLatLong(imageOf(2, 1, () => [1, 1, 1]), order), RangeError);
+  const white = imageOf(2, 1, () => [1, 1, 1]);
+  for (const order of [0, 11, NaN]) assert.throws(() => projectLatLong(white, order), RangeError);
+  for (const order of [1, 10]) assert.equal(projectLatLong(white, order).coefficients().length, 3 * order ** 2);
 });
 
 test("coefficients do not change the light", () => {

@@ -1,4 +1,5 @@
 // Images that lie, end early, never end, or are too bright.
+#include "image_limits.h"
 #include "prt/environment.h"
 #include "prt/image_file.h"
 #include "prt/support/error.h"
@@ -133,6 +134,19 @@ std::string chunk(const std::string& type, const std::string& contents) {
 std::string inflating_zeros(std::size_t bytes) {
     std::string stream("\x78\xda\xec\xc1\x01\x01\0\0\0\x80\x90\xfe\xaf\xee\x08\x0a", 16);
     return stream + std::string(bytes, '\0');
+}
+
+TEST(ImageLimits, HoldToTheLastPixelAndByte) {
+    constexpr std::int64_t kSide = 1 << 14; // its square is the most
+    EXPECT_NO_THROW(check_image_size(kSide, kSide, 0, 0));
+    EXPECT_THROW(check_image_size(kSide + 1, kSide, 0, 0), Error);
+    EXPECT_NO_THROW(check_image_size(kSide * kSide, 1, 0, 0));
+    EXPECT_THROW(check_image_size(1, kSide * kSide + 1, 0, 0), Error);
+    constexpr std::uint64_t kMost = kFreeImageMemory + 10 * kImageMemoryPerByte;
+    EXPECT_NO_THROW(check_image_size(2, 3, kMost / 6, 10, kMost % 6));
+    EXPECT_THROW(check_image_size(2, 3, kMost / 6, 10, kMost % 6 + 1), Error);
+    EXPECT_THROW(check_image_size(0, 1, 1, 1), Error);
+    EXPECT_THROW(check_image_size(1, 0, 1, 1), Error);
 }
 
 TEST(Png, OneThatInflatesToMoreThanItSaysIsRefused) {
