@@ -68,7 +68,7 @@ std::string suffix_of(const Path& path) {
     return suffix;
 }
 
-void check_outputs(const std::vector<Output>& outputs, const std::vector<Path>& inputs) {
+std::vector<Path> check_outputs(const std::vector<Output>& outputs, const std::vector<Path>& inputs) {
     std::vector<Output> asked;
     std::copy_if(outputs.begin(), outputs.end(), std::back_inserter(asked),
                  [](const Output& output) { return !output.path.empty(); });
@@ -87,6 +87,10 @@ void check_outputs(const std::vector<Output>& outputs, const std::vector<Path>& 
                 throw Error(
                     fmt::format("{}: {} and {} would be one file", name, asked[other].option, output.option));
     }
+    std::vector<Path> paths;
+    for (const Output& output : asked)
+        paths.push_back(output.path);
+    return paths;
 }
 
 } // namespace prt::cli

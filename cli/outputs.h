@@ -19,8 +19,10 @@ struct Output {
 
 /// Asks before work begins whether all outputs can be written: there is such a folder and one may write
 /// there, names end in what is written, none is an input (a run never touches those) and no two are one.
-/// Throws `Error`.
-void check_outputs(const std::vector<Output>& outputs, const std::vector<std::filesystem::path>& inputs);
+/// Returns those that are asked for, which readers of scenes refuse as parts of them
+/// (`GltfOptions::outputs`). Throws `Error`.
+std::vector<std::filesystem::path> check_outputs(const std::vector<Output>& outputs,
+                                                 const std::vector<std::filesystem::path>& inputs);
 
 /// Lower-case, with the dot.
 std::string suffix_of(const std::filesystem::path& path);

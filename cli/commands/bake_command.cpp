@@ -109,7 +109,11 @@ void add_transport(CLI::App* command, BakeOptions& options) {
     command
         ->add_option_function<std::uint64_t>(
             "--memory-limit",
-            [&options](const std::uint64_t& bytes) { options.memory_limit = static_cast<double>(bytes); },
+            [&options](const std::uint64_t& bytes) {
+                if (bytes > std::uint64_t{1} << 60) // what a negative number is taken for
+                    throw CLI::ValidationError("--memory-limit", "is no size that memory can have");
+                options.memory_limit = static_cast<double>(bytes);
+            },
             "bytes that the bake may take; otherwise what the machine or its container has")
         ->transform(CLI::AsSizeValue(true))
         ->type_name("SIZE, as 8GB");
@@ -231,8 +235,9 @@ BakeResult baked(const BakeArguments& a, Scene& scene, Session& session) {
     return bake(scene, a.options, bar.progress());
 }
 
-void run(const BakeArguments& a, Session& session) {
-    check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.scene});
+void run(BakeArguments a, Session& session) {
+    a.reading.outputs =
+        check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.scene});
     GltfOptions reading = a.reading;
     reading.missing_images =
         a.options.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;

@@ -43,13 +43,13 @@ Report hill_report(const BenchArguments& a, Session& session) {
     return classic_report(rows, results);
 }
 
-void run(const BenchArguments& a, Session& session) {
+void run(BenchArguments a, Session& session) {
     if (a.scene.empty() && !a.classic)
         throw CLI::RequiredError("scene, or --classic");
-    check_outputs({{a.files.json, "--json", {".json"}},
-                   {a.files.html, "--html", {".html", ".htm"}},
-                   {a.files.csv, "--csv", {".csv"}}},
-                  {a.scene});
+    a.reading.outputs = check_outputs({{a.files.json, "--json", {".json"}},
+                                       {a.files.html, "--html", {".html", ".htm"}},
+                                       {a.files.csv, "--csv", {".csv"}}},
+                                      {a.scene});
     Report report = a.classic ? hill_report(a, session) : scene_report(a, session);
     report.origin.emplace_back("command", session.command_line());
     publish(report, a.files, session);

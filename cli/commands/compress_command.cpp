@@ -274,13 +274,13 @@ SceneFile load_bake(const Path& path, const GltfOptions& reading) {
     return model;
 }
 
-void run(const CompressArguments& a, Session& session) {
+void run(CompressArguments a, Session& session) {
     std::vector<Path> inputs = a.lights;
     inputs.push_back(a.baked);
-    check_outputs({{a.output, "--output", {".glb"}},
-                   {a.reports.json, "--json", {".json"}},
-                   {a.reports.trace, "--trace", {".jsonl"}}},
-                  inputs);
+    a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}},
+                                       {a.reports.json, "--json", {".json"}},
+                                       {a.reports.trace, "--trace", {".jsonl"}}},
+                                      inputs);
     SceneFile model = load_bake(a.baked, a.reading);
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
@@ -340,12 +340,12 @@ void add_compress(CLI::App& app, Session& session) {
         ->add_option("--seam-weight", a.options.compress.seam_price,
                      "what jumps of the error along mesh edges cost, 0: nothing")
         ->capture_default_str()
-        ->check(real_in(0, 1e9));
+        ->check(real_in(0, kMostPrice));
     command
         ->add_option("--potts-weight", a.options.compress.border_price,
                      "price of a neighbour in another cluster, in mean squared errors")
         ->capture_default_str()
-        ->check(real_in(0, 1e9));
+        ->check(real_in(0, kMostPrice));
     command->add_flag("--reorder", a.writing.reorder, "put the vertices of a cluster side by side");
     command->add_flag("--meshopt", a.writing.meshopt, "write vertex data through EXT_meshopt_compression");
     command->add_option("--seed", a.options.compress.seed, "seed of the clustering")

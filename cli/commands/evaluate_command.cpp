@@ -70,21 +70,21 @@ void add_sizes_of_bake(const EvaluateArguments& a, const Transfer& transfer, Rep
           static_cast<std::size_t>(std::filesystem::file_size(a.baked))}});
 }
 
-void check(const EvaluateArguments& a) {
+std::vector<Path> check(const EvaluateArguments& a) {
     if (a.shipped.empty() && !a.sweep)
         throw CLI::ValidationError(
             "evaluate", "compares two files: prt evaluate BAKED.glb SHIPPED.glb; or measures what the "
                         "compressor makes of one: prt evaluate BAKED.glb --sweep");
     std::vector<Path> inputs = a.lights;
     inputs.insert(inputs.end(), {a.baked, a.shipped});
-    check_outputs({{a.files.json, "--json", {".json"}},
-                   {a.files.html, "--html", {".html", ".htm"}},
-                   {a.files.csv, "--csv", {".csv"}}},
-                  inputs);
+    return check_outputs({{a.files.json, "--json", {".json"}},
+                          {a.files.html, "--html", {".html", ".htm"}},
+                          {a.files.csv, "--csv", {".csv"}}},
+                         inputs);
 }
 
-void run(const EvaluateArguments& a, Session& session) {
-    check(a);
+void run(EvaluateArguments a, Session& session) {
+    a.reading.outputs = check(a);
     SceneFile baked = load_scene_file(a.baked, a.reading);
     if (!baked.baked)
         throw Error(a.baked.string() + ": holds no raw transfer; the first file is the output of prt bake");

@@ -100,8 +100,8 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     report.sentences.push_back(record_sentence(own + "bake", compressed.record));
 }
 
-void run(const InfoArguments& a, Session& session) {
-    check_outputs({{a.json, "--json", {".json"}}}, {a.file});
+void run(InfoArguments a, Session& session) {
+    a.reading.outputs = check_outputs({{a.json, "--json", {".json"}}}, {a.file});
     const SceneFile model = load_scene_file(a.file, a.reading);
     Report report;
     add_scene(a.file, model.scene, report);

@@ -77,7 +77,7 @@ void vector_option(CLI::App* command, const std::string& name, std::optional<glm
 void parse_size(const std::string& text, int& width, int& height) {
     constexpr int kMost = 16384;
     int used = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%n", &width, &height, &used) != 2 ||
+    if (std::sscanf(text.c_str(), "%5dx%5d%n", &width, &height, &used) != 2 ||
         static_cast<std::size_t>(used) != text.size() || width < 1 || height < 1 || width > kMost ||
         height > kMost)
         throw CLI::ValidationError("--size", "'" + text + "' is not WIDTHxHEIGHT in 1..16384");
@@ -208,7 +208,7 @@ struct Rendered {
 
 /// Draws with `context`, or on the CPU where that is null.
 Rendered render(const RenderArguments& a, const Picture& picture, const Light& light, GlContext* context) {
-    const bool exposed = a.look.show == Show::lit && a.output.extension() != ".exr";
+    const bool exposed = a.look.show == Show::lit && suffix_of(a.output) != ".exr";
     const Stopwatch stopwatch;
     std::optional<RayScene> rays;
     if (!context || (exposed && a.look.exposure.automatic))
@@ -262,10 +262,11 @@ void check_together(const RenderArguments& a) {
         throw CLI::ValidationError("--show error", "and --baked FILE go together");
 }
 
-void run(const RenderArguments& a, Session& session) {
+void run(RenderArguments a, Session& session) {
     check_together(a);
-    check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
-                  {a.model, a.environment, a.baked});
+    a.reading.outputs =
+        check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
+                      {a.model, a.environment, a.baked});
     const SceneFile model = load_scene_file(a.model, a.reading);
     if (!model.record())
         print_notices(a.model.string(), {"holds no transfer and is drawn without shadows"});

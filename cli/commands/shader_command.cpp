@@ -51,8 +51,8 @@ void warn_of_large_blocks(const Path& model, const ClusteredTransfer& transfer) 
                                    rows, bytes, kGuaranteedBlock, kGuaranteedBlock / sizeof(glm::vec4))});
 }
 
-void run(const ShaderArguments& a, Session& session) {
-    check_outputs({{a.output, "--output"}}, {a.model});
+void run(ShaderArguments a, Session& session) {
+    a.reading.outputs = check_outputs({{a.output, "--output"}}, {a.model});
     const SceneFile model = load_scene_file(a.model, a.reading);
     if (!model.compressed)
         throw Error(a.model.string() + ": holds no compressed transfer; run prt compress first");

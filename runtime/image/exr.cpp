@@ -53,9 +53,14 @@ int rows_per_strip(int width) {
     return std::clamp((1 << 22) / width, 1, 256);
 }
 
+bool has_rgb(const Imf::ChannelList& channels) {
+    return channels.findChannel("R") || channels.findChannel("G") || channels.findChannel("B");
+}
+
+/// R, G and B, or Y alone for all of them.
 void insert_rgb(Imf::FrameBuffer& buffer, const Imf::ChannelList& channels, glm::vec3* base,
                 const Imath::Box2i& strip) {
-    const bool grey = !channels.findChannel("R") && !channels.findChannel("G") && !channels.findChannel("B");
+    const bool grey = !has_rgb(channels);
     const char* names[3] = {"R", "G", "B"};
     for (int c = 0; c < 3; ++c) {
         const char* name = grey ? "Y" : names[c];
@@ -92,14 +97,13 @@ Image read_in_strips(const Imath::Box2i& window, ReadStrip&& read_strip) {
 
 Image read_rgb(Imf::InputFile& file, const Imath::Box2i& window) {
     const Imf::ChannelList& channels = file.header().channels();
-    const bool grey = channels.findChannel("Y") && !channels.findChannel("R");
     Image image = read_in_strips(window, [&](glm::vec3* pixels, const Imath::Box2i& strip) {
         Imf::FrameBuffer buffer;
         insert_rgb(buffer, channels, pixels, strip);
         file.setFrameBuffer(buffer);
         file.readPixels(strip.min.y, strip.max.y);
     });
-    if (grey)
+    if (!has_rgb(channels))
         for (glm::vec3& pixel : image.pixels)
             pixel = glm::vec3(pixel.x);
     return image;
@@ -138,13 +142,12 @@ ExrFile read_checked(std::span<const std::byte> bytes) {
     const Imath::Box2i window = header.dataWindow();
     const Imf::ChannelList& channels = header.channels();
     ExrFile result;
-    if (channels.findChannel("RY") || channels.findChannel("BY"))
-        result.image = read_luminance_chroma(bytes, window);
-    else if (channels.findChannel("R") || channels.findChannel("G") || channels.findChannel("B") ||
-             channels.findChannel("Y"))
-        result.image = read_rgb(file, window);
-    else
+    if (!has_rgb(channels) && !channels.findChannel("Y"))
         throw Error("it has none of the channels R, G, B and Y");
+    if (!has_rgb(channels) && (channels.findChannel("RY") || channels.findChannel("BY")))
+        result.image = read_luminance_chroma(bytes, window);
+    else
+        result.image = read_rgb(file, window);
     if (Imf::hasChromaticities(header))
         convert_primaries(result.image, Imf::chromaticities(header));
     if (Imf::hasEnvmap(header)) {

@@ -1,21 +1,23 @@
 #include "png_check.h"
 
 #include "image_kind.h"
-#include "image_limits.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 
-#include <stb/stb_image.h>
+#include <zlib.h>
 
 #include <algorithm>
-#include <climits>
+#include <array>
 #include <cstdint>
+#include <new>
 #include <optional>
+#include <string>
 #include <string_view>
-#include <vector>
 
 namespace prt {
 namespace {
+
+constexpr std::size_t kLengthAndType = 8, kChecksum = 4;
 
 std::uint32_t big_endian(std::span<const std::byte> bytes) {
     return std::to_integer<std::uint32_t>(bytes[0]) << 24 | std::to_integer<std::uint32_t>(bytes[1]) << 16 |
@@ -30,7 +32,6 @@ struct Chunk {
 
 /// Takes the next chunk from `rest` (PNG, third edition, section 5.3); none at the end.
 std::optional<Chunk> next_chunk(std::span<const std::byte>& rest) {
-    constexpr std::size_t kLengthAndType = 8, kChecksum = 4;
     if (rest.size() < kLengthAndType)
         return std::nullopt;
     Chunk chunk{{reinterpret_cast<const char*>(&rest[4]), 4}, big_endian(rest), {}};
@@ -42,20 +43,51 @@ std::optional<Chunk> next_chunk(std::span<const std::byte>& rest) {
     return chunk;
 }
 
-/// The contents of all IDAT chunks: pixels, deflated (section 11.2.3).
-std::vector<std::byte> deflated_pixels(std::span<const std::byte> file) {
-    std::vector<std::byte> pixels;
-    auto rest = file.subspan(kPngMagic.size());
-    while (const auto chunk = next_chunk(rest)) {
-        if (chunk->length > chunk->data.size())
-            throw Error("is a damaged PNG: a chunk reaches beyond its end");
-        if (chunk->type == "IDAT")
-            pixels.insert(pixels.end(), chunk->data.begin(), chunk->data.end());
+/// Counts what bytes inflate to, without keeping it.
+class Inflation {
+public:
+    Inflation() {
+        constexpr int kNoHeader = -15; // the largest window, and no checksum: stb looks at neither
+        if (inflateInit2(&stream_, kNoHeader) != Z_OK)
+            throw std::bad_alloc();
     }
-    return pixels;
-}
+    ~Inflation() { inflateEnd(&stream_); }
+    Inflation(const Inflation&) = delete;
+
+    void add(std::span<const std::byte> deflated, std::uint64_t most) {
+        // zlib does not write to what it reads; its type says so only where it is asked to.
+        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(deflated.data()));
+        stream_.avail_in = static_cast<uInt>(deflated.size());
+        while (!ended_ && (stream_.avail_in > 0 || stream_.avail_out == 0)) {
+            stream_.next_out = buffer_.data();
+            stream_.avail_out = static_cast<uInt>(buffer_.size());
+            const int result = inflate(&stream_, Z_NO_FLUSH);
+            bytes_ += buffer_.size() - stream_.avail_out;
+            ended_ = result == Z_STREAM_END;
+            if (bytes_ > most || (result != Z_OK && result != Z_STREAM_END && result != Z_BUF_ERROR))
+                throw Error(
+                    "is a damaged PNG: its pixels cannot be inflated, or are more than its header says");
+            if (result == Z_BUF_ERROR)
+                break; // wants more
+        }
+    }
+
+private:
+    z_stream stream_ = {};
+    std::array<Bytef, 1 << 15> buffer_;
+    std::uint64_t bytes_ = 0;
+    bool ended_ = false;
+};
+
+constexpr std::size_t kColor = 3; // bytes of a color of the palette
+constexpr std::size_t kPalette = 256 * kColor;
 
 } // namespace
+
+int png_bit_depth(std::span<const std::byte> file) {
+    constexpr std::size_t kDepth = kPngMagic.size() + kLengthAndType + 8; // behind width and height
+    return file.size() > kDepth ? std::to_integer<int>(file[kDepth]) : 0;
+}
 
 void check_png_chunks(std::span<const std::byte> file) {
     auto rest = file.subspan(kPngMagic.size());
@@ -67,21 +99,39 @@ void check_png_chunks(std::span<const std::byte> file) {
 }
 
 void check_png(std::span<const std::byte> file, ImageSize size) {
-    constexpr std::size_t kMostInflation = 1032; // of deflate
-    const std::vector<std::byte> pixels = deflated_pixels(file);
-    if (pixels.size() * kMostInflation < kFreeImageMemory)
-        return;
     // Four channels at most; each row has a byte for its filter, interlaced ones have twice as many rows.
-    const bool wide = stbi_is_16_bit_from_memory(reinterpret_cast<const stbi_uc*>(file.data()),
-                                                 static_cast<int>(file.size())) != 0;
-    const std::size_t pixel = wide ? 8 : 4;
-    std::vector<char> raw(pixel * static_cast<std::size_t>(size.width) *
-                              static_cast<std::size_t>(size.height) +
-                          4 * static_cast<std::size_t>(size.height) + 16);
-    if (stbi_zlib_decode_buffer(raw.data(), static_cast<int>(std::min<std::size_t>(raw.size(), INT_MAX)),
-                                reinterpret_cast<const char*>(pixels.data()),
-                                static_cast<int>(pixels.size())) < 0)
-        throw Error("is a damaged PNG: its pixels cannot be inflated, or are more than its header says");
+    const std::uint64_t pixel = png_bit_depth(file) == 16 ? 8 : 4,
+                        width = static_cast<std::uint64_t>(size.width),
+                        height = static_cast<std::uint64_t>(size.height);
+    const std::uint64_t most = pixel * width * height + 4 * height + 16;
+    Inflation inflation;
+    std::size_t header = 2; // of zlib, to leave out
+    auto rest = file.subspan(kPngMagic.size());
+    while (const auto chunk = next_chunk(rest)) {
+        if (chunk->length > chunk->data.size())
+            throw Error("is a damaged PNG: a chunk reaches beyond its end");
+        if (chunk->type != "IDAT")
+            continue;
+        const std::size_t left_out = std::min(header, chunk->data.size());
+        header -= left_out;
+        inflation.add(chunk->data.subspan(left_out), most);
+    }
+}
+
+std::vector<std::byte> with_whole_palette(std::span<const std::byte> file) {
+    auto rest = file.subspan(kPngMagic.size());
+    while (const auto chunk = next_chunk(rest)) {
+        if (chunk->type != "PLTE" || chunk->data.size() >= kPalette || chunk->data.size() % kColor != 0)
+            continue;
+        std::vector<std::byte> whole(file.data(), chunk->data.data());
+        whole[whole.size() - 6] = std::byte{kPalette >> 8}; // of the length, whose other bytes are 0
+        whole[whole.size() - 5] = std::byte{kPalette & 0xff};
+        whole.insert(whole.end(), chunk->data.begin(), chunk->data.end());
+        whole.resize(whole.size() + kPalette - chunk->data.size());
+        whole.insert(whole.end(), chunk->data.data() + chunk->data.size(), file.data() + file.size());
+        return whole;
+    }
+    return {};
 }
 
 } // namespace prt

@@ -3,6 +3,7 @@
 
 #include "triangle_normal.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <utility>
@@ -51,26 +52,31 @@ void split_for_flat_normals(VertexArray& vertices, std::vector<glm::uvec3>& tria
     vertices.source = std::move(source);
 }
 
-std::size_t replace_zero_normals(const Scene& scene, VertexArray& vertices) {
-    std::vector<std::uint32_t> zero;
-    for (std::uint32_t i = 0; i < vertices.size(); ++i)
-        if (vertices.normals[i] == glm::vec3(0))
-            zero.push_back(i);
-    if (zero.empty())
-        return 0;
-    std::vector<glm::dvec3> sums(vertices.size(), glm::dvec3(0));
+std::size_t replace_zero_normals(Scene& scene) {
+    const auto is_zero = [](const glm::vec3& normal) { return normal == glm::vec3(0); };
+    std::vector<std::vector<glm::dvec3>> sums(scene.vertex_arrays.size()); // empty where none is zero
+    for (std::size_t array = 0; array < sums.size(); ++array) {
+        const std::vector<glm::vec3>& normals = scene.vertex_arrays[array].normals;
+        if (std::any_of(normals.begin(), normals.end(), is_zero))
+            sums[array].resize(normals.size(), glm::dvec3(0));
+    }
     for (const Primitive& primitive : scene.primitives) {
-        if (&scene.vertex_arrays[primitive.vertices] != &vertices)
+        std::vector<glm::dvec3>& sum = sums[primitive.vertices];
+        if (sum.empty())
             continue;
         for (const glm::uvec3& t : primitive.triangles)
             for (int corner = 0; corner < 3; ++corner)
-                sums[t[corner]] += area_normal_of(vertices, t);
+                sum[t[corner]] += area_normal_of(scene.vertex_arrays[primitive.vertices], t);
     }
     std::size_t replaced = 0;
-    for (const std::uint32_t i : zero) {
-        vertices.normals[i] = unit_or_zero(sums[i]);
-        replaced += vertices.normals[i] != glm::vec3(0);
-    }
+    for (std::size_t array = 0; array < sums.size(); ++array)
+        for (std::size_t i = 0; i < sums[array].size(); ++i) {
+            glm::vec3& normal = scene.vertex_arrays[array].normals[i];
+            if (!is_zero(normal))
+                continue;
+            normal = unit_or_zero(sums[array][i]);
+            replaced += !is_zero(normal);
+        }
     return replaced;
 }
 

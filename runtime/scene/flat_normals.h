@@ -10,6 +10,6 @@ void split_for_flat_normals(VertexArray& vertices, std::vector<glm::uvec3>& tria
 
 /// Replaces zero normals by the area-weighted normal of the triangles at the vertex, where there is one.
 /// Returns how many were replaced.
-std::size_t replace_zero_normals(const Scene& scene, VertexArray& vertices);
+std::size_t replace_zero_normals(Scene& scene);
 
 } // namespace prt

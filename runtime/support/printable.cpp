@@ -39,7 +39,8 @@ bool is_shown(std::uint32_t code) {
         return code >= first && code <= last;
     };
     return code >= 0x20 && !within(0x7f, 0x9f) && !within(0x200b, 0x200f) && !within(0x2028, 0x202e) &&
-           !within(0x2060, 0x206f) && code != 0xfeff && !within(0xfff9, 0xfffb) && code < 0xe0000;
+           !within(0x2060, 0x206f) && code != 0xad && code != 0x61c && code != 0x180e && code != 0xfeff &&
+           !within(0xfff9, 0xfffb) && code < 0xe0000;
 }
 
 std::string hexadecimal(std::uint32_t value, int digits) {

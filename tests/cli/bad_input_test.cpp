@@ -191,6 +191,7 @@ TEST_F(BadInput, WrongUsageIsStatusTwo) {
           {"compress", scene, "-o", out, "--metric", "plain", "--lights", scene},
           {"evaluate", scene},
           {"render", scene, "--env", scene, "-o", "p.png", "--size", "0x5"},
+          {"render", scene, "--env", scene, "-o", "p.png", "--size", "4294967297x1"},
           {"render", scene, "--env", scene, "-o", "p.png", "--show", "error"},
           {"render", scene, "--env", scene, "-o", "p.png", "--camera", "1,2"}}) {
         const Outcome outcome = prt(arguments);
@@ -351,6 +352,24 @@ TEST_F(BadInput, TheInputIsNeverTouched) {
          {scene.string(), (folder / "." / "good.glb").string(), (folder / "link.glb").string()})
         expect_refused(prt({"bake", scene.string(), "-o", same, "--rays", "4"}), same);
     EXPECT_EQ(std::filesystem::last_write_time(scene), time);
+}
+
+TEST_F(BadInput, NeitherAreFilesThatItNames) {
+    GlbFile file = triangle_file();
+    const std::string buffer(reinterpret_cast<const char*>(file.binary.data()), file.binary.size());
+    const std::string report = folder.file("report.json", buffer);
+    file.json["buffers"] = {{{"uri", "report.json"}, {"byteLength", buffer.size()}}};
+    const std::string scene = (folder / "named.glb").string(), picture = (folder / "p.png").string();
+    const std::string light = folder.file(
+        "light.json", R"({"prtkit_light":1,"order":1,"coefficients":{"red":[1],"green":[1],"blue":[1]}})");
+    file.write(scene);
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"bake", scene, "-o", out, "--rays", "4", "--json", report},
+             {"info", scene, "--json", report},
+             {"bench", scene, "--json", report},
+             {"render", scene, "--env", light, "-o", picture, "--backend", "cpu", "--json", report}})
+        expect_refused(prt(words), scene);
+    EXPECT_EQ(std::filesystem::file_size(report), buffer.size());
 }
 
 TEST_F(BadInput, DamagedExrs) {

@@ -155,10 +155,10 @@ Json write_bases(GltfContents& contents, const ClusteredBases& bases) {
             {"values", write_row_code(contents, coded.values)}};
 }
 
-/// Throws where the rows and what they are decoded from would take too much memory: a row of zeros has four
-/// bits, and none where there are no axes.
+/// Throws where the rows, those that constants are formed from, and what they are decoded from would take too
+/// much memory: a row of zeros has four bits, and none where there are no axes.
 void check_rows(const GltfContents& contents, std::size_t rows, std::size_t axes, std::size_t dimension) {
-    const auto values = static_cast<double>(rows) * static_cast<double>(axes + dimension) +
+    const auto values = static_cast<double>(rows) * static_cast<double>(axes + 3 * dimension) +
                         static_cast<double>(axes) * static_cast<double>(dimension);
     check_allowed(values * sizeof(float), contents.file_bytes, "its bases");
 }

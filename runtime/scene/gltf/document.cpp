@@ -147,7 +147,7 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
         return true;
     };
     loader.SetImageLoader(keep, &contents.images);
-    SideFiles files(contents.path, file.size(), options.allow_outside);
+    SideFiles files(contents.path, file.size(), options);
     loader.SetFsCallbacks(files.callbacks());
     std::string error, warning;
     const bool loaded = binary
@@ -156,6 +156,7 @@ void load_model(GltfContents& contents, std::span<const std::byte> file, std::st
                                                           static_cast<unsigned>(file.size()))
                             : loader.LoadASCIIFromString(&contents.model, &error, &warning, text.data(),
                                                          static_cast<unsigned>(text.size()), "");
+    files.check_outputs();
     if (!loaded)
         throw Error(error.empty() ? warning : error);
     for (const tinygltf::Buffer& buffer : contents.model.buffers)

@@ -23,6 +23,7 @@
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -191,8 +192,9 @@ private:
         Primitive primitive{transform.node, node.mesh, index, 0, material_index(file.material), false, {}};
         // Flat normals depend on the triangles, so such a primitive shares its vertices with none.
         const int alone = attribute(file, "NORMAL") < 0 ? index : -1;
-        const auto [found, is_new] = shared_.try_emplace(
-            std::tuple(transform.node, alone, file.attributes, file.targets), scene_.vertex_arrays.size());
+        const auto names = names_.try_emplace(std::pair(file.attributes, file.targets), names_.size()).first;
+        const auto [found, is_new] = shared_.try_emplace(std::tuple(transform.node, alone, names->second),
+                                                         scene_.vertex_arrays.size());
         primitive.vertices = found->second;
         if (is_new)
             add_vertices(transform, all, file, mesh);
@@ -225,7 +227,9 @@ private:
         std::vector<glm::dmat4> skin;
         if (node.skin >= 0) {
             has_skins_ = true;
-            skin = skin_matrices(model_, node.skin, file, vertices.size(), all);
+            if (!joints_.contains(node.skin))
+                joints_[node.skin] = joint_matrices(model_, node.skin, all);
+            skin = skin_matrices(model_, joints_[node.skin], file, vertices.size());
         }
         std::vector<glm::dvec3> places;
         places.reserve(vertices.size());
@@ -297,10 +301,7 @@ private:
             scene_.notices.push_back(range_.notice());
         for (std::string& notice : unread_material_notices(model_, scene_))
             scene_.notices.push_back(std::move(notice));
-        std::size_t zero_normals = 0;
-        for (VertexArray& vertices : scene_.vertex_arrays)
-            zero_normals += replace_zero_normals(scene_, vertices);
-        if (zero_normals > 0)
+        if (const std::size_t zero_normals = replace_zero_normals(scene_); zero_normals > 0)
             scene_.notices.emplace_back(std::to_string(zero_normals) +
                                         " vertices have no usable normal and get that of their triangles");
     }
@@ -310,8 +311,10 @@ private:
     Scene scene_;
     std::vector<std::vector<glm::dvec3>> places_; ///< [vertex arrays][vertices] in the world
     using Attributes = std::map<std::string, int>;
-    /// Vertex arrays by node, primitive (where it matters), attributes and morph targets.
-    std::map<std::tuple<int, int, Attributes, std::vector<Attributes>>, std::size_t> shared_;
+    std::map<std::pair<Attributes, std::vector<Attributes>>, std::size_t> names_; ///< numbered
+    /// Vertex arrays by node, primitive (where it matters), and attributes and morph targets.
+    std::map<std::tuple<int, int, std::size_t>, std::size_t> shared_;
+    std::map<int, std::vector<glm::dmat4>> joints_; ///< of skins
     UnitRange range_;
     std::size_t flat_primitives_ = 0, skipped_primitives_ = 0, hidden_nodes_ = 0, bad_texcoords_ = 0;
     bool has_skins_ = false, has_morphs_ = false;

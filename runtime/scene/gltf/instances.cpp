@@ -2,6 +2,7 @@
 #include "gltf/instances.h"
 
 #include "gltf/accessor.h"
+#include "gltf/allowance.h"
 #include "prt/support/error.h"
 
 #include <string>
@@ -12,8 +13,10 @@ namespace prt {
 namespace {
 
 constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
-/// Nodes take half a kilobyte each, and accessors without data claim any number.
+/// Accessors without data claim any number.
 constexpr std::size_t kMostInstances = 1'000'000;
+/// Bytes of a node, in JSON and in the model, and of each of its weights.
+constexpr double kNode = 1400, kWeight = 40;
 
 /// Part of the transform of every instance: [instance][component]; empty: not given.
 struct Attribute {
@@ -48,12 +51,16 @@ std::vector<Attribute> read_attributes(const GltfContents& contents, const Json&
     return attributes;
 }
 
-/// Takes the mesh from node `n` and gives it to one new child for each instance; returns how many.
-std::size_t expand(GltfContents& contents, std::size_t n) {
+/// Takes the mesh from node `n` and gives it to one new child for each instance; returns how many. `bytes` is
+/// what instances have taken before.
+std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
     Json& nodes = contents.json["nodes"];
     std::size_t count = 0;
     const auto attributes =
         read_attributes(contents, nodes[n]["extensions"][kInstancing].at("attributes"), count);
+    bytes += static_cast<double>(count) *
+             (kNode + kWeight * static_cast<double>(contents.model.nodes[n].weights.size()));
+    check_allowed(bytes, contents.file_bytes, "its instances");
     nodes[n]["extensions"].erase(kInstancing);
     if (nodes[n]["extensions"].empty())
         nodes[n].erase("extensions");
@@ -89,6 +96,7 @@ std::size_t expand(GltfContents& contents, std::size_t n) {
 
 void expand_instances(GltfContents& contents) {
     std::size_t instances = 0;
+    double bytes = 0;
     bool found = false;
     const std::size_t before = contents.model.nodes.size();
     for (std::size_t n = 0; n < before; ++n) {
@@ -96,7 +104,7 @@ void expand_instances(GltfContents& contents) {
         if (!node.contains("extensions") || !node["extensions"].contains(kInstancing))
             continue;
         try {
-            instances += expand(contents, n);
+            instances += expand(contents, n, bytes);
             found = true;
         } catch (const std::exception& error) { // ours, and those of the JSON library
             throw Error("node " + std::to_string(n) + ": " + in_plain_words(error));

@@ -56,4 +56,18 @@ Json parse_json(std::string_view text) {
     }
 }
 
+double json_bytes(const Json& json) {
+    constexpr double kAllocation = 64; // of a string's, an array's or an object's own
+    double bytes = sizeof(Json);
+    if (json.is_string())
+        return bytes + kAllocation + static_cast<double>(json.get_ref<const std::string&>().size());
+    if (const auto* object = json.get_ptr<const Json::object_t*>())
+        for (const auto& [key, value] : *object)
+            bytes += sizeof(std::string) + static_cast<double>(key.size()) + json_bytes(value);
+    else if (const auto* array = json.get_ptr<const Json::array_t*>())
+        for (const Json& value : *array)
+            bytes += json_bytes(value);
+    return json.is_structured() ? bytes + kAllocation : bytes;
+}
+
 } // namespace prt

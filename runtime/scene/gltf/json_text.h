@@ -12,4 +12,7 @@ namespace prt {
 /// damaged or nests deeper than the readers of JSON, which call themselves, have stack for.
 Json parse_json(std::string_view text);
 
+/// Bytes that `json` takes in memory, about.
+double json_bytes(const Json& json);
+
 } // namespace prt

@@ -17,13 +17,27 @@ namespace {
 
 using Attributes = std::map<std::string, int>;
 
-// Bytes while a scene is read: of a vertex its places in float and double and its normal, of an element of an
-// attribute or morph target the largest, of an index itself and its share of a triangle, of a primitive
-// itself and its names.
-constexpr double kVertex = 64, kElement = 16, kIndex = 8, kPrimitive = 256;
+// Bytes while a scene is read: of a vertex its places in float and double and its normal, of an index itself
+// and its share of a triangle, of a primitive itself and its names.
+constexpr double kVertex = 64, kIndex = 8, kPrimitive = 256;
 
 double count_of(const tinygltf::Model& model, int accessor) {
     return static_cast<double>(get_accessor(model, accessor).count);
+}
+
+/// Bytes of an element of an attribute or morph target: as floats of four components, or as they are where
+/// vertices are parted and the new accessor is written.
+double element_bytes(const tinygltf::Model& model, int index) {
+    const tinygltf::Accessor& accessor = get_accessor(model, index);
+    return std::max(16.0, static_cast<double>(component_bytes(accessor.componentType)) *
+                              component_count(accessor.type));
+}
+
+double bytes_of_elements(const tinygltf::Model& model, const Attributes& attributes) {
+    double bytes = 0;
+    for (const auto& [name, accessor] : attributes)
+        bytes += element_bytes(model, accessor);
+    return bytes;
 }
 
 /// Bytes that one instance of `mesh` takes.
@@ -44,10 +58,10 @@ double instance_bytes(const tinygltf::Model& model, const tinygltf::Mesh& mesh) 
         } else {
             vertices = std::max(vertices, indices); // flat normals part them
         }
-        std::size_t elements = primitive.attributes.size();
+        double elements = bytes_of_elements(model, primitive.attributes);
         for (const Attributes& target : primitive.targets)
-            elements += target.size();
-        bytes += vertices * (kVertex + kElement * static_cast<double>(elements));
+            elements += bytes_of_elements(model, target);
+        bytes += vertices * (kVertex + elements);
     }
     return bytes;
 }

@@ -17,9 +17,9 @@ bool is_below(const fs::path& path, const fs::path& folder) {
 
 } // namespace
 
-SideFiles::SideFiles(const fs::path& scene, std::size_t scene_bytes, bool allow_outside)
-    : folder_(scene.parent_path().empty() ? fs::path(".") : scene.parent_path()),
-      allow_outside_(allow_outside), bytes_there_(scene_bytes) {}
+SideFiles::SideFiles(const fs::path& scene, std::size_t scene_bytes, const GltfOptions& options)
+    : folder_(scene.parent_path().empty() ? fs::path(".") : scene.parent_path()), options_(options),
+      bytes_there_(scene_bytes) {}
 
 tinygltf::FsCallbacks SideFiles::callbacks() {
     const auto exists = [](const std::string&, void*) { return true; }; // else another folder is tried
@@ -48,7 +48,7 @@ fs::path SideFiles::place_of(const std::string& name) const {
     fs::path path = fs::weakly_canonical(folder / name, error);
     if (error)
         throw Error(error.message());
-    if (!allow_outside_ && !is_below(path, folder))
+    if (!options_.allow_outside && !is_below(path, folder))
         throw Error("lies outside the folder of the scene, where only --allow-outside reads it");
     const fs::file_status status = fs::status(path, error);
     if (!fs::exists(status))
@@ -56,6 +56,16 @@ fs::path SideFiles::place_of(const std::string& name) const {
     if (!fs::is_regular_file(status))
         throw Error("is no regular file");
     return path;
+}
+
+void SideFiles::check_outputs() const {
+    for (const fs::path& path : seen_)
+        for (const fs::path& output : options_.outputs) {
+            std::error_code error; // that of an output that is not there
+            if (fs::equivalent(path, output, error))
+                throw Error("names " + path.string() +
+                            ", which this run would replace: give the output another name");
+        }
 }
 
 std::vector<unsigned char> SideFiles::read(const std::string& name) {

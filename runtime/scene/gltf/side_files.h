@@ -1,5 +1,7 @@
 #pragma once
 
+#include "prt/gltf.h"
+
 #include <tiny_gltf.h>
 
 #include <cstdint>
@@ -16,18 +18,20 @@ namespace prt {
 class SideFiles {
 public:
     /// Those of a scene of `scene_bytes` at `scene`.
-    SideFiles(const std::filesystem::path& scene, std::size_t scene_bytes, bool allow_outside);
+    SideFiles(const std::filesystem::path& scene, std::size_t scene_bytes, const GltfOptions& options);
 
     /// They refer to this object. Names reach them as URIs say, without a folder.
     tinygltf::FsCallbacks callbacks();
     /// What was wrong with the first file that could not be read.
     const std::string& first_trouble() const { return first_trouble_; }
+    /// Throws `Error` where one of them is an output.
+    void check_outputs() const;
 
 private:
     std::filesystem::path place_of(const std::string& name) const;
     std::vector<unsigned char> read(const std::string& name);
     std::filesystem::path folder_;
-    bool allow_outside_;
+    const GltfOptions& options_;
     std::set<std::filesystem::path> seen_;
     std::uint64_t bytes_there_, bytes_read_ = 0; ///< of the scene and of all files once; as often as named
     std::string first_trouble_;

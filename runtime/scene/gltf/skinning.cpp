@@ -9,10 +9,12 @@
 #include <string>
 
 namespace prt {
-namespace {
 
-std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const tinygltf::Skin& skin,
+std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, int skin_index,
                                        const std::vector<NodeTransform>& nodes) {
+    if (static_cast<std::size_t>(skin_index) >= model.skins.size())
+        throw Error("skin " + std::to_string(skin_index) + " is not there");
+    const tinygltf::Skin& skin = model.skins[static_cast<std::size_t>(skin_index)];
     std::vector<glm::dmat4> world(model.nodes.size(), glm::dmat4(1));
     for (const NodeTransform& node : nodes)
         world[static_cast<std::size_t>(node.node)] = node.world;
@@ -32,15 +34,8 @@ std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, const tinyg
     return joints;
 }
 
-} // namespace
-
-std::vector<glm::dmat4> skin_matrices(const tinygltf::Model& model, int skin_index,
-                                      const tinygltf::Primitive& primitive, std::size_t vertices,
-                                      const std::vector<NodeTransform>& nodes) {
-    if (static_cast<std::size_t>(skin_index) >= model.skins.size())
-        throw Error("skin " + std::to_string(skin_index) + " is not there");
-    const std::vector<glm::dmat4> joints =
-        joint_matrices(model, model.skins[static_cast<std::size_t>(skin_index)], nodes);
+std::vector<glm::dmat4> skin_matrices(const tinygltf::Model& model, const std::vector<glm::dmat4>& joints,
+                                      const tinygltf::Primitive& primitive, std::size_t vertices) {
     std::vector<glm::dmat4> matrices(vertices, glm::dmat4(0));
     std::vector<double> totals(vertices, 0);
     for (int set = 0;; ++set) {

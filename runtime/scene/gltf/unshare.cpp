@@ -2,7 +2,9 @@
 #include "gltf/unshare.h"
 
 #include "gltf/accessor.h"
+#include "gltf/allowance.h"
 #include "gltf/gathered_accessor.h"
+#include "gltf/json_text.h"
 #include "triangle_normal.h"
 
 #include <glm/geometric.hpp>
@@ -10,20 +12,26 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <set>
 
 namespace prt {
 namespace {
 
 /// Copies of meshes that more than one node uses: index of the mesh of each node afterwards.
-std::map<int, std::size_t> unshare_meshes(Json& json, const Scene& scene) {
+std::map<int, std::size_t> unshare_meshes(GltfContents& contents, const Scene& scene) {
+    Json& json = contents.json;
     std::map<int, std::size_t> mesh_of_node;
-    std::set<int> taken;
+    std::map<int, double> taken; // meshes that have a node, and the bytes of a copy
+    double bytes = 0;
     for (const Primitive& primitive : scene.primitives) {
         if (mesh_of_node.contains(primitive.node))
             continue;
         auto mesh = static_cast<std::size_t>(primitive.mesh);
-        if (!taken.insert(primitive.mesh).second) {
+        const auto [first, is_new] = taken.try_emplace(primitive.mesh, 0.0);
+        if (!is_new) {
+            if (first->second == 0)
+                first->second = json_bytes(json["meshes"][mesh]);
+            bytes += first->second;
+            check_allowed(bytes, contents.file_bytes, "what its meshes hold, once for each node,");
             Json copy = json["meshes"][mesh];
             mesh = json["meshes"].size();
             json["meshes"].push_back(std::move(copy));
@@ -98,7 +106,7 @@ void write_split_vertices(GltfContents& contents, Json& primitive_json, const Sc
 } // namespace
 
 std::vector<Json*> unshare(GltfContents& contents, const Scene& scene) {
-    const std::map<int, std::size_t> mesh_of_node = unshare_meshes(contents.json, scene);
+    const std::map<int, std::size_t> mesh_of_node = unshare_meshes(contents, scene);
     std::vector<Json*> result;
     for (const Primitive& primitive : scene.primitives) {
         Json& json = contents.json["meshes"][mesh_of_node.at(primitive.node)]["primitives"]

@@ -13,6 +13,7 @@
 #include <limits>
 #include <thread>
 
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -157,6 +158,63 @@ TEST(Png, OneThatInflatesToMoreThanItSaysIsRefused) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     EXPECT_LT(usage.ru_maxrss, 400'000) << "kilobytes";
+}
+
+/// `bytes` as a stream of zlib that packs nothing (RFC 1950 and 1951), without a true checksum.
+std::string stored(const std::string& bytes) {
+    const auto low = static_cast<char>(bytes.size() & 255u), high = static_cast<char>(bytes.size() >> 8);
+    return std::string("\x78\x01\x01", 3) + low + high + static_cast<char>(~low) + static_cast<char>(~high) +
+           bytes + "....";
+}
+
+/// Leaves something where the next function has its variables.
+[[gnu::noinline]] void soil_stack() {
+    volatile char soil[1 << 16];
+    for (volatile char& byte : soil)
+        byte = 'x';
+}
+
+TEST(Png, ColorsBeyondThePaletteAreBlack) {
+    const std::string file = std::string("\x89PNG\r\n\x1a\n") +
+                             chunk("IHDR", std::string("\0\0\0\4\0\0\0\1\x08\3\0\0\0", 13)) +
+                             chunk("PLTE", "abcdef") + chunk("tRNS", "\x80") +
+                             chunk("IDAT", stored(std::string("\0\0\1\2\xff", 5))) + chunk("IEND", "");
+    soil_stack();
+    const Image8 image = decode_image(std::as_bytes(std::span(file)));
+    ASSERT_EQ(image.pixels.size(), 4u);
+    EXPECT_EQ(image.pixels[0], glm::u8vec4('a', 'b', 'c', 0x80));
+    EXPECT_EQ(image.pixels[1], glm::u8vec4('d', 'e', 'f', 255));
+    for (int i : {2, 3})
+        EXPECT_EQ(image.pixels[static_cast<std::size_t>(i)], glm::u8vec4(0, 0, 0, 255));
+}
+
+/// A part of a JPEG, behind its length.
+std::string segment(char marker, const std::string& contents) {
+    const std::size_t length = contents.size() + 2;
+    return std::string("\xff") + marker + static_cast<char>(length >> 8) + static_cast<char>(length & 255u) +
+           contents;
+}
+
+TEST(Jpeg, MemoryThatWasNeverWrittenDoesNotShow) {
+    const std::string start("\xff\xd8"), end("\xff\xd9");
+    const std::string frame = segment('\xc0', std::string("\x08\0\x08\0\x08\1\1\x11\0", 9)); // 8 x 8, grey
+    const std::string none = start + frame + end;
+    EXPECT_THROW(decode_image(std::as_bytes(std::span(none))), Error) << "without a scan";
+    // One code of one bit in each table: a difference of one bit, and the end of the block. There is no table
+    // of quantisation.
+    const std::string counts = std::string("\1", 1) + std::string(15, '\0');
+    const std::string tables = segment('\xc4', std::string(1, '\0') + counts + '\1') +
+                               segment('\xc4', "\x10" + counts + std::string(1, '\0'));
+    const std::string scan = segment('\xda', std::string("\1\1\0\0\x3f\0", 6)) + "\x5f";
+    const std::string file = start + frame + tables + scan + end;
+    for (const int soil : {0x55, 0xaa}) {
+        mallopt(M_PERTURB, soil);
+        const Image8 image = decode_image(std::as_bytes(std::span(file)));
+        mallopt(M_PERTURB, 0);
+        ASSERT_EQ(image.pixels.size(), 64u);
+        for (const glm::u8vec4& pixel : image.pixels)
+            EXPECT_EQ(pixel, glm::u8vec4(128, 128, 128, 255));
+    }
 }
 
 TEST(Png, BytesOfTheFileInMessagesArePrintable) {

@@ -155,6 +155,39 @@ TEST(EnvironmentFile, LuminanceChromaIsRead) {
         EXPECT_LT(glm::distance(pixel, glm::vec3(0.5f, 1, 2)), 0.02f);
 }
 
+/// Writes the named channels, 1 everywhere.
+void write_channels(const std::string& path, const std::vector<const char*>& names) {
+    Imf::Header header(4, 2);
+    Imf::FrameBuffer buffer;
+    std::vector<float> ones(8, 1.0f);
+    for (const char* name : names) {
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(ones.data()), sizeof(float),
+                                       4 * sizeof(float)));
+    }
+    Imf::OutputFile file(path.c_str(), header);
+    file.setFrameBuffer(buffer);
+    file.writePixels(2);
+}
+
+TEST(EnvironmentFile, OfColorsLuminanceAndChromaTheColorsCount) {
+    const test::TemporaryFolder folder;
+    const std::string path = (folder / "channels.exr").string();
+    const std::pair<std::vector<const char*>, glm::vec3> cases[] = {
+        {{"Y"}, {1, 1, 1}},
+        {{"Y", "G", "B"}, {0, 1, 1}},
+        {{"R"}, {1, 0, 0}},
+        {{"R", "G", "B", "RY"}, {1, 1, 1}},
+        {{"R", "G", "B", "Y", "RY", "BY"}, {1, 1, 1}}};
+    for (const auto& [names, expected] : cases) {
+        write_channels(path, names);
+        for (const glm::vec3& pixel : load_environment(path).environment.image.pixels)
+            EXPECT_EQ(pixel, expected) << names.front() << names.size();
+    }
+    write_channels(path, {"RY", "BY"});
+    EXPECT_THROW(load_environment(path), Error);
+}
+
 TEST(EnvironmentFile, OtherPrimariesAreConverted) {
     const test::TemporaryFolder folder;
     const std::string path = (folder / "xyz.exr").string();

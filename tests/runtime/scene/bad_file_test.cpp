@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/resource.h>
+
 namespace prt {
 namespace {
 
@@ -318,6 +320,72 @@ TEST(HostileGltf, ZerosAndInstancesAreBounded) {
               std::string::npos);
     often.json["scenes"][0]["nodes"] = {0};
     EXPECT_EQ(refusal_of(often.bytes()), "was read");
+}
+
+/// A file whose node 0 has `count` instances of the mesh, at the origin.
+GlbFile instanced_file(std::size_t count) {
+    GlbFile file = test::triangle_file();
+    const std::size_t places = file.json["accessors"].size();
+    file.json["accessors"].push_back({{"componentType", test::kFloat}, {"count", count}, {"type", "VEC3"}});
+    file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"TRANSLATION", places}};
+    return file;
+}
+
+TEST(HostileGltf, NodesOfInstancesAreBounded) {
+    EXPECT_NE(refusal_of(instanced_file(300'000).bytes()).find("its instances would take 420 MB"),
+              std::string::npos);
+    GlbFile weighted = instanced_file(10'000);
+    EXPECT_EQ(refusal_of(weighted.bytes()), "was read");
+    weighted.json["nodes"][0]["weights"] = std::vector<double>(1000, 0.5);
+    EXPECT_NE(refusal_of(weighted.bytes()).find("its instances would take 414 MB"), std::string::npos);
+}
+
+TEST(HostileGltf, WideAttributesAreBounded) {
+    GlbFile file = test::triangle_file();
+    for (const char* type : {"VEC3", "MAT4"})
+        file.json["accessors"].push_back(
+            {{"componentType", test::kFloat}, {"count", 1'000'000}, {"type", type}});
+    const std::size_t matrices = file.json["accessors"].size() - 1;
+    auto& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes = {{"POSITION", matrices - 1}};
+    EXPECT_EQ(refusal_of(file.bytes()), "was read");
+    for (const char* name : {"_A", "_B", "_C"})
+        attributes[name] = matrices;
+    const std::string refused = refusal_of(file.bytes());
+    EXPECT_NE(refused.find("would take 280 MB"), std::string::npos) << refused;
+}
+
+TEST(HostileGltf, MeshesThatNodesShareAreBoundedWhereEachGetsItsOwn) {
+    GlbFile file = test::triangle_file();
+    file.json["meshes"][0]["extras"] = std::vector<int>(100'000, 1);
+    for (int i = 1; i < 200; ++i) {
+        file.json["nodes"].push_back({{"mesh", 0}});
+        file.json["scenes"][0]["nodes"].push_back(i);
+    }
+    const std::string bytes = file.bytes();
+    GltfDocument document = parse_gltf(std::as_bytes(std::span(bytes)), "bad.glb");
+    const Scene scene = extract_scene(document);
+    const BakedTransfer baked{zero_transfer(1, 1, scene.receivers()), {}};
+    try {
+        write_transfer(document, scene, baked);
+        ADD_FAILURE() << "was written";
+    } catch (const Error& error) {
+        EXPECT_NE(std::string(error.what()).find("once for each node, would take"), std::string::npos);
+    }
+}
+
+TEST(HostileGltf, LongNamesOfAttributesAreHeldOnce) {
+    GlbFile file = test::triangle_file();
+    auto& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+    attributes[std::string(1'000'000, '_')] = attributes["POSITION"];
+    for (int i = 1; i < 1000; ++i) {
+        file.json["nodes"].push_back({{"mesh", 0}});
+        file.json["scenes"][0]["nodes"].push_back(i);
+    }
+    EXPECT_EQ(refusal_of(file.bytes()), "was read");
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    EXPECT_LT(usage.ru_maxrss, 800'000) << "kilobytes";
 }
 
 TEST(HostileGltf, ListsAreBoundedByWhatTheirReaderMakesOfThem) {

@@ -110,6 +110,18 @@ TEST_F(SideFile, NamedTooOftenIsRefused) {
     EXPECT_NE(refusal(file, {}).find("too often"), std::string::npos);
 }
 
+TEST_F(SideFile, OneThatIsAnOutputIsRefused) {
+    for (const char* uri : {"own.bin", "inward.bin", "parts/../own.bin"})
+        for (const MissingImages missing : {MissingImages::error, MissingImages::ignore}) {
+            const GltfOptions options{.missing_images = missing,
+                                      .outputs = {folder / "gone.glb", folder / "scene/own.bin"}};
+            EXPECT_NE(refusal_of_buffer(uri, options).find("which this run would replace"),
+                      std::string::npos);
+            EXPECT_NE(refusal_of_image(uri, options).find("which this run would replace"), std::string::npos);
+        }
+    EXPECT_EQ(refusal_of_buffer("own.bin", {.outputs = {folder / "secret.bin", folder / "gone.glb"}}), "");
+}
+
 TEST_F(SideFile, AnImageThatSeveralNameIsOneTexture) {
     test::GlbFile file = test::triangle_file();
     file.json["images"] = {{{"uri", "own.bin"}}, {{"uri", "own.bin"}}, {{"uri", "inward.bin"}}};

@@ -15,6 +15,7 @@ TEST(Printable, EscapesWhatATerminalActsOn) {
     EXPECT_EQ(printable(std::string_view("a\0\r\n\a\x7f", 6)), "a\\x00\\x0d\\x0a\\x07\\x7f");
     EXPECT_EQ(printable("\u009b2J"), "\\u009b2J");
     EXPECT_EQ(printable("\u202egnp.exe\u200b"), "\\u202egnp.exe\\u200b");
+    EXPECT_EQ(printable("a\u061cb\u00ad"), "a\\u061cb\\u00ad");
     EXPECT_EQ(printable("\U000e0041"), "\\u0e0041");
 }
 

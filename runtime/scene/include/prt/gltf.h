@@ -38,6 +38,8 @@ struct GltfOptions {
     /// Whether URIs may name files outside the folder of the scene, by "..", by links or from the root.
     /// Others are regular files in that folder and below.
     bool allow_outside = false;
+    /// Files that will be written: a scene whose buffers or images are among them is refused.
+    std::vector<std::filesystem::path> outputs = {};
 };
 
 /// Reads .gltf or .glb with its buffers and images. Throws `Error` that names the file and the place in it.

@@ -1,0 +1,178 @@
+// PNG, JPEG and Radiance HDR by stb. It is compiled here, for what it hands on of memory that it never wrote,
+// as where a JPEG has no scan, is then zeros.
+#include "stb_images.h"
+
+#include "image_kind.h"
+#include "image_limits.h"
+#include "png_check.h"
+#include "prt/image_file.h"
+#include "prt/image_size.h"
+#include "prt/support/error.h"
+#include "prt/support/printable.h"
+
+#include <algorithm>
+#include <climits>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace {
+
+void* zeroed_malloc(std::size_t size) {
+    return std::calloc(1, size);
+}
+
+void* zeroed_realloc(void* old, std::size_t old_size, std::size_t size) {
+    auto* bytes = static_cast<char*>(std::realloc(old, size));
+    if (bytes && size > old_size)
+        std::memset(bytes + old_size, 0, size - old_size);
+    return bytes;
+}
+
+} // namespace
+
+#define STBI_MALLOC zeroed_malloc
+#define STBI_REALLOC_SIZED zeroed_realloc
+#define STBI_REALLOC(old, size) zeroed_realloc(old, size, size)
+#define STBI_FREE std::free
+#define STBI_ONLY_PNG
+#define STBI_ONLY_JPEG
+#define STBI_ONLY_HDR
+#define STB_IMAGE_STATIC // so that it does not meet that of a game
+#define STB_IMAGE_IMPLEMENTATION
+#if defined(__clang__) // its integers wrap around in damaged JPEGs
+#pragma clang attribute push(__attribute__((no_sanitize("undefined"))), apply_to = function)
+#endif
+#include <stb/stb_image.h>
+#if defined(__clang__)
+#pragma clang attribute pop
+#endif
+
+namespace prt {
+namespace {
+
+struct StbFree {
+    void operator()(void* pixels) const { stbi_image_free(pixels); }
+};
+
+const stbi_uc* stb_bytes(std::span<const std::byte> file) {
+    return reinterpret_cast<const stbi_uc*>(file.data());
+}
+
+int stb_size(std::span<const std::byte> file) {
+    if (file.size() > INT_MAX)
+        throw Error("the image is larger than 2 GB");
+    return static_cast<int>(file.size());
+}
+
+/// Hands a file in memory to stb piece by piece, to see whether it asks for more than there is: it would take
+/// zeros for what is missing and say nothing, and wait for ever for the end of runs of length zero. What is
+/// missing is therefore made up of bytes that end runs.
+struct ByteStream {
+    std::span<const std::byte> rest;
+    bool past_end = false;
+
+    static int read(void* user, char* to, int size) {
+        auto& stream = *static_cast<ByteStream*>(user);
+        const std::size_t count = std::min(static_cast<std::size_t>(size), stream.rest.size());
+        if (count == 0) {
+            stream.past_end = true;
+            std::memset(to, 0xff, static_cast<std::size_t>(size));
+            return size;
+        }
+        std::memcpy(to, stream.rest.data(), count);
+        stream.rest = stream.rest.subspan(count);
+        return static_cast<int>(count);
+    }
+    static void skip(void* user, int count) {
+        auto& stream = *static_cast<ByteStream*>(user);
+        stream.rest =
+            stream.rest.subspan(std::min(static_cast<std::size_t>(std::max(count, 0)), stream.rest.size()));
+    }
+    static int eof(void* user) { return static_cast<ByteStream*>(user)->rest.empty(); }
+};
+
+/// What stb and `decode_image` hold at once. Of a JPEG: samples, coefficients of three channels, and pixels;
+/// of a PNG: inflated bytes and pixels, then both kinds of pixels.
+std::size_t bytes_per_pixel(std::span<const std::byte> file) {
+    if (is_jpeg(file))
+        return 13;
+    return png_bit_depth(file) == 16 ? 16 : 8;
+}
+
+/// Throws `Error` where a JPEG ends before its first scan, which stb does not mind.
+void check_jpeg(std::span<const std::byte> file) {
+    constexpr std::byte kMark{0xff}, kStartOfScan{0xda};
+    const auto number = [&](std::size_t at) { return std::to_integer<std::size_t>(file[at]); };
+    for (std::size_t at = 2; at + 4 <= file.size();) { // behind the start of the image
+        if (file[at] != kMark || file[at + 1] == kMark)
+            ++at; // padding
+        else if (file[at + 1] == kStartOfScan)
+            return;
+        else
+            at += 2 + (number(at + 2) << 8) + number(at + 3);
+    }
+    throw Error("is a damaged JPEG: it has no pixels");
+}
+
+} // namespace
+
+Image decode_hdr(std::span<const std::byte> file) {
+    const ImageSize size = image_size(file);
+    check_image_size(size.width, size.height, 2 * sizeof(glm::vec3), file.size()); // stb's and ours
+    Image image;
+    int channels = 0;
+    const stbi_io_callbacks callbacks{ByteStream::read, ByteStream::skip, ByteStream::eof};
+    ByteStream stream{file};
+    const std::unique_ptr<float, StbFree> pixels(
+        stbi_loadf_from_callbacks(&callbacks, &stream, &image.width, &image.height, &channels, 3));
+    if (stream.past_end)
+        throw Error("is a damaged Radiance HDR: it ends before its last pixel");
+    if (!pixels)
+        throw Error(std::string("is a damaged or unsupported Radiance HDR: ") +
+                    printable(stbi_failure_reason()));
+    image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::vec3));
+    return image;
+}
+
+ImageSize image_size(std::span<const std::byte> file) {
+    if (!is_png(file) && !is_jpeg(file) && !is_hdr(file)) // stb reads more kinds, with less care
+        throw Error("is no image that is read here: PNG and JPEG are");
+    if (is_png(file))
+        check_png_chunks(file);
+    ImageSize size;
+    int channels = 0;
+    if (!stbi_info_from_memory(stb_bytes(file), stb_size(file), &size.width, &size.height, &channels))
+        throw Error(std::string("is a damaged or unsupported image: ") + printable(stbi_failure_reason()));
+    return size;
+}
+
+Image8 decode_image(std::span<const std::byte> file) {
+    if (is_hdr(file))
+        throw Error("is a Radiance HDR, not a PNG or JPEG");
+    const ImageSize size = image_size(file);
+    check_image_size(size.width, size.height, bytes_per_pixel(file), file.size());
+    std::vector<std::byte> whole;
+    if (is_png(file)) {
+        check_png(file, size);
+        whole = with_whole_palette(file);
+        if (!whole.empty())
+            file = whole;
+    } else {
+        check_jpeg(file);
+    }
+    Image8 image;
+    int channels = 0;
+    const std::unique_ptr<stbi_uc, StbFree> pixels(
+        stbi_load_from_memory(stb_bytes(file), stb_size(file), &image.width, &image.height, &channels, 4));
+    if (!pixels)
+        throw Error(std::string("is a damaged or unsupported image: ") + printable(stbi_failure_reason()));
+    image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+    std::memcpy(image.pixels.data(), pixels.get(), image.pixels.size() * sizeof(glm::u8vec4));
+    return image;
+}
+
+} // namespace prt
