@@ -14,7 +14,7 @@ PARTS = {
     "runtime": ("runtime", "", "glm"),
     "shader": ("runtime/shader", "runtime", ""),
     "fit": ("runtime/fit", "runtime", "glm ceres"),
-    "image": ("runtime/image", "runtime", "glm OpenEXR stb"),
+    "image": ("runtime/image", "runtime", "glm OpenEXR stb zlib"),
     "scene": ("runtime/scene", "runtime", "glm tinygltf nlohmann meshoptimizer draco"),
     "c": ("runtime/c", "runtime shader image scene", "glm"),
     "render": ("runtime/render", "runtime image scene", "glm"),
@@ -43,7 +43,8 @@ EXCEPTIONS = {
 }
 PACKAGES = {  # how their headers begin
     "glm/": "glm", "ceres/": "ceres", "Eigen/": "Eigen", "OpenEXR/": "OpenEXR", "Imath": "OpenEXR", "Imf": "OpenEXR",
-    "stb/": "stb", "tiny_gltf": "tinygltf", "nlohmann/": "nlohmann", "meshoptimizer": "meshoptimizer", "draco/": "draco",
+    "stb/": "stb", "zlib": "zlib", "tiny_gltf": "tinygltf", "nlohmann/": "nlohmann", "meshoptimizer": "meshoptimizer",
+    "draco/": "draco",
     "epoxy/": "epoxy", "GLFW/": "glfw", "embree3/": "embree", "fmt/": "fmt", "CLI/": "CLI", "faiss/": "faiss",
     "imgui": "imgui", "backends/imgui": "imgui",
 }

@@ -7,6 +7,7 @@
 #include "gltf/material.h"
 #include "gltf/node_transforms.h"
 #include "gltf/scene_size.h"
+#include "gltf/shared_vertices.h"
 #include "gltf/skinning.h"
 #include "gltf/triangles.h"
 #include "prt/support/error.h"
@@ -22,8 +23,6 @@
 #include <limits>
 #include <map>
 #include <string>
-#include <tuple>
-#include <utility>
 
 namespace prt {
 namespace {
@@ -192,10 +191,9 @@ private:
         Primitive primitive{transform.node, node.mesh, index, 0, material_index(file.material), false, {}};
         // Flat normals depend on the triangles, so such a primitive shares its vertices with none.
         const int alone = attribute(file, "NORMAL") < 0 ? index : -1;
-        const auto names = names_.try_emplace(std::pair(file.attributes, file.targets), names_.size()).first;
-        const auto [found, is_new] = shared_.try_emplace(std::tuple(transform.node, alone, names->second),
-                                                         scene_.vertex_arrays.size());
-        primitive.vertices = found->second;
+        const auto [vertices_of, is_new] =
+            shared_.of(transform.node, alone, file, scene_.vertex_arrays.size());
+        primitive.vertices = vertices_of;
         if (is_new)
             add_vertices(transform, all, file, mesh);
         VertexArray& vertices = scene_.vertex_arrays[primitive.vertices];
@@ -226,7 +224,6 @@ private:
 
         std::vector<glm::dmat4> skin;
         if (node.skin >= 0) {
-            has_skins_ = true;
             if (!joints_.contains(node.skin))
                 joints_[node.skin] = joint_matrices(model_, node.skin, all);
             skin = skin_matrices(model_, joints_[node.skin], file, vertices.size());
@@ -281,7 +278,7 @@ private:
     }
 
     void add_notices() {
-        if (has_skins_)
+        if (!joints_.empty())
             scene_.notices.emplace_back("skinned meshes are taken in the pose of the file");
         if (has_morphs_)
             scene_.notices.emplace_back("morph targets are taken at the weights of the file");
@@ -310,14 +307,11 @@ private:
     std::size_t file_bytes_;
     Scene scene_;
     std::vector<std::vector<glm::dvec3>> places_; ///< [vertex arrays][vertices] in the world
-    using Attributes = std::map<std::string, int>;
-    std::map<std::pair<Attributes, std::vector<Attributes>>, std::size_t> names_; ///< numbered
-    /// Vertex arrays by node, primitive (where it matters), and attributes and morph targets.
-    std::map<std::tuple<int, int, std::size_t>, std::size_t> shared_;
+    SharedVertices shared_;
     std::map<int, std::vector<glm::dmat4>> joints_; ///< of skins
     UnitRange range_;
     std::size_t flat_primitives_ = 0, skipped_primitives_ = 0, hidden_nodes_ = 0, bad_texcoords_ = 0;
-    bool has_skins_ = false, has_morphs_ = false;
+    bool has_morphs_ = false;
 };
 
 } // namespace

@@ -1,0 +1,33 @@
+#pragma once
+
+// Which primitives of a glTF file have one vertex array.
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace prt {
+
+/// Vertex arrays by node, primitive (where it matters), attributes and morph targets.
+class SharedVertices {
+public:
+    /// The array of such a primitive, and whether it is a new one, `next`.
+    std::pair<std::size_t, bool> of(int node, int alone, const tinygltf::Primitive& file, std::size_t next) {
+        const auto names = names_.try_emplace(std::pair(file.attributes, file.targets), names_.size()).first;
+        const auto [found, is_new] = arrays_.try_emplace(std::tuple(node, alone, names->second), next);
+        return {found->second, is_new};
+    }
+
+private:
+    using Attributes = std::map<std::string, int>;
+    /// Numbered, for names may be long and nodes many.
+    std::map<std::pair<Attributes, std::vector<Attributes>>, std::size_t> names_;
+    std::map<std::tuple<int, int, std::size_t>, std::size_t> arrays_;
+};
+
+} // namespace prt
