@@ -135,7 +135,8 @@ Light read_light_json(const std::filesystem::path& path) {
             throw Error("is JSON, but no light of prt project");
         Light light = coefficients_of(json);
         if (json.contains("lights"))
-            throw Error("has its suns as \"lights\", as an older version of prt wrote them; project the image again");
+            throw Error(
+                "has its suns as \"lights\", as an older version of prt wrote them; project the image again");
         if (json.contains("suns"))
             light = sum(light, suns_of(json["suns"], light.order));
         check_light(light);

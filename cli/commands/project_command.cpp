@@ -66,11 +66,11 @@ void add_suns(const SunSplit& split, Report& report) {
             "{:.1f} % of the energy",
             sun.towards.x, sun.towards.y, sun.towards.z, sun.irradiance.r, sun.irradiance.g, sun.irradiance.b,
             degrees_across(sun), 100 * sun.energy_share));
-    report.sentences.emplace_back(split.suns.empty()
-                                      ? "no sun stands apart; light in shadows errs by {error_without_suns:.1%}"
-                                      : "the coefficients hold the other {remainder_energy_share:.1%}; light in "
-                                        "shadows errs by {error_with_suns:.1%}, by {error_without_suns:.1%} "
-                                        "without suns apart");
+    report.sentences.emplace_back(
+        split.suns.empty() ? "no sun stands apart; light in shadows errs by {error_without_suns:.1%}"
+                           : "the coefficients hold the other {remainder_energy_share:.1%}; light in "
+                             "shadows errs by {error_with_suns:.1%}, by {error_without_suns:.1%} "
+                             "without suns apart");
     add_figures(report, {{"suns", suns_json(split.suns)},
                          {"remainder_energy_share", split.remainder_share},
                          {"error_without_suns", split.error_without},
@@ -81,7 +81,8 @@ void add_suns(const SunSplit& split, Report& report) {
 SunSplit split_of(const ProjectArguments& a, LoadedLight& loaded) {
     loaded.environment = load_environment_map(a.environment, a.light_options.environment);
     SunSplit split = about(a.environment, [&] {
-        return find_suns(*loaded.environment, {.order = a.order, .count = a.suns.count, .threads = a.threads});
+        return find_suns(*loaded.environment,
+                         {.order = a.order, .count = a.suns.count, .threads = a.threads});
     });
     loaded.light = windowed(project(split.remainder, a.order, a.threads), a.light_options.window);
     if (const double turn = glm::radians(a.light_options.rotation_degrees); turn != 0) {
@@ -153,7 +154,8 @@ void add_project(CLI::App& app, Session& session) {
             [&a](const std::string& text) {
                 a.suns.count = text == "auto" ? std::nullopt : whole_number(text);
             },
-            "find suns in the image, so many or as many as pay, write them apart, and the rest as coefficients")
+            "find suns in the image, so many or as many as pay, write them apart, and the rest as "
+            "coefficients")
         ->check(CLI::Range(0, 16) | CLI::IsMember({"auto"}))
         ->type_name("0..16|auto")
         ->default_str("0");

@@ -1,4 +1,5 @@
-// Fits a disc to texels by least squares (Ceres): seven numbers, of which two are its middle and one its size.
+// Fits a disc to texels by least squares (Ceres): seven numbers, of which two are its middle and one its
+// size.
 #include "disc_fit.h"
 
 #include "across.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numbers>
 #include <vector>
 
 namespace prt {
@@ -68,12 +70,27 @@ std::vector<PlaneTexel> in_plane(const std::vector<NearTexel>& near, const Spot&
     return texels;
 }
 
+/// A disc as bright as the peak that has all of the light about `spot`: of one texel, the disc that is as
+/// large.
+Disc narrow_disc(const SkyMap& map, const Spot& spot) {
+    glm::dvec3 sum(0);
+    double area = 0;
+    for (const NearTexel& texel : map.near(spot.towards, spot.radius + 1.5 * map.texels().spacing())) {
+        const double share = (brightness(texel.color) - spot.sky) / (spot.peak - spot.sky);
+        if (share > 0) {
+            sum += share * texel.solid_angle * texel.direction;
+            area += share * texel.solid_angle;
+        }
+    }
+    return {glm::normalize(sum), std::sqrt(area / std::numbers::pi)};
+}
+
 } // namespace
 
 Disc fitted_disc(const SkyMap& map, const Spot& spot) {
-    const Disc unfitted{spot.towards, spot.radius};
+    const Disc unfitted = narrow_disc(map, spot);
     const double step = map.texels().spacing();
-    if (spot.radius < 0.9 * step)
+    if (spot.radius < 1.2 * step)
         return unfitted;
     const Across across(spot.towards);
     const std::vector<PlaneTexel> texels =

@@ -12,7 +12,7 @@ struct Disc {
 };
 
 /// Fits a disc over a sky that goes up or down across it to the texels about `spot`. Where the spot is too
-/// narrow for texels to show its edge: the spot as it is.
+/// narrow for texels to show its edge: the disc that is as bright as its peak and has its light.
 Disc fitted_disc(const SkyMap& map, const Spot& spot);
 
 } // namespace prt

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -70,14 +71,14 @@ SunDisc as_disc(const TakenSun& sun, const glm::dvec3& all) {
 class Search {
 public:
     Search(const Environment& environment, const SunOptions& options)
-        : environment_(environment), options_(options), map_(environment, options.threads),
-          shadowed_(map_, options.order), widest_(widest_sun(options.order)) {
+        : options_(options), widest_(widest_sun(options.order)), map_(environment, options.threads),
+          shadowed_(map_, options.order) {
         for (const SkyCell& cell : map_.cells())
             all_ += cell.flux;
-        without_ = error({});
+        without_ = error();
     }
 
-    /// Whether there was one more.
+    /// Takes one more. Whether there was one.
     bool add() {
         std::vector<Taken> taken; // what is left there is a halo
         for (const TakenSun& sun : suns_)
@@ -93,51 +94,55 @@ public:
         return true;
     }
 
+    /// Takes as many as pay: of all numbers of suns the one with the least error and price together.
+    void add_paying() {
+        double least = without_;
+        std::vector<TakenSun> best;
+        for (int count = 1; count <= kMostPayingSuns && add(); ++count)
+            if (const double cost = error() + kWorthwhile * count; cost < least) {
+                least = cost;
+                best = suns_;
+            }
+        for (const TakenSun& sun : suns_)
+            put_back(map_, sun);
+        suns_ = std::move(best);
+        for (const TakenSun& sun : suns_)
+            for (const TakenSun::Part& part : sun.parts)
+                map_.pixel(part.texel) -= part.color;
+    }
+
     SunSplit split() const {
         SunSplit result;
-        for (const TakenSun& sun : suns_)
-            result.suns.push_back(as_disc(sun, all_));
-        std::stable_sort(result.suns.begin(), result.suns.end(), [](const SunDisc& a, const SunDisc& b) {
-            return a.energy_share > b.energy_share;
-        });
+        result.suns = discs();
+        std::ranges::stable_sort(result.suns, std::greater(), &SunDisc::energy_share);
         for (const SunDisc& sun : result.suns)
             result.remainder_share -= sun.energy_share;
-        result.remainder = {map_.image(), environment_.layout, environment_.center};
+        result.remainder = map_.environment();
         result.error_without = without_;
-        result.error_with = error(result.suns);
+        result.error_with = suns_.empty() ? without_ : error();
         return result;
     }
 
 private:
-    double error(const std::vector<SunDisc>& suns) const {
-        const Environment remainder{map_.image(), environment_.layout, environment_.center};
-        return shadowed_.error(project(remainder, options_.order, options_.threads), suns);
+    std::vector<SunDisc> discs() const {
+        std::vector<SunDisc> list;
+        for (const TakenSun& sun : suns_)
+            list.push_back(as_disc(sun, all_));
+        return list;
     }
 
-    const Environment& environment_;
+    double error() const {
+        return shadowed_.error(project(map_.environment(), options_.order, options_.threads), discs());
+    }
+
     const SunOptions& options_;
+    double widest_;
     SkyMap map_;
     ShadowedLight shadowed_;
-    double widest_;
     glm::dvec3 all_{0};
     double without_ = 0;
     std::vector<TakenSun> suns_;
 };
-
-/// Of all counts the one with the least error and price together.
-int paying_count(const Environment& environment, const SunOptions& options) {
-    Search search(environment, options);
-    double least = search.split().error_without;
-    int best = 0;
-    for (int count = 1; count <= kMostPayingSuns && search.add(); ++count) {
-        const double cost = search.split().error_with + kWorthwhile * count;
-        if (cost < least) {
-            least = cost;
-            best = count;
-        }
-    }
-    return best;
-}
 
 } // namespace
 
@@ -151,10 +156,12 @@ SunSplit find_suns(const Environment& environment, const SunOptions& options) {
     check_environment(environment);
     if (options.count && *options.count < 0)
         throw Error("suns are counted from 0, not " + std::to_string(*options.count));
-    const int count = options.count ? *options.count : paying_count(environment, options);
     Search search(environment, options);
-    for (int k = 0; k < count && search.add();)
-        ++k;
+    if (options.count)
+        for (int k = 0; k < *options.count && search.add(); ++k) {
+        }
+    else
+        search.add_paying();
     return search.split();
 }
 

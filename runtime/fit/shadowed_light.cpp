@@ -69,7 +69,8 @@ std::vector<ShadowedLight::Receiver> ShadowedLight::receivers() {
 std::vector<double> ShadowedLight::transfer(const Receiver& receiver) const {
     const glm::dvec3 axis = glm::normalize(glm::cross(receiver.normal, receiver.side)),
                      across = glm::cross(axis, receiver.normal);
-    const double first = std::acos(std::clamp(glm::dot(receiver.normal, receiver.side), -1.0, 1.0)) - 0.5 * pi;
+    const double first =
+        std::acos(std::clamp(glm::dot(receiver.normal, receiver.side), -1.0, 1.0)) - 0.5 * pi;
     std::array<double, kMaxOrder * kMaxOrder> basis{};
     std::vector<double> sum(static_cast<std::size_t>(coefficient_count(order_)), 0.0);
     constexpr int kPieces = 6; // of three points each: 1e-5 at order 10

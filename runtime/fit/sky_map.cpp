@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -60,9 +61,10 @@ void check_pixels(const Image& image) {
 
 } // namespace
 
-SkyMap::SkyMap(const Environment& environment, int threads)
-    : texels_(environment), image_(environment.image), threads_(threads), first_(kCellCount + 1, 0) {
-    check_pixels(image_);
+SkyMap::SkyMap(Environment environment, int threads)
+    : texels_(environment), environment_(std::move(environment)), threads_(threads),
+      first_(kCellCount + 1, 0) {
+    check_pixels(environment_.image);
     std::vector<std::uint32_t> cell(texels_.count());
     std::vector<Placed> placed(texels_.count());
     parallel_for(cell.size(), 1 << 14, threads, [&](std::size_t begin, std::size_t end) {
@@ -103,7 +105,7 @@ std::vector<NearTexel> SkyMap::near(const glm::dvec3& direction, double angle) c
             if (chord <= longest)
                 found.push_back({placed.texel, w, 2 * std::asin(std::min(1.0, 0.5 * chord)),
                                  static_cast<double>(placed.solid_angle),
-                                 glm::dvec3(image_.pixels[placed.texel])});
+                                 glm::dvec3(environment_.image.pixels[placed.texel])});
         }
     }
     return found;
@@ -116,7 +118,7 @@ std::vector<SkyCell> SkyMap::cells() const {
             SkyCell& cell = cells[c];
             glm::dvec3 sum(0);
             for (const Placed& placed : texels_of(c)) {
-                const glm::dvec3 color(image_.pixels[placed.texel]);
+                const glm::dvec3 color(environment_.image.pixels[placed.texel]);
                 const double area = static_cast<double>(placed.solid_angle), value = brightness(color);
                 cell.flux += area * color;
                 sum += area * value * glm::dvec3(placed.direction);

@@ -35,12 +35,12 @@ struct SkyCell {
 /// An image and its texels, sorted into the cells of a cube around the viewer.
 class SkyMap {
 public:
-    /// Throws `Error` where a pixel is negative or not finite. `environment` outlives it.
-    SkyMap(const Environment& environment, int threads);
+    /// Throws `Error` where a pixel is negative or not finite.
+    SkyMap(Environment environment, int threads);
 
     const Texels& texels() const { return texels_; }
-    const Image& image() const { return image_; }
-    glm::vec3& pixel(std::size_t texel) { return image_.pixels[texel]; }
+    const Environment& environment() const { return environment_; }
+    glm::vec3& pixel(std::size_t texel) { return environment_.image.pixels[texel]; }
 
     /// Texels whose middles lie within `angle` of `direction`.
     std::vector<NearTexel> near(const glm::dvec3& direction, double angle) const;
@@ -57,7 +57,7 @@ private:
     std::span<const Placed> texels_of(std::size_t cell) const;
 
     Texels texels_;
-    Image image_;
+    Environment environment_;
     int threads_;
     std::vector<std::uint32_t> first_; ///< [cells + 1] into sorted_
     std::vector<Placed> sorted_;       ///< by cell

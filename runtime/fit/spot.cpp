@@ -27,7 +27,8 @@ struct Weighted {
 
 /// Half of the weight lies below it. `list` is not empty.
 double weighted_median(std::vector<Weighted>& list) {
-    std::sort(list.begin(), list.end(), [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
+    std::sort(list.begin(), list.end(),
+              [](const Weighted& a, const Weighted& b) { return a.value < b.value; });
     double all = 0, below = 0;
     for (const Weighted& entry : list)
         all += entry.weight;
@@ -107,7 +108,7 @@ std::optional<Spot> spot_at(const SkyMap& map, std::size_t texel, double widest)
     const double step = map.texels().spacing();
     Spot spot;
     spot.towards = map.texels().direction(texel);
-    spot.peak = brightness(glm::dvec3(map.image().pixels[texel]));
+    spot.peak = brightness(glm::dvec3(map.environment().image.pixels[texel]));
     for (double window = 1.5 * step; window <= 2 * widest + step;) {
         const std::vector<NearTexel> texels = map.near(spot.towards, 2 * window + step);
         const auto sky = ring_median(texels, window, 2 * window + step, brightness);
@@ -163,9 +164,9 @@ Aperture aperture_of(const SkyMap& map, const Spot& spot, double widest) {
                 area += near.solid_angle;
         if (!ring || !far || (*ring - *far) * area <= kHalo * inside || 1.3 * radius > widest) {
             for (int c = 0; c < 3; ++c)
-                aperture.sky[c] =
-                    ring_median(texels, radius, middle, [c](const glm::dvec3& color) { return color[c]; })
-                        .value_or(spot.sky);
+                aperture.sky[c] = ring_median(texels, radius, middle, [c](const glm::dvec3& color) {
+                                      return color[c];
+                                  }).value_or(spot.sky);
             return aperture;
         }
         aperture.radius *= 1.3;

@@ -53,8 +53,8 @@ void Texels::set_square(EnvironmentLayout layout) {
         if (layout != EnvironmentLayout::cube || width_ == 1)
             cells_.push_back({2 * at / size - 1, 2 * (at + 1) / size - 1});
         else // the middles of border texels lie on the border
-            cells_.push_back(
-                {std::max(-1.0, (2 * at - 1) / (size - 1) - 1), std::min(1.0, (2 * at + 1) / (size - 1) - 1)});
+            cells_.push_back({std::max(-1.0, (2 * at - 1) / (size - 1) - 1),
+                              std::min(1.0, (2 * at + 1) / (size - 1) - 1)});
     }
 }
 
@@ -82,8 +82,8 @@ double Texels::solid_angle(std::size_t texel) const {
         return row_solid_angle_[texel / width_];
     const auto [u, v] = square(texel);
     if (layout_ != EnvironmentLayout::angular)
-        return solid_angle_to(u.end, v.end) - solid_angle_to(u.begin, v.end) - solid_angle_to(u.end, v.begin) +
-               solid_angle_to(u.begin, v.begin);
+        return solid_angle_to(u.end, v.end) - solid_angle_to(u.begin, v.end) -
+               solid_angle_to(u.end, v.begin) + solid_angle_to(u.begin, v.begin);
     // sin(angle) dangle over r dr in terms of the area, over the stretch of each line within the circle.
     double sum = 0;
     for (const GaussPoint& line : gauss_points(v.begin, v.end)) {

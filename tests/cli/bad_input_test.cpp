@@ -314,6 +314,7 @@ TEST_F(BadLightFile, SaysInPlainWordsWhatIsWrong) {
 
 TEST_F(BadLightFile, ItsSunsAreCheckedOneByOne) {
     refuse_at("/suns", nlohmann::json::object(), "\"suns\" is no list");
+    refuse_at("/lights", nlohmann::json::array(), "older version of prt");
     refuse_at("/suns/0", 3, "sun 0 of \"suns\": \"towards\" is missing");
     for (const char* key : {"towards", "irradiance", "half_angle_radians"})
         refuse_at(std::string("/suns/0/") + key, nullptr, std::string("\"") + key + "\" is missing");

@@ -38,10 +38,12 @@ double covered(const Environment& e, int x, int y, const PaintedDisc& disc, doub
     if (apart < radius - reach)
         return 1;
     constexpr int kSteps = 32;
+    // Each pixel has its own offsets, so that edges along a row are no coarser than others.
+    const double right = std::fmod(0.618 * y, 1), down = std::fmod(0.618 * x, 1);
     double inside = 0, all = 0;
     for (int j = 0; j < kSteps; ++j)
         for (int i = 0; i < kSteps; ++i) {
-            const glm::dvec3 w = direction_at(e, x + (i + 0.5) / kSteps, y + (j + 0.5) / kSteps);
+            const glm::dvec3 w = direction_at(e, x + (i + right) / kSteps, y + (j + down) / kSteps);
             // Rows of lat-long images narrow towards the poles.
             const double area = e.layout == EnvironmentLayout::lat_long ? std::hypot(w.x, w.z) : 1;
             all += area;
@@ -68,7 +70,7 @@ Environment painted_sky(EnvironmentLayout layout, int width, int height, const R
     // More than half the diagonal of any texel.
     const double reach = layout == EnvironmentLayout::angular ? 2 * pi / width * 1.5
                          : cube                               ? 3.0 / width
-                                                              : 1.5 * pi * std::max(1.0 / height, 2.0 / width);
+                                : 1.5 * pi * std::max(1.0 / height, 2.0 / width);
     parallel_for(static_cast<std::size_t>(e.image.height), 8, 0, [&](std::size_t begin, std::size_t end) {
         for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
             for (int x = 0; x < width; ++x) {

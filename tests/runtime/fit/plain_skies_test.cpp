@@ -16,9 +16,9 @@
 namespace prt {
 namespace {
 
+using std::numbers::pi;
 using test::painted_sky;
 using test::Radiance;
-using std::numbers::pi;
 
 std::size_t paying_suns(const Environment& environment, int order = 6) {
     return find_suns(environment, {.order = order}).suns.size();
@@ -26,8 +26,9 @@ std::size_t paying_suns(const Environment& environment, int order = 6) {
 
 Environment image_of(int width, int height, const glm::vec3& color) {
     Environment e;
-    e.image = {width, height,
-               std::vector<glm::vec3>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), color)};
+    e.image = {
+        width, height,
+        std::vector<glm::vec3>(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), color)};
     return e;
 }
 
@@ -62,13 +63,14 @@ TEST(PlainSkies, GiveNoSunsToThoseWhoAsk) {
         }
 }
 
-/// A light of 20 degrees is no sun at order 10, which holds it; a sun of a fifth of that is one.
+/// A light of 40 degrees is no sun at order 10, which holds it; one as strong of a tenth of that is one.
 TEST(PlainSkies, MayHaveLightsThatTheOrderHolds) {
     for (const auto& [degrees, suns] : {std::pair(40.0, 0u), std::pair(4.0, 1u)}) {
         const test::PaintedDisc disc{glm::normalize(glm::dvec3(1, 2, 3)), 0.5 * degrees * pi / 180,
-                                     glm::dvec3(2000 / degrees / degrees)};
-        EXPECT_EQ(paying_suns(painted_sky(EnvironmentLayout::lat_long, 256, 128, test::gradient_sky, {disc}), 10),
-                  suns)
+                                     glm::dvec3(2e4 / degrees / degrees)};
+        EXPECT_EQ(
+            paying_suns(painted_sky(EnvironmentLayout::lat_long, 256, 128, test::gradient_sky, {disc}), 10),
+            suns)
             << degrees;
     }
 }
@@ -94,8 +96,8 @@ TEST(PlainSkies, AreFiniteOrRefusedWhateverTheyHold) {
             try {
                 const SunSplit split = find_suns(e, {.order = 3, .count = 2});
                 for (const SunDisc& sun : split.suns)
-                    for (const double number : {static_cast<double>(glm::length(sun.irradiance)), sun.half_angle,
-                                                sun.energy_share, split.error_with})
+                    for (const double number : {static_cast<double>(glm::length(sun.irradiance)),
+                                                sun.half_angle, sun.energy_share, split.error_with})
                         EXPECT_TRUE(std::isfinite(number)) << x << " on " << y;
                 for (const glm::vec3& pixel : split.remainder.image.pixels)
                     EXPECT_TRUE(pixel.r >= 0 && pixel.g >= 0 && pixel.b >= 0) << x << " on " << y;

@@ -47,7 +47,8 @@ struct SunSplit {
 /// an image that is none, pixels that are negative or not finite, and light beyond what is computed with.
 SunSplit find_suns(const Environment& environment, const SunOptions& options = {});
 
-/// The widest half angle, in radians, that `find_suns` takes for a sun's: a quarter of pi / order, at most 0.26.
+/// The widest half angle, in radians, that `find_suns` takes for a sun's: a quarter of pi / order, at most
+/// 0.26.
 double widest_sun(int order);
 
 /// A sun as SH coefficients (docs/math.md, eq. 14).
