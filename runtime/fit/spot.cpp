@@ -74,6 +74,17 @@ void measure_above(const std::vector<NearTexel>& texels, double level, double wi
     spot.spread = std::sqrt(std::max(0.0, 2 * (1 - length / weights)));
 }
 
+/// Moves `spot` to the brightest texel within `window`. Whether that was another one.
+bool climb(const std::vector<NearTexel>& texels, double window, Spot& spot) {
+    const double before = spot.peak;
+    for (const NearTexel& near : texels)
+        if (near.angle <= window && brightness(near.color) > spot.peak) {
+            spot.peak = brightness(near.color);
+            spot.towards = near.direction;
+        }
+    return spot.peak > before;
+}
+
 /// The brightest texels of cells that lie apart, by two orders: by their brightest texel and by their light.
 std::vector<std::size_t> candidates(const SkyMap& map) {
     const std::vector<SkyCell> cells = map.cells();
@@ -115,6 +126,8 @@ std::optional<Spot> spot_at(const SkyMap& map, std::size_t texel, double widest)
         if (!sky || !(spot.peak > *sky))
             return {};
         spot.sky = *sky;
+        if (climb(texels, window, spot))
+            continue;
         measure_above(texels, 0.5 * (spot.peak + spot.sky), window, spot);
         // All of it is in view where the view is twice as wide.
         const double wanted = 2 * spot.radius + step;

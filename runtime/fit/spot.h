@@ -17,7 +17,7 @@ struct Spot {
     double spread = 0;     ///< radians, of that excess: the root of its mean squared distance from the middle
 };
 
-/// The spot whose brightest texel is `texel`; nothing where it is wider than `widest`, long or in pieces, or
+/// The spot on whose slope `texel` lies; nothing where it is wider than `widest`, long or in pieces, or
 /// does not stand out.
 std::optional<Spot> spot_at(const SkyMap& map, std::size_t texel, double widest);
 
