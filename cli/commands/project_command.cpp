@@ -44,6 +44,13 @@ const char* layout_name(EnvironmentLayout layout) {
     return "lat-long";
 }
 
+/// The error of what `--suns` is given, or nothing.
+std::string sun_count(const std::string& text) {
+    const std::optional<int> count = whole_number(text);
+    return text == "auto" || (count && *count >= 0 && *count <= 16) ? ""
+                                                                    : text + " is neither auto nor 0..16";
+}
+
 double degrees_across(const SunDisc& sun) {
     return 2 * glm::degrees(sun.half_angle);
 }
@@ -67,9 +74,9 @@ void add_suns(const SunSplit& split, Report& report) {
             sun.towards.x, sun.towards.y, sun.towards.z, sun.irradiance.r, sun.irradiance.g, sun.irradiance.b,
             degrees_across(sun), 100 * sun.energy_share));
     report.sentences.emplace_back(
-        split.suns.empty() ? "no sun stands apart; light in shadows errs by {error_without_suns:.1%}"
-                           : "the coefficients hold the other {remainder_energy_share:.1%}; light in "
-                             "shadows errs by {error_with_suns:.1%}, by {error_without_suns:.1%} "
+        split.suns.empty() ? "no sun stands apart; light in shadows errs by {error_without_suns:.1f%}"
+                           : "the coefficients hold the other {remainder_energy_share:.1f%}; light in "
+                             "shadows errs by {error_with_suns:.1f%}, by {error_without_suns:.1f%} "
                              "without suns apart");
     add_figures(report, {{"suns", suns_json(split.suns)},
                          {"remainder_energy_share", split.remainder_share},
@@ -156,7 +163,7 @@ void add_project(CLI::App& app, Session& session) {
             },
             "find suns in the image, so many or as many as pay, write them apart, and the rest as "
             "coefficients")
-        ->check(CLI::Range(0, 16) | CLI::IsMember({"auto"}))
+        ->check(sun_count)
         ->type_name("0..16|auto")
         ->default_str("0");
     add_light_options(command, a.light_options);
