@@ -126,6 +126,19 @@ TEST(Suns, MayBeClipped) {
     EXPECT_NEAR(split.suns[0].half_angle, disc.half_angle, 0.2 * disc.half_angle);
 }
 
+/// What a lens spreads around a sun, is no part of its disc.
+TEST(Suns, KeepTheirSizeInAHalo) {
+    const PaintedDisc disc{unit(0.5, 0.6, -0.4), 0.75 * kDegree, glm::dvec3(5000)};
+    const Radiance sky = [&](const glm::dvec3& w) {
+        return glm::dvec3(0.3) + 20.0 * std::exp(-glm::distance(w, disc.towards) / (2 * kDegree));
+    };
+    const SunSplit split =
+        find_suns(painted_sky(EnvironmentLayout::lat_long, 512, 256, sky, {disc}), {.count = 1});
+    ASSERT_EQ(split.suns.size(), 1u);
+    EXPECT_LT(glm::distance(glm::dvec3(split.suns[0].towards), disc.towards), 0.1 * kDegree);
+    EXPECT_NEAR(split.suns[0].half_angle, disc.half_angle, 0.2 * disc.half_angle);
+}
+
 TEST(Suns, OfOneTexelAreNoLargerThanIt) {
     for (const auto& [x, y] : {std::pair(20, 9), std::pair(0, 16), std::pair(63, 0), std::pair(5, 31)}) {
         Environment e;
