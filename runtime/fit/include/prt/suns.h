@@ -51,7 +51,8 @@ SunSplit find_suns(const Environment& environment, const SunOptions& options = {
 /// 0.26.
 double widest_sun(int order);
 
-/// A sun as SH coefficients (docs/math.md, eq. 14).
+/// A sun as SH coefficients (docs/math.md, eq. 14). Throws `Error` for a half angle outside 0..pi/2 and for
+/// what is not finite.
 Light as_light(const SunDisc& sun, int order);
 
 } // namespace prt
