@@ -59,6 +59,16 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
     return {std::move(document), std::move(scene), std::move(baked), std::move(compressed)};
 }
 
+Environment load_environment_map(const Path& path, const EnvironmentOptions& options) {
+    EnvironmentFile file = load_environment(path, options);
+    if (file.repaired_pixels > 0)
+        print_notices(path.string(), {fmt::format("{} bad pixels were repaired", file.repaired_pixels)});
+    if (file.low_dynamic_range)
+        print_notices(path.string(), {"has 8 bits per channel: it is read as sRGB, and what is brighter than "
+                                      "white (suns, lamps) is clipped"});
+    return std::move(file.environment);
+}
+
 LoadedLight load_light(const Path& path, int order, const LightOptions& options, int threads) {
     LoadedLight result;
     result.name = path.filename().string();
@@ -69,15 +79,8 @@ LoadedLight load_light(const Path& path, int order, const LightOptions& options,
                 fmt::format("{}: has order {}, but order {} is needed", path.string(), light.order, order));
         result.light = truncated(light, order);
     } else {
-        EnvironmentFile file = load_environment(path, options.environment);
-        if (file.repaired_pixels > 0)
-            print_notices(path.string(), {fmt::format("{} bad pixels were repaired", file.repaired_pixels)});
-        if (file.low_dynamic_range)
-            print_notices(path.string(),
-                          {"has 8 bits per channel: it is read as sRGB, and what is brighter than "
-                           "white (suns, lamps) is clipped"});
-        result.light = about(path, [&] { return project(file.environment, order, threads); });
-        result.environment = std::move(file.environment);
+        result.environment = load_environment_map(path, options.environment);
+        result.light = about(path, [&] { return project(*result.environment, order, threads); });
     }
     result.light = windowed(result.light, options.window);
     if (options.rotation_degrees != 0)

@@ -64,6 +64,9 @@ struct LoadedLight {
     std::optional<Environment> environment; ///< where it came from an image
 };
 
+/// An environment map. What was repaired or clipped in it goes to stderr.
+Environment load_environment_map(const Path& path, const EnvironmentOptions& options);
+
 /// Lighting from an environment map or a light file, windowed and rotated, with `order` bands.
 LoadedLight load_light(const Path& path, int order, const LightOptions& options, int threads);
 

@@ -2,7 +2,7 @@
 
 #include "prt/check_light.h"
 #include "prt/sh.h"
-#include "prt/sun_fit.h"
+#include "prt/suns.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 
@@ -55,33 +55,33 @@ glm::vec3 vector_of(const Json& object, const char* key) {
     return {values[0], values[1], values[2]};
 }
 
-FittedLight fitted_light(const Json& entry) {
-    FittedLight light;
-    light.towards = vector_of(entry, "towards");
-    light.irradiance = vector_of(entry, "irradiance");
-    light.half_angle = number(entry, "half_angle_radians");
-    const double length = glm::length(glm::dvec3(light.towards));
+SunDisc sun_of(const Json& entry) {
+    SunDisc sun;
+    sun.towards = vector_of(entry, "towards");
+    sun.irradiance = vector_of(entry, "irradiance");
+    sun.half_angle = number(entry, "half_angle_radians");
+    const double length = glm::length(glm::dvec3(sun.towards));
     if (!(length > 0))
         throw Error("\"towards\" is no direction");
     for (int c = 0; c < 3; ++c)
-        if (light.irradiance[c] < 0)
+        if (sun.irradiance[c] < 0)
             throw Error("\"irradiance\" is negative");
-    if (!(light.half_angle >= 0 && light.half_angle <= 0.5 * std::numbers::pi))
+    if (!(sun.half_angle >= 0 && sun.half_angle <= 0.5 * std::numbers::pi))
         throw Error("\"half_angle_radians\" is not in 0..pi/2");
-    light.towards = glm::vec3(glm::dvec3(light.towards) / length);
-    return light;
+    sun.towards = glm::vec3(glm::dvec3(sun.towards) / length);
+    return sun;
 }
 
-/// The lights that were fitted and stand apart from the coefficients.
-Light lights_of(const Json& list, int order) {
+/// The suns that stand apart from the coefficients.
+Light suns_of(const Json& list, int order) {
     if (!list.is_array())
-        throw Error("\"lights\" is no list");
+        throw Error("\"suns\" is no list");
     Light all = constant_light(order, glm::vec3(0));
     for (std::size_t i = 0; i < list.size(); ++i)
         try {
-            all = sum(all, as_light(fitted_light(list[i]), order));
+            all = sum(all, as_light(sun_of(list[i]), order));
         } catch (const Error& error) {
-            throw Error(fmt::format("light {} of \"lights\": {}", i, error.what()));
+            throw Error(fmt::format("sun {} of \"suns\": {}", i, error.what()));
         }
     return all;
 }
@@ -135,7 +135,10 @@ Light read_light_json(const std::filesystem::path& path) {
             throw Error("is JSON, but no light of prt project");
         Light light = coefficients_of(json);
         if (json.contains("lights"))
-            light = sum(light, lights_of(json["lights"], light.order));
+            throw Error(
+                "has its suns as \"lights\", as an older version of prt wrote them; project the image again");
+        if (json.contains("suns"))
+            light = sum(light, suns_of(json["suns"], light.order));
         check_light(light);
         return light;
     } catch (const Error& error) {

@@ -11,7 +11,7 @@ namespace prt::cli {
 
 Json light_json(const Light& light);
 
-/// Reads a light file: its coefficients with its lights added. Throws `Error` that names it.
+/// Reads a light file: its coefficients with its suns added. Throws `Error` that names it.
 Light read_light_json(const std::filesystem::path& path);
 
 } // namespace prt::cli

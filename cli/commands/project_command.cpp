@@ -4,20 +4,28 @@
 #include "options.h"
 #include "outputs.h"
 #include "prt/sh.h"
-#include "prt/sun_fit.h"
+#include "prt/suns.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 
 #include <fmt/core.h>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+
+#include <optional>
 
 namespace prt::cli {
 namespace {
 
+/// How many suns to take out: none, so many, or as many as pay.
+struct SunCount {
+    std::optional<int> count = 0; ///< unset: as many as pay
+};
+
 struct ProjectArguments {
     Path environment, output, json;
     int order = 6;
-    int suns = 0; ///< lights to take out
+    SunCount suns;
     LightOptions light_options;
     int threads = 0;
 };
@@ -36,57 +44,80 @@ const char* layout_name(EnvironmentLayout layout) {
     return "lat-long";
 }
 
-/// A window is for what is left: a blurred sun is not found.
-LightOptions without_window(LightOptions options) {
-    options.window = Window::none;
-    return options;
+/// The error of what `--suns` is given, or nothing.
+std::string sun_count(const std::string& text) {
+    const std::optional<int> count = whole_number(text);
+    return text == "auto" || (count && *count >= 0 && *count <= 16) ? ""
+                                                                    : text + " is neither auto nor 0..16";
 }
 
-Json lights_json(const std::vector<FittedLight>& lights) {
+double degrees_across(const SunDisc& sun) {
+    return 2 * glm::degrees(sun.half_angle);
+}
+
+Json suns_json(const std::vector<SunDisc>& suns) {
     Json list = Json::array();
-    for (const FittedLight& light : lights)
-        list.push_back({{"towards", {light.towards.x, light.towards.y, light.towards.z}},
-                        {"irradiance", {light.irradiance.r, light.irradiance.g, light.irradiance.b}},
-                        {"half_angle_radians", light.half_angle},
-                        {"energy_share", light.energy_share}});
+    for (const SunDisc& sun : suns)
+        list.push_back({{"towards", {sun.towards.x, sun.towards.y, sun.towards.z}},
+                        {"irradiance", {sun.irradiance.r, sun.irradiance.g, sun.irradiance.b}},
+                        {"half_angle_radians", sun.half_angle},
+                        {"angular_size_degrees", degrees_across(sun)},
+                        {"energy_share", sun.energy_share}});
     return list;
 }
 
-void add_lights(const std::vector<FittedLight>& lights, Report& report) {
-    double rest = 1;
-    for (const FittedLight& light : lights) {
+void add_suns(const SunSplit& split, Report& report) {
+    for (const SunDisc& sun : split.suns)
         report.sentences.push_back(fmt::format(
-            "light towards {:.4f} {:.4f} {:.4f}, irradiance {:.4g} {:.4g} {:.4g}, half angle {:.1f} degrees: "
+            "sun towards {:.4f} {:.4f} {:.4f}, irradiance {:.4g} {:.4g} {:.4g}, {:.2f} degrees across: "
             "{:.1f} % of the energy",
-            light.towards.x, light.towards.y, light.towards.z, light.irradiance.r, light.irradiance.g,
-            light.irradiance.b, glm::degrees(light.half_angle), 100 * light.energy_share));
-        rest -= light.energy_share;
-    }
-    report.sentences.push_back(fmt::format("the coefficients hold the other {:.1f} %", 100 * rest));
-    add_figures(report, {{"lights", lights_json(lights)}});
+            sun.towards.x, sun.towards.y, sun.towards.z, sun.irradiance.r, sun.irradiance.g, sun.irradiance.b,
+            degrees_across(sun), 100 * sun.energy_share));
+    report.sentences.emplace_back(
+        split.suns.empty() ? "no sun stands apart; light in shadows errs by {error_without_suns:.1f%}"
+                           : "the coefficients hold the other {remainder_energy_share:.1f%}; light in "
+                             "shadows errs by {error_with_suns:.1f%}, by {error_without_suns:.1f%} "
+                             "without suns apart");
+    add_figures(report, {{"suns", suns_json(split.suns)},
+                         {"remainder_energy_share", split.remainder_share},
+                         {"error_without_suns", split.error_without},
+                         {"error_with_suns", split.error_with}});
 }
 
-/// The light of an environment, and the suns that were taken out of it.
-std::pair<LoadedLight, std::vector<FittedLight>> project(const ProjectArguments& a) {
-    if (a.suns == 0)
-        return {load_light(a.environment, a.order, a.light_options, a.threads), {}};
-    LoadedLight loaded = load_light(a.environment, kMaxOrder, without_window(a.light_options), a.threads);
-    SunFit fit = fit_suns(loaded.light, a.order, a.suns);
-    loaded.light = windowed(fit.remainder, a.light_options.window);
-    return {std::move(loaded), std::move(fit.lights)};
+/// Suns apart, turned with the rest; a window is for the rest alone.
+SunSplit split_of(const ProjectArguments& a, LoadedLight& loaded) {
+    loaded.environment = load_environment_map(a.environment, a.light_options.environment);
+    SunSplit split = about(a.environment, [&] {
+        return find_suns(*loaded.environment,
+                         {.order = a.order, .count = a.suns.count, .threads = a.threads});
+    });
+    loaded.light = windowed(project(split.remainder, a.order, a.threads), a.light_options.window);
+    if (const double turn = glm::radians(a.light_options.rotation_degrees); turn != 0) {
+        loaded.light = rotated_about_y(loaded.light, turn);
+        for (SunDisc& sun : split.suns)
+            sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 1, 0)) *
+                                    glm::dvec4(glm::dvec3(sun.towards), 0));
+    }
+    return split;
 }
 
 void run(const ProjectArguments& a, Session& session) {
     // A light file is known by its name.
     check_outputs({{a.output, "--output", {".json"}, true}, {a.json, "--json", {".json"}}}, {a.environment});
-    if (a.suns > 0 && suffix_of(a.environment) == ".json")
-        throw Error(a.environment.string() + ": is a light file, and suns are fitted to images");
+    const bool apart = a.suns.count != 0;
+    if (apart && suffix_of(a.environment) == ".json")
+        throw Error(a.environment.string() + ": is a light file, and suns are found in images");
     const Stopwatch stopwatch;
-    const auto [loaded, suns] = project(a);
+    LoadedLight loaded;
+    SunSplit split;
+    if (apart)
+        split = split_of(a, loaded);
+    else
+        loaded = load_light(a.environment, a.order, a.light_options, a.threads);
     const double seconds = stopwatch.seconds();
     Json file = light_json(loaded.light);
-    if (a.suns > 0)
-        file["lights"] = lights_json(suns);
+    if (apart)
+        file["suns"] = suns_json(split.suns);
     session.write(a.output, json_text(file));
 
     const glm::vec3 mean = loaded.light.coefficients[0] * static_cast<float>(kY00);
@@ -97,8 +128,8 @@ void run(const ProjectArguments& a, Session& session) {
                          {"seconds", seconds}});
     report.sentences = {"{output}: order {order}, mean radiance {mean_radiance/0:.4g} {mean_radiance/1:.4g} "
                         "{mean_radiance/2:.4g}"};
-    if (a.suns > 0)
-        add_lights(suns, report);
+    if (apart)
+        add_suns(split, report);
     if (loaded.environment) {
         add_figures(report, {{"layout", layout_name(loaded.environment->layout)},
                              {"width_pixels", loaded.environment->image.width},
@@ -125,10 +156,16 @@ void add_project(CLI::App& app, Session& session) {
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
     command
-        ->add_option("--suns", a.suns,
-                     "fit so many lights to it, write them apart, and the rest as coefficients")
-        ->check(CLI::Range(0, 16))
-        ->capture_default_str();
+        ->add_option_function<std::string>(
+            "--suns",
+            [&a](const std::string& text) {
+                a.suns.count = text == "auto" ? std::nullopt : whole_number(text);
+            },
+            "find suns in the image, so many or as many as pay, write them apart, and the rest as "
+            "coefficients")
+        ->check(sun_count)
+        ->type_name("0..16|auto")
+        ->default_str("0");
     add_light_options(command, a.light_options);
     add_threads(command, a.threads);
     add_json(command, a.json);

@@ -266,7 +266,7 @@ protected:
         {"prtkit_light", 1},
         {"order", 1},
         {"coefficients", {{"red", {1}}, {"green", {2}}, {"blue", {3}}}},
-        {"lights", {{{"towards", {0, 1, 0}}, {"irradiance", {1, 1, 1}}, {"half_angle_radians", 0}}}}};
+        {"suns", {{{"towards", {0, 1, 0}}, {"irradiance", {1, 1, 1}}, {"half_angle_radians", 0}}}}};
 
     Outcome project(const std::string& text, const std::vector<std::string>& options = {"--order", "1"}) {
         std::vector<std::string> arguments = {"project", folder.file("bad.json", text).string(), "-o",
@@ -313,21 +313,22 @@ TEST_F(BadLightFile, SaysInPlainWordsWhatIsWrong) {
     refuse("{\"prtkit_light\": 1e999}", "beyond");
 }
 
-TEST_F(BadLightFile, ItsLightsAreCheckedOneByOne) {
-    refuse_at("/lights", nlohmann::json::object(), "\"lights\" is no list");
-    refuse_at("/lights/0", 3, "light 0 of \"lights\": \"towards\" is missing");
+TEST_F(BadLightFile, ItsSunsAreCheckedOneByOne) {
+    refuse_at("/suns", nlohmann::json::object(), "\"suns\" is no list");
+    refuse_at("/lights", nlohmann::json::array(), "older version of prt");
+    refuse_at("/suns/0", 3, "sun 0 of \"suns\": \"towards\" is missing");
     for (const char* key : {"towards", "irradiance", "half_angle_radians"})
-        refuse_at(std::string("/lights/0/") + key, nullptr, std::string("\"") + key + "\" is missing");
-    refuse_at("/lights/0/towards", {0, 1}, "has 2 numbers and needs 3");
-    refuse_at("/lights/0/towards", {0, 0, 0}, "no direction");
-    refuse_at("/lights/0/irradiance/1", -1, "\"irradiance\" is negative");
-    refuse_at("/lights/0/half_angle_radians", 2, "0..pi/2");
+        refuse_at(std::string("/suns/0/") + key, nullptr, std::string("\"") + key + "\" is missing");
+    refuse_at("/suns/0/towards", {0, 1}, "has 2 numbers and needs 3");
+    refuse_at("/suns/0/towards", {0, 0, 0}, "no direction");
+    refuse_at("/suns/0/irradiance/1", -1, "\"irradiance\" is negative");
+    refuse_at("/suns/0/half_angle_radians", 2, "0..pi/2");
 }
 
-TEST_F(BadLightFile, SunsAreFittedToImagesAlone) {
+TEST_F(BadLightFile, SunsAreFoundInImagesAlone) {
     const Outcome outcome = project(light.dump(), {"--order", "1", "--suns", "1"});
     expect_refused(outcome, "bad.json: ");
-    EXPECT_NE(outcome.err.find("suns are fitted to images"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("suns are found in images"), std::string::npos) << outcome.err;
 }
 
 TEST_F(BadInput, PlacesThatCannotBeWritten) {

@@ -58,7 +58,7 @@ void write_light_seeds(const Path& folder) {
             {"prtkit_light", 1},
             {"order", order},
             {"coefficients", {{"red", values}, {"green", values}, {"blue", values}}},
-            {"lights", {{{"towards", {0, 1, 0}}, {"irradiance", {3, 2, 1}}, {"half_angle_radians", 0.004}}}}};
+            {"suns", {{{"towards", {0, 1, 0}}, {"irradiance", {3, 2, 1}}, {"half_angle_radians", 0.004}}}}};
         write(folder / ("light" + std::to_string(order)), light.dump());
     }
 }

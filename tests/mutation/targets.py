@@ -31,7 +31,7 @@ SUITES = {
     "runtime/transfer/": [Suite("runtime_tests", "*Clustered*:*Constants*:CodedRows*:Adjacency*:Evaluate*:Bits*:Edges*"), COMPRESS,
                           Suite("gltf_tests")],
     "runtime/support/": [RUNTIME],
-    "runtime/fit/": [Suite("runtime_tests", "SunFit*")],
+    "runtime/fit/": [Suite("runtime_tests", "*Suns*:*Skies*")],
     "runtime/include/": [RUNTIME, COMPRESS],
     "runtime/image/": [Suite("image_tests")],
     "runtime/scene/": [Suite("gltf_tests")],

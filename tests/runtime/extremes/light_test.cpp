@@ -4,7 +4,7 @@
 #include "prt/light.h"
 #include "prt/sh_conventions.h"
 #include "prt/sky.h"
-#include "prt/sun_fit.h"
+#include "prt/suns.h"
 #include "support/extremes.h"
 
 namespace prt {
@@ -46,6 +46,10 @@ const ExtremeCase kMakers[] = {
     {"directional_towards",
      [](int n, float x, float y) {
          return coefficients(directional_light(n, {x, y, 1}, kWhite));
+     }},
+    {"sun",
+     [](int n, float x, float y) {
+         return coefficients(as_light({{0, 1, 0}, {x, 1, 1}, static_cast<double>(y), 0}, n));
      }},
     {"cone",
      [](int n, float x, float y) {
@@ -154,17 +158,6 @@ class ChangedLight : public testing::TestWithParam<ExtremeCase> {};
 INSTANTIATE_TEST_SUITE_P(Functions, ChangedLight, testing::ValuesIn(kChangers), test::name_of);
 TEST_P(ChangedLight, IsFiniteOrRefused) {
     test::expect_finite_or_refused(GetParam());
-}
-
-// A fit takes a while, so that it is tried with one number at a time.
-TEST(FittedSun, IsFiniteOrRefused) {
-    for (const float x : test::kExtremes)
-        try {
-            const SunFit fit = fit_suns(light_of(kMaxOrder, 1, x), 3, 1);
-            for (const double number : coefficients(fit.remainder))
-                EXPECT_TRUE(std::isfinite(number)) << x;
-        } catch (const Error&) { // refused
-        }
 }
 
 } // namespace

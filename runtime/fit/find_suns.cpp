@@ -1,0 +1,168 @@
+// Takes suns out of an image one by one, the strongest first, and after each looks at the others again
+// without it (Hogbom 1974, "CLEAN"; docs/math.md, "Suns in an image").
+#include "prt/suns.h"
+
+#include "disc_fit.h"
+#include "prt/color.h"
+#include "prt/sh.h"
+#include "prt/support/error.h"
+#include "shadowed_light.h"
+#include "spot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <utility>
+
+namespace prt {
+namespace {
+
+/// What another sun must lower the error by, as a share of the light, to be worth its shadow map.
+constexpr double kWorthwhile = 0.01;
+
+/// A sun and what it took out of the image.
+struct TakenSun {
+    Spot spot; ///< as it was found
+    Disc disc;
+    double reach = 0;   ///< radians about the middle, within which its light was taken
+    glm::dvec3 flux{0}; ///< radiance over solid angle
+    struct Part {
+        std::size_t texel;
+        glm::vec3 color;
+    };
+    std::vector<Part> parts;
+};
+
+/// Lowers the texels about `spot` to the sky around it.
+TakenSun take(SkyMap& map, const Spot& spot, double widest) {
+    TakenSun sun{spot, fitted_disc(map, spot), 0, glm::dvec3(0), {}};
+    Spot whole = spot;
+    whole.towards = sun.disc.towards;
+    whole.radius = sun.disc.half_angle;
+    const Aperture aperture = aperture_of(map, whole, widest);
+    sun.reach = aperture.radius;
+    for (const NearTexel& near : map.near(whole.towards, aperture.radius)) {
+        glm::vec3& pixel = map.pixel(near.texel);
+        const glm::vec3 rest = glm::min(pixel, glm::vec3(aperture.sky)), own = pixel - rest;
+        if (own == glm::vec3(0))
+            continue;
+        sun.flux += near.solid_angle * glm::dvec3(own);
+        sun.parts.push_back({near.texel, own});
+        pixel = rest;
+    }
+    return sun;
+}
+
+void put_back(SkyMap& map, const TakenSun& sun) {
+    for (const TakenSun::Part& part : sun.parts)
+        map.pixel(part.texel) += part.color;
+}
+
+SunDisc as_disc(const TakenSun& sun, const glm::dvec3& all) {
+    // The irradiance of a cone whose radiance integrates to the flux.
+    const glm::dvec3 irradiance = 0.5 * (1 + std::cos(sun.disc.half_angle)) * sun.flux;
+    return {glm::vec3(sun.disc.towards), glm::vec3(irradiance), sun.disc.half_angle,
+            luminance(all) > 0 ? luminance(sun.flux) / luminance(all) : 0};
+}
+
+/// A search that can be asked for one sun after the other.
+class Search {
+public:
+    Search(const Environment& environment, const SunOptions& options)
+        : options_(options), widest_(widest_sun(options.order)), map_(environment, options.threads),
+          shadowed_(map_, options.order) {
+        for (const SkyCell& cell : map_.cells())
+            all_ += cell.flux;
+        without_ = error();
+    }
+
+    /// Takes one more. Whether there was one.
+    bool add() {
+        std::vector<Taken> taken; // what is left there is a halo
+        for (const TakenSun& sun : suns_)
+            taken.push_back({sun.disc.towards, sun.reach});
+        const std::optional<Spot> spot = strongest_spot(map_, widest_, taken);
+        if (!spot)
+            return false;
+        suns_.push_back(take(map_, *spot, widest_));
+        for (TakenSun& sun : suns_) {
+            put_back(map_, sun);
+            sun = take(map_, sun.spot, widest_);
+        }
+        return true;
+    }
+
+    /// Takes as many as pay: of all numbers of suns the one with the least error and price together.
+    void add_paying() {
+        double least = without_;
+        std::vector<TakenSun> best;
+        for (int count = 1; count <= kMostPayingSuns && add(); ++count)
+            if (const double cost = error() + kWorthwhile * count; cost < least) {
+                least = cost;
+                best = suns_;
+            }
+        for (const TakenSun& sun : suns_)
+            put_back(map_, sun);
+        suns_ = std::move(best);
+        for (const TakenSun& sun : suns_)
+            for (const TakenSun::Part& part : sun.parts)
+                map_.pixel(part.texel) -= part.color;
+    }
+
+    SunSplit split() const {
+        SunSplit result;
+        result.suns = discs();
+        std::ranges::stable_sort(result.suns, std::greater(), &SunDisc::energy_share);
+        for (const SunDisc& sun : result.suns)
+            result.remainder_share -= sun.energy_share;
+        result.remainder = map_.environment();
+        result.error_without = without_;
+        result.error_with = suns_.empty() ? without_ : error();
+        return result;
+    }
+
+private:
+    std::vector<SunDisc> discs() const {
+        std::vector<SunDisc> list;
+        for (const TakenSun& sun : suns_)
+            list.push_back(as_disc(sun, all_));
+        return list;
+    }
+
+    double error() const {
+        return shadowed_.error(project(map_.environment(), options_.order, options_.threads), discs());
+    }
+
+    const SunOptions& options_;
+    double widest_;
+    SkyMap map_;
+    ShadowedLight shadowed_;
+    glm::dvec3 all_{0};
+    double without_ = 0;
+    std::vector<TakenSun> suns_;
+};
+
+} // namespace
+
+double widest_sun(int order) {
+    check_order(order);
+    return std::min(0.26, 0.25 * std::numbers::pi / order);
+}
+
+SunSplit find_suns(const Environment& environment, const SunOptions& options) {
+    check_order(options.order);
+    check_environment(environment);
+    if (options.count && *options.count < 0)
+        throw Error("suns are counted from 0, not " + std::to_string(*options.count));
+    Search search(environment, options);
+    if (options.count)
+        for (int k = 0; k < *options.count && search.add(); ++k) {
+        }
+    else
+        search.add_paying();
+    return search.split();
+}
+
+} // namespace prt
