@@ -16,11 +16,11 @@ namespace {
 /// Five coefficients, each a factor of the turbidity and a constant.
 using Distribution = double[5][2];
 
-constexpr Distribution kLuminance = {
+constexpr Distribution kPerezLuminance = {
     {0.1787, -1.4630}, {-0.3554, 0.4275}, {-0.0227, 5.3251}, {0.1206, -2.5771}, {-0.0670, 0.3703}};
-constexpr Distribution kX = {
+constexpr Distribution kPerezX = {
     {-0.0193, -0.2592}, {-0.0665, 0.0008}, {-0.0004, 0.2125}, {-0.0641, -0.8989}, {-0.0033, 0.0452}};
-constexpr Distribution kY = {
+constexpr Distribution kPerezY = {
     {-0.0167, -0.2608}, {-0.0950, 0.0092}, {-0.0079, 0.2102}, {-0.0441, -1.6537}, {-0.0109, 0.0529}};
 /// Powers 2, 1, 0 of the turbidity by powers 3, 2, 1, 0 of the sun's angle to the zenith.
 constexpr double kZenithX[3][4] = {{0.00166, -0.00375, 0.00209, 0},
@@ -74,10 +74,10 @@ TEST(PreethamSky, IsThatOfThePapersTables) {
                     const auto relative = [&](const Distribution& rows) {
                         return perez(rows, turbidity, theta, gamma) / perez(rows, turbidity, 0, sun);
                     };
-                    const double luminance = zenith_luminance * relative(kLuminance);
+                    const double luminance = zenith_luminance * relative(kPerezLuminance);
                     const glm::dvec3 expected = to_rgb *
-                                                xyz_of(zenith(kZenithX, turbidity, sun) * relative(kX),
-                                                       zenith(kZenithY, turbidity, sun) * relative(kY)) *
+                                                xyz_of(zenith(kZenithX, turbidity, sun) * relative(kPerezX),
+                                                       zenith(kZenithY, turbidity, sun) * relative(kPerezY)) *
                                                 luminance;
                     const glm::dvec3 found = sky.radiance(w);
                     // The product's matrix has four digits.

@@ -25,7 +25,7 @@ struct SunOptions {
     /// How many suns to find, at least 0; fewer are found where there are no more. Unset: of up to
     /// kMostPayingSuns as many as pay, each by lowering the error by a hundredth of the light
     /// (docs/math.md, "Suns in an image").
-    std::optional<int> count;
+    std::optional<int> count = {};
     int threads = 0;
 };
 
