@@ -164,8 +164,9 @@ TEST_F(Output, ACancelledPictureLeavesNothing) {
                                                    "blue": [1, 0, 0, 0]}})");
     const std::string render = PRT_PROGRAM " render out.glb --env light.json -o p.exr --backend cpu ";
     for (const char* after : {"0", "2"}) { // seconds; signals that come before it listens are ignored
-        const Outcome outcome = shell(render + "--size 4096x4096 --samples 1 & sleep " + after +
-                                      "; while kill -INT $! 2>/dev/null; do sleep 0.1; done; wait $!");
+        const Outcome outcome =
+            shell("trap '' INT; " + render + "--size 4096x4096 --samples 1 & sleep " + after +
+                  "; while kill -INT $! 2>/dev/null; do sleep 0.1; done; wait $!");
         EXPECT_EQ(outcome.status, 1) << outcome.err;
         EXPECT_TRUE(outcome.err.ends_with("prt: error: cancelled\n")) << outcome.err;
         EXPECT_EQ(outcome.err.find("cancelled"), outcome.err.rfind("cancelled")) << outcome.err;
