@@ -60,6 +60,19 @@ TEST(Directions, AreUnitAboveTheSurfaceAndCosineDistributed) {
     }
 }
 
+TEST(Directions, AreAsLongAsFloatsCanSay) {
+    const SobolChunk chunk(1024);
+    ChunkDirections d;
+    for (std::uint32_t seed = 0; seed < 64; ++seed) {
+        generate_directions(chunk, sobol_offset(0), seed, tangent_frame({0, 0, 1}), d);
+        for (std::size_t i = 0; i < 1024; ++i) {
+            const glm::dvec3 w(d.x[i], d.y[i], d.z[i]);
+            // Each component is rounded twice or less, by 2^-24 of itself.
+            EXPECT_NEAR(glm::dot(w, w), 1, 4e-7) << w.x << " " << w.y << " " << w.z;
+        }
+    }
+}
+
 TEST(Directions, OfAPacketStayTogether) {
     const SobolChunk chunk(1024);
     ChunkDirections d;
