@@ -41,8 +41,9 @@ TEST(RealSkies, HaveTheirSunTakenOut) {
     const auto brightest =
         std::ranges::max_element(pixels, {}, [](const glm::vec3& p) { return p.r + p.g + p.b; }) -
         pixels.begin();
-    const glm::dvec3 there = lat_long_direction(1024, 512, static_cast<double>(brightest % 1024) + 0.5,
-                                                static_cast<double>(brightest / 1024) + 0.5);
+    const std::ptrdiff_t row = brightest / 1024, column = brightest % 1024;
+    const glm::dvec3 there =
+        lat_long_direction(1024, 512, static_cast<double>(column) + 0.5, static_cast<double>(row) + 0.5);
     const SunSplit split = find_suns(sky);
     ASSERT_EQ(split.suns.size(), 1u);
     EXPECT_LT(glm::distance(glm::dvec3(split.suns[0].towards), there), 0.5 * std::numbers::pi / 512);
