@@ -50,24 +50,19 @@ TEST(Trace, TellsHowTheResultCameAbout) {
     EXPECT_EQ(std::get<ClustersSeeded>(events.front()).clusters, 24u);
     // Merges make room for as many splits, in pairs; a sweep is kept exactly where it lowers the cost.
     std::size_t splits = 0, merges = 0, emptied = 0;
-    std::set<std::size_t> touched;
     for (const CompressEvent& event : events) {
         if (const auto* merge = std::get_if<ClusterMerge>(&event)) {
             ++merges;
             emptied = merge->cluster;
-            EXPECT_TRUE(touched.insert(merge->cluster).second) << "a cluster moves once in a sweep";
-            EXPECT_TRUE(touched.insert(merge->into).second);
         } else if (const auto* split = std::get_if<ClusterSplit>(&event)) {
             ++splits;
             EXPECT_EQ(split->into, emptied);
-            EXPECT_TRUE(touched.insert(split->cluster).second);
             EXPECT_GT(split->gain, 0);
         } else if (const auto* moves = std::get_if<MovesTried>(&event)) {
             EXPECT_GT(splits, 0u);
             EXPECT_EQ(splits, merges);
             EXPECT_TRUE(!moves->kept || moves->cost_after < moves->cost_before);
             splits = merges = 0;
-            touched.clear();
         }
     }
     EXPECT_EQ(splits, 0u); // every one belongs to a sweep
@@ -81,6 +76,32 @@ TEST(Trace, TellsHowTheResultCameAbout) {
         if (round.rounded)
             least = std::min(least, round.error);
     EXPECT_NEAR(std::sqrt(least), with.statistics.lit_rms, 0.02 * with.statistics.lit_rms);
+}
+
+/// What is cheap to merge and what gains by a split may be one cluster, where some receivers count for
+/// little.
+TEST(Trace, NoClusterMovesTwiceInASweep) {
+    const Transfer t = curved_sheets(600);
+    std::vector<float> areas(t.receivers(), 1.0f);
+    for (std::size_t p = 0; p < areas.size(); p += 3)
+        areas[p] = 1e-3f;
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        CompressOptions options{.clusters = 40, .coding = {.components = 2}};
+        options.seed = seed;
+        std::multiset<std::size_t> touched;
+        options.trace = [&](const CompressEvent& event) {
+            if (const auto* merge = std::get_if<ClusterMerge>(&event))
+                touched.insert({merge->cluster, merge->into});
+            else if (const auto* split = std::get_if<ClusterSplit>(&event))
+                touched.insert(split->cluster);
+            else if (std::holds_alternative<MovesTried>(event)) {
+                for (const std::size_t cluster : touched)
+                    EXPECT_EQ(touched.count(cluster), 1u) << "seed " << seed;
+                touched.clear();
+            }
+        };
+        compress(t, areas, {}, options);
+    }
 }
 
 TEST(Trace, TellsOfEveryTrialOfASearch) {
