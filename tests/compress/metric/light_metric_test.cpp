@@ -6,8 +6,10 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+#include <vector>
 
 namespace prt {
 namespace {
@@ -96,6 +98,16 @@ TEST(LightMetric, RefusesWhatMakesNoSense) {
     EXPECT_THROW(metric_of_lights({}, 4, 1), Error);
     const Transfer a = random_transfer(3, 4, 1, 1);
     EXPECT_THROW(expected_lit_rms(a, a, std::vector<float>(3, 1.0f), natural_metric(5, 1)), Error);
+}
+
+TEST(ExpectedLitRms, CountsEveryReceiver) {
+    Transfer reference = zero_transfer(1, 1, 9000); // more than one thread takes at a time
+    std::fill(reference.vectors.begin(), reference.vectors.end(), 1.0f);
+    Transfer other = reference;
+    for (std::size_t p = 8550; p < 9000; ++p)
+        other.vectors[p] = 0.5f;
+    const std::vector<float> areas(reference.receivers(), 2.0f);
+    EXPECT_NEAR(expected_lit_rms(reference, other, areas, plain_metric(1, 1)), std::sqrt(0.05 * 0.25), 1e-9);
 }
 
 } // namespace
