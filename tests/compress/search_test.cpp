@@ -10,7 +10,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <numeric>
 #include <random>
+#include <tuple>
 
 namespace prt {
 namespace {
@@ -234,6 +236,16 @@ TEST(Search, OperationsAloneAreSpentAsWellAsByHand) {
     by_hand.coding.bits = 22;
     const CompressResult hand = compress(scene.transfer, scene.areas, {}, by_hand);
     EXPECT_LT(alone.result.statistics.lit_rms, 1.05 * hand.statistics.lit_rms);
+}
+
+TEST(Presets, FillTheirWords) {
+    for (const auto& [preset, bits, components] :
+         {std::tuple(preset_u32(), 32, 4), std::tuple(preset_u64(), 64, 9)}) {
+        EXPECT_EQ(preset.components, components);
+        EXPECT_EQ(preset.fixed_bits.size(), static_cast<std::size_t>(components));
+        EXPECT_EQ(std::accumulate(preset.fixed_bits.begin(), preset.fixed_bits.end(), preset.cluster_bits),
+                  bits);
+    }
 }
 
 TEST(Search, PresetsFitSmallMeshes) {

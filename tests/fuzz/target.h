@@ -5,6 +5,7 @@
 
 #include "prt/support/error.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -30,9 +31,10 @@ void expect_finite(std::span<const Number> values, const char* what) {
         expect(std::isfinite(value), what);
 }
 
-/// What a message says before it quotes the file, which libFuzzer fills with the words below and with quotes.
+/// What a message says before it quotes the file, which libFuzzer fills with the words below and with quotes:
+/// in quotation marks, or as a URI.
 inline std::string_view before_quotes(std::string_view message) {
-    return message.substr(0, message.find_first_of("\"'"));
+    return message.substr(0, std::min(message.find_first_of("\"'"), message.find("data:")));
 }
 
 /// A message is one line in our words: no name of a library's inner part.

@@ -15,7 +15,7 @@ class Suite(NamedTuple):
 
 
 # Tests of seconds, and of minutes.
-RUNTIME = Suite("runtime_tests")
+RUNTIME = Suite("runtime_tests", "-*Suns*:*Skies*:Sky.AgreesWithAFiner*")
 SMALL_ORDERS = Suite("runtime_tests", "*Sh*-All/ShOrder.*/6:All/ShOrder.*/7:All/ShOrder.*/8:All/ShOrder.*/9")
 COMPRESS = Suite("compress_tests", "-Search*:Sweep*")
 BAKE = Suite("bake_tests", "HitPoint*:Textures*:Glass*:Cut*:Blended*:Bad*:Leaf*:Metal*:Disc*:*Degrees*:*Orders*:Sobol*:Uniform*:Tangent*:"

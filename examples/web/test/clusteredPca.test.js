@@ -90,3 +90,10 @@ test("files that are damaged or of another version are refused with a reason", (
   assert.throws(() => decodeClusters({ ...plain, components: [3, 0] }, (i) => plainViews[i]), /size/);
   assert.throws(() => decodeClusters(plain, (i) => [plainViews[0], new Uint8Array(0)][i]), /end too early/);
 });
+
+test("a row has a value for each coefficient of each channel", () => {
+  const extension = { version: 2, order: 2, channels: 3, components: [0], bases: { bufferView: 0, componentType: 5126 } };
+  const values = Array.from({ length: 12 }, (_, i) => i);
+  assert.deepEqual([...decodeClusters(extension, () => bytesOf(...values)).rows], values);
+  assert.throws(() => decodeClusters(extension, () => bytesOf(...values.slice(1))), /another size/);
+});

@@ -12,6 +12,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
+#include <string>
 
 namespace prt {
 namespace {
@@ -275,6 +277,15 @@ void make_room(const GltfContents& contents, const Json& attributes, ClusteredRe
     receivers.weights.resize(receivers.size() * receivers.stride());
 }
 
+/// Those of `attributes` that are ours.
+std::map<std::string, Json> own_attributes(const Json& attributes) {
+    std::map<std::string, Json> own;
+    for (auto it = attributes.begin(); it != attributes.end(); ++it)
+        if (it.key().starts_with("_PRT_"))
+            own[it.key()] = *it;
+    return own;
+}
+
 /// Clusters and weights of one primitive.
 void read_receivers(const GltfContents& contents, const Json& attributes, const VertexArray& vertices,
                     ClusteredTransfer& transfer) {
@@ -314,10 +325,17 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
         else
             receivers.components = (bases.max_components() + 3) / 4 * 4;
         receivers.clusters.resize(scene.receivers());
+        std::map<std::size_t, std::map<std::string, Json>> read; // by vertex array
         for (const Primitive& primitive : scene.primitives) {
             try {
-                read_receivers(contents, primitive_json(contents, primitive).at("attributes"),
-                               scene.vertex_arrays[primitive.vertices], compressed.transfer);
+                const Json& attributes = primitive_json(contents, primitive).at("attributes");
+                const auto [of_array, is_new] =
+                    read.try_emplace(primitive.vertices, own_attributes(attributes));
+                if (is_new)
+                    read_receivers(contents, attributes, scene.vertex_arrays[primitive.vertices],
+                                   compressed.transfer);
+                else if (of_array->second != own_attributes(attributes))
+                    throw Error("has the vertices of another primitive, but not its clusters and weights");
             } catch (const std::exception& error) {
                 throw Error(primitive_name(primitive) + ": " + in_plain_words(error));
             }

@@ -13,12 +13,16 @@
 
 namespace prt {
 
-/// Vertex arrays by node, primitive (where it matters), attributes and morph targets.
+/// Vertex arrays by node, primitive (where it matters), attributes and morph targets. Attributes of ours are
+/// left out: vertices are the same before and after a file gets or loses them.
 class SharedVertices {
 public:
     /// The array of such a primitive, and whether it is a new one, `next`.
     std::pair<std::size_t, bool> of(int node, int alone, const tinygltf::Primitive& file, std::size_t next) {
-        const auto names = names_.try_emplace(std::pair(file.attributes, file.targets), names_.size()).first;
+        Attributes attributes = file.attributes;
+        std::erase_if(attributes, [](const auto& a) { return a.first.starts_with("_PRT_"); });
+        const auto names =
+            names_.try_emplace(std::pair(std::move(attributes), file.targets), names_.size()).first;
         const auto [found, is_new] = arrays_.try_emplace(std::tuple(node, alone, names->second), next);
         return {found->second, is_new};
     }

@@ -150,6 +150,20 @@ TEST(PathTracer, BlendedSurfacesLetTheirShareThrough) {
     EXPECT_NEAR(traced.mean(looking({0, 2, 1}, {0, 0, 0}), 128).x, 0.75, 0.01);
 }
 
+TEST(PathTracer, ALeafPassesItsShareOfTheSunBehindIt) {
+    constexpr float kPassed = 0.4f;
+    Scene leaf = test::painted(SceneBuilder().floor({0, 0, 0}, 2).build(), glm::vec3(1), true);
+    leaf.materials[0].transmission.factor = kPassed;
+    // The camera is above, the sun above or below.
+    for (const float height : {1.0f, -1.0f}) {
+        const glm::vec3 towards = glm::normalize(glm::vec3(1, 2 * height, 0));
+        const Traced traced(leaf, DistantLight({}, {{towards, glm::vec3(3)}}));
+        const double share = static_cast<double>(height > 0 ? 1 - kPassed : kPassed);
+        const double expected = share * 3 * static_cast<double>(std::abs(towards.y)) / pi;
+        EXPECT_NEAR(traced.mean(looking({0, 2, 1}, {0, 0, 0}), 1024).x, expected, 0.02 * expected);
+    }
+}
+
 TEST(PathTracer, AgreesWithTheBakerOnASphereOverAFloor) {
     Scene scene = test::painted(
         SceneBuilder().floor({0, -0.5f, 0}, 2, 60).sphere({0, 0, 0}, 0.5f, 60).build(), {0.8f, 0.5f, 0.3f});

@@ -268,6 +268,17 @@ TEST(Leaf, TakesLightFromBehindThroughDiffuseTransmission) {
             }
 }
 
+TEST(Leaf, NeedsChannelsWhereItColorsLight) {
+    Scene leaf = SceneBuilder().floor({0, 0, 0}, 1).build();
+    leaf.materials[0].transmission.factor = 0.4f;
+    const auto colors = [&](const glm::vec3& color) {
+        leaf.materials[0].transmission.color = color;
+        return Surfaces(leaf, {}).traits().color;
+    };
+    EXPECT_FALSE(colors(glm::vec3(0.5f)));
+    EXPECT_TRUE(colors({0.5f, 0.6f, 0.5f}));
+}
+
 TEST(Leaf, LightsWhatIsBelowIt) {
     // Over a floor hangs a large leaf in the sun: with transmission the floor's bounces see it shine.
     const auto floor_under_leaf = [](float factor) {
@@ -307,7 +318,8 @@ TEST(Textures, AreFilteredOverWhatARayStandsFor) {
     const Surfaces surfaces(chequered, textures);
     EXPECT_FALSE(surfaces.traits().color);
     // Half of white in linear light, once the footprint is large.
-    EXPECT_NEAR(surfaces.scattering({0, {0.3f, 0.3f}, 0.01f}).reflected.g, 0.5f, 0.01f);
+    for (const unsigned triangle : {0u, 1u})
+        EXPECT_NEAR(surfaces.scattering({triangle, {0.3f, 0.3f}, 0.01f}).reflected.g, 0.5f, 0.01f);
     // Texels are there once it is small: 4/256 m wide, this is the middle of one.
     const float sharp = surfaces.scattering({0, {1.0f / 256, 0.5f / 256}, 1e-7f}).reflected.g;
     EXPECT_TRUE(sharp < 0.35f || sharp > 0.65f) << sharp;

@@ -235,6 +235,14 @@ TEST(GpuTrace, SizesBatchesByHitsAndTracesNothingTwice) {
     const double expected = weight(opaque, opaque.cpu(), 4);
     EXPECT_NEAR(weight(opaque, *gpu, 4), expected, 0.002 * expected);
     EXPECT_EQ(gpu->traced_again(), 0u);
+    // Nor inside of a ball, where every ray hits.
+    Pair closed(SceneBuilder().bowl({0, 0, 0}, 1, 8, 0).build());
+    const auto inside = closed.gpu();
+    for (const int stride : {1, 3}) {
+        const double all = weight(closed, closed.cpu(), stride);
+        EXPECT_NEAR(weight(closed, *inside, stride), all, 0.002 * all);
+        EXPECT_EQ(inside->traced_again(), 0u) << stride;
+    }
     // Blended surfaces are learnt of once.
     Pair blended(under_a_ceiling(AlphaMode::blend), {dotted_texture()});
     const auto other = blended.gpu(kHitBytes);

@@ -11,6 +11,7 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <string_view>
 
 namespace prt {
 namespace {
@@ -35,6 +36,36 @@ TEST(Dipole, IntegratesToItsClosedForm) {
         }
     // Nothing absorbed: everything comes back.
     EXPECT_NEAR(Dipole(1000, 0, 1.3).total(), 1, 1e-12);
+}
+
+// Jensen, Marschner, Levoy and Hanrahan 2001, figure 5: reduced scattering and absorption per millimetre.
+TEST(MeasuredMedia, AreThoseOfThePaper) {
+    struct Row {
+        std::string_view name;
+        glm::dvec3 scattering, absorption;
+    };
+    const Row rows[] = {{"apple", {2.29, 2.39, 1.97}, {0.0030, 0.0034, 0.046}},
+                        {"chicken1", {0.15, 0.21, 0.38}, {0.015, 0.077, 0.19}},
+                        {"chicken2", {0.19, 0.25, 0.32}, {0.018, 0.088, 0.20}},
+                        {"cream", {7.38, 5.47, 3.15}, {0.0002, 0.0028, 0.0163}},
+                        {"ketchup", {0.18, 0.07, 0.03}, {0.061, 0.97, 1.45}},
+                        {"marble", {2.19, 2.62, 3.00}, {0.0021, 0.0041, 0.0071}},
+                        {"potato", {0.68, 0.70, 0.55}, {0.0024, 0.0090, 0.12}},
+                        {"skim-milk", {0.70, 1.22, 1.90}, {0.0014, 0.0025, 0.0142}},
+                        {"skin1", {0.74, 0.88, 1.01}, {0.032, 0.17, 0.48}},
+                        {"skin2", {1.09, 1.59, 1.79}, {0.013, 0.070, 0.145}},
+                        {"spectralon", {11.6, 20.4, 14.9}, {0.00, 0.00, 0.00}},
+                        {"whole-milk", {2.55, 3.21, 3.77}, {0.0011, 0.0024, 0.014}}};
+    ASSERT_EQ(measured_media().size(), std::size(rows));
+    for (std::size_t i = 0; i < std::size(rows); ++i) {
+        const auto& [name, medium] = measured_media()[i];
+        EXPECT_EQ(name, rows[i].name);
+        EXPECT_EQ(medium.ior, name == "marble" ? 1.5 : 1.3) << name;
+        for (int c = 0; c < 3; ++c) { // in metres
+            EXPECT_NEAR(medium.scattering[c], 1000 * rows[i].scattering[c], 1e-9) << name;
+            EXPECT_NEAR(medium.absorption[c], 1000 * rows[i].absorption[c], 1e-9) << name;
+        }
+    }
 }
 
 TEST(Dipole, OfMarbleHasTheReflectanceOfTheTable) {

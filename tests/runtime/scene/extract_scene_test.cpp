@@ -307,6 +307,10 @@ TEST(VertexArrays, AreSharedByPrimitivesThatShareAccessors) {
     EXPECT_EQ(scene.vertex_arrays.size(), 1u);
     EXPECT_FLOAT_EQ(receiver_areas(scene)[0], 2 * 0.5f / 3);
 
+    const auto cluster = file.accessor(std::vector<float>{0, 0, 0}, test::kFloat, "SCALAR", 1);
+    file.json["meshes"][0]["primitives"][1]["attributes"]["_PRT_CLUSTER"] = cluster;
+    EXPECT_EQ(scene_of(file).vertex_arrays.size(), 1u); // a bake would take it away
+
     const auto texcoord = file.accessor(std::vector<float>{0, 0, 1, 0, 0, 1}, test::kFloat, "VEC2", 2);
     file.json["meshes"][0]["primitives"][1]["attributes"]["TEXCOORD_0"] = texcoord;
     const Scene apart = scene_of(file); // other texture coordinates are other vertices

@@ -350,6 +350,18 @@ TEST(TransferInGltf, DamagedTransferIsRefused) {
         Error);
 }
 
+TEST(TransferInGltf, PrimitivesOfTheSameVerticesAreInTheSameClusters) {
+    const Damage read_changed(WeightFormat::snorm8);
+    const auto doubled = [](auto& j) -> auto& {
+        auto& primitives = j["meshes"][0]["primitives"];
+        primitives.push_back(primitives[0]);
+        return primitives[1]["attributes"];
+    };
+    EXPECT_NO_THROW(read_changed([&](auto& j) { doubled(j); }));
+    EXPECT_THROW(read_changed([&](auto& j) { doubled(j)["_PRT_CLUSTER"] = 0; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { doubled(j).erase("_PRT_WEIGHTS_0"); }), Error);
+}
+
 std::string refusal(const Damage& read_changed, const std::function<void(GlbFile&)>& change) {
     try {
         read_changed.in_file(change);
