@@ -2,6 +2,7 @@
 #include "exr.h"
 
 #include "exr_header.h"
+#include "exr_stream.h"
 #include "prt/image_file.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
@@ -12,40 +13,17 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
 #include <OpenEXR/ImfFrameBuffer.h>
-#include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfVersion.h>
 
 #include <algorithm>
-#include <cstring>
 #include <exception>
 #include <string>
 
 namespace prt {
 namespace {
-
-/// A file in memory as OpenEXR reads one.
-class MemoryStream : public Imf::IStream {
-public:
-    explicit MemoryStream(std::span<const std::byte> file) : Imf::IStream("EXR"), file_(file) {}
-
-    bool read(char to[], int count) override {
-        if (count < 0 || position_ > file_.size() ||
-            static_cast<std::size_t>(count) > file_.size() - position_)
-            throw Iex::InputExc("it ends too early");
-        std::memcpy(to, file_.data() + position_, static_cast<std::size_t>(count));
-        position_ += static_cast<std::size_t>(count);
-        return position_ < file_.size();
-    }
-    std::uint64_t tellg() override { return position_; }
-    void seekg(std::uint64_t position) override { position_ = position; }
-
-private:
-    std::span<const std::byte> file_;
-    std::size_t position_ = 0;
-};
 
 /// Rows to decode at once: about four million pixels, so that a header's claim costs no memory until it is
 /// true.

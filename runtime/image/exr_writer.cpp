@@ -1,4 +1,5 @@
 // Writes OpenEXR files, in memory first: the library's own streams do not say when the last bytes were lost.
+#include "exr_stream.h"
 #include "prt/image_file.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
@@ -6,11 +7,13 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 
 #include <algorithm>
 #include <exception>
+#include <new>
 #include <utility>
 
 namespace prt {
@@ -60,9 +63,17 @@ Imf::FrameBuffer frame_of(const Image& image) {
 std::vector<std::byte> encode_exr(const Image& image, std::optional<EnvironmentLayout> layout) {
     GrowingStream stream;
     try {
-        Imf::OutputFile file(stream, header_of(image, layout));
-        file.setFrameBuffer(frame_of(image));
-        file.writePixels(image.height);
+        {
+            Imf::OutputFile file(stream, header_of(image, layout));
+            file.setFrameBuffer(frame_of(image));
+            file.writePixels(image.height);
+        }
+        // Where memory ends the library leaves lines out, and says nothing.
+        MemoryStream written(stream.file);
+        if (!Imf::InputFile(written).isComplete())
+            throw std::bad_alloc();
+    } catch (const std::bad_alloc&) {
+        throw;
     } catch (const std::exception& error) {
         throw Error("the image could not be encoded: " + one_line(error.what()));
     }
