@@ -42,8 +42,9 @@ SUITES = {
     "bake/transport/": [BAKE, BOUNCES],
     "bake/trace/": [BAKE, BOUNCES],
     "bake/trace/gpu/": [GPU],
-    "bake/pictures/": [Suite("bake_tests", "PathTracer*:DistantLight*:Storage*")],
+    "bake/pictures/": [Suite("bake_tests", "PathTracer*:DistantLight*:Storage*"), RENDER],
     "shaders/": [RENDER, GPU],
+    "shaders/viewer_": [Suite("viewer_tests")],
     # Of the web page the package alone: the rest is seen in Chromium.
     **{f"examples/web/src/{name}.js": [Suite("node")] for name in ("PrtkitLoader", "clusteredPca", "sphericalHarmonics")},
 }

@@ -299,6 +299,14 @@ TEST(Morphs, TakeTheWeightsOfTheFile) {
     EXPECT_EQ(first_place(file, 0), glm::vec3(0));
 }
 
+TEST(Nodes, OfAFileWithoutScenesAreAllThatHaveNoParent) {
+    GlbFile file = test::triangle_file();
+    file.json["nodes"] = {{{"mesh", 0}}, {{"children", {2}}}, {{"mesh", 0}}, {{"mesh", 0}}};
+    file.json.erase("scenes");
+    file.json.erase("scene");
+    EXPECT_EQ(scene_of(file).triangles(), 3u);
+}
+
 TEST(VertexArrays, AreSharedByPrimitivesThatShareAccessors) {
     GlbFile file = test::triangle_file();
     file.json["meshes"][0]["primitives"].push_back(primitive(file));
