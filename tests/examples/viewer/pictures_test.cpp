@@ -16,6 +16,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace viewer {
@@ -170,6 +171,15 @@ TEST_F(ViewerPictures, OfColoredTransferAreThoseOfCpp) {
     ASSERT_EQ(transfer.channels, 3);
     gpu->set_raw(transfer);
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), kSame);
+}
+
+TEST_F(ViewerPictures, OfTransferOfOneChannelAreThoseOfCpp) {
+    const prt::Transfer colored = baked();
+    prt::Transfer white = prt::zero_transfer(colored.order, 1, colored.receivers());
+    for (std::size_t p = 0; p < white.receivers(); ++p)
+        std::copy_n(colored.vector(p).begin(), white.dimension(), white.vector(p).begin());
+    gpu->set_raw(white);
+    EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(white, light))), kSame);
 }
 
 TEST_F(ViewerPictures, OfRawTransferInPiecesAreTheSame) {
