@@ -4,6 +4,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
+#include "gltf/own_attributes.h"
 #include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
 #include "prt/support/bits.h"
@@ -277,11 +278,11 @@ void make_room(const GltfContents& contents, const Json& attributes, ClusteredRe
     receivers.weights.resize(receivers.size() * receivers.stride());
 }
 
-/// Those of `attributes` that are ours.
-std::map<std::string, Json> own_attributes(const Json& attributes) {
+/// Those of `attributes` that are ours, in the order of their names.
+Json own_attributes(const Json& attributes) {
     std::map<std::string, Json> own;
     for (auto it = attributes.begin(); it != attributes.end(); ++it)
-        if (it.key().starts_with("_PRT_"))
+        if (is_own_attribute(it.key()))
             own[it.key()] = *it;
     return own;
 }
@@ -325,17 +326,14 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
         else
             receivers.components = (bases.max_components() + 3) / 4 * 4;
         receivers.clusters.resize(scene.receivers());
-        std::map<std::size_t, std::map<std::string, Json>> read; // by vertex array
+        TransferOfVertices read;
         for (const Primitive& primitive : scene.primitives) {
+            const Json& attributes = primitive_json(contents, primitive).at("attributes");
+            if (!read.is_new(primitive, own_attributes(attributes)))
+                continue;
             try {
-                const Json& attributes = primitive_json(contents, primitive).at("attributes");
-                const auto [of_array, is_new] =
-                    read.try_emplace(primitive.vertices, own_attributes(attributes));
-                if (is_new)
-                    read_receivers(contents, attributes, scene.vertex_arrays[primitive.vertices],
-                                   compressed.transfer);
-                else if (of_array->second != own_attributes(attributes))
-                    throw Error("has the vertices of another primitive, but not its clusters and weights");
+                read_receivers(contents, attributes, scene.vertex_arrays[primitive.vertices],
+                               compressed.transfer);
             } catch (const std::exception& error) {
                 throw Error(primitive_name(primitive) + ": " + in_plain_words(error));
             }

@@ -1,6 +1,7 @@
 // Edits of a glTF document: what is added, and what is taken out with all that only it used.
 #include "gltf/contents.h"
 
+#include "gltf/own_attributes.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 
@@ -259,7 +260,7 @@ void GltfContents::remove_transfer() {
         take_extensions(primitive);
         Json kept = Json::object();
         for (auto it = primitive["attributes"].begin(); it != primitive["attributes"].end(); ++it) {
-            if (it.key().starts_with("_PRT_"))
+            if (is_own_attribute(it.key()))
                 accessors.insert(it->get<std::size_t>());
             else
                 kept[it.key()] = *it;

@@ -2,6 +2,8 @@
 
 // Which primitives of a glTF file have one vertex array.
 
+#include "gltf/own_attributes.h"
+
 #include <tiny_gltf.h>
 
 #include <cstddef>
@@ -20,7 +22,7 @@ public:
     /// The array of such a primitive, and whether it is a new one, `next`.
     std::pair<std::size_t, bool> of(int node, int alone, const tinygltf::Primitive& file, std::size_t next) {
         Attributes attributes = file.attributes;
-        std::erase_if(attributes, [](const auto& a) { return a.first.starts_with("_PRT_"); });
+        std::erase_if(attributes, [](const auto& a) { return is_own_attribute(a.first); });
         const auto names =
             names_.try_emplace(std::pair(std::move(attributes), file.targets), names_.size()).first;
         const auto [found, is_new] = arrays_.try_emplace(std::tuple(node, alone, names->second), next);

@@ -7,7 +7,6 @@
 #include "gltf/unshare.h"
 
 #include <algorithm>
-#include <map>
 
 namespace prt {
 namespace {
@@ -53,18 +52,14 @@ std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const S
                           static_cast<double>(transfer.dimension() * sizeof(float)),
                       contents.file_bytes, "its transfer");
         transfer.vectors.resize(scene.receivers() * transfer.dimension());
-        std::map<std::size_t, Json> read; // by vertex array
+        TransferOfVertices read;
         for (const Primitive& primitive : scene.primitives) {
             const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
             const Json& json = primitive_json(contents, primitive);
             if (!json.contains("extensions") || !json["extensions"].contains(kTransferExtension))
                 throw Error(primitive_name(primitive) + " has no " + kTransferExtension);
             const Json& view = json["extensions"][kTransferExtension].at("vectors");
-            const auto [of_array, is_new] = read.try_emplace(primitive.vertices, view);
-            if (!is_new && of_array->second != view)
-                throw Error(primitive_name(primitive) +
-                            " has the vertices of another primitive, but not its transfer");
-            if (!is_new)
+            if (!read.is_new(primitive, view))
                 continue;
             if (is_half(view))
                 baked.storage = TransferStorage::float16;

@@ -107,6 +107,14 @@ void read_shape(const Json& extension, int& order, int& channels) {
         throw Error("has 2 channels, only 1 or 3 make sense");
 }
 
+bool TransferOfVertices::is_new(const Primitive& primitive, const Json& said) {
+    const auto [before, is_new] = said_.try_emplace(primitive.vertices, said);
+    if (before->second != said)
+        throw Error(primitive_name(primitive) +
+                    " has the vertices of another primitive, but not its transfer");
+    return is_new;
+}
+
 int whole_number(const Json& value, const std::string& name, int least, int most) {
     if (!value.is_number_integer() || value < least || value > most)
         throw Error(name + " is " + value.dump(-1, ' ', true, Json::error_handler_t::replace) +

@@ -6,6 +6,8 @@
 #include "prt/gltf.h"
 #include "prt/support/error.h"
 
+#include <cstddef>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,6 +27,16 @@ void read_shape(const Json& extension, int& order, int& channels);
 /// JSON of a scene primitive, in a file that holds the scene one to one.
 const Json& primitive_json(const GltfContents& contents, const Primitive& primitive);
 std::string primitive_name(const Primitive& primitive);
+
+/// What primitives say of the transfer of their vertices: those that share them must say the same.
+class TransferOfVertices {
+public:
+    /// Whether the vertices of `primitive` are new. Throws `Error` where another said something else of them.
+    bool is_new(const Primitive& primitive, const Json& said);
+
+private:
+    std::map<std::size_t, Json> said_; ///< by vertex array
+};
 
 /// `value`, which stands in the file as `name`, as a whole number of `least`..`most`. Throws `Error` where it
 /// is none.
