@@ -3,6 +3,7 @@
 #include "prt/bake.h"
 
 #include "memory.h"
+#include "parts.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
@@ -62,25 +63,27 @@ SealedIn find_sealed_in(const BakePlan& plan, const Tracer& tracer, const Transf
     return found;
 }
 
-/// `white` in three equal channels.
-Transfer in_color(const Transfer& white) {
-    Transfer wide{white.order, 3, std::vector<float>(3 * white.vectors.size())};
-    for (std::size_t p = 0; p < white.receivers(); ++p)
-        for (std::size_t c = 0; c < 3; ++c)
-            std::copy(white.vector(p).begin(), white.vector(p).end(),
-                      wide.vector(p).begin() + static_cast<std::ptrdiff_t>(c * white.dimension()));
-    return wide;
+/// Exit transfer of the scene's receivers from that of both sides of its surfaces.
+void leave_back_sides(const BakePlan& plan, Transfer& exit) {
+    if (plan.scene.surfaces().traits().transmission)
+        add_transmission(exit, plan.scene.surfaces(), *plan.transport);
+    exit.vectors.resize(plan.transport->fronts * exit.dimension());
 }
 
-/// Exit transfer of the scene's receivers, all bounces and subsurface scattering in it.
+/// Exit transfer of the scene's receivers in its parts: direct, and all bounces and subsurface scattering.
 Propagated propagate_all(const BakePlan& plan, Transfer direct, const TransportOperators& operators,
                          const Progress& progress) {
+    Transfer unbounced = exit_without_bounces(plan, direct, operators.refill);
+    if (plan.direct_channels() == 3)
+        unbounced = in_color(unbounced);
+    leave_back_sides(plan, unbounced);
+    if (!operators.gather && operators.diffusion.empty())
+        return {.transfer = narrowed(std::move(unbounced))};
     if (plan.channels == 3)
         direct = in_color(direct);
     Propagated exit = propagate(std::move(direct), operators, plan.bounces, plan.options.threads, progress);
-    if (plan.scene.surfaces().traits().transmission)
-        add_transmission(exit.transfer, plan.scene.surfaces(), *plan.transport);
-    exit.transfer.vectors.resize(plan.transport->fronts * exit.transfer.dimension());
+    leave_back_sides(plan, exit.transfer);
+    exit.transfer = in_parts(narrowed(std::move(unbounced)), exit.transfer);
     return exit;
 }
 

@@ -20,15 +20,14 @@ double memory_there(const BakeOptions& options) {
 
 double memory_needed(const BakePlan& plan) {
     return estimate_memory(plan.options, plan.receivers().size(), plan.scene.surfaces().triangles(),
-                           plan.channels);
+                           plan.blocks());
 }
 
 } // namespace
 
-double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
-                       int channels) {
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, int blocks) {
     const auto count = static_cast<double>(receivers);
-    const double vector = 4.0 * channels * coefficient_count(options.order);
+    const double vector = 4.0 * blocks * coefficient_count(options.order);
     // The transfer itself, once more in the file being written and once more joined to it.
     double bytes = 3 * count * vector;
     if (options.target_error)
@@ -37,7 +36,7 @@ double estimate_memory(const BakeOptions& options, std::size_t receivers, std::s
     bytes += 400.0 * static_cast<double>(triangles) + 150 * count;
     if (options.bounces == kEndlessBounces)
         bytes +=
-            40 * count * 4 * channels * coefficient_count(std::min(options.order, 3)); // the solver's steps
+            40 * count * 4 * blocks * coefficient_count(std::min(options.order, 3)); // the solver's steps
     else if (options.bounces != 0)
         bytes += 2 * count * vector;
     return bytes;

@@ -59,6 +59,15 @@ void check_medium(const Medium& medium, const std::string& material) {
 
 } // namespace
 
+int BakePlan::direct_channels() const {
+    return scene.surfaces().traits().transmission ? channels : 1;
+}
+
+int BakePlan::blocks() const {
+    const bool rest = bounces != 0 || !diffusion.empty();
+    return direct_channels() + (rest ? channels : 0);
+}
+
 Media choose_media(const Scene& scene, const BakeOptions& options) {
     Media media;
     for (const Material& material : scene.materials)

@@ -28,14 +28,18 @@ TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions
 struct BakePlan {
     const TraceScene& scene;
     const BakeOptions& options;
-    int bounces = 0; ///< or kEndlessBounces
-    int channels = 1;
+    int bounces = 0;                                     ///< or kEndlessBounces
+    int channels = 1;                                    ///< of all light together
     std::unique_ptr<const TransportReceivers> transport; ///< stays where it is: operators keep references
     std::vector<DiffusionOperator> diffusion;            ///< one for each medium of each node
     std::vector<std::string> notices;
 
     /// Those of the scene, then back sides.
     const Receivers& receivers() const { return transport->receivers; }
+    /// Direct light is colored by sheets alone that it comes through.
+    int direct_channels() const;
+    /// Channels of all parts of the transfer, at most.
+    int blocks() const;
     /// Of the scene's receivers.
     std::span<const float> areas() const { return std::span(receivers().areas).first(transport->fronts); }
 };

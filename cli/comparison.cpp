@@ -137,7 +137,7 @@ public:
         }
         add_worst_sun(evaluation);
         // Half of what random light gives is negative, and the mean of no use to divide by.
-        const Light random = random_white_light(reference().order);
+        const Light random = random_white_light(reference().layout.order);
         const double square = lit_scale(wanted_under(random), areas_).mean_square;
         evaluation.standard.emplace_back("random white",
                                          error_under(random, LitScale{square, std::sqrt(square / 3)}));
@@ -206,7 +206,7 @@ private:
 
     /// Suns of one strength: errors are over what all of them light (docs/math.md, eq. 35).
     void add_worst_sun(Evaluation& evaluation) const {
-        const DirectionalLights suns = directional_lights(reference().order);
+        const DirectionalLights suns = directional_lights(reference().layout.order);
         LitScale all;
         for (const Light& sun : suns.lights) {
             const LitScale one = lit_scale(wanted_under(sun), areas_);

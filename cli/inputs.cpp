@@ -17,8 +17,8 @@ namespace prt::cli {
 
 int SceneFile::order() const {
     if (compressed)
-        return compressed->transfer.bases.order;
-    return baked ? baked->transfer.order : 0;
+        return compressed->transfer.bases.layout.order;
+    return baked ? baked->transfer.layout.order : 0;
 }
 
 const BakeRecord* SceneFile::record() const {

@@ -145,7 +145,7 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas, 
     check_input(transfer, areas, edges, options);
     const Stopwatch stopwatch;
     const Task task{transfer, options, significance_of(areas),
-                    options.metric ? *options.metric : natural_metric(transfer.order, transfer.channels)};
+                    options.metric ? *options.metric : natural_metric(transfer.layout)};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;
     FoundClusters found = find_clusters(task, progress.part(0, 0.7));

@@ -2,7 +2,6 @@
 
 #include "options.h"
 
-#include "prt/sh.h"
 #include "prt/support/error.h"
 
 #include <algorithm>
@@ -68,11 +67,11 @@ WeightCoding preset_u64() {
 
 void check_input(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
                  const CompressOptions& options) {
-    check_order(transfer.order);
+    check_layout(transfer.layout);
     check_options(options);
     const std::optional<LightMetric>& metric = options.metric;
-    if (metric && (metric->order != transfer.order || metric->channels != transfer.channels))
-        throw Error("the metric has another order or other channels than the transfer");
+    if (metric && metric->layout != transfer.layout)
+        throw Error("the metric has another order or other parts than the transfer");
     if (transfer.receivers() == 0)
         throw Error("there are no receivers to compress");
     if (areas.size() != transfer.receivers())

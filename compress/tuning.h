@@ -19,6 +19,9 @@ namespace prt::tuning {
 
 // metric/
 
+/// Power of a coefficient of band l >= 1 of a sky without suns, over that of band 0, times l²; and of one of
+/// any band of its suns.
+inline constexpr double kSkyPower = 0.25, kSunPower = 0.1;
 /// Share of the power that natural lighting has in the metric of given lights, so that no error is free. By
 /// hand. [preset] with --lights
 inline constexpr double kNaturalShare = 0.01;

@@ -29,6 +29,9 @@ public:
     /// kernel serves.
     void apply(int channels, int order, std::span<float> values, int threads) const;
 
+    /// The receivers of the body, in rising order.
+    std::span<const std::uint32_t> members() const { return members_; }
+
     /// Red, green and blue spread alike.
     bool is_grey() const;
 

@@ -52,8 +52,9 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
 /// Adds bounce after bounce, until so little remains.
 Propagated bounce_often(Transfer transfer, const TransportOperators& operators, int bounces,
                         double least_remaining, int threads, const Progress& progress) {
-    const ColumnOperator bounce = bounce_operator(operators, transfer.order, transfer.channels, threads);
-    const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.order));
+    const ColumnOperator bounce =
+        bounce_operator(operators, transfer.layout.order, transfer.layout.channels(), threads);
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.layout.order));
     Propagated result;
     std::vector<float> now = transfer.vectors, next(now.size());
     double before = largest_norm(now, coefficients);
@@ -84,8 +85,8 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
 Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operators, int threads,
                             const Progress& progress) {
     // A few coefficients at a time, since the solver keeps a vector for each of its steps.
-    const int order = std::min(transfer.order, 3), width = coefficient_count(order),
-              coefficients = coefficient_count(transfer.order), channels = transfer.channels;
+    const int order = std::min(transfer.layout.order, 3), width = coefficient_count(order),
+              coefficients = coefficient_count(transfer.layout.order), channels = transfer.layout.channels();
     const auto columns = static_cast<std::size_t>(channels * width);
     std::vector<float> some(transfer.receivers() * columns);
     const ColumnOperator bounce = bounce_operator(operators, order, channels, threads);
@@ -121,7 +122,7 @@ Propagated bounce_endlessly(Transfer transfer, const TransportOperators& operato
 
 Propagated propagate(Transfer direct, const TransportOperators& operators, int bounces, int threads,
                      const Progress& progress) {
-    exit_from_incident(operators, direct.order, direct.channels, direct.vectors, threads);
+    exit_from_incident(operators, direct.layout.order, direct.layout.channels(), direct.vectors, threads);
     if (!operators.gather || bounces == 0)
         return {.transfer = std::move(direct)};
     if (bounces != kEndlessBounces)
@@ -136,7 +137,7 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
 void add_transmission(Transfer& transfer, const Surfaces& surfaces, const TransportReceivers& receivers) {
     // Where the base color is nearly black, no finite transfer can say what passes: it is taken as 1/255.
     constexpr float kLeastBase = 1.0f / 255;
-    const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.order));
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.layout.order));
     std::vector<bool> done(receivers.fronts);
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
         if (!surfaces.transmits(t))
@@ -152,7 +153,7 @@ void add_transmission(Transfer& transfer, const Surfaces& surfaces, const Transp
             const glm::vec3 base = surfaces.base_color(point);
             const std::span<float> to = transfer.vector(front);
             const std::span<const float> from = transfer.vector(receivers.back_of(front));
-            for (int c = 0; c < transfer.channels; ++c) {
+            for (int c = 0; c < transfer.layout.channels(); ++c) {
                 const float scale = 1 / std::max(base[c], kLeastBase);
                 for (std::size_t i = static_cast<std::size_t>(c) * coefficients;
                      i < static_cast<std::size_t>(c + 1) * coefficients; ++i)

@@ -169,9 +169,8 @@ void add_sentences(const BakeArguments& a, const BakeResult& result, Report& rep
     const bool raster = a.options.tracer.method == BakeMethod::raster;
     const auto say = [&](std::string sentence) { report.sentences.push_back(std::move(sentence)); };
     say(fmt::format("{{output}}: {{receivers}} receivers, {{triangles}} triangles, order {{order}}, "
-                    "{{channels}} {}, {{bake/rays_per_receiver}} {} each, {{bake/bounces}} bounces",
-                    result.baked.transfer.channels == 1 ? "channel" : "channels",
-                    raster ? "directions" : "rays"));
+                    "{}, {{bake/rays_per_receiver}} {} each, {{bake/bounces}} bounces",
+                    parts_in_words(result.baked.transfer.layout), raster ? "directions" : "rays"));
     say(fmt::format("{} on the {}: {{device}}", raster ? "depth maps" : "rays",
                     result.baked.record.backend == Backend::cpu ? "CPU" : "GPU"));
     if (s.receivers.all > s.receivers.traced)
@@ -201,7 +200,8 @@ Report report_of(const BakeArguments& a, const BakeResult& result, const Scene& 
     Report report;
     add_figures(report, {{"output", a.output.string()},
                          {"order", a.options.order},
-                         {"channels", result.baked.transfer.channels},
+                         {"channels", result.baked.transfer.layout.channels()},
+                         {"parts", parts_figures(result.baked.transfer.layout)},
                          {"storage", to_string(result.baked.storage)},
                          {"bake", bake_record_json(result.baked.record)}});
     if (a.options.target_error)

@@ -30,7 +30,7 @@ struct CompressArguments {
     bool preset = false; ///< `options.compress` is one, to be fitted to the mesh
     bool best_effort = false;
     struct Writing {
-        bool meshopt = false, reorder = false;
+        bool meshopt = false, reorder = false, whole = false;
     } writing;
     GltfOptions reading;
 };
@@ -134,12 +134,13 @@ void resolve(const CLI::App& command, CompressArguments& a) {
 
 LightMetric chosen_metric(const CompressArguments& a, const Transfer& transfer) {
     if (a.lights.empty())
-        return a.metric == MetricChoice::plain ? plain_metric(transfer.order, transfer.channels)
-                                               : natural_metric(transfer.order, transfer.channels);
+        return a.metric == MetricChoice::plain ? plain_metric(transfer.layout)
+                                               : natural_metric(transfer.layout);
     std::vector<Light> lights;
     for (const Path& path : a.lights)
-        lights.push_back(load_light(path, transfer.order, a.light_options, a.options.compress.threads).light);
-    return metric_of_lights(lights, transfer.order, transfer.channels);
+        lights.push_back(
+            load_light(path, transfer.layout.order, a.light_options, a.options.compress.threads).light);
+    return metric_of_lights(lights, transfer.layout);
 }
 
 /// "error 0.012, 5.1 bytes per vertex, 6.2 shader operations"
@@ -214,8 +215,9 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
     const std::vector<float> areas = receiver_areas(written.scene);
     const std::size_t receivers = transfer.receivers();
     const std::size_t uncompressed = transfer.dimension() * sizeof(float);
-    return {{"order", transfer.order},
-            {"channels", transfer.channels},
+    return {{"order", transfer.layout.order},
+            {"channels", transfer.layout.channels()},
+            {"parts", parts_figures(transfer.layout)},
             {"receivers", receivers},
             {"clusters", s.clusters},
             {"components_most", coded.bases.max_components()},
@@ -282,6 +284,8 @@ void run(CompressArguments a, Session& session) {
                                        {a.reports.trace, "--trace", {".jsonl"}}},
                                       inputs);
     SceneFile model = load_bake(a.baked, a.reading);
+    if (a.writing.whole)
+        model.baked->transfer = as_whole(model.baked->transfer, a.options.compress.threads);
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
     options.compress.metric = chosen_metric(a, transfer);
@@ -346,6 +350,8 @@ void add_compress(CLI::App& app, Session& session) {
                      "price of a neighbour in another cluster, in mean squared errors")
         ->capture_default_str()
         ->check(real_in(0, kMostPrice));
+    command->add_flag("--whole", a.writing.whole,
+                      "direct and indirect light as one: smaller, for who does not light suns apart");
     command->add_flag("--reorder", a.writing.reorder, "put the vertices of a cluster side by side");
     command->add_flag("--meshopt", a.writing.meshopt, "write vertex data through EXT_meshopt_compression");
     command->add_option("--seed", a.options.compress.seed, "seed of the clustering")

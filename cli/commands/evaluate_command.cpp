@@ -63,8 +63,8 @@ void add_sizes_of_bake(const EvaluateArguments& a, const Transfer& transfer, Rep
     report.figures.insert(
         report.figures.end(),
         {{{"receivers", "vertices"}, transfer.receivers()},
-         {{"order", "order"}, transfer.order},
-         {{"channels", "channels"}, transfer.channels},
+         {{"order", "order"}, transfer.layout.order},
+         {{"channels", "channels"}, transfer.layout.channels()},
          {{"bytes_baked_per_vertex", "bytes per vertex, bake"}, transfer.dimension() * sizeof(float)},
          {{"bytes_file_baked", "bytes of the file, bake"},
           static_cast<std::size_t>(std::filesystem::file_size(a.baked))}});
@@ -88,7 +88,7 @@ void run(EvaluateArguments a, Session& session) {
     SceneFile baked = load_scene_file(a.baked, a.reading);
     if (!baked.baked)
         throw Error(a.baked.string() + ": holds no raw transfer; the first file is the output of prt bake");
-    const std::vector<LoadedLight> lights = lights_of(a, baked.baked->transfer.order);
+    const std::vector<LoadedLight> lights = lights_of(a, baked.baked->transfer.layout.order);
     Report report = empty_report(a, session);
     if (!a.shipped.empty())
         add_comparison({.baked = a.baked,

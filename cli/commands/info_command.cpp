@@ -58,15 +58,15 @@ void add_baked(const BakedTransfer& baked, Report& report) {
     add_figures(
         report,
         {{"transfer",
-          {{"order", t.order},
-           {"channels", t.channels},
+          {{"order", t.layout.order},
+           {"channels", t.layout.channels()},
+           {"parts", parts_figures(t.layout)},
            {"bytes_stored_per_vertex", t.dimension() * (half ? sizeof(std::uint16_t) : sizeof(float))},
            {"bake", bake_record_json(baked.record)}}}});
     report.sentences.push_back(
         fmt::format("raw transfer: order {{transfer/order}}, {}, {{transfer/bytes_stored_per_vertex}} bytes "
                     "per vertex as {}",
-                    counted("transfer/channels", static_cast<std::size_t>(t.channels), "channel"),
-                    half ? "float16" : "float32"));
+                    parts_in_words(t.layout), half ? "float16" : "float32"));
     report.sentences.push_back(record_sentence("transfer/bake", baked.record));
 }
 
@@ -76,8 +76,9 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     const bool packed = t.receivers.format == WeightFormat::packed;
     add_figures(report,
                 {{"clustered_pca",
-                  {{"order", t.bases.order},
-                   {"channels", t.bases.channels},
+                  {{"order", t.bases.layout.order},
+                   {"channels", t.bases.layout.channels()},
+                   {"parts", parts_figures(t.bases.layout)},
                    {"clusters", t.bases.clusters()},
                    {"components_least", *least},
                    {"components_most", *most},
@@ -90,7 +91,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     report.sentences.push_back(
         fmt::format("clustered PCA: order {{{0}order}}, {1}, {2} x {{{0}components_least}} to "
                     "{{{0}components_most}} components, {{{0}weights}}{3} weights",
-                    own, counted(own + "channels", static_cast<std::size_t>(t.bases.channels), "channel"),
+                    own, parts_in_words(t.bases.layout),
                     counted(own + "clusters", t.bases.clusters(), "cluster"), packed ? "" : "-bit"));
     report.sentences.push_back(fmt::format(
         "{{{0}bytes_bound_per_vertex}} bytes per vertex to bind ({{{0}bits_used_per_vertex}} bits in use)",

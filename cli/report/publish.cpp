@@ -28,6 +28,23 @@ void publish(const Report& report, const ReportFiles& files, Session& session) {
     session.write(files.html, report_html(dated));
 }
 
+Json parts_figures(const TransferLayout& layout) {
+    Json parts = Json::array();
+    for (const TransferPart& part : layout.parts)
+        parts.push_back({{"kind", to_string(part.kind)}, {"channels", part.channels}});
+    return parts;
+}
+
+std::string parts_in_words(const TransferLayout& layout) {
+    std::string words;
+    for (const TransferPart& part : layout.parts)
+        words += words.empty()
+                     ? fmt::format("{} of {} light", part.channels == 1 ? "1 channel" : "3 channels",
+                                   to_string(part.kind))
+                     : fmt::format(", {} of {}", part.channels, to_string(part.kind));
+    return words;
+}
+
 Json bake_record_json(const BakeRecord& record) {
     return {{"method", to_string(record.method)},
             {"backend", to_string(record.backend)},

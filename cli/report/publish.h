@@ -17,6 +17,11 @@ struct ReportFiles {
 /// Prints a report and writes it to `files`, which also say by which version it was made; the page says when.
 void publish(const Report& report, const ReportFiles& files, Session& session);
 
+/// The parts of a transfer vector: [{"kind": "direct", "channels": 1}, ...], and "1 channel of direct light,
+/// 3 of indirect".
+Json parts_figures(const TransferLayout& layout);
+std::string parts_in_words(const TransferLayout& layout);
+
 /// How a bake was made.
 Json bake_record_json(const BakeRecord& record);
 

@@ -66,8 +66,7 @@ std::size_t axes_left(std::span<const std::int32_t> values, std::size_t full) {
 ClusteredBases make_bases(const Frame& frame, const QuantisedClusters& clusters,
                           const CodedBases& coded_frame, double step) {
     ClusteredBases bases;
-    bases.order = frame.order;
-    bases.channels = frame.channels;
+    bases.layout = frame.layout;
     bases.components = clusters.components;
     if (step > 0) {
         const std::size_t axes = axes_in_use(clusters, step);
@@ -147,12 +146,8 @@ void store_weight(std::byte* to, float weight, WeightFormat format) {
 
 CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error) {
     const auto full = static_cast<Eigen::Index>(frame.full());
-    const auto count = static_cast<Eigen::Index>(metric.order * metric.order);
-    Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(full, full);
-    for (int c = 0; c < metric.channels; ++c)
-        moments.block(c * count, c * count, count, count) = Eigen::Map<const Eigen::MatrixXd>(
-            &metric.moments[static_cast<std::size_t>(c * count * count)], count, count);
-    moments *= frame.scale * frame.scale;
+    const Eigen::MatrixXd moments =
+        frame.scale * frame.scale * Eigen::Map<const Eigen::MatrixXd>(metric.moments.data(), full, full);
 
     // Rounding every value of every axis to `unit` adds axes · trace · unit² / 12.
     double unit = std::sqrt(

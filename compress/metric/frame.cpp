@@ -80,18 +80,12 @@ std::vector<float> without_outliers(const Transfer& transfer, std::span<const fl
     return usual;
 }
 
-/// The symmetric square root of the metric, block by block, and its inverse.
+/// The symmetric square root of the metric and its inverse.
 void square_roots(const LightMetric& metric, Matrix& root, Matrix& inverse) {
-    const auto count = static_cast<Eigen::Index>(metric.order * metric.order);
-    root = Matrix::Zero(count * metric.channels, count * metric.channels);
-    inverse = root;
-    for (int c = 0; c < metric.channels; ++c) {
-        const Eigen::Map<const Matrix> moments(&metric.moments[static_cast<std::size_t>(c * count * count)],
-                                               count, count);
-        const Eigen::SelfAdjointEigenSolver<Matrix> solver(moments);
-        root.block(c * count, c * count, count, count) = solver.operatorSqrt();
-        inverse.block(c * count, c * count, count, count) = solver.operatorInverseSqrt();
-    }
+    const auto n = static_cast<Eigen::Index>(metric.layout.dimension());
+    const Eigen::SelfAdjointEigenSolver<Matrix> solver(Eigen::Map<const Matrix>(metric.moments.data(), n, n));
+    root = solver.operatorSqrt();
+    inverse = solver.operatorInverseSqrt();
 }
 
 /// Leaves out axes from the end as long as they add at most `most_dropped`, or are `rounding` only.
@@ -133,7 +127,7 @@ Frame fit_frame(const Transfer& transfer, std::span<const float> significance, c
     const double energy = (root * (origin + moments.sum)).squaredNorm() + std::max(covariance.trace(), 0.0);
     const double scale = energy > 0 ? 1 / std::sqrt(energy) : 1;
 
-    Frame frame{transfer.order, transfer.channels, transfer.dimension(), {}, {}, {}, {}, 0, scale};
+    Frame frame{transfer.layout, transfer.dimension(), {}, {}, {}, {}, 0, scale};
     frame.origin.assign(origin.begin(), origin.end());
     for (Eigen::Index i = n; i-- > 0;) // eigenvalues ascend
         frame.variances.push_back(std::max(0.0, solver.eigenvalues()[i]) * scale * scale);

@@ -13,7 +13,7 @@ namespace prt {
 /// significance in this space is the squared `expected_lit_rms`. Axes that carry next to nothing are left
 /// out, so that colored transfer, whose channels are nearly dependent, costs little more than grey.
 struct Frame {
-    int order = 0, channels = 1;
+    TransferLayout layout;
     std::size_t dimension = 0;     ///< axes that are kept
     std::vector<double> origin;    ///< [full]: the mean of all receivers but outliers
     std::vector<double> analysis;  ///< [dimension][full]

@@ -3,32 +3,68 @@
 
 #include "prt/light_metric.h"
 
-#include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 #include "tuning.h"
 
 #include <Eigen/Dense>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace prt {
 namespace {
 
-/// A metric without correlations in which band l has the power `power(l)`.
+using Matrix = Eigen::MatrixXd;
+
+Eigen::Index dimension_of(const TransferLayout& layout) {
+    return static_cast<Eigen::Index>(layout.dimension());
+}
+
+Eigen::Map<Matrix> matrix_of(LightMetric& metric) {
+    return {metric.moments.data(), dimension_of(metric.layout), dimension_of(metric.layout)};
+}
+
+Eigen::Map<const Matrix> matrix_of(const LightMetric& metric) {
+    return {metric.moments.data(), dimension_of(metric.layout), dimension_of(metric.layout)};
+}
+
+LightMetric zero_metric(const TransferLayout& layout) {
+    check_layout(layout);
+    return {layout, std::vector<double>(layout.dimension() * layout.dimension(), 0.0)};
+}
+
+/// What one color of three counts: where no part has color, the metric is the mean over them.
+double color_share(const TransferLayout& layout) {
+    return layout.channels() == 3 ? 1 : 1.0 / 3;
+}
+
+/// Where each part has what serves color `c`: [parts].
+std::vector<Eigen::Index> blocks_of_color(const TransferLayout& layout, int c) {
+    std::vector<Eigen::Index> begins;
+    Eigen::Index begin = 0;
+    for (const TransferPart& part : layout.parts) {
+        begins.push_back(begin + std::min(c, part.channels - 1) * coefficient_count(layout.order));
+        begin += part.channels * coefficient_count(layout.order);
+    }
+    return begins;
+}
+
+/// A metric of bands that do not depend on each other: two parts have `power(l, kind, other kind)` in band l.
 template <class Power>
-LightMetric banded_metric(int order, int channels, Power&& power) {
-    check_order(order);
-    const auto count = static_cast<std::size_t>(coefficient_count(order));
-    LightMetric metric{order, channels,
-                       std::vector<double>(static_cast<std::size_t>(channels) * count * count)};
-    for (std::size_t c = 0; c < static_cast<std::size_t>(channels); ++c)
-        for (int l = 0; l < order; ++l)
-            for (auto i = static_cast<std::size_t>(l * l); i < static_cast<std::size_t>((l + 1) * (l + 1));
-                 ++i)
-                metric.moments[(c * count + i) * count + i] = power(l);
+LightMetric banded_metric(const TransferLayout& layout, Power&& power) {
+    LightMetric metric = zero_metric(layout);
+    Eigen::Map<Matrix> moments = matrix_of(metric);
+    for (int c = 0; c < 3; ++c) {
+        const std::vector<Eigen::Index> begins = blocks_of_color(layout, c);
+        for (std::size_t a = 0; a < begins.size(); ++a)
+            for (std::size_t b = 0; b < begins.size(); ++b)
+                for (int l = 0; l < layout.order; ++l)
+                    for (Eigen::Index i = l * l; i < (l + 1) * (l + 1); ++i)
+                        moments(begins[a] + i, begins[b] + i) +=
+                            color_share(layout) * power(l, layout.parts[a].kind, layout.parts[b].kind);
+    }
     return metric;
 }
 
@@ -38,95 +74,113 @@ int exact_rotations(int order) {
     return 2 * order - 1;
 }
 
-void add_outer_product(const Light& light, double scale, int channels, std::span<double> moments) {
-    const std::size_t count = light.coefficients.size();
-    for (std::size_t c = 0; c < 3; ++c) {
-        // One channel serves all colors: its metric is the mean over them.
-        double* block = &moments[(channels == 3 ? c : 0) * count * count];
-        const double share = channels == 3 ? scale : scale / 3;
-        const auto color = static_cast<glm::length_t>(c);
-        for (std::size_t i = 0; i < count; ++i)
-            for (std::size_t j = 0; j < count; ++j)
-                block[i * count + j] += share * static_cast<double>(light.coefficients[i][color]) *
-                                        static_cast<double>(light.coefficients[j][color]);
+/// Adds what `lighting` costs, times `scale`.
+void add_outer_product(const Lighting& lighting, double scale, LightMetric& metric) {
+    const TransferLayout& layout = metric.layout;
+    const std::vector<glm::vec3> columns = light_columns(layout, lighting);
+    const Eigen::Index count = coefficient_count(layout.order);
+    for (int c = 0; c < 3; ++c) {
+        const std::vector<Eigen::Index> begins = blocks_of_color(layout, c);
+        Eigen::VectorXd light = Eigen::VectorXd::Zero(dimension_of(layout));
+        for (std::size_t part = 0; part < begins.size(); ++part)
+            for (Eigen::Index i = 0; i < count; ++i)
+                light[begins[part] + i] = static_cast<double>(
+                    columns[part * static_cast<std::size_t>(count) + static_cast<std::size_t>(i)][c]);
+        matrix_of(metric) += color_share(layout) * scale * light * light.transpose();
     }
 }
 
-double energy(const Light& light) {
-    double sum = 0;
-    for (const glm::vec3& c : light.coefficients)
-        sum += static_cast<double>(c.x) * static_cast<double>(c.x) +
-               static_cast<double>(c.y) * static_cast<double>(c.y) +
-               static_cast<double>(c.z) * static_cast<double>(c.z);
-    return sum;
+double energy(const Lighting& lighting) {
+    const auto sum_of = [](const Light& light) {
+        double sum = 0;
+        for (const glm::vec3& c : light.coefficients)
+            sum += static_cast<double>(c.x) * static_cast<double>(c.x) +
+                   static_cast<double>(c.y) * static_cast<double>(c.y) +
+                   static_cast<double>(c.z) * static_cast<double>(c.z);
+        return sum;
+    };
+    return sum_of(lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky);
 }
 
-double trace(const LightMetric& metric) {
-    const auto count = static_cast<std::size_t>(coefficient_count(metric.order));
-    double sum = 0;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(metric.channels); ++c)
-        for (std::size_t i = 0; i < count; ++i)
-            sum += metric.moments[(c * count + i) * count + i];
-    return sum;
+Lighting changed(const Lighting& lighting, auto&& change) {
+    Lighting result{change(lighting.sky)};
+    if (lighting.suns)
+        result.suns = change(*lighting.suns);
+    return result;
 }
 
 } // namespace
 
-LightMetric plain_metric(int order, int channels) {
-    return banded_metric(order, channels, [](int) { return 1.0; });
+LightMetric plain_metric(const TransferLayout& layout) {
+    LightMetric metric = zero_metric(layout);
+    Eigen::Index at = 0;
+    for (const TransferPart& part : layout.parts)
+        for (int i = 0; i < part.channels * coefficient_count(layout.order); ++i, ++at)
+            matrix_of(metric)(at, at) = static_cast<double>(layout.channels()) / part.channels;
+    return metric;
 }
 
-LightMetric natural_metric(int order, int channels) {
-    return banded_metric(order, channels, [](int l) { return l == 0 ? 1.0 : 0.25 / l; });
+LightMetric natural_metric(const TransferLayout& layout) {
+    const auto whole = [](int l) { return l == 0 ? 1.0 : 0.25 / l; };
+    if (layout.parts.size() == 1)
+        return banded_metric(layout, [&](int l, PartKind, PartKind) { return whole(l); });
+    // All parts see the sky, those behind the first the suns as well.
+    return banded_metric(layout, [&](int l, PartKind a, PartKind b) {
+        const double suns = tuning::kSunPower;
+        const double sky = l == 0 ? whole(0) : tuning::kSkyPower / (l * l);
+        return a == PartKind::direct || b == PartKind::direct ? sky : sky + suns;
+    });
 }
 
-LightMetric metric_of_lights(std::span<const Light> lights, int order, int channels) {
-    LightMetric metric = banded_metric(order, channels, [](int) { return 0.0; });
-    const int rotations = exact_rotations(order);
-    for (const Light& given : lights) {
-        const Light light = truncated(given, order);
+LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLayout& layout) {
+    LightMetric metric = zero_metric(layout);
+    const int rotations = exact_rotations(layout.order);
+    for (const Lighting& given : lights) {
+        const Lighting light = changed(given, [&](const Light& l) { return truncated(l, layout.order); });
         const double light_energy = energy(light);
         if (!(light_energy > 0))
             continue;
         for (int r = 0; r < rotations; ++r)
-            add_outer_product(rotated_about_y(light, 2 * M_PI * r / rotations),
-                              1 / (light_energy * rotations), channels, metric.moments);
+            add_outer_product(
+                changed(light, [&](const Light& l) { return rotated_about_y(l, 2 * M_PI * r / rotations); }),
+                1 / (light_energy * rotations), metric);
     }
-    const double given = trace(metric);
+    const double given = matrix_of(metric).trace();
     if (!(given > 0))
         throw Error("the lights to compress for are all black");
-    const LightMetric natural = natural_metric(order, channels);
-    const double natural_share = tuning::kNaturalShare * given / trace(natural);
-    for (std::size_t i = 0; i < metric.moments.size(); ++i)
-        metric.moments[i] += natural_share * natural.moments[i];
+    const LightMetric natural = natural_metric(layout);
+    matrix_of(metric) += tuning::kNaturalShare * given / matrix_of(natural).trace() * matrix_of(natural);
     return metric;
+}
+
+LightMetric metric_of_lights(std::span<const Light> lights, const TransferLayout& layout) {
+    std::vector<Lighting> skies;
+    for (const Light& light : lights)
+        skies.push_back({light});
+    return metric_of_lights(skies, layout);
 }
 
 double expected_lit_rms(const Transfer& reference, const Transfer& approximation,
                         std::span<const float> areas, const LightMetric& metric, int threads) {
-    if (reference.order != approximation.order || reference.channels != approximation.channels ||
-        reference.receivers() != approximation.receivers() || metric.order != reference.order ||
-        metric.channels != reference.channels)
-        throw Error("the transfers or the metric have different orders, channels or numbers of receivers");
-    const auto count = static_cast<Eigen::Index>(coefficient_count(reference.order));
-    constexpr std::size_t kGrain = 4096;
+    if (reference.layout != approximation.layout || metric.layout != reference.layout ||
+        reference.receivers() != approximation.receivers())
+        throw Error("the transfers or the metric have different orders, parts or numbers of receivers");
+    const Eigen::Index n = dimension_of(reference.layout);
+    const Eigen::Map<const Matrix> moments = matrix_of(metric);
+    constexpr std::size_t kGrain = 1024;
     const std::size_t blocks = (reference.receivers() + kGrain - 1) / kGrain;
     std::vector<double> errors(blocks, 0), norms(blocks, 0);
     parallel_for(reference.receivers(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
-        Eigen::VectorXd t(count), d(count);
-        for (std::size_t p = begin; p < end; ++p)
-            for (int c = 0; c < reference.channels; ++c) {
-                const Eigen::Map<const Eigen::MatrixXd> moments(
-                    &metric.moments[static_cast<std::size_t>(c * count * count)], count, count);
-                for (Eigen::Index i = 0; i < count; ++i) {
-                    const auto at = static_cast<std::size_t>(c * count + i);
-                    t[i] = static_cast<double>(reference.vector(p)[at]);
-                    d[i] = t[i] - static_cast<double>(approximation.vector(p)[at]);
-                }
-                const auto area = static_cast<double>(areas[p]);
-                errors[begin / kGrain] += area * d.dot(moments * d);
-                norms[begin / kGrain] += area * t.dot(moments * t);
-            }
+        using Vectors = Eigen::Map<const Eigen::MatrixXf>;
+        const auto count = static_cast<Eigen::Index>(end - begin);
+        const Matrix t = Vectors(reference.vector(begin).data(), n, count).cast<double>(),
+                     d = t - Vectors(approximation.vector(begin).data(), n, count).cast<double>();
+        const Matrix cost_of_error = moments * d, cost = moments * t;
+        for (Eigen::Index p = 0; p < count; ++p) {
+            const auto area = static_cast<double>(areas[begin + static_cast<std::size_t>(p)]);
+            errors[begin / kGrain] += area * d.col(p).dot(cost_of_error.col(p));
+            norms[begin / kGrain] += area * t.col(p).dot(cost.col(p));
+        }
     });
     double error = 0, norm = 0;
     for (std::size_t b = 0; b < blocks; ++b) {

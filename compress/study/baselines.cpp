@@ -98,8 +98,8 @@ double bound_bytes(std::size_t bytes) {
 
 BaselineResult truncated_sh(const Transfer& transfer, int bands) {
     BaselineResult result;
-    result.decoded = zero_transfer(transfer.order, transfer.channels, transfer.receivers());
-    const auto count = static_cast<std::size_t>(coefficient_count(transfer.order)),
+    result.decoded = zero_transfer(transfer.layout, transfer.receivers());
+    const auto count = static_cast<std::size_t>(coefficient_count(transfer.layout.order)),
                kept = static_cast<std::size_t>(coefficient_count(bands));
     std::vector<float> largest(transfer.dimension(), 0);
     for (std::size_t p = 0; p < transfer.receivers(); ++p)
@@ -109,7 +109,7 @@ BaselineResult truncated_sh(const Transfer& transfer, int bands) {
         for (std::size_t i = 0; i < transfer.dimension(); ++i)
             if (i % count < kept)
                 result.decoded.vector(p)[i] = snorm8(transfer.vector(p)[i], largest[i]);
-    const std::size_t bytes = kept * static_cast<std::size_t>(transfer.channels);
+    const std::size_t bytes = kept * transfer.layout.blocks();
     result.payload_bytes = bound_bytes(bytes);
     result.table_bytes = static_cast<double>(bytes * sizeof(float));
     // A color times a number, or each channel by itself: the cost of one multiply-add of a color.
@@ -120,8 +120,7 @@ BaselineResult truncated_sh(const Transfer& transfer, int bands) {
 BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> areas,
                             const ClassicOptions& options, const Progress& progress) {
     const std::vector<float> significance = significance_of(areas);
-    const Frame frame = fit_frame(transfer, significance, plain_metric(transfer.order, transfer.channels), 0,
-                                  options.threads);
+    const Frame frame = fit_frame(transfer, significance, plain_metric(transfer.layout), 0, options.threads);
     std::mt19937_64 random(options.seed);
     const ClusteringOptions how{.clusters = static_cast<std::size_t>(options.clusters),
                                 .spending = {.most_components = options.components},
@@ -132,7 +131,7 @@ BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> are
         transfer, frame,
         cluster_points(PointBlocks(transfer, frame, options.threads), significance, how, random, progress));
     BaselineResult result;
-    result.decoded = zero_transfer(transfer.order, transfer.channels, transfer.receivers());
+    result.decoded = zero_transfer(transfer.layout, transfer.receivers());
     for (std::size_t p = 0; p < transfer.receivers(); ++p) {
         const std::size_t k = code.clusters[p];
         const std::span<float> to = result.decoded.vector(p);

@@ -87,7 +87,7 @@ private:
     }
 
     void truncations() {
-        for (int bands = 1; bands <= transfer_.order; ++bands) {
+        for (int bands = 1; bands <= transfer_.layout.order; ++bands) {
             const SweepPoint point =
                 measured("truncated SH", "order " + std::to_string(bands), truncated_sh(transfer_, bands), 0);
             sweep_.by_bytes.push_back(point);

@@ -168,8 +168,9 @@ private:
         bake_options.bounces = prt::kEndlessBounces;
         bake_options.tracer.backend = prt::Backend::cpu;
         bake_options.bad_textures = prt::BadTextures::ignore;
-        const prt::Transfer raw = prt::bake(model_->scene, bake_options).baked.transfer;
-        result_.channels = raw.channels;
+        // All light is in one sky here, suns too.
+        const prt::Transfer raw = prt::as_whole(prt::bake(model_->scene, bake_options).baked.transfer);
+        result_.channels = raw.layout.channels();
         for (const int order : kOrders) {
             const prt::Transfer transfer = viewer::truncated(raw, order);
             light_order_ = order;

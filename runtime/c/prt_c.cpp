@@ -21,6 +21,7 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <span>
 #include <string>
 
 struct prt_model {
@@ -150,6 +151,10 @@ glm::vec3* colors(float* light) {
 
 void put(const Light& light, float* to) {
     std::copy(light.coefficients.begin(), light.coefficients.end(), colors(to));
+}
+
+std::span<const glm::vec3> light_colors(const float* from, std::size_t count) {
+    return {reinterpret_cast<const glm::vec3*>(from), count};
 }
 
 Light light_from(int order, const float* from) {
@@ -371,8 +376,9 @@ prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_m
         check_pointers(model, out);
         const prt::ClusteredReceivers& receivers = model->transfer.receivers;
         *out = {};
-        out->order = model->former.order();
-        out->channels = model->former.channels();
+        out->order = model->former.layout().order;
+        out->channels = model->former.layout().channels();
+        out->direct_apart = model->former.layout().has(prt::PartKind::direct);
         out->receivers = receivers.size();
         out->clusters = model->layouts.size();
         out->rows = model->former.rows();
@@ -408,12 +414,17 @@ prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out
 
 prt_status prt_model_form_constants(const prt_model* model, int order, const float* light, float* constants,
                                     prt_message* message) {
+    return prt_model_form_constants_apart(model, order, light, nullptr, constants, message);
+}
+
+prt_status prt_model_form_constants_apart(const prt_model* model, int order, const float* sky,
+                                          const float* suns, float* constants, prt_message* message) {
     return guarded(message, [&] {
-        check_pointers(model, light, constants);
+        check_pointers(model, sky, constants);
         const std::size_t count = count_of(order), rows = model->former.rows();
-        if (!within(kBrightest, light, 3 * count))
+        if (!within(kBrightest, sky, 3 * count) || (suns && !within(kBrightest, suns, 3 * count)))
             throw Error("the coefficients of a light must be finite and at most 1e20");
-        model->former.form({reinterpret_cast<const glm::vec3*>(light), count},
+        model->former.form({light_colors(sky, count), light_colors(suns, suns ? count : 0)},
                            {reinterpret_cast<glm::vec4*>(constants), rows});
         if (!within(kLargestConstant, constants, 4 * rows))
             throw Error("the light is too bright for the model: constants pass 1e30");

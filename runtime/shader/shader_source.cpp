@@ -97,15 +97,22 @@ std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource con
     return shader_source("prt_relight.vert", relight_defines(transfer, constants, language), language);
 }
 
+std::string part_defines(const TransferLayout& layout) {
+    check_layout(layout);
+    constexpr const char* kChannels[] = {"PRT_FIRST_CHANNELS", "PRT_SECOND_CHANNELS"};
+    std::string defines =
+        define("PRT_COEFFICIENTS", static_cast<std::size_t>(coefficient_count(layout.order)));
+    for (std::size_t part = 0; part < layout.parts.size(); ++part)
+        defines += define(kChannels[part], static_cast<std::size_t>(layout.parts[part].channels));
+    return defines;
+}
+
 std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language) {
     if (language != ShaderLanguage::glsl450 && language != ShaderLanguage::vulkan)
         throw Error("OpenGL 3.3 and OpenGL ES 3.0 have no compute shaders: form the constants on the CPU");
     return shader_source(
         "prt_constants.comp",
-        define("PRT_ROWS", constant_rows(transfer.bases)) +
-            define("PRT_CHANNELS", static_cast<std::size_t>(transfer.bases.channels)) +
-            define("PRT_COEFFICIENTS", static_cast<std::size_t>(coefficient_count(transfer.bases.order))),
-        language);
+        define("PRT_ROWS", constant_rows(transfer.bases)) + part_defines(transfer.bases.layout), language);
 }
 
 } // namespace prt

@@ -56,20 +56,25 @@ std::size_t constant_rows(const ClusteredBases& bases) {
     return bases.first_rows().back();
 }
 
-std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Light& light, int threads) {
+std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Lighting& lighting,
+                                     int threads) {
     const ConstantFormer former(transfer);
     std::vector<glm::vec4> constants(former.rows());
-    former.form(light.coefficients, constants);
+    former.form(lighting, constants);
     std::vector<glm::vec3> radiance(transfer.receivers.size());
     evaluate(transfer, constants, radiance, threads);
     return radiance;
+}
+
+std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Light& light, int threads) {
+    return exit_radiance(transfer, Lighting{light}, threads);
 }
 
 Transfer decode(const ClusteredTransfer& transfer, int threads) {
     const ClusteredBases& bases = transfer.bases;
     const std::size_t dimension = bases.dimension();
     const std::vector<ClusterLayout> layouts = cluster_layouts(bases);
-    Transfer result = zero_transfer(bases.order, bases.channels, transfer.receivers.size());
+    Transfer result = zero_transfer(bases.layout, transfer.receivers.size());
     parallel_for(transfer.receivers.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
         std::vector<float> weights(static_cast<std::size_t>(bases.max_components()));
         for (std::size_t p = begin; p < end; ++p) {

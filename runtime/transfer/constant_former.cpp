@@ -1,54 +1,59 @@
 // Constants of all clusters as one product of a matrix, 16 rows wide, with the lighting.
 #include "prt/constant_former.h"
 
-#include "prt/support/error.h"
 #include "prt/support/vector_lanes.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <string>
 
 namespace prt {
 namespace {
 
 constexpr std::size_t kLanes = kLaneCount;
 
-/// A lighting, its channels apart.
-struct Channels {
-    std::size_t count; ///< coefficients of each
-    std::array<const float*, 3> light;
-};
-
 /// Blocks of kLanes rows.
 struct Blocks {
     std::size_t first, last;
 };
 
+/// Colors of kLanes rows.
+struct ColorLanes {
+    Lanes color[3];
+};
+
+/// Adds the products of a part, [Stored][count][kLanes], with its light, [3][count].
 template <std::size_t Stored>
-[[gnu::always_inline]] inline void form_blocks(const float* matrix, const Channels& channels,
-                                               const Blocks& blocks, std::size_t rows, glm::vec4* constants) {
-    const std::size_t count = channels.count;
-    const std::array<const float*, 3> light = channels.light;
-    for (std::size_t block = blocks.first; block < blocks.last; ++block) {
-        const float* from = matrix + block * Stored * count * kLanes;
-        Lanes color[3] = {};
-        for (std::size_t i = 0; i < count; ++i)
-            for (std::size_t c = 0; c < 3; ++c)
-                color[c] += lanes_at(from + ((Stored == 1 ? 0 : c) * count + i) * kLanes) * light[c][i];
-        const std::size_t kept = std::min(kLanes, rows - block * kLanes);
-        for (std::size_t lane = 0; lane < kept; ++lane)
-            constants[block * kLanes + lane] = {color[0][lane], color[1][lane], color[2][lane], 0};
-    }
+[[gnu::always_inline]] inline void add_part(const float* from, const float* light, std::size_t count,
+                                            ColorLanes& sums) {
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            sums.color[c] +=
+                lanes_at(from + ((Stored == 1 ? 0 : c) * count + i) * kLanes) * light[c * count + i];
 }
 
+/// `light` [parts][3][order²].
 PRT_TARGET_CLONES
-void form_rows(int stored, const float* matrix, const Channels& channels, const Blocks& blocks,
+void form_rows(const TransferLayout& layout, const float* matrix, const float* light, const Blocks& blocks,
                std::size_t rows, glm::vec4* constants) {
-    if (stored == 1)
-        form_blocks<1>(matrix, channels, blocks, rows, constants);
-    else
-        form_blocks<3>(matrix, channels, blocks, rows, constants);
+    const auto count = static_cast<std::size_t>(coefficient_count(layout.order));
+    for (std::size_t block = blocks.first; block < blocks.last; ++block) {
+        const float* from = matrix + block * layout.dimension() * kLanes;
+        const float* of_part = light;
+        ColorLanes sums = {};
+        for (const TransferPart& part : layout.parts) {
+            if (part.channels == 1)
+                add_part<1>(from, of_part, count, sums);
+            else
+                add_part<3>(from, of_part, count, sums);
+            from += static_cast<std::size_t>(part.channels) * count * kLanes;
+            of_part += 3 * count;
+        }
+        const std::size_t kept = std::min(kLanes, rows - block * kLanes);
+        for (std::size_t lane = 0; lane < kept; ++lane)
+            constants[block * kLanes + lane] = {sums.color[0][lane], sums.color[1][lane], sums.color[2][lane],
+                                                0};
+    }
 }
 
 /// Rows by which the stored weights are multiplied. A packed weight is w = 2 q / largest - 1, so that
@@ -78,7 +83,8 @@ std::vector<float> rows_of_stored(const ClusteredTransfer& transfer) {
 } // namespace
 
 ConstantFormer::ConstantFormer(const ClusteredTransfer& transfer)
-    : order_(transfer.bases.order), channels_(transfer.bases.channels), rows_(constant_rows(transfer.bases)) {
+    : layout_(transfer.bases.layout), rows_(constant_rows(transfer.bases)) {
+    check_layout(layout_);
     const std::vector<float> rows = rows_of_stored(transfer);
     const std::size_t dimension = transfer.bases.dimension();
     matrix_.assign((rows_ + kLanes - 1) / kLanes * kLanes * dimension, 0.0f);
@@ -87,23 +93,21 @@ ConstantFormer::ConstantFormer(const ClusteredTransfer& transfer)
             matrix_[(row / kLanes * dimension + i) * kLanes + row % kLanes] = rows[row * dimension + i];
 }
 
-void ConstantFormer::form(std::span<const glm::vec3> light, std::span<glm::vec4> constants) const {
-    form(light, constants, 0, rows_);
+void ConstantFormer::form(const LightingView& lighting, std::span<glm::vec4> constants) const {
+    form(lighting, constants, 0, rows_);
 }
 
-void ConstantFormer::form(std::span<const glm::vec3> light, std::span<glm::vec4> constants, std::size_t first,
+void ConstantFormer::form(const LightingView& lighting, std::span<glm::vec4> constants, std::size_t first,
                           std::size_t last) const {
-    const auto count = static_cast<std::size_t>(coefficient_count(order_));
-    if (light.size() < count)
-        throw Error("the lighting has " + std::to_string(light.size()) + " coefficients, transfer of order " +
-                    std::to_string(order_) + " needs " + std::to_string(count));
     assert(constants.size() >= rows_);
-    std::array<std::array<float, kMaxOrder * kMaxOrder>, 3> separate;
-    for (std::size_t i = 0; i < count; ++i)
+    const auto count = static_cast<std::size_t>(coefficient_count(layout_.order));
+    std::array<glm::vec3, kMostLightColumns> columns;
+    write_light_columns(layout_, lighting, columns);
+    std::array<float, 3 * kMostLightColumns> separate;
+    for (std::size_t i = 0; i < layout_.columns(); ++i)
         for (std::size_t c = 0; c < 3; ++c)
-            separate[c][i] = light[i][static_cast<int>(c)];
-    form_rows(channels_, matrix_.data(),
-              {count, {separate[0].data(), separate[1].data(), separate[2].data()}},
+            separate[(3 * (i / count) + c) * count + i % count] = columns[i][static_cast<int>(c)];
+    form_rows(layout_, matrix_.data(), separate.data(),
               {first / kLanes, (std::min(last, rows_) + kLanes - 1) / kLanes}, rows_, constants.data());
 }
 

@@ -42,26 +42,35 @@ void check_lit(std::span<const glm::vec3> reference, std::span<const glm::vec3> 
 } // namespace
 
 double relative_l2(const Transfer& reference, const Transfer& approximation, std::span<const float> areas) {
-    if (reference.order != approximation.order || reference.receivers() != approximation.receivers())
+    const TransferLayout &layout = reference.layout, &other = approximation.layout;
+    if (layout.order != other.order || reference.receivers() != approximation.receivers())
         throw Error("the transfers have different orders or numbers of receivers");
+    const auto same_kind = [](const TransferPart& a, const TransferPart& b) { return a.kind == b.kind; };
+    if (!std::equal(layout.parts.begin(), layout.parts.end(), other.parts.begin(), other.parts.end(),
+                    same_kind))
+        return relative_l2(as_whole(reference), as_whole(approximation), areas);
     check_finite(reference.vectors, "transfer vectors");
     check_finite(approximation.vectors, "transfer vectors");
     check_finite(areas, "areas of receivers");
-    const int channels = std::max(reference.channels, approximation.channels);
-    const auto count = static_cast<std::size_t>(coefficient_count(reference.order));
+    const int channels = std::max(layout.channels(), other.channels());
+    const auto count = static_cast<std::size_t>(coefficient_count(layout.order));
     double error = 0, norm = 0;
     for (std::size_t p = 0; p < reference.receivers(); ++p) {
         double receiver_error = 0, receiver_norm = 0;
-        for (int c = 0; c < channels; ++c) {
-            const float* t =
-                &reference.vector(p)[count * static_cast<std::size_t>(std::min(c, reference.channels - 1))];
-            const float* a = &approximation.vector(
-                p)[count * static_cast<std::size_t>(std::min(c, approximation.channels - 1))];
-            for (std::size_t i = 0; i < count; ++i) {
-                const double difference = static_cast<double>(t[i]) - static_cast<double>(a[i]);
-                receiver_error += difference * difference;
-                receiver_norm += static_cast<double>(t[i]) * static_cast<double>(t[i]);
+        const float *of_reference = reference.vector(p).data(), *of_other = approximation.vector(p).data();
+        for (std::size_t part = 0; part < layout.parts.size(); ++part) {
+            const int stored = layout.parts[part].channels, stored_other = other.parts[part].channels;
+            for (int c = 0; c < channels; ++c) {
+                const float* t = of_reference + count * static_cast<std::size_t>(std::min(c, stored - 1));
+                const float* a = of_other + count * static_cast<std::size_t>(std::min(c, stored_other - 1));
+                for (std::size_t i = 0; i < count; ++i) {
+                    const double difference = static_cast<double>(t[i]) - static_cast<double>(a[i]);
+                    receiver_error += difference * difference;
+                    receiver_norm += static_cast<double>(t[i]) * static_cast<double>(t[i]);
+                }
             }
+            of_reference += count * static_cast<std::size_t>(stored);
+            of_other += count * static_cast<std::size_t>(stored_other);
         }
         error += static_cast<double>(areas[p]) * receiver_error;
         norm += static_cast<double>(areas[p]) * receiver_norm;

@@ -30,7 +30,7 @@ void expect_finite(const Transfer& transfer) {
 /// Whether receiver `p` has exactly the lobe of an open one with normal +Y.
 void expect_open(const Transfer& transfer, std::size_t p) {
     std::array<double, 100> lobe{};
-    clamped_cosine_lobe(transfer.order, {0, 1, 0}, lobe);
+    clamped_cosine_lobe(transfer.layout.order, {0, 1, 0}, lobe);
     for (std::size_t i = 0; i < transfer.dimension(); ++i)
         EXPECT_NEAR(static_cast<double>(transfer.vector(p)[i]), lobe[i], 1e-6) << p << " " << i;
 }

@@ -127,11 +127,10 @@ void dering(State& state) {
 BENCHMARK(dering)->ArgName("order")->Arg(3)->Arg(6)->Arg(10)->Unit(benchmark::kMicrosecond);
 
 /// `run` receivers one after the other are of one cluster: with --reorder all that it has, else a few.
-ClusteredTransfer clustered(int clusters, int components, int channels, std::size_t receivers,
+ClusteredTransfer clustered(int clusters, int components, const TransferLayout& layout, std::size_t receivers,
                             std::size_t run) {
     ClusteredTransfer t;
-    t.bases.order = kOrder;
-    t.bases.channels = channels;
+    t.bases.layout = layout;
     t.bases.components.assign(static_cast<std::size_t>(clusters), components);
     t.bases.rows = random_values(static_cast<std::size_t>(clusters * (1 + components)) * t.bases.dimension());
     t.receivers.format = WeightFormat::snorm8;
@@ -146,8 +145,13 @@ ClusteredTransfer clustered(int clusters, int components, int channels, std::siz
     return t;
 }
 
+/// Four channels: grey direct light, and three of what bounced.
 void constants(State& state) {
-    const ConstantFormer former(clustered(256, 8, static_cast<int>(state.range(0)), 256, 1));
+    const auto channels = static_cast<int>(state.range(0));
+    const TransferLayout layout =
+        channels == 4 ? TransferLayout{kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}
+                      : layout_of_one(kOrder, channels);
+    const ConstantFormer former(clustered(256, 8, layout, 256, 1));
     const auto light = random_light();
     std::vector<glm::vec4> out(former.rows());
     for (auto _ : state) {
@@ -155,13 +159,13 @@ void constants(State& state) {
         benchmark::ClobberMemory();
     }
 }
-BENCHMARK(constants)->ArgName("channels")->Arg(1)->Arg(3);
+BENCHMARK(constants)->ArgName("channels")->Arg(1)->Arg(3)->Arg(4);
 
 constexpr std::size_t kVertices = 1'000'000;
 
 void evaluate_vertices(State& state) {
     const ClusteredTransfer transfer =
-        clustered(256, 8, 1, kVertices, static_cast<std::size_t>(state.range(0)));
+        clustered(256, 8, layout_of_one(kOrder, 1), kVertices, static_cast<std::size_t>(state.range(0)));
     const ConstantFormer former(transfer);
     const auto light = random_light();
     std::vector<glm::vec4> out(former.rows());

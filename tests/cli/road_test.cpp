@@ -213,7 +213,10 @@ TEST_F(Road, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
     if (std::string(PRT_NODE).empty())
         GTEST_SKIP() << "node is not installed";
     ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
-    ASSERT_EQ(prt({"bake", at("knot.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "3"}).status, 0);
+    ASSERT_EQ(
+        prt({"bake", at("knot.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "3", "--bounces", "1"})
+            .status,
+        0); // two parts, one of them colored
     const std::vector<std::vector<std::string>> ways = {
         {"--weights", "8", "--clusters", "20", "--components", "5"},
         {"--weights", "16", "--clusters", "20", "--components", "5"},

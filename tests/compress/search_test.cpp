@@ -98,8 +98,7 @@ struct Tried {
         return compress_within(transfer, areas, {}, options);
     }
     double lit_rms(const CompressResult& result) const {
-        return expected_lit_rms(transfer, decode(result.transfer), areas,
-                                natural_metric(4, transfer.channels));
+        return expected_lit_rms(transfer, decode(result.transfer), areas, natural_metric(transfer.layout));
     }
 };
 
@@ -180,7 +179,7 @@ TEST(Search, IsNeverWorseThanTheMethodsItComesFromAtTheirSize) {
     for (const unsigned seed : {11u, 13u}) {
         const int channels = seed == 13 ? 3 : 1;
         const Tried scene(600, channels, seed);
-        const LightMetric metric = natural_metric(4, channels);
+        const LightMetric metric = natural_metric(layout_of_one(4, channels));
         for (const auto& [clusters, components] : {std::pair(1, 6), std::pair(64, 0), std::pair(16, 2)}) {
             const BaselineResult other =
                 classic_cpca(scene.transfer, scene.areas, {.clusters = clusters, .components = components});

@@ -93,8 +93,8 @@ GlbFile instanced_file() {
     return file;
 }
 
-BakedTransfer bake_of(const Scene& scene, int order, int channels) {
-    BakedTransfer baked{{order, channels, {}}, {.bounces = 1, .rays = 16, .receivers = receivers_id(scene)}};
+BakedTransfer bake_of(const Scene& scene, const TransferLayout& layout) {
+    BakedTransfer baked{{layout, {}}, {.bounces = 1, .rays = 16, .receivers = receivers_id(scene)}};
     baked.transfer.vectors.resize(scene.receivers() * baked.transfer.dimension());
     for (std::size_t i = 0; i < baked.transfer.vectors.size(); ++i)
         baked.transfer.vectors[i] = 0.1f + static_cast<float>(i * 7919 % 101) / 101;
@@ -107,21 +107,23 @@ GltfDocument document_of(const GlbFile& file) {
 }
 
 void write_bakes(const Path& folder) {
-    for (const int channels : {1, 3})
+    const TransferLayout both{2, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    for (const auto& [name, layout] :
+         {std::pair("1", layout_of_one(2, 1)), std::pair("3", layout_of_one(2, 3)), std::pair("parts", both)})
         for (const TransferStorage storage : {TransferStorage::float32, TransferStorage::float16}) {
             GltfDocument document = document_of(floor_file(1));
             const Scene scene = extract_scene(document);
-            BakedTransfer baked = bake_of(scene, 2, channels);
+            BakedTransfer baked = bake_of(scene, layout);
             baked.storage = storage;
             write_transfer(document, scene, baked);
-            save_glb(document, folder / ("baked" + std::to_string(channels) + to_string(storage) + ".glb"));
+            save_glb(document, folder / ("baked" + std::string(name) + to_string(storage) + ".glb"));
         }
 }
 
 void write_shipped(const Path& folder, const std::string& name, const CompressOptions& options) {
     GltfDocument document = document_of(floor_file(2));
     const Scene scene = extract_scene(document);
-    const BakedTransfer baked = bake_of(scene, 3, 1);
+    const BakedTransfer baked = bake_of(scene, {3, {{PartKind::direct, 1}, {PartKind::indirect, 1}}});
     const CompressResult result = compress(baked.transfer, receiver_areas(scene), mesh_edges(scene), options);
     write_clustered(document, scene, {result.transfer, baked.record});
     save_glb(document, folder / (name + ".glb"));

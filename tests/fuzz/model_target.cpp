@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             return;
         const ClusteredTransfer& transfer = model.compressed->transfer;
         fuzz::expect_finite(std::span<const float>(decode(transfer, 1).vectors), "decoded transfer");
-        const Light light = constant_light(transfer.bases.order, glm::vec3(1));
+        const Light light = constant_light(transfer.bases.layout.order, glm::vec3(1));
         for (const glm::vec3& radiance : exit_radiance(transfer, light, 1))
             fuzz::expect_finite(std::span<const float>(&radiance.x, 3), "exit radiance");
     });

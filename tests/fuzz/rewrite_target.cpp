@@ -16,7 +16,7 @@ namespace {
 constexpr unsigned kWithMeshopt = 1, kWithClusters = 2, kWithNewOrder = 4;
 
 BakedTransfer some_transfer(const Scene& scene) {
-    BakedTransfer baked{{1, 1, {}}, {.rays = 1, .receivers = receivers_id(scene)}};
+    BakedTransfer baked{{layout_of_one(1, 1), {}}, {.rays = 1, .receivers = receivers_id(scene)}};
     baked.transfer.vectors.resize(scene.receivers());
     std::iota(baked.transfer.vectors.begin(), baked.transfer.vectors.end(), 0.f);
     return baked;
@@ -26,7 +26,8 @@ CompressedTransfer some_clusters(const Scene& scene) {
     CompressedTransfer compressed;
     compressed.record.receivers = receivers_id(scene);
     ClusteredTransfer& transfer = compressed.transfer;
-    transfer.bases = {.order = 1, .channels = 1, .components = {1}, .rows = {0, 1}, .bits = {}, .coded = {}};
+    transfer.bases = {
+        .layout = layout_of_one(1, 1), .components = {1}, .rows = {0, 1}, .bits = {}, .coded = {}};
     transfer.receivers.format = WeightFormat::snorm8;
     transfer.receivers.components = 4;
     transfer.receivers.clusters.resize(scene.receivers());

@@ -31,7 +31,10 @@ Model floor_model() {
 /// Transfer out of bytes: fractions, or any floats at all.
 Transfer transfer_of(std::span<const std::uint8_t> head, std::span<const std::uint8_t> rest,
                      std::size_t receivers) {
-    Transfer transfer{1 + head[0] % 4, head[1] % 2 == 0 ? 1 : 3, {}};
+    TransferLayout layout = layout_of_one(1 + head[0] % 4, head[1] % 2 == 0 ? 1 : 3);
+    if (head[1] & 4)
+        layout.parts = {{PartKind::direct, layout.channels()}, {PartKind::indirect, head[1] & 8 ? 1 : 3}};
+    Transfer transfer{layout, {}};
     transfer.vectors.resize(receivers * transfer.dimension());
     const bool raw = head[1] & 2;
     const std::size_t size = raw ? 4 : 1;
@@ -64,7 +67,7 @@ CompressOptions options_of(std::span<const std::uint8_t> head) {
 
 std::vector<glm::vec3> lit(const ClusteredTransfer& transfer) {
     std::vector<glm::vec3> radiance =
-        exit_radiance(transfer, constant_light(transfer.bases.order, glm::vec3(1)), 1);
+        exit_radiance(transfer, constant_light(transfer.bases.layout.order, glm::vec3(1)), 1);
     for (const glm::vec3& value : radiance)
         expect_finite(std::span<const float>(&value.x, 3), "exit radiance");
     return radiance;

@@ -10,7 +10,7 @@
 
 int main() {
     prt::ClusteredTransfer transfer; // one cluster without components: an open receiver that faces +Y
-    transfer.bases.order = 4;
+    transfer.bases.layout = prt::layout_of_one(4, 1);
     transfer.bases.components = {0};
     std::vector<double> lobe(16);
     prt::clamped_cosine_lobe(4, {0, 1, 0}, lobe);

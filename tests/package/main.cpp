@@ -11,7 +11,7 @@
 #include <cstdio>
 
 int main() {
-    prt::Transfer transfer{4, 1, {}};
+    prt::Transfer transfer{prt::layout_of_one(4, 1), {}};
     std::vector<double> lobe(transfer.dimension());
     prt::clamped_cosine_lobe(4, {0, 1, 0}, lobe);
     transfer.vectors.assign(lobe.begin(), lobe.end());

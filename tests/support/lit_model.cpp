@@ -16,8 +16,7 @@ std::vector<std::byte> lit_model() {
     const Scene scene = extract_scene(document);
     CompressedTransfer compressed;
     ClusteredTransfer& transfer = compressed.transfer;
-    transfer.bases.order = 3;
-    transfer.bases.channels = 1;
+    transfer.bases.layout = layout_of_one(3, 1);
     transfer.bases.components = {4, 2};
     std::mt19937 random(5);
     for (std::size_t i = 0; i < 8 * transfer.bases.dimension(); ++i)

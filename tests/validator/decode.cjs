@@ -61,9 +61,11 @@ class Glb {
   }
 }
 
+/// Numbers of a transfer vector.
+const dimensionOf = ({ order, parts }) => order * order * parts.reduce((sum, { channels }) => sum + channels, 0);
+
 function rawVectors(glb, primitive) {
-  const { order, channels } = glb.json.extensions.PRTKIT_transfer;
-  const dimension = channels * order * order;
+  const dimension = dimensionOf(glb.json.extensions.PRTKIT_transfer);
   const values = glb.floats(primitive.extensions.PRTKIT_transfer.vectors);
   return Array.from({ length: values.length / dimension }, (_, p) => values.slice(p * dimension, (p + 1) * dimension));
 }
@@ -97,7 +99,7 @@ function codedRows(glb, code, rows) {
 
 /// Per cluster its mean and its directions.
 function clusterRows(glb, extension) {
-  const dimension = extension.channels * extension.order ** 2;
+  const dimension = dimensionOf(extension);
   const count = extension.components.reduce((sum, m) => sum + 1 + m, 0);
   let rows;
   if ("values" in extension.bases) {
@@ -179,25 +181,54 @@ function areas(glb, primitive) {
 
 const baked = new Glb(process.argv[2]);
 const shipped = new Glb(process.argv[3]);
-const { order } = baked.json.extensions.PRTKIT_transfer;
-/// Power of a coefficient of natural light: docs/math.md, section 4.
-const power = (k) => {
-  const band = Math.floor(Math.sqrt(k % (order * order)));
-  return band === 0 ? 1 : 1 / (4 * band);
-};
+const { order, parts } = baked.json.extensions.PRTKIT_transfer;
+const channels = Math.max(...parts.map((part) => part.channels));
+
+/// E[ a·b ] of the light in band l on two parts under natural light: docs/math.md, section 4.
+function power(l, kindA, kindB) {
+  if (parts.length === 1) return l === 0 ? 1 : 1 / (4 * l);
+  const sky = l === 0 ? 1 : 1 / (4 * l * l);
+  return kindA === "direct" || kindB === "direct" ? sky : sky + 0.1;
+}
+
+/// A vector by colour and part: [colours][parts][order²].
+function byColor(vector) {
+  return Array.from({ length: channels }, (_, c) => {
+    let at = 0;
+    return parts.map((part) => {
+      const from = at + Math.min(c, part.channels - 1) * order * order;
+      at += part.channels * order * order;
+      return vector.slice(from, from + order * order);
+    });
+  });
+}
+
+/// The squares of a vector's numbers, a grey part counted for each colour, and its expected square of light.
+function costs(vector) {
+  let squares = 0;
+  let lit = 0;
+  for (const of of byColor(vector))
+    for (let i = 0; i < order * order; ++i)
+      parts.forEach((a, p) => {
+        squares += of[p][i] ** 2;
+        parts.forEach((b, q) => {
+          lit += of[p][i] * of[q][i] * power(Math.floor(Math.sqrt(i)), a.kind, b.kind);
+        });
+      });
+  return [squares, lit];
+}
+
 const sums = { error: 0, norm: 0, litError: 0, litNorm: 0 };
 baked.primitives().forEach((primitive, i) => {
   const weights = areas(baked, primitive);
   const decoded = decodedVectors(shipped, shipped.primitives()[i]);
-  rawVectors(baked, primitive).forEach((vector, p) =>
-    vector.forEach((value, k) => {
-      const error = weights[p] * (value - decoded[p][k]) ** 2;
-      const norm = weights[p] * value ** 2;
-      sums.error += error;
-      sums.norm += norm;
-      sums.litError += power(k) * error;
-      sums.litNorm += power(k) * norm;
-    }),
-  );
+  rawVectors(baked, primitive).forEach((vector, p) => {
+    const [error, litError] = costs(vector.map((value, k) => value - decoded[p][k]));
+    const [norm, litNorm] = costs(vector);
+    sums.error += weights[p] * error;
+    sums.norm += weights[p] * norm;
+    sums.litError += weights[p] * litError;
+    sums.litNorm += weights[p] * litNorm;
+  });
 });
 console.log(Math.sqrt(sums.error / sums.norm), Math.sqrt(sums.litError / sums.litNorm));

@@ -95,8 +95,7 @@ struct BakeResult {
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
 
 /// Bytes that a bake takes at most at a time, roughly, but for the operator of its bounces, whose size is
-/// found by tracing some receivers.
-double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
-                       int channels);
+/// found by tracing some receivers. `blocks`: channels of all parts of the transfer.
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, int blocks);
 
 } // namespace prt

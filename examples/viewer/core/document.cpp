@@ -7,7 +7,7 @@
 namespace viewer {
 
 int Document::light_order() const {
-    return std::max({3, raw_order(), compressed() ? compressed()->bases.order : 0});
+    return std::max({3, raw_order(), compressed() ? compressed()->bases.layout.order : 0});
 }
 
 void Document::open(const LoadedModel& model) {
@@ -17,9 +17,9 @@ void Document::open(const LoadedModel& model) {
         loaded.record.bounces = kBakeBounces;
     if (compressed()) {
         const prt::ClusteredBases& bases = compressed()->bases;
-        compressed_as = {bases.order, static_cast<int>(bases.clusters()), bases.max_components()};
+        compressed_as = {bases.layout.order, static_cast<int>(bases.clusters()), bases.max_components()};
     } else {
-        compressed_as = {.order = raw() ? raw()->order : kBakeOrder};
+        compressed_as = {.order = raw() ? raw()->layout.order : kBakeOrder};
     }
     ++transfer_version;
 }
@@ -40,8 +40,8 @@ TransferFigures figures_of(const LoadedModel& loaded) {
     TransferFigures figures;
     if (loaded.raw) {
         figures.raw_bytes = loaded.raw->vectors.size() * sizeof(float);
-        figures.order = loaded.raw->order;
-        figures.channels = loaded.raw->channels;
+        figures.order = loaded.raw->layout.order;
+        figures.channels = loaded.raw->layout.channels();
     }
     if (loaded.compressed) {
         const prt::ClusteredBases& bases = loaded.compressed->bases;
@@ -50,8 +50,8 @@ TransferFigures figures_of(const LoadedModel& loaded) {
         figures.bytes_with_bases =
             figures.bytes_per_vertex + static_cast<double>(prt::basis_bytes(bases)) / receivers;
         figures.clusters = static_cast<int>(bases.clusters());
-        figures.order = bases.order;
-        figures.channels = bases.channels;
+        figures.order = bases.layout.order;
+        figures.channels = bases.layout.channels();
     }
     return figures;
 }

@@ -30,7 +30,7 @@ struct Document {
     std::string name() const { return model() ? model()->path.filename().string() : std::string(); }
     const prt::Transfer* raw() const { return loaded.raw.get(); }
     const prt::ClusteredTransfer* compressed() const { return loaded.compressed.get(); }
-    int raw_order() const { return raw() ? raw()->order : 0; }
+    int raw_order() const { return raw() ? raw()->layout.order : 0; }
     /// The largest number of components of a cluster.
     int most_components() const { return compressed() ? compressed()->bases.max_components() : 0; }
     /// Bands that the light needs: as many as the transfers have, three at least.

@@ -20,22 +20,23 @@ glm::vec3 normal_of(const prt::Scene& scene, std::uint32_t receiver) {
 /// Exit radiance for albedo 1 of a few receivers.
 std::vector<glm::vec3> unshadowed(const prt::Scene& scene, const prt::Light& light, Receivers receivers) {
     const prt::Light bands = prt::truncated(light, 3);
+    const prt::TransferLayout layout = prt::layout_of_one(3, 1, prt::PartKind::direct);
     std::vector<glm::vec3> radiance;
     std::vector<float> lobe(9);
     for (const std::uint32_t receiver : receivers) {
         prt::evaluate_sh(3, normal_of(scene, receiver), lobe);
         for (std::size_t i = 0; i < 9; ++i)
             lobe[i] *= static_cast<float>(prt::clamped_cosine_factor(i == 0 ? 0 : i < 4 ? 1 : 2));
-        radiance.push_back(prt::exit_radiance(lobe, 1, bands));
+        radiance.push_back(prt::exit_radiance(lobe, layout, bands.coefficients));
     }
     return radiance;
 }
 
 std::vector<glm::vec3> baked(const prt::Transfer& raw, const prt::Light& light, Receivers receivers) {
-    const prt::Light bands = prt::truncated(light, raw.order);
+    const std::vector<glm::vec3> columns = prt::light_columns(raw.layout, {light});
     std::vector<glm::vec3> radiance;
     for (const std::uint32_t receiver : receivers)
-        radiance.push_back(prt::exit_radiance(raw.vector(receiver), raw.channels, bands));
+        radiance.push_back(prt::exit_radiance(raw.vector(receiver), raw.layout, columns));
     return radiance;
 }
 

@@ -19,16 +19,22 @@ glm::vec3 position_of(const prt::Scene& scene, std::uint32_t receiver) {
     return glm::vec3(0);
 }
 
-/// mean + sum_j w_j direction_j, of the first channel.
+/// mean + sum_j w_j direction_j.
 std::vector<float> decoded(const prt::ClusteredBases& bases, std::size_t cluster,
                            const std::vector<float>& weights) {
-    const auto count = static_cast<std::size_t>(prt::coefficient_count(bases.order));
     const float* row = &bases.rows[bases.first_rows()[cluster] * bases.dimension()];
-    std::vector<float> vector(row, row + count);
+    std::vector<float> vector(row, row + bases.dimension());
     for (std::size_t j = 0; j < weights.size(); ++j)
-        for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t i = 0; i < vector.size(); ++i)
             vector[i] += weights[j] * row[(1 + j) * bases.dimension() + i];
     return vector;
+}
+
+/// All light of the first channel.
+std::vector<float> first_channel(std::span<const float> vector, const prt::TransferLayout& layout) {
+    std::vector<float> whole = prt::as_whole(vector, layout);
+    whole.resize(static_cast<std::size_t>(prt::coefficient_count(layout.order)));
+    return whole;
 }
 
 } // namespace
@@ -47,13 +53,14 @@ std::optional<Hovered> find_hovered(const Model& model, const prt::Transfer* raw
         const auto layouts = prt::cluster_layouts(compressed->bases);
         found.weights.resize(layouts[static_cast<std::size_t>(found.cluster)].components);
         prt::decode_weights(*compressed, layouts, *receiver, found.weights);
-        found.order = compressed->bases.order;
-        found.vector = decoded(compressed->bases, static_cast<std::size_t>(found.cluster), found.weights);
+        found.order = compressed->bases.layout.order;
+        found.vector =
+            first_channel(decoded(compressed->bases, static_cast<std::size_t>(found.cluster), found.weights),
+                          compressed->bases.layout);
     }
     if (raw && (!compressed || prefer_raw)) {
-        const auto vector = raw->vector(*receiver);
-        found.order = raw->order;
-        found.vector.assign(vector.begin(), vector.begin() + prt::coefficient_count(raw->order));
+        found.order = raw->layout.order;
+        found.vector = first_channel(raw->vector(*receiver), raw->layout);
     }
     return found;
 }

@@ -14,7 +14,8 @@ namespace viewer {
 struct Hovered {
     std::uint32_t receiver = 0;
     glm::vec3 position{0};
-    std::vector<float> vector; ///< transfer, [order²] of the first channel; empty where there is none
+    std::vector<float>
+        vector; ///< transfer, [order²] all parts, of the first channel; empty where there is none
     int order = 0;
     int cluster = -1;           ///< where it is compressed
     std::vector<float> weights; ///< the cluster's

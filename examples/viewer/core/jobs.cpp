@@ -20,7 +20,7 @@ void complete(Channel& channel, LoadedModel loaded) {
     if (!loaded.raw && !loaded.compressed)
         loaded.raw = bake_in_stages(channel, *loaded.model).transfer;
     if (!loaded.compressed)
-        channel.post(compress_as(channel, *loaded.model, *loaded.raw, {.order = loaded.raw->order}));
+        channel.post(compress_as(channel, *loaded.model, *loaded.raw, {.order = loaded.raw->layout.order}));
     find_occlusion(channel, *loaded.model);
 }
 

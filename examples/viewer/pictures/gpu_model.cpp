@@ -38,8 +38,8 @@ void GpuModel::set_raw(const prt::Transfer& transfer) {
     drop_raw(); // there may not be room for two
     raw_ = Raw{RawTransfer(transfer, most_receivers_), scene_.make_vertex_arrays()};
     scene_.attach_receivers(raw_->arrays, raw_->transfer.radiance(), PRT_LOCATION_RADIANCE, 3);
-    if (light_ && light_->order >= transfer.order)
-        raw_->transfer.set_light(*light_);
+    if (light_ && light_->order >= transfer.layout.order)
+        raw_->transfer.set_light({*light_});
 }
 
 void GpuModel::set_compressed(const prt::ClusteredTransfer& transfer) {
@@ -49,8 +49,8 @@ void GpuModel::set_compressed(const prt::ClusteredTransfer& transfer) {
                                      model_->scene.vertex_arrays[i].first_receiver);
     programs_.surfaces.erase({Source::compressed, false});
     programs_.surfaces.erase({Source::compressed, true});
-    if (light_ && light_->order >= transfer.bases.order)
-        compressed_->transfer.set_light(*light_);
+    if (light_ && light_->order >= transfer.bases.layout.order)
+        compressed_->transfer.set_light({*light_});
 }
 
 void GpuModel::set_occlusion(std::span<const float> occlusion) {
@@ -70,11 +70,11 @@ void GpuModel::set_light(const prt::Light& light) {
     }
     if (compressed_) {
         const prt::Stopwatch stopwatch;
-        compressed_->transfer.set_light(light);
+        compressed_->transfer.set_light({light});
         compressed_->seconds_constants = stopwatch.seconds();
     }
     if (raw_)
-        raw_->transfer.set_light(light);
+        raw_->transfer.set_light({light});
 }
 
 bool GpuModel::can_draw(PictureKind kind) const {

@@ -65,11 +65,11 @@ std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& pr
 }
 
 prt::Transfer truncated(const prt::Transfer& transfer, int order) {
-    if (order >= transfer.order)
+    if (order >= transfer.layout.order)
         return transfer;
-    prt::Transfer result = prt::zero_transfer(order, transfer.channels, transfer.receivers());
+    prt::Transfer result = prt::zero_transfer({order, transfer.layout.parts}, transfer.receivers());
     const auto kept = static_cast<std::size_t>(order * order),
-               all = static_cast<std::size_t>(transfer.order * transfer.order);
+               all = static_cast<std::size_t>(transfer.layout.order * transfer.layout.order);
     for (std::size_t row = 0; row < transfer.vectors.size() / all; ++row)
         std::copy_n(transfer.vectors.begin() + static_cast<std::ptrdiff_t>(row * all), kept,
                     result.vectors.begin() + static_cast<std::ptrdiff_t>(row * kept));

@@ -1,5 +1,6 @@
 #include "pictures/raw_transfer.h"
 
+#include "prt/shader_source.h"
 #include "shared_layout.h"
 #include "shared_viewer.h"
 
@@ -7,34 +8,29 @@
 #include <glm/vec4.hpp>
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 namespace viewer {
 namespace {
 
 prt::GlObject make_program(const prt::Transfer& transfer) {
-    return prt::make_compute_program("viewer_exit_radiance.comp",
-                                     "#define PRT_CHANNELS " + std::to_string(transfer.channels) +
-                                         "\n#define PRT_COEFFICIENTS " +
-                                         std::to_string(prt::coefficient_count(transfer.order)) + "\n");
+    return prt::make_compute_program("viewer_exit_radiance.comp", prt::part_defines(transfer.layout));
 }
 
 } // namespace
 
 RawTransfer::RawTransfer(const prt::Transfer& transfer, std::size_t most_receivers)
-    : order_(transfer.order), receivers_(transfer.receivers()),
-      stride_(static_cast<std::size_t>(transfer.channels * prt::coefficient_count(order_)) * sizeof(float)),
-      most_receivers_(most_receivers), vectors_(prt::make_buffer(std::span<const float>(transfer.vectors))),
-      light_(prt::make_buffer(std::span<const glm::vec4>(
-          std::vector<glm::vec4>(static_cast<std::size_t>(prt::coefficient_count(order_)))))),
+    : layout_(transfer.layout), receivers_(transfer.receivers()),
+      stride_(transfer.dimension() * sizeof(float)), most_receivers_(most_receivers),
+      vectors_(prt::make_buffer(std::span<const float>(transfer.vectors))),
+      light_(prt::make_buffer(std::span<const glm::vec4>(std::vector<glm::vec4>(layout_.columns())))),
       radiance_(prt::make_buffer(std::span<const glm::vec3>(std::vector<glm::vec3>(receivers_)))),
       program_(make_program(transfer)) {}
 
-void RawTransfer::set_light(const prt::Light& light) {
+void RawTransfer::set_light(const prt::Lighting& lighting) {
     std::vector<glm::vec4> coefficients;
-    for (int i = 0; i < prt::coefficient_count(order_); ++i)
-        coefficients.emplace_back(light.coefficients[static_cast<std::size_t>(i)], 0);
+    for (const glm::vec3& color : prt::light_columns(layout_, lighting))
+        coefficients.emplace_back(color, 0);
     glNamedBufferSubData(light_.name(), 0, static_cast<GLsizeiptr>(coefficients.size() * sizeof(glm::vec4)),
                          coefficients.data());
     // A storage buffer is bound in pieces: a device may allow no more than 128 MB of it. Pieces of a multiple

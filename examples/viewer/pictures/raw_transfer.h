@@ -1,7 +1,6 @@
 #pragma once
 
 #include "prt/gl_objects.h"
-#include "prt/light.h"
 #include "prt/transfer.h"
 
 namespace viewer {
@@ -12,14 +11,14 @@ public:
     /// `most_receivers`: that one dispatch takes, a multiple of 256.
     RawTransfer(const prt::Transfer& transfer, std::size_t most_receivers);
 
-    int order() const { return order_; }
-    /// Forms the radiance. `light` has as many bands as the transfer at least.
-    void set_light(const prt::Light& light);
+    int order() const { return layout_.order; }
+    /// Forms the radiance. `lighting` has as many bands as the transfer at least.
+    void set_light(const prt::Lighting& lighting);
     /// Three floats for each receiver.
     const prt::GlObject& radiance() const { return radiance_; }
 
 private:
-    int order_;
+    prt::TransferLayout layout_;
     std::size_t receivers_, stride_; ///< bytes of a receiver
     std::size_t most_receivers_;
     prt::GlObject vectors_, light_, radiance_, program_;

@@ -19,13 +19,16 @@ export class ShLight {
 export class PrtkitModel {
   readonly order: number;
   readonly channels: 1 | 3;
+  /** Whether direct light is kept apart, so that suns can be lit with sharp shadows. */
+  readonly directApart: boolean;
   /** Vertices that have transfer. */
   readonly vertices: number;
   /** Of the vertex attributes that transfer takes, as they are bound: packed weights in whole 32-bit words, others
    * as vectors of four beside the cluster in a word of its own. */
   readonly bytesPerVertex: number;
-  /** Lights all meshes of the file. Throws a RangeError for a light of fewer bands than `order`. */
-  setLight(light: ShLight, angle?: number): void;
+  /** Lights all meshes of the file by `light`, all of it or without its suns: `suns` are those that the scene's own
+   * lights add. Throws a RangeError for a light of fewer bands than `order`. */
+  setLight(light: ShLight, angle?: number, suns?: ShLight | null): void;
   dispose(): void;
 }
 

@@ -24,7 +24,7 @@ import {
   RGBAIntegerFormat,
   UnsignedIntType,
 } from "three";
-import { clusterTable, decodeClusters, formConstants, shaderRows } from "./clusteredPca.js";
+import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "./clusteredPca.js";
 import exitRadiance from "./prt_exit_radiance.glsl.js";
 import { MAX_ORDER, projectLatLong } from "./sphericalHarmonics.js";
 
@@ -59,18 +59,21 @@ export class PrtkitModel {
       "RGBA32UI",
     );
     this.order = this.clusters.order;
-    this.channels = this.clusters.channels;
+    this.channels = Math.max(...this.clusters.parts.map((part) => part.channels));
+    this.directApart = this.clusters.parts[0].kind === "direct";
     this.vertices = 0;
     this.bytesPerVertex = 0;
   }
 
   /**
-   * Lights all meshes by `light` turned about +Y by `angle` radians: forms the constants of all clusters.
+   * Lights all meshes by `light` turned about +Y by `angle` radians: forms the constants of all clusters. `suns`: those
+   * that three's own lights add with their shadows; here they light what is lit after a bounce.
    */
-  setLight(light, angle = 0) {
-    if (light.order < this.order)
-      throw new RangeError(`the light has order ${light.order}, the model needs ${this.order}`);
-    formConstants(this.clusters, this.rows, light.coefficients(angle), this.constantsTexture.image.data);
+  setLight(light, angle = 0, suns = null) {
+    for (const { order } of suns ? [light, suns] : [light])
+      if (order < this.order) throw new RangeError(`the light has order ${order}, the model needs ${this.order}`);
+    const columns = lightColumns(this.clusters, light.coefficients(angle), suns ? suns.coefficients(angle) : null);
+    formConstants(this.clusters, this.rows, columns, this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
   }
 

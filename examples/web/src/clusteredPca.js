@@ -37,6 +37,16 @@ function codedRows(bytes, drops, rows) {
 
 const floats = (bytes) => new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
 
+const KINDS = [["direct"], ["indirect"], ["whole"], ["direct", "indirect"]];
+
+function areParts(parts) {
+  if (!Array.isArray(parts) || !parts.every((part) => part?.channels === 1 || part?.channels === 3)) return false;
+  return KINDS.some((kinds) => kinds.join() === parts.map((part) => part.kind).join());
+}
+
+/** Numbers of a transfer vector: its parts one behind the other, each [channels][order²]. */
+const dimensionOf = ({ order, parts }) => order * order * parts.reduce((sum, { channels }) => sum + channels, 0);
+
 /**
  * The clusters of a file.
  *
@@ -44,12 +54,12 @@ const floats = (bytes) => new Float32Array(bytes.buffer.slice(bytes.byteOffset, 
  * what is wrong with a file that is damaged or of another version.
  */
 export function decodeClusters(extension, view) {
-  if (extension.version !== 2)
-    throw new Error(`PRTKIT_clustered_pca: version ${extension.version} is not known, only 2; compress the model again`);
-  const { order, channels, components, bases, packing } = extension;
-  if (!(order >= 1 && order <= 10) || (channels !== 1 && channels !== 3) || !Array.isArray(components))
-    throw new Error("PRTKIT_clustered_pca: order, channels or components are wrong");
-  const dimension = channels * order * order;
+  if (extension.version !== 3)
+    throw new Error(`PRTKIT_clustered_pca: version ${extension.version} is not known, only 3; compress the model again`);
+  const { order, parts, components, bases, packing } = extension;
+  if (!(order >= 1 && order <= 10) || !areParts(parts) || !Array.isArray(components))
+    throw new Error("PRTKIT_clustered_pca: order, parts or components are wrong");
+  const dimension = dimensionOf({ order, parts });
   const firstRows = [];
   let rowCount = 0;
   for (const m of components) {
@@ -91,7 +101,7 @@ export function decodeClusters(extension, view) {
   }
   return {
     order,
-    channels,
+    parts,
     components,
     firstRows,
     rowCount,
@@ -106,9 +116,9 @@ export function decodeClusters(extension, view) {
  * into the directions, and their sum out of the mean, so that the shader multiplies the integers q themselves.
  */
 export function shaderRows(clusters) {
-  const { widths, components, firstRows, rows, channels, order } = clusters;
+  const { widths, components, firstRows, rows } = clusters;
   if (!widths) return rows;
-  const dimension = channels * order * order;
+  const dimension = dimensionOf(clusters);
   const result = new Float32Array(rows);
   components.forEach((m, k) => {
     const mean = firstRows[k] * dimension;
@@ -140,29 +150,38 @@ export function clusterTable(clusters) {
 }
 
 /**
- * Writes for every row its product with the lighting, RGBA, to `constants` [rows][4]. `light`: [>= order²][3].
+ * The colours that each part is multiplied with, [parts][order²][3]: `sky` [>= order²][3] for direct light, with `suns`
+ * added for the rest; null: all light is in the sky.
  */
-export function formConstants(clusters, rows, light, constants) {
-  const { order, channels, rowCount } = clusters;
+export function lightColumns({ order, parts }, sky, suns = null) {
+  const count = 3 * order * order;
+  const columns = new Float64Array(parts.length * count);
+  parts.forEach(({ kind }, part) => {
+    for (let i = 0; i < count; ++i) columns[part * count + i] = sky[i] + (suns && kind !== "direct" ? suns[i] : 0);
+  });
+  return columns;
+}
+
+/**
+ * Writes for every row its product with the lighting, RGBA, to `constants` [rows][4]. `columns`: of lightColumns.
+ */
+export function formConstants(clusters, rows, columns, constants) {
+  const { order, parts, rowCount } = clusters;
   const count = order * order;
+  let at = 0;
   for (let r = 0; r < rowCount; ++r) {
     let red = 0;
     let green = 0;
     let blue = 0;
-    const at = r * channels * count;
-    if (channels === 1) {
-      for (let i = 0; i < count; ++i) {
-        const t = rows[at + i];
-        red += t * light[3 * i];
-        green += t * light[3 * i + 1];
-        blue += t * light[3 * i + 2];
+    let light = 0;
+    for (const { channels } of parts) {
+      const [g, b] = channels === 1 ? [at, at] : [at + count, at + 2 * count];
+      for (let i = 0; i < count; ++i, light += 3) {
+        red += rows[at + i] * columns[light];
+        green += rows[g + i] * columns[light + 1];
+        blue += rows[b + i] * columns[light + 2];
       }
-    } else {
-      for (let i = 0; i < count; ++i) {
-        red += rows[at + i] * light[3 * i];
-        green += rows[at + count + i] * light[3 * i + 1];
-        blue += rows[at + 2 * count + i] * light[3 * i + 2];
-      }
+      at += channels * count;
     }
     constants[4 * r] = red;
     constants[4 * r + 1] = green;

@@ -37,9 +37,9 @@ function scene(attributes, extension) {
 }
 
 const packed = {
-  version: 2,
+  version: 3,
   order: 1,
-  channels: 1,
+  parts: [{ kind: "whole", channels: 1 }],
   components: [1],
   bases: { bufferView: 0, componentType: 5126 },
   packing: { clusterBits: 0, bufferView: 1 }, // one weight of 8 bits
@@ -125,6 +125,9 @@ test("a light of fewer bands than the model is refused", async () => {
   const { gltf, parser } = scene({ _prt_weights_0: bytes }, packed);
   await new PrtkitPlugin(parser).afterRoot(gltf);
   assert.throws(() => gltf.userData.prtkit.setLight({ order: 0 }), RangeError);
+  const enough = { order: 1, coefficients: () => [1, 1, 1] };
+  assert.throws(() => gltf.userData.prtkit.setLight(enough, 0, { order: 0 }), RangeError);
+  gltf.userData.prtkit.setLight(enough);
 });
 
 test("the shader is that of the runtime", async () => {

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { clusterTable, decodeClusters, formConstants, shaderRows } from "../src/clusteredPca.js";
+import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "../src/clusteredPca.js";
 
 /** Numbers of given widths as bytes, lowest bit first. */
 function bits(values) {
@@ -17,9 +17,9 @@ const bytesOf = (...values) => new Uint8Array(new Float32Array(values).buffer);
 
 /** Two clusters of order 1: mean 2 with directions 0.5 and 0.25, mean 3 with none. Widths 3 and 5. */
 const plain = {
-  version: 2,
+  version: 3,
   order: 1,
-  channels: 1,
+  parts: [{ kind: "whole", channels: 1 }],
   components: [2, 0],
   bases: { bufferView: 0, componentType: 5126 },
   packing: { clusterBits: 1, bufferView: 1 },
@@ -51,9 +51,9 @@ test("the shader's rows times integers are the rows times weights", () => {
 test("coded bases are sums over axes", () => {
   // One axis (3, -1) of three channels and order 1 would be dimension 3; here dimension 3, two axes.
   const extension = {
-    version: 2,
+    version: 3,
     order: 1,
-    channels: 3,
+    parts: [{ kind: "direct", channels: 3 }],
     components: [1],
     bases: {
       origin: { bufferView: 0, componentType: 5126 },
@@ -80,8 +80,27 @@ test("coded bases are sums over axes", () => {
 });
 
 test("three channels meet three colours", () => {
-  const clusters = { order: 1, channels: 3, rowCount: 1 };
+  const clusters = { order: 1, parts: [{ kind: "whole", channels: 3 }], rowCount: 1 };
   assert.deepEqual([...formConstants(clusters, [1, 2, 3], [10, 20, 30], new Float32Array(4))], [10, 40, 90, 0]);
+});
+
+test("direct light is lit by the sky, the rest by sky and suns", () => {
+  const parts = [{ kind: "direct", channels: 1 }, { kind: "indirect", channels: 3 }];
+  const clusters = { order: 1, parts, rowCount: 1 };
+  const columns = lightColumns(clusters, [10, 20, 30, 99], [1, 2, 3]);
+  assert.deepEqual([...columns], [10, 20, 30, 11, 22, 33]);
+  const row = [5, 1, 2, 3];
+  assert.deepEqual([...formConstants(clusters, row, columns, new Float32Array(4))], [50 + 11, 100 + 44, 150 + 99, 0]);
+  const whole = { order: 1, parts: [{ kind: "whole", channels: 1 }] };
+  assert.deepEqual([...lightColumns(whole, [10, 20, 30], [1, 2, 3])], [11, 22, 33]);
+  assert.deepEqual([...lightColumns(clusters, [10, 20, 30])], [10, 20, 30, 10, 20, 30]);
+});
+
+test("parts that make no sense are refused", () => {
+  const of = (...kinds) => kinds.map((kind) => ({ kind, channels: 1 }));
+  for (const parts of [undefined, [], of("lamp"), of("indirect", "direct"), of("direct", "whole"), of("direct", "direct")])
+    assert.throws(() => decodeClusters({ ...plain, parts }, (i) => plainViews[i]), /parts/);
+  assert.throws(() => decodeClusters({ ...plain, parts: [{ kind: "whole", channels: 2 }] }, (i) => plainViews[i]), /parts/);
 });
 
 test("files that are damaged or of another version are refused with a reason", () => {
@@ -92,7 +111,13 @@ test("files that are damaged or of another version are refused with a reason", (
 });
 
 test("a row has a value for each coefficient of each channel", () => {
-  const extension = { version: 2, order: 2, channels: 3, components: [0], bases: { bufferView: 0, componentType: 5126 } };
+  const extension = {
+    version: 3,
+    order: 2,
+    parts: [{ kind: "whole", channels: 3 }],
+    components: [0],
+    bases: { bufferView: 0, componentType: 5126 },
+  };
   const values = Array.from({ length: 12 }, (_, i) => i);
   assert.deepEqual([...decodeClusters(extension, () => bytesOf(...values)).rows], values);
   assert.throws(() => decodeClusters(extension, () => bytesOf(...values.slice(1))), /another size/);

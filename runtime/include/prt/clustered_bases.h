@@ -4,7 +4,7 @@
 // file. Stable.
 
 #include "prt/coded_rows.h"
-#include "prt/sh_basis.h"
+#include "prt/transfer_layout.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,33 +15,32 @@ namespace prt {
 /// Rows as sums over a few axes: row = [origin, for means] + sum_i step · scales[i] · value_i · axis_i, with
 /// twice the step for directions. Values and axes are integers of few bits (docs/format.md).
 struct CodedBases {
-    std::vector<float> origin; ///< [channels][order²]
+    std::vector<float> origin; ///< [dimension]
     std::vector<float> scales; ///< [axes]
     float step = 0;
-    RowCode axes;   ///< rows [axes], columns [channels][order²]
+    RowCode axes;   ///< rows [axes], columns [dimension]
     RowCode values; ///< rows as in ClusteredBases, columns [axes]
 };
 
 /// Bytes of origin, scales, axes and values.
 std::size_t coded_bytes(const CodedBases& coded);
 
-/// The rows that `coded` stands for, [rows][channels][order²]; cluster k has one mean and `components[k]`
+/// The rows that `coded` stands for, [rows][dimension]; cluster k has one mean and `components[k]`
 /// directions. Throws `Error` where a code is damaged.
 std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components);
 
 /// Means and directions of all clusters: T = mean + sum_j w_j direction_j.
 struct ClusteredBases {
-    int order = 0;
-    int channels = 1;
+    TransferLayout layout;
     std::vector<int> components; ///< [clusters] number of directions m_k
-    std::vector<float> rows;     ///< per cluster its mean, then its m_k directions; each [channels][order²]
+    std::vector<float> rows;     ///< per cluster its mean, then its m_k directions; each [dimension]
     /// Per cluster the bits of its m_k weights, 1..16; empty unless weights are packed.
     std::vector<std::uint8_t> bits;
     /// What `rows` was decoded from; without axes where the file holds `rows` themselves.
     CodedBases coded;
 
     std::size_t clusters() const { return components.size(); }
-    std::size_t dimension() const { return static_cast<std::size_t>(channels * coefficient_count(order)); }
+    std::size_t dimension() const { return layout.dimension(); }
     bool is_coded() const { return !coded.origin.empty(); }
     int max_components() const;
     /// Index of the first row of cluster `cluster` in `rows`; its bits start at first_row(k) - k. [clusters +

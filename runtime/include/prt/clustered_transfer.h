@@ -3,7 +3,7 @@
 // Compressed transfer (clustered PCA; Sloan, Hall, Hart and Snyder 2003): in memory, per frame, per receiver.
 //
 // Each frame, or each time the lighting changes:
-//     former.form(light.coefficients, constants);          // M_k·L and B_kj·L: prt/constant_former.h
+//     former.form(light, constants);                       // M_k·L and B_kj·L: prt/constant_former.h
 // then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or here:
 //     R = constants[first_k] + sum_j w_j constants[first_k + 1 + j]   // docs/math.md, eq. 29
 // Stable.
@@ -77,6 +77,9 @@ void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> cons
               std::span<glm::vec3> radiance, int threads = 0);
 
 /// Both steps at once.
+std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Lighting& lighting,
+                                     int threads = 0);
+/// All light in one sky.
 std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Light& light, int threads = 0);
 
 /// The transfer vectors that the compressed form stands for.

@@ -4,7 +4,8 @@
 //
 //     ConstantFormer former(transfer);                       // once per model
 //     std::vector<glm::vec4> constants(former.rows());
-//     former.form(light.coefficients, constants);            // when the lighting changes
+//     former.form(light, constants);                         // when the lighting changes
+//     former.form(Lighting{sky, suns}, constants);           // or: the renderer shadows the suns itself
 //
 // Several models share a lighting: each has its former. A model that turns wants the lighting turned the
 // other way: `ShRotation(order, inverse of the model's rotation).apply(light, turned)`. Constants are linear
@@ -30,25 +31,25 @@ public:
     /// Copies what it needs of `transfer`.
     explicit ConstantFormer(const ClusteredTransfer& transfer);
 
-    int order() const { return order_; }
-    int channels() const { return channels_; }
+    int order() const { return layout_.order; }
+    const TransferLayout& layout() const { return layout_; }
     /// Constants in all: per cluster one mean and m_k directions, in the order of `ClusterLayout::first_row`.
     std::size_t rows() const { return rows_; }
 
-    /// Writes (r, g, b, 0) for every row to `constants` [rows]. Allocates nothing. Throws `Error` if `light`
-    /// [at least order²] has fewer bands.
-    void form(std::span<const glm::vec3> light, std::span<glm::vec4> constants) const;
+    /// Writes (r, g, b, 0) for every row to `constants` [rows]. Allocates nothing. Throws `Error` if
+    /// `lighting` has fewer bands.
+    void form(const LightingView& lighting, std::span<glm::vec4> constants) const;
     /// Only the rows from `first` up to `last`, to spread the work over threads or frames; `first` is rounded
     /// down and `last` up to a multiple of 16.
-    void form(std::span<const glm::vec3> light, std::span<glm::vec4> constants, std::size_t first,
+    void form(const LightingView& lighting, std::span<glm::vec4> constants, std::size_t first,
               std::size_t last) const;
 
     /// What a compute shader multiplies instead (shaders/prt_constants.comp): [rows / 16, rounded up]
-    /// [channels][order²][16], rows past the end 0.
+    /// [dimension][16], rows past the end 0.
     std::span<const float> matrix() const { return matrix_; }
 
 private:
-    int order_, channels_;
+    TransferLayout layout_;
     std::size_t rows_;
     std::vector<float> matrix_;
 };

@@ -14,7 +14,8 @@
 namespace prt {
 
 /// sqrt( sum_p a_p |T_p - T'_p|² / sum_p a_p |T_p|² ); 0 when both are zero. A grey transfer compares with a
-/// colored one as three equal channels. Throws `Error` when receivers or orders differ.
+/// colored one as three equal channels; transfer of other parts as a whole. Throws `Error` when receivers or
+/// orders differ.
 double relative_l2(const Transfer& reference, const Transfer& approximation, std::span<const float> areas);
 
 /// Relative L2 of exit radiance, albedo 1, three channels, both [receivers].

@@ -2,13 +2,13 @@
 
 // Raw transfer vectors, as the baker makes them. Stable.
 
-#include "prt/light.h"
-#include "prt/sh_basis.h"
 #include "prt/support/glm_layout.h"
+#include "prt/transfer_layout.h"
 
 #include <glm/vec3.hpp>
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace prt {
@@ -16,11 +16,10 @@ namespace prt {
 /// The transfer vectors of a list of receivers: exit radiance of a Lambertian receiver of albedo rho is
 /// R_c = rho_c · sum_i T[c][i] L_c[i] (docs/math.md, eq. 7).
 struct Transfer {
-    int order = 0;
-    int channels = 1;           ///< 1: the same for red, green and blue; else 3
-    std::vector<float> vectors; ///< [receivers][channels][order²]
+    TransferLayout layout;
+    std::vector<float> vectors; ///< [receivers][layout.dimension()]
 
-    std::size_t dimension() const { return static_cast<std::size_t>(channels * coefficient_count(order)); }
+    std::size_t dimension() const { return layout.dimension(); }
     std::size_t receivers() const { return dimension() == 0 ? 0 : vectors.size() / dimension(); }
     std::span<const float> vector(std::size_t receiver) const {
         return std::span(vectors).subspan(receiver * dimension(), dimension());
@@ -30,20 +29,33 @@ struct Transfer {
     }
 };
 
-inline Transfer zero_transfer(int order, int channels, std::size_t receivers) {
-    Transfer transfer{order, channels, {}};
+inline Transfer zero_transfer(TransferLayout layout, std::size_t receivers) {
+    Transfer transfer{std::move(layout), {}};
     transfer.vectors.resize(receivers * transfer.dimension());
     return transfer;
 }
+/// Of a single part.
+inline Transfer zero_transfer(int order, int channels, std::size_t receivers) {
+    return zero_transfer(layout_of_one(order, channels), receivers);
+}
 
-/// sum_i T[c][i] L_c[i] of one transfer vector [channels][order²]; channel 0 serves all colors when there is
-/// one.
-glm::vec3 exit_radiance(std::span<const float> transfer, int channels, const Light& light);
+/// The sum over all parts of one transfer vector [layout.dimension()], lit by `columns` of `light_columns`;
+/// the one channel of a grey part serves all colors.
+glm::vec3 exit_radiance(std::span<const float> transfer, const TransferLayout& layout,
+                        std::span<const glm::vec3> columns);
 
-/// Exit radiance of every receiver for albedo 1, [receivers]. Throws `Error` if `light` has fewer bands.
+/// Exit radiance of every receiver for albedo 1, [receivers]. Throws `Error` if the lighting has fewer bands.
+std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Lighting& lighting, int threads = 0);
+/// All light in one sky.
 std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Light& light, int threads = 0);
 
-/// Area-weighted mean of T_0 / Y_00 over all channels: the share of a uniform sky's light that arrives.
+/// The sum of all parts in one, of as many channels as they need: light then lights them alike.
+Transfer as_whole(const Transfer& transfer, int threads = 0);
+/// The same of one vector [layout.dimension()].
+std::vector<float> as_whole(std::span<const float> transfer, const TransferLayout& layout);
+
+/// Area-weighted mean of the sum of T_0 / Y_00 over the parts, each the mean over its channels: the share of
+/// a uniform sky's light that arrives.
 double mean_visibility(const Transfer& transfer, std::span<const float> areas);
 
 } // namespace prt

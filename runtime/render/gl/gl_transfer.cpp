@@ -53,8 +53,8 @@ GlTransfer::GlTransfer(const ClusteredTransfer& transfer)
              formed_.size() * sizeof(glm::vec4);
 }
 
-void GlTransfer::set_light(const Light& light) {
-    former_.form(light.coefficients, formed_);
+void GlTransfer::set_light(const Lighting& lighting) {
+    former_.form(lighting, formed_);
     glNamedBufferSubData(constants_.name(), 0, static_cast<GLsizeiptr>(formed_.size() * sizeof(glm::vec4)),
                          formed_.data());
 }
@@ -95,10 +95,10 @@ void GlTransfer::use() const {
     bind_storage(PRT_BINDING_CLUSTERS, layouts_);
 }
 
-std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Light& light,
+std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Lighting& lighting,
                                         const GlContext&) {
     GlTransfer on_gpu(transfer);
-    on_gpu.set_light(light);
+    on_gpu.set_light(lighting);
     const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");
     const GlObject vertex_array = make_vertex_array();
     on_gpu.attach(vertex_array.name(), 0);

@@ -19,7 +19,7 @@
 namespace prt {
 namespace {
 
-constexpr int kClusteredVersion = 2;
+constexpr int kClusteredVersion = 3;
 
 int weight_component_type(WeightFormat format) {
     switch (format) {
@@ -225,7 +225,7 @@ void read_packing(const GltfContents& contents, const Json& json, ClusteredTrans
 
 ClusteredBases read_clusters_of(const Json& extension) {
     ClusteredBases bases;
-    read_shape(extension, bases.order, bases.channels);
+    bases.layout = read_layout(extension);
     const int most = static_cast<int>(bases.dimension());
     for (const Json& count : extension.at("components"))
         bases.components.push_back(whole_number(count, "the number of a cluster's components", 0, most));
@@ -253,10 +253,11 @@ void write_into(GltfContents& contents, const Scene& scene, const CompressedTran
     }
     for (std::size_t i = 0; i < primitives.size(); ++i)
         (*primitives[i])["attributes"].update(attributes[scene.primitives[i].vertices]);
-    Json& extension = extensions_of(contents.json)[kClusteredExtension] = {{"version", kClusteredVersion},
-                                                                           {"order", bases.order},
-                                                                           {"channels", bases.channels},
-                                                                           {"components", bases.components}};
+    Json& extension =
+        extensions_of(contents.json)[kClusteredExtension] = {{"version", kClusteredVersion},
+                                                             {"order", bases.layout.order},
+                                                             {"parts", parts_json(bases.layout)},
+                                                             {"components", bases.components}};
     extension["bases"] = write_bases(contents, bases);
     if (receivers.format == WeightFormat::packed)
         extension["packing"] = write_packing(contents, compressed.transfer);

@@ -143,7 +143,7 @@ std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& o
 
 Transfer in_order_of(const Scene& scene, const Scene& other, const Transfer& transfer) {
     const std::vector<std::uint32_t> match = matching_receivers(scene, other);
-    Transfer ordered = zero_transfer(transfer.order, transfer.channels, transfer.receivers());
+    Transfer ordered = zero_transfer(transfer.layout, transfer.receivers());
     for (std::size_t p = 0; p < match.size(); ++p)
         std::copy_n(transfer.vector(match[p]).begin(), transfer.dimension(), ordered.vector(p).begin());
     return ordered;

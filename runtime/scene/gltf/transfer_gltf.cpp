@@ -11,7 +11,7 @@
 namespace prt {
 namespace {
 
-constexpr int kTransferVersion = 1;
+constexpr int kTransferVersion = 2;
 
 void write_into(GltfContents& contents, const Scene& scene, const BakedTransfer& baked) {
     const std::vector<Json*> primitives = unshare(contents, scene);
@@ -27,8 +27,8 @@ void write_into(GltfContents& contents, const Scene& scene, const BakedTransfer&
         extensions_of(*primitives[i])[kTransferExtension] = {
             {"vectors", views[scene.primitives[i].vertices]}};
     extensions_of(contents.json)[kTransferExtension] = {{"version", kTransferVersion},
-                                                        {"order", transfer.order},
-                                                        {"channels", transfer.channels},
+                                                        {"order", transfer.layout.order},
+                                                        {"parts", parts_json(transfer.layout)},
                                                         {"bake", record_json(baked.record)}};
     contents.use_extension(kTransferExtension);
 }
@@ -46,7 +46,7 @@ std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const S
             return std::nullopt;
         BakedTransfer baked;
         Transfer& transfer = baked.transfer;
-        read_shape(*extension, transfer.order, transfer.channels);
+        transfer.layout = read_layout(*extension);
         baked.record = read_record(extension->value("bake", Json::object()));
         check_allowed(static_cast<double>(scene.receivers()) *
                           static_cast<double>(transfer.dimension() * sizeof(float)),

@@ -28,6 +28,13 @@ Enum one_of(const Json& json, const char* key, std::initializer_list<Enum> value
     throw Error(std::string(key) + " of the bake is a word that this program does not know");
 }
 
+PartKind read_kind(const std::string& word) {
+    for (const PartKind kind : {PartKind::direct, PartKind::indirect, PartKind::whole})
+        if (word == to_string(kind))
+            return kind;
+    throw Error("the transfer has a part of a kind that this program does not know");
+}
+
 /// The member `key`, a whole number that is not negative, 0 where it is not there.
 template <class Number>
 Number count_or_zero(const Json& json, const char* key) {
@@ -100,11 +107,23 @@ const Json* find_extension(const GltfContents& contents, const char* name, int e
     return &extension;
 }
 
-void read_shape(const Json& extension, int& order, int& channels) {
-    order = whole_number(extension.at("order"), "order", 1, kMaxOrder);
-    channels = whole_number(extension.at("channels"), "channels", 1, 3);
-    if (channels == 2)
-        throw Error("has 2 channels, only 1 or 3 make sense");
+Json parts_json(const TransferLayout& layout) {
+    Json parts = Json::array();
+    for (const TransferPart& part : layout.parts)
+        parts.push_back({{"kind", to_string(part.kind)}, {"channels", part.channels}});
+    return parts;
+}
+
+TransferLayout read_layout(const Json& extension) {
+    TransferLayout layout{whole_number(extension.at("order"), "order", 1, kMaxOrder), {}};
+    const Json& parts = extension.at("parts");
+    if (!parts.is_array())
+        throw Error("parts of the transfer are no list");
+    for (const Json& part : parts)
+        layout.parts.push_back({read_kind(part.at("kind").get<std::string>()),
+                                whole_number(part.at("channels"), "channels", 1, 3)});
+    check_layout(layout);
+    return layout;
 }
 
 bool TransferOfVertices::is_new(const Primitive& primitive, const Json& said) {

@@ -21,8 +21,10 @@ BakeRecord read_record(const Json& json);
 /// another version.
 const Json* find_extension(const GltfContents& contents, const char* name, int expected_version);
 
-/// Order and channels of an extension. Throws `Error` when they make no sense.
-void read_shape(const Json& extension, int& order, int& channels);
+/// [{"kind": "direct", "channels": 1}, ...]
+Json parts_json(const TransferLayout& layout);
+/// Order and parts of an extension. Throws `Error` when they make no sense.
+TransferLayout read_layout(const Json& extension);
 
 /// JSON of a scene primitive, in a file that holds the scene one to one.
 const Json& primitive_json(const GltfContents& contents, const Primitive& primitive);

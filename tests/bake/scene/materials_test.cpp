@@ -256,7 +256,7 @@ TEST(Leaf, TakesLightFromBehindThroughDiffuseTransmission) {
     options.tracer.backend = Backend::cpu;
     const BakeResult result = bake(leaf, options);
     const Transfer& t = result.baked.transfer;
-    ASSERT_EQ(t.channels, 3);
+    ASSERT_EQ(t.layout.channels(), 3);
     EXPECT_EQ(result.statistics.receivers.back_sides, leaf.receivers());
     std::array<double, 16> above{}, below{};
     clamped_cosine_lobe(4, {0, 1, 0}, above);

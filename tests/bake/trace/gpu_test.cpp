@@ -312,7 +312,7 @@ TEST(GpuBake, OfEveryTransportIsTheCpus) {
     const auto difference = [&](const BakeOptions& o) {
         const BakeResult cpu = bake_on(Backend::cpu, leaf, o), gpu = bake_on(Backend::gpu, leaf, o);
         EXPECT_EQ(gpu.baked.record.backend, Backend::gpu);
-        EXPECT_EQ(cpu.baked.transfer.channels, 3);
+        EXPECT_EQ(cpu.baked.transfer.layout.channels(), 3);
         return relative_l2(cpu.baked.transfer, gpu.baked.transfer, areas);
     };
     EXPECT_LT(difference(options), 3e-3);

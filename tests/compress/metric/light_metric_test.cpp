@@ -57,7 +57,8 @@ TEST_P(Metric, OfLightsIsTheMeanOfWhatEachTurnOfEachCosts) {
             }
         }
     }
-    const double found = expected_lit_rms(a, b, areas, metric_of_lights(lights, order, channels));
+    const double found =
+        expected_lit_rms(a, b, areas, metric_of_lights(lights, layout_of_one(order, channels)));
     EXPECT_NEAR(found, std::sqrt(error / norm), 0.01 * found); // the hundredth
 }
 
@@ -78,8 +79,69 @@ TEST_P(Metric, NaturalLightIsTheMeanOverRandomLightOfThatPower) {
             norm += static_cast<double>(glm::dot(ra[p], ra[p]));
         }
     }
-    const double found = expected_lit_rms(a, b, areas, natural_metric(order, channels));
+    const double found = expected_lit_rms(a, b, areas, natural_metric(layout_of_one(order, channels)));
     EXPECT_NEAR(found, std::sqrt(error / norm), 0.02 * found); // 4000 lights: 1 to 2 %
+}
+
+/// Skies of steeper bands, and suns anywhere of one power in every band, which direct light is not lit by.
+TEST(MetricOfParts, OfTwoPartsIsTheMeanOverRandomSkiesWithSuns) {
+    const TransferLayout layout{3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    std::mt19937 random(11);
+    Transfer a = zero_transfer(layout, 30), b = a;
+    std::normal_distribution<float> normal;
+    for (Transfer* transfer : {&a, &b})
+        for (float& v : transfer->vectors)
+            v = normal(random);
+    double error = 0, norm = 0;
+    for (int i = 0; i < 4000; ++i) {
+        Lighting lighting{random_light(3, random), random_light(3, random)};
+        for (std::size_t k = 0; k < 9; ++k) {
+            lighting.sky.coefficients[k] *= k == 0 ? 1 : 0.5f / std::floor(std::sqrt(static_cast<float>(k)));
+            lighting.suns->coefficients[k] *= std::sqrt(0.1f);
+        }
+        const auto ra = exit_radiance(a, lighting), rb = exit_radiance(b, lighting);
+        for (std::size_t p = 0; p < 30; ++p) {
+            error += static_cast<double>(glm::dot(ra[p] - rb[p], ra[p] - rb[p]));
+            norm += static_cast<double>(glm::dot(ra[p], ra[p]));
+        }
+    }
+    const double found = expected_lit_rms(a, b, std::vector<float>(30, 1.0f), natural_metric(layout));
+    EXPECT_NEAR(found, std::sqrt(error / norm), 0.02 * found); // 4000 lights: 1 to 2 %
+}
+
+TEST(MetricOfParts, OfLightsWithSunsIsTheMeanOfWhatEachTurnOfEachCosts) {
+    const TransferLayout layout{4, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    std::mt19937 random(12);
+    const Lighting lighting{random_light(4, random), random_light(5, random)};
+    Transfer a = zero_transfer(layout, 20), b = a;
+    std::normal_distribution<float> normal;
+    for (Transfer* transfer : {&a, &b})
+        for (float& v : transfer->vectors)
+            v = normal(random);
+    double error = 0, norm = 0;
+    for (int turn = 0; turn < 360; ++turn) {
+        const Lighting turned{rotated_about_y(lighting.sky, turn * M_PI / 180),
+                              rotated_about_y(truncated(*lighting.suns, 4), turn * M_PI / 180)};
+        const auto ra = exit_radiance(a, turned), rb = exit_radiance(b, turned);
+        for (std::size_t p = 0; p < 20; ++p) {
+            error += static_cast<double>(glm::dot(ra[p] - rb[p], ra[p] - rb[p]));
+            norm += static_cast<double>(glm::dot(ra[p], ra[p]));
+        }
+    }
+    const double found =
+        expected_lit_rms(a, b, std::vector<float>(20, 1.0f), metric_of_lights(std::vector{lighting}, layout));
+    EXPECT_NEAR(found, std::sqrt(error / norm), 0.01 * found); // the hundredth of natural light
+}
+
+TEST(MetricOfParts, PlainCountsAGreyPartForEachColor) {
+    const TransferLayout layout{2, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    Transfer a = zero_transfer(layout, 5), b = a;
+    for (std::size_t i = 0; i < a.vectors.size(); ++i) {
+        a.vectors[i] = static_cast<float>(i % 7);
+        b.vectors[i] = static_cast<float>(i % 5);
+    }
+    const std::vector<float> areas = {1, 2, 3, 4, 5};
+    EXPECT_NEAR(expected_lit_rms(a, b, areas, plain_metric(layout)), relative_l2(a, b, areas), 1e-9);
 }
 
 TEST_P(Metric, PlainIsRelativeL2) {
@@ -87,17 +149,20 @@ TEST_P(Metric, PlainIsRelativeL2) {
     std::vector<float> areas;
     for (int p = 0; p < 30; ++p)
         areas.push_back(static_cast<float>(p));
-    EXPECT_NEAR(expected_lit_rms(a, b, areas, plain_metric(5, GetParam())), relative_l2(a, b, areas), 1e-9);
+    EXPECT_NEAR(expected_lit_rms(a, b, areas, plain_metric(layout_of_one(5, GetParam()))),
+                relative_l2(a, b, areas), 1e-9);
 }
 
 TEST(LightMetric, RefusesWhatMakesNoSense) {
     std::mt19937 random(1);
     const std::vector<Light> low = {random_light(3, random)};
-    EXPECT_THROW(metric_of_lights(low, 4, 1), Error);
-    EXPECT_THROW(metric_of_lights(std::vector<Light>{constant_light(4, glm::vec3(0))}, 4, 1), Error);
-    EXPECT_THROW(metric_of_lights({}, 4, 1), Error);
+    EXPECT_THROW(metric_of_lights(low, layout_of_one(4, 1)), Error);
+    EXPECT_THROW(metric_of_lights(std::vector<Light>{constant_light(4, glm::vec3(0))}, layout_of_one(4, 1)),
+                 Error);
+    EXPECT_THROW(metric_of_lights(std::vector<Light>{}, layout_of_one(4, 1)), Error);
     const Transfer a = random_transfer(3, 4, 1, 1);
-    EXPECT_THROW(expected_lit_rms(a, a, std::vector<float>(3, 1.0f), natural_metric(5, 1)), Error);
+    EXPECT_THROW(expected_lit_rms(a, a, std::vector<float>(3, 1.0f), natural_metric(layout_of_one(5, 1))),
+                 Error);
 }
 
 TEST(ExpectedLitRms, CountsEveryReceiver) {
@@ -107,7 +172,8 @@ TEST(ExpectedLitRms, CountsEveryReceiver) {
     for (std::size_t p = 8550; p < 9000; ++p)
         other.vectors[p] = 0.5f;
     const std::vector<float> areas(reference.receivers(), 2.0f);
-    EXPECT_NEAR(expected_lit_rms(reference, other, areas, plain_metric(1, 1)), std::sqrt(0.05 * 0.25), 1e-9);
+    EXPECT_NEAR(expected_lit_rms(reference, other, areas, plain_metric(layout_of_one(1, 1))),
+                std::sqrt(0.05 * 0.25), 1e-9);
 }
 
 } // namespace

@@ -168,14 +168,14 @@ TEST_F(ViewerPictures, OfRawTransferAreThoseOfCpp) {
 
 TEST_F(ViewerPictures, OfColoredTransferAreThoseOfCpp) {
     const prt::Transfer transfer = baked();
-    ASSERT_EQ(transfer.channels, 3);
+    ASSERT_EQ(transfer.layout.channels(), 3);
     gpu->set_raw(transfer);
     EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(transfer, light))), kSame);
 }
 
 TEST_F(ViewerPictures, OfTransferOfOneChannelAreThoseOfCpp) {
-    const prt::Transfer colored = baked();
-    prt::Transfer white = prt::zero_transfer(colored.order, 1, colored.receivers());
+    const prt::Transfer colored = prt::as_whole(baked());
+    prt::Transfer white = prt::zero_transfer(colored.layout.order, 1, colored.receivers());
     for (std::size_t p = 0; p < white.receivers(); ++p)
         std::copy_n(colored.vector(p).begin(), white.dimension(), white.vector(p).begin());
     gpu->set_raw(white);

@@ -263,7 +263,7 @@ TEST_F(ViewerTest, SavesWhatItHasCompressedBesideTheModel) {
         const prt::GltfDocument document = prt::load_gltf(folder / name);
         const auto saved = prt::read_clustered(document, prt::extract_scene(document));
         ASSERT_TRUE(saved);
-        EXPECT_EQ(saved->transfer.bases.order, 3);
+        EXPECT_EQ(saved->transfer.bases.layout.order, 3);
         EXPECT_EQ(static_cast<int>(saved->transfer.bases.clusters()), viewer->figures().transfer.clusters);
         EXPECT_EQ(saved->record.rays, 64); // those of the bake
         EXPECT_FALSE(prt::read_transfer(document, prt::extract_scene(document)));

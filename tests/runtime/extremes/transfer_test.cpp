@@ -81,7 +81,7 @@ TEST(Measure, OfNothingIsNothing) {
 /// One receiver of one cluster with four components, all of one number.
 ClusteredTransfer clustered_of(int order, float value) {
     ClusteredTransfer transfer;
-    transfer.bases.order = order;
+    transfer.bases.layout = layout_of_one(order, 1);
     transfer.bases.components = {4};
     transfer.bases.rows.assign(5 * transfer.bases.dimension(), value);
     transfer.receivers.components = 4;
@@ -102,7 +102,7 @@ TEST(TransferArithmetic, EndsWithinItsArraysWhateverTheNumbers) {
         blend_constants(constants, constants, y, constants);
         std::vector<glm::vec3> radiance(1);
         evaluate(transfer, constants, radiance, 1);
-        exit_radiance(decode(transfer, 1).vector(0), 1, {order, light});
+        exit_radiance(decode(transfer, 1).vector(0), transfer.bases.layout, light);
         mean_visibility(transfer_of(order, x, y), kAreas);
     });
 }
@@ -120,7 +120,7 @@ TEST(TransferArithmetic, OfFiniteNumbersOfUsualSizeIsFinite) {
 
 TEST(TransferArithmetic, OfNothingIsNothing) {
     ClusteredTransfer nothing;
-    nothing.bases.order = 1;
+    nothing.bases.layout = layout_of_one(1, 1);
     const Light light = constant_light(1, glm::vec3(1));
     EXPECT_TRUE(exit_radiance(nothing, light).empty());
     EXPECT_TRUE(decode(nothing).vectors.empty());

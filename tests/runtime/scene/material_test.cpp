@@ -215,7 +215,7 @@ TEST(Instances, KeepTransferOfTheirOwnInTheFile) {
     GltfDocument document = document_of(three_instances());
     const Scene scene = extract_scene(document);
     BakedTransfer baked;
-    baked.transfer = {2, 1, std::vector<float>(scene.receivers() * 4)};
+    baked.transfer = zero_transfer(2, 1, scene.receivers());
     for (std::size_t i = 0; i < baked.transfer.vectors.size(); ++i)
         baked.transfer.vectors[i] = static_cast<float>(i);
     write_transfer(document, scene, baked);

@@ -30,8 +30,8 @@ nlohmann::ordered_json json_of(const std::filesystem::path& path) {
     return nlohmann::ordered_json::parse(bytes.substr(20, length));
 }
 
-BakedTransfer random_bake(const Scene& scene, int order, int channels) {
-    BakedTransfer baked{{order, channels, {}},
+BakedTransfer random_bake(const Scene& scene, const TransferLayout& layout) {
+    BakedTransfer baked{{layout, {}},
                         {2, 77, 12345678901, BakeMethod::raster, Backend::gpu, receivers_id(scene)}};
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
@@ -39,6 +39,10 @@ BakedTransfer random_bake(const Scene& scene, int order, int channels) {
     for (float& v : baked.transfer.vectors)
         v = normal(random);
     return baked;
+}
+
+BakedTransfer random_bake(const Scene& scene, int order, int channels) {
+    return random_bake(scene, layout_of_one(order, channels));
 }
 
 /// Random code of as many rows as `bases` has, over four axes, and the rows that it stands for.
@@ -63,8 +67,7 @@ CompressedTransfer random_compressed(const Scene& scene, int clusters, WeightFor
     CompressedTransfer c;
     c.record = random_bake(scene, 3, 1).record;
     ClusteredBases& b = c.transfer.bases;
-    b.order = 3;
-    b.channels = 3;
+    b.layout = layout_of_one(3, 3);
     std::mt19937 random(4);
     std::size_t rows = 0;
     for (int k = 0; k < clusters; ++k) {
@@ -157,8 +160,8 @@ TEST(TransferInGltf, RawVectorsComeBackExactly) {
     EXPECT_EQ(scene_again.triangles(), scene.triangles());
     const auto read = read_transfer(again, scene_again);
     ASSERT_TRUE(read);
-    EXPECT_EQ(read->transfer.order, 4);
-    EXPECT_EQ(read->transfer.channels, 3);
+    EXPECT_EQ(read->transfer.layout.order, 4);
+    EXPECT_EQ(read->transfer.layout.channels(), 3);
     EXPECT_EQ(read->transfer.vectors, baked.transfer.vectors);
     EXPECT_EQ(read->record.seed, baked.record.seed);
     EXPECT_EQ(read->record.rays, 77);
@@ -166,6 +169,21 @@ TEST(TransferInGltf, RawVectorsComeBackExactly) {
     EXPECT_EQ(read->record.backend, Backend::gpu);
     EXPECT_EQ(read->record.receivers, baked.record.receivers);
     EXPECT_FALSE(read_clustered(again, scene_again));
+}
+
+TEST(TransferInGltf, PartsComeBackAsTheyAre) {
+    const OnDisk files(demanding_file());
+    GltfDocument document = load_gltf(files.source);
+    const Scene scene = extract_scene(document);
+    const TransferLayout layout{3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    const BakedTransfer baked = random_bake(scene, layout);
+    write_transfer(document, scene, baked);
+    save_glb(document, files.written);
+    const GltfDocument again = load_gltf(files.written);
+    const auto read = read_transfer(again, extract_scene(again));
+    ASSERT_TRUE(read);
+    EXPECT_EQ(read->transfer.layout, layout);
+    EXPECT_EQ(read->transfer.vectors, baked.transfer.vectors);
 }
 
 TEST(TransferInGltf, ReceiversAreTheSamePointsAfterwards) {
@@ -333,7 +351,7 @@ TEST(TransferInGltf, DamagedTransferIsRefused) {
     EXPECT_NO_THROW(read_changed([](auto&) {}));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["version"] = 99; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["order"] = 11; }), Error);
-    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["channels"] = 2; }), Error);
+    EXPECT_THROW(read_changed([&](auto& j) { extension(j)["parts"][0]["channels"] = 2; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["bake"]["method"] = "guess"; }), Error);
     EXPECT_NO_THROW(read_changed([&](auto& j) { extension(j)["bake"].erase("method"); }));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["components"] = {100}; }), Error);
@@ -385,7 +403,13 @@ TEST(TransferInGltf, EverythingThatTheSchemaForbidsIsRefused) {
     const std::function<void(nlohmann::ordered_json&)> changes[] = {
         [&](auto& j) { extension(j)["version"] = 2.5; },
         [&](auto& j) { extension(j)["order"] = 3.5; },
-        [&](auto& j) { extension(j)["channels"] = 3.5; },
+        [&](auto& j) { extension(j)["parts"][0]["channels"] = 3.5; },
+        [&](auto& j) { extension(j)["parts"][0]["kind"] = "lamp"; },
+        [&](auto& j) { extension(j)["parts"][0]["kind"] = 1; },
+        [&](auto& j) { extension(j)["parts"][0].erase("channels"); },
+        [&](auto& j) { extension(j)["parts"].push_back(extension(j)["parts"][0]); },
+        [&](auto& j) { extension(j)["parts"] = nlohmann::ordered_json::array(); },
+        [&](auto& j) { extension(j)["parts"] = "whole"; },
         [&](auto& j) { extension(j)["components"][1] = 1.5; },
         [&](auto& j) { extension(j)["components"][1] = (1LL << 33) + 1; },
         [&](auto& j) { extension(j)["components"][0] = -1; },

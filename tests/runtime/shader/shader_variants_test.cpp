@@ -13,9 +13,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <memory>
 #include <random>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -269,12 +271,23 @@ TEST(ConstantsShader, FormsWhatCppForms) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
     const Light light = random_light();
-    for (const WeightFormat format : {WeightFormat::packed, WeightFormat::snorm8}) {
-        const ClusteredTransfer transfer = compressed(format);
+    std::vector<ClusteredTransfer> transfers = {compressed(WeightFormat::packed),
+                                                compressed(WeightFormat::snorm8)};
+    for (const auto& [first, second] :
+         {std::pair(1, 3), std::pair(3, 1)}) { // rows of four channels as those of parts
+        transfers.push_back(transfers[1]);
+        ClusteredBases& bases = transfers.back().bases;
+        bases.layout.parts = {{PartKind::direct, first}, {PartKind::indirect, second}};
+        bases.rows.resize(constant_rows(bases) * bases.dimension());
+        for (std::size_t i = 0; i < bases.rows.size(); ++i)
+            bases.rows[i] = std::sin(static_cast<float>(i));
+    }
+    for (const ClusteredTransfer& transfer : transfers) {
         const ConstantFormer former(transfer);
         std::vector<glm::vec4> expected(former.rows()), measured(former.rows()), coefficients;
-        former.form(light.coefficients, expected);
-        for (const glm::vec3& c : light.coefficients)
+        const Lighting lighting{light, rotated_about_y(light, 1)};
+        former.form(lighting, expected);
+        for (const glm::vec3& c : light_columns(former.layout(), lighting))
             coefficients.emplace_back(c, 0);
         const GLuint program = glCreateProgram();
         glAttachShader(program,

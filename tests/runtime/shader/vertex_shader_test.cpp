@@ -37,7 +37,7 @@ TEST_P(VertexShader, AgreesWithCppPerVertex) {
     ASSERT_TRUE(context) << why;
     std::mt19937 random(9);
     std::normal_distribution<float> normal;
-    Transfer transfer{kind.order, kind.channels, {}};
+    Transfer transfer{layout_of_one(kind.order, kind.channels), {}};
     transfer.vectors.resize(2000 * transfer.dimension());
     for (std::size_t i = 0; i < transfer.vectors.size(); ++i)
         transfer.vectors[i] = normal(random) + (i % transfer.dimension() == 0 ? 3.0f : 0.0f);
@@ -53,7 +53,7 @@ TEST_P(VertexShader, AgreesWithCppPerVertex) {
         c += 0.3f * glm::vec3(normal(random), normal(random), normal(random));
 
     const auto expected = exit_radiance(compressed, light);
-    const auto measured = exit_radiance_gl(compressed, light, *context);
+    const auto measured = exit_radiance_gl(compressed, {light}, *context);
     ASSERT_EQ(measured.size(), expected.size());
     float largest = 0;
     for (std::size_t p = 0; p < expected.size(); ++p)
@@ -67,7 +67,7 @@ TEST(GlTransfer, TooManyComponentsAreRefused) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
     ClusteredTransfer transfer;
-    transfer.bases.order = 10;
+    transfer.bases.layout = layout_of_one(10, 1);
     transfer.bases.components = {49};
     transfer.bases.rows.resize(50 * 100);
     EXPECT_THROW(GlTransfer{transfer}, Error);

@@ -35,7 +35,7 @@ namespace {
 
 TEST(Frame, AllocatesNothing) {
     ClusteredTransfer transfer;
-    transfer.bases.order = 6;
+    transfer.bases.layout = layout_of_one(6, 1);
     transfer.bases.components.assign(40, 5);
     transfer.bases.rows.assign(40 * 6 * 36, 0.5f);
     const ConstantFormer former(transfer);

@@ -19,8 +19,7 @@ struct Shape {
 /// Random bases whose clusters have different numbers of components, and random receivers.
 ClusteredTransfer random_transfer(const Shape& shape, std::mt19937& random) {
     ClusteredTransfer t;
-    t.bases.order = shape.order;
-    t.bases.channels = shape.channels;
+    t.bases.layout = layout_of_one(shape.order, shape.channels);
     t.bases.components = {3, 0, 5, 1};
     std::normal_distribution<float> normal;
     t.bases.rows.resize((4 + 9) * t.bases.dimension());
@@ -97,7 +96,7 @@ TEST_P(Clustered, RadianceThroughConstantsEqualsDecodedTransferTimesLight) {
 
 TEST(ClusteredTransfer, IntegersDecodeAsInOpenGl) {
     ClusteredTransfer transfer;
-    transfer.bases.order = 1;
+    transfer.bases.layout = layout_of_one(1, 1);
     transfer.bases.components = {4};
     ClusteredReceivers& receivers = transfer.receivers;
     receivers.format = WeightFormat::snorm8;
@@ -111,7 +110,7 @@ TEST(ClusteredTransfer, IntegersDecodeAsInOpenGl) {
 
 TEST(ClusteredTransfer, PackedWeightsLieWhereTheFormatSays) {
     ClusteredTransfer transfer;
-    transfer.bases.order = 1;
+    transfer.bases.layout = layout_of_one(1, 1);
     transfer.bases.components = {0, 4};
     transfer.bases.bits = {7, 6, 6, 5};
     transfer.receivers.format = WeightFormat::packed;
@@ -171,7 +170,7 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
     std::normal_distribution<float> normal;
     for (const int components : {0, 1, 5, 8, 12}) {
         ClusteredTransfer t;
-        t.bases.order = 1;
+        t.bases.layout = layout_of_one(1, 1);
         t.bases.components = {components, components > 2 ? components - 2 : 0};
         for (std::size_t i = 0; i < constant_rows(t.bases); ++i)
             t.bases.rows.push_back(normal(random));
@@ -205,8 +204,7 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
 TEST(ClusteredTransfer, PackedWeightsComeBackAlsoAcrossWords) {
     // Directions are unit vectors and the mean is zero, so that what is decoded are the weights.
     ClusteredTransfer t;
-    t.bases.order = 3;
-    t.bases.channels = 1;
+    t.bases.layout = layout_of_one(3, 1);
     t.bases.components = {8};
     t.bases.bits = {7, 16, 5, 9, 13, 16, 11, 3}; // the fourth and the sixth lie across two words
     t.bases.rows.assign(9 * 9, 0.0f);

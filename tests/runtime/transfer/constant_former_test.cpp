@@ -6,16 +6,16 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
 namespace prt {
 namespace {
 
-ClusteredTransfer random_transfer(int order, int channels, WeightFormat format) {
+ClusteredTransfer random_transfer(const TransferLayout& layout, WeightFormat format) {
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
     ClusteredTransfer t;
-    t.bases.order = order;
-    t.bases.channels = channels;
+    t.bases.layout = layout;
     t.bases.components = {3, 0, 7, 1, 9, 4};
     t.receivers.format = format;
     std::size_t rows = 0;
@@ -27,6 +27,10 @@ ClusteredTransfer random_transfer(int order, int channels, WeightFormat format) 
     for (std::size_t i = 0; i < rows * t.bases.dimension(); ++i)
         t.bases.rows.push_back(normal(random));
     return t;
+}
+
+ClusteredTransfer random_transfer(int order, int channels, WeightFormat format) {
+    return random_transfer(layout_of_one(order, channels), format);
 }
 
 Light random_light(int order) {
@@ -58,7 +62,8 @@ TEST_P(Constants, AreDotProductsOfRowsAndLight) {
     former.form(light.coefficients, constants);
     std::size_t row = 0, bit = 0;
     const auto product = [&, channels = channels](std::size_t r) { // clang before 16 captures bindings so
-        return exit_radiance({&t.bases.rows[r * t.bases.dimension()], t.bases.dimension()}, channels, light);
+        return exit_radiance({&t.bases.rows[r * t.bases.dimension()], t.bases.dimension()}, t.bases.layout,
+                             light.coefficients);
     };
     for (const int m : t.bases.components) {
         glm::vec3 mean = product(row);
@@ -74,6 +79,34 @@ TEST_P(Constants, AreDotProductsOfRowsAndLight) {
         }
         EXPECT_LT(glm::distance(glm::vec3(constants[first]), mean), 2e-4f); // ten sums of 300 products
         EXPECT_EQ(constants[first].w, 0);
+    }
+}
+
+/// By hand, from the rows of each part and the light on it.
+TEST(ConstantsOfParts, AreTheSumOfEachUnderItsLight) {
+    for (const auto& [direct, indirect] :
+         {std::pair(1, 1), std::pair(1, 3), std::pair(3, 1), std::pair(3, 3)}) {
+        const TransferLayout layout{5, {{PartKind::direct, direct}, {PartKind::indirect, indirect}}};
+        const ClusteredTransfer t = random_transfer(layout, WeightFormat::snorm8);
+        const Light sky = random_light(6), suns = directional_light(5, {0, 1, 0}, {3, 2, 1});
+        const ConstantFormer former(t);
+        std::vector<glm::vec4> constants(former.rows());
+        former.form(Lighting{sky, suns}, constants);
+        for (std::size_t row = 0; row < former.rows(); ++row) {
+            const float* of = &t.bases.rows[row * t.bases.dimension()];
+            glm::dvec3 expected(0);
+            for (int c = 0; c < 3; ++c)
+                for (std::size_t i = 0; i < 25; ++i) {
+                    const double lit_directly = static_cast<double>(sky.coefficients[i][c]),
+                                 lit_after = lit_directly + static_cast<double>(suns.coefficients[i][c]);
+                    const std::size_t of_direct = direct == 3 ? 25 * static_cast<std::size_t>(c) : 0,
+                                      of_rest = indirect == 3 ? 25 * static_cast<std::size_t>(c) : 0;
+                    expected[c] += lit_directly * static_cast<double>(of[of_direct + i]) +
+                                   lit_after * static_cast<double>(
+                                                   of[25 * static_cast<std::size_t>(direct) + of_rest + i]);
+                }
+            EXPECT_LT(glm::distance(glm::dvec3(constants[row]), expected), 1e-4) << row;
+        }
     }
 }
 

@@ -12,7 +12,8 @@ namespace prt {
 namespace {
 
 TEST(RelativeL2, WeightsByArea) {
-    const Transfer a{1, 1, {1, 2}}, b{1, 1, {1.5f, 2}};
+    const TransferLayout layout = layout_of_one(1, 1);
+    const Transfer a{layout, {1, 2}}, b{layout, {1.5f, 2}};
     // sqrt(3 · 0.25 / (3 · 1 + 1 · 4))
     EXPECT_NEAR(relative_l2(a, b, std::vector<float>{3, 1}), std::sqrt(0.75 / 7), 1e-7);
     EXPECT_EQ(relative_l2(a, a, std::vector<float>{3, 1}), 0);
@@ -20,13 +21,22 @@ TEST(RelativeL2, WeightsByArea) {
 }
 
 TEST(RelativeL2, ComparesGreyWithColour) {
-    const Transfer grey{1, 1, {2}}, coloured{1, 3, {2, 2, 3}};
+    const Transfer grey{layout_of_one(1, 1), {2}}, coloured{layout_of_one(1, 3), {2, 2, 3}};
     EXPECT_NEAR(relative_l2(grey, coloured, std::vector<float>{1}), std::sqrt(1.0 / 12), 1e-7);
 }
 
 TEST(RelativeL2, DifferentShapesAreRefused) {
-    EXPECT_THROW(relative_l2({1, 1, {2}}, {1, 1, {2, 3}}, std::vector<float>{1}), Error);
-    EXPECT_THROW(relative_l2({1, 1, {1, 2, 3, 4}}, {2, 1, {1, 2, 3, 4}}, std::vector<float>(4, 1)), Error);
+    const Transfer one = zero_transfer(1, 1, 1);
+    EXPECT_THROW(relative_l2(one, zero_transfer(1, 1, 2), std::vector<float>{1}), Error);
+    EXPECT_THROW(relative_l2(zero_transfer(1, 1, 4), zero_transfer(2, 1, 4), std::vector<float>(4, 1)),
+                 Error);
+}
+
+TEST(RelativeL2, ComparesOtherPartsAsAWhole) {
+    const Transfer both{{1, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}, {1, 1, 2, 3}};
+    const Transfer direct{layout_of_one(1, 1, PartKind::direct), {2}}, whole{layout_of_one(1, 3), {2, 3, 5}};
+    EXPECT_NEAR(relative_l2(both, whole, std::vector<float>{1}), std::sqrt(1.0 / (4 + 9 + 16)), 1e-7);
+    EXPECT_NEAR(relative_l2(both, direct, std::vector<float>{1}), std::sqrt((1.0 + 4) / (4 + 9 + 16)), 1e-7);
 }
 
 TEST(LitError, HasTheDefinedMeasures) {

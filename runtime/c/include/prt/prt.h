@@ -100,6 +100,7 @@ typedef enum prt_weight_format {
 
 typedef struct prt_model_info {
     int order, channels;
+    int direct_apart; /* 1 where suns can be lit apart from the sky, else 0 */
     size_t receivers; /* vertices of all meshes */
     size_t clusters;
     size_t rows; /* of constants, 4 floats each */
@@ -130,6 +131,11 @@ PRT_API prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_m
  * 1e20, constants at most 1e30; after PRT_BAD_ARGUMENT for these `constants` may be written. */
 PRT_API prt_status prt_model_form_constants(const prt_model* model, int order, const float* light,
                                             float* constants, prt_message* message);
+/* The same for a sky without its suns, whose direct light the renderer adds with sharp shadows, and for
+ * their light, which the model is lit by after a bounce; `suns` may be null: there are none. Only a model
+ * whose transfer keeps direct light apart knows the two apart: info.direct_apart. */
+PRT_API prt_status prt_model_form_constants_apart(const prt_model* model, int order, const float* sky,
+                                                  const float* suns, float* constants, prt_message* message);
 /* What the vertex shader computes from constants of at most 1e30: exit radiance for albedo 1, [receivers][3].
  */
 PRT_API prt_status prt_model_evaluate(const prt_model* model, const float* constants, float* radiance,

@@ -40,6 +40,9 @@ std::string relight_defines(const ClusteredTransfer& transfer,
 std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource constants,
                            ShaderLanguage language);
 
+/// The lines that prt_parts.glsl wants for a layout. Throws `Error` where it is none.
+std::string part_defines(const TransferLayout& layout);
+
 /// A complete compute shader that forms the constants (shaders/prt_constants.comp), for GLSL 4.5 and Vulkan.
 std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language);
 

@@ -20,8 +20,8 @@ public:
 
     /// Defines for shaders that include prt_exit_radiance.glsl.
     const std::string& defines() const { return defines_; }
-    /// Forms the constants for `light` and uploads them.
-    void set_light(const Light& light);
+    /// Forms the constants for `lighting` and uploads them.
+    void set_light(const Lighting& lighting);
     /// Points the attributes of `vertex_array` at the receivers from `first` on.
     void attach(std::uint32_t vertex_array, std::size_t first) const;
     /// Binds the constants and the table of clusters.
@@ -40,7 +40,7 @@ private:
 };
 
 /// The exit radiance that the vertex shader computes, read back: [receivers].
-std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Light& light,
+std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Lighting& lighting,
                                         const GlContext& context);
 
 } // namespace prt

@@ -1,0 +1,92 @@
+// Keeps direct light apart from what bounced: suns can then be lit sharply, and each part has only the
+// channels that it needs.
+
+#include "parts.h"
+
+#include "prt/sh_basis.h"
+
+#include <algorithm>
+
+namespace prt {
+namespace {
+
+std::size_t channel_size(const Transfer& transfer) {
+    return static_cast<std::size_t>(coefficient_count(transfer.layout.order));
+}
+
+PartKind kind_of(const Transfer& transfer) {
+    return transfer.layout.parts.front().kind;
+}
+
+bool is_zero(const Transfer& transfer) {
+    return std::all_of(transfer.vectors.begin(), transfer.vectors.end(), [](float v) { return v == 0; });
+}
+
+/// `all` without `direct`.
+Transfer rest_of(const Transfer& direct, const Transfer& all) {
+    Transfer rest = all;
+    rest.layout.parts.front().kind = PartKind::indirect;
+    const std::size_t stored = direct.dimension();
+    for (std::size_t p = 0; p < rest.receivers(); ++p) {
+        const std::span<float> to = rest.vector(p);
+        for (std::size_t i = 0; i < to.size(); ++i)
+            to[i] -= direct.vector(p)[i % stored]; // its one channel serves all
+    }
+    return rest;
+}
+
+} // namespace
+
+Transfer exit_without_bounces(const BakePlan& plan, Transfer incident, const Refill& refill) {
+    const std::size_t size = incident.dimension();
+    incident.layout.parts.front().kind = PartKind::direct;
+    refill.apply(std::span(incident.vectors), size);
+    for (const DiffusionOperator& body : plan.diffusion)
+        for (const std::uint32_t p : body.members())
+            std::fill_n(incident.vector(p).begin(), size, 0.0f);
+    return incident;
+}
+
+Transfer in_parts(const Transfer& direct, const Transfer& all) {
+    const Transfer rest = narrowed(rest_of(direct, all));
+    if (is_zero(rest))
+        return direct;
+    if (is_zero(direct))
+        return rest;
+    Transfer both = zero_transfer(
+        {direct.layout.order, {direct.layout.parts.front(), rest.layout.parts.front()}}, direct.receivers());
+    for (std::size_t p = 0; p < both.receivers(); ++p) {
+        const auto behind =
+            std::copy(direct.vector(p).begin(), direct.vector(p).end(), both.vector(p).begin());
+        std::copy(rest.vector(p).begin(), rest.vector(p).end(), behind);
+    }
+    return both;
+}
+
+Transfer narrowed(Transfer transfer) {
+    if (transfer.layout.channels() == 1)
+        return transfer;
+    const std::size_t size = channel_size(transfer);
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
+        const auto red = transfer.vector(p).first(size);
+        for (const std::size_t c : {1u, 2u})
+            if (!std::equal(red.begin(), red.end(), transfer.vector(p).subspan(c * size).begin()))
+                return transfer;
+    }
+    Transfer white =
+        zero_transfer(layout_of_one(transfer.layout.order, 1, kind_of(transfer)), transfer.receivers());
+    for (std::size_t p = 0; p < white.receivers(); ++p)
+        std::copy_n(transfer.vector(p).begin(), size, white.vector(p).begin());
+    return white;
+}
+
+Transfer in_color(const Transfer& white) {
+    Transfer wide = zero_transfer(layout_of_one(white.layout.order, 3, kind_of(white)), white.receivers());
+    for (std::size_t p = 0; p < white.receivers(); ++p)
+        for (std::size_t c = 0; c < 3; ++c)
+            std::copy(white.vector(p).begin(), white.vector(p).end(),
+                      wide.vector(p).begin() + static_cast<std::ptrdiff_t>(c * white.dimension()));
+    return wide;
+}
+
+} // namespace prt

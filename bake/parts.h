@@ -1,0 +1,24 @@
+#pragma once
+
+// Exit transfer taken apart: what arrives without a bounce, and the rest (docs/math.md, section 7).
+
+#include "plan.h"
+#include "scene/refill.h"
+
+namespace prt {
+
+/// Exit transfer without bounces and media, of all receivers of `plan`: `incident` light, one channel, with
+/// `refill`. Dark where all light goes through a medium.
+Transfer exit_without_bounces(const BakePlan& plan, Transfer incident, const Refill& refill);
+
+/// `all` exit transfer with the part `direct` apart from the rest; a part that is nothing is left out
+/// beside another. Both of the same receivers; `direct` may have one channel where `all` has three.
+Transfer in_parts(const Transfer& direct, const Transfer& all);
+
+/// `transfer` of one part in one channel where all three are the same.
+Transfer narrowed(Transfer transfer);
+
+/// `white` in three equal channels.
+Transfer in_color(const Transfer& white);
+
+} // namespace prt

@@ -1,0 +1,128 @@
+#include "prt/transfer_layout.h"
+
+#include "prt/error_measures.h"
+#include "prt/support/error.h"
+#include "prt/transfer.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace prt {
+namespace {
+
+TransferLayout direct_and_indirect(int order, int direct, int indirect) {
+    return {order, {{PartKind::direct, direct}, {PartKind::indirect, indirect}}};
+}
+
+Light light_of(int order, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    Light light{order, {}};
+    for (int i = 0; i < order * order; ++i)
+        light.coefficients.emplace_back(normal(random), normal(random), normal(random));
+    return light;
+}
+
+Transfer transfer_of(const TransferLayout& layout, std::size_t receivers, unsigned seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    Transfer transfer = zero_transfer(layout, receivers);
+    for (float& v : transfer.vectors)
+        v = normal(random);
+    return transfer;
+}
+
+TEST(TransferLayout, CountsWhatItsPartsHold) {
+    const TransferLayout layout = direct_and_indirect(4, 1, 3);
+    EXPECT_EQ(layout.channels(), 3);
+    EXPECT_EQ(layout.blocks(), 4u);
+    EXPECT_EQ(layout.dimension(), 64u);
+    EXPECT_EQ(layout.columns(), 32u);
+    EXPECT_TRUE(layout.has(PartKind::direct));
+    EXPECT_FALSE(layout.has(PartKind::whole));
+    EXPECT_EQ(layout_of_one(3, 1).dimension(), 9u);
+}
+
+TEST(TransferLayout, ThatMakesNoSenseIsRefused) {
+    EXPECT_NO_THROW(check_layout(direct_and_indirect(10, 3, 3)));
+    EXPECT_NO_THROW(check_layout(layout_of_one(1, 1, PartKind::indirect)));
+    for (const TransferLayout& layout :
+         {TransferLayout{4, {}}, direct_and_indirect(0, 1, 1), direct_and_indirect(11, 1, 1),
+          direct_and_indirect(4, 2, 1), direct_and_indirect(4, 1, 0),
+          TransferLayout{4, {{PartKind::indirect, 1}, {PartKind::direct, 1}}},
+          TransferLayout{4, {{PartKind::direct, 1}, {PartKind::direct, 1}}},
+          TransferLayout{4, {{PartKind::direct, 1}, {PartKind::whole, 1}}}})
+        EXPECT_THROW(check_layout(layout), Error);
+}
+
+TEST(LightColumns, AreTheSkyForDirectLightAndTheSkyWithItsSunsForTheRest) {
+    const Light sky = light_of(4, 1), suns = light_of(3, 2);
+    for (const TransferLayout& layout :
+         {direct_and_indirect(3, 1, 3), layout_of_one(3, 1, PartKind::direct),
+          layout_of_one(3, 3, PartKind::indirect), layout_of_one(3, 1, PartKind::whole)}) {
+        const std::vector<glm::vec3> columns = light_columns(layout, Lighting{sky, suns});
+        ASSERT_EQ(columns.size(), 9 * layout.parts.size());
+        for (std::size_t part = 0; part < layout.parts.size(); ++part)
+            for (std::size_t i = 0; i < 9; ++i)
+                EXPECT_EQ(columns[9 * part + i], layout.parts[part].kind == PartKind::direct
+                                                     ? sky.coefficients[i]
+                                                     : sky.coefficients[i] + suns.coefficients[i]);
+        for (std::size_t i = 0; i < 9 * layout.parts.size(); ++i)
+            EXPECT_EQ(light_columns(layout, {sky})[i], sky.coefficients[i % 9]);
+    }
+    EXPECT_THROW(light_columns(direct_and_indirect(4, 1, 1), Lighting{sky, suns}), Error);
+    EXPECT_THROW(light_columns(direct_and_indirect(5, 1, 1), {sky}), Error);
+}
+
+TEST(ExitRadiance, OfPartsIsTheSumOfEachUnderItsLight) {
+    const Light sky = light_of(4, 3), suns = light_of(4, 4);
+    for (const auto& [direct, indirect] : {std::pair(1, 3), std::pair(3, 1)}) {
+        const Transfer both = transfer_of(direct_and_indirect(4, direct, indirect), 30, 5);
+        Transfer first = zero_transfer(4, direct, 30), second = zero_transfer(4, indirect, 30);
+        for (std::size_t p = 0; p < 30; ++p) {
+            const auto vector = both.vector(p);
+            std::copy_n(vector.begin(), first.dimension(), first.vector(p).begin());
+            std::copy_n(vector.end() - static_cast<std::ptrdiff_t>(second.dimension()), second.dimension(),
+                        second.vector(p).begin());
+        }
+        const auto lit = exit_radiance(both, Lighting{sky, suns}), of_first = exit_radiance(first, sky),
+                   of_second = exit_radiance(second, sum(sky, suns));
+        for (std::size_t p = 0; p < 30; ++p)
+            EXPECT_LT(glm::distance(lit[p], of_first[p] + of_second[p]), 1e-4f);
+    }
+}
+
+TEST(AsWhole, IsLitByOneSkyAsThePartsAre) {
+    const Light sky = light_of(5, 6);
+    for (const auto& [direct, indirect] :
+         {std::pair(1, 1), std::pair(1, 3), std::pair(3, 1), std::pair(3, 3)}) {
+        const Transfer parts = transfer_of(direct_and_indirect(5, direct, indirect), 40, 7);
+        const Transfer whole = as_whole(parts);
+        EXPECT_EQ(whole.layout, layout_of_one(5, std::max(direct, indirect)));
+        const auto expected = exit_radiance(parts, sky), lit = exit_radiance(whole, sky);
+        for (std::size_t p = 0; p < 40; ++p)
+            EXPECT_LT(glm::distance(lit[p], expected[p]), 1e-4f);
+    }
+}
+
+TEST(MeanVisibility, AddsUpTheParts) {
+    Transfer transfer = zero_transfer(direct_and_indirect(1, 1, 3), 2);
+    transfer.vectors = {0.5f, 0.1f, 0.2f, 0.3f, 0.25f, 0, 0, 0};
+    for (float& v : transfer.vectors)
+        v *= static_cast<float>(kY00);
+    EXPECT_NEAR(mean_visibility(transfer, std::vector<float>{3, 1}), (3 * (0.5 + 0.2) + 0.25) / 4, 1e-6);
+}
+
+TEST(RelativeL2, CountsAGreyPartForEachColorBesideAColoredOne) {
+    Transfer reference = zero_transfer(direct_and_indirect(1, 1, 3), 1), other = reference;
+    reference.vectors = {2, 1, 1, 1};
+    other.vectors = {2.5f, 1, 1, 1.25f};
+    EXPECT_NEAR(relative_l2(reference, other, std::vector<float>{1}),
+                std::sqrt((3 * 0.25 + 0.0625) / (3 * 4 + 3)), 1e-7);
+}
+
+} // namespace
+} // namespace prt
