@@ -1,0 +1,87 @@
+#include "prt/receiver_colors.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+namespace prt {
+namespace {
+
+/// Black, red, yellow and white, and no more beyond.
+TEST(ReceiverColors, OfHeatRunOverRedAndYellow) {
+    const auto expect = [](double share, const glm::vec3& color) {
+        EXPECT_LT(glm::distance(heat_color(share), color), 1e-6f) << share;
+    };
+    expect(0, {0, 0, 0});
+    expect(1.0 / 6, {0.5f, 0, 0});
+    expect(1.0 / 3, {1, 0, 0});
+    expect(0.5, {1, 0.5f, 0});
+    expect(2.0 / 3, {1, 1, 0});
+    expect(5.0 / 6, {1, 1, 0.5f});
+    expect(1, {1, 1, 1});
+    expect(7, {1, 1, 1});
+}
+
+TEST(ReceiverColors, OfNumbersDifferMostOfAllFromThoseNextToThem) {
+    constexpr std::size_t kLabels = 256;
+    for (std::size_t a = 0; a < kLabels; ++a) {
+        const glm::vec3 color = label_color(a);
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GT(color[c], 0);
+            EXPECT_LT(color[c], 1);
+        }
+        EXPECT_GT(glm::distance(color, label_color(a + 1)), 0.3f) << a;
+        for (std::size_t b = 0; b < a; ++b)
+            EXPECT_GT(glm::distance(color, label_color(b)), 0.003f) << a << " " << b;
+    }
+}
+
+TEST(ReceiverColors, OfClustersAreThoseOfTheirNumbersAndOfComponentsTheirShareAsHeat) {
+    ClusteredTransfer transfer;
+    transfer.bases.components = {0, 4, 1};
+    transfer.receivers.clusters = {2, 0, 1};
+    EXPECT_EQ(cluster_colors(transfer), (std::vector{label_color(2), label_color(0), label_color(1)}));
+    EXPECT_EQ(component_colors(transfer), (std::vector{heat_color(0.25), heat_color(0), heat_color(1)}));
+    transfer.bases.components = {0, 0, 0};
+    EXPECT_EQ(component_colors(transfer), std::vector(3, glm::vec3(0)));
+}
+
+/// Radiance of 2 on a quarter and of 6 on three quarters of the area: 5 in the mean.
+struct ColoredMesh {
+    std::vector<float> areas = {1, 3, 0, 0};
+    std::vector<glm::vec3> reference = {glm::vec3(2), glm::vec3(6), glm::vec3(4), glm::vec3(4)};
+    std::vector<glm::vec3> approximation = reference;
+};
+
+void expect_colors(const std::vector<glm::vec3>& colors, const std::vector<glm::vec3>& expected) {
+    ASSERT_EQ(colors.size(), expected.size());
+    for (std::size_t p = 0; p < colors.size(); ++p)
+        EXPECT_LT(glm::distance(colors[p], expected[p]), 1e-4f) << p;
+}
+
+TEST(ReceiverColors, OfErrorsAreTheLargestChannelOverTheMeanRadiance) {
+    ColoredMesh mesh;
+    mesh.approximation[0] += glm::vec3(0.125f, -0.25f, 0);
+    mesh.approximation[1] -= glm::vec3(0, 0.1f, 5);
+    expect_colors(error_colors(mesh.reference, mesh.approximation, mesh.areas),
+                  {heat_color(0.05 / kWhiteError), glm::vec3(1), glm::vec3(0), glm::vec3(0)});
+    const std::vector<glm::vec3> dark(4, glm::vec3(0)); // where there is no light there is no measure
+    expect_colors(error_colors(dark, mesh.approximation, mesh.areas), dark);
+}
+
+TEST(ReceiverColors, OfSeamsAreTheLargestJumpIntoAnotherCluster) {
+    ColoredMesh mesh;
+    mesh.approximation[0] += glm::vec3(0.05f, 0, 0);
+    mesh.approximation[1] -= glm::vec3(0.05f, 0, 0.01f);
+    mesh.approximation[3] += glm::vec3(9);
+    // 0 and 1 are apart by 0.1; 1 and 2, too, but by less; 2 and 3 are in one cluster.
+    const std::vector<Edge> edges = {{0, 1}, {1, 2}, {2, 3}};
+    const std::vector<std::uint16_t> clusters = {0, 1, 2, 2};
+    expect_colors(seam_colors(mesh.reference, mesh.approximation, mesh.areas, edges, clusters),
+                  {heat_color(0.02 / kWhiteSeam), heat_color(0.02 / kWhiteSeam),
+                   heat_color(0.01 / kWhiteSeam), glm::vec3(0.01f, 0.02f, 0.08f)});
+    const std::vector<glm::vec3> dark(4, glm::vec3(0));
+    EXPECT_EQ(seam_colors(dark, mesh.approximation, mesh.areas, edges, clusters)[0], glm::vec3(0));
+}
+
+} // namespace
+} // namespace prt
