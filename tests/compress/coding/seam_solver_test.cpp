@@ -166,5 +166,13 @@ TEST(SeamSolver, NoReceiverAloneFindsACheaperCodeAfterwards) {
     }
 }
 
+TEST(SeamSolver, AReceiverStaysWhereNoOtherClusterIsCheaper) {
+    // Clusters are all the same, and nothing but a mean.
+    SmallMesh mesh(12, 0, 0, WeightGrid::any());
+    const std::vector<std::uint32_t> before = mesh.codes.clusters;
+    smooth_seams(mesh.points, mesh.significance, mesh.edges, mesh.clusters, {.seam_price = 1}, mesh.codes);
+    EXPECT_EQ(mesh.codes.clusters, before);
+}
+
 } // namespace
 } // namespace prt
