@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Formats, Seams,
 
 TEST_P(Seams, SmoothingLowersTheJumpsAndRaisesTheErrorALittle) {
     const Grid grid;
-    const Grid::Jumps without = grid.compressed(0, 0, GetParam()), with = grid.compressed(2, 0, GetParam());
+    const Grid::Jumps without = grid.compressed(0, 0, GetParam()), with = grid.compressed(0.5, 0, GetParam());
     EXPECT_LT(with.squared, 0.9 * without.squared);
     EXPECT_LT(with.lit_rms, 1.2 * without.lit_rms);
     EXPECT_GE(with.lit_rms, without.lit_rms);
@@ -78,7 +78,7 @@ TEST_P(Seams, SmoothingLowersTheJumpsAndRaisesTheErrorALittle) {
 
 TEST_P(Seams, APriceOfBordersShortensThem) {
     const Grid grid;
-    const Grid::Jumps without = grid.compressed(0, 0, GetParam()), with = grid.compressed(0, 2, GetParam());
+    const Grid::Jumps without = grid.compressed(0, 0, GetParam()), with = grid.compressed(0, 0.5, GetParam());
     EXPECT_LT(with.crossing, without.crossing);
 }
 
