@@ -119,15 +119,22 @@ TEST(Trace, TellsOfEveryTrialOfASearch) {
 
 TEST(Trace, NoBarRunsBackwards) {
     const Transfer t = curved_sheets(300);
+    const std::vector<float> areas(t.receivers(), 1.0f);
     double shown = 0;
     const Progress progress{[&](double share) {
                                 EXPECT_GE(share, shown - 1e-12);
+                                EXPECT_LE(share, 1);
                                 shown = share;
                             },
                             {}};
-    const CompressOptions options{.clusters = 64, .coding = preset_u32()};
-    compress_preset(t, std::vector<float>(300, 1.0f), {}, options, progress); // too small: searches, too
+    // A preset whose bases are too large for so few receivers: the search follows in the same bar.
+    const CompressOptions options{.clusters = 256, .coding = preset_u32()};
+    EXPECT_FALSE(compress_preset(t, areas, {}, options, progress).trials.empty());
     EXPECT_EQ(shown, 1);
+    shown = 0;
+    SearchOptions search;
+    search.budget.bytes_per_vertex = 10;
+    EXPECT_GT(compress_within(t, areas, {}, search, progress).trials.size(), 1u);
 }
 
 } // namespace
