@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <string>
 
 namespace prt {
 namespace {
@@ -96,6 +97,36 @@ TEST(Bake, RefusesWhatItCannotDo) {
         bad = options;
         bad.subsurface.metres_per_unit = number;
         EXPECT_THROW(bake(scene, bad), Error);
+    }
+}
+
+TEST(Bake, TellsWhatDepthMapsCannotDo) {
+    // On machines without a GPU, too: what is asked for is looked at first.
+    BakeOptions raster;
+    raster.tracer.method = BakeMethod::raster;
+    const auto expect_refusal = [](const BakeOptions& options, const char* reason) {
+        try {
+            bake(sphere_over_floor(), options);
+            ADD_FAILURE() << "not refused: " << reason;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+        }
+    };
+    BakeOptions options = raster;
+    options.tracer.backend = Backend::cpu;
+    expect_refusal(options, "no CPU backend");
+    options = raster;
+    for (const int bounces : {1, 2, kEndlessBounces}) {
+        options.bounces = bounces;
+        expect_refusal(options, "direct light only");
+    }
+    options = raster;
+    options.target_error = 0.1;
+    expect_refusal(options, "the same directions everywhere");
+    options = raster;
+    for (const int resolution : {15, 16385}) {
+        options.tracer.raster_resolution = resolution;
+        expect_refusal(options, "16..16384");
     }
 }
 
