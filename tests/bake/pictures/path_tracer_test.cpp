@@ -96,6 +96,18 @@ TEST(DistantLight, SamplesItsDirectionsWithTheDensityThatItStates) {
     EXPECT_NEAR(blue, expected, 0.002 * expected);
 }
 
+TEST(DistantLight, IsFoundFromTheBordersOfTheSquareToo) {
+    Image spot{4, 2, std::vector<glm::vec3>(8, glm::vec3(0))};
+    spot.at(1, 0) = {3, 2, 1}; // an eighth of the sphere
+    const DistantLight light(spot);
+    for (const float u : {0.0f, 0.5f, 1.0f})
+        for (const float v : {0.0f, 0.5f, 1.0f}) {
+            const DistantLight::Sample s = light.sample({u, v});
+            EXPECT_EQ(s.radiance, glm::vec3(3, 2, 1)) << u << " " << v;
+            EXPECT_NEAR(s.density, 2 / pi, 1e-6) << u << " " << v;
+        }
+}
+
 TEST(DistantLight, WithoutAnEnvironmentIsBlack) {
     const DistantLight light({});
     EXPECT_EQ(light.radiance({0, 1, 0}), glm::vec3(0));
