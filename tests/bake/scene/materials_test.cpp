@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace prt {
 namespace {
@@ -269,6 +270,28 @@ TEST(Leaf, TakesLightFromBehindThroughDiffuseTransmission) {
                 EXPECT_NEAR(static_cast<double>(t.vector(p)[c * 16 + k]),
                             0.6 * above[k] + 0.4 * ratio * below[k], 1e-6);
             }
+}
+
+TEST(Leaf, VariesFromVertexToVertex) {
+    // What passes is white, what is reflected has the color of the vertex, by which all is multiplied later.
+    Scene leaf = SceneBuilder().triangle({0, 0, 0}, {0, 0, 1}, {1, 0, 0}).build();
+    leaf.vertex_arrays[0].colors = {{1, 0.5f, 0.25f, 1}, {0.25f, 1, 0.5f, 1}, {0.5f, 0.25f, 1, 1}};
+    Material& m = leaf.materials[0];
+    m.base_color = {0.8f, 0.6f, 0.4f, 1};
+    m.transmission.factor = 0.5f;
+    BakeOptions options;
+    options.order = 1;
+    options.rays = 16;
+    options.tracer.backend = Backend::cpu;
+    const Transfer t = bake(leaf, options).baked.transfer;
+    ASSERT_EQ(t.channels, 3);
+    const double half = 0.25 / std::sqrt(std::numbers::pi); // of Y_00, all of which either side sees
+    for (std::size_t p = 0; p < 3; ++p)
+        for (int c = 0; c < 3; ++c) {
+            const auto base = static_cast<double>(m.base_color[c] * leaf.vertex_arrays[0].colors[p][c]);
+            EXPECT_NEAR(static_cast<double>(t.vector(p)[static_cast<std::size_t>(c)]), half + half / base,
+                        1e-5);
+        }
 }
 
 TEST(Leaf, NeedsChannelsWhereItColorsLight) {
