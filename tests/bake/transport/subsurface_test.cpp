@@ -190,6 +190,26 @@ TEST(Diffusion, IsThatOfAMuchFinerTolerance) {
         EXPECT_NEAR(groups[i], pairs[i], 5e-3f);
 }
 
+TEST(Diffusion, OverASpeckIsItsAreaTimesTheMiddleOfTheDipole) {
+    // A triangle with legs of a thousandth of a mean free path, over which the dipole hardly falls.
+    const float leg = 1e-5f;
+    Plane speck;
+    speck.receivers.positions = {{0, 0, 0}, {0, 0, leg}, {leg, 0, 0}};
+    speck.receivers.normals.assign(3, {0, 1, 0});
+    speck.receivers.areas.assign(3, leg * leg / 6);
+    speck.triangles = {{0, 1, 2}};
+    const glm::dvec3 scattering(90, 80, 70), absorption(10, 20, 30);
+    std::vector<float> values = {1, 1, 1, 2, 2, 2, 6, 6, 6}; // [receivers][channels], 3 in the mean
+    operator_on(speck, {scattering, absorption, 1.3}).apply(3, 1, values, 1);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const int c = static_cast<int>(i % 3);
+        const Dipole dipole(scattering[c], absorption[c], 1.3);
+        const double expected =
+            3 * static_cast<double>(leg * leg) / 2 * dipole.reflectance(0) / dipole.total();
+        EXPECT_NEAR(static_cast<double>(values[i]), expected, 1e-4 * expected);
+    }
+}
+
 TEST(Subsurface, BlursShadowsAndKeepsTheirLight) {
     const Scene scene = test::SceneBuilder().floor({0, 0, 0}, 1, 24).sphere({0, 0.4f, 0}, 0.2f, 12).build();
     BakeOptions options;
