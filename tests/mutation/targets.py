@@ -22,6 +22,7 @@ BAKE = Suite("bake_tests", "HitPoint*:Textures*:Glass*:Cut*:Blended*:Bad*:Leaf*:
              "AddBasis*:Direct*:InsideG*:Shell*:Ray*:BackFaces*:Channels*:Hard*:FootOf*:Reduced*:Dipole*:SphereB*:White*:Bounces*:Memory*")
 BOUNCES = Suite("bake_tests", "ColorB*:*PinHole*:ParallelPlates*:SphericalBowl*:Subsurface*:SmoothBoxes*:SealedIn*:OneSidedC*")
 WHOLE_BAKE = Suite("bake_tests", "PathTracer*:EndlessWall*:OneSided*:Bake*:Storage*:Diffusion*:SamplingError*:TargetError*")
+DIFFUSION = Suite("bake_tests", "Diffusion*")
 RENDER, GPU = Suite("render_tests"), Suite("gpu_tests")
 
 # The longest folder that a path begins with tells.
@@ -39,7 +40,7 @@ SUITES = {
     "runtime/shader/": [RENDER],
     "compress/": [COMPRESS, Suite("compress_tests", "Search*:Sweep*")],
     "bake/": [BAKE, BOUNCES, WHOLE_BAKE],
-    "bake/transport/": [BAKE, BOUNCES],
+    "bake/transport/": [BAKE, BOUNCES, DIFFUSION],
     "bake/trace/": [BAKE, BOUNCES],
     "bake/trace/gpu/": [GPU],
     "bake/pictures/": [Suite("bake_tests", "PathTracer*:DistantLight*:Storage*"), RENDER],
