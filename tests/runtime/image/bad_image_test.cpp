@@ -1,5 +1,6 @@
 // Images that lie, end early, never end, or are too bright.
 #include "image_limits.h"
+#include "png_check.h"
 #include "prt/environment.h"
 #include "prt/image_file.h"
 #include "prt/support/error.h"
@@ -172,6 +173,15 @@ std::string stored(const std::string& bytes) {
     volatile char soil[1 << 16];
     for (volatile char& byte : soil)
         byte = 'x';
+}
+
+TEST(Png, HasNoBitDepthWhereItEndsBefore) {
+    const std::string file =
+        std::string("\x89PNG\r\n\x1a\n") + chunk("IHDR", std::string("\0\0\0\4\0\0\0\1\x10\2\0\0\0", 13));
+    const auto bytes = std::as_bytes(std::span(file));
+    constexpr std::size_t kDepth = 8 + 8 + 8; // magic number, length and type, width and height
+    for (std::size_t length = 8; length <= bytes.size(); ++length)
+        EXPECT_EQ(png_bit_depth(bytes.first(length)), length > kDepth ? 16 : 0) << length;
 }
 
 TEST(Png, ColorsBeyondThePaletteAreBlack) {
