@@ -297,6 +297,8 @@ TEST(Morphs, TakeTheWeightsOfTheFile) {
     EXPECT_EQ(first_place(file, 0), glm::vec3(0, 0, 1));
     file.json["nodes"][0]["weights"] = {0.0};
     EXPECT_EQ(first_place(file, 0), glm::vec3(0));
+    file.json["nodes"][0]["weights"] = {0.25, 7.0, 7.0}; // two targets do not exist
+    EXPECT_EQ(first_place(file, 0), glm::vec3(0, 0, 0.5f));
 }
 
 TEST(Nodes, OfAFileWithoutScenesAreAllThatHaveNoParent) {
