@@ -5,13 +5,16 @@
 #include "support/glb_file.h"
 #include "support/temporary_folder.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <meshoptimizer.h>
 
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <limits>
 
 namespace prt {
 namespace {
@@ -141,6 +144,108 @@ TEST(Meshopt, DamagedDataIsRefused) {
     expect_refused([&](auto& json, auto& binary) {
         binary[view(json)["byteOffset"].template get<std::size_t>()] = std::byte{7};
     });
+}
+
+/// Adds a view of `values` as a filter leaves them, packed, whose elements take `stride` bytes.
+template <class T>
+std::size_t filtered_view(GlbFile& file, const std::vector<T>& values, std::size_t stride,
+                          const char* filter) {
+    const std::size_t count = values.size() * sizeof(T) / stride;
+    std::vector<unsigned char> packed(meshopt_encodeVertexBufferBound(count, stride));
+    meshopt_encodeVertexVersion(0); // what the extension asks for
+    packed.resize(meshopt_encodeVertexBuffer(packed.data(), packed.size(), values.data(), count, stride));
+    const std::size_t index = file.view(std::as_bytes(std::span(packed)), stride);
+    auto& view = file.json["bufferViews"][index];
+    view["extensions"]["EXT_meshopt_compression"] = {{"buffer", 0},
+                                                     {"byteOffset", view["byteOffset"]},
+                                                     {"byteLength", packed.size()},
+                                                     {"byteStride", stride},
+                                                     {"count", count},
+                                                     {"mode", "ATTRIBUTES"},
+                                                     {"filter", filter}};
+    view["byteLength"] = count * stride;
+    return index;
+}
+
+Scene scene_in(const GlbFile& file) {
+    const std::string bytes = file.bytes();
+    return extract_scene(parse_gltf(std::as_bytes(std::span(bytes)), "filtered.glb"));
+}
+
+/// The triangle with these three normals, integers of the type T.
+template <class T>
+GlbFile with_octahedral_normals(const std::vector<glm::vec3>& normals, int component_type) {
+    constexpr T kOne = std::numeric_limits<T>::max();
+    const auto rounded = [](float v) { return static_cast<T>(std::lround(v * static_cast<float>(kOne))); };
+    std::vector<T> values;
+    for (const glm::vec3& n : normals) {
+        glm::vec2 p = glm::vec2(n) / (std::abs(n.x) + std::abs(n.y) + std::abs(n.z));
+        if (n.z < 0)
+            p = {std::copysign(1 - std::abs(p.y), p.x), std::copysign(1 - std::abs(p.x), p.y)};
+        values.insert(values.end(), {rounded(p.x), rounded(p.y), kOne, T{0}});
+    }
+    GlbFile file = test::triangle_file();
+    file.json["accessors"][1] = {{"bufferView", filtered_view(file, values, 4 * sizeof(T), "OCTAHEDRAL")},
+                                 {"componentType", component_type},
+                                 {"normalized", true},
+                                 {"count", 3},
+                                 {"type", "VEC3"}};
+    return file;
+}
+
+// The filters as the extension defines them.
+TEST(Meshopt, OctahedralNormalsOfEightAndSixteenBitsAreUnfolded) {
+    const std::vector<glm::vec3> normals = {glm::normalize(glm::vec3(1, -2, 3)),
+                                            glm::normalize(glm::vec3(-3, -1, -2)),
+                                            glm::normalize(glm::vec3(2, 1, -0.5f))};
+    const auto expect_normals = [&](const GlbFile& file, float step) {
+        const Scene scene = scene_in(file);
+        for (std::size_t i = 0; i < 3; ++i)
+            EXPECT_LT(glm::distance(scene.vertex_arrays[0].normals[i], normals[i]), 2 * step) << i;
+    };
+    expect_normals(with_octahedral_normals<std::int8_t>(normals, test::kByte), 1.0f / 127);
+    expect_normals(with_octahedral_normals<std::int16_t>(normals, test::kShort), 1.0f / 32767);
+}
+
+TEST(Meshopt, ExponentialPositionsAreMantissasTimesPowersOfTwo) {
+    const auto number = [](std::uint32_t mantissa, int exponent) {
+        return static_cast<std::uint32_t>(exponent) << 24 | (mantissa & 0xffffffu);
+    };
+    GlbFile file = test::triangle_file();
+    file.json["accessors"][0]["bufferView"] =
+        filtered_view(file,
+                      std::vector{number(5, -2), number(-3u, 1), number(0, 0), number(1, 3), number(1, 0),
+                                  number(7, -3), number(-1u, 0), number(3, 0), number(-1u, -1)},
+                      12, "EXPONENTIAL");
+    const glm::vec3 expected[] = {{1.25f, -6, 0}, {8, 1, 0.875f}, {-1, 3, -0.5f}};
+    const Scene scene = scene_in(file);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_EQ(glm::vec3(scene.world(scene.vertex_arrays[0].positions[i])), expected[i]) << i;
+}
+
+TEST(Meshopt, QuaternionsOfInstancesGetTheirLargestNumberBack) {
+    // A quarter turn about +Y, (0, s, 0, s): without the last number, the others times the root of 2.
+    GlbFile file = test::triangle_file();
+    const std::vector<std::int16_t> values = {0, 32767, 0, 32764 | 3};
+    const std::size_t view = filtered_view(file, values, 8, "QUATERNION"),
+                      rotation = file.json["accessors"].size();
+    file.json["accessors"].push_back({{"bufferView", view},
+                                      {"componentType", test::kShort},
+                                      {"normalized", true},
+                                      {"count", 1},
+                                      {"type", "VEC4"}});
+    file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {{"ROTATION", rotation}};
+    const Scene scene = scene_in(file);
+    const glm::vec3 corner(scene.world(scene.vertex_arrays[0].positions[1]));
+    EXPECT_LT(glm::distance(corner, glm::vec3(0, 0, -1)), 1e-4f);
+}
+
+TEST(Meshopt, FiltersOfAnotherStrideAreRefused) {
+    for (const auto& [filter, stride] : {std::pair("OCTAHEDRAL", 12), std::pair("QUATERNION", 4)}) {
+        GlbFile file = test::triangle_file();
+        filtered_view(file, std::vector<std::uint32_t>(12, 1), static_cast<std::size_t>(stride), filter);
+        EXPECT_THROW(scene_in(file), Error) << filter;
+    }
 }
 
 } // namespace
