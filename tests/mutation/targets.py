@@ -29,7 +29,7 @@ RENDER, GPU = Suite("render_tests"), Suite("gpu_tests")
 SUITES = {
     "runtime/sh/": [SMALL_ORDERS, RUNTIME],
     "runtime/light/": [Suite("runtime_tests", "Light*:Sky*:*Cube*:*Image*:LatLong*:OtherLayouts*"), RUNTIME],
-    "runtime/transfer/": [Suite("runtime_tests", "*Clustered*:*Constants*:CodedRows*:Adjacency*:Evaluate*:Bits*:Edges*"), COMPRESS,
+    "runtime/transfer/": [Suite("runtime_tests", "*Clustered*:*Constants*:CodedRows*:Adjacency*:Evaluate*:Bits*:Edges*:RawTransfer*"), COMPRESS,
                           Suite("gltf_tests")],
     "runtime/support/": [RUNTIME],
     "runtime/fit/": [Suite("runtime_tests", "*Suns*:*Skies*")],
