@@ -326,6 +326,25 @@ TEST(Leaf, LightsWhatIsBelowIt) {
     EXPECT_LT(with, 1);
 }
 
+TEST(Textures, MakeASurfaceVaryOnlyWhereTheyCount) {
+    const std::vector<Texture> textures = {numbers({1, 2, 3, 4})};
+    const auto varies = [&](float transmission, void (*give_image)(Material&)) {
+        Scene scene = ceiling();
+        scene.materials[0].transmission.factor = transmission;
+        give_image(scene.materials[0]);
+        return !Surfaces(scene, textures).constant_scattering(1);
+    };
+    const auto factor = [](Material& m) { m.transmission.factor_texture.image = 0; };
+    const auto color = [](Material& m) { m.transmission.color_texture.image = 0; };
+    const auto metal = [](Material& m) { m.metal.texture.image = 0; };
+    EXPECT_TRUE(varies(0.5f, factor));
+    EXPECT_TRUE(varies(0.5f, color));
+    EXPECT_FALSE(varies(0.5f, metal)); // a leaf is none
+    EXPECT_FALSE(varies(0, factor));
+    EXPECT_FALSE(varies(0, color));
+    EXPECT_TRUE(varies(0, metal));
+}
+
 TEST(Textures, AreFilteredOverWhatARayStandsFor) {
     // A wall with a fine chequer of black and white is as bright as a grey one of the mean in linear light.
     Scene chequered = SceneBuilder().quad({-2, 0, -1}, {2, 0, -1}, {2, 4, -1}, {-2, 4, -1}).build();
