@@ -210,6 +210,33 @@ TEST(Diffusion, OverASpeckIsItsAreaTimesTheMiddleOfTheDipole) {
     }
 }
 
+TEST(Diffusion, FromAfarIsTheSumOverTrianglesByTheirArea) {
+    // A dark triangle, and two beyond it, so near each other that they stand as one.
+    Plane scattered;
+    const auto add = [&](float x, float leg) {
+        const auto first = static_cast<unsigned>(scattered.receivers.size());
+        for (const glm::vec3& p : {glm::vec3(x, 0, 0), glm::vec3(x, 0, leg), glm::vec3(x + leg, 0, 0)}) {
+            scattered.receivers.positions.push_back(p);
+            scattered.receivers.normals.emplace_back(0, 1, 0);
+            scattered.receivers.areas.push_back(leg * leg / 6);
+        }
+        scattered.triangles.emplace_back(first, first + 1, first + 2);
+    };
+    constexpr float kLegs[] = {0.01f, 0.02f, 0.04f}, kPlaces[] = {0, 2, 2.02f}, kLight[] = {0, 5, 1};
+    for (std::size_t t = 0; t < 3; ++t)
+        add(kPlaces[t], kLegs[t]);
+    std::vector<float> values;
+    for (const float light : kLight)
+        values.insert(values.end(), 3, light);
+    operator_on(scattered, {glm::dvec3(0.9), glm::dvec3(0.1), 1.3}).apply(1, 1, values, 1);
+    const Dipole dipole(0.9, 0.1, 1.3);
+    double expected = 0;
+    for (std::size_t t = 1; t < 3; ++t)
+        expected += static_cast<double>(kLight[t] * kLegs[t] * kLegs[t] / 2) *
+                    dipole.reflectance(static_cast<double>(kPlaces[t] + kLegs[t] / 3)) / dipole.total();
+    EXPECT_NEAR(static_cast<double>(values[0]), expected, 0.02 * expected);
+}
+
 TEST(Subsurface, BlursShadowsAndKeepsTheirLight) {
     const Scene scene = test::SceneBuilder().floor({0, 0, 0}, 1, 24).sphere({0, 0.4f, 0}, 0.2f, 12).build();
     BakeOptions options;
