@@ -340,6 +340,17 @@ function leastChange(order, weights, rows, tolerance) {
 }
 
 /**
+ * The mean radiance of a channel; 0 where it is not positive, or less than a millionth of a coefficient: light that is
+ * nowhere negative has none so far above it, and shares of it would be rounding and overflow.
+ */
+function usableMean(coefficients, channel) {
+  let largest = 0;
+  for (let i = channel; i < coefficients.length; i += 3) largest = Math.max(largest, Math.abs(coefficients[i]));
+  const first = coefficients[channel];
+  return first > 0 && first >= 1e-6 * largest ? (first * 0.5) / Math.sqrt(Math.PI) : 0;
+}
+
+/**
  * The factors of the bands [order] under which a light is nowhere negative in any channel, and which change what receivers
  * show the least: docs/math.md, eq. 16 to 19. `coefficients`: [order²][3], about any axis. 1 where nothing is negative.
  * Turning the light does not change them.
@@ -354,7 +365,7 @@ export function deringFactors(order, coefficients) {
     const rows = ((order - 1) * Math.PI) / Math.sqrt((8 * share) / (1 + 2 * share));
     return Math.max(16, 16 * Math.ceil(rows / 16));
   };
-  const mean = [0, 1, 2].map((channel) => coefficients[channel] * 0.5 / Math.sqrt(Math.PI));
+  const mean = [0, 1, 2].map((channel) => usableMean(coefficients, channel));
   const shares = Float64Array.from(coefficients, (v, i) => (mean[i % 3] > 0 ? v / mean[i % 3] : 0));
   shares.fill(Math.sqrt(4 * Math.PI), 0, 3); // a channel without a mean counts as 1 everywhere
   const weights = new Float64Array(order);

@@ -125,20 +125,26 @@ function sunAndSky(order, towards, sky) {
   return coefficients;
 }
 
+/** The least radiance of any channel under these factors, over directions that have nothing to do with the filter's grid. */
+function leastRadiance(order, coefficients, factors) {
+  const light = coefficients.map((v, i) => v * factors[Math.floor(Math.sqrt(Math.floor(i / 3) + 0.5))]);
+  let least = Infinity;
+  const count = 20000; // a Fibonacci lattice
+  for (let k = 0; k < count; ++k) {
+    const z = 1 - (2 * k + 1) / count;
+    const phi = 2 * Math.PI * 0.6180339887498949 * k;
+    const basis = evaluateSh(order, Math.sqrt(1 - z * z) * Math.cos(phi), Math.sqrt(1 - z * z) * Math.sin(phi), z);
+    for (let c = 0; c < 3; ++c) least = Math.min(least, basis.reduce((sum, y, i) => sum + y * light[3 * i + c], 0));
+  }
+  return least;
+}
+
 test("a deringed sun is nowhere negative and keeps its energy and most of its contrast", () => {
   for (const order of [2, 3, 6, 10]) {
     const raw = sunAndSky(order, [0.48, 0.6, -0.64], [0.1, 0.1, 0.2]);
     const factors = deringFactors(order, raw);
     assert.equal(factors[0], 1);
-    const light = raw.map((v, i) => v * factors[Math.floor(Math.sqrt(Math.floor(i / 3) + 0.5))]);
-    let least = Infinity;
-    const count = 20000; // a Fibonacci lattice, which has nothing to do with the filter's grid
-    for (let k = 0; k < count; ++k) {
-      const z = 1 - (2 * k + 1) / count;
-      const phi = 2 * Math.PI * 0.6180339887498949 * k;
-      const basis = evaluateSh(order, Math.sqrt(1 - z * z) * Math.cos(phi), Math.sqrt(1 - z * z) * Math.sin(phi), z);
-      for (let c = 0; c < 3; ++c) least = Math.min(least, basis.reduce((sum, y, i) => sum + y * light[3 * i + c], 0));
-    }
+    const least = leastRadiance(order, raw, factors);
     assert.ok(least >= 0, `order ${order}: ${least}`);
     if (order === 6) for (const [l, kept] of [0.9, 0.7, 0.45, 0.25, 0.1].entries()) assert.ok(factors[l + 1] > kept);
   }
@@ -147,4 +153,31 @@ test("a deringed sun is nowhere negative and keeps its energy and most of its co
 test("light that is nowhere negative stays as it is", () => {
   const light = projectLatLong(imageOf(32, 16, (d) => [2 + d[0], 2, 2 + d[1]]), 5);
   assert.deepEqual(light.deringed().coefficients(0.4), light.coefficients(0.4));
+});
+
+test("light of one band and its mean is dimmed until its darkest direction is black", () => {
+  // Four times the Legendre polynomials P_1, which falls to -1, and P_2, which falls to -1/2, about a mean of 1.
+  for (const [band, darkest] of [[1, -1], [2, -0.5]]) {
+    const light = new Float64Array(27).fill(Math.sqrt(4 * Math.PI), 0, 3);
+    const polar = 3 * band * (band + 1);
+    light.fill(4 * Math.sqrt((4 * Math.PI) / (2 * band + 1)), polar, polar + 3);
+    const factors = deringFactors(3, light);
+    for (let l = 1; l < 3; ++l) near(factors[l], l === band ? -1 / (4 * darkest) : 1, 0.02, `band ${l} of ${band}`);
+  }
+});
+
+test("light with next to no mean is nowhere negative, and dering comes to an end", () => {
+  const light = Float64Array.from({ length: 108 }, (_, i) => (i < 3 ? 1 : 100 * Math.sin(i * i)));
+  const least = leastRadiance(6, light, deringFactors(6, light));
+  assert.ok(least >= 0, `${least}`);
+});
+
+test("a channel without a mean to speak of is left out of dering", () => {
+  const sun = sunAndSky(3, [0.48, 0.6, -0.64], [0.1, 0.1, 0.1]);
+  const white = sun.map((_, i) => sun[i - (i % 3)]);
+  const factors = deringFactors(3, white);
+  for (const mean of [0, 1e-320, 1e-7, -1, NaN]) {
+    const odd = white.map((v, i) => (i === 0 ? mean : v));
+    assert.deepEqual(deringFactors(3, odd), factors, `${mean}`);
+  }
 });
