@@ -78,6 +78,22 @@ TEST(Cube, ResamplesToTheSamePicture) {
         }
 }
 
+TEST(LatLong, ImagesOfOtherLayoutsHaveAsManyPixelsToATurn) {
+    const auto size = [](EnvironmentLayout layout, int width, int height) {
+        const auto pixels = static_cast<std::size_t>(width * height);
+        const Image flat = resampled_lat_long(
+            {{width, height, std::vector<glm::vec3>(pixels, glm::vec3(1))}, layout, LatLongCenter::x});
+        EXPECT_EQ(flat.pixels.size(), static_cast<std::size_t>(flat.width * flat.height));
+        return std::pair(flat.width, flat.height);
+    };
+    // A face of a cube is a quarter of a turn, the middle row of a probe a whole one.
+    EXPECT_EQ(size(EnvironmentLayout::cube, 3, 18), std::pair(12, 6));
+    EXPECT_EQ(size(EnvironmentLayout::cube_faces, 1, 6), std::pair(4, 2));
+    EXPECT_EQ(size(EnvironmentLayout::angular, 10, 10), std::pair(10, 5));
+    EXPECT_EQ(size(EnvironmentLayout::angular, 1, 1), std::pair(2, 1));
+    EXPECT_EQ(size(EnvironmentLayout::lat_long, 7, 5), std::pair(7, 5));
+}
+
 class BadPixel : public testing::TestWithParam<float> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, BadPixel,
                          testing::Values(std::numeric_limits<float>::quiet_NaN(),
