@@ -19,6 +19,7 @@ TEST(Adjacency, HoldsBothEndsOfEveryEdgeAndNothingElse) {
             if (a * b % 7 == 1)
                 edges.push_back({a, b});
     const Adjacency adjacency(edges, 30);
+    EXPECT_EQ(adjacency.receivers(), 30u);
     EXPECT_EQ(adjacency.size(), 2 * edges.size());
     for (std::uint32_t a = 0; a < 30; ++a) {
         const auto neighbours = adjacency.of(a);
