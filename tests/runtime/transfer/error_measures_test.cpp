@@ -78,5 +78,22 @@ TEST(LitError, UnderALightThatReachesNothingIsOverTheScaleThatIsGiven) {
     EXPECT_EQ(found.mean, 0);
 }
 
+TEST(LitError, OfTheDarkerHalfIsWhereTheThreeChannelsTogetherAreLeast) {
+    // Two receivers, one of 10 in one channel, the other of 2 in the next; both err by 1.
+    for (const int channel : {0, 1, 2})
+        for (const std::size_t bright : {0, 1}) {
+            std::vector<glm::vec3> reference(2, glm::vec3(0));
+            reference[bright][channel] = 10;
+            reference[1 - bright][(channel + 1) % 3] = 2;
+            std::vector<glm::vec3> approximation = reference;
+            for (glm::vec3& r : approximation)
+                r.y += 1;
+            EXPECT_NEAR(lit_error(reference, approximation, std::vector<float>{1, 1}, {}, std::nullopt)
+                            .darker_half_rms,
+                        0.5, 1e-6)
+                << channel << " " << bright;
+        }
+}
+
 } // namespace
 } // namespace prt
