@@ -301,6 +301,18 @@ TEST(Morphs, TakeTheWeightsOfTheFile) {
     EXPECT_EQ(first_place(file, 0), glm::vec3(0, 0, 0.5f));
 }
 
+TEST(Nodes, AreThoseOfTheDefaultSceneElseOfTheFirst) {
+    GlbFile file = test::triangle_file();
+    file.json["nodes"] = {{{"mesh", 0}}, {{"mesh", 0}}, {{"mesh", 0}}};
+    file.json["scenes"] = {{{"nodes", {0, 1, 2}}}, {{"nodes", {1}}}};
+    file.json.erase("scene");
+    EXPECT_EQ(scene_of(file).triangles(), 3u);
+    file.json["scene"] = 1;
+    EXPECT_EQ(scene_of(file).triangles(), 1u);
+    file.json["scene"] = 2;
+    EXPECT_THROW(scene_of(file), Error);
+}
+
 TEST(Nodes, OfAFileWithoutScenesAreAllThatHaveNoParent) {
     GlbFile file = test::triangle_file();
     file.json["nodes"] = {{{"mesh", 0}}, {{"children", {2}}}, {{"mesh", 0}}, {{"mesh", 0}}};
