@@ -266,6 +266,24 @@ TEST(Subsurface, BlursShadowsAndKeepsTheirLight) {
     EXPECT_NEAR(soft_mean, sharp_mean, 0.1 * sharp_mean); // but for what leaves over the floor's edge
 }
 
+TEST(Subsurface, OfBodiesSideBySideIsThatOfEachAlone) {
+    // In one plane, so that neither shades the other.
+    const Scene small = test::SceneBuilder().floor({0, 0, 0}, 0.1f, 4).build(),
+                large = test::SceneBuilder().floor({1, 0, 0}, 0.2f, 3).build();
+    BakeOptions options;
+    options.order = 2;
+    options.rays = 16;
+    options.tracer.backend = Backend::cpu;
+    options.subsurface.media = {{"", {glm::dvec3(20, 30, 40), glm::dvec3(0.5), 1.3}}};
+    const auto baked = [&](const Scene& scene) { return bake(scene, options).baked.transfer.vectors; };
+    std::vector<float> expected = baked(small);
+    const std::vector<float> second = baked(large), both = baked(test::join({small, large}));
+    expected.insert(expected.end(), second.begin(), second.end());
+    ASSERT_EQ(both.size(), expected.size());
+    for (std::size_t i = 0; i < both.size(); ++i)
+        EXPECT_NEAR(both[i], expected[i], 1e-6f) << i;
+}
+
 /// A triangle that is filled with a medium of those coefficients in red, and of 2000/m in green and blue.
 Transfer bake_medium(double scattering, double absorption) {
     BakeOptions options;
