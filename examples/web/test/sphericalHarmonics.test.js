@@ -155,6 +155,17 @@ test("light that is nowhere negative stays as it is", () => {
   assert.deepEqual(light.deringed().coefficients(0.4), light.coefficients(0.4));
 });
 
+test("turning the light does not change the factors", () => {
+  const order = 6;
+  const straight = deringFactors(order, sunAndSky(order, [0, 0, 1], [0.1, 0.1, 0.2]));
+  for (let k = 0; k < 12; ++k) {
+    const z = 1 - (2 * k + 1) / 12;
+    const towards = [Math.sqrt(1 - z * z) * Math.cos(2.4 * k), Math.sqrt(1 - z * z) * Math.sin(2.4 * k), z];
+    const turned = deringFactors(order, sunAndSky(order, towards, [0.1, 0.1, 0.2]));
+    turned.forEach((factor, l) => near(factor, straight[l], 0.03, `${towards}, band ${l}:`));
+  }
+});
+
 test("light of one band and its mean is dimmed until its darkest direction is black", () => {
   // Four times the Legendre polynomials P_1, which falls to -1, and P_2, which falls to -1/2, about a mean of 1.
   for (const [band, darkest] of [[1, -1], [2, -0.5]]) {
