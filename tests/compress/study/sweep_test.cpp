@@ -34,7 +34,15 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
                                                      r.mean_components = 2;
                                                      return r;
                                                  }}};
-    const Sweep result = sweep(transfer, areas, {}, lights, {}, others);
+    double shown = 0;
+    const Progress progress{[&](double share) { // the bar does not run backwards meanwhile
+                                EXPECT_GE(share, shown - 1e-12);
+                                EXPECT_LE(share, 1);
+                                shown = share;
+                            },
+                            {}};
+    const Sweep result = sweep(transfer, areas, {}, lights, {}, others, progress);
+    EXPECT_GT(shown, 0.75);
 
     const SweepPoint* half = best_by_bytes(result, "half", 3);
     ASSERT_NE(half, nullptr);
