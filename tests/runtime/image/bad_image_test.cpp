@@ -68,6 +68,9 @@ TEST(HdrFile, ClaimsAreHeldAgainstTheFile) {
     const test::TemporaryFolder folder;
     EXPECT_NE(refusal(folder.file("large.hdr", hdr_header("-Y 8192 +X 16384"))).find("claims 16384 x 8192"),
               std::string::npos);
+    // 192 MB hold 2^23 pixels of three floats, stb's and ours.
+    EXPECT_NE(refusal(folder.file("more.hdr", hdr_header("-Y 2048 +X 4100"))).find("claims 4100 x 2048"),
+              std::string::npos);
     EXPECT_NE(refusal(folder.file("none.hdr", hdr_header("-Y 0 +X 0"))).find("no pixels"), std::string::npos);
     EXPECT_NE(refusal(folder.file("less.hdr", hdr_header("-Y -4 +X 8"))), "");
 }
