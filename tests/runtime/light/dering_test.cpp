@@ -132,6 +132,16 @@ TEST(Dering, KeepsMoreThanTheLeastDiffusionDoes) {
     }
 }
 
+TEST(Dering, NoChannelCountsMoreThanAnother) {
+    const Light light = sunny(6, kTowards, {0.05f, 0.1f, 0.2f});
+    Light swapped = light;
+    for (glm::vec3& c : swapped.coefficients)
+        c = {c.b, c.r, c.g};
+    const BandFactors a = dering_factors(light), b = dering_factors(swapped);
+    for (std::size_t l = 0; l < 6; ++l)
+        EXPECT_NEAR(a[l], b[l], 1e-4) << l;
+}
+
 TEST(Dering, TurningTheLightDoesNotChangeTheFilter) {
     const Light light = sunny(6, kTowards, {0.05f, 0.1f, 0.2f});
     Light turned = light;
