@@ -42,6 +42,28 @@ TEST(Camera, FrameAgreesWithTheMatrix) {
     EXPECT_NEAR(clip.y / clip.w, -0.5f, 1e-5f);
 }
 
+TEST(Camera, NearAndFarPlanesHoldAllCornersOfTheBox) {
+    const Bounds box{{-1, -2, -3}, {2, 3, 1}};
+    const auto corner = [&](int i) {
+        return glm::vec3(i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y,
+                         i & 4 ? box.high.z : box.low.z);
+    };
+    for (int octant = 0; octant < 8; ++octant) { // the camera looks from beyond a corner at the opposite one
+        const Camera camera{1.5f * corner(octant), corner(7 - octant), {0, 1, 0}, 0.8f};
+        const glm::mat4 matrix = view_projection(camera, box, 1);
+        float nearest = 1, farthest = -1;
+        for (int i = 0; i < 8; ++i) {
+            const glm::vec4 clip = matrix * glm::vec4(corner(i), 1);
+            nearest = std::min(nearest, clip.z / clip.w);
+            farthest = std::max(farthest, clip.z / clip.w);
+        }
+        EXPECT_GE(nearest, -1) << octant;
+        EXPECT_LE(farthest, 1) << octant;
+        EXPECT_LT(nearest, -0.9f) << octant; // and no more than they need to
+        EXPECT_GT(farthest, 0.98f) << octant;
+    }
+}
+
 TEST(Camera, PixelsLookWhereTheProjectionPutsThem) {
     const Camera camera{{3, 2, 5}, {0.5f, -1, 0}, {0, 1, 0}, 0.8f};
     const glm::mat4 matrix = view_projection(camera, {glm::vec3(-1), glm::vec3(1)}, 1.5f);
