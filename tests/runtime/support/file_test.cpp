@@ -126,6 +126,54 @@ TEST(OutputFile, WritesIntoPipesAndDevices) {
     EXPECT_THROW(full.commit(), Error);
 }
 
+/// While it lives standard input is closed, so that what is opened next has the descriptor 0.
+class NoStandardInput {
+public:
+    NoStandardInput() : kept_(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 3)) { ::close(STDIN_FILENO); }
+    ~NoStandardInput() {
+        if (kept_ >= 0)
+            ::dup2(kept_, STDIN_FILENO);
+        ::close(kept_);
+    }
+    NoStandardInput(const NoStandardInput&) = delete;
+
+private:
+    int kept_;
+};
+
+bool is_open(int descriptor) {
+    return ::fcntl(descriptor, F_GETFD) >= 0;
+}
+
+TEST(OutputFile, IsTakenBackFromDescriptorZeroToo) {
+    const test::TemporaryFolder folder;
+    const NoStandardInput closed;
+    {
+        OutputFile file(folder / "a");
+        ASSERT_TRUE(is_open(0));
+        file.write("new");
+        file.publish();
+        EXPECT_EQ(text_of(folder / "a"), "new");
+    }
+    EXPECT_FALSE(is_open(0));
+    EXPECT_EQ(folder.files(), 0u);
+}
+
+TEST(OutputFile, WritesIntoAStreamThroughDescriptorZero) {
+    const test::TemporaryFolder folder;
+    const int descriptor = ::open((folder / "a").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+    ASSERT_GE(descriptor, 0);
+    OutputFile stream("/dev/fd/" + std::to_string(descriptor));
+    stream.write("new");
+    {
+        const NoStandardInput closed;
+        EXPECT_NO_THROW(stream.commit());
+        EXPECT_FALSE(is_open(0));
+    }
+    ::close(descriptor);
+    EXPECT_EQ(text_of(folder / "a"), "new");
+}
+
 TEST(OutputFile, RemovesWhatAKilledProcessLeftButNotWhatIsBeingWritten) {
     const test::TemporaryFolder folder;
     const std::string begin = ".prtkit-af63dc4c8601ec8c-"; // of "a", by Fowler, Noll and Vo
