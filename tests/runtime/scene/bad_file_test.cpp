@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(
                [](GlbFile& f) {
                    f.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"] = nlohmann::json::object();
                },
-               "node 0: is damaged glTF"},
+               "node 0: is damaged glTF: key"},
         Damage{"view_of_no_buffer", [](GlbFile& f) { f.json["bufferViews"][0]["buffer"] = 7; }, ""},
         Damage{"accessor_outside_view", [](GlbFile& f) { f.json["accessors"][0]["count"] = 4; }, "outside"},
         Damage{"accessor_offset_outside", [](GlbFile& f) { f.json["accessors"][0]["byteOffset"] = 4000; },
