@@ -186,6 +186,8 @@ TEST_F(Pictures, SeeTheBackgroundWhereTheCameraLooks) {
         EXPECT_NEAR(image.at(kWidth / 2, kHeight / 2).g, 0.5f, 0.02f);
         EXPECT_LT(image.at(kWidth / 2, 2).g, image.at(kWidth / 2, kHeight - 3).g); // top row of the map is up
         EXPECT_LT(image.at(2, kHeight / 2).r, image.at(kWidth - 3, kHeight / 2).r); // its left is the left
+        for (int y = 1; y < kHeight; ++y)                                           // row by row
+            EXPECT_LE(image.at(kWidth / 2, y - 1).g, image.at(kWidth / 2, y).g + 1e-4f) << y;
     }
 }
 
