@@ -68,6 +68,17 @@ TEST(TargetError, OfOpenReceiversTakesTheFirstRaysOnly) {
     EXPECT_EQ(result.statistics.rays, 64 * result.statistics.receivers.traced);
 }
 
+TEST(TargetError, ThatIsLooseTakesNoRaysButTheFirst) {
+    BakeOptions options = cpu_options();
+    options.order = 2;
+    options.target_error = 10;
+    const BakeStatistics statistics =
+        bake(test::SceneBuilder().bowl({0, 0, 0}, 1, 12, 4).build(), options).statistics;
+    // Two scrambles of 32 rays, and of 128 receivers a third. None is dark, so that none is asked whether it
+    // is sealed in.
+    EXPECT_LE(statistics.rays, 64 * statistics.receivers.traced + 128 * 32);
+}
+
 TEST(TargetError, ThatTheFirstRaysReachToTheLastDigitTakesNoMore) {
     // Of every other seed or so a sample errs more than predicted: then the prediction asks for no more rays.
     BakeOptions options = cpu_options();
