@@ -1,4 +1,5 @@
 // Images that lie, end early, never end, or are too bright.
+#include "exr.h"
 #include "image_limits.h"
 #include "png_check.h"
 #include "prt/environment.h"
@@ -106,6 +107,13 @@ TEST(ExrFile, ClaimsAreHeldAgainstTheFile) {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     EXPECT_LT(usage.ru_maxrss, 400'000) << "kilobytes";
+}
+
+TEST(ExrFile, IsToldByItsFirstFourBytes) {
+    const std::string file("\x76\x2f\x31\x01\x02", 5), other("\x76\x2f\x31\x02\x02", 5);
+    for (std::size_t length = 0; length <= file.size(); ++length)
+        EXPECT_EQ(is_exr(std::as_bytes(std::span(file)).first(length)), length >= 4) << length;
+    EXPECT_FALSE(is_exr(std::as_bytes(std::span(other))));
 }
 
 TEST(ExrFile, CutAnywhereIsRefusedAndChangedAnywhereIsReadOrRefused) {
