@@ -284,7 +284,7 @@ TEST(Leaf, VariesFromVertexToVertex) {
     options.rays = 16;
     options.tracer.backend = Backend::cpu;
     const Transfer t = bake(leaf, options).baked.transfer;
-    ASSERT_EQ(t.channels, 3);
+    ASSERT_EQ(t.layout.channels(), 3);
     const double half = 0.25 / std::sqrt(std::numbers::pi); // of Y_00, all of which either side sees
     for (std::size_t p = 0; p < 3; ++p)
         for (int c = 0; c < 3; ++c) {
