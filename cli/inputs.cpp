@@ -73,7 +73,7 @@ LoadedLight load_light(const Path& path, int order, const LightOptions& options,
     LoadedLight result;
     result.name = path.filename().string();
     if (suffix_of(path) == ".json") {
-        const Light light = read_light_json(path);
+        const Light light = all_light(read_light_file(path));
         if (light.order < order)
             throw Error(
                 fmt::format("{}: has order {}, but order {} is needed", path.string(), light.order, order));

@@ -2,7 +2,6 @@
 
 #include "prt/check_light.h"
 #include "prt/sh.h"
-#include "prt/suns.h"
 #include "prt/support/error.h"
 #include "prt/support/file.h"
 
@@ -72,18 +71,18 @@ SunDisc sun_of(const Json& entry) {
     return sun;
 }
 
-/// The suns that stand apart from the coefficients.
-Light suns_of(const Json& list, int order) {
+std::vector<SunDisc> suns_of(const Json& list) {
     if (!list.is_array())
         throw Error("\"suns\" is no list");
-    Light all = constant_light(order, glm::vec3(0));
+    std::vector<SunDisc> suns;
     for (std::size_t i = 0; i < list.size(); ++i)
         try {
-            all = sum(all, as_light(sun_of(list[i]), order));
+            suns.push_back(sun_of(list[i]));
+            check_light(as_light(suns.back(), 1));
         } catch (const Error& error) {
             throw Error(fmt::format("sun {} of \"suns\": {}", i, error.what()));
         }
-    return all;
+    return suns;
 }
 
 int order_of(const Json& json) {
@@ -127,19 +126,26 @@ Json light_json(const Light& light) {
     return {{"prtkit_light", 1}, {"order", light.order}, {"coefficients", channels}};
 }
 
-Light read_light_json(const std::filesystem::path& path) {
+Light all_light(const LightFile& file) {
+    Light all = file.sky;
+    for (const SunDisc& sun : file.suns)
+        all = sum(all, as_light(sun, all.order));
+    return all;
+}
+
+LightFile read_light_file(const std::filesystem::path& path) {
     const std::vector<std::byte> file = read_file(path);
     try {
         const Json json = parsed(file);
         if (!json.is_object() || !json.contains("prtkit_light") || json["prtkit_light"] != 1)
             throw Error("is JSON, but no light of prt project");
-        Light light = coefficients_of(json);
+        LightFile light{coefficients_of(json), {}};
         if (json.contains("lights"))
             throw Error(
                 "has its suns as \"lights\", as an older version of prt wrote them; project the image again");
         if (json.contains("suns"))
-            light = sum(light, suns_of(json["suns"], light.order));
-        check_light(light);
+            light.suns = suns_of(json["suns"]);
+        check_light(all_light(light));
         return light;
     } catch (const Error& error) {
         throw Error(path.string() + ": " + error.what());

@@ -2,16 +2,26 @@
 
 // The light files of docs/format.md.
 
-#include "prt/light.h"
+#include "prt/sun_disc.h"
 #include "report/report.h"
 
 #include <filesystem>
+#include <vector>
 
 namespace prt::cli {
 
 Json light_json(const Light& light);
 
-/// Reads a light file: its coefficients with its suns added. Throws `Error` that names it.
-Light read_light_json(const std::filesystem::path& path);
+/// What a light file holds.
+struct LightFile {
+    Light sky; ///< its coefficients
+    std::vector<SunDisc> suns;
+};
+
+/// Throws `Error` that names the file.
+LightFile read_light_file(const std::filesystem::path& path);
+
+/// Its coefficients with its suns added.
+Light all_light(const LightFile& file);
 
 } // namespace prt::cli

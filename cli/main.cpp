@@ -39,6 +39,7 @@ void add_commands(CLI::App& app, Session& session) {
     add_compress(app, session);
     add_evaluate(app, session);
     add_project(app, session);
+    add_relight(app, session);
     add_render(app, session);
     add_shader(app, session);
     add_info(app, session);

@@ -6,6 +6,7 @@
 #include "prt/support/parallel.h"
 #include "prt/support/tangent_frame.h"
 #include "scene/interpolated.h"
+#include "scene/transmittance.h"
 #include "trace/sample_sequence.h"
 
 #include <glm/common.hpp>
@@ -93,8 +94,6 @@ struct Tracing {
     const PathTraceOptions& options;
 
     std::optional<SurfaceHit> nearest(const Ray& ray) const;
-    /// Share of light that reaches `origin` from far away along `direction`.
-    float transmittance(const glm::vec3& origin, const glm::vec3& direction) const;
     glm::vec3 origin_off(const SurfaceHit& hit, const glm::vec3& direction) const;
     /// What the camera sees of a surface, which need not be what light sees of it.
     Scattering seen_scattering(const SurfaceHit& hit) const;
@@ -130,21 +129,6 @@ std::optional<SurfaceHit> Tracing::nearest(const Ray& ray) const {
     const float length = glm::length(normal);
     hit.normal = length > 0 ? (hit.back ? -normal : normal) / length : hit.face;
     return hit;
-}
-
-float Tracing::transmittance(const glm::vec3& origin, const glm::vec3& direction) const {
-    Ray ray{origin, direction};
-    if (!surfaces.traits().alpha)
-        return rays.occluded(ray) ? 0.0f : 1.0f;
-    float left = 1;
-    while (left > 0) {
-        const std::optional<RayHit> met = rays.nearest(ray);
-        if (!met)
-            break;
-        left *= 1 - surfaces.coverage({met->triangle, met->uv, 0});
-        ray.from = std::nextafter(met->distance, kFarAway);
-    }
-    return left;
 }
 
 glm::vec3 Tracing::origin_off(const SurfaceHit& hit, const glm::vec3& direction) const {
@@ -186,12 +170,13 @@ void Tracing::add_direct_light(const LitSide& side, Path& path, PathSamples& sam
     for (const Sun& sun : light.suns())
         if (side.faces(sun.towards))
             path.radiance += path.throughput * sun.irradiance * glm::dot(side.normal, sun.towards) / kPi *
-                             transmittance(origin_off(side.hit, sun.towards), sun.towards);
+                             transmittance(rays, surfaces, origin_off(side.hit, sun.towards), sun.towards);
     const DistantLight::Sample sample = light.sample(samples.next());
     if (sample.density > 0 && side.faces(sample.direction)) {
         const float cosine = glm::dot(side.normal, sample.direction) / kPi;
-        path.radiance += path.throughput * sample.radiance * (cosine / (sample.density + cosine)) *
-                         transmittance(origin_off(side.hit, sample.direction), sample.direction);
+        path.radiance +=
+            path.throughput * sample.radiance * (cosine / (sample.density + cosine)) *
+            transmittance(rays, surfaces, origin_off(side.hit, sample.direction), sample.direction);
     }
 }
 

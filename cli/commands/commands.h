@@ -16,6 +16,7 @@ void add_compress(CLI::App& app, Session& session);
 void add_evaluate(CLI::App& app, Session& session);
 void add_info(CLI::App& app, Session& session);
 void add_project(CLI::App& app, Session& session);
+void add_relight(CLI::App& app, Session& session);
 void add_render(CLI::App& app, Session& session);
 void add_shader(CLI::App& app, Session& session);
 

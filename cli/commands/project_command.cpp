@@ -4,23 +4,15 @@
 #include "options.h"
 #include "outputs.h"
 #include "prt/sh.h"
-#include "prt/suns.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
+#include "split_light.h"
 
 #include <fmt/core.h>
-#include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
-
-#include <optional>
 
 namespace prt::cli {
 namespace {
-
-/// How many suns to take out: none, so many, or as many as pay.
-struct SunCount {
-    std::optional<int> count = 0; ///< unset: as many as pay
-};
 
 struct ProjectArguments {
     Path environment, output, json;
@@ -44,13 +36,6 @@ const char* layout_name(EnvironmentLayout layout) {
     return "lat-long";
 }
 
-/// The error of what `--suns` is given, or nothing.
-std::string sun_count(const std::string& text) {
-    const std::optional<int> count = whole_number(text);
-    return text == "auto" || (count && *count >= 0 && *count <= 16) ? ""
-                                                                    : text + " is neither auto nor 0..16";
-}
-
 double degrees_across(const SunDisc& sun) {
     return 2 * glm::degrees(sun.half_angle);
 }
@@ -66,7 +51,7 @@ Json suns_json(const std::vector<SunDisc>& suns) {
     return list;
 }
 
-void add_suns(const SunSplit& split, Report& report) {
+void report_suns(const SunSplit& split, Report& report) {
     for (const SunDisc& sun : split.suns)
         report.sentences.push_back(fmt::format(
             "sun towards {:.4f} {:.4f} {:.4f}, irradiance {:.4g} {:.4g} {:.4g}, {:.2f} degrees across: "
@@ -84,23 +69,6 @@ void add_suns(const SunSplit& split, Report& report) {
                          {"error_with_suns", split.error_with}});
 }
 
-/// Suns apart, turned with the rest; a window is for the rest alone.
-SunSplit split_of(const ProjectArguments& a, LoadedLight& loaded) {
-    loaded.environment = load_environment_map(a.environment, a.light_options.environment);
-    SunSplit split = about(a.environment, [&] {
-        return find_suns(*loaded.environment,
-                         {.order = a.order, .count = a.suns.count, .threads = a.threads});
-    });
-    loaded.light = windowed(project(split.remainder, a.order, a.threads), a.light_options.window);
-    if (const double turn = glm::radians(a.light_options.rotation_degrees); turn != 0) {
-        loaded.light = rotated_about_y(loaded.light, turn);
-        for (SunDisc& sun : split.suns)
-            sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 1, 0)) *
-                                    glm::dvec4(glm::dvec3(sun.towards), 0));
-    }
-    return split;
-}
-
 void run(const ProjectArguments& a, Session& session) {
     // A light file is known by its name.
     check_outputs({{a.output, "--output", {".json"}, true}, {a.json, "--json", {".json"}}}, {a.environment});
@@ -108,12 +76,12 @@ void run(const ProjectArguments& a, Session& session) {
     if (apart && suffix_of(a.environment) == ".json")
         throw Error(a.environment.string() + ": is a light file, and suns are found in images");
     const Stopwatch stopwatch;
-    LoadedLight loaded;
-    SunSplit split;
+    SplitLight light;
     if (apart)
-        split = split_of(a, loaded);
+        light = load_split_light(a.environment, a.order, a.suns, a.light_options, a.threads);
     else
-        loaded = load_light(a.environment, a.order, a.light_options, a.threads);
+        light.sky = load_light(a.environment, a.order, a.light_options, a.threads);
+    const auto& [loaded, split] = light;
     const double seconds = stopwatch.seconds();
     Json file = light_json(loaded.light);
     if (apart)
@@ -129,7 +97,7 @@ void run(const ProjectArguments& a, Session& session) {
     report.sentences = {"{output}: order {order}, mean radiance {mean_radiance/0:.4g} {mean_radiance/1:.4g} "
                         "{mean_radiance/2:.4g}"};
     if (apart)
-        add_suns(split, report);
+        report_suns(split, report);
     if (loaded.environment) {
         add_figures(report, {{"layout", layout_name(loaded.environment->layout)},
                              {"width_pixels", loaded.environment->image.width},
@@ -155,17 +123,10 @@ void add_project(CLI::App& app, Session& session) {
     command->add_option("--order", a.order, "SH order N, 1..10")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));
-    command
-        ->add_option_function<std::string>(
-            "--suns",
-            [&a](const std::string& text) {
-                a.suns.count = text == "auto" ? std::nullopt : whole_number(text);
-            },
-            "find suns in the image, so many or as many as pay, write them apart, and the rest as "
-            "coefficients")
-        ->check(sun_count)
-        ->type_name("0..16|auto")
-        ->default_str("0");
+    add_suns(command, a.suns,
+             "find suns in the image, so many or as many as pay, write them apart, and the rest as "
+             "coefficients",
+             "0");
     add_light_options(command, a.light_options);
     add_threads(command, a.threads);
     add_json(command, a.json);

@@ -61,7 +61,7 @@ TEST_P(Constants, AreDotProductsOfRowsAndLight) {
     std::vector<glm::vec4> constants(former.rows());
     former.form(light.coefficients, constants);
     std::size_t row = 0, bit = 0;
-    const auto product = [&, channels = channels](std::size_t r) { // clang before 16 captures bindings so
+    const auto product = [&](std::size_t r) {
         return exit_radiance({&t.bases.rows[r * t.bases.dimension()], t.bases.dimension()}, t.bases.layout,
                              light.coefficients);
     };

@@ -3,19 +3,12 @@
 // Sun and sky apart: a game casts a sharp shadow from the sun and relights the rest with transfer. Stable.
 
 #include "prt/environment.h"
+#include "prt/sun_disc.h"
 
 #include <optional>
 #include <vector>
 
 namespace prt {
-
-/// A light that was found in an image: a disc of uniform radiance, directional where it has no extent.
-struct SunDisc {
-    glm::vec3 towards = {0, 1, 0}; ///< unit direction to its middle
-    glm::vec3 irradiance{0};       ///< on a receiver that faces it
-    double half_angle = 0;         ///< radians
-    double energy_share = 0;       ///< of the luminance that all directions together give
-};
 
 /// How many suns `auto` takes at most: each costs a renderer a shadow map.
 inline constexpr int kMostPayingSuns = 4;
@@ -50,9 +43,5 @@ SunSplit find_suns(const Environment& environment, const SunOptions& options = {
 /// The widest half angle, in radians, that `find_suns` takes for a sun's: a quarter of pi / order, at most
 /// 0.26.
 double widest_sun(int order);
-
-/// A sun as SH coefficients (docs/math.md, eq. 14). Throws `Error` for a half angle outside 0..pi/2 and for
-/// what is not finite.
-Light as_light(const SunDisc& sun, int order);
 
 } // namespace prt

@@ -65,6 +65,10 @@ void write_clustered(GltfDocument& document, const Scene& scene, const Compresse
 std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene);
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);
 
+/// Writes `colors` [receivers] as COLOR_0, float32, in the place of vertex colors that are there: what any
+/// viewer shows.
+void write_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> colors);
+
 /// Takes all transfer out of the document, and its memory with it.
 void discard_transfer(GltfDocument& document);
 

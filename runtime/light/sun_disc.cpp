@@ -1,5 +1,5 @@
 // Suns as coefficients, in closed form.
-#include "prt/suns.h"
+#include "prt/sun_disc.h"
 
 #include "prt/sh.h"
 #include "prt/support/error.h"

@@ -1,0 +1,179 @@
+#include "commands/commands.h"
+
+#include "options.h"
+#include "outputs.h"
+#include "prt/encode_glb.h"
+#include "prt/sun_radiance.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
+#include "split_light.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt::cli {
+namespace {
+
+struct RelightArguments {
+    Path model, environment, output, json;
+    SunCount suns = {std::nullopt};
+    int rays = 256; ///< for each vertex and sun
+    LightOptions light_options;
+    bool albedo = false;
+    GltfOptions reading;
+    int threads = 0;
+};
+
+const TransferLayout& layout_of(const SceneFile& model) {
+    return model.compressed ? model.compressed->transfer.bases.layout : model.baked->transfer.layout;
+}
+
+/// Of each vertex, by which radiance for albedo 1 is multiplied.
+std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
+    std::vector<glm::vec3> colors(surfaces.scene().receivers(), glm::vec3(1));
+    const std::vector<float> areas = receiver_areas(surfaces.scene());
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
+        for (int corner = 0; corner < 3; ++corner) {
+            const std::uint32_t p = surfaces.corners(t)[corner];
+            colors[p] = surfaces.base_color({t, glm::vec2(corner == 1, corner == 2), areas[p]});
+        }
+    return colors;
+}
+
+/// Whether anything arrives without a bounce: what is in a medium, or sealed in, no sun lights.
+std::vector<bool> lit_directly(const Transfer& transfer) {
+    std::vector<bool> lit;
+    const auto count = static_cast<std::size_t>(transfer.layout.parts.front().channels *
+                                                coefficient_count(transfer.layout.order));
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
+        const auto direct = transfer.vector(p).first(count);
+        lit.push_back(std::any_of(direct.begin(), direct.end(), [](float v) { return v != 0; }));
+    }
+    return lit;
+}
+
+/// All light in one sky, where transfer does not keep direct light apart.
+Light suns_as_light(const SplitLight& light) {
+    Light suns = constant_light(light.sky.light.order, glm::vec3(0));
+    for (const SunDisc& sun : light.split.suns)
+        suns = sum(suns, as_light(sun, suns.order));
+    return suns;
+}
+
+/// Exit radiance for albedo 1: the sky by transfer, suns by rays, and what they give after a bounce.
+std::vector<glm::vec3> radiance_of(const RelightArguments& a, const SceneFile& model, const TraceScene& scene,
+                                   const SplitLight& light, const Progress& progress) {
+    const Lighting lighting{light.sky.light, suns_as_light(light)};
+    std::vector<glm::vec3> radiance = model.compressed
+                                          ? exit_radiance(model.compressed->transfer, lighting, a.threads)
+                                          : exit_radiance(model.baked->transfer, lighting, a.threads);
+    if (light.split.suns.empty() || !layout_of(model).has(PartKind::direct))
+        return radiance;
+    const std::vector<glm::vec3> direct =
+        sun_radiance(scene, light.split.suns, {.rays = a.rays, .threads = a.threads}, progress);
+    const std::vector<bool> lit =
+        lit_directly(model.baked ? model.baked->transfer : decode(model.compressed->transfer, a.threads));
+    for (std::size_t p = 0; p < radiance.size(); ++p)
+        if (lit[p])
+            radiance[p] += direct[p];
+    return radiance;
+}
+
+/// Materials with something inside are no thin sheets.
+std::vector<bool> solid_materials(const Scene& scene) {
+    std::vector<bool> solid;
+    for (const Material& material : scene.materials)
+        solid.push_back(medium_of(material).has_value());
+    return solid;
+}
+
+void check_model(const RelightArguments& a, const SceneFile& model) {
+    if (!model.record())
+        throw Error(a.model.string() + ": holds no transfer; run prt bake first");
+    if (layout_of(model).has(PartKind::whole)) {
+        if (a.suns.count.value_or(0) > 0)
+            throw Error(a.model.string() +
+                        ": keeps no direct light apart, so that suns cannot be lit apart from the sky; "
+                        "compress it without --whole, or light it with --suns 0");
+        print_notices(a.model.string(), {"keeps no direct light apart: suns are lit with the sky, and no "
+                                         "shadow is sharp"});
+    }
+}
+
+Report report_of(const RelightArguments& a, const SplitLight& light, std::span<const glm::vec3> radiance,
+                 std::span<const float> areas) {
+    glm::dvec3 sum(0);
+    double area = 0;
+    for (std::size_t p = 0; p < radiance.size(); ++p) {
+        sum += static_cast<double>(areas[p]) * glm::dvec3(radiance[p]);
+        area += static_cast<double>(areas[p]);
+    }
+    const glm::dvec3 mean = area > 0 ? sum / area : glm::dvec3(0);
+    Report report;
+    add_figures(report, {{"output", a.output.string()},
+                         {"receivers", radiance.size()},
+                         {"suns", light.split.suns.size()},
+                         {"mean_radiance", {mean.r, mean.g, mean.b}}});
+    report.sentences = {
+        fmt::format("{{output}}: radiance of {{receivers}} vertices{}, {{suns}} suns apart, mean "
+                    "{{mean_radiance/0:.4g}} {{mean_radiance/1:.4g}} {{mean_radiance/2:.4g}}",
+                    a.albedo ? "" : " for albedo 1"),
+        "{bytes_file} bytes on disk; {seconds:.2f} s"};
+    return report;
+}
+
+void run(RelightArguments a, Session& session) {
+    a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
+                                      {a.model, a.environment});
+    const Stopwatch stopwatch;
+    SceneFile model = load_scene_file(a.model, a.reading);
+    check_model(a, model);
+    const SunCount suns = layout_of(model).has(PartKind::whole) ? SunCount{0} : a.suns;
+    const SplitLight light = load_split_light(a.environment, model.order(), suns, a.light_options, a.threads);
+    const TraceScene scene(model.scene, load_textures(model.scene, BadTextures::error),
+                           {.solid = solid_materials(model.scene), .threads = a.threads});
+    ProgressBar bar = session.progress_bar("relighting");
+    std::vector<glm::vec3> radiance = radiance_of(a, model, scene, light, bar.progress());
+    if (a.albedo) {
+        const std::vector<glm::vec3> colors = base_colors(scene.surfaces());
+        for (std::size_t p = 0; p < radiance.size(); ++p)
+            radiance[p] *= colors[p];
+    }
+    Report report = report_of(a, light, radiance, receiver_areas(model.scene));
+    discard_transfer(model.document);
+    write_vertex_colors(model.document, model.scene, radiance);
+    const std::vector<std::byte> file = about(a.model, [&] { return encode_glb(model.document); });
+    add_figures(report, {{"bytes_file", session.write(a.output, file)}, {"seconds", stopwatch.seconds()}});
+    publish(report, a.json, session);
+}
+
+} // namespace
+
+void add_relight(CLI::App& app, Session& session) {
+    CLI::App* command =
+        app.add_subcommand("relight", "Write the radiance of every vertex under an environment as colors");
+    auto& a = arguments_for<RelightArguments>(
+        command, [&session](const RelightArguments& given) { run(given, session); });
+    command->add_option("model", a.model, "baked or compressed .glb")->required()->check(named);
+    command->add_option("--env", a.environment, "environment (.exr, .hdr, .png, .jpg) or light (.json)")
+        ->required()
+        ->check(named)
+        ->type_name("FILE");
+    add_output(command, a.output, "model to write, .glb: COLOR_0 is the radiance, linear, float32");
+    add_suns(command, a.suns,
+             "find suns in the image, so many or as many as pay, and shadow them by rays; those of a light "
+             "file are lit so, too",
+             "auto");
+    command->add_option("--sun-rays", a.rays, "rays from a vertex to each sun")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1 << 20));
+    command->add_flag("--albedo", a.albedo, "multiply by the base color; else radiance is for albedo 1");
+    add_light_options(command, a.light_options);
+    add_reading(command, a.reading);
+    add_threads(command, a.threads);
+    add_json(command, a.json);
+}
+
+} // namespace prt::cli

@@ -1,0 +1,65 @@
+#include "split_light.h"
+
+#include "light_file.h"
+#include "options.h"
+#include "outputs.h"
+
+#include <fmt/core.h>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace prt::cli {
+namespace {
+
+/// The error of what `--suns` is given, or nothing.
+std::string sun_count(const std::string& text) {
+    const std::optional<int> count = whole_number(text);
+    return text == "auto" || (count && *count >= 0 && *count <= 16) ? ""
+                                                                    : text + " is neither auto nor 0..16";
+}
+
+} // namespace
+
+void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const std::string& otherwise) {
+    command
+        ->add_option_function<std::string>(
+            "--suns",
+            [&suns](const std::string& given) {
+                suns.count = given == "auto" ? std::nullopt : whole_number(given);
+            },
+            text)
+        ->check(sun_count)
+        ->type_name("0..16|auto")
+        ->default_str(otherwise);
+}
+
+SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
+                            int threads) {
+    SplitLight result;
+    result.sky.name = path.filename().string();
+    if (suffix_of(path) == ".json") {
+        const LightFile file = read_light_file(path);
+        if (file.sky.order < order)
+            throw Error(fmt::format("{}: has order {}, but order {} is needed", path.string(), file.sky.order,
+                                    order));
+        result.sky.light = truncated(file.sky, order);
+        result.split.suns = file.suns;
+    } else {
+        result.sky.environment = load_environment_map(path, options.environment);
+        result.split = about(path, [&] {
+            return find_suns(*result.sky.environment,
+                             {.order = order, .count = suns.count, .threads = threads});
+        });
+        result.sky.light = project(result.split.remainder, order, threads);
+    }
+    result.sky.light = windowed(result.sky.light, options.window);
+    if (const double turn = glm::radians(options.rotation_degrees); turn != 0) {
+        result.sky.light = rotated_about_y(result.sky.light, turn);
+        for (SunDisc& sun : result.split.suns)
+            sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 1, 0)) *
+                                    glm::dvec4(glm::dvec3(sun.towards), 0));
+    }
+    return result;
+}
+
+} // namespace prt::cli

@@ -1,0 +1,33 @@
+#pragma once
+
+// Lighting with its suns apart.
+
+#include "inputs.h"
+#include "prt/suns.h"
+
+#include <CLI/CLI.hpp>
+
+#include <optional>
+
+namespace prt::cli {
+
+/// How many suns to take out: none, so many, or as many as pay.
+struct SunCount {
+    std::optional<int> count = 0; ///< unset: as many as pay
+};
+
+/// --suns
+void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const std::string& otherwise);
+
+/// A sky without its suns, and what was found of them.
+struct SplitLight {
+    LoadedLight sky;
+    SunSplit split;
+};
+
+/// Takes suns out of an environment map, or those of a light file, whose number is its own; turned with the
+/// rest as asked. A window is for the rest alone.
+SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
+                            int threads);
+
+} // namespace prt::cli

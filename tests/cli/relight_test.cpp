@@ -1,0 +1,102 @@
+// prt relight: radiance of vertices, held against closed forms and against what the library says.
+
+#include "program.h"
+#include "prt/gltf.h"
+#include "prt/image_file.h"
+#include "support/glb_file.h"
+#include "support/scene_builder.h"
+#include "support/temporary_folder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace prt::test {
+namespace {
+
+class Relight : public testing::Test {
+protected:
+    void SetUp() override {
+        scene_file(SceneBuilder().floor({0, 0, 0}, 1, 2).build()).write(folder / "s.glb");
+        ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4"}).status, 0);
+        ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("c.glb")}).status, 0);
+        folder.file("sun.json",
+                    R"({"prtkit_light": 1, "order": 4, "coefficients": {"red": [1.7724539, 0, 0, 0, 0,
+            0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], "green": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],
+            "blue": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0]},
+            "suns": [{"towards": [0, 2, 0], "irradiance": [0, 1.25663706, 0], "half_angle_radians": 0.01}]})");
+    }
+    std::string at(const char* name) const { return (folder / name).string(); }
+    /// Colors of the vertices of what was written.
+    std::vector<glm::vec3> relit(const std::vector<std::string>& arguments) const {
+        std::vector<std::string> all = {"relight", "-o", at("lit.glb")};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const Outcome outcome = prt(all);
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        const Scene scene = extract_scene(load_gltf(folder / "lit.glb"));
+        std::vector<glm::vec3> colors;
+        for (const glm::vec4& color : scene.vertex_arrays[0].colors)
+            colors.emplace_back(color);
+        EXPECT_EQ(colors.size(), scene.receivers());
+        return colors;
+    }
+
+    TemporaryFolder folder;
+};
+
+/// A red sky of radiance 0.5 and a green sun overhead of irradiance 0.4 pi, which gives an open floor 0.4.
+TEST_F(Relight, AddsTheSkyByTransferAndTheSunsByRays) {
+    for (const char* model : {"b.glb", "c.glb"})
+        for (const glm::vec3& color : relit({at(model), "--env", at("sun.json")}))
+            EXPECT_LT(glm::distance(color, glm::vec3(0.5f, 0.4f, 0)), 3e-3f) << model;
+}
+
+TEST_F(Relight, MultipliesByTheBaseColorWhereItIsAsked) {
+    GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 2).build());
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 1, 1}}}}}};
+    file.json["meshes"][0]["primitives"][0]["material"] = 0;
+    file.write(folder / "s.glb");
+    ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4"}).status, 0);
+    for (const glm::vec3& color : relit({at("b.glb"), "--env", at("sun.json"), "--albedo"}))
+        EXPECT_LT(glm::distance(color, glm::vec3(0.25f, 0.1f, 0)), 3e-3f);
+}
+
+/// A texel of a sun is found in the image, and shadowed by rays or held by the sky: on an open floor the
+/// same.
+TEST_F(Relight, FindsSunsInImages) {
+    Image sky{64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0.2f))};
+    sky.at(20, 3) = glm::vec3(400);
+    write_exr(folder / "sky.exr", sky, EnvironmentLayout::lat_long);
+    const auto apart = relit({at("b.glb"), "--env", at("sky.exr"), "--suns", "1"}),
+               together = relit({at("b.glb"), "--env", at("sky.exr"), "--suns", "0"});
+    // The cosine's own bands beyond 4 are 1 % of it.
+    for (std::size_t p = 0; p < apart.size(); ++p)
+        EXPECT_NEAR(apart[p].x / together[p].x, 1, 0.03f);
+    EXPECT_GT(apart[0].x, 0.3f);
+    EXPECT_LT(apart[0].x, 0.9f); // colors that are read end at 1
+}
+
+TEST_F(Relight, SaysWhatItCannotDo) {
+    const auto refused = [&](const std::vector<std::string>& arguments, int status, const char* words) {
+        std::vector<std::string> all = {"relight", "-o", at("no.glb")};
+        all.insert(all.end(), arguments.begin(), arguments.end());
+        const std::size_t before = folder.files();
+        const Outcome outcome = prt(all);
+        EXPECT_EQ(outcome.status, status) << outcome.err;
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+        EXPECT_EQ(folder.files(), before);
+    };
+    refused({at("s.glb"), "--env", at("sun.json")}, 1, "holds no transfer");
+    refused({at("b.glb"), "--env", at("sun.json"), "--suns", "17"}, 2, "17");
+    refused({at("b.glb"), "--env", at("sun.json"), "--sun-rays", "0"}, 2, "--sun-rays");
+    ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("w.glb"), "--whole"}).status, 0);
+    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no direct light apart");
+    const Outcome merged = prt({"relight", at("w.glb"), "--env", at("sun.json"), "-o", at("lit.glb")});
+    EXPECT_EQ(merged.status, 0);
+    EXPECT_NE(merged.err.find("no direct light apart"), std::string::npos) << merged.err;
+}
+
+} // namespace
+} // namespace prt::test
