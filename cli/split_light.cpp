@@ -33,6 +33,13 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
         ->default_str(otherwise);
 }
 
+Light light_of_suns(const SplitLight& light) {
+    Light suns = constant_light(light.sky.light.order, glm::vec3(0));
+    for (const SunDisc& sun : light.split.suns)
+        suns = sum(suns, as_light(sun, suns.order));
+    return suns;
+}
+
 SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
                             int threads) {
     SplitLight result;

@@ -25,6 +25,9 @@ struct SplitLight {
     SunSplit split;
 };
 
+/// The suns together, as they light what is lit after a bounce.
+Light light_of_suns(const SplitLight& light);
+
 /// Takes suns out of an environment map, or those of a light file, whose number is its own; turned with the
 /// rest as asked. A window is for the rest alone.
 SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,

@@ -9,6 +9,7 @@
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "report/trace_lines.h"
+#include "split_light.h"
 
 #include <fmt/core.h>
 
@@ -132,14 +133,28 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     a.preset = !given("--clusters"); // as many as suit the mesh
 }
 
+/// With all light in the sky; and with its suns apart, where transfer knows the difference.
+void add_lighting(const CompressArguments& a, const Path& path, const TransferLayout& layout,
+                  std::vector<Lighting>& lights) {
+    const int threads = a.options.compress.threads;
+    if (layout.parts.size() < 2) {
+        lights.push_back({load_light(path, layout.order, a.light_options, threads).light});
+        return;
+    }
+    const SplitLight light = load_split_light(path, layout.order, {std::nullopt}, a.light_options, threads);
+    const Light suns = light_of_suns(light);
+    lights.push_back({sum(light.sky.light, suns)});
+    if (!light.split.suns.empty())
+        lights.push_back({light.sky.light, suns});
+}
+
 LightMetric chosen_metric(const CompressArguments& a, const Transfer& transfer) {
     if (a.lights.empty())
         return a.metric == MetricChoice::plain ? plain_metric(transfer.layout)
                                                : natural_metric(transfer.layout);
-    std::vector<Light> lights;
+    std::vector<Lighting> lights;
     for (const Path& path : a.lights)
-        lights.push_back(
-            load_light(path, transfer.layout.order, a.light_options, a.options.compress.threads).light);
+        add_lighting(a, path, transfer.layout, lights);
     return metric_of_lights(lights, transfer.layout);
 }
 

@@ -42,30 +42,31 @@ std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
     return colors;
 }
 
-/// Whether anything arrives without a bounce: what is in a medium, or sealed in, no sun lights.
-std::vector<bool> lit_directly(const Transfer& transfer) {
-    std::vector<bool> lit;
-    const auto count = static_cast<std::size_t>(transfer.layout.parts.front().channels *
-                                                coefficient_count(transfer.layout.order));
-    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
-        const auto direct = transfer.vector(p).first(count);
-        lit.push_back(std::any_of(direct.begin(), direct.end(), [](float v) { return v != 0; }));
+/// Whether suns light a receiver without a bounce: not where all light passes a medium. A bake says so by
+/// zeros, a compressed file by materials alone: media of --subsurface are unknown to it.
+std::vector<bool> lit_directly(const SceneFile& model, const TraceScene& scene) {
+    const Surfaces& surfaces = scene.surfaces();
+    std::vector<bool> lit(model.scene.receivers(), true);
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
+        if (medium_of(surfaces.material(t)))
+            for (int corner = 0; corner < 3; ++corner)
+                lit[surfaces.corners(t)[corner]] = false;
+    if (!model.baked)
+        return lit;
+    const TransferLayout& layout = model.baked->transfer.layout;
+    const auto count =
+        static_cast<std::size_t>(layout.parts.front().channels * coefficient_count(layout.order));
+    for (std::size_t p = 0; p < lit.size(); ++p) {
+        const auto direct = model.baked->transfer.vector(p).first(count);
+        lit[p] = lit[p] && std::any_of(direct.begin(), direct.end(), [](float v) { return v != 0; });
     }
     return lit;
-}
-
-/// All light in one sky, where transfer does not keep direct light apart.
-Light suns_as_light(const SplitLight& light) {
-    Light suns = constant_light(light.sky.light.order, glm::vec3(0));
-    for (const SunDisc& sun : light.split.suns)
-        suns = sum(suns, as_light(sun, suns.order));
-    return suns;
 }
 
 /// Exit radiance for albedo 1: the sky by transfer, suns by rays, and what they give after a bounce.
 std::vector<glm::vec3> radiance_of(const RelightArguments& a, const SceneFile& model, const TraceScene& scene,
                                    const SplitLight& light, const Progress& progress) {
-    const Lighting lighting{light.sky.light, suns_as_light(light)};
+    const Lighting lighting{light.sky.light, light_of_suns(light)};
     std::vector<glm::vec3> radiance = model.compressed
                                           ? exit_radiance(model.compressed->transfer, lighting, a.threads)
                                           : exit_radiance(model.baked->transfer, lighting, a.threads);
@@ -73,8 +74,7 @@ std::vector<glm::vec3> radiance_of(const RelightArguments& a, const SceneFile& m
         return radiance;
     const std::vector<glm::vec3> direct =
         sun_radiance(scene, light.split.suns, {.rays = a.rays, .threads = a.threads}, progress);
-    const std::vector<bool> lit =
-        lit_directly(model.baked ? model.baked->transfer : decode(model.compressed->transfer, a.threads));
+    const std::vector<bool> lit = lit_directly(model, scene);
     for (std::size_t p = 0; p < radiance.size(); ++p)
         if (lit[p])
             radiance[p] += direct[p];

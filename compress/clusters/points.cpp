@@ -7,11 +7,14 @@
 
 #include <Eigen/Dense>
 
+#include <cassert>
+
 namespace prt {
 
 PointBlocks::PointBlocks(const Transfer& transfer, const Frame& frame, int threads)
     : count(transfer.receivers()), dimension(frame.dimension) {
-    if (dimension == 0) // all receivers alike
+    assert(dimension <= kMostDimensions); // arrays of the kernels have so many
+    if (dimension == 0)                   // all receivers alike
         return;
     values.resize(blocks() * dimension * kLanes);
     parallel_for(blocks(), 64, threads, [&](std::size_t begin, std::size_t end) {

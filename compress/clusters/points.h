@@ -12,7 +12,7 @@ namespace prt {
 
 /// Points that are worked on together: one per vector lane.
 inline constexpr std::size_t kLanes = kLaneCount;
-inline constexpr std::size_t kMostDimensions = 3 * kMaxOrder * kMaxOrder;
+inline constexpr std::size_t kMostDimensions = kMostTransferNumbers;
 
 /// Transfer vectors as points of the space of a frame, laid out for vector units: blocks of kLanes points, in
 /// each block coordinate by coordinate. The last block is filled up with copies of its first point.

@@ -1,14 +1,19 @@
 // Parts of transfer on the road from the bake to what is shipped.
 
 #include "program.h"
+#include "prt/error_measures.h"
+#include "prt/gltf.h"
+#include "prt/sun_disc.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <fstream>
+#include <utility>
 
 namespace prt::test {
 namespace {
@@ -41,6 +46,34 @@ TEST_F(Parts, OfABakeWithBouncesAreKeptByTheCompressor) {
     EXPECT_EQ(figures_of({"info", at("b.glb")})["transfer"]["parts"], both);
     EXPECT_EQ(figures_of({"compress", at("b.glb"), "-o", at("c.glb")})["parts"], both);
     EXPECT_EQ(figures_of({"info", at("c.glb")})["clustered_pca"]["parts"], both);
+}
+
+/// Compressed for a light with its suns, a model is lit better by it than one for natural light, suns apart
+/// as well as all in the sky.
+TEST_F(Parts, AreCompressedForLightsWithTheirSunsApartToo) {
+    Light sky = hemisphere_light(3, {0, 1, 0}, glm::vec3(0.3f, 0.4f, 0.6f), glm::vec3(0.1f));
+    nlohmann::json light = {{"prtkit_light", 1}, {"order", 3}};
+    for (const auto& [c, name] : {std::pair(0, "red"), std::pair(1, "green"), std::pair(2, "blue")})
+        for (const glm::vec3& coefficient : sky.coefficients)
+            light["coefficients"][name].push_back(coefficient[c]);
+    const SunDisc sun{glm::normalize(glm::vec3(0.3f, 0.8f, 0.5f)), glm::vec3(3), 0.01};
+    light["suns"] = {{{"towards", {0.3, 0.8, 0.5}}, {"irradiance", {3, 3, 3}}, {"half_angle_radians", 0.01}}};
+    folder.file("light.json", light.dump());
+    const GltfDocument baked = load_gltf(folder / "b.glb");
+    const Scene scene = extract_scene(baked);
+    const Transfer reference = read_transfer(baked, scene)->transfer;
+    const auto error_of = [&](std::vector<std::string> options, const Lighting& lighting) {
+        options.insert(options.begin(), {"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "8",
+                                         "--clusters", "3", "--components", "2"});
+        EXPECT_EQ(prt(options).status, 0);
+        const GltfDocument coded = load_gltf(folder / "c.glb");
+        return lit_rms(exit_radiance(reference, lighting),
+                       exit_radiance(read_clustered(coded, extract_scene(coded))->transfer, lighting),
+                       receiver_areas(scene));
+    };
+    const Light suns = as_light(sun, 3);
+    for (const Lighting& lighting : {Lighting{sky, suns}, Lighting{sum(sky, suns)}})
+        EXPECT_LT(error_of({"--lights", at("light.json")}, lighting), 1.05 * error_of({}, lighting));
 }
 
 TEST_F(Parts, AreMadeOneWhereTheUserAsksForIt) {

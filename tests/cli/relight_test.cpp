@@ -7,6 +7,7 @@
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -51,6 +52,19 @@ TEST_F(Relight, AddsTheSkyByTransferAndTheSunsByRays) {
     for (const char* model : {"b.glb", "c.glb"})
         for (const glm::vec3& color : relit({at(model), "--env", at("sun.json")}))
             EXPECT_LT(glm::distance(color, glm::vec3(0.5f, 0.4f, 0)), 3e-3f) << model;
+}
+
+/// What lies under marble is lit by the sun once: after it has been inside.
+TEST_F(Relight, LightsMediaBySunsOnce) {
+    ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4", "--subsurface",
+                   "marble"})
+                  .status,
+              0);
+    glm::vec3 brightest(0); // in the middle, from where no light leaks out over the edge
+    for (const glm::vec3& color : relit({at("b.glb"), "--env", at("sun.json")}))
+        brightest = glm::max(brightest, color);
+    EXPECT_NEAR(brightest.r, 0.5f, 0.05f);
+    EXPECT_NEAR(brightest.g, 0.4f, 0.05f);
 }
 
 TEST_F(Relight, MultipliesByTheBaseColorWhereItIsAsked) {

@@ -300,6 +300,28 @@ TEST(HardCase, ReceiversWithoutAreaDoNotCountButAreCoded) {
     EXPECT_EQ(nobody.transfer.receivers.size(), 200u);
 }
 
+/// The longest vectors that there are, with no axis to leave out.
+TEST(Compress, TakesAllNumbersOfTwoColoredPartsOfOrderTen) {
+    Transfer t = zero_transfer({10, {{PartKind::direct, 3}, {PartKind::indirect, 3}}}, 900);
+    ASSERT_EQ(t.dimension(), kMostTransferNumbers);
+    std::mt19937 random(21);
+    std::normal_distribution<float> normal;
+    for (float& v : t.vectors)
+        v = normal(random);
+    for (const WeightFormat format : {WeightFormat::float32, WeightFormat::packed}) {
+        CompressOptions options;
+        options.clusters = 2;
+        options.coding.components = 3;
+        options.coding.format = format;
+        options.coding.bits = 12;
+        options.metric = plain_metric(t.layout);
+        const CompressResult result = compress(t, std::vector<float>(900, 1.0f), {}, options);
+        // Noise is hardly compressed, and nothing of it is lost twice.
+        EXPECT_GT(result.statistics.lit_rms, 0.9);
+        EXPECT_LT(result.statistics.lit_rms, 1.01);
+    }
+}
+
 TEST(Compress, RefusesWhatItCannotDo) {
     Transfer t = random_transfer(10, 3, 1, 1);
     EXPECT_THROW(run(t, 0, 4), Error);

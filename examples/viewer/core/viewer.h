@@ -6,10 +6,10 @@
 #include "core/frame_statistics.h"
 #include "core/hovered.h"
 #include "core/jobs.h"
-#include "core/lighting.h"
 #include "core/orbit_camera.h"
 #include "core/reference.h"
 #include "core/screen.h"
+#include "core/viewer_light.h"
 #include "gpu/gpu_timer.h"
 #include "gpu/mesh_renderer.h"
 #include "pictures/frame_renderer.h"
@@ -56,7 +56,7 @@ public:
 
     const Document& document() const { return document_; }
     const Jobs& jobs() const { return jobs_; }
-    const Lighting& lighting() const { return lighting_; }
+    const ViewerLight& lighting() const { return lighting_; }
     const Figures& figures() const { return statistics_.figures; }
     void forget_longest() { statistics_.figures.milliseconds.longest = 0; }
     const std::optional<Hovered>& hovered() const { return seen_.hovered; }
@@ -119,7 +119,7 @@ private:
 
     Document document_;
     Jobs jobs_;
-    Lighting lighting_;
+    ViewerLight lighting_;
     Reference reference_;
     FrameStatistics statistics_;
     std::deque<std::string> messages_;

@@ -37,11 +37,11 @@ function codedRows(bytes, drops, rows) {
 
 const floats = (bytes) => new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
 
-const KINDS = [["direct"], ["indirect"], ["whole"], ["direct", "indirect"]];
+const LAYOUTS = [["direct"], ["indirect"], ["whole"], ["direct", "indirect"]];
 
 function areParts(parts) {
   if (!Array.isArray(parts) || !parts.every((part) => part?.channels === 1 || part?.channels === 3)) return false;
-  return KINDS.some((kinds) => kinds.join() === parts.map((part) => part.kind).join());
+  return LAYOUTS.some((kinds) => kinds.length === parts.length && kinds.every((kind, i) => kind === parts[i].kind));
 }
 
 /** Numbers of a transfer vector: its parts one behind the other, each [channels][order²]. */

@@ -98,7 +98,7 @@ test("direct light is lit by the sky, the rest by sky and suns", () => {
 
 test("parts that make no sense are refused", () => {
   const of = (...kinds) => kinds.map((kind) => ({ kind, channels: 1 }));
-  for (const parts of [undefined, [], of("lamp"), of("indirect", "direct"), of("direct", "whole"), of("direct", "direct")])
+  for (const parts of [undefined, [], of("lamp"), of("indirect", "direct"), of("direct", "whole"), of("direct", "direct"), of("direct,indirect")])
     assert.throws(() => decodeClusters({ ...plain, parts }, (i) => plainViews[i]), /parts/);
   assert.throws(() => decodeClusters({ ...plain, parts: [{ kind: "whole", channels: 2 }] }, (i) => plainViews[i]), /parts/);
 });

@@ -5,7 +5,7 @@
 //     ConstantFormer former(transfer);                       // once per model
 //     std::vector<glm::vec4> constants(former.rows());
 //     former.form(light, constants);                         // when the lighting changes
-//     former.form(Lighting{sky, suns}, constants);           // or: the renderer shadows the suns itself
+//     former.form({sky.coefficients, suns.coefficients}, constants); // or: the renderer shadows suns itself
 //
 // Several models share a lighting: each has its former. A model that turns wants the lighting turned the
 // other way: `ShRotation(order, inverse of the model's rotation).apply(light, turned)`. Constants are linear

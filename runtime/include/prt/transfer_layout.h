@@ -77,7 +77,10 @@ struct LightingView {
     }
 };
 
-/// Columns of the largest layout that `check_layout` lets pass.
+/// Numbers of a transfer vector of the largest layout that `check_layout` lets pass, and its columns of
+/// light.
+inline constexpr std::size_t kMostTransferNumbers =
+    6 * static_cast<std::size_t>(coefficient_count(kMaxOrder));
 inline constexpr std::size_t kMostLightColumns = 2 * static_cast<std::size_t>(coefficient_count(kMaxOrder));
 
 /// The colors that each part is multiplied with: [parts][order²]. Throws `Error` where `lighting` has fewer

@@ -57,12 +57,12 @@ std::string read_hash(const Json& json) {
     return hash;
 }
 
-/// The bytes of floats, or of float16, as many as are needed.
+/// The bytes of floats, or of float16, exactly as many as are needed.
 std::span<const unsigned char> float_bytes(const GltfContents& contents, const Json& object,
                                            std::size_t count, const std::string& what) {
     const std::size_t size = is_half(object) ? sizeof(std::uint16_t) : sizeof(float);
     const auto bytes = buffer_view_bytes(contents.model, object.at("bufferView").get<int>());
-    if (bytes.size() / size < count)
+    if (count > 0 && bytes.size() != count * size) // more would be of another layout; no view is empty
         throw Error(what + " need " + std::to_string(count * size) + " bytes, but there are " +
                     std::to_string(bytes.size()));
     return bytes;

@@ -15,6 +15,8 @@
 #include <iterator>
 #include <limits>
 #include <random>
+#include <span>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -184,6 +186,23 @@ TEST(TransferInGltf, PartsComeBackAsTheyAre) {
     ASSERT_TRUE(read);
     EXPECT_EQ(read->transfer.layout, layout);
     EXPECT_EQ(read->transfer.vectors, baked.transfer.vectors);
+}
+
+TEST(TransferInGltf, VectorsOfAnotherLayoutAreRefused) {
+    const OnDisk files(demanding_file());
+    GltfDocument document = load_gltf(files.source);
+    const Scene scene = extract_scene(document);
+    write_transfer(document, scene, random_bake(scene, 3, 3));
+    save_glb(document, files.written);
+    std::ifstream file(files.written, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    for (const auto& [was, is] :
+         {std::pair("\"channels\":3", "\"channels\":1"), std::pair("\"order\":3", "\"order\":2")}) {
+        std::string changed = bytes; // there are more numbers than that
+        changed.replace(changed.find(was), std::strlen(is), is);
+        const GltfDocument again = parse_gltf(std::as_bytes(std::span(changed)), "changed.glb");
+        EXPECT_THROW(read_transfer(again, extract_scene(again)), Error) << is;
+    }
 }
 
 TEST(TransferInGltf, ReceiversAreTheSamePointsAfterwards) {

@@ -100,7 +100,6 @@ typedef enum prt_weight_format {
 
 typedef struct prt_model_info {
     int order, channels;
-    int direct_apart; /* 1 where suns can be lit apart from the sky, else 0 */
     size_t receivers; /* vertices of all meshes */
     size_t clusters;
     size_t rows; /* of constants, 4 floats each */
@@ -110,6 +109,7 @@ typedef struct prt_model_info {
     const uint16_t* cluster_of;    /* [receivers], for prt_cluster; packed weights hold it */
     const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
     size_t meshes;
+    int direct_apart; /* 1 where suns can be lit apart from the sky, else 0 */
 } prt_model_info;
 /* Pointers live as long as the model. */
 PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message);

@@ -7,7 +7,7 @@
 
 namespace viewer {
 
-class Lighting {
+class ViewerLight {
 public:
     LightRig rig;
     std::vector<std::shared_ptr<const LoadedEnvironment>> environments; ///< in the order that they came
@@ -21,7 +21,7 @@ private:
     std::uint64_t version_ = 0; ///< of the rig
 };
 
-inline const prt::Light& Lighting::light(int order) {
+inline const prt::Light& ViewerLight::light(int order) {
     if (version_ != rig.version() || light_.order != order)
         light_ = rig.light(order);
     version_ = rig.version();
