@@ -48,7 +48,7 @@ Transfer exit_without_bounces(const BakePlan& plan, Transfer incident, const Ref
 }
 
 Transfer in_parts(const Transfer& direct, const Transfer& all) {
-    const Transfer rest = narrowed(rest_of(direct, all));
+    Transfer rest = narrowed(rest_of(direct, all));
     if (is_zero(rest))
         return direct;
     if (is_zero(direct))
