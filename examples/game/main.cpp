@@ -52,7 +52,7 @@ World load(const char* model, const char* sky) {
     if (!compressed)
         throw std::runtime_error("the model is not compressed");
     const prt::Environment environment = prt::load_environment(sky).environment;
-    const prt::Light light = prt::project(environment, compressed->transfer.bases.order);
+    const prt::Light light = prt::project(environment, compressed->transfer.bases.layout.order);
     return {std::move(scene), std::move(compressed->transfer), prt::deringed(light)}; // nowhere negative
 }
 

@@ -13,7 +13,7 @@ int main(int count, char** arguments) {
     const prt::Scene scene = prt::extract_scene(document);
     const prt::ClusteredTransfer transfer = prt::read_clustered(document, scene)->transfer;
     const auto radiance =
-        prt::exit_radiance(transfer, prt::constant_light(transfer.bases.order, glm::vec3(1)));
+        prt::exit_radiance(transfer, prt::constant_light(transfer.bases.layout.order, glm::vec3(1)));
     double mean = 0;
     for (const glm::vec3& r : radiance)
         mean += static_cast<double>(r.g) / static_cast<double>(radiance.size());
