@@ -376,7 +376,7 @@ prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_m
         check_pointers(model, out);
         const prt::ClusteredReceivers& receivers = model->transfer.receivers;
         *out = {};
-        out->order = model->former.layout().order;
+        out->order = model->former.order();
         out->channels = model->former.layout().channels();
         out->direct_apart = model->former.layout().has(prt::PartKind::direct);
         out->receivers = receivers.size();

@@ -9,19 +9,37 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace prt {
 namespace {
 
-Transfer random_transfer(std::size_t receivers, int order, int channels, unsigned seed) {
-    Transfer t = zero_transfer(order, channels, receivers);
+Transfer random_transfer(std::size_t receivers, const TransferLayout& layout, unsigned seed) {
+    Transfer t = zero_transfer(layout, receivers);
     std::mt19937 random(seed);
     std::normal_distribution<float> normal;
     for (float& v : t.vectors)
         v = normal(random);
     return t;
 }
+
+Transfer random_transfer(std::size_t receivers, int order, int channels, unsigned seed) {
+    return random_transfer(receivers, layout_of_one(order, channels), seed);
+}
+
+/// Squared errors and radiance of all receivers alike, light by light.
+struct LitSums {
+    double error = 0, norm = 0;
+
+    void add(std::span<const glm::vec3> wanted, std::span<const glm::vec3> found, double weight = 1) {
+        for (std::size_t p = 0; p < wanted.size(); ++p) {
+            error += weight * static_cast<double>(glm::dot(wanted[p] - found[p], wanted[p] - found[p]));
+            norm += weight * static_cast<double>(glm::dot(wanted[p], wanted[p]));
+        }
+    }
+    double rms() const { return std::sqrt(error / norm); }
+};
 
 Light random_light(int order, std::mt19937& random) {
     std::normal_distribution<float> normal;
@@ -42,7 +60,7 @@ TEST_P(Metric, OfLightsIsTheMeanOfWhatEachTurnOfEachCosts) {
     const std::vector<Light> lights = {random_light(order, random), random_light(order + 1, random)};
     const Transfer a = random_transfer(20, order, channels, 1), b = random_transfer(20, order, channels, 2);
     const std::vector<float> areas(20, 1.0f);
-    double error = 0, norm = 0;
+    LitSums sums;
     for (const Light& given : lights) {
         const Light light = truncated(given, order);
         double energy = 0;
@@ -50,16 +68,12 @@ TEST_P(Metric, OfLightsIsTheMeanOfWhatEachTurnOfEachCosts) {
             energy += static_cast<double>(glm::dot(c, c));
         for (int turn = 0; turn < 360; ++turn) {
             const Light turned = rotated_about_y(light, turn * M_PI / 180);
-            const auto ra = exit_radiance(a, turned), rb = exit_radiance(b, turned);
-            for (std::size_t p = 0; p < 20; ++p) {
-                error += static_cast<double>(glm::dot(ra[p] - rb[p], ra[p] - rb[p])) / energy;
-                norm += static_cast<double>(glm::dot(ra[p], ra[p])) / energy;
-            }
+            sums.add(exit_radiance(a, turned), exit_radiance(b, turned), 1 / energy);
         }
     }
     const double found =
         expected_lit_rms(a, b, areas, metric_of_lights(lights, layout_of_one(order, channels)));
-    EXPECT_NEAR(found, std::sqrt(error / norm), 0.01 * found); // the hundredth
+    EXPECT_NEAR(found, sums.rms(), 0.01 * found); // the hundredth
 }
 
 TEST_P(Metric, NaturalLightIsTheMeanOverRandomLightOfThatPower) {
@@ -67,70 +81,50 @@ TEST_P(Metric, NaturalLightIsTheMeanOverRandomLightOfThatPower) {
     std::mt19937 random(9);
     const Transfer a = random_transfer(30, order, channels, 3), b = random_transfer(30, order, channels, 4);
     const std::vector<float> areas(30, 1.0f);
-    double error = 0, norm = 0;
+    LitSums sums;
     for (int i = 0; i < 4000; ++i) {
         Light light = random_light(order, random);
         for (int k = 1; k < order * order; ++k)
             light.coefficients[static_cast<std::size_t>(k)] *=
                 std::sqrt(0.25f / std::floor(std::sqrt(static_cast<float>(k))));
-        const auto ra = exit_radiance(a, light), rb = exit_radiance(b, light);
-        for (std::size_t p = 0; p < 30; ++p) {
-            error += static_cast<double>(glm::dot(ra[p] - rb[p], ra[p] - rb[p]));
-            norm += static_cast<double>(glm::dot(ra[p], ra[p]));
-        }
+        sums.add(exit_radiance(a, light), exit_radiance(b, light));
     }
     const double found = expected_lit_rms(a, b, areas, natural_metric(layout_of_one(order, channels)));
-    EXPECT_NEAR(found, std::sqrt(error / norm), 0.02 * found); // 4000 lights: 1 to 2 %
+    EXPECT_NEAR(found, sums.rms(), 0.02 * found); // 4000 lights: 1 to 2 %
 }
 
 /// Skies of steeper bands, and suns anywhere of one power in every band, which direct light is not lit by.
 TEST(MetricOfParts, OfTwoPartsIsTheMeanOverRandomSkiesWithSuns) {
     const TransferLayout layout{3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
     std::mt19937 random(11);
-    Transfer a = zero_transfer(layout, 30), b = a;
-    std::normal_distribution<float> normal;
-    for (Transfer* transfer : {&a, &b})
-        for (float& v : transfer->vectors)
-            v = normal(random);
-    double error = 0, norm = 0;
+    const Transfer a = random_transfer(30, layout, 11), b = random_transfer(30, layout, 111);
+    LitSums sums;
     for (int i = 0; i < 4000; ++i) {
         Lighting lighting{random_light(3, random), random_light(3, random)};
         for (std::size_t k = 0; k < 9; ++k) {
             lighting.sky.coefficients[k] *= k == 0 ? 1 : 0.5f / std::floor(std::sqrt(static_cast<float>(k)));
             lighting.suns->coefficients[k] *= std::sqrt(0.1f);
         }
-        const auto ra = exit_radiance(a, lighting), rb = exit_radiance(b, lighting);
-        for (std::size_t p = 0; p < 30; ++p) {
-            error += static_cast<double>(glm::dot(ra[p] - rb[p], ra[p] - rb[p]));
-            norm += static_cast<double>(glm::dot(ra[p], ra[p]));
-        }
+        sums.add(exit_radiance(a, lighting), exit_radiance(b, lighting));
     }
     const double found = expected_lit_rms(a, b, std::vector<float>(30, 1.0f), natural_metric(layout));
-    EXPECT_NEAR(found, std::sqrt(error / norm), 0.02 * found); // 4000 lights: 1 to 2 %
+    EXPECT_NEAR(found, sums.rms(), 0.02 * found); // 4000 lights: 1 to 2 %
 }
 
 TEST(MetricOfParts, OfLightsWithSunsIsTheMeanOfWhatEachTurnOfEachCosts) {
     const TransferLayout layout{4, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
     std::mt19937 random(12);
     const Lighting lighting{random_light(4, random), random_light(5, random)};
-    Transfer a = zero_transfer(layout, 20), b = a;
-    std::normal_distribution<float> normal;
-    for (Transfer* transfer : {&a, &b})
-        for (float& v : transfer->vectors)
-            v = normal(random);
-    double error = 0, norm = 0;
+    const Transfer a = random_transfer(20, layout, 12), b = random_transfer(20, layout, 112);
+    LitSums sums;
     for (int turn = 0; turn < 360; ++turn) {
         const Lighting turned{rotated_about_y(lighting.sky, turn * M_PI / 180),
                               rotated_about_y(truncated(*lighting.suns, 4), turn * M_PI / 180)};
-        const auto ra = exit_radiance(a, turned), rb = exit_radiance(b, turned);
-        for (std::size_t p = 0; p < 20; ++p) {
-            error += static_cast<double>(glm::dot(ra[p] - rb[p], ra[p] - rb[p]));
-            norm += static_cast<double>(glm::dot(ra[p], ra[p]));
-        }
+        sums.add(exit_radiance(a, turned), exit_radiance(b, turned));
     }
     const double found =
         expected_lit_rms(a, b, std::vector<float>(20, 1.0f), metric_of_lights(std::vector{lighting}, layout));
-    EXPECT_NEAR(found, std::sqrt(error / norm), 0.01 * found); // the hundredth of natural light
+    EXPECT_NEAR(found, sums.rms(), 0.01 * found); // the hundredth of natural light
 }
 
 TEST(MetricOfParts, PlainCountsAGreyPartForEachColor) {
