@@ -185,12 +185,13 @@ Picture empty_picture(const RenderArguments& a, const Scene& scene) {
 }
 
 /// Lets OpenGL light what is compressed in the vertex shader, where it fits.
-void light_in_shader(const RenderArguments& a, const SceneFile& model, const Light& light, Picture& picture) {
+void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lighting& lighting,
+                     Picture& picture) {
     if (a.look.show != Show::lit || !model.compressed)
         return;
     if (model.compressed->transfer.bases.max_components() <= kMostVertexComponents) {
         picture.transfer = &model.compressed->transfer;
-        picture.light = &light;
+        picture.lighting = &lighting;
     } else {
         print_notices(
             a.model.string(),
@@ -284,8 +285,9 @@ void run(RenderArguments a, Session& session) {
         picture.background = &background;
     }
     const std::unique_ptr<GlContext> context = choose_backend(a.backend);
+    const Lighting lighting{light.light};
     if (context)
-        light_in_shader(a, model, light.light, picture);
+        light_in_shader(a, model, lighting, picture);
     const Rendered rendered = render(a, picture, light.light, context.get());
     write_picture(a, rendered, session);
     publish(report_of(a, picture, rendered, context.get()), a.json, session);

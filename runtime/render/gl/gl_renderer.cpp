@@ -58,7 +58,7 @@ public:
           arrays_(scene_.make_vertex_arrays()) {
         if (picture.transfer) {
             transfer_.emplace(*picture.transfer);
-            transfer_->set_light({*picture.light});
+            transfer_->set_light({*picture.lighting});
             for (std::size_t i = 0; i < arrays_.size(); ++i)
                 transfer_->attach(arrays_[i].name(), picture.scene->vertex_arrays[i].first_receiver);
         } else {

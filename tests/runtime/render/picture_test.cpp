@@ -137,7 +137,8 @@ TEST_F(Pictures, OfCompressedTransferAgree) {
     picture.radiance = radiance;
     const Image rays = render_rays(picture, RayScene(objects.scene));
     picture.transfer = &compressed;
-    picture.light = &light;
+    const Lighting lighting{light};
+    picture.lighting = &lighting;
     const Image gl = render_gl(picture, *context);
     const Difference d = difference(rays, gl);
     RecordProperty("mean_absolute_difference_255ths", std::to_string(d.mean));

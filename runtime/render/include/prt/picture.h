@@ -6,9 +6,10 @@
 #include "prt/camera.h"
 #include "prt/clustered_transfer.h"
 #include "prt/environment.h"
-#include "prt/light.h"
 #include "prt/scene.h"
+#include "prt/sun_disc.h"
 #include "prt/texture.h"
+#include "prt/transfer_layout.h"
 
 #include <span>
 #include <vector>
@@ -23,7 +24,9 @@ struct Picture {
     std::span<const glm::vec3> radiance;
     /// Where set, OpenGL forms the exit radiance in the vertex shader from these instead of `radiance`.
     const ClusteredTransfer* transfer = nullptr;
-    const Light* light = nullptr;
+    const Lighting* lighting = nullptr;
+    /// Their light is not in the radiance above but is added at each pixel, sharply shadowed.
+    std::span<const SunDisc> suns = {};
 
     bool textured = true; ///< multiply by base color; off for views that show a number
     /// Lat-long picture behind the scene; null: black.
