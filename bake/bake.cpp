@@ -2,6 +2,7 @@
 
 #include "prt/bake.h"
 
+#include "lamps/lamp_light.h"
 #include "memory.h"
 #include "parts.h"
 #include "prt/sh.h"
@@ -37,6 +38,11 @@ void check_options(const BakeOptions& options) {
     if (options.bounces != kEndlessBounces && (options.bounces < 0 || options.bounces > kMostBounces))
         throw Error(
             fmt::format("bounces must lie in 0..{} or be endless, not {}", kMostBounces, options.bounces));
+    if (!(options.lamps.radius >= 0 && std::isfinite(options.lamps.radius)))
+        throw Error("the radius of lamps must be finite and not negative");
+    if (options.lamps.rays < 1 || options.lamps.rays > kMostRays)
+        throw Error(
+            fmt::format("rays to lamps must lie in 1..{}, not {}", kMostRays, options.lamps.rays));
     if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
         throw Error("the error to reach must be finite and above 0");
     if (!(options.subsurface.metres_per_unit > 0 && std::isfinite(options.subsurface.metres_per_unit)))
@@ -87,6 +93,53 @@ Propagated propagate_all(const BakePlan& plan, Transfer direct, const TransportO
     return exit;
 }
 
+/// The colors of `colored` light that transport of one channel takes one after the other.
+std::vector<Transfer> one_by_one(const Transfer& colored) {
+    const std::size_t count = colored.dimension() / 3;
+    std::vector<Transfer> colors;
+    for (std::size_t c = 0; c < 3; ++c) {
+        colors.push_back(
+            zero_transfer(layout_of_one(colored.layout.order, 1, PartKind::direct), colored.receivers()));
+        for (std::size_t p = 0; p < colored.receivers(); ++p)
+            std::copy_n(colored.vector(p).begin() + static_cast<std::ptrdiff_t>(c * count), count,
+                        colors.back().vector(p).begin());
+    }
+    return colors;
+}
+
+Transfer all_in_one(const std::vector<Transfer>& colors) {
+    const std::size_t count = colors[0].dimension();
+    Transfer all =
+        zero_transfer(layout_of_one(colors[0].layout.order, 3, PartKind::direct), colors[0].receivers());
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t p = 0; p < all.receivers(); ++p)
+            std::copy_n(colors[c].vector(p).begin(), count,
+                        all.vector(p).begin() + static_cast<std::ptrdiff_t>(c * count));
+    return all;
+}
+
+/// Exit light of lamps, with all bounces, from what they give without: of the scene's receivers.
+Transfer propagate_lamps(const BakePlan& plan, Transfer light, const TransportOperators& operators,
+                         const Progress& progress) {
+    if (plan.channels == 1 && light.layout.channels() == 3) {
+        std::vector<Transfer> colors = one_by_one(light);
+        for (Transfer& color : colors)
+            color = propagate_lamps(plan, std::move(color), operators, progress);
+        return all_in_one(colors);
+    }
+    Transfer unbounced;
+    if (plan.options.lamps.mode == LampMode::indirect) {
+        unbounced = exit_without_bounces(plan, light, operators.refill);
+        leave_back_sides(plan, unbounced);
+    }
+    Transfer exit =
+        propagate(std::move(light), operators, plan.bounces, plan.options.threads, progress).transfer;
+    leave_back_sides(plan, exit);
+    for (std::size_t i = 0; i < unbounced.vectors.size(); ++i)
+        exit.vectors[i] -= unbounced.vectors[i];
+    return exit;
+}
+
 } // namespace
 
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress) {
@@ -100,14 +153,23 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
     seconds.build = all.seconds();
 
-    DirectLight direct = trace_direct(plan, *tracer, progress.part(0, plan.bounces != 0 ? 0.85 : 0.95));
+    const double traced_sky = plan.bounces != 0 ? 0.85 : 0.95,
+                 traced_all = plan.lamps.empty() ? traced_sky : traced_sky - 0.2;
+    DirectLight direct = trace_direct(plan, *tracer, progress.part(0, traced_all));
+    Transfer lamps = lamp_light(traced, plan.receivers(), plan.lamps,
+                                {plan.options.lamps, plan.lamp_channels(), options.seed, options.threads},
+                                direct.rays, progress.part(traced_all, traced_sky));
     const SealedIn sealed = find_sealed_in(plan, *tracer, direct.transfer, progress.stop);
     seconds.tracing = tracer->seconds();
 
     const Stopwatch transport;
-    Propagated exit = propagate_all(
-        plan, std::move(direct.transfer),
-        {sealed.refill, plan.diffusion, direct.gather ? &*direct.gather : nullptr}, progress.part(0.95, 1));
+    const TransportOperators operators{sealed.refill, plan.diffusion,
+                                       direct.gather ? &*direct.gather : nullptr};
+    Propagated exit =
+        propagate_all(plan, std::move(direct.transfer), operators, progress.part(traced_sky, 1));
+    if (!plan.lamps.empty())
+        exit.transfer = with_lamps(
+            exit.transfer, propagate_lamps(plan, std::move(lamps), operators, progress.part(1, 1)), plan.lamps);
     seconds.transport = transport.seconds();
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit));

@@ -20,23 +20,25 @@ double memory_there(const BakeOptions& options) {
 
 double memory_needed(const BakePlan& plan) {
     return estimate_memory(plan.options, plan.receivers().size(), plan.scene.surfaces().triangles(),
-                           plan.blocks());
+                           plan.numbers());
 }
 
 } // namespace
 
-double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, int blocks) {
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, std::size_t numbers) {
     const auto count = static_cast<double>(receivers);
-    const double vector = 4.0 * blocks * coefficient_count(options.order);
+    const double vector = 4.0 * static_cast<double>(numbers);
     // The transfer itself, once more in the file being written and once more joined to it.
     double bytes = 3 * count * vector;
     if (options.target_error)
         bytes += 3 * count * vector;
     // Embree's tree of high quality, our tables of triangles, the scene, its neighbours.
     bytes += 400.0 * static_cast<double>(triangles) + 150 * count;
+    // The solver takes all light together, in three channels at most.
+    const double solved = std::min(3.0, static_cast<double>(numbers) / coefficient_count(options.order));
     if (options.bounces == kEndlessBounces)
         bytes +=
-            40 * count * 4 * blocks * coefficient_count(std::min(options.order, 3)); // the solver's steps
+            40 * count * 4 * solved * coefficient_count(std::min(options.order, 3)); // the solver's steps
     else if (options.bounces != 0)
         bytes += 2 * count * vector;
     return bytes;

@@ -4,8 +4,13 @@
 #include "parts.h"
 
 #include "prt/sh_basis.h"
+#include "prt/support/error.h"
+#include "prt/support/printable.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace prt {
 namespace {
@@ -35,6 +40,22 @@ Transfer rest_of(const Transfer& direct, const Transfer& all) {
     return rest;
 }
 
+/// Of files: docs/format.md.
+constexpr float kMostRadiance = 1e6f;
+
+/// Channels that the light of coefficient `k` needs.
+int channels_of(const Transfer& light, std::size_t k) {
+    if (light.layout.channels() == 1)
+        return 1;
+    const std::size_t stride = channel_size(light);
+    for (std::size_t p = 0; p < light.receivers(); ++p) {
+        const auto t = light.vector(p);
+        if (t[k] != t[stride + k] || t[k] != t[2 * stride + k])
+            return 3;
+    }
+    return 1;
+}
+
 } // namespace
 
 Transfer exit_without_bounces(const BakePlan& plan, Transfer incident, const Refill& refill) {
@@ -61,6 +82,29 @@ Transfer in_parts(const Transfer& direct, const Transfer& all) {
         std::copy(rest.vector(p).begin(), rest.vector(p).end(), behind);
     }
     return both;
+}
+
+Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vector<Lamp>& lamps) {
+    const std::size_t stride = channel_size(light);
+    TransferLayout layout = sky.layout;
+    if (is_zero(sky)) // no sky comes in
+        layout.parts.clear();
+    const std::size_t of_sky = layout.dimension();
+    for (std::size_t k = 0; k < lamps.size(); ++k)
+        layout.parts.push_back({PartKind::lamp, channels_of(light, k), lamps[k].name});
+    Transfer all = zero_transfer(layout, sky.receivers());
+    for (std::size_t p = 0; p < all.receivers(); ++p) {
+        auto to = std::copy_n(sky.vector(p).begin(), of_sky, all.vector(p).begin());
+        for (std::size_t k = 0; k < lamps.size(); ++k)
+            for (int c = 0; c < layout.parts[layout.parts.size() - lamps.size() + k].channels; ++c) {
+                *to = light.vector(p)[static_cast<std::size_t>(c) * stride + k];
+                if (!(std::abs(*to++) <= kMostRadiance))
+                    throw Error(fmt::format("lamp '{}' lights a vertex with a radiance above 1e6, more than "
+                                            "files hold: give it less intensity, and more at runtime",
+                                            printable(lamps[k].name)));
+            }
+    }
+    return all;
 }
 
 Transfer narrowed(Transfer transfer) {

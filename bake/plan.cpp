@@ -63,9 +63,15 @@ int BakePlan::direct_channels() const {
     return scene.surfaces().traits().transmission ? channels : 1;
 }
 
-int BakePlan::blocks() const {
+int BakePlan::lamp_channels() const {
+    return channels == 3 || !are_white(scene.surfaces(), lamps) ? 3 : 1;
+}
+
+std::size_t BakePlan::numbers() const {
     const bool rest = bounces != 0 || !diffusion.empty();
-    return direct_channels() + (rest ? channels : 0);
+    const int of_sky = direct_channels() + (rest ? channels : 0);
+    return static_cast<std::size_t>(of_sky * coefficient_count(options.order)) +
+           lamps.size() * static_cast<std::size_t>(lamp_channels());
 }
 
 Media choose_media(const Scene& scene, const BakeOptions& options) {
@@ -106,6 +112,7 @@ BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOption
                   .bounces = options.bounces,
                   .transport = {},
                   .diffusion = {},
+                  .lamps = choose_lamps(scene.surfaces(), options.lamps),
                   .notices = scene_notices(scene, options)};
     if (plan.bounces != 0 && !traits.scattering) {
         plan.bounces = 0;

@@ -2,6 +2,7 @@
 
 // What a bake will do, known before the first ray.
 
+#include "lamps/choose_lamps.h"
 #include "prt/bake.h"
 #include "prt/trace_scene.h"
 #include "transport/diffusion.h"
@@ -32,14 +33,17 @@ struct BakePlan {
     int channels = 1;                                    ///< of all light together
     std::unique_ptr<const TransportReceivers> transport; ///< stays where it is: operators keep references
     std::vector<DiffusionOperator> diffusion;            ///< one for each medium of each node
+    std::vector<Lamp> lamps;
     std::vector<std::string> notices;
 
     /// Those of the scene, then back sides.
     const Receivers& receivers() const { return transport->receivers; }
     /// Direct light is colored by sheets alone that it comes through.
     int direct_channels() const;
-    /// Channels of all parts of the transfer, at most.
-    int blocks() const;
+    /// Of the light of lamps.
+    int lamp_channels() const;
+    /// Of a transfer vector, at most.
+    std::size_t numbers() const;
     /// Of the scene's receivers.
     std::span<const float> areas() const { return std::span(receivers().areas).first(transport->fronts); }
 };

@@ -65,6 +65,9 @@ BakeStatistics statistics_of(const BakePlan& plan, const DirectLight& direct, co
     s.sampling_error = direct.sampling_error;
     s.rounding_error = float16_rounding_error(exit.transfer, plan.areas());
     s.remaining_energy = exit.remaining;
+    for (const Lamp& lamp : plan.lamps)
+        s.lamps = {s.lamps.count + 1, s.lamps.lights + lamp.lights.size(),
+                   s.lamps.triangles + lamp.triangles.size()};
     if (direct.gather)
         s.gather = {.entries = direct.gather->entries(), .bytes = direct.gather->bytes()};
     s.notices = notices_of(plan, direct, sealed, exit);

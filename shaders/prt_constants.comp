@@ -10,7 +10,7 @@ layout(std430, binding = PRT_BINDING_MATRIX) readonly buffer PrtMatrix {
     float prt_matrix[];
 };
 layout(std430, binding = PRT_BINDING_LIGHT) readonly buffer PrtLight {
-    vec4 prt_light[]; // rgb of a coefficient: [parts][coefficients]
+    vec4 prt_light[]; // rgb of a color of prt::light_columns
 };
 layout(std430, binding = PRT_BINDING_CONSTANTS) writeonly buffer PrtConstants {
     vec4 prt_constants[];
@@ -24,6 +24,6 @@ void main() {
     uint row = gl_GlobalInvocationID.x;
     if (row >= uint(PRT_ROWS))
         return;
-    uint at = row / 16u * uint(16 * PRT_CHANNELS_OF_PARTS * PRT_COEFFICIENTS) + row % 16u;
+    uint at = row / 16u * uint(16 * PRT_NUMBERS) + row % 16u;
     prt_constants[row] = vec4(prt_lit_vector(at), 0.0);
 }

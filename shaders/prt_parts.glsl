@@ -1,11 +1,17 @@
-// The light of a transfer vector of one part or two. Define PRT_COEFFICIENTS (order²), PRT_FIRST_CHANNELS and, where
-// there is a second part, PRT_SECOND_CHANNELS: 1 or 3; and PRT_TRANSFER(at, i), number i of the vector at `at`, and
-// PRT_LIGHT(i), color i of prt::light_columns.
+// The light of a transfer vector. Define what prt::part_defines gives: PRT_NUMBERS of a vector, PRT_COEFFICIENTS (order²);
+// channels, 1 or 3, of the parts of distant light that are there, PRT_FIRST_CHANNELS and PRT_SECOND_CHANNELS; and
+// PRT_LAMPS with a bit for each that has color, the first 32 in PRT_COLORED_LAMPS. Define PRT_TRANSFER(at, i), number i of
+// the vector at `at`, and PRT_LIGHT(i), color i of prt::light_columns.
 
+#ifndef PRT_FIRST_CHANNELS
+#define PRT_FIRST_CHANNELS 0
+#endif
 #ifndef PRT_SECOND_CHANNELS
 #define PRT_SECOND_CHANNELS 0
 #endif
-#define PRT_CHANNELS_OF_PARTS (PRT_FIRST_CHANNELS + PRT_SECOND_CHANNELS)
+#ifndef PRT_LAMPS
+#define PRT_LAMPS 0
+#endif
 
 // What the colors from `color` on give of a grey part, whose numbers begin at `number`, and of a colored one.
 vec3 prt_grey_part(uint at, uint number, uint color) {
@@ -23,16 +29,37 @@ vec3 prt_colored_part(uint at, uint number, uint color) {
     return sum;
 }
 
+#if PRT_LAMPS > 0
+// Lamps have one color each, and one number or three.
+vec3 prt_lamps(uint at, uint number, uint color) {
+    const uint kColored[2] = uint[2](PRT_COLORED_LAMPS);
+    vec3 sum = vec3(0.0);
+    for (uint k = 0u; k < uint(PRT_LAMPS); ++k) {
+        uint more = ((kColored[k / 32u] >> (k % 32u)) & 1u) * 2u; // numbers but the first
+        sum += vec3(PRT_TRANSFER(at, number), PRT_TRANSFER(at, number + more / 2u), PRT_TRANSFER(at, number + more)) *
+               PRT_LIGHT(color + k);
+        number += 1u + more;
+    }
+    return sum;
+}
+#endif
+
 vec3 prt_lit_vector(uint at) {
+    vec3 sum = vec3(0.0);
 #if PRT_FIRST_CHANNELS == 1
-    vec3 sum = prt_grey_part(at, 0u, 0u);
-#else
-    vec3 sum = prt_colored_part(at, 0u, 0u);
+    sum += prt_grey_part(at, 0u, 0u);
+#elif PRT_FIRST_CHANNELS == 3
+    sum += prt_colored_part(at, 0u, 0u);
 #endif
 #if PRT_SECOND_CHANNELS == 1
     sum += prt_grey_part(at, uint(PRT_FIRST_CHANNELS * PRT_COEFFICIENTS), uint(PRT_COEFFICIENTS));
 #elif PRT_SECOND_CHANNELS == 3
     sum += prt_colored_part(at, uint(PRT_FIRST_CHANNELS * PRT_COEFFICIENTS), uint(PRT_COEFFICIENTS));
+#endif
+#if PRT_LAMPS > 0
+    const uint kParts = uint(PRT_FIRST_CHANNELS > 0) + uint(PRT_SECOND_CHANNELS > 0);
+    sum += prt_lamps(at, uint((PRT_FIRST_CHANNELS + PRT_SECOND_CHANNELS) * PRT_COEFFICIENTS),
+                     kParts * uint(PRT_COEFFICIENTS));
 #endif
     return sum;
 }

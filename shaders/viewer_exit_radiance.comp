@@ -25,7 +25,7 @@ uniform uint first;     // of the piece, in `radiance`
 void main() {
     uint receiver = gl_GlobalInvocationID.x;
     if (receiver < receivers) {
-        vec3 sum = prt_lit_vector(receiver * uint(PRT_CHANNELS_OF_PARTS * PRT_COEFFICIENTS));
+        vec3 sum = prt_lit_vector(receiver * uint(PRT_NUMBERS));
         for (uint c = 0u; c < 3u; ++c)
             radiance[3u * (first + receiver) + c] = sum[c];
     }

@@ -28,7 +28,7 @@ float largest_coordinate(const glm::vec3& v) {
 
 RTCRay embree_ray(const Ray& ray) {
     const glm::vec3 &o = ray.origin, &d = ray.direction;
-    return {o.x, o.y, o.z, ray.from, d.x, d.y, d.z, 0, std::numeric_limits<float>::infinity(), ~0u, 0, 0};
+    return {o.x, o.y, o.z, ray.from, d.x, d.y, d.z, 0, ray.to, ~0u, 0, 0};
 }
 
 std::optional<RayHit> nearest_hit(RTCScene scene, RTCIntersectContext& context, const Ray& ray) {

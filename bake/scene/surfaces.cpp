@@ -16,10 +16,6 @@
 namespace prt {
 namespace {
 
-bool is_grey(const glm::vec3& color) {
-    return color.r == color.g && color.g == color.b;
-}
-
 /// Twice the area of the triangle of three points of a plane.
 float doubled_area(const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
     return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
@@ -162,6 +158,13 @@ glm::vec4 Surfaces::base_color(const SurfacePoint& point, bool finest) const {
         base *= interpolated(vertices.colors,
                              triangle.corners - static_cast<unsigned>(vertices.first_receiver), point.uv);
     return base;
+}
+
+glm::vec3 Surfaces::emission(const SurfacePoint& point) const {
+    const Emission& emission = material(point.triangle).emission;
+    if (emission.texture.image < 0 || emission.radiance == glm::vec3(0))
+        return emission.radiance;
+    return emission.radiance * glm::vec3(texel(point, emission.texture, false));
 }
 
 float Surfaces::coverage(const SurfacePoint& point) const {

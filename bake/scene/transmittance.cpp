@@ -8,8 +8,8 @@
 namespace prt {
 
 float transmittance(const RayScene& rays, const Surfaces& surfaces, const glm::vec3& origin,
-                    const glm::vec3& direction) {
-    Ray ray{origin, direction};
+                    const glm::vec3& direction, float to) {
+    Ray ray{origin, direction, 0, to};
     if (!surfaces.traits().alpha)
         return rays.occluded(ray) ? 0.0f : 1.0f;
     float left = 1;

@@ -3,11 +3,13 @@
 #include "prt/ray_scene.h"
 #include "prt/surfaces.h"
 
+#include <limits>
+
 namespace prt {
 
-/// Share of light that reaches `origin` from far away along `direction`, through what is cut out, blended or
-/// glass.
+/// Share of light that reaches `origin` from `to` lengths of `direction` away, through what is cut out,
+/// blended or glass.
 float transmittance(const RayScene& rays, const Surfaces& surfaces, const glm::vec3& origin,
-                    const glm::vec3& direction);
+                    const glm::vec3& direction, float to = std::numeric_limits<float>::infinity());
 
 } // namespace prt

@@ -26,6 +26,8 @@ const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::tr
                                                         {"raster", BakeMethod::raster}};
 const std::map<std::string, std::optional<TransferStorage>> kStorages = {
     {"auto", std::nullopt}, {"float32", TransferStorage::float32}, {"float16", TransferStorage::float16}};
+const std::map<std::string, LampMode> kLampModes = {
+    {"all", LampMode::all}, {"indirect", LampMode::indirect}, {"none", LampMode::none}};
 const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
                                                          {"ignore", BadTextures::ignore}};
 
@@ -124,6 +126,39 @@ void add_transport(CLI::App* command, BakeOptions& options) {
            "refill");
 }
 
+/// NAME=PATTERN
+LampGroup parse_group(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos || equals + 1 == text.size())
+        throw CLI::ValidationError("--lamp-group", "'" + text + "' is not NAME=PATTERN");
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void add_lamps(CLI::App* command, LampOptions& lamps) {
+    choice(command, "--lamps", lamps.mode, kLampModes,
+           "light of the scene's lamps and of materials that shine: all of it; bounces alone, for renderers "
+           "that shadow lamps themselves; or none",
+           "all");
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--lamp-group",
+            [&lamps](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts)
+                    lamps.groups.push_back(parse_group(text));
+            },
+            "lamps that are dimmed together: those whose name matches, * standing for any letters")
+        ->allow_extra_args(false)
+        ->type_name("NAME=PATTERN");
+    command
+        ->add_option("--lamp-radius", lamps.radius,
+                     "radius of points and spots, metres: the larger, the softer their shadows")
+        ->capture_default_str()
+        ->check(real_in(0, 1e9));
+    command->add_option("--lamp-rays", lamps.rays, "rays from a vertex to the lamps of a name with extent")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMostRays));
+}
+
 void add_method(CLI::App* command, BakeOptions& options) {
     add_backend(command, options.tracer.backend,
                 "gpu: OpenGL 4.5 of any kind; auto: a hardware GPU, else the CPU");
@@ -156,6 +191,9 @@ Json statistics_json(const BakeStatistics& s) {
             {"sampling_error_relative_l2", s.sampling_error},
             {"float16_error_relative_l2", s.rounding_error},
             {"remaining_energy", s.remaining_energy},
+            {"lamps", s.lamps.count},
+            {"lamp_lights", s.lamps.lights},
+            {"lamp_triangles", s.lamps.triangles},
             {"gather_entries", s.gather.entries},
             {"gather_bytes", s.gather.bytes},
             {"notices", s.notices}};
@@ -190,8 +228,10 @@ void add_sentences(const BakeArguments& a, const BakeResult& result, Report& rep
     if (s.gather.entries > 0)
         say("bounces: {gather_entries} pairs of receivers that light each other, {gather_bytes:.1fM} MB; at "
             "most {remaining_energy:.2g%} of a receiver's light is missing");
+    if (s.lamps.count > 0)
+        say("lamps: {lamps}, of {lamp_lights} lights and {lamp_triangles} triangles that shine");
     say("{mean_visibility:.1f%} of the light of a uniform sky arrives, on average");
-    if (s.mean_visibility < kDark && a.no_shadow.empty())
+    if (s.mean_visibility < kDark && a.no_shadow.empty() && s.lamps.count == 0)
         say("hardly any light comes in: where a shell round the scene, as an outline or a sky, keeps it out, "
             "--no-shadow MATERIAL lets it pass");
 }
@@ -274,6 +314,7 @@ void add_bake(CLI::App& app, Session& session) {
         ->check(above_zero())
         ->excludes(rays);
     add_transport(command, a.options);
+    add_lamps(command, a.options.lamps);
     command
         ->add_option("--no-shadow", a.no_shadow,
                      "a material whose surfaces stop no light, as the sky or the outline that is a shell "

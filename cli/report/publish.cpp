@@ -5,6 +5,8 @@
 #include <fmt/chrono.h>
 
 #include <chrono>
+#include <string>
+#include <vector>
 
 namespace prt::cli {
 
@@ -30,19 +32,26 @@ void publish(const Report& report, const ReportFiles& files, Session& session) {
 
 Json parts_figures(const TransferLayout& layout) {
     Json parts = Json::array();
-    for (const TransferPart& part : layout.parts)
+    for (const TransferPart& part : layout.parts) {
         parts.push_back({{"kind", to_string(part.kind)}, {"channels", part.channels}});
+        if (!part.name.empty())
+            parts.back()["name"] = part.name;
+    }
     return parts;
 }
 
 std::string parts_in_words(const TransferLayout& layout) {
-    std::string words;
+    std::vector<std::string> words;
     for (const TransferPart& part : layout.parts)
-        words += words.empty()
-                     ? fmt::format("{} of {} light", part.channels == 1 ? "1 channel" : "3 channels",
-                                   to_string(part.kind))
-                     : fmt::format(", {} of {}", part.channels, to_string(part.kind));
-    return words;
+        if (part.kind != PartKind::lamp)
+            words.push_back(words.empty()
+                                ? fmt::format("{} of {} light",
+                                              part.channels == 1 ? "1 channel" : "3 channels",
+                                              to_string(part.kind))
+                                : fmt::format("{} of {}", part.channels, to_string(part.kind)));
+    if (const std::size_t lamps = layout.lamps())
+        words.push_back(fmt::format("{} lamp{}", lamps, lamps == 1 ? "" : "s"));
+    return fmt::format("{}", fmt::join(words, ", "));
 }
 
 Json bake_record_json(const BakeRecord& record) {

@@ -30,6 +30,14 @@ Eigen::Map<const Matrix> matrix_of(const LightMetric& metric) {
     return {metric.moments.data(), dimension_of(metric.layout), dimension_of(metric.layout)};
 }
 
+std::size_t numbers_of_lamps(const TransferLayout& layout) {
+    std::size_t numbers = 0;
+    for (const TransferPart& part : layout.parts)
+        if (part.kind == PartKind::lamp)
+            numbers += layout.numbers_of(part);
+    return numbers;
+}
+
 LightMetric zero_metric(const TransferLayout& layout) {
     check_layout(layout);
     return {layout, std::vector<double>(layout.dimension() * layout.dimension(), 0.0)};
@@ -45,21 +53,26 @@ std::vector<Eigen::Index> blocks_of_color(const TransferLayout& layout, int c) {
     std::vector<Eigen::Index> begins;
     Eigen::Index begin = 0;
     for (const TransferPart& part : layout.parts) {
-        begins.push_back(begin + std::min(c, part.channels - 1) * coefficient_count(layout.order));
-        begin += part.channels * coefficient_count(layout.order);
+        const auto count = static_cast<Eigen::Index>(layout.columns_of(part));
+        begins.push_back(begin + std::min(c, part.channels - 1) * count);
+        begin += part.channels * count;
     }
     return begins;
 }
 
-/// A metric of bands that do not depend on each other: two parts have `power(l, kind, other kind)` in band l.
+/// A metric of bands that do not depend on each other: two parts of distant light have `power(l, kind, other
+/// kind)` in band l. Lamps shine at strength 1, each by itself.
 template <class Power>
 LightMetric banded_metric(const TransferLayout& layout, Power&& power) {
     LightMetric metric = zero_metric(layout);
     Eigen::Map<Matrix> moments = matrix_of(metric);
     for (int c = 0; c < 3; ++c) {
         const std::vector<Eigen::Index> begins = blocks_of_color(layout, c);
-        for (std::size_t a = 0; a < begins.size(); ++a)
-            for (std::size_t b = 0; b < begins.size(); ++b)
+        const std::size_t skies = begins.size() - layout.lamps();
+        for (std::size_t a = skies; a < begins.size(); ++a)
+            moments(begins[a], begins[a]) += color_share(layout);
+        for (std::size_t a = 0; a < skies; ++a)
+            for (std::size_t b = 0; b < skies; ++b)
                 for (int l = 0; l < layout.order; ++l)
                     for (Eigen::Index i = l * l; i < (l + 1) * (l + 1); ++i)
                         moments(begins[a] + i, begins[b] + i) +=
@@ -74,20 +87,29 @@ int exact_rotations(int order) {
     return 2 * order - 1;
 }
 
-/// Adds what `lighting` costs, times `scale`.
+/// Adds what `lighting` costs, times `scale`; of distant light alone.
 void add_outer_product(const Lighting& lighting, double scale, LightMetric& metric) {
     const TransferLayout& layout = metric.layout;
     const std::vector<glm::vec3> columns = light_columns(layout, lighting);
-    const Eigen::Index count = coefficient_count(layout.order);
     for (int c = 0; c < 3; ++c) {
         const std::vector<Eigen::Index> begins = blocks_of_color(layout, c);
         Eigen::VectorXd light = Eigen::VectorXd::Zero(dimension_of(layout));
-        for (std::size_t part = 0; part < begins.size(); ++part)
-            for (Eigen::Index i = 0; i < count; ++i)
-                light[begins[part] + i] = static_cast<double>(
-                    columns[part * static_cast<std::size_t>(count) + static_cast<std::size_t>(i)][c]);
+        const glm::vec3* color = columns.data();
+        for (std::size_t part = 0; part < begins.size() - layout.lamps(); ++part)
+            for (std::size_t i = 0; i < layout.columns_of(layout.parts[part]); ++i)
+                light[begins[part] + static_cast<Eigen::Index>(i)] = static_cast<double>((*color++)[c]);
         matrix_of(metric) += color_share(layout) * scale * light * light.transpose();
     }
+}
+
+/// Adds a share of natural light to distant light that costs `given`, and lamps as they stand beside that.
+void add_natural(double given, LightMetric& metric) {
+    LightMetric natural = natural_metric(metric.layout);
+    const auto lamps = static_cast<Eigen::Index>(numbers_of_lamps(metric.layout));
+    const Eigen::Index sky = dimension_of(metric.layout) - lamps;
+    const double scale = given / matrix_of(natural).diagonal().head(sky).sum();
+    matrix_of(natural).topLeftCorner(sky, sky) *= tuning::kNaturalShare;
+    matrix_of(metric) += scale * matrix_of(natural);
 }
 
 double energy(const Lighting& lighting) {
@@ -115,14 +137,14 @@ LightMetric plain_metric(const TransferLayout& layout) {
     LightMetric metric = zero_metric(layout);
     Eigen::Index at = 0;
     for (const TransferPart& part : layout.parts)
-        for (int i = 0; i < part.channels * coefficient_count(layout.order); ++i, ++at)
+        for (std::size_t i = 0; i < layout.numbers_of(part); ++i, ++at)
             matrix_of(metric)(at, at) = static_cast<double>(layout.channels()) / part.channels;
     return metric;
 }
 
 LightMetric natural_metric(const TransferLayout& layout) {
     const auto whole = [](int l) { return l == 0 ? 1.0 : 0.25 / l; };
-    if (layout.parts.size() == 1)
+    if (layout.parts.size() - layout.lamps() == 1)
         return banded_metric(layout, [&](int l, PartKind, PartKind) { return whole(l); });
     // All parts see the sky, those behind the first the suns as well.
     return banded_metric(layout, [&](int l, PartKind a, PartKind b) {
@@ -148,8 +170,7 @@ LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLay
     const double given = matrix_of(metric).trace();
     if (!(given > 0))
         throw Error("the lights to compress for are all black");
-    const LightMetric natural = natural_metric(layout);
-    matrix_of(metric) += tuning::kNaturalShare * given / matrix_of(natural).trace() * matrix_of(natural);
+    add_natural(given, metric);
     return metric;
 }
 

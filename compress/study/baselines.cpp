@@ -99,21 +99,28 @@ double bound_bytes(std::size_t bytes) {
 BaselineResult truncated_sh(const Transfer& transfer, int bands) {
     BaselineResult result;
     result.decoded = zero_transfer(transfer.layout, transfer.receivers());
-    const auto count = static_cast<std::size_t>(coefficient_count(transfer.layout.order)),
-               kept = static_cast<std::size_t>(coefficient_count(bands));
+    std::vector<bool> keeps;
+    std::size_t columns = 0; // that are kept
+    for (const TransferPart& part : transfer.layout.parts) {
+        const std::size_t count = transfer.layout.columns_of(part),
+                          kept = std::min(count, static_cast<std::size_t>(coefficient_count(bands)));
+        for (std::size_t i = 0; i < transfer.layout.numbers_of(part); ++i)
+            keeps.push_back(i % count < kept);
+        columns += kept;
+    }
     std::vector<float> largest(transfer.dimension(), 0);
     for (std::size_t p = 0; p < transfer.receivers(); ++p)
         for (std::size_t i = 0; i < transfer.dimension(); ++i)
             largest[i] = std::max(largest[i], std::abs(transfer.vector(p)[i]));
     for (std::size_t p = 0; p < transfer.receivers(); ++p)
         for (std::size_t i = 0; i < transfer.dimension(); ++i)
-            if (i % count < kept)
+            if (keeps[i])
                 result.decoded.vector(p)[i] = snorm8(transfer.vector(p)[i], largest[i]);
-    const std::size_t bytes = kept * transfer.layout.blocks();
+    const auto bytes = static_cast<std::size_t>(std::count(keeps.begin(), keeps.end(), true));
     result.payload_bytes = bound_bytes(bytes);
     result.table_bytes = static_cast<double>(bytes * sizeof(float));
     // A color times a number, or each channel by itself: the cost of one multiply-add of a color.
-    result.mean_components = static_cast<double>(kept);
+    result.mean_components = static_cast<double>(columns);
     return result;
 }
 

@@ -130,6 +130,7 @@ std::map<int, TextureEncoding> needed_images(const Scene& scene, TextureNeeds ne
         const bool leaf = m.transmission.factor > 0 && needs != TextureNeeds::pictures;
         if (needs != TextureNeeds::visibility || m.alpha_mode != AlphaMode::opaque || leaf)
             add(m.base_color_texture, TextureEncoding::srgb);
+        add(m.emission.texture, TextureEncoding::srgb);
         if (leaf) {
             add(m.transmission.factor_texture, TextureEncoding::srgb); // a number, but in alpha
             add(m.transmission.color_texture, TextureEncoding::srgb);

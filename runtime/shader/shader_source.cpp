@@ -99,11 +99,22 @@ std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource con
 
 std::string part_defines(const TransferLayout& layout) {
     check_layout(layout);
-    constexpr const char* kChannels[] = {"PRT_FIRST_CHANNELS", "PRT_SECOND_CHANNELS"};
     std::string defines =
+        define("PRT_NUMBERS", layout.dimension()) +
         define("PRT_COEFFICIENTS", static_cast<std::size_t>(coefficient_count(layout.order)));
-    for (std::size_t part = 0; part < layout.parts.size(); ++part)
-        defines += define(kChannels[part], static_cast<std::size_t>(layout.parts[part].channels));
+    const char* const channels[] = {"PRT_FIRST_CHANNELS", "PRT_SECOND_CHANNELS"};
+    const std::size_t skies = layout.parts.size() - layout.lamps();
+    for (std::size_t part = 0; part < skies; ++part)
+        defines += define(channels[part], static_cast<std::size_t>(layout.parts[part].channels));
+    if (layout.lamps() == 0)
+        return defines;
+    std::uint32_t colored[kMostLamps / 32] = {};
+    for (std::size_t k = 0; k < layout.lamps(); ++k)
+        if (layout.parts[skies + k].channels == 3)
+            colored[k / 32] |= 1u << (k % 32);
+    static_assert(std::size(colored) == 2);
+    defines += define("PRT_LAMPS", layout.lamps()) + "#define PRT_COLORED_LAMPS " +
+               std::to_string(colored[0]) + "u, " + std::to_string(colored[1]) + "u\n";
     return defines;
 }
 

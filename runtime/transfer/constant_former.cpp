@@ -32,21 +32,21 @@ template <std::size_t Stored>
                 lanes_at(from + ((Stored == 1 ? 0 : c) * count + i) * kLanes) * light[c * count + i];
 }
 
-/// `light` [parts][3][order²].
+/// `light`: of each part [3][its columns].
 PRT_TARGET_CLONES
 void form_rows(const TransferLayout& layout, const float* matrix, const float* light, const Blocks& blocks,
                std::size_t rows, glm::vec4* constants) {
-    const auto count = static_cast<std::size_t>(coefficient_count(layout.order));
     for (std::size_t block = blocks.first; block < blocks.last; ++block) {
         const float* from = matrix + block * layout.dimension() * kLanes;
         const float* of_part = light;
         ColorLanes sums = {};
         for (const TransferPart& part : layout.parts) {
+            const std::size_t count = layout.columns_of(part);
             if (part.channels == 1)
                 add_part<1>(from, of_part, count, sums);
             else
                 add_part<3>(from, of_part, count, sums);
-            from += static_cast<std::size_t>(part.channels) * count * kLanes;
+            from += layout.numbers_of(part) * kLanes;
             of_part += 3 * count;
         }
         const std::size_t kept = std::min(kLanes, rows - block * kLanes);
@@ -100,13 +100,18 @@ void ConstantFormer::form(const LightingView& lighting, std::span<glm::vec4> con
 void ConstantFormer::form(const LightingView& lighting, std::span<glm::vec4> constants, std::size_t first,
                           std::size_t last) const {
     assert(constants.size() >= rows_);
-    const auto count = static_cast<std::size_t>(coefficient_count(layout_.order));
     std::array<glm::vec3, kMostLightColumns> columns;
     write_light_columns(layout_, lighting, columns);
     std::array<float, 3 * kMostLightColumns> separate;
-    for (std::size_t i = 0; i < layout_.columns(); ++i)
-        for (std::size_t c = 0; c < 3; ++c)
-            separate[(3 * (i / count) + c) * count + i % count] = columns[i][static_cast<int>(c)];
+    auto to = separate.begin();
+    const glm::vec3* color = columns.data();
+    for (const TransferPart& part : layout_.parts) {
+        const std::size_t count = layout_.columns_of(part);
+        for (int c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < count; ++i)
+                *to++ = color[i][c];
+        color += count;
+    }
     form_rows(layout_, matrix_.data(), separate.data(),
               {first / kLanes, (std::min(last, rows_) + kLanes - 1) / kLanes}, rows_, constants.data());
 }

@@ -31,6 +31,14 @@ void check_finite(std::span<const float> numbers, const char* what) {
         throw Error(std::string(what) + " are not finite, so that no error can be told");
 }
 
+/// Of the same lights, in as many channels as may be.
+bool same_parts(const TransferLayout& a, const TransferLayout& b) {
+    return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
+                      [](const TransferPart& p, const TransferPart& q) {
+                          return p.kind == q.kind && p.name == q.name;
+                      });
+}
+
 /// What every measure of exit radiance is given.
 void check_lit(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,
                std::span<const float> areas) {
@@ -45,21 +53,22 @@ double relative_l2(const Transfer& reference, const Transfer& approximation, std
     const TransferLayout &layout = reference.layout, &other = approximation.layout;
     if (layout.order != other.order || reference.receivers() != approximation.receivers())
         throw Error("the transfers have different orders or numbers of receivers");
-    const auto same_kind = [](const TransferPart& a, const TransferPart& b) { return a.kind == b.kind; };
-    if (!std::equal(layout.parts.begin(), layout.parts.end(), other.parts.begin(), other.parts.end(),
-                    same_kind))
+    if (!same_parts(layout, other)) {
+        if (!same_parts(as_whole(layout), as_whole(other)))
+            throw Error("the transfers have different lamps");
         return relative_l2(as_whole(reference), as_whole(approximation), areas);
+    }
     check_finite(reference.vectors, "transfer vectors");
     check_finite(approximation.vectors, "transfer vectors");
     check_finite(areas, "areas of receivers");
     const int channels = std::max(layout.channels(), other.channels());
-    const auto count = static_cast<std::size_t>(coefficient_count(layout.order));
     double error = 0, norm = 0;
     for (std::size_t p = 0; p < reference.receivers(); ++p) {
         double receiver_error = 0, receiver_norm = 0;
         const float *of_reference = reference.vector(p).data(), *of_other = approximation.vector(p).data();
         for (std::size_t part = 0; part < layout.parts.size(); ++part) {
             const int stored = layout.parts[part].channels, stored_other = other.parts[part].channels;
+            const std::size_t count = layout.columns_of(layout.parts[part]);
             for (int c = 0; c < channels; ++c) {
                 const float* t = of_reference + count * static_cast<std::size_t>(std::min(c, stored - 1));
                 const float* a = of_other + count * static_cast<std::size_t>(std::min(c, stored_other - 1));

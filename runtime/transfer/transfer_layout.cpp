@@ -3,9 +3,11 @@
 
 #include "prt/sh.h"
 #include "prt/support/error.h"
+#include "prt/support/printable.h"
 
 #include <algorithm>
 #include <cassert>
+#include <set>
 #include <string>
 
 namespace prt {
@@ -18,6 +20,25 @@ void check_bands(std::span<const glm::vec3> light, const TransferLayout& layout)
                     std::to_string(layout.order) + " needs " + std::to_string(count));
 }
 
+void check_strengths(std::span<const glm::vec3> lamps, const TransferLayout& layout) {
+    if (!lamps.empty() && lamps.size() != layout.lamps())
+        throw Error("the lighting has " + std::to_string(lamps.size()) + " strengths, the transfer has " +
+                    std::to_string(layout.lamps()) + " lamps");
+}
+
+void check_lamps(const TransferLayout& layout) {
+    if (layout.lamps() > kMostLamps)
+        throw Error("the transfer has " + std::to_string(layout.lamps()) + " lamps, more than " +
+                    std::to_string(kMostLamps));
+    std::set<std::string> names;
+    for (const TransferPart& part : layout.parts) {
+        if (part.name.empty() != (part.kind != PartKind::lamp))
+            throw Error("lamps of transfer have names, and other parts have none");
+        if (!part.name.empty() && !names.insert(part.name).second)
+            throw Error("two lamps of the transfer are called '" + printable(part.name) + "'");
+    }
+}
+
 } // namespace
 
 const char* to_string(PartKind kind) {
@@ -26,6 +47,8 @@ const char* to_string(PartKind kind) {
         return "direct";
     case PartKind::indirect:
         return "indirect";
+    case PartKind::lamp:
+        return "lamp";
     case PartKind::whole:
         break;
     }
@@ -44,11 +67,23 @@ bool TransferLayout::has(PartKind kind) const {
                        [&](const TransferPart& part) { return part.kind == kind; });
 }
 
-std::size_t TransferLayout::blocks() const {
-    std::size_t blocks = 0;
+std::size_t TransferLayout::dimension() const {
+    std::size_t numbers = 0;
     for (const TransferPart& part : parts)
-        blocks += static_cast<std::size_t>(part.channels);
-    return blocks;
+        numbers += numbers_of(part);
+    return numbers;
+}
+
+std::size_t TransferLayout::columns() const {
+    std::size_t columns = 0;
+    for (const TransferPart& part : parts)
+        columns += columns_of(part);
+    return columns;
+}
+
+std::size_t TransferLayout::lamps() const {
+    return static_cast<std::size_t>(std::count_if(
+        parts.begin(), parts.end(), [](const TransferPart& part) { return part.kind == PartKind::lamp; }));
 }
 
 TransferLayout layout_of_one(int order, int channels, PartKind kind) {
@@ -64,30 +99,39 @@ void check_layout(const TransferLayout& layout) {
         if (part.channels != 1 && part.channels != 3)
             throw Error(std::string("part '") + to_string(part.kind) + "' has " +
                         std::to_string(part.channels) + " channels, only 1 or 3 make sense");
+        if (part.kind == PartKind::lamp)
+            continue;
         if (i > 0 && !(layout.parts[i - 1].kind < part.kind))
             throw Error(std::string("part '") + to_string(part.kind) + "' stands behind part '" +
                         to_string(layout.parts[i - 1].kind) + "'");
-        if (part.kind == PartKind::whole && layout.parts.size() > 1)
+        if (part.kind == PartKind::whole && i > 0)
             throw Error("part 'whole' stands beside other parts of the same light");
     }
+    check_lamps(layout);
 }
 
 void write_light_columns(const TransferLayout& layout, const LightingView& lighting,
                          std::span<glm::vec3> columns) {
-    const auto& [sky, suns] = lighting;
+    const auto& [sky, suns, lamps] = lighting;
     check_bands(sky, layout);
     if (!suns.empty())
         check_bands(suns, layout);
+    check_strengths(lamps, layout);
     assert(columns.size() >= layout.columns());
-    const auto count = static_cast<std::size_t>(coefficient_count(layout.order));
     auto to = columns.begin();
-    for (const TransferPart& part : layout.parts)
-        for (std::size_t i = 0; i < count; ++i) {
+    auto strength = lamps.begin();
+    for (const TransferPart& part : layout.parts) {
+        if (part.kind == PartKind::lamp) {
+            *to++ = lamps.empty() ? glm::vec3(1) : *strength++;
+            continue;
+        }
+        for (std::size_t i = 0; i < layout.columns_of(part); ++i) {
             *to = sky[i];
             if (!suns.empty() && part.kind != PartKind::direct)
                 *to += suns[i];
             ++to;
         }
+    }
 }
 
 std::vector<glm::vec3> light_columns(const TransferLayout& layout, const LightingView& lighting) {

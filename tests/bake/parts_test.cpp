@@ -43,7 +43,7 @@ TEST(BakedParts, AreThoseThatTheSceneNeeds) {
     EXPECT_EQ(kinds_of(parts_of(grey, 0)), kDirectAlone);
     const Transfer bounced = parts_of(grey, 1), colored = parts_of(red, 1);
     EXPECT_EQ(kinds_of(bounced), kBoth);
-    EXPECT_EQ(bounced.layout.blocks(), 2u);
+    EXPECT_EQ(bounced.layout.dimension(), 18u);
     EXPECT_EQ(kinds_of(colored), kBoth);
     EXPECT_EQ(colored.layout.parts[0].channels, 1);
     EXPECT_EQ(colored.layout.parts[1].channels, 3);

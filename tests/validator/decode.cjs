@@ -62,7 +62,9 @@ class Glb {
 }
 
 /// Numbers of a transfer vector.
-const dimensionOf = ({ order, parts }) => order * order * parts.reduce((sum, { channels }) => sum + channels, 0);
+const columnsOf = (part, order) => (part.kind === "lamp" ? 1 : order * order);
+const dimensionOf = ({ order, parts }) =>
+  parts.reduce((sum, part) => sum + part.channels * columnsOf(part, order), 0);
 
 function rawVectors(glb, primitive) {
   const dimension = dimensionOf(glb.json.extensions.PRTKIT_transfer);

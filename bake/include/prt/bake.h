@@ -10,6 +10,8 @@
 #include "prt/texture.h"
 
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace prt {
 
@@ -36,6 +38,25 @@ struct SubsurfaceOptions {
     double metres_per_unit = 1;      ///< size of the scene's unit
 };
 
+/// What is baked of the light of lamps: lights of KHR_lights_punctual, and materials that shine.
+enum class LampMode {
+    all,
+    indirect, ///< bounces alone, for renderers that shadow lamps themselves
+    none,
+};
+
+/// Lamps whose names match `pattern`, where * stands for any letters and ? for one, are dimmed together.
+struct LampGroup {
+    std::string name, pattern;
+};
+
+struct LampOptions {
+    LampMode mode = LampMode::all;
+    std::vector<LampGroup> groups; ///< a lamp is of the first that it matches
+    double radius = 0;             ///< metres: of points and spots, whose shadows get soft by it
+    int rays = 64;                 ///< from a receiver to the lamps of a name that have extent
+};
+
 struct BakeOptions {
     int order = 6;
     int rays = 1024;                    ///< per receiver; directions where method is raster
@@ -43,6 +64,7 @@ struct BakeOptions {
     int bounces = 0;                    ///< or kEndlessBounces
     TracerChoice tracer;
     SubsurfaceOptions subsurface;
+    LampOptions lamps;
     BadTextures bad_textures = BadTextures::error;
     Inside inside = Inside::refill;
     /// None: float16 where its rounding is less than a tenth of the sampling error.
@@ -69,6 +91,9 @@ struct BakeStatistics {
     struct Gather {
         std::size_t entries = 0, bytes = 0;
     };
+    struct Lamps {
+        std::size_t count = 0, lights = 0, triangles = 0; ///< names, and what shines under them
+    };
     Receivers receivers;
     std::size_t triangles = 0;
     std::size_t rays = 0; ///< traced in all
@@ -80,6 +105,7 @@ struct BakeStatistics {
     double sampling_error = 0;
     double rounding_error = 0;        ///< relative L2 of storing float16
     double remaining_energy = 0;      ///< of the bounces that were not done, over the largest transfer
+    Lamps lamps;
     Gather gather;                    ///< the operator of the bounces
     std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
 };
@@ -95,7 +121,7 @@ struct BakeResult {
 BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& progress = {});
 
 /// Bytes that a bake takes at most at a time, roughly, but for the operator of its bounces, whose size is
-/// found by tracing some receivers. `blocks`: channels of all parts of the transfer.
-double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, int blocks);
+/// found by tracing some receivers. `numbers`: of a transfer vector, all parts together.
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, std::size_t numbers);
 
 } // namespace prt

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -21,6 +22,7 @@ namespace prt {
 struct Ray {
     glm::vec3 origin, direction;
     float from = 0; ///< distance, in lengths of `direction`
+    float to = std::numeric_limits<float>::infinity();
 };
 
 /// Where a ray meets a triangle.

@@ -55,6 +55,8 @@ public:
     }
 
     const SurfaceTraits& traits() const { return traits_; }
+    /// The texture, if there is one, holds no color.
+    bool is_grey(const TextureUse& use) const;
 
     /// The texture is loaded and `vertices` have coordinates for it.
     bool has_texture(const VertexArray& vertices, const TextureUse& use) const;
@@ -72,6 +74,8 @@ public:
     std::optional<Scattering> constant_scattering(std::uint32_t triangle) const {
         return kinds_[triangles_[triangle].primitive].constant;
     }
+    /// Radiance that the surface gives off by itself.
+    glm::vec3 emission(const SurfacePoint& point) const;
     glm::vec3 base_color(const SurfacePoint& point) const { return glm::vec3(base_color(point, false)); }
 
 private:
@@ -88,7 +92,6 @@ private:
     glm::vec3 numbers(const SurfacePoint& point, const TextureUse& use) const;
     float diffuse_share(const Material& material, const SurfacePoint* point) const;
     glm::vec4 base_color(const SurfacePoint& point, bool finest) const;
-    bool is_grey(const TextureUse& use) const;
 
     const Scene& scene_;
     const std::vector<Texture>& textures_;

@@ -14,9 +14,9 @@ namespace {
 
 constexpr float kNear = 8;      ///< surface offsets: more than any vertex of a touching triangle is rounded
 constexpr double kFlush = 0.99; ///< cosine between the normals
-using Corners = std::array<glm::dvec3, 3>;
+using CornersOfTriangle = std::array<glm::dvec3, 3>;
 
-Corners corners_of(const Scene& scene, RayScene::Triangle id) {
+CornersOfTriangle corners_of(const Scene& scene, RayScene::Triangle id) {
     const Primitive& primitive = scene.primitives[id.primitive];
     const auto& positions = scene.vertex_arrays[primitive.vertices].positions;
     const glm::uvec3& t = primitive.triangles[id.triangle];
@@ -24,7 +24,7 @@ Corners corners_of(const Scene& scene, RayScene::Triangle id) {
 }
 
 /// Whether the triangle's plane passes near `position` and stands up from a surface of that normal.
-bool touches(const Corners& c, const glm::dvec3& position, const glm::dvec3& normal, double near) {
+bool touches(const CornersOfTriangle& c, const glm::dvec3& position, const glm::dvec3& normal, double near) {
     const glm::dvec3 area = glm::cross(c[1] - c[0], c[2] - c[0]);
     const double length = glm::length(area);
     return length > 0 && std::abs(glm::dot(area, position - c[0])) <= near * length &&
@@ -47,7 +47,7 @@ TouchingTriangles touching_triangles(const TraceScene& scene, const Receivers& r
             const float near = kNear * rays.surface_offset(position);
             rays.triangles_near(position, near, ids);
             for (const unsigned id : ids) {
-                const Corners corners = corners_of(surfaces.scene(), rays.triangle(id));
+                const CornersOfTriangle corners = corners_of(surfaces.scene(), rays.triangle(id));
                 if (surfaces.opaque(id) && surfaces.material(id).casts_shadow &&
                     touches(corners, glm::dvec3(position), normal, static_cast<double>(near)))
                     for (const glm::dvec3& corner : corners)

@@ -68,11 +68,13 @@ prt::Transfer truncated(const prt::Transfer& transfer, int order) {
     if (order >= transfer.layout.order)
         return transfer;
     prt::Transfer result = prt::zero_transfer({order, transfer.layout.parts}, transfer.receivers());
-    const auto kept = static_cast<std::size_t>(order * order),
-               all = static_cast<std::size_t>(transfer.layout.order * transfer.layout.order);
-    for (std::size_t row = 0; row < transfer.vectors.size() / all; ++row)
-        std::copy_n(transfer.vectors.begin() + static_cast<std::ptrdiff_t>(row * all), kept,
-                    result.vectors.begin() + static_cast<std::ptrdiff_t>(row * kept));
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
+        const float* from = transfer.vector(p).data();
+        float* to = result.vector(p).data();
+        for (const prt::TransferPart& part : transfer.layout.parts)
+            for (int c = 0; c < part.channels; ++c, from += transfer.layout.columns_of(part))
+                to = std::copy_n(from, result.layout.columns_of(part), to);
+    }
     return result;
 }
 

@@ -37,15 +37,27 @@ function codedRows(bytes, drops, rows) {
 
 const floats = (bytes) => new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
 
-const LAYOUTS = [["direct"], ["indirect"], ["whole"], ["direct", "indirect"]];
+const LAYOUTS = [[], ["direct"], ["indirect"], ["whole"], ["direct", "indirect"]];
 
 function areParts(parts) {
   if (!Array.isArray(parts) || !parts.every((part) => part?.channels === 1 || part?.channels === 3)) return false;
-  return LAYOUTS.some((kinds) => kinds.length === parts.length && kinds.every((kind, i) => kind === parts[i].kind));
+  const skies = parts.filter(({ kind }) => kind !== "lamp");
+  const names = parts.slice(skies.length).map(({ name }) => name);
+  return (
+    parts.length > 0 &&
+    names.every((name) => typeof name === "string" && name !== "") &&
+    new Set(names).size === names.length &&
+    parts.slice(skies.length).every(({ kind }) => kind === "lamp") &&
+    LAYOUTS.some((kinds) => kinds.length === skies.length && kinds.every((kind, i) => kind === skies[i].kind))
+  );
 }
 
-/** Numbers of a transfer vector: its parts one behind the other, each [channels][order²]. */
-const dimensionOf = ({ order, parts }) => order * order * parts.reduce((sum, { channels }) => sum + channels, 0);
+/** Colours that light a part: the coefficients of a sky, or the one strength of a lamp. */
+const columnsOf = (order, { kind }) => (kind === "lamp" ? 1 : order * order);
+
+/** Numbers of a transfer vector: its parts one behind the other, each [channels][columns]. */
+const dimensionOf = ({ order, parts }) =>
+  parts.reduce((sum, part) => sum + part.channels * columnsOf(order, part), 0);
 
 /**
  * The clusters of a file.
@@ -54,8 +66,8 @@ const dimensionOf = ({ order, parts }) => order * order * parts.reduce((sum, { c
  * what is wrong with a file that is damaged or of another version.
  */
 export function decodeClusters(extension, view) {
-  if (extension.version !== 3)
-    throw new Error(`PRTKIT_clustered_pca: version ${extension.version} is not known, only 3; compress the model again`);
+  if (extension.version !== 4)
+    throw new Error(`PRTKIT_clustered_pca: version ${extension.version} is not known, only 4; compress the model again`);
   const { order, parts, components, bases, packing } = extension;
   if (!(order >= 1 && order <= 10) || !areParts(parts) || !Array.isArray(components))
     throw new Error("PRTKIT_clustered_pca: order, parts or components are wrong");
@@ -150,15 +162,19 @@ export function clusterTable(clusters) {
 }
 
 /**
- * The colours that each part is multiplied with, [parts][order²][3]: `sky` [>= order²][3] for direct light, with `suns`
- * added for the rest; null: all light is in the sky.
+ * The colours that the parts are multiplied with, one behind the other, [columns][3]: `sky` [>= order²][3] for direct
+ * light, with `suns` added for the rest (null: all light is in the sky), and `lamps` [lamps][3], what each lamp is dimmed
+ * or coloured by (null: all shine as in the scene).
  */
-export function lightColumns({ order, parts }, sky, suns = null) {
-  const count = 3 * order * order;
-  const columns = new Float64Array(parts.length * count);
-  parts.forEach(({ kind }, part) => {
-    for (let i = 0; i < count; ++i) columns[part * count + i] = sky[i] + (suns && kind !== "direct" ? suns[i] : 0);
-  });
+export function lightColumns({ order, parts }, sky, suns = null, lamps = null) {
+  const columns = new Float64Array(3 * parts.reduce((sum, part) => sum + columnsOf(order, part), 0));
+  let at = 0;
+  let lamp = 0;
+  for (const { kind } of parts)
+    if (kind === "lamp") {
+      for (let c = 0; c < 3; ++c) columns[at++] = lamps ? lamps[3 * lamp + c] : 1;
+      ++lamp;
+    } else for (let i = 0; i < 3 * order * order; ++i) columns[at++] = sky[i] + (suns && kind !== "direct" ? suns[i] : 0);
   return columns;
 }
 
@@ -167,14 +183,15 @@ export function lightColumns({ order, parts }, sky, suns = null) {
  */
 export function formConstants(clusters, rows, columns, constants) {
   const { order, parts, rowCount } = clusters;
-  const count = order * order;
   let at = 0;
   for (let r = 0; r < rowCount; ++r) {
     let red = 0;
     let green = 0;
     let blue = 0;
     let light = 0;
-    for (const { channels } of parts) {
+    for (const part of parts) {
+      const { channels } = part;
+      const count = columnsOf(order, part);
       const [g, b] = channels === 1 ? [at, at] : [at + count, at + 2 * count];
       for (let i = 0; i < count; ++i, light += 3) {
         red += rows[at + i] * columns[light];

@@ -37,7 +37,7 @@ function scene(attributes, extension) {
 }
 
 const packed = {
-  version: 3,
+  version: 4,
   order: 1,
   parts: [{ kind: "whole", channels: 1 }],
   components: [1],

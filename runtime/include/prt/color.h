@@ -16,4 +16,8 @@ Real luminance(const glm::vec<3, Real>& rgb) {
     return glm::dot(rgb, glm::vec<3, Real>(kLuminance));
 }
 
+inline bool is_grey(const glm::vec3& rgb) {
+    return rgb.r == rgb.g && rgb.g == rgb.b;
+}
+
 } // namespace prt

@@ -49,12 +49,14 @@ std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Lighting& l
 /// All light in one sky.
 std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Light& light, int threads = 0);
 
-/// The sum of all parts in one, of as many channels as they need: light then lights them alike.
+/// With all distant light in one part, of as many channels as it needs: a sky and its suns then light it
+/// alike. Lamps stay what they are.
+TransferLayout as_whole(const TransferLayout& layout);
 Transfer as_whole(const Transfer& transfer, int threads = 0);
 /// The same of one vector [layout.dimension()].
 std::vector<float> as_whole(std::span<const float> transfer, const TransferLayout& layout);
 
-/// Area-weighted mean of the sum of T_0 / Y_00 over the parts, each the mean over its channels: the share of
+/// Area-weighted mean of the sum of T_0 / Y_00 over the parts but lamps, each the mean over its channels: the share of
 /// a uniform sky's light that arrives.
 double mean_visibility(const Transfer& transfer, std::span<const float> areas);
 

@@ -19,7 +19,7 @@
 namespace prt {
 namespace {
 
-constexpr int kClusteredVersion = 3;
+constexpr int kClusteredVersion = 4;
 
 int weight_component_type(WeightFormat format) {
     switch (format) {

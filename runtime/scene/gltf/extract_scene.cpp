@@ -4,6 +4,7 @@
 #include "flat_normals.h"
 #include "gltf/accessor.h"
 #include "gltf/contents.h"
+#include "gltf/lights.h"
 #include "gltf/material.h"
 #include "gltf/node_transforms.h"
 #include "gltf/scene_size.h"
@@ -121,7 +122,7 @@ glm::vec3 transformed_normal(const glm::vec3& normal, const glm::dmat4& matrix) 
 class SceneExtractor {
 public:
     explicit SceneExtractor(const GltfContents& contents)
-        : model_(contents.model), file_bytes_(contents.file_bytes) {
+        : contents_(contents), model_(contents.model), file_bytes_(contents.file_bytes) {
         for (std::size_t i = 0; i < contents.images.size(); ++i) {
             const tinygltf::Image& image = model_.images[i];
             const std::string name = !image.uri.empty() ? image.uri : image.name;
@@ -141,6 +142,7 @@ public:
         if (scene_.triangles() == 0)
             throw Error("the scene has no triangles");
         place_about_middle();
+        scene_.lights = read_lights(contents_, nodes, scene_.origin);
         make_flat_normals();
         add_notices();
         std::size_t first = 0;
@@ -303,6 +305,7 @@ private:
                                         " vertices have no usable normal and get that of their triangles");
     }
 
+    const GltfContents& contents_;
     const tinygltf::Model& model_;
     std::size_t file_bytes_;
     Scene scene_;

@@ -1,7 +1,9 @@
 // Materials with the extensions that matter to light that passes through.
 #include "gltf/material.h"
 
+#include "gltf/lights.h"
 #include "prt/support/error.h"
+#include "prt/support/printable.h"
 
 #include <algorithm>
 #include <cmath>
@@ -100,9 +102,10 @@ public:
             material.glass = read_glass(e->second, material);
         if (const auto e = extensions.find("KHR_materials_volume"); e != extensions.end())
             material.volume = read_volume(e->second);
+        material.emission = read_emission(file);
         range_.clamp(material.volume.attenuation_color, "attenuationColor of materials");
         for (TextureUse* colors : {&material.base_color_texture, &material.transmission.factor_texture,
-                                   &material.transmission.color_texture})
+                                   &material.transmission.color_texture, &material.emission.texture})
             share_image(*colors, false);
         for (TextureUse* numbers : {&material.metal.texture, &material.glass.texture})
             share_image(*numbers, true);
@@ -157,6 +160,23 @@ private:
         if (material.metal.texture.image < 0) // else its dielectric parts are what is glass
             glass.factor *= 1 - material.metal.factor;
         return glass;
+    }
+
+    Emission read_emission(const tinygltf::Material& file) {
+        Emission emission;
+        for (std::size_t c = 0; c < 3 && c < file.emissiveFactor.size(); ++c)
+            emission.radiance[static_cast<int>(c)] = static_cast<float>(file.emissiveFactor[c]);
+        range_.clamp(emission.radiance, "emissiveFactor of materials");
+        const auto strength = file.extensions.find("KHR_materials_emissive_strength");
+        if (strength != file.extensions.end())
+            emission.radiance *= number_member(strength->second, "emissiveStrength", 1);
+        if (emission.radiance == glm::vec3(0))
+            return {};
+        for (int c = 0; c < 3; ++c)
+            if (!(emission.radiance[c] >= 0 && emission.radiance[c] <= kMostIntensity))
+                throw Error("the emission of material '" + printable(file.name) + "' is not in 0..1e9");
+        emission.texture = texture_use(file.emissiveTexture);
+        return emission;
     }
 
     TextureUse texture_use(int index, int texcoord, const tinygltf::Value* transform) {
@@ -229,22 +249,17 @@ std::vector<std::string> unread_material_notices(const tinygltf::Model& model, c
     std::set<std::size_t> used;
     for (const Primitive& primitive : scene.primitives)
         used.insert(primitive.material);
-    std::size_t bumpy = 0, shining = 0;
+    std::size_t bumpy = 0;
     for (const std::size_t m : used) {
         if (m >= model.materials.size())
             continue;
         const tinygltf::Material& file = model.materials[m];
         bumpy += file.normalTexture.index >= 0;
-        shining += std::any_of(file.emissiveFactor.begin(), file.emissiveFactor.end(),
-                               [](double factor) { return factor > 0; });
     }
     std::vector<std::string> notices;
     if (bumpy > 0)
         notices.push_back(counted(bumpy, "material has a normal map", "materials have normal maps") +
                           ": light is baked for the normals of the vertices");
-    if (shining > 0)
-        notices.push_back(counted(shining, "material shines", "materials shine") +
-                          ": emission is drawn by the renderer and lights nothing in a bake");
     return notices;
 }
 

@@ -29,7 +29,7 @@ Enum one_of(const Json& json, const char* key, std::initializer_list<Enum> value
 }
 
 PartKind read_kind(const std::string& word) {
-    for (const PartKind kind : {PartKind::direct, PartKind::indirect, PartKind::whole})
+    for (const PartKind kind : {PartKind::direct, PartKind::indirect, PartKind::whole, PartKind::lamp})
         if (word == to_string(kind))
             return kind;
     throw Error("the transfer has a part of a kind that this program does not know");
@@ -109,8 +109,11 @@ const Json* find_extension(const GltfContents& contents, const char* name, int e
 
 Json parts_json(const TransferLayout& layout) {
     Json parts = Json::array();
-    for (const TransferPart& part : layout.parts)
+    for (const TransferPart& part : layout.parts) {
         parts.push_back({{"kind", to_string(part.kind)}, {"channels", part.channels}});
+        if (!part.name.empty())
+            parts.back()["name"] = part.name;
+    }
     return parts;
 }
 
@@ -121,7 +124,8 @@ TransferLayout read_layout(const Json& extension) {
         throw Error("parts of the transfer are no list");
     for (const Json& part : parts)
         layout.parts.push_back({read_kind(part.at("kind").get<std::string>()),
-                                whole_number(part.at("channels"), "channels", 1, 3)});
+                                whole_number(part.at("channels"), "channels", 1, 3),
+                                part.value("name", "")});
     check_layout(layout);
     return layout;
 }

@@ -405,7 +405,7 @@ TEST(BackFaces, ReflectWhereTheMaterialIsDoubleSidedAndBlockWhereNot) {
 TEST(Memory, IsEstimatedFirstAndTooMuchIsRefused) {
     BakeOptions options;
     options.order = 10;
-    EXPECT_GT(estimate_memory(options, 100'000'000, 200'000'000, 1), 1.2e11);
+    EXPECT_GT(estimate_memory(options, 100'000'000, 200'000'000, 100), 1.2e11);
     options.bounces = 1;
     options.memory_limit = 20e6;
     options.tracer.backend = Backend::cpu;

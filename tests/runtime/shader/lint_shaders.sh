@@ -45,9 +45,9 @@ for file in *.vert *.frag *.comp; do
             done
             ;;
         *.comp)
-            compiles "$file" "PRT_ROWS 40" "PRT_FIRST_CHANNELS 1" "PRT_COEFFICIENTS 36"
-            compiles "$file" "PRT_ROWS 40" "PRT_FIRST_CHANNELS 3" "PRT_COEFFICIENTS 36"
-            compiles "$file" "PRT_ROWS 40" "PRT_FIRST_CHANNELS 1" "PRT_SECOND_CHANNELS 3" "PRT_COEFFICIENTS 36"
+            compiles "$file" "PRT_ROWS 40" "PRT_NUMBERS 144" "PRT_FIRST_CHANNELS 1" "PRT_COEFFICIENTS 36"
+            compiles "$file" "PRT_ROWS 40" "PRT_NUMBERS 144" "PRT_FIRST_CHANNELS 3" "PRT_COEFFICIENTS 36"
+            compiles "$file" "PRT_ROWS 40" "PRT_NUMBERS 144" "PRT_FIRST_CHANNELS 1" "PRT_SECOND_CHANNELS 3" "PRT_COEFFICIENTS 36"
             ;;
         prt_relight.vert)
             compiles "$file" "${packed[@]}"

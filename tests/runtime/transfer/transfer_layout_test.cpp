@@ -38,7 +38,6 @@ Transfer transfer_of(const TransferLayout& layout, std::size_t receivers, unsign
 TEST(TransferLayout, CountsWhatItsPartsHold) {
     const TransferLayout layout = direct_and_indirect(4, 1, 3);
     EXPECT_EQ(layout.channels(), 3);
-    EXPECT_EQ(layout.blocks(), 4u);
     EXPECT_EQ(layout.dimension(), 64u);
     EXPECT_EQ(layout.columns(), 32u);
     EXPECT_TRUE(layout.has(PartKind::direct));

@@ -37,7 +37,7 @@ enum class BadTextures {
     ignore, ///< leave them empty: the material's factors alone count
 };
 
-/// What textures are wanted for.
+/// What textures are wanted for, beside emission.
 enum class TextureNeeds {
     pictures,   ///< base color
     visibility, ///< what rays pass through: cut-outs, blended surfaces, glass, leaves

@@ -62,6 +62,13 @@ struct Metal {
     TextureUse texture; ///< times blue, times green
 };
 
+/// Light that a surface gives off at its front, and at its back where it is double-sided: emissiveFactor
+/// times KHR_materials_emissive_strength.
+struct Emission {
+    glm::vec3 radiance{0}; ///< linear Rec. 709
+    TextureUse texture;    ///< sRGB, a factor
+};
+
 /// All factors lie in 0..1, as glTF wants them.
 struct Material {
     std::string name;
@@ -76,6 +83,7 @@ struct Material {
     DiffuseTransmission transmission;
     Glass glass;
     Volume volume;
+    Emission emission;
 };
 
 /// Vertices of one or several primitives of one node. Each vertex is a receiver.
@@ -99,6 +107,19 @@ struct Primitive {
     std::vector<glm::uvec3> triangles;     ///< counter-clockwise from the front, into the vertex array
 };
 
+enum class PunctualKind { point, spot, directional };
+
+/// A light of KHR_lights_punctual in the world.
+struct PunctualLight {
+    std::string name; ///< of its node, else its own; "light N" where neither has one
+    PunctualKind kind = PunctualKind::point;
+    glm::vec3 intensity{1};         ///< linear Rec. 709; irradiance at one metre, or at all where directional
+    glm::vec3 position{0};          ///< metres, seen from Scene::origin
+    glm::vec3 direction{0, 0, -1};  ///< unit, the way that it shines
+    float range = std::numeric_limits<float>::infinity(); ///< metres, where it ends
+    float inner_cone = 0, outer_cone = 0.785398f;         ///< radians from the middle: full, and ended
+};
+
 struct EncodedImage {
     std::string name; ///< for messages
     std::vector<std::byte> bytes;
@@ -112,6 +133,7 @@ struct Scene {
     std::vector<Primitive> primitives;
     std::vector<Material> materials; ///< the file's, then glTF's default material
     std::vector<EncodedImage> images;
+    std::vector<PunctualLight> lights;
     std::vector<std::string> notices; ///< what a user should know about how the file was read, a line each
 
     /// Where a position lies in the file's world.

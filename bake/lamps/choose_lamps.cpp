@@ -1,0 +1,108 @@
+// Gathers lights and shining surfaces by name.
+
+#include "lamps/choose_lamps.h"
+
+#include "prt/color.h"
+#include "prt/support/error.h"
+#include "prt/support/printable.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+namespace prt {
+namespace {
+
+class Lamps {
+public:
+    explicit Lamps(const std::vector<LampGroup>& groups) : groups_(groups), used_(groups.size(), false) {}
+
+    Lamp& called(const std::string& own) {
+        std::string name = own;
+        for (std::size_t g = 0; g < groups_.size(); ++g)
+            if (matches(own, groups_[g].pattern)) {
+                used_[g] = true;
+                name = groups_[g].name;
+                break;
+            }
+        const auto [at, is_new] = places_.try_emplace(name, lamps_.size());
+        if (is_new)
+            lamps_.push_back({name, {}, {}});
+        return lamps_[at->second];
+    }
+
+    std::vector<Lamp> finish() {
+        for (std::size_t g = 0; g < groups_.size(); ++g)
+            if (!used_[g])
+                throw Error(fmt::format("no lamp is called '{}' beside those of groups before",
+                                        printable(groups_[g].pattern)));
+        if (lamps_.size() > kMostLamps)
+            throw Error(fmt::format("the scene has {} lamps of different names, and at most {} can be dimmed "
+                                    "apart: put some into groups (--lamp-group) or leave them out (--lamps "
+                                    "none)",
+                                    lamps_.size(), kMostLamps));
+        return std::move(lamps_);
+    }
+
+private:
+    const std::vector<LampGroup>& groups_;
+    std::vector<bool> used_;
+    std::map<std::string, std::size_t> places_;
+    std::vector<Lamp> lamps_;
+};
+
+std::string name_of(const Scene& scene, std::size_t material) {
+    const std::string& name = scene.materials[material].name;
+    return name.empty() ? fmt::format("material {}", material) : name;
+}
+
+} // namespace
+
+bool matches(const std::string& text, const std::string& pattern) {
+    // Where the last * may take one letter more.
+    std::size_t t = 0, p = 0, star = std::string::npos, taken = 0;
+    while (t < text.size()) {
+        if (p < pattern.size() && pattern[p] == '*') {
+            star = p++;
+            taken = t;
+        } else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t])) {
+            ++p;
+            ++t;
+        } else if (star != std::string::npos) {
+            p = star + 1;
+            t = ++taken;
+        } else {
+            return false;
+        }
+    }
+    return pattern.find_first_not_of('*', p) == std::string::npos;
+}
+
+std::vector<Lamp> choose_lamps(const Surfaces& surfaces, const LampOptions& options) {
+    if (options.mode == LampMode::none)
+        return {};
+    const Scene& scene = surfaces.scene();
+    Lamps lamps(options.groups);
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
+        lamps.called(scene.lights[i].name).lights.push_back(i);
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
+        if (surfaces.material(t).emission.radiance != glm::vec3(0))
+            lamps.called(name_of(scene, scene.primitives[surfaces.primitive(t)].material))
+                .triangles.push_back(t);
+    return lamps.finish();
+}
+
+bool are_white(const Surfaces& surfaces, const std::vector<Lamp>& lamps) {
+    return std::all_of(lamps.begin(), lamps.end(), [&](const Lamp& lamp) {
+        return std::all_of(
+                   lamp.lights.begin(), lamp.lights.end(),
+                   [&](std::uint32_t i) { return is_grey(surfaces.scene().lights[i].intensity); }) &&
+               std::all_of(lamp.triangles.begin(), lamp.triangles.end(), [&](std::uint32_t t) {
+                   const Emission& emission = surfaces.material(t).emission;
+                   return is_grey(emission.radiance) && surfaces.is_grey(emission.texture);
+               });
+    });
+}
+
+} // namespace prt

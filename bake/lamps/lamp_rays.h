@@ -1,0 +1,56 @@
+#pragma once
+
+// Shadow rays from a receiver to one lamp.
+
+#include "lamps/choose_lamps.h"
+#include "prt/trace_scene.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace prt {
+
+/// A receiver that light falls on.
+struct LampReceiver {
+    glm::vec3 position, normal;
+    glm::vec3 origin;       ///< where its rays start
+    std::uint32_t seed = 0; ///< makes its samples differ from those of others
+};
+
+struct LampIrradiance {
+    glm::dvec3 irradiance{0};
+    std::size_t rays = 0;
+};
+
+/// Irradiance by the lights of KHR_lights_punctual of `lamp`: a ray to each, or where they have extent as
+/// many over their discs as they have of all light here, `most` in all or one each. Unshadowed it is that of
+/// the extension, whatever their radius, but where the light is as near as that.
+LampIrradiance irradiance_of_lights(const TraceScene& scene, const Lamp& lamp, const LampReceiver& receiver,
+                                    double radius, int most);
+
+/// The triangles of a lamp that shine, with how bright each is on average.
+class ShiningTriangles {
+public:
+    ShiningTriangles(const TraceScene& scene, const Lamp& lamp);
+
+    /// Irradiance by `rays` rays that are spread over what is seen of them by its solid angle.
+    LampIrradiance irradiance(const LampReceiver& receiver, int rays) const;
+
+private:
+    struct Shining {
+        std::uint32_t triangle;
+        glm::dvec3 a, b, c;
+        double luminance; ///< mean
+        bool two_sided;
+    };
+    /// Of a sample of a triangle, as if the triangle were all there is.
+    glm::dvec3 irradiance_along(const LampReceiver& receiver, const Shining& t, double angle,
+                                const glm::dvec2& u) const;
+
+    const TraceScene& scene_;
+    std::vector<Shining> triangles_;
+};
+
+} // namespace prt

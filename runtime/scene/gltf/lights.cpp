@@ -1,0 +1,128 @@
+// Reads KHR_lights_punctual from the JSON: tinygltf does not tell a range of 0 from none.
+#include "gltf/lights.h"
+
+#include "prt/support/error.h"
+#include "prt/support/printable.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace prt {
+namespace {
+
+constexpr const char* kPunctual = "KHR_lights_punctual";
+
+const Json* punctual_of(const Json& object) {
+    if (!object.contains("extensions") || !object["extensions"].contains(kPunctual))
+        return nullptr;
+    return &object["extensions"][kPunctual];
+}
+
+/// The number `key`, `otherwise` where it is not there; within the bounds.
+double number(const Json& light, const char* key, double otherwise, double least, double most) {
+    if (!light.contains(key))
+        return otherwise;
+    const double value = light[key].get<double>();
+    if (!(value >= least && value <= most))
+        throw Error(std::string(key) + " is " + light[key].dump() + ", not within what can be");
+    return value;
+}
+
+PunctualKind kind_of(const std::string& word) {
+    if (word == "point")
+        return PunctualKind::point;
+    if (word == "spot")
+        return PunctualKind::spot;
+    if (word == "directional")
+        return PunctualKind::directional;
+    throw Error("its type is neither point nor spot nor directional");
+}
+
+glm::vec3 color_of(const Json& light) {
+    glm::vec3 color(1);
+    if (!light.contains("color"))
+        return color;
+    for (int c = 0; c < 3; ++c) {
+        color[c] = light["color"].at(static_cast<std::size_t>(c)).get<float>();
+        if (!(color[c] >= 0 && color[c] <= kMostIntensity))
+            throw Error("its color is not in 0..1");
+    }
+    return color;
+}
+
+void read_cone(const Json& light, PunctualLight& to) {
+    const Json spot = light.value("spot", Json::object());
+    const double inner = number(spot, "innerConeAngle", 0, 0, std::numbers::pi / 2),
+                 outer =
+                     number(spot, "outerConeAngle", std::numbers::pi / 4, 0, std::numbers::pi / 2 + 1e-6);
+    if (!(inner < outer))
+        throw Error("its inner cone is not within the outer one");
+    to.inner_cone = static_cast<float>(inner);
+    to.outer_cone = static_cast<float>(outer);
+}
+
+PunctualLight read_light(const Json& light) {
+    PunctualLight result;
+    result.name = light.value("name", "");
+    result.kind = kind_of(light.at("type").get<std::string>());
+    result.intensity =
+        color_of(light) * static_cast<float>(number(light, "intensity", 1, 0, kMostIntensity));
+    if (light.contains("range")) // 0 would be a light that shines nowhere
+        result.range = static_cast<float>(number(light, "range", 0, 1e-30, 1e30));
+    if (result.kind == PunctualKind::spot)
+        read_cone(light, result);
+    return result;
+}
+
+/// The light of a node, nothing where it has none.
+const Json* light_of(const GltfContents& contents, const Json& node, std::size_t& index) {
+    const Json* use = punctual_of(node);
+    if (!use)
+        return nullptr;
+    index = use->at("light").get<std::size_t>();
+    const Json* list = punctual_of(contents.json);
+    if (!list || !list->contains("lights") || index >= list->at("lights").size())
+        throw Error("light " + std::to_string(index) + " is not there");
+    return &list->at("lights").at(index);
+}
+
+} // namespace
+
+std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::vector<NodeTransform>& nodes,
+                                       const glm::dvec3& origin) {
+    std::vector<PunctualLight> lights;
+    if (!contents.json.contains("nodes"))
+        return lights;
+    for (const NodeTransform& transform : nodes) {
+        const Json& node = contents.json["nodes"].at(static_cast<std::size_t>(transform.node));
+        std::size_t index = 0;
+        const Json* json = light_of(contents, node, index);
+        if (!json || !transform.visible)
+            continue;
+        const std::string numbered = "light " + std::to_string(index);
+        try {
+            PunctualLight light = read_light(*json);
+            light.name = node.value("name", "").empty() ? light.name : node.value("name", "");
+            if (light.name.empty())
+                light.name = numbered;
+            const glm::dvec3 along = -glm::dvec3(transform.world[2]),
+                             place = glm::dvec3(transform.world[3]);
+            const double length = glm::length(along);
+            if (!(length > 0 && std::isfinite(length)))
+                throw Error("its node has no direction");
+            for (int axis = 0; axis < 3; ++axis)
+                if (!(std::abs(place[axis]) <= kFarthestVertex))
+                    throw Error("lies farther than 1e9 m from the world's origin");
+            light.direction = glm::vec3(along / length);
+            light.position = glm::vec3(place - origin);
+            lights.push_back(std::move(light));
+        } catch (const Error& error) {
+            throw Error(numbered + ": " + error.what());
+        }
+    }
+    return lights;
+}
+
+} // namespace prt
