@@ -63,7 +63,7 @@ SealedIn find_sealed_in(const BakePlan& plan, const Tracer& tracer, const Transf
     found.rays = sealed.rays;
     found.receivers = static_cast<std::size_t>(
         std::count(sealed.receivers.begin(), sealed.receivers.begin() + fronts, true));
-    if (found.receivers > 0 && plan.options.inside == Inside::refill)
+    if (found.receivers > 0 && plan.options.repairs.inside == Inside::refill)
         found.refill = Refill(MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts),
                               sealed.receivers);
     return found;
@@ -175,7 +175,6 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit));
     seconds.all = all.seconds();
     result.statistics.seconds = seconds;
-    result.statistics.rays_per_second = static_cast<double>(result.statistics.rays) / seconds.all;
     progress.update(1);
     return result;
 }

@@ -101,7 +101,7 @@ TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions
     std::vector<bool> solid;
     for (const auto& medium : media)
         solid.push_back(medium.has_value());
-    return TraceScene(scene, load_textures(scene, options.bad_textures, texture_needs(options)),
+    return TraceScene(scene, load_textures(scene, options.repairs.bad_textures, texture_needs(options)),
                       {.solid = std::move(solid), .threads = options.threads});
 }
 

@@ -104,7 +104,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
                      "size of the scene's unit, where it is not glTF's metre; only media care")
         ->capture_default_str()
         ->check(real_in(1e-9, 1e9));
-    choice(command, "--bad-textures", options.bad_textures, kBadTextures,
+    choice(command, "--bad-textures", options.repairs.bad_textures, kBadTextures,
            "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
            "use the factors of their materials alone",
            "error");
@@ -119,7 +119,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "bytes that the bake may take; otherwise what the machine or its container has")
         ->transform(CLI::AsSizeValue(true))
         ->type_name("SIZE, as 8GB");
-    choice(command, "--inside", options.inside, kInsides,
+    choice(command, "--inside", options.repairs.inside, kInsides,
            "vertices that lie inside solid geometry, where no light comes: they take the light of their "
            "neighbours, "
            "or stay dark",
@@ -186,7 +186,7 @@ Json statistics_json(const BakeStatistics& s) {
             {"seconds_accumulate", s.seconds.tracing.accumulate},
             {"seconds_transfer", s.seconds.tracing.transfer},
             {"seconds_transport", s.seconds.transport},
-            {"rays_per_second", s.rays_per_second},
+            {"rays_per_second", s.rays_per_second()},
             {"mean_visibility", s.mean_visibility},
             {"sampling_error_relative_l2", s.sampling_error},
             {"float16_error_relative_l2", s.rounding_error},
@@ -280,7 +280,7 @@ void run(BakeArguments a, Session& session) {
         check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.scene});
     GltfOptions reading = a.reading;
     reading.missing_images =
-        a.options.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
+        a.options.repairs.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
     GltfDocument document = load_gltf(a.scene, reading);
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);

@@ -180,7 +180,7 @@ Picture empty_picture(const RenderArguments& a, const Scene& scene) {
     picture.width = a.view.width;
     picture.height = a.view.height;
     picture.samples = a.view.samples;
-    picture.background_rotation = static_cast<float>(glm::radians(a.light_options.rotation_degrees));
+    picture.background.rotation = static_cast<float>(glm::radians(a.light_options.rotation_degrees));
     return picture;
 }
 
@@ -282,7 +282,7 @@ void run(RenderArguments a, Session& session) {
     Image background;
     if (a.look.background && a.look.show == Show::lit && light.environment) {
         background = resampled_lat_long(*light.environment);
-        picture.background = &background;
+        picture.background.image = &background;
     }
     const std::unique_ptr<GlContext> context = choose_backend(a.backend);
     const Lighting lighting{light.light};

@@ -167,7 +167,7 @@ private:
         bake_options.rays = options_.bake_rays;
         bake_options.bounces = prt::kEndlessBounces;
         bake_options.tracer.backend = prt::Backend::cpu;
-        bake_options.bad_textures = prt::BadTextures::ignore;
+        bake_options.repairs.bad_textures = prt::BadTextures::ignore;
         // All light is in one sky here, suns too.
         const prt::Transfer raw = prt::as_whole(prt::bake(model_->scene, bake_options).baked.transfer);
         result_.channels = raw.layout.channels();

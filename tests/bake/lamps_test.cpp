@@ -201,7 +201,9 @@ TEST(Lamps, ThatArePolygonsShineByLambertsFormula) {
             floor_with(SceneBuilder().floor({0, static_cast<float>(height), 0}, static_cast<float>(s), 2)
                            .build(),
                        glm::vec3(2), true),
-            options, [&](const glm::dvec3& p) { return glm::dvec3(2 * of_polygon(corners, p)); }, 0.01);
+            // Below the square R = 2 (2 cos), of standard deviation 1.15: 0.036 over 1024 rays that were not
+            // spread evenly.
+            options, [&](const glm::dvec3& p) { return glm::dvec3(2 * of_polygon(corners, p)); }, 0.02);
     }
 }
 
@@ -225,8 +227,15 @@ TEST(Lamps, FillAClosedRoomByAllBounces) {
     ASSERT_EQ(transfer.layout.parts.size(), 1u); // no sky comes in
     EXPECT_EQ(transfer.layout.parts[0].kind, PartKind::lamp);
     EXPECT_EQ(transfer.layout.parts[0].channels, 1);
-    for (const glm::vec3& r : exit_radiance(transfer, constant_light(2, glm::vec3(1))))
-        EXPECT_NEAR(r.x, 6, 0.06);
+    const auto lit = exit_radiance(transfer, constant_light(2, glm::vec3(1)));
+    const std::vector<float> areas = receiver_areas(ball);
+    // Faces lean up to 5.3 degrees away from the plane of a vertex, and nothing comes from between: the share
+    // sin² of the light, 0.85 %, is missing before each bounce.
+    for (std::size_t p = 0; p < lit.size(); ++p)
+        if (areas[p] > 0) {
+            EXPECT_LT(lit[p].x, 6 + 1e-3f) << p;
+            EXPECT_GT(lit[p].x, 5.9f) << p;
+        }
 }
 
 /// Each lamp is a part, by its name, and a group is the sum of its members.

@@ -301,8 +301,11 @@ TEST(HardCase, ReceiversWithoutAreaDoNotCountButAreCoded) {
 }
 
 /// The longest vectors that there are, with no axis to leave out.
-TEST(Compress, TakesAllNumbersOfTwoColoredPartsOfOrderTen) {
-    Transfer t = zero_transfer({10, {{PartKind::direct, 3}, {PartKind::indirect, 3}}}, 640);
+TEST(Compress, TakesAllNumbersOfColoredPartsOfOrderTenAndAllLamps) {
+    TransferLayout layout{10, {{PartKind::direct, 3}, {PartKind::indirect, 3}}};
+    for (std::size_t k = 0; k < kMostLamps; ++k)
+        layout.parts.push_back({PartKind::lamp, 3, "lamp " + std::to_string(k)});
+    Transfer t = zero_transfer(layout, 840);
     ASSERT_EQ(t.dimension(), kMostTransferNumbers);
     std::mt19937 random(21);
     std::normal_distribution<float> normal;
@@ -315,7 +318,7 @@ TEST(Compress, TakesAllNumbersOfTwoColoredPartsOfOrderTen) {
         options.coding.format = format;
         options.coding.bits = 5;
         options.metric = plain_metric(t.layout);
-        const CompressResult result = compress(t, std::vector<float>(640, 1.0f), {}, options);
+        const CompressResult result = compress(t, std::vector<float>(840, 1.0f), {}, options);
         // Noise is hardly compressed, and nothing of it is lost twice.
         EXPECT_GT(result.statistics.lit_rms, 0.9);
         EXPECT_LT(result.statistics.lit_rms, 1.01);

@@ -57,6 +57,12 @@ struct LampOptions {
     int rays = 64;                 ///< from a receiver to the lamps of a name that have extent
 };
 
+/// What is done about what is wrong with a scene.
+struct Repairs {
+    BadTextures bad_textures = BadTextures::error;
+    Inside inside = Inside::refill;
+};
+
 struct BakeOptions {
     int order = 6;
     int rays = 1024;                    ///< per receiver; directions where method is raster
@@ -65,8 +71,7 @@ struct BakeOptions {
     TracerChoice tracer;
     SubsurfaceOptions subsurface;
     LampOptions lamps;
-    BadTextures bad_textures = BadTextures::error;
-    Inside inside = Inside::refill;
+    Repairs repairs;
     /// None: float16 where its rounding is less than a tenth of the sampling error.
     std::optional<TransferStorage> storage = {};
     double memory_limit = 0; ///< bytes; 0: what the machine or its container has
@@ -99,7 +104,6 @@ struct BakeStatistics {
     std::size_t rays = 0; ///< traced in all
     std::string device;
     Seconds seconds;
-    double rays_per_second = 0; ///< all rays over all time
     double mean_visibility = 0; ///< area-weighted T_0 / Y_00 of the direct light
     /// Estimated relative L2 error of the direct light by sampling, from independent samples.
     double sampling_error = 0;
@@ -108,6 +112,9 @@ struct BakeStatistics {
     Lamps lamps;
     Gather gather;                    ///< the operator of the bounces
     std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
+
+    /// All rays over all time.
+    double rays_per_second() const { return static_cast<double>(rays) / seconds.all; }
 };
 
 struct BakeResult {

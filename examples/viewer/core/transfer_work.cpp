@@ -66,7 +66,7 @@ Baked bake_in_stages(Channel& channel, const Model& model) {
         options.order = kBakeOrder;
         options.rays = rays;
         options.bounces = kBakeBounces;
-        options.bad_textures = prt::BadTextures::ignore;
+        options.repairs.bad_textures = prt::BadTextures::ignore;
         prt::BakedTransfer result = prt::bake(model.scene, options, channel.progress()).baked;
         baked = {std::make_shared<const prt::Transfer>(std::move(result.transfer)), result.record};
         channel.post(baked);

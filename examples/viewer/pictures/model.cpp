@@ -53,7 +53,7 @@ std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& pr
     options.order = 1;
     options.rays = kOcclusionRays;
     options.tracer.backend = prt::Backend::cpu; // beside the window's own context
-    options.bad_textures = prt::BadTextures::ignore;
+    options.repairs.bad_textures = prt::BadTextures::ignore;
     options.storage = prt::TransferStorage::float32;
     const prt::Transfer direct = prt::bake(model.scene, options, progress).baked.transfer;
     // R under uniform light of radiance 1.

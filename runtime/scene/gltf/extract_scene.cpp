@@ -122,7 +122,7 @@ glm::vec3 transformed_normal(const glm::vec3& normal, const glm::dmat4& matrix) 
 class SceneExtractor {
 public:
     explicit SceneExtractor(const GltfContents& contents)
-        : contents_(contents), model_(contents.model), file_bytes_(contents.file_bytes) {
+        : contents_(contents), model_(contents.model) {
         for (std::size_t i = 0; i < contents.images.size(); ++i) {
             const tinygltf::Image& image = model_.images[i];
             const std::string name = !image.uri.empty() ? image.uri : image.name;
@@ -136,7 +136,7 @@ public:
 
     Scene extract() {
         const std::vector<NodeTransform> nodes = world_transforms(model_);
-        check_scene_size(model_, nodes, file_bytes_);
+        check_scene_size(model_, nodes, contents_.file_bytes);
         for (const NodeTransform& node : nodes)
             add_node(node, nodes);
         if (scene_.triangles() == 0)
@@ -307,7 +307,6 @@ private:
 
     const GltfContents& contents_;
     const tinygltf::Model& model_;
-    std::size_t file_bytes_;
     Scene scene_;
     std::vector<std::vector<glm::dvec3>> places_; ///< [vertex arrays][vertices] in the world
     SharedVertices shared_;

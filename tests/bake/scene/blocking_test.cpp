@@ -25,7 +25,7 @@ BakeResult bake_kept(const Scene& scene, Inside inside = Inside::keep) {
     options.order = 3;
     options.rays = 256;
     options.tracer.backend = Backend::cpu;
-    options.inside = inside;
+    options.repairs.inside = inside;
     return bake(scene, options);
 }
 

@@ -237,7 +237,7 @@ TEST(BadTextures, StopOnlyABakeThatNeedsThem) {
     scene.materials[1].alpha_mode = AlphaMode::opaque;
     options.bounces = 1;
     EXPECT_NE(message(scene), "");
-    options.bad_textures = BadTextures::ignore;
+    options.repairs.bad_textures = BadTextures::ignore;
     EXPECT_EQ(message(scene), "");
     scene.materials[1].base_color_texture.image = 7; // beyond the images
     EXPECT_EQ(message(scene), "");
@@ -394,9 +394,9 @@ TEST(Textures, ThatAreMissingAreNamedUnlessNobodyLooksAtThem) {
     } catch (const Error& error) {
         EXPECT_NE(std::string(error.what()).find("gone.png"), std::string::npos);
     }
-    options.bad_textures = BadTextures::ignore;
+    options.repairs.bad_textures = BadTextures::ignore;
     EXPECT_FALSE(bake(scene, options).statistics.notices.empty());
-    options.bad_textures = BadTextures::error;
+    options.repairs.bad_textures = BadTextures::error;
     options.bounces = 0; // nobody looks at the texture
     EXPECT_NO_THROW(bake(scene, options));
 }

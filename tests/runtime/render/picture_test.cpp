@@ -112,8 +112,8 @@ protected:
         for (int y = 0; y < 32; ++y)
             for (int x = 0; x < 64; ++x)
                 background.pixels.emplace_back(static_cast<float>(x) / 64, static_cast<float>(y) / 32, 0.3f);
-        picture.background = &background;
-        picture.background_rotation = 0.6f;
+        picture.background.image = &background;
+        picture.background.rotation = 0.6f;
     }
 
     TestScene objects;
@@ -125,7 +125,7 @@ protected:
 TEST_F(Pictures, OfCompressedTransferAgree) {
     BakeOptions bake_options;
     bake_options.rays = 64;
-    bake_options.bad_textures = BadTextures::ignore; // the scene names a texture whose image it does not hold
+    bake_options.repairs.bad_textures = BadTextures::ignore; // the scene names a texture whose image it does not hold
     const Transfer transfer = bake(objects.scene, bake_options).baked.transfer;
     CompressOptions options;
     options.clusters = 8;
@@ -152,7 +152,7 @@ TEST_F(Pictures, OfColorsAgree) {
         colors.push_back(0.5f + 0.4f * glm::sin(p * 3.0f));
     picture.radiance = colors;
     picture.textured = false;
-    picture.background = nullptr;
+    picture.background.image = nullptr;
     const Difference d =
         difference(render_rays(picture, RayScene(objects.scene)), render_gl(picture, *context));
     EXPECT_LT(d.mean, 0.2);
@@ -166,7 +166,7 @@ TEST_F(Pictures, ShowTheSceneUprightAndTheRightWayRound) {
         colors.emplace_back(p.x > 0, p.y > 0, 0);
     picture.radiance = colors;
     picture.textured = false;
-    picture.background = nullptr;
+    picture.background.image = nullptr;
     picture.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.5f};
     for (const Image& image : {render_rays(picture, RayScene(objects.scene)), render_gl(picture, *context)})
         for (const int x : {-15, 15})
@@ -180,7 +180,7 @@ TEST_F(Pictures, ShowTheSceneUprightAndTheRightWayRound) {
 TEST_F(Pictures, SeeTheBackgroundWhereTheCameraLooks) {
     const std::vector<glm::vec3> black(objects.scene.receivers(), glm::vec3(0));
     picture.radiance = black;
-    picture.background_rotation = 0;
+    picture.background.rotation = 0;
     picture.camera = {{0, 0, 30}, {0, 0, 60}, {0, 1, 0}, 0.5f}; // along +Z: the center of the lat-long
     for (const Image& image : {render_rays(picture, RayScene(objects.scene)), render_gl(picture, *context)}) {
         EXPECT_NEAR(image.at(kWidth / 2, kHeight / 2).r, 0.5f, 0.02f);
@@ -253,7 +253,7 @@ TEST(LightMeter, MeasuresWhatTheModelShowsAndNotTheSky) {
     const Image sky{1, 1, {glm::vec3(1e4f)}};
     Picture picture;
     picture.scene = &scene;
-    picture.background = &sky;
+    picture.background.image = &sky;
     picture.width = 640;
     picture.height = 320;
     picture.camera = {{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 0.5f};
