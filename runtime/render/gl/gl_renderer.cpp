@@ -85,9 +85,9 @@ public:
 
 private:
     void draw_background() const {
-        if (!picture_.background)
+        if (!picture_.background.image)
             return;
-        const GlObject texture = make_background(*picture_.background);
+        const GlObject texture = make_background(*picture_.background.image);
         const GlObject program = make_program("background.vert", "background.frag");
         const CameraFrame frame = camera_frame(picture_.camera);
         const double aspect = static_cast<double>(picture_.width) / picture_.height;
@@ -97,7 +97,7 @@ private:
         glUniform3fv(uniform(program, "forward"), 1, glm::value_ptr(forward));
         glUniform3fv(uniform(program, "right"), 1, glm::value_ptr(right));
         glUniform3fv(uniform(program, "up"), 1, glm::value_ptr(up));
-        set_uniform(program, "rotation", picture_.background_rotation);
+        set_uniform(program, "rotation", picture_.background.rotation);
         glBindTextureUnit(PRT_UNIT_BACKGROUND, texture.name());
         const GlObject empty = make_vertex_array();
         glBindVertexArray(empty.name());

@@ -16,6 +16,12 @@
 
 namespace prt {
 
+/// What is behind the scene.
+struct Background {
+    const Image* image = nullptr; ///< lat-long; null: black
+    float rotation = 0;           ///< about +Y, as in `rotated_about_y`; radians
+};
+
 struct Picture {
     const Scene* scene = nullptr;
     std::span<const Texture> textures; ///< load_textures(*scene)
@@ -29,10 +35,7 @@ struct Picture {
     std::span<const SunDisc> suns = {};
 
     bool textured = true; ///< multiply by base color; off for views that show a number
-    /// Lat-long picture behind the scene; null: black.
-    const Image* background = nullptr;
-    /// The background is turned about +Y by this, as in `rotated_about_y`. Radians.
-    float background_rotation = 0;
+    Background background;
 
     Camera camera;
     int width = 1280, height = 720;
