@@ -247,7 +247,8 @@ private:
         picture.width = kWidth;
         picture.height = kHeight;
         picture.samples = kSamples;
-        const Image image = render_rays(picture, RayScene(model_.scene, a_.threads), a_.threads);
+        const Image image = render_rays(picture, TraceScene(model_.scene, {}, {.threads = a_.threads}),
+                                        {.threads = a_.threads});
         report.pictures.push_back(
             {std::move(title),
              encode_png(kWidth, kHeight, tone_mapped(image, kSamples, exposure, ToneMap::srgb))});

@@ -41,6 +41,10 @@ void check_belong_together(const SceneFile& baked, const Path& baked_path, const
                                 baked_path.string(), baked.order()));
 }
 
+const TransferLayout& layout_of(const SceneFile& model) {
+    return model.compressed ? model.compressed->transfer.bases.layout : model.baked->transfer.layout;
+}
+
 void put_in_order_of(const Scene& scene, SceneFile& baked) {
     baked.baked->transfer = in_order_of(scene, baked.scene, baked.baked->transfer);
     baked.scene = scene;

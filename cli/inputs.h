@@ -33,6 +33,8 @@ struct SceneFile {
     /// How the transfer was baked; null where there is none.
     const BakeRecord* record() const;
 };
+/// Of one that holds transfer.
+const TransferLayout& layout_of(const SceneFile& model);
 SceneFile load_scene_file(const Path& path, const GltfOptions& options = {});
 /// The same of a document that was read from `path`.
 SceneFile scene_file_of(GltfDocument document, const Path& path);

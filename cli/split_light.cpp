@@ -40,6 +40,12 @@ Light light_of_suns(const SplitLight& light) {
     return suns;
 }
 
+Lighting lighting_of(const SplitLight& light) {
+    if (light.split.suns.empty())
+        return {light.sky.light};
+    return {light.sky.light, light_of_suns(light)};
+}
+
 SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
                             int threads) {
     SplitLight result;
@@ -49,8 +55,10 @@ SplitLight load_split_light(const Path& path, int order, const SunCount& suns, c
         if (file.sky.order < order)
             throw Error(fmt::format("{}: has order {}, but order {} is needed", path.string(), file.sky.order,
                                     order));
-        result.sky.light = truncated(file.sky, order);
-        result.split.suns = file.suns;
+        const bool apart = suns.count != 0;
+        result.sky.light = truncated(apart ? file.sky : all_light(file), order);
+        if (apart)
+            result.split.suns = file.suns;
     } else {
         result.sky.environment = load_environment_map(path, options.environment);
         result.split = about(path, [&] {

@@ -4,6 +4,7 @@
 
 #include "inputs.h"
 #include "prt/suns.h"
+#include "prt/transfer_layout.h"
 
 #include <CLI/CLI.hpp>
 
@@ -28,8 +29,11 @@ struct SplitLight {
 /// The suns together, as they light what is lit after a bounce.
 Light light_of_suns(const SplitLight& light);
 
-/// Takes suns out of an environment map, or those of a light file, whose number is its own; turned with the
-/// rest as asked. A window is for the rest alone.
+/// Its suns' light goes through `direct` transfer apart from the sky's, where there are any.
+Lighting lighting_of(const SplitLight& light);
+
+/// Takes suns out of an environment map, or those of a light file, whose number is its own unless none is
+/// asked for; turned with the rest as asked. A window is for the rest alone.
 SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
                             int threads);
 

@@ -2,7 +2,7 @@
 
 #include "prt/light_meter.h"
 
-#include "pictures/primary_rays.h"
+#include "pictures/sun_light.h"
 #include "prt/color.h"
 
 #include <glm/common.hpp>
@@ -56,6 +56,23 @@ float LightMeter::luminance(std::span<const glm::vec3> radiance) const {
     for (std::size_t i = 0; i < weights_.size(); ++i)
         sum += glm::dot(weights_[i], glm::max(radiance[i], glm::vec3(0)));
     return sum;
+}
+
+float sun_luminance(const Picture& picture, const TraceScene& scene) {
+    constexpr int kPoints = 8; // on a disc: over all that is seen penumbrae even out
+    const PrimaryRays rays(picture, scene.rays(), std::min(picture.width, kMostAcross),
+                           std::min(picture.height, kMostAcross));
+    const SunLight suns(picture, scene, kPoints);
+    glm::vec3 sum(0);
+    float covered = 0;
+    for (int y = 0; y < rays.rows(); ++y)
+        for (int x = 0; x < rays.columns(); ++x)
+            rays.walk(x, y, [&](const SeenSurface& surface, float transmittance) {
+                const float share = transmittance * surface.base.a;
+                sum += share * suns.radiance(surface, {rays.direction(x, y), rays.solid_angle(x, y)}, {});
+                covered += share;
+            });
+    return covered > 0 ? glm::dot(glm::vec3(kLuminance), sum) / covered : 0.0f;
 }
 
 float exposure_for(float luminance) {

@@ -3,9 +3,9 @@
 
 #include "prt/path_tracer.h"
 
+#include "pictures/lit_side.h"
 #include "prt/support/parallel.h"
 #include "prt/support/tangent_frame.h"
-#include "scene/interpolated.h"
 #include "scene/transmittance.h"
 #include "trace/sample_sequence.h"
 
@@ -58,22 +58,10 @@ float largest(const glm::vec3& v) {
 }
 
 struct SurfaceHit {
-    unsigned id;
     float distance;
     SurfacePoint point;
-    glm::vec3 position, face, normal; ///< unit, towards the side that was met
-    bool back;
+    LitSide side;  ///< that was met
     bool scatters; ///< that side of it
-};
-
-/// The side of a surface that a path goes on from.
-struct LitSide {
-    SurfaceHit hit;
-    glm::vec3 normal, face;
-
-    bool faces(const glm::vec3& towards) const {
-        return glm::dot(normal, towards) > 0 && glm::dot(face, towards) > 0;
-    }
 };
 
 struct Path {
@@ -94,9 +82,6 @@ struct Tracing {
     const PathTraceOptions& options;
 
     std::optional<SurfaceHit> nearest(const Ray& ray) const;
-    glm::vec3 origin_off(const SurfaceHit& hit, const glm::vec3& direction) const;
-    /// What the camera sees of a surface, which need not be what light sees of it.
-    Scattering seen_scattering(const SurfaceHit& hit) const;
     void add_background(Path& path) const;
     /// One of the two sides, by how much it scatters; none where neither does.
     std::optional<LitSide> choose_side(const SurfaceHit& hit, Path& path, PathSamples& samples) const;
@@ -111,40 +96,10 @@ std::optional<SurfaceHit> Tracing::nearest(const Ray& ray) const {
     const std::optional<RayHit> met = rays.nearest(ray);
     if (!met)
         return std::nullopt;
-    SurfaceHit hit;
-    hit.id = met->triangle;
-    hit.distance = met->distance;
-    hit.point = {met->triangle, met->uv, 0};
-    hit.position = ray.origin + ray.direction * met->distance;
-    const RayScene::Triangle triangle = rays.triangle(hit.id);
-    const Primitive& primitive = scene.primitives[triangle.primitive];
-    const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
-    const glm::uvec3& t = primitive.triangles[triangle.triangle];
-    hit.face = glm::cross(vertices.positions[t.y] - vertices.positions[t.x],
-                          vertices.positions[t.z] - vertices.positions[t.x]);
-    hit.back = glm::dot(hit.face, ray.direction) > 0;
-    hit.scatters = !hit.back || surfaces.two_sided(hit.id);
-    glm::vec3 normal = interpolated(vertices.normals, t, hit.point.uv);
-    hit.face = glm::normalize(hit.back ? -hit.face : hit.face);
-    const float length = glm::length(normal);
-    hit.normal = length > 0 ? (hit.back ? -normal : normal) / length : hit.face;
-    return hit;
-}
-
-glm::vec3 Tracing::origin_off(const SurfaceHit& hit, const glm::vec3& direction) const {
-    const float side = glm::dot(hit.face, direction) >= 0 ? 1.0f : -1.0f;
-    return hit.position + hit.face * (side * rays.triangle_offset(hit.id));
-}
-
-Scattering Tracing::seen_scattering(const SurfaceHit& hit) const {
-    if (!surfaces.transmits(hit.id)) // all of the base color, as renderers multiply by it
-        return {options.textured ? surfaces.base_color(hit.point) : glm::vec3(1), glm::vec3(0)};
-    const Scattering scattering = surfaces.scattering(hit.point);
-    if (options.textured)
-        return scattering;
-    // The share of the base color that each side has.
-    const glm::vec3 base = glm::max(surfaces.base_color(hit.point), glm::vec3(1e-6f));
-    return {scattering.reflected / base, scattering.transmitted / base};
+    const SurfacePoint point{met->triangle, met->uv, 0};
+    const MetSurface surface =
+        met_surface(scene, rays, point, ray.origin + ray.direction * met->distance, ray.direction);
+    return SurfaceHit{met->distance, point, surface.side, !surface.back || surfaces.two_sided(met->triangle)};
 }
 
 void Tracing::add_background(Path& path) const {
@@ -156,27 +111,27 @@ void Tracing::add_background(Path& path) const {
 }
 
 std::optional<LitSide> Tracing::choose_side(const SurfaceHit& hit, Path& path, PathSamples& samples) const {
-    const Scattering scattering = path.from_camera() ? seen_scattering(hit) : surfaces.scattering(hit.point);
+    const Scattering scattering = path.from_camera() ? seen_scattering(surfaces, hit.point, options.textured)
+                                                     : surfaces.scattering(hit.point);
     const float reflected = largest(scattering.reflected), transmitted = largest(scattering.transmitted);
     if (!(reflected + transmitted > 0))
         return std::nullopt;
     const bool through = samples.next().x * (reflected + transmitted) >= reflected;
     const float share = (through ? transmitted : reflected) / (reflected + transmitted);
     path.throughput *= (through ? scattering.transmitted : scattering.reflected) / share;
-    return through ? LitSide{hit, -hit.normal, -hit.face} : LitSide{hit, hit.normal, hit.face};
+    return through ? hit.side.other() : hit.side;
 }
 
 void Tracing::add_direct_light(const LitSide& side, Path& path, PathSamples& samples) const {
     for (const Sun& sun : light.suns())
         if (side.faces(sun.towards))
             path.radiance += path.throughput * sun.irradiance * glm::dot(side.normal, sun.towards) / kPi *
-                             transmittance(rays, surfaces, origin_off(side.hit, sun.towards), sun.towards);
+                             transmittance(rays, surfaces, side.origin(), sun.towards);
     const DistantLight::Sample sample = light.sample(samples.next());
     if (sample.density > 0 && side.faces(sample.direction)) {
         const float cosine = glm::dot(side.normal, sample.direction) / kPi;
-        path.radiance +=
-            path.throughput * sample.radiance * (cosine / (sample.density + cosine)) *
-            transmittance(rays, surfaces, origin_off(side.hit, sample.direction), sample.direction);
+        path.radiance += path.throughput * sample.radiance * (cosine / (sample.density + cosine)) *
+                         transmittance(rays, surfaces, side.origin(), sample.direction);
     }
 }
 
@@ -185,7 +140,7 @@ bool Tracing::scatter(const LitSide& side, Path& path, PathSamples& samples) con
     if (!side.faces(direction)) // below the facet, though above the interpolated normal
         return false;
     path.density = glm::dot(side.normal, direction) / kPi;
-    path.ray = {origin_off(side.hit, direction), direction};
+    path.ray = {side.origin(), direction};
     if (++path.vertices < kFirstRoulette || options.bounces >= 0)
         return true;
     const float survival = std::min(0.98f, largest(path.throughput));

@@ -65,6 +65,13 @@ glm::vec3 PrimaryRays::direction(double x, double y) const {
                                     (y + 0.5) * picture_.height / rows_));
 }
 
+float PrimaryRays::solid_angle(int x, int y) const {
+    const glm::vec3 along = direction(x, y); // to a plane that is 1 away
+    const float area = glm::length(glm::cross(direction(x + 1, y) - along, direction(x, y + 1) - along));
+    const float distance = glm::length(along);
+    return area / (distance * distance * distance);
+}
+
 bool PrimaryRays::next(const glm::vec3& along, int x, int y, float& from, SeenSurface& surface) const {
     const auto shows = [&](unsigned id) { return surface_at(id, along, x, y).base.a > 0; };
     const auto hit = rays_.nearest({picture_.camera.position, along, from}, std::ref(shows));
@@ -83,7 +90,7 @@ SeenSurface PrimaryRays::surface_at(unsigned id, const glm::vec3& along, int x, 
     const Material& material = scene.materials[primitive.material];
     const glm::uvec3& t = primitive.triangles[at.triangle];
     const Corners corners{vertices.positions[t.x], vertices.positions[t.y], vertices.positions[t.z]};
-    SeenSurface surface{t + static_cast<unsigned>(vertices.first_receiver), {}, glm::vec4(1)};
+    SeenSurface surface{id, t + static_cast<unsigned>(vertices.first_receiver), {}, glm::vec4(1)};
     const glm::vec3 normal = glm::cross(corners.b - corners.a, corners.c - corners.a);
     if (!material.double_sided && glm::dot(normal, along) >= 0) {
         surface.base.a = 0;

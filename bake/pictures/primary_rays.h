@@ -9,6 +9,7 @@ namespace prt {
 
 /// A surface that a primary ray meets from the side that it shows.
 struct SeenSurface {
+    std::uint32_t triangle;
     glm::uvec3 receivers;   ///< at the corners of the triangle
     glm::vec2 barycentrics; ///< of corners 1 and 2
     glm::vec4 base;         ///< base color, linear, and how much of the ray ends here; 1 unless `textured`
@@ -22,7 +23,10 @@ public:
 
     int columns() const { return columns_; }
     int rows() const { return rows_; }
+    /// Not unit.
     glm::vec3 direction(double x, double y) const;
+    /// Of a rectangle.
+    float solid_angle(int x, int y) const;
 
     /// Calls `visit(SeenSurface, transmittance)` for what is met until something opaque is; returns what is
     /// left for the background.

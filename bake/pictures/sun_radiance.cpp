@@ -2,9 +2,9 @@
 
 #include "prt/sun_radiance.h"
 
+#include "pictures/disc_directions.h"
 #include "prt/sh_basis.h"
 #include "prt/support/parallel.h"
-#include "prt/support/tangent_frame.h"
 #include "scene/transmittance.h"
 #include "trace/sample_sequence.h"
 #include "transport/light_transport.h"
@@ -17,33 +17,6 @@
 
 namespace prt {
 namespace {
-
-/// Points of a disc far away, evenly over its solid angle on a spiral (R. Swinbank, R. J. Purser, "Fibonacci
-/// grids", 2006).
-class DiscDirections {
-public:
-    DiscDirections(const SunDisc& sun, int rays)
-        : frame_(tangent_frame(sun.towards)), count_(sun.half_angle > 0 ? rays : 1),
-          depth_(1 - std::cos(sun.half_angle)) {}
-
-    int count() const { return count_; }
-    /// Unit; `turn` about the middle, in radians, makes those of two receivers differ.
-    glm::vec3 direction(int i, double turn) const {
-        const double cosine = 1 - depth_ * (i + 0.5) / count_, sine = std::sqrt(1 - cosine * cosine);
-        const double angle = turn + i * std::numbers::pi * (3 - std::sqrt(5.0));
-        return glm::vec3(glm::normalize(glm::dvec3(frame_.normal) * cosine +
-                                        glm::dvec3(frame_.tangent) * (sine * std::cos(angle)) +
-                                        glm::dvec3(frame_.bitangent) * (sine * std::sin(angle))));
-    }
-    /// Mean of the cosine to the middle: irradiance on a receiver that faces it over radiance times solid
-    /// angle.
-    double mean_cosine() const { return 1 - 0.5 * depth_; }
-
-private:
-    TangentFrame frame_;
-    int count_;
-    double depth_; ///< of the cap
-};
 
 /// Share of a sun's irradiance that arrives.
 double share_of(const TraceScene& scene, const Receivers& receivers, std::uint32_t p,
@@ -96,6 +69,10 @@ std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const Sun
     std::vector<glm::vec3> radiance;
     for (std::size_t p = 0; p < all.fronts; ++p)
         radiance.emplace_back(lit.vector(p)[0], lit.vector(p)[1], lit.vector(p)[2]);
+    for (std::uint32_t t = 0; t < scene.surfaces().triangles(); ++t)
+        if (scene.surfaces().solid(t))
+            for (int corner = 0; corner < 3; ++corner)
+                radiance[scene.surfaces().corners(t)[corner]] = glm::vec3(0);
     return radiance;
 }
 

@@ -79,6 +79,7 @@ Surfaces::Kind Surfaces::kind_of(const Primitive& primitive, bool solid) const {
     const Material& material = scene_.materials[primitive.material];
     const VertexArray& vertices = scene_.vertex_arrays[primitive.vertices];
     Kind kind;
+    kind.solid = solid;
     const bool textured = has_texture(vertices, material.base_color_texture);
     // What never falls below full coverage is as good as opaque.
     kind.opaque = material.glass.factor <= 0 &&

@@ -6,11 +6,11 @@
 #include "prt/sun_radiance.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
+#include "solid_materials.h"
 #include "split_light.h"
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace prt::cli {
@@ -26,10 +26,6 @@ struct RelightArguments {
     int threads = 0;
 };
 
-const TransferLayout& layout_of(const SceneFile& model) {
-    return model.compressed ? model.compressed->transfer.bases.layout : model.baked->transfer.layout;
-}
-
 /// Of each vertex, by which radiance for albedo 1 is multiplied.
 std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
     std::vector<glm::vec3> colors(surfaces.scene().receivers(), glm::vec3(1));
@@ -40,27 +36,6 @@ std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
             colors[p] = surfaces.base_color({t, glm::vec2(corner == 1, corner == 2), areas[p]});
         }
     return colors;
-}
-
-/// Whether suns light a receiver without a bounce: not where all light passes a medium. A bake says so by
-/// zeros, a compressed file by materials alone: media of --subsurface are unknown to it.
-std::vector<bool> lit_directly(const SceneFile& model, const TraceScene& scene) {
-    const Surfaces& surfaces = scene.surfaces();
-    std::vector<bool> lit(model.scene.receivers(), true);
-    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
-        if (medium_of(surfaces.material(t)))
-            for (int corner = 0; corner < 3; ++corner)
-                lit[surfaces.corners(t)[corner]] = false;
-    if (!model.baked)
-        return lit;
-    const TransferLayout& layout = model.baked->transfer.layout;
-    const auto count =
-        static_cast<std::size_t>(layout.parts.front().channels * coefficient_count(layout.order));
-    for (std::size_t p = 0; p < lit.size(); ++p) {
-        const auto direct = model.baked->transfer.vector(p).first(count);
-        lit[p] = lit[p] && std::any_of(direct.begin(), direct.end(), [](float v) { return v != 0; });
-    }
-    return lit;
 }
 
 /// Exit radiance for albedo 1: the sky by transfer, suns by rays, and what they give after a bounce.
@@ -74,19 +49,9 @@ std::vector<glm::vec3> radiance_of(const RelightArguments& a, const SceneFile& m
         return radiance;
     const std::vector<glm::vec3> direct =
         sun_radiance(scene, light.split.suns, {.rays = a.rays, .threads = a.threads}, progress);
-    const std::vector<bool> lit = lit_directly(model, scene);
     for (std::size_t p = 0; p < radiance.size(); ++p)
-        if (lit[p])
-            radiance[p] += direct[p];
+        radiance[p] += direct[p];
     return radiance;
-}
-
-/// Materials with something inside are no thin sheets.
-std::vector<bool> solid_materials(const Scene& scene) {
-    std::vector<bool> solid;
-    for (const Material& material : scene.materials)
-        solid.push_back(medium_of(material).has_value());
-    return solid;
 }
 
 void check_model(const RelightArguments& a, const SceneFile& model) {
@@ -133,7 +98,7 @@ void run(RelightArguments a, Session& session) {
     const SunCount suns = layout_of(model).has(PartKind::whole) ? SunCount{0} : a.suns;
     const SplitLight light = load_split_light(a.environment, model.order(), suns, a.light_options, a.threads);
     const TraceScene scene(model.scene, load_textures(model.scene, BadTextures::error),
-                           {.solid = solid_materials(model.scene), .threads = a.threads});
+                           {.solid = solid_materials(model), .threads = a.threads});
     ProgressBar bar = session.progress_bar("relighting");
     std::vector<glm::vec3> radiance = radiance_of(a, model, scene, light, bar.progress());
     if (a.albedo) {

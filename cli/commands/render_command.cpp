@@ -10,6 +10,8 @@
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "prt/tone_map.h"
+#include "solid_materials.h"
+#include "split_light.h"
 
 #include <fmt/core.h>
 #include <glm/trigonometric.hpp>
@@ -43,9 +45,15 @@ struct Look {
     bool background = true;
 };
 
+struct Suns {
+    SunCount count = {std::nullopt}; ///< as many as pay: their shadows show first, and no order has them
+    int rays = 32;                   ///< for each pixel and sun
+};
+
 struct RenderArguments {
     Path model, environment, output, json, baked;
     LightOptions light_options = {{}, Window::automatic, 0}; ///< a picture shows ringing as bruises
+    Suns suns;
     View view;
     Backend backend = Backend::automatic;
     Look look;
@@ -102,46 +110,82 @@ Exposure parse_exposure(const std::string& text) {
 constexpr int kUnshadowedOrder = 6;
 
 /// The context to draw with; null: draw on the CPU.
-std::unique_ptr<GlContext> choose_backend(Backend backend) {
+std::unique_ptr<GlContext> choose_backend(Backend backend, bool suns) {
     if (backend == Backend::cpu)
         return nullptr;
     std::string why;
     auto context = GlContext::create(backend == Backend::gpu ? GlDevice::any : GlDevice::hardware, &why);
+    if (context && suns) { // the GPU's renderer has no shadow maps yet
+        print_notices("--backend auto", {"the CPU draws, which shadows suns"});
+        return nullptr;
+    }
     if (!context && backend == Backend::gpu)
         throw Error("there is no OpenGL 4.5 for --backend gpu (" + why + ")");
     return context;
 }
 
-/// Exit radiance for albedo 1: compressed, baked, or unshadowed, whatever the model holds.
-std::vector<glm::vec3> lit_colors(const SceneFile& model, const Light& light, int threads) {
-    if (model.compressed)
-        return exit_radiance(model.compressed->transfer, light, threads);
-    if (model.baked)
-        return exit_radiance(model.baked->transfer, light, threads);
-    return exit_radiance(unshadowed_transfer(model.scene, light.order), light, threads);
+/// Why suns cannot be lit apart from the sky, and what to do about it; empty: they can. What holds no
+/// transfer has direct light only.
+std::string why_together(const RenderArguments& a, const SceneFile& model) {
+    if (model.record() && layout_of(model).has(PartKind::whole))
+        return a.model.string() + ": keeps no direct light apart, so that suns cannot be lit apart from the "
+                                  "sky; compress it without --whole";
+    if (a.backend == Backend::gpu) // its renderer has no shadow maps yet
+        return "--backend gpu draws no shadows of suns; draw with --backend cpu";
+    return {};
 }
 
-std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile& model, const Light& light) {
+/// With its suns apart where they can be, and are wanted.
+SplitLight load_lit(const RenderArguments& a, const SceneFile& model) {
+    const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
+    const auto load = [&](const SunCount& suns) {
+        return load_split_light(a.environment, order, suns, a.light_options, a.threads);
+    };
+    if (a.look.show == Show::ao || a.look.show == Show::clusters)
+        return load({0});
+    const std::string why = why_together(a, model);
+    if (!why.empty() && a.suns.count.count.value_or(0) > 0)
+        throw Error(why + ", or light it with --suns 0");
+    SplitLight light = load(a.suns.count);
+    if (why.empty() || light.split.suns.empty())
+        return light;
+    print_notices(a.environment.string(),
+                  {fmt::format("its suns ({}) are lit with the sky, and no shadow of theirs is sharp: {}",
+                               light.split.suns.size(), why)});
+    return load({0});
+}
+
+/// Exit radiance for albedo 1: compressed, baked, or unshadowed, whatever the model holds.
+std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighting, int threads) {
+    if (model.compressed)
+        return exit_radiance(model.compressed->transfer, lighting, threads);
+    if (model.baked)
+        return exit_radiance(model.baked->transfer, lighting, threads);
+    return exit_radiance(unshadowed_transfer(model.scene, lighting.sky.order), lighting, threads);
+}
+
+std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile& model,
+                                      const Lighting& lighting) {
     switch (a.look.show) {
     case Show::clusters:
         if (!model.compressed)
             throw Error("--show clusters needs a compressed file");
         return cluster_colors(model.compressed->transfer);
     case Show::ao: // exit radiance under uniform light of radiance 1
-        return lit_colors(model, constant_light(std::max(1, model.order()), glm::vec3(1)), a.threads);
+        return lit_colors(model, {constant_light(std::max(1, model.order()), glm::vec3(1))}, a.threads);
     case Show::error: {
         SceneFile baked = load_scene_file(a.baked, a.reading);
         if (!baked.baked)
             throw Error(a.baked.string() + ": holds no raw transfer; --baked is the output of prt bake");
         check_belong_together(baked, a.baked, model, a.model);
         put_in_order_of(model.scene, baked);
-        return error_colors(exit_radiance(baked.baked->transfer, light, a.threads),
-                            lit_colors(model, light, a.threads), receiver_areas(baked.scene));
+        return error_colors(exit_radiance(baked.baked->transfer, lighting, a.threads),
+                            lit_colors(model, lighting, a.threads), receiver_areas(baked.scene));
     }
     case Show::lit:
         break;
     }
-    return lit_colors(model, light, a.threads);
+    return lit_colors(model, lighting, a.threads);
 }
 
 Camera choose_camera(const View& view, const Scene& scene) {
@@ -155,18 +199,17 @@ Camera choose_camera(const View& view, const Scene& scene) {
     return camera;
 }
 
-/// Factor on radiance; `rays` may be null unless it is automatic. Where the picture shows nothing of the
-/// model that is lit, the light is measured.
-float choose_exposure(const Exposure& exposure, const Picture& picture, const RayScene* rays,
+/// Factor on radiance. Where the picture shows nothing of the model that is lit, the light is measured.
+float choose_exposure(const Exposure& exposure, const Picture& picture, const TraceScene& scene,
                       const Light& light) {
     const auto stops = static_cast<float>(std::exp2(exposure.stops));
     if (!exposure.automatic)
         return stops;
-    const LightMeter meter(picture, *rays);
+    const LightMeter meter(picture, scene.rays());
     std::vector<glm::vec3> radiance;
     for (const std::uint32_t receiver : meter.receivers())
         radiance.push_back(picture.radiance[receiver]);
-    const float luminance = meter.luminance(radiance);
+    const float luminance = meter.luminance(radiance) + sun_luminance(picture, scene);
     const float automatic = luminance > 0 ? exposure_for(luminance) : automatic_exposure(light);
     return std::clamp(stops * automatic, 1e-30f, 1e30f); // beyond, floats do not hold what it is a factor of
 }
@@ -208,17 +251,16 @@ struct Rendered {
 };
 
 /// Draws with `context`, or on the CPU where that is null.
-Rendered render(const RenderArguments& a, const Picture& picture, const Light& light, GlContext* context) {
+Rendered render(const RenderArguments& a, const Picture& picture, const TraceScene& scene, const Light& light,
+                GlContext* context) {
     const bool exposed = a.look.show == Show::lit && suffix_of(a.output) != ".exr";
     const Stopwatch stopwatch;
-    std::optional<RayScene> rays;
-    if (!context || (exposed && a.look.exposure.automatic))
-        rays.emplace(*picture.scene, a.threads);
     Rendered result;
-    result.image = context ? render_gl(picture, *context) : render_rays(picture, *rays, a.threads);
+    result.image = context ? render_gl(picture, *context)
+                           : render_rays(picture, scene, {.sun_rays = a.suns.rays, .threads = a.threads});
     result.seconds = stopwatch.seconds();
     if (exposed)
-        result.exposure = choose_exposure(a.look.exposure, picture, rays ? &*rays : nullptr, light);
+        result.exposure = choose_exposure(a.look.exposure, picture, scene, light);
     return result;
 }
 
@@ -244,9 +286,12 @@ Report report_of(const RenderArguments& a, const Picture& picture, const Rendere
                          {"seconds", rendered.seconds},
                          {"backend", context ? "gpu" : "cpu"},
                          {"renderer", context ? context->renderer() : "CPU ray casting"},
+                         {"suns", picture.suns.size()},
                          {"camera_metres", {position.x, position.y, position.z}},
                          {"look_at_metres", {target.x, target.y, target.z}}});
     std::string sentence = "{output}: {width_pixels} x {height_pixels}, {seconds:.3f} s, {renderer}";
+    if (!picture.suns.empty())
+        sentence += ", {suns} suns apart";
     if (rendered.exposure) {
         add_figures(report, {{"exposure_stops", std::log2(static_cast<double>(*rendered.exposure))},
                              {"exposure_automatic", a.look.exposure.automatic}});
@@ -270,25 +315,30 @@ void run(RenderArguments a, Session& session) {
                       {a.model, a.environment, a.baked});
     const SceneFile model = load_scene_file(a.model, a.reading);
     if (!model.record())
-        print_notices(a.model.string(), {"holds no transfer and is drawn without shadows"});
-    const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
-    const LoadedLight light = load_light(a.environment, order, a.light_options, a.threads);
-    const std::vector<Texture> textures =
-        load_textures(model.scene, BadTextures::error, TextureNeeds::pictures);
-    const std::vector<glm::vec3> colors = colors_to_show(a, model, light.light);
+        print_notices(a.model.string(), {"holds no transfer: its sky casts no shadows"});
+    const SplitLight light = load_lit(a, model);
+    const Lighting lighting = lighting_of(light);
+    const bool suns = !light.split.suns.empty() && a.look.show == Show::lit;
+    const TraceScene scene(
+        model.scene,
+        load_textures(model.scene, BadTextures::error, suns ? TextureNeeds::all : TextureNeeds::pictures),
+        {.solid = solid_materials(model), .threads = a.threads});
+    const std::vector<glm::vec3> colors = colors_to_show(a, model, lighting);
     Picture picture = empty_picture(a, model.scene);
-    picture.textures = textures;
+    picture.textures = scene.textures();
     picture.radiance = colors;
+    if (suns)
+        picture.suns = light.split.suns;
     Image background;
-    if (a.look.background && a.look.show == Show::lit && light.environment) {
-        background = resampled_lat_long(*light.environment);
+    if (a.look.background && a.look.show == Show::lit && light.sky.environment) {
+        background = resampled_lat_long(*light.sky.environment);
         picture.background.image = &background;
     }
-    const std::unique_ptr<GlContext> context = choose_backend(a.backend);
-    const Lighting lighting{light.light};
+    const std::unique_ptr<GlContext> context = choose_backend(a.backend, suns);
     if (context)
         light_in_shader(a, model, lighting, picture);
-    const Rendered rendered = render(a, picture, light.light, context.get());
+    const Light all_light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;
+    const Rendered rendered = render(a, picture, scene, all_light, context.get());
     write_picture(a, rendered, session);
     publish(report_of(a, picture, rendered, context.get()), a.json, session);
 }
@@ -351,6 +401,13 @@ void add_render(CLI::App& app, Session& session) {
         ->check(CLI::Range(1, 16));
     command->add_flag("!--no-background", a.look.background, "do not show the environment behind the scene");
     add_light_options(command, a.light_options);
+    add_suns(command, a.suns.count,
+             "find suns in the image, so many or as many as pay, and light every pixel by them with sharp "
+             "shadows; those of a light file are lit so, too; 0: all light is in the sky",
+             "auto");
+    command->add_option("--sun-rays", a.suns.rays, "rays from a pixel to each sun")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1 << 20));
     add_reading(command, a.reading);
     add_threads(command, a.threads);
     add_json(command, a.json);

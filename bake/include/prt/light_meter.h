@@ -4,7 +4,7 @@
 // behind it.
 
 #include "prt/picture.h"
-#include "prt/ray_scene.h"
+#include "prt/trace_scene.h"
 
 #include <cstdint>
 #include <span>
@@ -30,6 +30,9 @@ private:
     std::vector<std::uint32_t> receivers_;
     std::vector<glm::vec3> weights_; ///< [receivers] of red, green and blue in the mean
 };
+
+/// What the suns of `picture` add to that luminance, by rays at them. `scene` as for `render_rays`.
+float sun_luminance(const Picture& picture, const TraceScene& scene);
 
 /// Factor on radiance that brings `luminance` to 0.22.
 float exposure_for(float luminance);

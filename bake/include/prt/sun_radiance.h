@@ -21,8 +21,8 @@ struct SunRays {
 };
 
 /// Exit radiance for albedo 1 of every vertex of `scene` under `suns`, shadowed by rays, without bounces:
-/// [receivers]. Through thin sheets it comes as through `direct` transfer, to whose receivers it adds: those
-/// of media are to be left out by who knows them. Throws `Cancelled` when asked to stop.
+/// [receivers]. Through thin sheets it comes as through `direct` transfer, to which it adds; `solid`
+/// surfaces, whose light comes out of a medium, get none. Throws `Cancelled` when asked to stop.
 std::vector<glm::vec3> sun_radiance(const TraceScene& scene, std::span<const SunDisc> suns,
                                     const SunRays& options = {}, const Progress& progress = {});
 

@@ -65,6 +65,8 @@ public:
     bool two_sided(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].two_sided; }
     /// Diffuse light passes.
     bool transmits(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].thin; }
+    /// Something is inside, which all light passes that the surface sends out.
+    bool solid(std::uint32_t triangle) const { return kinds_[triangles_[triangle].primitive].solid; }
     /// Share of a ray that the surface stops: 1 where it is opaque, 0 where it is cut out, alpha where it is
     /// blended, and of that what glass does not let through. Cut-outs are decided at the finest level of the
     /// texture, as rays average by themselves.
@@ -84,7 +86,7 @@ private:
         std::uint32_t primitive;
     };
     struct Kind {
-        bool opaque = true, two_sided = false, thin = false;
+        bool opaque = true, two_sided = false, thin = false, solid = false;
         std::optional<Scattering> constant; ///< where neither textures nor vertex colors vary it
     };
     Kind kind_of(const Primitive& primitive, bool solid) const;

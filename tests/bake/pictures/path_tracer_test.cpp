@@ -207,7 +207,7 @@ TEST(PathTracer, AgreesWithTheBakerOnASphereOverAFloor) {
     PathTracer tracer(traced.trace, traced.light, options);
     for (int i = 0; i < 256; ++i)
         tracer.add_pass();
-    const Image reference = tracer.image(), interpolated = render_rays(picture, traced.trace.rays());
+    const Image reference = tracer.image(), interpolated = render_rays(picture, traced.trace);
     const std::vector<bool> mask = tracer.surface_mask();
     double squared = 0, norm = 0;
     glm::dvec3 sum(0), reference_sum(0);

@@ -90,7 +90,7 @@ protected:
         return picture;
     }
     prt::Image rays(std::span<const glm::vec3> radiance) const {
-        return prt::render_rays(picture_of(radiance), model->trace->rays());
+        return prt::render_rays(picture_of(radiance), *model->trace);
     }
 
     bool inside(int x, int y, int margin = 1) const {

@@ -135,7 +135,7 @@ TEST_F(Pictures, OfCompressedTransferAgree) {
     const Light light = overcast_sky(6, glm::vec3(1, 0.9f, 0.8f));
     const auto radiance = exit_radiance(compressed, light);
     picture.radiance = radiance;
-    const Image rays = render_rays(picture, RayScene(objects.scene));
+    const Image rays = render_rays(picture, TraceScene(objects.scene));
     picture.transfer = &compressed;
     const Lighting lighting{light};
     picture.lighting = &lighting;
@@ -154,7 +154,7 @@ TEST_F(Pictures, OfColorsAgree) {
     picture.textured = false;
     picture.background.image = nullptr;
     const Difference d =
-        difference(render_rays(picture, RayScene(objects.scene)), render_gl(picture, *context));
+        difference(render_rays(picture, TraceScene(objects.scene)), render_gl(picture, *context));
     EXPECT_LT(d.mean, 0.2);
     EXPECT_GT(d.compared, 0.6);
 }
@@ -168,7 +168,7 @@ TEST_F(Pictures, ShowTheSceneUprightAndTheRightWayRound) {
     picture.textured = false;
     picture.background.image = nullptr;
     picture.camera = {{0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.5f};
-    for (const Image& image : {render_rays(picture, RayScene(objects.scene)), render_gl(picture, *context)})
+    for (const Image& image : {render_rays(picture, TraceScene(objects.scene)), render_gl(picture, *context)})
         for (const int x : {-15, 15})
             for (const int y : {-15, 15}) { // the sphere's radius is some 30 pixels
                 const glm::vec3 pixel = image.at(kWidth / 2 + x, kHeight / 2 + y);
@@ -182,7 +182,8 @@ TEST_F(Pictures, SeeTheBackgroundWhereTheCameraLooks) {
     picture.radiance = black;
     picture.background.rotation = 0;
     picture.camera = {{0, 0, 30}, {0, 0, 60}, {0, 1, 0}, 0.5f}; // along +Z: the center of the lat-long
-    for (const Image& image : {render_rays(picture, RayScene(objects.scene)), render_gl(picture, *context)}) {
+    for (const Image& image :
+         {render_rays(picture, TraceScene(objects.scene)), render_gl(picture, *context)}) {
         EXPECT_NEAR(image.at(kWidth / 2, kHeight / 2).r, 0.5f, 0.02f);
         EXPECT_NEAR(image.at(kWidth / 2, kHeight / 2).g, 0.5f, 0.02f);
         EXPECT_LT(image.at(kWidth / 2, 2).g, image.at(kWidth / 2, kHeight - 3).g); // top row of the map is up
@@ -217,7 +218,7 @@ TEST(RayRenderer, CoincidentSheetsShowTheOneThatFacesTheCamera) {
         for (const float side : {1.0f, -1.0f}) {
             picture.camera = {
                 {0.3f * side, 0.2f, 3 * side}, {0, 0, 0}, {0, 1, 0}, 0.4f}; // filled by the sheet
-            for (const glm::vec3& pixel : render_rays(picture, RayScene(scene)).pixels)
+            for (const glm::vec3& pixel : render_rays(picture, TraceScene(scene)).pixels)
                 ASSERT_LT(glm::distance(pixel, side > 0 ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0)), 1e-5f);
         }
     }
@@ -236,7 +237,7 @@ TEST(RayRenderer, WhatIsCutOutDoesNotHideWhatLiesAtTheSamePlace) {
     picture.radiance = white;
     picture.width = picture.height = 32;
     picture.camera = {{0.3f, 0.2f, 3}, {0, 0, 0}, {0, 1, 0}, 0.4f};
-    for (const glm::vec3& pixel : render_rays(picture, RayScene(scene)).pixels)
+    for (const glm::vec3& pixel : render_rays(picture, TraceScene(scene)).pixels)
         ASSERT_LT(glm::distance(pixel, glm::vec3(1)), 1e-5f);
 }
 

@@ -19,7 +19,7 @@ namespace prt {
 /// What is behind the scene.
 struct Background {
     const Image* image = nullptr; ///< lat-long; null: black
-    float rotation = 0;           ///< about +Y, as in `rotated_about_y`, radians
+    float rotation = 0;           ///< about +Y, as in `rotated_about_y`; radians
 };
 
 struct Picture {

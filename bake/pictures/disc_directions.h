@@ -1,0 +1,41 @@
+#pragma once
+
+#include "prt/sun_disc.h"
+#include "prt/support/tangent_frame.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace prt {
+
+/// Points of a disc far away, evenly over its solid angle on a spiral (R. Swinbank, R. J. Purser, "Fibonacci
+/// grids", 2006).
+class DiscDirections {
+public:
+    /// One where the sun has no extent, else `rays`.
+    DiscDirections(const SunDisc& sun, int rays)
+        : frame_(tangent_frame(sun.towards)), count_(sun.half_angle > 0 ? rays : 1),
+          depth_(1 - std::cos(sun.half_angle)) {}
+
+    int count() const { return count_; }
+    /// Unit; `turn` about the middle, in radians, makes those of two places differ.
+    glm::vec3 direction(int i, double turn) const {
+        const double cosine = 1 - depth_ * (i + 0.5) / count_, sine = std::sqrt(1 - cosine * cosine);
+        const double angle = turn + i * std::numbers::pi * (3 - std::sqrt(5.0));
+        return glm::vec3(glm::normalize(glm::dvec3(frame_.normal) * cosine +
+                                        glm::dvec3(frame_.tangent) * (sine * std::cos(angle)) +
+                                        glm::dvec3(frame_.bitangent) * (sine * std::sin(angle))));
+    }
+    /// Mean of the cosine to the middle: irradiance on a receiver that faces it over radiance times solid
+    /// angle.
+    double mean_cosine() const { return 1 - 0.5 * depth_; }
+
+private:
+    TangentFrame frame_;
+    int count_;
+    double depth_; ///< of the cap
+};
+
+} // namespace prt

@@ -1,0 +1,37 @@
+#include "solid_materials.h"
+
+#include "prt/subsurface.h"
+
+#include <algorithm>
+
+namespace prt::cli {
+namespace {
+
+/// Materials of which no vertex has direct light.
+std::vector<bool> without_direct_light(const Scene& scene, const Transfer& transfer) {
+    const std::size_t count = transfer.layout.numbers_of(transfer.layout.parts.front());
+    std::vector<bool> without(scene.materials.size(), true);
+    for (const Primitive& primitive : scene.primitives)
+        for (const glm::uvec3& t : primitive.triangles)
+            for (int corner = 0; corner < 3; ++corner) {
+                const std::size_t p = scene.vertex_arrays[primitive.vertices].first_receiver + t[corner];
+                const auto direct = transfer.vector(p).first(count);
+                if (std::any_of(direct.begin(), direct.end(), [](float v) { return v != 0; }))
+                    without[primitive.material] = false;
+            }
+    return without;
+}
+
+} // namespace
+
+std::vector<bool> solid_materials(const SceneFile& model) {
+    const Scene& scene = model.scene;
+    std::vector<bool> solid(scene.materials.size(), false);
+    if (model.baked && model.baked->transfer.layout.has(PartKind::direct))
+        solid = without_direct_light(scene, model.baked->transfer);
+    for (std::size_t m = 0; m < solid.size(); ++m)
+        solid[m] = solid[m] || medium_of(scene.materials[m]);
+    return solid;
+}
+
+} // namespace prt::cli

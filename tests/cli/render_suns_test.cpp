@@ -1,0 +1,135 @@
+// prt render under skies with suns: what is lit apart, what is not, and what it says about it.
+
+#include "program.h"
+#include "prt/image_file.h"
+#include "support/glb_file.h"
+#include "support/scene_builder.h"
+#include "support/temporary_folder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+namespace prt::test {
+namespace {
+
+/// A floor under a roof that covers what is beyond x = 1; the camera sees the floor from below the roof.
+class RenderSuns : public testing::Test {
+protected:
+    void SetUp() override {
+        scene_file(
+            SceneBuilder().floor({0, 0, 0}, 3, 12).quad({1, 2, -3}, {1, 2, 3}, {3, 2, 3}, {3, 2, -3}).build())
+            .write(folder / "s.glb");
+        ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4"}).status, 0);
+        ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("c.glb")}).status, 0);
+        ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("w.glb"), "--whole"}).status, 0);
+        // Black but for a green sun overhead of irradiance 0.4 pi.
+        nlohmann::json light = {{"prtkit_light", 1}, {"order", 6}};
+        for (const char* channel : {"red", "green", "blue"})
+            light["coefficients"][channel] = std::vector<double>(36, 0.0);
+        light["suns"] = {{{"towards", {0, 2, 0}},
+                          {"irradiance", {0, 0.4 * std::numbers::pi, 0}},
+                          {"half_angle_radians", 0.005}}};
+        folder.file("sun.json", light.dump());
+        Image sky{64, 32, std::vector<glm::vec3>(64 * 32, glm::vec3(0.2f))};
+        write_exr(folder / "plain.exr", sky, EnvironmentLayout::lat_long);
+        sky.at(20, 3) = glm::vec3(400);
+        write_exr(folder / "sunny.exr", sky, EnvironmentLayout::lat_long);
+    }
+    std::string at(const char* name) const { return (folder / name).string(); }
+    Outcome render(std::vector<std::string> arguments) const {
+        for (const char* a : {"--size", "64x32", "--camera", "0.7,1.5,0.001", "--look-at", "0.7,0,0", "--fov",
+                              "40", "--backend", "cpu"})
+            arguments.emplace_back(a);
+        arguments.insert(arguments.begin(), "render");
+        return prt(arguments);
+    }
+    Image rendered(std::vector<std::string> arguments) const {
+        arguments.insert(arguments.end(), {"-o", at("p.exr")});
+        const Outcome outcome = render(std::move(arguments));
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return load_environment(folder / "p.exr").environment.image;
+    }
+
+    nlohmann::json report() const {
+        std::ifstream file(folder / "r.json");
+        return nlohmann::json::parse(file);
+    }
+
+    TemporaryFolder folder;
+};
+
+/// The shadow of the roof begins at x = 1, which pixels of 3 cm tell.
+TEST_F(RenderSuns, ShadowsThemSharply) {
+    for (const char* model : {"s.glb", "b.glb", "c.glb"}) { // s.glb: without transfer
+        const Image image = rendered({at(model), "--env", at("sun.json")});
+        ASSERT_EQ(image.width, 64);
+        const int edge = 32 + static_cast<int>(0.3 * 16 / (1.5 * std::tan(20 * std::numbers::pi / 180)));
+        for (int x = 0; x < edge - 1; ++x)
+            EXPECT_LT(glm::distance(image.at(x, 16), glm::vec3(0, 0.4f, 0)), 1e-3f) << model << x;
+        for (int x = edge + 2; x < image.width; ++x)
+            EXPECT_LT(glm::length(image.at(x, 16)), 1e-6f) << model << x;
+    }
+}
+
+TEST_F(RenderSuns, LightsWithTheSkyWhatIsNotApart) {
+    const Image apart = rendered({at("b.glb"), "--env", at("sun.json")}),
+                together = rendered({at("b.glb"), "--env", at("sun.json"), "--suns", "0"});
+    EXPECT_LT(apart.at(44, 16).g, 1e-6f);
+    EXPECT_GT(together.at(44, 16).g, 0.005f); // order 4 blurs the shadow's edge
+    for (const char* sky : {"sun.json", "sunny.exr"}) {
+        const Outcome outcome = render({at("w.glb"), "--env", at(sky), "-o", at("w.exr")});
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_NE(outcome.err.find("keeps no direct light apart"), std::string::npos) << outcome.err;
+        const Image none = rendered({at("w.glb"), "--env", at(sky), "--suns", "0"});
+        EXPECT_EQ(load_environment(folder / "w.exr").environment.image.pixels, none.pixels) << sky;
+    }
+    const Outcome none = render({at("w.glb"), "--env", at("plain.exr"), "-o", at("w.exr")});
+    EXPECT_EQ(none.err.find("apart"), std::string::npos) << none.err; // nothing to tell
+}
+
+/// A sky without suns is lit as it was before there were any.
+TEST_F(RenderSuns, LeavesPlainSkiesAlone) {
+    const Image found = rendered({at("c.glb"), "--env", at("plain.exr")}),
+                none = rendered({at("c.glb"), "--env", at("plain.exr"), "--suns", "0"});
+    EXPECT_EQ(found.pixels, none.pixels);
+}
+
+TEST_F(RenderSuns, TellsThem) {
+    const Outcome outcome = render(
+        {at("c.glb"), "--env", at("sunny.exr"), "-o", at("p.png"), "--json", at("r.json"), "--suns", "2"});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(report()["suns"], 1); // there is but one
+    EXPECT_NE(outcome.out.find("1 suns apart"), std::string::npos) << outcome.out;
+}
+
+/// Where all light is a sun's, the picture is as bright as any.
+TEST_F(RenderSuns, ExposesForThem) {
+    const Outcome outcome =
+        render({at("s.glb"), "--env", at("sun.json"), "-o", at("p.png"), "--json", at("r.json")});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    // Some 0.7 of the picture at green 0.4: its luminance becomes 0.22.
+    EXPECT_NEAR(report()["exposure_stops"].get<double>(), std::log2(0.22 / (0.7 * 0.4 * 0.7152)), 0.4);
+}
+
+TEST_F(RenderSuns, SaysWhatItCannotDo) {
+    const auto refused = [&](std::vector<std::string> arguments, int status, const char* words) {
+        arguments.insert(arguments.begin(), "render");
+        arguments.insert(arguments.end(), {"-o", at("no.png")});
+        const Outcome outcome = prt(arguments);
+        EXPECT_EQ(outcome.status, status) << outcome.err;
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
+    };
+    refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no direct light apart");
+    refused({at("b.glb"), "--env", at("sunny.exr"), "--suns", "1", "--backend", "gpu"}, 1, "--backend gpu");
+    refused({at("b.glb"), "--env", at("sunny.exr"), "--suns", "many"}, 2, "many");
+    refused({at("b.glb"), "--env", at("sunny.exr"), "--sun-rays", "0"}, 2, "--sun-rays");
+}
+
+} // namespace
+} // namespace prt::test
