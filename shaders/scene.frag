@@ -1,6 +1,9 @@
-// Exit radiance times base color, linear.
+// Exit radiance times base color, linear. Define PRT_SUNS to add the light of suns, shadowed by maps.
 
 #include "surface.glsl"
+#ifdef PRT_SUNS
+#include "sun_light.glsl"
+#endif
 
 in vec3 radiance;
 
@@ -8,5 +11,9 @@ out vec4 result;
 
 void main() {
     vec4 base = surface_base_color();
-    result = vec4(max(radiance, vec3(0.0)) * base.rgb, base.a);
+    vec3 lit = max(radiance, vec3(0.0)) * base.rgb;
+#ifdef PRT_SUNS
+    lit += sun_radiance(base.rgb);
+#endif
+    result = vec4(lit, base.a);
 }

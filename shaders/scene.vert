@@ -1,7 +1,11 @@
-// Vertices of the scene. Define PRT_COMPRESSED to form the exit radiance here, from compressed transfer.
+// Vertices of the scene. Define PRT_COMPRESSED to form the exit radiance here, from compressed transfer, PRT_SUNS
+// for a fragment shader that adds suns.
 
 #include "shared_layout.h"
 
+#ifdef PRT_SUNS
+#include "sun_vertex.glsl"
+#endif
 #ifdef PRT_COMPRESSED
 #include "prt_exit_radiance.glsl"
 #else
@@ -23,6 +27,9 @@ void main() {
     radiance = prt_exit_radiance();
 #else
     radiance = vertex_radiance;
+#endif
+#ifdef PRT_SUNS
+    take_for_suns(position);
 #endif
     surface_texcoord = texcoord;
     surface_color = color;

@@ -14,20 +14,26 @@ uniform int alpha_mode; // PRT_ALPHA_*
 uniform float alpha_cutoff;
 
 // The level of detail is computed here, not by the texture unit, whose formula differs between drivers.
-vec4 filtered_texture(vec2 uv) {
-    vec2 size = vec2(textureSize(base_color_texture, 0));
+vec4 filtered_texture(sampler2D image, vec2 uv) {
+    vec2 size = vec2(textureSize(image, 0));
     vec2 dx = dFdx(uv) * size, dy = dFdy(uv) * size;
     float footprint = max(max(dot(dx, dx), dot(dy, dy)), 1e-12);
-    return textureLod(base_color_texture, uv, 0.5 * log2(footprint));
+    return textureLod(image, uv, 0.5 * log2(footprint));
+}
+
+// Material, texture and vertex color together.
+vec4 material_color() {
+    vec4 color = base_color * surface_color;
+    if (has_texture)
+        color *= filtered_texture(base_color_texture, texture_transform * vec3(surface_texcoord, 1.0));
+    return color;
 }
 
 // Color and coverage; discards what is cut out.
 vec4 surface_base_color() {
     vec4 base = vec4(1.0);
     if (textured) {
-        base = base_color * surface_color;
-        if (has_texture)
-            base *= filtered_texture(texture_transform * vec3(surface_texcoord, 1.0));
+        base = material_color();
         if (alpha_mode == PRT_ALPHA_OPAQUE)
             base.a = 1.0;
         if (alpha_mode == PRT_ALPHA_MASK) {

@@ -3,7 +3,7 @@
 
 #include "prt/surfaces.h"
 
-#include "prt/color.h"
+#include "prt/light_passing.h"
 #include "prt/tone_map.h"
 #include "scene/interpolated.h"
 
@@ -29,11 +29,6 @@ float left_of_glass(const Material& material, float texel) {
 }
 
 } // namespace
-
-float glass_transmittance(const Material& material) {
-    const float tint = luminance(glm::vec3(material.base_color));
-    return material.glass.factor * std::min(tint, 1.0f); // the weights may round to more than 1
-}
 
 Surfaces::Surfaces(const Scene& scene, const std::vector<Texture>& textures, const std::vector<bool>& solid)
     : scene_(scene), textures_(textures) {

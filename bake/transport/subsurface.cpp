@@ -3,6 +3,8 @@
 
 #include "prt/subsurface.h"
 
+#include "prt/light_passing.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -86,10 +88,9 @@ double reduced_albedo(double reflectance, double ior) {
 }
 
 std::optional<Medium> medium_of(const Material& material) {
-    const Volume& volume = material.volume;
-    if (material.transmission.factor <= 0 || volume.thickness <= 0 ||
-        !std::isfinite(volume.attenuation_distance) || volume.attenuation_distance <= 0)
+    if (!has_medium(material))
         return std::nullopt;
+    const Volume& volume = material.volume;
     Medium medium;
     medium.ior = 1.5; // glTF's default
     for (int c = 0; c < 3; ++c) {

@@ -110,15 +110,11 @@ Exposure parse_exposure(const std::string& text) {
 constexpr int kUnshadowedOrder = 6;
 
 /// The context to draw with; null: draw on the CPU.
-std::unique_ptr<GlContext> choose_backend(Backend backend, bool suns) {
+std::unique_ptr<GlContext> choose_backend(Backend backend) {
     if (backend == Backend::cpu)
         return nullptr;
     std::string why;
     auto context = GlContext::create(backend == Backend::gpu ? GlDevice::any : GlDevice::hardware, &why);
-    if (context && suns) { // the GPU's renderer has no shadow maps yet
-        print_notices("--backend auto", {"the CPU draws, which shadows suns"});
-        return nullptr;
-    }
     if (!context && backend == Backend::gpu)
         throw Error("there is no OpenGL 4.5 for --backend gpu (" + why + ")");
     return context;
@@ -130,8 +126,6 @@ std::string why_together(const RenderArguments& a, const SceneFile& model) {
     if (model.record() && layout_of(model).has(PartKind::whole))
         return a.model.string() + ": keeps no direct light apart, so that suns cannot be lit apart from the "
                                   "sky; compress it without --whole";
-    if (a.backend == Backend::gpu) // its renderer has no shadow maps yet
-        return "--backend gpu draws no shadows of suns; draw with --backend cpu";
     return {};
 }
 
@@ -334,7 +328,7 @@ void run(RenderArguments a, Session& session) {
         background = resampled_lat_long(*light.sky.environment);
         picture.background.image = &background;
     }
-    const std::unique_ptr<GlContext> context = choose_backend(a.backend, suns);
+    const std::unique_ptr<GlContext> context = choose_backend(a.backend);
     if (context)
         light_in_shader(a, model, lighting, picture);
     const Light all_light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;

@@ -126,7 +126,6 @@ TEST_F(RenderSuns, SaysWhatItCannotDo) {
         EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
     };
     refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no direct light apart");
-    refused({at("b.glb"), "--env", at("sunny.exr"), "--suns", "1", "--backend", "gpu"}, 1, "--backend gpu");
     refused({at("b.glb"), "--env", at("sunny.exr"), "--suns", "many"}, 2, "many");
     refused({at("b.glb"), "--env", at("sunny.exr"), "--sun-rays", "0"}, 2, "--sun-rays");
 }

@@ -26,10 +26,6 @@ struct Scattering {
     glm::vec3 reflected, transmitted;
 };
 
-/// Share of the light that glass without a texture lets through: its factor, dimmed by its base color as
-/// luminance (Rec. 709), since what passes keeps its color.
-float glass_transmittance(const Material& material);
-
 /// What some surface of a scene does.
 struct SurfaceTraits {
     bool alpha = false;        ///< lets rays through: cut out, blended, or glass

@@ -2,6 +2,7 @@
 
 #include "trace/gpu/gpu_scene.h"
 
+#include "prt/light_passing.h"
 #include "prt/support/error.h"
 #include "trace/gpu/wide_bvh.h"
 

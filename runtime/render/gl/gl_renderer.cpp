@@ -3,6 +3,7 @@
 #include "prt/gl_renderer.h"
 
 #include "prt/gl_scene.h"
+#include "prt/sun_shadows.h"
 #include "prt/support/error.h"
 #include "shared_layout.h"
 
@@ -65,10 +66,17 @@ public:
             radiance_ = make_buffer(picture.radiance);
             scene_.attach_receivers(arrays_, radiance_, PRT_LOCATION_RADIANCE, 3);
         }
-        program_ = make_program("scene.vert", "scene.frag", transfer_ ? transfer_->defines() : "");
+        std::string defines = transfer_ ? transfer_->defines() : "";
+        if (!picture.suns.empty()) {
+            shadows_.emplace(scene_);
+            defines += "#define PRT_SUNS\n";
+        }
+        program_ = make_program("scene.vert", "scene.frag", defines);
     }
 
     Image render() {
+        if (shadows_)
+            shadows_->draw(picture_.suns, {picture_.camera, picture_.width, picture_.height});
         glBindFramebuffer(GL_FRAMEBUFFER, target_.framebuffer.name());
         glViewport(0, 0, target_.width, target_.height);
         constexpr float kBlack[4] = {0, 0, 0, 1}, kFar = 1;
@@ -114,6 +122,8 @@ private:
         glUniform1i(uniform(program_, "textured"), picture_.textured);
         if (transfer_)
             transfer_->use();
+        if (shadows_)
+            shadows_->use();
     }
 
     void draw_primitives() {
@@ -136,6 +146,7 @@ private:
     GlScene scene_;
     GlVertexArrays arrays_;
     std::optional<GlTransfer> transfer_;
+    std::optional<SunShadows> shadows_;
     GlObject radiance_, program_;
 };
 

@@ -2,7 +2,9 @@
 
 #include "prt/gl_scene.h"
 
+#include "prt/light_passing.h"
 #include "shared_layout.h"
+#include "sun_structs.h"
 
 #include <epoxy/gl.h>
 #include <glm/geometric.hpp>
@@ -30,8 +32,9 @@ GlObject upload(const Texture& texture) {
     if (texture.levels.empty())
         return {};
     const Image8& base = texture.levels[0];
+    const GLenum format = texture.encoding == TextureEncoding::srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8;
     GlObject object =
-        make_texture_2d(static_cast<int>(texture.levels.size()), GL_SRGB8_ALPHA8, base.width, base.height);
+        make_texture_2d(static_cast<int>(texture.levels.size()), format, base.width, base.height);
     for (std::size_t level = 0; level < texture.levels.size(); ++level) {
         const Image8& image = texture.levels[level];
         glTextureSubImage2D(object.name(), static_cast<GLint>(level), 0, 0, image.width, image.height,
@@ -59,6 +62,16 @@ glm::vec3 center_of(const Primitive& primitive, const VertexArray& vertices) {
     return sum / static_cast<float>(std::max<std::size_t>(1, primitive.triangles.size()));
 }
 
+/// Binds `texture` as `use` says, and its transform. A sampler without a texture is not sampled.
+void bind(GLuint unit, const GlObject* texture, const TextureUse& use, int transform) {
+    glUniformMatrix3x2fv(transform, 1, GL_FALSE, glm::value_ptr(use.transform));
+    if (!texture)
+        return;
+    glTextureParameteri(texture->name(), GL_TEXTURE_WRAP_S, wrap_mode(use.wrap_u));
+    glTextureParameteri(texture->name(), GL_TEXTURE_WRAP_T, wrap_mode(use.wrap_v));
+    glBindTextureUnit(unit, texture->name());
+}
+
 static_assert(PRT_ALPHA_OPAQUE == static_cast<int>(AlphaMode::opaque) &&
               PRT_ALPHA_MASK == static_cast<int>(AlphaMode::mask) &&
               PRT_ALPHA_BLEND == static_cast<int>(AlphaMode::blend));
@@ -66,8 +79,10 @@ static_assert(PRT_ALPHA_OPAQUE == static_cast<int>(AlphaMode::opaque) &&
 } // namespace
 
 GlScene::GlScene(const Scene& scene, std::span<const Texture> textures) : scene_(scene) {
-    for (const Texture& texture : textures)
+    for (const Texture& texture : textures) {
         textures_.push_back(upload(texture));
+        encoded_.push_back(texture.encoding == TextureEncoding::srgb);
+    }
     for (const VertexArray& array : scene.vertex_arrays) {
         Vertices vertices;
         vertices.positions = make_buffer(std::span<const glm::vec3>(array.positions));
@@ -120,36 +135,95 @@ std::vector<std::size_t> GlScene::blended_from_far(const glm::vec3& position) co
     return blended;
 }
 
+const GlObject* GlScene::texture_of(const TextureUse& use, const Vertices& vertices) const {
+    const auto image = static_cast<std::size_t>(use.image), set = static_cast<std::size_t>(use.texcoord);
+    const bool there = use.image >= 0 && image < textures_.size() && textures_[image].name() != 0 &&
+                       set < vertices.texcoords.size() && vertices.texcoords[set].name() != 0;
+    return there ? &textures_[image] : nullptr;
+}
+
 void GlScene::prepare(const GlObject& program, const GlVertexArrays& arrays, std::size_t index) const {
     const Primitive& primitive = scene_.primitives[index];
     const Material& material = scene_.materials[primitive.material];
     const Vertices& vertices = vertices_[primitive.vertices];
     const GLuint array = arrays[primitive.vertices].name();
     const TextureUse& use = material.base_color_texture;
-    const auto set = static_cast<std::size_t>(use.texcoord);
-    const bool has_texture = use.image >= 0 && static_cast<std::size_t>(use.image) < textures_.size() &&
-                             textures_[static_cast<std::size_t>(use.image)].name() != 0 &&
-                             set < vertices.texcoords.size() && vertices.texcoords[set].name() != 0;
-    glUniform1i(uniform(program, "has_texture"), has_texture);
+    const GlObject* texture = texture_of(use, vertices);
+    glUniform1i(uniform(program, "has_texture"), texture != nullptr);
     glUniform4fv(uniform(program, "base_color"), 1, glm::value_ptr(material.base_color));
-    glUniformMatrix3x2fv(uniform(program, "texture_transform"), 1, GL_FALSE, glm::value_ptr(use.transform));
     glUniform1i(uniform(program, "alpha_mode"), static_cast<int>(material.alpha_mode));
     set_uniform(program, "alpha_cutoff", material.alpha_cutoff);
     glVertexAttrib4f(PRT_LOCATION_COLOR, 1, 1, 1, 1); // where there is no array
     glVertexAttrib2f(PRT_LOCATION_TEXCOORD, 0, 0);
-    if (has_texture) {
-        attach_floats(array, vertices.texcoords[set], PRT_LOCATION_TEXCOORD, 2);
-        const GLuint texture = textures_[static_cast<std::size_t>(use.image)].name();
-        glTextureParameteri(texture, GL_TEXTURE_WRAP_S, wrap_mode(use.wrap_u));
-        glTextureParameteri(texture, GL_TEXTURE_WRAP_T, wrap_mode(use.wrap_v));
-        glBindTextureUnit(PRT_UNIT_BASE_COLOR, texture);
-    }
+    bind(PRT_UNIT_BASE_COLOR, texture, use, uniform(program, "texture_transform"));
+    if (texture)
+        attach_floats(array, vertices.texcoords[static_cast<std::size_t>(use.texcoord)],
+                      PRT_LOCATION_TEXCOORD, 2);
     if (material.double_sided)
         glDisable(GL_CULL_FACE);
     else
         glEnable(GL_CULL_FACE);
     glVertexArrayElementBuffer(array, indices_[index].name());
     glBindVertexArray(array);
+    if (uniform(program, "sunlit") >= 0)
+        prepare_for_suns(program, primitive);
+}
+
+/// What shaders/sun_light.glsl asks for of a surface.
+void GlScene::prepare_for_suns(const GlObject& program, const Primitive& primitive) const {
+    const Material& material = scene_.materials[primitive.material];
+    const DiffuseTransmission& transmission = material.transmission;
+    const Vertices& vertices = vertices_[primitive.vertices];
+    const bool thin = transmission.factor > 0;
+    const GlObject* factor = thin ? texture_of(transmission.factor_texture, vertices) : nullptr;
+    const GlObject* tint = thin ? texture_of(transmission.color_texture, vertices) : nullptr;
+    glUniform1i(uniform(program, "sunlit"), !has_medium(material));
+    glUniform1f(uniform(program, "transmission_factor"), transmission.factor);
+    glUniform3fv(uniform(program, "transmission_tint"), 1, glm::value_ptr(transmission.color));
+    glUniform1i(uniform(program, "has_transmission_factor"), factor != nullptr);
+    glUniform1i(uniform(program, "has_transmission_tint"), tint != nullptr);
+    bind(PRT_UNIT_TRANSMISSION_FACTOR, factor, transmission.factor_texture,
+         uniform(program, "factor_transform"));
+    bind(PRT_UNIT_TRANSMISSION_TINT, tint, transmission.color_texture, uniform(program, "tint_transform"));
+    const auto texcoords = [&](const TextureUse& use) -> const GlObject& {
+        return vertices.texcoords[static_cast<std::size_t>(use.texcoord)];
+    };
+    bind_storage(PRT_BINDING_NORMALS, vertices.normals);
+    if (factor)
+        bind_storage(PRT_BINDING_FACTOR_TEXCOORDS, texcoords(transmission.factor_texture));
+    if (tint)
+        bind_storage(PRT_BINDING_TINT_TEXCOORDS, texcoords(transmission.color_texture));
+}
+
+Blocking GlScene::blocking(const Primitive& primitive) const {
+    const Material& material = scene_.materials[primitive.material];
+    const Vertices& vertices = vertices_[primitive.vertices];
+    if (!material.casts_shadow)
+        return Blocking::nothing;
+    const bool varies = texture_of(material.base_color_texture, vertices) || vertices.colors.name() != 0;
+    const bool blended = material.alpha_mode == AlphaMode::blend && (varies || material.base_color.a < 1);
+    return blended || material.glass.factor > 0 ? Blocking::part : Blocking::all;
+}
+
+void GlScene::draw_caster(const GlObject& program, const GlVertexArrays& arrays, std::size_t index) const {
+    const Primitive& primitive = scene_.primitives[index];
+    const Glass& glass = scene_.materials[primitive.material].glass;
+    const Vertices& vertices = vertices_[primitive.vertices];
+    prepare(program, arrays, index);
+    glDisable(GL_CULL_FACE);
+    const GlObject* texture = glass.factor > 0 ? texture_of(glass.texture, vertices) : nullptr;
+    glUniform1f(uniform(program, "glass"), glass_transmittance(scene_.materials[primitive.material]));
+    glUniform1i(uniform(program, "has_glass_texture"), texture != nullptr);
+    bind(PRT_UNIT_GLASS, texture, glass.texture, uniform(program, "glass_transform"));
+    if (texture) {
+        glUniform1i(uniform(program, "glass_as_color"),
+                    encoded_[static_cast<std::size_t>(glass.texture.image)]);
+        attach_floats(arrays[primitive.vertices].name(),
+                      vertices.texcoords[static_cast<std::size_t>(glass.texture.texcoord)],
+                      PRT_LOCATION_GLASS_TEXCOORD, 2);
+    }
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * primitive.triangles.size()), GL_UNSIGNED_INT,
+                   nullptr);
 }
 
 void GlScene::draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const {

@@ -57,6 +57,11 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" "${packed[@]}"
             compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 8"
             compiles "$file" PRT_VERTEX_RADIANCE PRT_RADIANCE_GIVEN
+            compiles "$file" "${packed[@]}" PRT_SUNS
+            ;;
+        scene.frag | sun_caster.frag)
+            compiles "$file"
+            compiles "$file" PRT_SUNS PRT_PARTLY
             ;;
         *) compiles "$file" ;;
     esac

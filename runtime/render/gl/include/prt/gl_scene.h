@@ -17,8 +17,11 @@ struct TriangleRange {
     std::uint32_t first, count;
 };
 
+/// How much of the light that meets a surface it stops.
+enum class Blocking { nothing, all, part };
+
 /// The geometry, textures and materials of a scene on the GPU, for any program whose fragment shader includes
-/// `shaders/surface.glsl`. A context must be current.
+/// `shaders/surface.glsl` (and `sun_light.glsl`, for suns). A context must be current.
 class GlScene {
 public:
     /// Keeps a reference to `scene`. `textures`: load_textures(scene). Throws `Error` when memory runs out.
@@ -37,6 +40,9 @@ public:
     void draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
     void draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive,
               std::span<const TriangleRange> ranges) const;
+    Blocking blocking(const Primitive& primitive) const;
+    /// Draws both sides of `primitive` with a program of sun_caster.vert and sun_caster.frag, in use.
+    void draw_caster(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
     /// The blended primitives, far ones first.
     std::vector<std::size_t> blended_from_far(const glm::vec3& position) const;
     std::size_t bytes() const { return bytes_; }
@@ -46,13 +52,17 @@ private:
         GlObject positions, normals, colors;
         std::vector<GlObject> texcoords; ///< [set]; none where the file has none
     };
+    /// Where a material has a texture, and vertices have coordinates for it.
+    const GlObject* texture_of(const TextureUse& use, const Vertices& vertices) const;
     void prepare(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
+    void prepare_for_suns(const GlObject& program, const Primitive& primitive) const;
 
     const Scene& scene_;
     std::vector<Vertices> vertices_; ///< [vertex arrays]
     std::vector<GlObject> indices_;  ///< [primitives]
     std::vector<glm::vec3> centers_; ///< [primitives] mean of a corner of each triangle
     std::vector<GlObject> textures_; ///< [images]
+    std::vector<bool> encoded_;      ///< [images] as colors
     std::size_t bytes_ = 0;
 };
 

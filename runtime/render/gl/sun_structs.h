@@ -1,0 +1,24 @@
+#pragma once
+
+// The structs of shaders/shared_suns.h in C++, with the types of GLSL, and the check that they lie in memory
+// as std430 lays them out.
+
+#include <glm/vec2.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+
+namespace prt::suns {
+
+using glm::vec2, glm::vec4;
+
+#include "shared_suns.h"
+
+static_assert(sizeof(SunLight) == 32 && sizeof(SunMap) == 64 && offsetof(SunMap, texels_per_metre) == 48 &&
+              offsetof(SunMap, depth) == 56);
+static_assert(offsetof(SunsSeen, maps) == 32 * PRT_MOST_SUNS &&
+              offsetof(SunsSeen, slice_ends) == (32 + 64 * PRT_MOST_SLICES) * PRT_MOST_SUNS &&
+              offsetof(SunsSeen, count) == offsetof(SunsSeen, slice_ends) + 48 &&
+              sizeof(SunsSeen) == offsetof(SunsSeen, count) + 16);
+
+} // namespace prt::suns

@@ -1,0 +1,21 @@
+#include "prt/light_passing.h"
+
+#include "prt/color.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+
+float glass_transmittance(const Material& material) {
+    const float tint = luminance(glm::vec3(material.base_color));
+    return material.glass.factor * std::min(tint, 1.0f); // the weights may round to more than 1
+}
+
+bool has_medium(const Material& material) {
+    const Volume& volume = material.volume;
+    return material.transmission.factor > 0 && volume.thickness > 0 &&
+           std::isfinite(volume.attenuation_distance) && volume.attenuation_distance > 0;
+}
+
+} // namespace prt

@@ -1,0 +1,28 @@
+// What a fragment shader with sun_light.glsl takes of a vertex. The place of every attribute may be taken by weights of
+// transfer, so it comes from buffers.
+
+#include "sun_view.glsl"
+
+layout(std430, binding = PRT_BINDING_NORMALS) readonly buffer Normals {
+    float vertex_normals[]; // [vertices][3]
+};
+layout(std430, binding = PRT_BINDING_FACTOR_TEXCOORDS) readonly buffer FactorTexcoords {
+    vec2 factor_texcoords[];
+};
+layout(std430, binding = PRT_BINDING_TINT_TEXCOORDS) readonly buffer TintTexcoords {
+    vec2 tint_texcoords[];
+};
+
+uniform bool has_transmission_factor, has_transmission_tint; // textures
+
+out vec3 seen; // from the eye
+out vec3 sun_normal;
+out vec2 factor_texcoord, tint_texcoord;
+
+void take_for_suns(vec3 position) {
+    int first = 3 * gl_VertexID;
+    seen = position - suns_seen.eye.xyz;
+    sun_normal = vec3(vertex_normals[first], vertex_normals[first + 1], vertex_normals[first + 2]);
+    factor_texcoord = has_transmission_factor ? factor_texcoords[gl_VertexID] : vec2(0.0);
+    tint_texcoord = has_transmission_tint ? tint_texcoords[gl_VertexID] : vec2(0.0);
+}
