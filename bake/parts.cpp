@@ -91,7 +91,7 @@ Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vecto
         layout.parts.clear();
     const std::size_t of_sky = layout.dimension();
     for (std::size_t k = 0; k < lamps.size(); ++k)
-        layout.parts.push_back({PartKind::lamp, channels_of(light, k), lamps[k].name});
+        layout.parts.push_back({PartKind::lamp, channels_of(light, k), lamps[k].name, lamps[k].members});
     Transfer all = zero_transfer(layout, sky.receivers());
     for (std::size_t p = 0; p < all.receivers(); ++p) {
         auto to = std::copy_n(sky.vector(p).begin(), of_sky, all.vector(p).begin());

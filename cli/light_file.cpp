@@ -1,9 +1,9 @@
 #include "light_file.h"
 
+#include "json_file.h"
 #include "prt/check_light.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
-#include "prt/support/file.h"
 
 #include <glm/geometric.hpp>
 
@@ -104,18 +104,6 @@ Light coefficients_of(const Json& json) {
     return light;
 }
 
-/// In our words: those of the library name its inner parts.
-Json parsed(const std::vector<std::byte>& file) {
-    const char* begin = reinterpret_cast<const char*>(file.data());
-    try {
-        return Json::parse(begin, begin + file.size());
-    } catch (const Json::parse_error& error) {
-        throw Error(fmt::format("is no JSON from byte {} on", error.byte));
-    } catch (const Json::exception&) {
-        throw Error("holds a number beyond those of doubles");
-    }
-}
-
 } // namespace
 
 Json light_json(const Light& light) {
@@ -134,9 +122,8 @@ Light all_light(const LightFile& file) {
 }
 
 LightFile read_light_file(const std::filesystem::path& path) {
-    const std::vector<std::byte> file = read_file(path);
     try {
-        const Json json = parsed(file);
+        const Json json = read_json(path);
         if (!json.is_object() || !json.contains("prtkit_light") || json["prtkit_light"] != 1)
             throw Error("is JSON, but no light of prt project");
         LightFile light{coefficients_of(json), {}};

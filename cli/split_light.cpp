@@ -46,6 +46,13 @@ Lighting lighting_of(const SplitLight& light) {
     return {light.sky.light, light_of_suns(light)};
 }
 
+SplitLight dark_sky(int order) {
+    SplitLight dark;
+    dark.sky.name = "no sky";
+    dark.sky.light = constant_light(order, glm::vec3(0));
+    return dark;
+}
+
 SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
                             int threads) {
     SplitLight result;

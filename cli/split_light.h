@@ -32,6 +32,9 @@ Light light_of_suns(const SplitLight& light);
 /// Its suns' light goes through `direct` transfer apart from the sky's, where there are any.
 Lighting lighting_of(const SplitLight& light);
 
+/// Without light.
+SplitLight dark_sky(int order);
+
 /// Takes suns out of an environment map, or those of a light file, whose number is its own unless none is
 /// asked for; turned with the rest as asked. A window is for the rest alone.
 SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,

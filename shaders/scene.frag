@@ -1,6 +1,7 @@
 // Exit radiance times base color, linear. Define PRT_SUNS to add the light of suns, shadowed by maps.
 
 #include "surface.glsl"
+#include "emission.glsl"
 #ifdef PRT_SUNS
 #include "sun_light.glsl"
 #endif
@@ -15,5 +16,5 @@ void main() {
 #ifdef PRT_SUNS
     lit += sun_radiance(base.rgb);
 #endif
-    result = vec4(lit, base.a);
+    result = vec4(lit + emitted_radiance(), base.a);
 }

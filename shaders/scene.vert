@@ -3,6 +3,7 @@
 
 #include "shared_layout.h"
 
+#include "emission_vertex.glsl"
 #ifdef PRT_SUNS
 #include "sun_vertex.glsl"
 #endif
@@ -31,6 +32,7 @@ void main() {
 #ifdef PRT_SUNS
     take_for_suns(position);
 #endif
+    take_for_emission();
     surface_texcoord = texcoord;
     surface_color = color;
     gl_Position = view_projection * vec4(position, 1.0);

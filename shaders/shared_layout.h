@@ -28,6 +28,7 @@
 #define PRT_BINDING_CLUSTERS 1
 #define PRT_BINDING_MATRIX 2
 #define PRT_BINDING_LIGHT 3
+#define PRT_BINDING_EMISSION_TEXCOORDS 10
 
 // Surfaces: prt::AlphaMode.
 #define PRT_ALPHA_OPAQUE 0
@@ -43,5 +44,6 @@
 // Texture units.
 #define PRT_UNIT_BASE_COLOR 0
 #define PRT_UNIT_BACKGROUND 1
+#define PRT_UNIT_EMISSION 7
 
 #endif

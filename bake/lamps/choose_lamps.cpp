@@ -20,16 +20,20 @@ public:
 
     Lamp& called(const std::string& own) {
         std::string name = own;
+        bool grouped = false;
         for (std::size_t g = 0; g < groups_.size(); ++g)
             if (matches(own, groups_[g].pattern)) {
-                used_[g] = true;
+                used_[g] = grouped = true;
                 name = groups_[g].name;
                 break;
             }
         const auto [at, is_new] = places_.try_emplace(name, lamps_.size());
         if (is_new)
-            lamps_.push_back({name, {}, {}});
-        return lamps_[at->second];
+            lamps_.push_back({name, {}, {}, {}});
+        Lamp& lamp = lamps_[at->second];
+        if (grouped && std::find(lamp.members.begin(), lamp.members.end(), own) == lamp.members.end())
+            lamp.members.push_back(own);
+        return lamp;
     }
 
     std::vector<Lamp> finish() {
@@ -51,11 +55,6 @@ private:
     std::map<std::string, std::size_t> places_;
     std::vector<Lamp> lamps_;
 };
-
-std::string name_of(const Scene& scene, std::size_t material) {
-    const std::string& name = scene.materials[material].name;
-    return name.empty() ? fmt::format("material {}", material) : name;
-}
 
 } // namespace
 
@@ -88,16 +87,15 @@ std::vector<Lamp> choose_lamps(const Surfaces& surfaces, const LampOptions& opti
         lamps.called(scene.lights[i].name).lights.push_back(i);
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
         if (surfaces.material(t).emission.radiance != glm::vec3(0))
-            lamps.called(name_of(scene, scene.primitives[surfaces.primitive(t)].material))
+            lamps.called(lamp_name(scene, scene.primitives[surfaces.primitive(t)].material))
                 .triangles.push_back(t);
     return lamps.finish();
 }
 
 bool are_white(const Surfaces& surfaces, const std::vector<Lamp>& lamps) {
     return std::all_of(lamps.begin(), lamps.end(), [&](const Lamp& lamp) {
-        return std::all_of(
-                   lamp.lights.begin(), lamp.lights.end(),
-                   [&](std::uint32_t i) { return is_grey(surfaces.scene().lights[i].intensity); }) &&
+        return std::all_of(lamp.lights.begin(), lamp.lights.end(),
+                           [&](std::uint32_t i) { return is_grey(surfaces.scene().lights[i].intensity); }) &&
                std::all_of(lamp.triangles.begin(), lamp.triangles.end(), [&](std::uint32_t t) {
                    const Emission& emission = surfaces.material(t).emission;
                    return is_grey(emission.radiance) && surfaces.is_grey(emission.texture);

@@ -14,6 +14,7 @@ namespace prt {
 /// Lights and shining surfaces of one name, or of one group.
 struct Lamp {
     std::string name;
+    std::vector<std::string> members;     ///< of a group: the names in it
     std::vector<std::uint32_t> lights;    ///< indices into Scene::lights
     std::vector<std::uint32_t> triangles; ///< that shine
 };

@@ -1,6 +1,6 @@
 #pragma once
 
-// Light of a scene's lamps at its receivers, by shadow rays (docs/math.md, section 9).
+// Light of a scene's lamps at its receivers, by shadow rays (docs/math.md, section 13).
 
 #include "lamps/choose_lamps.h"
 #include "prt/receivers.h"

@@ -46,8 +46,8 @@ SeenLight seen(const PunctualLight& light, const LampReceiver& receiver, double 
         seen.distance = glm::length(to);
         const double near = std::max({seen.distance, radius, kNearestToLight});
         seen.towards = seen.distance > 0 ? to / seen.distance : glm::dvec3(receiver.normal);
-        seen.normal_irradiance *= cone_share(light, -seen.towards) * range_share(light, seen.distance) /
-                                  (near * near);
+        seen.normal_irradiance *=
+            cone_share(light, -seen.towards) * range_share(light, seen.distance) / (near * near);
         reach = radius / near;
     }
     const double cosine = glm::dot(glm::dvec3(receiver.normal), seen.towards);
@@ -86,9 +86,9 @@ double arriving(const TraceScene& scene, const SeenLight& light, const LampRecei
     for (int i = 0; i < rays; ++i) { // a spiral, as that of suns
         const double cosine = 1 - depth * (i + 0.5) / rays, across = std::sqrt(1 - cosine * cosine);
         const double angle = turn + i * std::numbers::pi * (3 - std::sqrt(5.0));
-        const glm::dvec3 towards = glm::normalize(
-            glm::dvec3(frame.normal) * cosine + glm::dvec3(frame.tangent) * (across * std::cos(angle)) +
-            glm::dvec3(frame.bitangent) * (across * std::sin(angle)));
+        const glm::dvec3 towards = glm::normalize(glm::dvec3(frame.normal) * cosine +
+                                                  glm::dvec3(frame.tangent) * (across * std::cos(angle)) +
+                                                  glm::dvec3(frame.bitangent) * (across * std::sin(angle)));
         const double up = glm::dot(normal, towards);
         if (up > 0)
             sum += up * open(towards, distance_to_sphere(light.distance, cosine, radius));
@@ -116,8 +116,8 @@ ShiningPoint point_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
         const double square = glm::dot(to, to);
         return {place, uv, 0.5 * std::abs(glm::dot(normal, to)) / (square * std::sqrt(square))};
     }
-    const glm::dvec3 direction = direction_in(glm::normalize(a - from), glm::normalize(b - from),
-                                              glm::normalize(c - from), angle, u);
+    const glm::dvec3 direction =
+        direction_in(glm::normalize(a - from), glm::normalize(b - from), glm::normalize(c - from), angle, u);
     const double along = glm::dot(a - from, normal) / glm::dot(direction, normal);
     const glm::dvec3 place = from + along * direction, inside = place - a;
     const double square = glm::dot(normal, normal);
@@ -144,8 +144,7 @@ LampIrradiance irradiance_of_lights(const TraceScene& scene, const Lamp& lamp, c
         const int rays = radius > 0 && light.light->kind != PunctualKind::directional
                              ? std::max(1, static_cast<int>(std::ceil(most * light.weight / all)))
                              : 1;
-        result.irradiance +=
-            light.normal_irradiance * arriving(scene, light, receiver, radius, rays);
+        result.irradiance += light.normal_irradiance * arriving(scene, light, receiver, radius, rays);
         result.rays += static_cast<std::size_t>(rays);
     }
     return result;
@@ -157,14 +156,12 @@ ShiningTriangles::ShiningTriangles(const TraceScene& scene, const Lamp& lamp) : 
         const std::size_t p = surfaces.primitive(t);
         const Primitive& primitive = scene.scene().primitives[p];
         const VertexArray& vertices = scene.scene().vertex_arrays[primitive.vertices];
-        const glm::uvec3 corners =
-            surfaces.corners(t) - static_cast<unsigned>(vertices.first_receiver);
+        const glm::uvec3 corners = surfaces.corners(t) - static_cast<unsigned>(vertices.first_receiver);
         const glm::dvec3 a(vertices.positions[corners.x]), b(vertices.positions[corners.y]),
             c(vertices.positions[corners.z]);
         const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
         // A texel as large as the triangle, at its middle, is the mean or near to it: it only steers.
-        const glm::vec3 mean =
-            surfaces.emission({t, glm::vec2(1.0f / 3), static_cast<float>(area)});
+        const glm::vec3 mean = surfaces.emission({t, glm::vec2(1.0f / 3), static_cast<float>(area)});
         // What is dark at its middle may shine elsewhere.
         const double least = 0.05 * luminance(glm::dvec3(surfaces.material(t).emission.radiance));
         if (area > 0)
@@ -204,8 +201,7 @@ LampIrradiance ShiningTriangles::irradiance(const LampReceiver& receiver, int ra
     double all = 0;
     for (const Shining& t : triangles_) {
         const glm::dvec3 a = t.a - position, b = t.b - position, c = t.c - position;
-        const bool below =
-            std::max({glm::dot(a, normal), glm::dot(b, normal), glm::dot(c, normal)}) <= 0;
+        const bool below = std::max({glm::dot(a, normal), glm::dot(b, normal), glm::dot(c, normal)}) <= 0;
         if (below || (!t.two_sided && glm::dot(glm::cross(b - a, c - a), a) >= 0))
             continue;
         const double angle = solid_angle(a, b, c);

@@ -14,9 +14,8 @@ double cone_share(const PunctualLight& light, const glm::dvec3& along) {
         return 1;
     const double inner = std::cos(static_cast<double>(light.inner_cone)),
                  outer = std::cos(static_cast<double>(light.outer_cone));
-    const double share = std::clamp((glm::dot(glm::dvec3(light.direction), along) - outer) /
-                                        std::max(0.001, inner - outer),
-                                    0.0, 1.0);
+    const double share = std::clamp(
+        (glm::dot(glm::dvec3(light.direction), along) - outer) / std::max(0.001, inner - outer), 0.0, 1.0);
     return share * share;
 }
 

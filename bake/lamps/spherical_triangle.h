@@ -1,6 +1,7 @@
 #pragma once
 
-// A triangle as it is seen from a point: J. Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH 1995.
+// A triangle as it is seen from a point: J. Arvo, "Stratified Sampling of Spherical Triangles", SIGGRAPH
+// 1995.
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

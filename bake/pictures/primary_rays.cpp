@@ -35,9 +35,9 @@ struct NextRays {
 };
 
 /// Filtered by the footprint of one sample: the next rays meet the triangle's plane, as dFdx and dFdy do.
-std::optional<glm::vec4> base_color_texel(const Picture& picture, const VertexArray& vertices,
-                                          const TextureUse& use, const Corners& corners, const glm::uvec3& t,
-                                          const glm::vec2& uv, const NextRays& next) {
+std::optional<glm::vec4> filtered_texel(const Picture& picture, const VertexArray& vertices,
+                                        const TextureUse& use, const Corners& corners, const glm::uvec3& t,
+                                        const glm::vec2& uv, const NextRays& next) {
     if (use.image < 0 || static_cast<std::size_t>(use.texcoord) >= vertices.texcoords.size())
         return std::nullopt;
     const auto& set = vertices.texcoords[static_cast<std::size_t>(use.texcoord)];
@@ -91,20 +91,27 @@ SeenSurface PrimaryRays::surface_at(unsigned id, const glm::vec3& along, int x, 
     const glm::uvec3& t = primitive.triangles[at.triangle];
     const Corners corners{vertices.positions[t.x], vertices.positions[t.y], vertices.positions[t.z]};
     SeenSurface surface{id, t + static_cast<unsigned>(vertices.first_receiver), {}, glm::vec4(1)};
+    const NextRays next{direction(x + 1, y), direction(x, y + 1)};
     const glm::vec3 normal = glm::cross(corners.b - corners.a, corners.c - corners.a);
     if (!material.double_sided && glm::dot(normal, along) >= 0) {
         surface.base.a = 0;
         return surface;
     }
     surface.barycentrics = plane_barycentrics(corners, picture_.camera.position, along);
+    if (!picture_.emission.empty() && material.emission.radiance != glm::vec3(0)) {
+        surface.emission = material.emission.radiance * picture_.emission[primitive.material];
+        if (const auto texel = filtered_texel(picture_, vertices, material.emission.texture, corners, t,
+                                              surface.barycentrics, next))
+            surface.emission *= glm::vec3(*texel);
+    }
     if (!picture_.textured)
         return surface;
     glm::vec4& base = surface.base;
     base = material.base_color;
     if (!vertices.colors.empty())
         base *= interpolated(vertices.colors, t, surface.barycentrics);
-    if (const auto texel = base_color_texel(picture_, vertices, material.base_color_texture, corners, t,
-                                            surface.barycentrics, {direction(x + 1, y), direction(x, y + 1)}))
+    if (const auto texel = filtered_texel(picture_, vertices, material.base_color_texture, corners, t,
+                                          surface.barycentrics, next))
         base *= *texel;
     if (material.alpha_mode == AlphaMode::opaque)
         base.a = 1;

@@ -13,6 +13,7 @@ struct SeenSurface {
     glm::uvec3 receivers;   ///< at the corners of the triangle
     glm::vec2 barycentrics; ///< of corners 1 and 2
     glm::vec4 base;         ///< base color, linear, and how much of the ray ends here; 1 unless `textured`
+    glm::vec3 emission{0};  ///< radiance that it gives off
 };
 
 /// Rays through the middles of columns() x rows() rectangles of the picture. Thread-safe.

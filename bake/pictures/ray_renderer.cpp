@@ -35,7 +35,7 @@ public:
         glm::vec3 sum(0);
         const float left = rays_.walk(x, y, [&](const SeenSurface& surface, float transmittance) {
             const glm::vec3 radiance = glm::max(exit_radiance_at(picture_, surface), glm::vec3(0));
-            sum += transmittance * surface.base.a * radiance * glm::vec3(surface.base);
+            sum += transmittance * surface.base.a * (radiance * glm::vec3(surface.base) + surface.emission);
             if (!suns_.none())
                 sum += transmittance * surface.base.a *
                        suns_.radiance(surface, {rays_.direction(x, y), rays_.solid_angle(x, y)},

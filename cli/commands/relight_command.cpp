@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "lamp_strengths.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
@@ -19,6 +20,7 @@ namespace {
 struct RelightArguments {
     Path model, environment, output, json;
     SunCount suns = {std::nullopt};
+    LampChoice lamps;
     int rays = 256; ///< for each vertex and sun
     LightOptions light_options;
     bool albedo = false;
@@ -41,7 +43,7 @@ std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
 /// Exit radiance for albedo 1: the sky by transfer, suns by rays, and what they give after a bounce.
 std::vector<glm::vec3> radiance_of(const RelightArguments& a, const SceneFile& model, const TraceScene& scene,
                                    const SplitLight& light, const Progress& progress) {
-    const Lighting lighting{light.sky.light, light_of_suns(light)};
+    const Lighting lighting{light.sky.light, light_of_suns(light), lamp_strengths(a.lamps, layout_of(model))};
     std::vector<glm::vec3> radiance = model.compressed
                                           ? exit_radiance(model.compressed->transfer, lighting, a.threads)
                                           : exit_radiance(model.baked->transfer, lighting, a.threads);
@@ -57,6 +59,8 @@ std::vector<glm::vec3> radiance_of(const RelightArguments& a, const SceneFile& m
 void check_model(const RelightArguments& a, const SceneFile& model) {
     if (!model.record())
         throw Error(a.model.string() + ": holds no transfer; run prt bake first");
+    if (a.environment.empty() && layout_of(model).lamps() == 0)
+        throw Error(a.model.string() + ": has no lamps, and without --env nothing lights it");
     if (layout_of(model).has(PartKind::whole)) {
         if (a.suns.count.value_or(0) > 0)
             throw Error(a.model.string() +
@@ -91,12 +95,14 @@ Report report_of(const RelightArguments& a, const SplitLight& light, std::span<c
 
 void run(RelightArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
-                                      {a.model, a.environment});
+                                      {a.model, a.environment, a.lamps.file});
     const Stopwatch stopwatch;
     SceneFile model = load_scene_file(a.model, a.reading);
     check_model(a, model);
     const SunCount suns = layout_of(model).has(PartKind::whole) ? SunCount{0} : a.suns;
-    const SplitLight light = load_split_light(a.environment, model.order(), suns, a.light_options, a.threads);
+    const SplitLight light = a.environment.empty() ? dark_sky(model.order())
+                                                   : load_split_light(a.environment, model.order(), suns,
+                                                                      a.light_options, a.threads);
     const TraceScene scene(model.scene, load_textures(model.scene, BadTextures::error),
                            {.solid = solid_materials(model), .threads = a.threads});
     ProgressBar bar = session.progress_bar("relighting");
@@ -122,8 +128,10 @@ void add_relight(CLI::App& app, Session& session) {
     auto& a = arguments_for<RelightArguments>(
         command, [&session](const RelightArguments& given) { run(given, session); });
     command->add_option("model", a.model, "baked or compressed .glb")->required()->check(named);
-    command->add_option("--env", a.environment, "environment (.exr, .hdr, .png, .jpg) or light (.json)")
-        ->required()
+    command
+        ->add_option("--env", a.environment,
+                     "environment (.exr, .hdr, .png, .jpg) or light (.json); without it the sky is dark and "
+                     "lamps alone light the model")
         ->check(named)
         ->type_name("FILE");
     add_output(command, a.output, "model to write, .glb: COLOR_0 is the radiance, linear, float32");
@@ -131,6 +139,7 @@ void add_relight(CLI::App& app, Session& session) {
              "find suns in the image, so many or as many as pay, and shadow them by rays; those of a light "
              "file are lit so, too",
              "auto");
+    add_lamps(command, a.lamps);
     command->add_option("--sun-rays", a.rays, "rays from a vertex to each sun")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 20));

@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "lamp_strengths.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/gl_renderer.h"
@@ -54,6 +55,7 @@ struct RenderArguments {
     Path model, environment, output, json, baked;
     LightOptions light_options = {{}, Window::automatic, 0}; ///< a picture shows ringing as bruises
     Suns suns;
+    LampChoice lamps;
     View view;
     Backend backend = Backend::automatic;
     Look look;
@@ -132,6 +134,8 @@ std::string why_together(const RenderArguments& a, const SceneFile& model) {
 /// With its suns apart where they can be, and are wanted.
 SplitLight load_lit(const RenderArguments& a, const SceneFile& model) {
     const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
+    if (a.environment.empty())
+        return dark_sky(order);
     const auto load = [&](const SunCount& suns) {
         return load_split_light(a.environment, order, suns, a.light_options, a.threads);
     };
@@ -147,6 +151,17 @@ SplitLight load_lit(const RenderArguments& a, const SceneFile& model) {
                   {fmt::format("its suns ({}) are lit with the sky, and no shadow of theirs is sharp: {}",
                                light.split.suns.size(), why)});
     return load({0});
+}
+
+/// Of a model without transfer, too, which has no lamps.
+TransferLayout layout_of_any(const SceneFile& model) {
+    return model.record() ? layout_of(model) : layout_of_one(kUnshadowedOrder, 1, PartKind::direct);
+}
+
+Lighting lighting_of(const RenderArguments& a, const SceneFile& model, const SplitLight& light) {
+    Lighting lighting = cli::lighting_of(light);
+    lighting.lamps = lamp_strengths(a.lamps, layout_of_any(model));
+    return lighting;
 }
 
 /// Exit radiance for albedo 1: compressed, baked, or unshadowed, whatever the model holds.
@@ -166,7 +181,10 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile&
             throw Error("--show clusters needs a compressed file");
         return cluster_colors(model.compressed->transfer);
     case Show::ao: // exit radiance under uniform light of radiance 1
-        return lit_colors(model, {constant_light(std::max(1, model.order()), glm::vec3(1))}, a.threads);
+        return lit_colors(model,
+                          {.sky = constant_light(std::max(1, model.order()), glm::vec3(1)),
+                           .lamps = std::vector<glm::vec3>(layout_of_any(model).lamps(), glm::vec3(0))},
+                          a.threads);
     case Show::error: {
         SceneFile baked = load_scene_file(a.baked, a.reading);
         if (!baked.baked)
@@ -306,12 +324,12 @@ void run(RenderArguments a, Session& session) {
     check_together(a);
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
-                      {a.model, a.environment, a.baked});
+                      {a.model, a.environment, a.lamps.file, a.baked});
     const SceneFile model = load_scene_file(a.model, a.reading);
     if (!model.record())
         print_notices(a.model.string(), {"holds no transfer: its sky casts no shadows"});
     const SplitLight light = load_lit(a, model);
-    const Lighting lighting = lighting_of(light);
+    const Lighting lighting = lighting_of(a, model, light);
     const bool suns = !light.split.suns.empty() && a.look.show == Show::lit;
     const TraceScene scene(
         model.scene,
@@ -323,6 +341,10 @@ void run(RenderArguments a, Session& session) {
     picture.radiance = colors;
     if (suns)
         picture.suns = light.split.suns;
+    const std::vector<glm::vec3> emission =
+        emission_strengths(model.scene, layout_of_any(model), lighting.lamps);
+    if (a.look.show == Show::lit)
+        picture.emission = emission;
     Image background;
     if (a.look.background && a.look.show == Show::lit && light.sky.environment) {
         background = resampled_lat_long(*light.sky.environment);
@@ -374,8 +396,10 @@ void add_render(CLI::App& app, Session& session) {
         ->add_option("model", a.model, "any .gltf or .glb: compressed, baked, or neither (then unshadowed)")
         ->required()
         ->check(named);
-    command->add_option("--env", a.environment, "environment (.exr, .hdr, .png, .jpg) or light (.json)")
-        ->required()
+    command
+        ->add_option("--env", a.environment,
+                     "environment (.exr, .hdr, .png, .jpg) or light (.json); without it the sky is dark and "
+                     "lamps alone light the model")
         ->check(named)
         ->type_name("FILE");
     add_output(command, a.output, "picture to write, .png or .exr");
@@ -399,6 +423,7 @@ void add_render(CLI::App& app, Session& session) {
              "find suns in the image, so many or as many as pay, and light every pixel by them with sharp "
              "shadows; those of a light file are lit so, too; 0: all light is in the sky",
              "auto");
+    add_lamps(command, a.lamps);
     command->add_option("--sun-rays", a.suns.rays, "rays from a pixel to each sun")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 20));

@@ -388,6 +388,18 @@ prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_m
         out->cluster_of = receivers.clusters.data();
         out->cluster_table = reinterpret_cast<const std::uint32_t*>(model->layouts.data());
         out->meshes = model->scene.primitives.size();
+        out->lamps = model->former.layout().lamps();
+    });
+}
+
+prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char** name, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, name);
+        const std::vector<prt::TransferPart>& parts = model->former.layout().parts;
+        const std::size_t lamps = model->former.layout().lamps();
+        if (lamp >= lamps)
+            throw Error("the model has " + std::to_string(lamps) + " lamps");
+        *name = parts[parts.size() - lamps + lamp].name.c_str();
     });
 }
 
@@ -414,18 +426,22 @@ prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out
 
 prt_status prt_model_form_constants(const prt_model* model, int order, const float* light, float* constants,
                                     prt_message* message) {
-    return prt_model_form_constants_apart(model, order, light, nullptr, constants, message);
+    return prt_model_form_constants_apart(model, order, light, nullptr, nullptr, constants, message);
 }
 
 prt_status prt_model_form_constants_apart(const prt_model* model, int order, const float* sky,
-                                          const float* suns, float* constants, prt_message* message) {
+                                          const float* suns, const float* lamps, float* constants,
+                                          prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, sky, constants);
-        const std::size_t count = count_of(order), rows = model->former.rows();
-        if (!within(kBrightest, sky, 3 * count) || (suns && !within(kBrightest, suns, 3 * count)))
+        const std::size_t count = count_of(order), rows = model->former.rows(),
+                          strengths = lamps ? model->former.layout().lamps() : 0;
+        if (!within(kBrightest, sky, 3 * count) || (suns && !within(kBrightest, suns, 3 * count)) ||
+            (lamps && !within(kBrightest, lamps, 3 * strengths)))
             throw Error("the coefficients of a light must be finite and at most 1e20");
-        model->former.form({light_colors(sky, count), light_colors(suns, suns ? count : 0)},
-                           {reinterpret_cast<glm::vec4*>(constants), rows});
+        model->former.form(
+            {light_colors(sky, count), light_colors(suns, suns ? count : 0), light_colors(lamps, strengths)},
+            {reinterpret_cast<glm::vec4*>(constants), rows});
         if (!within(kLargestConstant, constants, 4 * rows))
             throw Error("the light is too bright for the model: constants pass 1e30");
     });

@@ -26,6 +26,11 @@ std::size_t Scene::triangles() const {
     return count;
 }
 
+std::string lamp_name(const Scene& scene, std::size_t material) {
+    const std::string& name = scene.materials[material].name;
+    return name.empty() ? "material " + std::to_string(material) : name;
+}
+
 std::vector<float> receiver_areas(const Scene& scene) {
     std::vector<double> areas(scene.receivers(), 0);
     for (const Primitive& primitive : scene.primitives) {

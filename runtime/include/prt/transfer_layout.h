@@ -28,6 +28,8 @@ struct TransferPart {
     PartKind kind = PartKind::whole;
     int channels = 1;      ///< 1: the same for red, green and blue; else 3
     std::string name = {}; ///< of a lamp, by which it is dimmed; the others have none
+    /// Names of the lights and materials of the scene that are in a group; empty: its own is the one.
+    std::vector<std::string> members = {};
 
     friend bool operator==(const TransferPart&, const TransferPart&) = default;
 };

@@ -57,6 +57,7 @@ public:
     explicit GlRenderer(const Picture& picture)
         : picture_(picture), target_(picture), scene_(*picture.scene, picture.textures),
           arrays_(scene_.make_vertex_arrays()) {
+        scene_.shine(picture.emission);
         if (picture.transfer) {
             transfer_.emplace(*picture.transfer);
             transfer_->set_light({*picture.lighting});

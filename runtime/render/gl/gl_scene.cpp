@@ -167,6 +167,23 @@ void GlScene::prepare(const GlObject& program, const GlVertexArrays& arrays, std
     glBindVertexArray(array);
     if (uniform(program, "sunlit") >= 0)
         prepare_for_suns(program, primitive);
+    if (uniform(program, "emission") >= 0)
+        prepare_emission(program, primitive);
+}
+
+/// What shaders/emission.glsl asks for of a surface.
+void GlScene::prepare_emission(const GlObject& program, const Primitive& primitive) const {
+    const Emission& emission = scene_.materials[primitive.material].emission;
+    const Vertices& vertices = vertices_[primitive.vertices];
+    const glm::vec3 radiance =
+        emission_.empty() ? glm::vec3(0) : emission.radiance * emission_[primitive.material];
+    const GlObject* texture = radiance == glm::vec3(0) ? nullptr : texture_of(emission.texture, vertices);
+    glUniform3fv(uniform(program, "emission"), 1, glm::value_ptr(radiance));
+    glUniform1i(uniform(program, "has_emission_texture"), texture != nullptr);
+    bind(PRT_UNIT_EMISSION, texture, emission.texture, uniform(program, "emission_transform"));
+    if (texture)
+        bind_storage(PRT_BINDING_EMISSION_TEXCOORDS,
+                     vertices.texcoords[static_cast<std::size_t>(emission.texture.texcoord)]);
 }
 
 /// What shaders/sun_light.glsl asks for of a surface.

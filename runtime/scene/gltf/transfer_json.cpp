@@ -113,6 +113,8 @@ Json parts_json(const TransferLayout& layout) {
         parts.push_back({{"kind", to_string(part.kind)}, {"channels", part.channels}});
         if (!part.name.empty())
             parts.back()["name"] = part.name;
+        if (!part.members.empty())
+            parts.back()["members"] = part.members;
     }
     return parts;
 }
@@ -124,8 +126,8 @@ TransferLayout read_layout(const Json& extension) {
         throw Error("parts of the transfer are no list");
     for (const Json& part : parts)
         layout.parts.push_back({read_kind(part.at("kind").get<std::string>()),
-                                whole_number(part.at("channels"), "channels", 1, 3),
-                                part.value("name", "")});
+                                whole_number(part.at("channels"), "channels", 1, 3), part.value("name", ""),
+                                part.value("members", std::vector<std::string>())});
     check_layout(layout);
     return layout;
 }

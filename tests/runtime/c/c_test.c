@@ -219,14 +219,15 @@ static void test_suns_apart(const prt_model* model, const prt_model_info* info) 
     EXPECT(prt_light_constant(info->order, white, sky, NULL) == PRT_OK);
     EXPECT(prt_light_directional(info->order, up, white, sun, NULL) == PRT_OK);
     EXPECT(prt_model_form_constants(model, info->order, sky, constants, NULL) == PRT_OK);
-    EXPECT(prt_model_form_constants_apart(model, info->order, sky, sun, apart, NULL) == PRT_OK);
+    EXPECT(prt_model_form_constants_apart(model, info->order, sky, sun, NULL, apart, NULL) == PRT_OK);
     EXPECT(memcmp(constants, apart, 4 * sizeof(float) * info->rows) == 0);
-    EXPECT(prt_model_form_constants_apart(model, info->order, sky, NULL, apart, NULL) == PRT_OK);
+    EXPECT(prt_model_form_constants_apart(model, info->order, sky, NULL, NULL, apart, NULL) == PRT_OK);
     EXPECT(memcmp(constants, apart, 4 * sizeof(float) * info->rows) == 0);
     sun[0] = INFINITY;
     prt_message message;
-    EXPECT(prt_model_form_constants_apart(model, info->order, sky, sun, apart, &message) == PRT_BAD_ARGUMENT);
-    EXPECT(prt_model_form_constants_apart(model, info->order, NULL, sky, apart, &message) ==
+    EXPECT(prt_model_form_constants_apart(model, info->order, sky, sun, NULL, apart, &message) ==
+           PRT_BAD_ARGUMENT);
+    EXPECT(prt_model_form_constants_apart(model, info->order, NULL, sky, NULL, apart, &message) ==
            PRT_BAD_ARGUMENT);
     free(apart);
     free(constants);

@@ -34,6 +34,9 @@ struct Picture {
     /// Their light is not in the radiance above but is added at each pixel, sharply shadowed.
     std::span<const SunDisc> suns = {};
 
+    /// What the emission of each material is multiplied with, [materials]; empty: nothing shines.
+    std::span<const glm::vec3> emission = {};
+
     bool textured = true; ///< multiply by base color; off for views that show a number
     Background background;
 
@@ -44,6 +47,11 @@ struct Picture {
 
 /// Components that fit into the vertex attributes of OpenGL.
 inline constexpr int kMostVertexComponents = 48;
+
+/// The strength of each material's emission, [materials]: that of the lamp that it is a member of, of `lamps`
+/// [layout.lamps()] or 1 where those are empty; 1 where the transfer knows nothing of it.
+std::vector<glm::vec3> emission_strengths(const Scene& scene, const TransferLayout& layout,
+                                          std::span<const glm::vec3> lamps);
 
 /// `background` sampled for the view direction `direction`.
 glm::vec3 background_radiance(const Picture& picture, const glm::vec3& direction);

@@ -113,9 +113,9 @@ enum class PunctualKind { point, spot, directional };
 struct PunctualLight {
     std::string name; ///< of its node, else its own; "light N" where neither has one
     PunctualKind kind = PunctualKind::point;
-    glm::vec3 intensity{1};         ///< linear Rec. 709; irradiance at one metre, or at all where directional
-    glm::vec3 position{0};          ///< metres, seen from Scene::origin
-    glm::vec3 direction{0, 0, -1};  ///< unit, the way that it shines
+    glm::vec3 intensity{1};        ///< linear Rec. 709; irradiance at one metre, or at all where directional
+    glm::vec3 position{0};         ///< metres, seen from Scene::origin
+    glm::vec3 direction{0, 0, -1}; ///< unit, the way that it shines
     float range = std::numeric_limits<float>::infinity(); ///< metres, where it ends
     float inner_cone = 0, outer_cone = 0.785398f;         ///< radians from the middle: full, and ended
 };
@@ -141,6 +141,9 @@ struct Scene {
     std::size_t receivers() const;
     std::size_t triangles() const;
 };
+
+/// The lamp that a material which shines belongs to: its name, or "material N" where it has none.
+std::string lamp_name(const Scene& scene, std::size_t material);
 
 /// A third of the area of the triangles at each receiver, in m². [receivers]
 std::vector<float> receiver_areas(const Scene& scene);

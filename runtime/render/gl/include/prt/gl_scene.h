@@ -21,7 +21,8 @@ struct TriangleRange {
 enum class Blocking { nothing, all, part };
 
 /// The geometry, textures and materials of a scene on the GPU, for any program whose fragment shader includes
-/// `shaders/surface.glsl` (and `sun_light.glsl`, for suns). A context must be current.
+/// `shaders/surface.glsl` (and `sun_light.glsl` for suns, `emission.glsl` for what shines). A context must be
+/// current.
 class GlScene {
 public:
     /// Keeps a reference to `scene`. `textures`: load_textures(scene). Throws `Error` when memory runs out.
@@ -33,6 +34,9 @@ public:
     /// Points attribute `location` of all `arrays` at `components` floats per receiver in `buffer`.
     void attach_receivers(const GlVertexArrays& arrays, const GlObject& buffer, std::uint32_t location,
                           int components) const;
+
+    /// From now on the emission of each material is multiplied with this, [materials]; empty: nothing shines.
+    void shine(std::span<const glm::vec3> strengths) { emission_.assign(strengths.begin(), strengths.end()); }
 
     /// Drawn after all others, far ones first, without writing depth.
     bool is_blended(const Primitive& primitive) const;
@@ -56,13 +60,15 @@ private:
     const GlObject* texture_of(const TextureUse& use, const Vertices& vertices) const;
     void prepare(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
     void prepare_for_suns(const GlObject& program, const Primitive& primitive) const;
+    void prepare_emission(const GlObject& program, const Primitive& primitive) const;
 
     const Scene& scene_;
-    std::vector<Vertices> vertices_; ///< [vertex arrays]
-    std::vector<GlObject> indices_;  ///< [primitives]
-    std::vector<glm::vec3> centers_; ///< [primitives] mean of a corner of each triangle
-    std::vector<GlObject> textures_; ///< [images]
-    std::vector<bool> encoded_;      ///< [images] as colors
+    std::vector<Vertices> vertices_;  ///< [vertex arrays]
+    std::vector<GlObject> indices_;   ///< [primitives]
+    std::vector<glm::vec3> centers_;  ///< [primitives] mean of a corner of each triangle
+    std::vector<GlObject> textures_;  ///< [images]
+    std::vector<bool> encoded_;       ///< [images] as colors
+    std::vector<glm::vec3> emission_; ///< [materials]; empty: none shines
     std::size_t bytes_ = 0;
 };
 
