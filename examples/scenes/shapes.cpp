@@ -104,6 +104,23 @@ std::vector<float> ruled(float low, float high, std::vector<float> stops, float 
     return lines;
 }
 
+/// Only the vertices that triangles have.
+Mesh without_unused(const Mesh& mesh) {
+    constexpr std::uint32_t kUnused = 0xffffffff;
+    std::vector<std::uint32_t> renamed(mesh.positions.size(), kUnused);
+    Mesh used;
+    for (const std::uint32_t index : mesh.indices) {
+        if (renamed[index] == kUnused) {
+            renamed[index] = static_cast<std::uint32_t>(used.positions.size());
+            used.positions.push_back(mesh.positions[index]);
+            used.normals.push_back(mesh.normals[index]);
+            used.texcoords.push_back(mesh.texcoords[index]);
+        }
+        used.indices.push_back(renamed[index]);
+    }
+    return used;
+}
+
 } // namespace
 
 Mesh lofted(const Rows& rows) {
@@ -125,7 +142,7 @@ Mesh lofted(const Rows& rows) {
             add_triangle(mesh, a, b, c);
             add_triangle(mesh, a, c, d);
         }
-    return mesh;
+    return without_unused(mesh); // poles have more than they need
 }
 
 Mesh lathe(const glm::vec3& base, const Outline& outline, int segments) {
@@ -259,7 +276,7 @@ Mesh wall_with_openings(const glm::vec2& low, const glm::vec2& high, std::span<c
             kept.insert(kept.end(), corners, corners + 3);
     }
     mesh.indices = std::move(kept);
-    return mesh;
+    return without_unused(mesh);
 }
 
 } // namespace examples
