@@ -45,10 +45,10 @@ ExampleScene city() {
                                  6 + taller(random));
                 }
     const float half = 0.5f * kBlocks * kPitch;
-    return {{"ground",
-             {0.35f, 0.35f, 0.36f},
-             rectangle({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}, 15)},
-            {"buildings", {0.6f, 0.58f, 0.55f}, buildings}};
+    return {.parts = {{"ground",
+                       {0.35f, 0.35f, 0.36f},
+                       rectangle({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}, 15)},
+                      {"buildings", {0.6f, 0.58f, 0.55f}, buildings}}};
 }
 
 } // namespace examples

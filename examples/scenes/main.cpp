@@ -1,4 +1,4 @@
-// Writes the example scenes and a sky into a folder: example_scenes FOLDER [city]
+// Writes example scenes and skies into a folder.
 
 #include "prt/image_file.h"
 #include "sky_image.h"
@@ -6,33 +6,98 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <span>
 #include <string_view>
 
+namespace {
+
+struct NamedScene {
+    std::string_view name;
+    examples::ExampleScene (*make)();
+    bool asked_for = false; ///< large, and only written where its name is given
+};
+
+constexpr NamedScene kScenes[] = {{"knot", examples::torus_knot_over_plane},
+                                  {"room", examples::room_with_columns},
+                                  {"night_room", examples::night_room},
+                                  {"courtyard", examples::courtyard},
+                                  {"terrain", examples::terrain},
+                                  {"tree", examples::tree},
+                                  {"city", examples::city, true}};
+
+struct NamedSky {
+    std::string_view name;
+    prt::Environment (*make)();
+};
+
+const NamedSky kSkies[] = {
+    {"noon", [] { return examples::sunny_sky(512, {.sun = glm::normalize(glm::dvec3(0.62, 0.9, 0.42))}); }},
+    {"evening",
+     [] {
+         return examples::sunny_sky(512, {.sun = glm::normalize(glm::dvec3(0.9, 0.17, 0.5)),
+                                          .turbidity = 3.5,
+                                          .sun_to_sky = 1.8,
+                                          .white = 0.3});
+     }},
+    {"night", [] { return examples::night_sky(512, glm::normalize(glm::dvec3(0.5, 0.8, 0.6))); }},
+    {"sky", [] { return examples::preetham_sky(256, 3, glm::normalize(glm::dvec3(0.9, 0.75, 0.6))); }}};
+
+bool is_known(std::string_view name) {
+    const auto is_named = [&](const auto& entry) { return entry.name == name; };
+    return std::any_of(std::begin(kScenes), std::end(kScenes), is_named) ||
+           std::any_of(std::begin(kSkies), std::end(kSkies), is_named);
+}
+
+/// Writes what is named, or all that need not be asked for, and says what.
+void write(const std::filesystem::path& folder, std::span<char* const> names) {
+    const auto is_wanted = [&](std::string_view name, bool asked_for) {
+        return names.empty() ? !asked_for : std::find(names.begin(), names.end(), name) != names.end();
+    };
+    std::filesystem::create_directories(folder);
+    const auto written = [&](std::string_view name, const char* suffix) {
+        const std::filesystem::path path = folder / (std::string(name) + suffix);
+        std::printf("%s\n", path.c_str());
+        return path;
+    };
+    for (const NamedScene& scene : kScenes)
+        if (is_wanted(scene.name, scene.asked_for))
+            examples::write_scene(scene.make(), written(scene.name, ".glb"));
+    for (const NamedSky& sky : kSkies)
+        if (is_wanted(sky.name, false))
+            prt::write_exr(written(sky.name, ".exr"), sky.make().image, prt::EnvironmentLayout::lat_long);
+}
+
+void print_usage(std::FILE* to) {
+    std::fprintf(to, "usage: example_scenes FOLDER [NAME...]\nWithout names all but city. Scenes:");
+    for (const NamedScene& scene : kScenes)
+        std::fprintf(to, " %s", scene.name.data());
+    std::fprintf(to, "; skies:");
+    for (const NamedSky& sky : kSkies)
+        std::fprintf(to, " %s", sky.name.data());
+    std::fprintf(to, "\n");
+}
+
+} // namespace
+
 int main(int argc, char** argv) {
-    const bool with_city = argc == 3 && std::string_view(argv[2]) == "city";
+    const std::span<char* const> arguments(argv + 1, static_cast<std::size_t>(argc - 1));
     const bool help =
         argc == 2 && (std::string_view(argv[1]) == "--help" || std::string_view(argv[1]) == "-h");
-    const bool option = argc == 2 && argv[1][0] == '-'; // a folder of such a name: ./-name
-    if (help || option || (argc != 2 && !with_city)) {
-        std::fprintf(help ? stdout : stderr, "usage: example_scenes FOLDER [city]\n");
+    // A folder whose name begins like an option: ./-name
+    if (help || arguments.empty() || arguments[0][0] == '-') {
+        print_usage(help ? stdout : stderr);
         return help ? 0 : 2;
     }
+    for (const char* name : arguments.subspan(1))
+        if (!is_known(name)) {
+            std::fprintf(stderr, "example_scenes: error: there is no scene or sky %s\n", name);
+            return 2;
+        }
     try {
-        const std::filesystem::path folder = argv[1];
-        std::filesystem::create_directories(folder);
-        examples::write_scene(examples::torus_knot_over_plane(), folder / "knot.glb");
-        examples::write_scene(examples::room_with_columns(), folder / "room.glb");
-        examples::write_scene(examples::terrain(), folder / "terrain.glb");
-        examples::write_scene(examples::tree(), folder / "tree.glb");
-        if (with_city) // large, and only there to measure with
-            examples::write_scene(examples::city(), folder / "city.glb");
-        const prt::Environment sky =
-            examples::preetham_sky(256, 3, glm::normalize(glm::dvec3(0.9, 0.75, 0.6)));
-        prt::write_exr(folder / "sky.exr", sky.image, prt::EnvironmentLayout::lat_long);
-        std::printf("%s: knot.glb, room.glb, terrain.glb, tree.glb, %ssky.exr\n", argv[1],
-                    with_city ? "city.glb, " : "");
+        write(arguments[0], arguments.subspan(1));
         return 0;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "example_scenes: error: %s\n", error.what());

@@ -38,7 +38,9 @@ ExampleScene room_with_columns() {
     for (const float x : {-w + 1.4f, w - 1.4f})
         for (int i = 0; i < 4; ++i)
             append(columns, column(x, -1.4f - 2.4f * static_cast<float>(i)));
-    return {{"floor", {0.7f, 0.7f, 0.68f}, rectangle({-w, 0, 0}, {kWidth, 0, 0}, {0, 0, -kDepth}, kSpacing)},
+    return {
+        .parts = {
+            {"floor", {0.7f, 0.7f, 0.68f}, rectangle({-w, 0, 0}, {kWidth, 0, 0}, {0, 0, -kDepth}, kSpacing)},
             {"ceiling", {0.8f, 0.8f, 0.8f}, ceiling()},
             {"back wall",
              {0.8f, 0.8f, 0.8f},
@@ -49,7 +51,7 @@ ExampleScene room_with_columns() {
             {"right wall",
              {0.1f, 0.45f, 0.12f},
              rectangle({w, 0, -kDepth}, {0, 0, kDepth}, {0, kHeight, 0}, kSpacing)},
-            {"columns", {0.85f, 0.83f, 0.78f}, columns}};
+            {"columns", {0.85f, 0.83f, 0.78f}, columns}}};
 }
 
 } // namespace examples

@@ -27,9 +27,10 @@ glm::vec3 knot_surface(float u, float v) {
 } // namespace
 
 ExampleScene torus_knot_over_plane() {
-    return {
-        {"knot", {0.85f, 0.55f, 0.25f}, parametric_surface(240, 28, knot_surface)},
-        {"plane", {0.6f, 0.6f, 0.6f}, rectangle({-2.6f, -0.85f, 2.6f}, {5.2f, 0, 0}, {0, 0, -5.2f}, 0.08f)}};
+    return {.parts = {{"knot", {0.85f, 0.55f, 0.25f}, parametric_surface(240, 28, knot_surface)},
+                      {"plane",
+                       {0.6f, 0.6f, 0.6f},
+                       rectangle({-2.6f, -0.85f, 2.6f}, {5.2f, 0, 0}, {0, 0, -5.2f}, 0.08f)}}};
 }
 
 } // namespace examples

@@ -1,6 +1,7 @@
 // A trunk, and leaves spread over a crown, bent and turned at random.
 
 #include "example_scenes.h"
+#include "leaf.h"
 
 #include <glm/geometric.hpp>
 
@@ -14,16 +15,6 @@ Mesh trunk() {
     return parametric_surface(16, 24, [](float u, float v) {
         const float radius = 0.16f - 0.1f * v;
         return glm::vec3(radius * std::sin(kTurn * u) + 0.1f * v * v, 2.2f * v, radius * std::cos(kTurn * u));
-    });
-}
-
-/// Pointed at both ends, bent about its middle vein and hanging down towards the tip.
-Mesh leaf(const glm::vec3& base, const glm::vec3& along, const glm::vec3& side, float length) {
-    const glm::vec3 up = glm::cross(side, along);
-    return parametric_surface(4, 6, [&](float u, float v) {
-        const float across = 2 * u - 1, width = 0.32f * std::sin(3.14159265f * (0.03f + 0.94f * v));
-        return base +
-               length * (v * along + width * across * side + (0.12f * std::abs(across) - 0.25f * v * v) * up);
     });
 }
 
@@ -43,12 +34,12 @@ ExampleScene tree() {
         const glm::vec3 base = glm::vec3(0.1f, 2.5f, 0) + radius * out * glm::vec3(1.1f, 0.85f, 1.1f);
         const glm::vec3 along = glm::normalize(out + 0.7f * direction() + glm::vec3(0, -0.3f, 0));
         const glm::vec3 side = glm::normalize(glm::cross(along, direction()));
-        append(leaves, leaf(base, along, side, 0.28f + 0.14f * unit(random)));
+        append(leaves, leaf(base, along, side, 0.28f + 0.14f * unit(random), 4, 6));
     }
     Part crown{"leaves", {0.10f, 0.26f, 0.05f}, leaves, 0.45f, {0.32f, 0.55f, 0.06f}};
-    return {{"ground", {0.45f, 0.42f, 0.36f}, rectangle({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 0.08f)},
-            {"trunk", {0.23f, 0.15f, 0.10f}, trunk()},
-            crown};
+    return {.parts = {{"ground", {0.45f, 0.42f, 0.36f}, rectangle({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}, 0.08f)},
+                      {"trunk", {0.23f, 0.15f, 0.10f}, trunk()},
+                      crown}};
 }
 
 } // namespace examples

@@ -1,7 +1,10 @@
 #include "write_scene.h"
 
+#include "gltf_materials.h"
+
 #include <glm/common.hpp>
-#include <tiny_gltf.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 
 #include <stdexcept>
 
@@ -12,17 +15,8 @@ namespace {
 template <class T>
 int add_accessor(tinygltf::Model& model, const std::vector<T>& values, int component_type, int type,
                  int target) {
-    tinygltf::Buffer& buffer = model.buffers[0];
-    const auto* bytes = reinterpret_cast<const unsigned char*>(values.data());
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = buffer.data.size();
-    view.byteLength = values.size() * sizeof(T);
-    view.target = target;
-    buffer.data.insert(buffer.data.end(), bytes, bytes + view.byteLength);
-    model.bufferViews.push_back(view);
     tinygltf::Accessor accessor;
-    accessor.bufferView = static_cast<int>(model.bufferViews.size()) - 1;
+    accessor.bufferView = add_view(model, values.data(), values.size() * sizeof(T), target);
     accessor.componentType = component_type;
     accessor.type = type;
     accessor.count = values.size();
@@ -40,22 +34,70 @@ void set_bounds(tinygltf::Accessor& accessor, const std::vector<glm::vec3>& posi
     accessor.maxValues = {high.x, high.y, high.z};
 }
 
-tinygltf::Material make_material(const Part& part) {
-    tinygltf::Material material;
-    material.name = part.name;
-    material.pbrMetallicRoughness.baseColorFactor = {part.color.r, part.color.g, part.color.b, 1};
-    material.pbrMetallicRoughness.metallicFactor = 0;
-    if (part.transmission > 0) {
-        material.doubleSided = true;
-        const auto number = [](float value) { return tinygltf::Value(static_cast<double>(value)); };
-        const glm::vec3& c = part.transmission_color;
-        tinygltf::Value::Object extension;
-        extension["diffuseTransmissionFactor"] = number(part.transmission);
-        extension["diffuseTransmissionColorFactor"] =
-            tinygltf::Value(tinygltf::Value::Array{number(c.r), number(c.g), number(c.b)});
-        material.extensions["KHR_materials_diffuse_transmission"] = tinygltf::Value(extension);
+tinygltf::Primitive make_primitive(tinygltf::Model& model, const Part& part) {
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    const auto add_attribute = [&](const char* name, const auto& values, int type) {
+        primitive.attributes[name] =
+            add_accessor(model, values, TINYGLTF_COMPONENT_TYPE_FLOAT, type, TINYGLTF_TARGET_ARRAY_BUFFER);
+    };
+    add_attribute("POSITION", part.mesh.positions, TINYGLTF_TYPE_VEC3);
+    set_bounds(model.accessors.back(), part.mesh.positions);
+    add_attribute("NORMAL", part.mesh.normals, TINYGLTF_TYPE_VEC3);
+    if (part.picture || part.emission.picture)
+        add_attribute("TEXCOORD_0", part.mesh.texcoords, TINYGLTF_TYPE_VEC2);
+    primitive.indices = add_accessor(model, part.mesh.indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                                     TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    primitive.material = add_material(model, part);
+    return primitive;
+}
+
+/// The light of a lamp as KHR_lights_punctual has it.
+tinygltf::Value punctual_light(const Lamp& lamp) {
+    tinygltf::Value::Object light;
+    const bool is_spot = glm::length(lamp.direction) > 0;
+    light["name"] = tinygltf::Value(lamp.name);
+    light["type"] = tinygltf::Value(std::string(is_spot ? "spot" : "point"));
+    light["color"] = extension_value(lamp.color);
+    light["intensity"] = extension_value(lamp.intensity);
+    light["range"] = extension_value(lamp.range);
+    if (is_spot) {
+        tinygltf::Value::Object cone;
+        cone["innerConeAngle"] = extension_value(lamp.inner_cone);
+        cone["outerConeAngle"] = extension_value(lamp.outer_cone);
+        light["spot"] = tinygltf::Value(cone);
     }
-    return material;
+    return tinygltf::Value(light);
+}
+
+/// A node that carries light number `index`. Spots shine along -Z of their nodes.
+tinygltf::Node lamp_node(const Lamp& lamp, int index) {
+    tinygltf::Node node;
+    node.name = lamp.name;
+    node.translation = {lamp.position.x, lamp.position.y, lamp.position.z};
+    if (glm::length(lamp.direction) > 0) {
+        const glm::dquat turn(glm::dvec3(0, 0, -1), glm::dvec3(lamp.direction));
+        node.rotation = {turn.x, turn.y, turn.z, turn.w};
+    }
+    tinygltf::Value::Object extension;
+    extension["light"] = tinygltf::Value(index);
+    node.extensions["KHR_lights_punctual"] = tinygltf::Value(extension);
+    return node;
+}
+
+void add_lamps(tinygltf::Model& model, const std::vector<Lamp>& lamps) {
+    if (lamps.empty())
+        return;
+    tinygltf::Value::Array lights;
+    for (const Lamp& lamp : lamps) {
+        model.nodes.push_back(lamp_node(lamp, static_cast<int>(lights.size())));
+        model.scenes[0].nodes.push_back(static_cast<int>(model.nodes.size()) - 1);
+        lights.push_back(punctual_light(lamp));
+    }
+    tinygltf::Value::Object extension;
+    extension["lights"] = tinygltf::Value(lights);
+    model.extensions["KHR_lights_punctual"] = tinygltf::Value(extension);
+    use_extension(model, "KHR_lights_punctual");
 }
 
 } // namespace
@@ -66,23 +108,8 @@ void write_scene(const ExampleScene& scene, const std::filesystem::path& path) {
     model.asset.generator = "prtkit example scenes";
     model.buffers.emplace_back();
     tinygltf::Mesh mesh;
-    for (const Part& part : scene) {
-        tinygltf::Primitive primitive;
-        primitive.mode = TINYGLTF_MODE_TRIANGLES;
-        primitive.attributes["POSITION"] =
-            add_accessor(model, part.mesh.positions, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3,
-                         TINYGLTF_TARGET_ARRAY_BUFFER);
-        set_bounds(model.accessors.back(), part.mesh.positions);
-        primitive.attributes["NORMAL"] = add_accessor(model, part.mesh.normals, TINYGLTF_COMPONENT_TYPE_FLOAT,
-                                                      TINYGLTF_TYPE_VEC3, TINYGLTF_TARGET_ARRAY_BUFFER);
-        primitive.indices = add_accessor(model, part.mesh.indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                                         TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
-        primitive.material = static_cast<int>(model.materials.size());
-        model.materials.push_back(make_material(part));
-        if (part.transmission > 0)
-            model.extensionsUsed = {"KHR_materials_diffuse_transmission"};
-        mesh.primitives.push_back(primitive);
-    }
+    for (const Part& part : scene.parts)
+        mesh.primitives.push_back(make_primitive(model, part));
     model.meshes.push_back(mesh);
     tinygltf::Node node;
     node.mesh = 0;
@@ -91,6 +118,7 @@ void write_scene(const ExampleScene& scene, const std::filesystem::path& path) {
     file_scene.nodes = {0};
     model.scenes.push_back(file_scene);
     model.defaultScene = 0;
+    add_lamps(model, scene.lamps);
     if (!tinygltf::TinyGLTF().WriteGltfSceneToFile(&model, path.string(), true, true, false, true))
         throw std::runtime_error(path.string() + ": cannot be written");
 }

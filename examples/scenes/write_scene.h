@@ -6,7 +6,8 @@
 
 namespace examples {
 
-/// Writes a scene as .glb, one mesh with a primitive and a material per part. Throws std::runtime_error.
+/// Writes a scene as .glb, one mesh with a primitive and a material per part, and a node per
+/// lamp. Throws std::runtime_error.
 void write_scene(const ExampleScene& scene, const std::filesystem::path& path);
 
 } // namespace examples

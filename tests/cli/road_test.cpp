@@ -7,6 +7,9 @@
 #include "support/temporary_folder.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -160,7 +163,7 @@ class ExampleRoad : public Road, public testing::WithParamInterface<const char*>
 INSTANTIATE_TEST_SUITE_P(Scenes, ExampleRoad, testing::Values("knot", "room", "terrain", "tree"));
 
 TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), GetParam(), "sky"}).status, 0);
     const std::string scene = at((std::string(GetParam()) + ".glb").c_str());
     const Outcome bake =
         prt({"bake", scene, "-o", at("b.glb"), "--rays", "32", "--order", "4", "--json", at("b.json")});
@@ -212,7 +215,7 @@ TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
 TEST_F(Road, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
     if (std::string(PRT_NODE).empty())
         GTEST_SKIP() << "node is not installed";
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "knot"}).status, 0);
     ASSERT_EQ(
         prt({"bake", at("knot.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "3", "--bounces", "1"})
             .status,
@@ -440,7 +443,7 @@ INSTANTIATE_TEST_SUITE_P(Phases, LongWork,
                                                                   "1,1,1,0,0,0", "--bounces", "inf"}));
 
 TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "room"}).status, 0);
     const std::size_t before = folder.files();
     const std::string scene = at("room.glb"), output = at("b.glb");
     const pid_t child = fork();
@@ -465,7 +468,7 @@ TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
 }
 
 TEST_F(Road, BouncesOnTheGpuLandInTheFileAndItsReport) {
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "tree"}).status, 0);
     const Outcome bake = prt({"bake", at("tree.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "2",
                               "--bounces", "2", "--backend", "gpu", "--json", at("b.json")});
     ASSERT_EQ(bake.status, 0) << bake.err;
@@ -482,8 +485,59 @@ TEST_F(Road, BouncesOnTheGpuLandInTheFileAndItsReport) {
         GTEST_SKIP() << "gltf-validator is not installed";
 }
 
+struct LampScene {
+    const char *name, *group;
+    int lights, lamps;
+};
+class LampRoad : public Road, public testing::WithParamInterface<LampScene> {};
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, LampRoad,
+    testing::Values(LampScene{"courtyard", "Lanterns=Lantern*", 8, 2}, // lanterns and windows
+                    LampScene{"night_room", "Lamps=Lamp*", 3, 4}));    // also bulbs and the sign
+
+TEST_P(LampRoad, BakesTheLampsOfAScene) {
+    const auto& [name, group, lights, lamps] = GetParam();
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), name}).status, 0);
+    const std::string scene = at((std::string(name) + ".glb").c_str());
+    const Outcome bake = prt({"bake", scene, "-o", at("b.glb"), "--rays", "2", "--order", "1", "--lamp-rays",
+                              "1", "--lamp-group", group, "--json", at("b.json")});
+    ASSERT_EQ(bake.status, 0) << bake.err;
+    const auto report = read_json(folder / "b.json");
+    EXPECT_LT(report["receivers"], 150000);
+    EXPECT_EQ(report["lamp_lights"], lights);
+    EXPECT_EQ(report["lamps"], lamps);
+    EXPECT_EQ(bake.out.find("on no surface"), std::string::npos) << bake.out;
+    if (validator_errors(scene) < 0)
+        GTEST_SKIP() << "gltf-validator is not installed";
+}
+
+TEST_F(Road, TheSkyAtNoonHasTheSunItSays) {
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "noon"}).status, 0);
+    const Image image = load_environment(folder / "noon.exr").environment.image;
+    const glm::dvec3 towards = glm::normalize(glm::dvec3(0.62, 0.9, 0.42));
+    // The irradiance of the ground by each texel: its solid angle times its height.
+    double sky = 0, sun = 0, farthest = 0;
+    for (int y = 0; y < image.height / 2; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const glm::dvec3 d = lat_long_direction(image.width, image.height, x + 0.5, y + 0.5);
+            const double solid_angle = 2 * glm::pi<double>() / image.width *
+                                       (std::cos(glm::pi<double>() * y / image.height) -
+                                        std::cos(glm::pi<double>() * (y + 1) / image.height));
+            const glm::vec3 pixel = image.pixels[static_cast<std::size_t>(y * image.width + x)];
+            const double luminance = glm::dot(glm::dvec3(pixel), glm::dvec3(0.2126, 0.7152, 0.0722));
+            const bool in_sun = luminance > 100; // the sky beside it has about 1
+            (in_sun ? sun : sky) += luminance * d.y * solid_angle;
+            if (in_sun)
+                farthest = std::max(farthest, std::acos(glm::dot(d, towards)));
+        }
+    // Texels are 0.35 degrees wide: half a diagonal of them beside the disc's 0.265.
+    EXPECT_LT(glm::degrees(farthest), 0.265 + 0.25);
+    EXPECT_NEAR(sun / towards.y / sky, 6, 0.06); // 1 % for the texels' middles in the place of the disc
+    EXPECT_NEAR((sun + sky) / glm::pi<double>(), 1, 0.01);
+}
+
 TEST_F(Road, TooLargeABakeIsRefusedWithItsSize) {
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string()}).status, 0);
+    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "room"}).status, 0);
     const Outcome bake =
         prt({"bake", at("room.glb"), "-o", at("b.glb"), "--rays", "16777216", "--bounces", "1"});
     EXPECT_EQ(bake.status, 1);
