@@ -1,5 +1,5 @@
 // The page: the panel, the pointer, what the address asks for.
-//   ?model=knot&quality=0&sky=0&window=auto&angle=40&camera=x,y,z&target=x,y,z&fov=35&panel=0
+//   ?model=knot&quality=0&sky=0&suns=1&window=auto&angle=40&camera=x,y,z&target=x,y,z&fov=35&panel=0
 
 import { Picture } from "./picture.js";
 import { WINDOWS } from "./windows.js";
@@ -110,9 +110,18 @@ async function start() {
       throw new Error(`${model().title}: ${error.message}`);
     }
     showFigures(level, performance.now() - began);
+    showSuns();
   }
 
-  const showSky = () => loading(sky().title, () => picture.setSky(sky().file, sky()));
+  async function showSky() {
+    await loading(sky().title, () => picture.setSky(sky().file, sky()));
+    showSuns();
+  }
+
+  /** Whether there is anything to choose. */
+  function showSuns() {
+    element("suns").disabled = !picture.canSunsBeApart;
+  }
 
   const fillModels = (chosen) => fill(element("model"), models.map((m) => m.title), chosen);
   const fillSkies = (chosen) => fill(element("sky"), skies.map((s) => s.title), chosen);
@@ -170,6 +179,7 @@ async function start() {
   const windows = Object.keys(WINDOWS);
   fill(element("window"), Object.values(WINDOWS).map((w) => w.title), windows.indexOf(asked.get("window")));
   picture.window = windows[element("window").selectedIndex];
+  element("suns").checked = picture.sunsApart = asked.get("suns") !== "0";
   if (asked.get("panel") === "0") element("panel").classList.add("hidden");
   element("panel").open = !matchMedia("(max-width: 600px)").matches;
 
@@ -180,6 +190,7 @@ async function start() {
   element("quality").onchange = guarded(() => showModel(true));
   element("sky").onchange = guarded(showSky);
   element("window").onchange = () => picture.setWindow(windows[element("window").selectedIndex]);
+  element("suns").onchange = () => picture.setSunsApart(element("suns").checked);
   element("angle").oninput = () => picture.setAngle((Number(element("angle").value) * Math.PI) / 180);
   element("exposure").oninput = () => picture.setExposure(Number(element("exposure").value));
   element("files").onchange = () => openFiles([...element("files").files]);

@@ -2,6 +2,7 @@
 
 import {
   BackSide,
+  BasicShadowMap,
   BoxGeometry,
   CustomToneMapping,
   FloatType,
@@ -21,7 +22,7 @@ import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
-import { PrtkitPlugin, projectEquirectangular } from "./PrtkitLoader.js";
+import { lightOfSuns, PrtkitPlugin, projectEquirectangular, readLightFile, SunLights } from "./PrtkitLoader.js";
 import { truncated, WINDOWS } from "./windows.js";
 import { ExposureMeter } from "./exposureMeter.js";
 import backgroundFragment from "./background.frag?raw";
@@ -36,11 +37,21 @@ ShaderChunk.tonemapping_pars_fragment = ShaderChunk.tonemapping_pars_fragment.re
   }`,
 );
 
+const SHADOW_MAP_SIZE = 2048;
+
+async function loadLightFile(url) {
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+  return readLightFile(await response.json());
+}
+
 export class Picture {
   constructor(canvas) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.toneMapping = CustomToneMapping;
     this.renderer.setClearColor(0x000000, 0);
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = BasicShadowMap; // what transfer lights filters it as wide as the sun is
     this.meter = new ExposureMeter(this.renderer);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(35, 1, 0.01, 100);
@@ -62,9 +73,12 @@ export class Picture {
     this.background.visible = false;
     this.scene.add(this.background);
     this.gltf = null;
-    this.light = null; // of the sky, all bands
+    this.light = null; // of the sky with its suns, all bands
+    this.split = null; // the sky without its suns, and these, where a light file says them
+    this.sunLights = null;
+    this.sunsApart = true; // where there are suns, and the model keeps direct light apart
     this.window = "auto";
-    this.windowed = null; // as many bands as the model has, under the window
+    this.lit = null; // what lights the model: { sky, suns }, as many bands as it has, the sky under the window
     this.angle = 0;
     this.stops = 0;
     this.drawn = 0;
@@ -100,9 +114,15 @@ export class Picture {
     this.gltf = null;
   }
 
-  /** A lat-long sky; `center` says which axis its middle looks at: "x" as three has it, "z" as OpenEXR has it. */
-  async setSky(url, { exr = /\.exr(\?|$)/.test(url), center = "x" } = {}) {
-    const texture = await (exr ? new EXRLoader() : new HDRLoader()).setDataType(FloatType).loadAsync(url);
+  /**
+   * A lat-long sky; `center` says which axis its middle looks at: "x" as three has it, "z" as OpenEXR has it. `light`: where
+   * its light file is, which has its suns.
+   */
+  async setSky(url, { exr = /\.exr(\?|$)/.test(url), center = "x", light: lightUrl } = {}) {
+    const [texture, split] = await Promise.all([
+      (exr ? new EXRLoader() : new HDRLoader()).setDataType(FloatType).loadAsync(url),
+      lightUrl ? loadLightFile(lightUrl) : null,
+    ]);
     texture.minFilter = texture.magFilter = this.renderer.extensions.has("OES_texture_float_linear")
       ? LinearFilter
       : NearestFilter;
@@ -115,7 +135,28 @@ export class Picture {
     middle.value = center === "x" ? 0.75 : 0.5;
     this.background.visible = true;
     this.light = light;
+    this.split = split?.suns.length > 0 ? split : null;
+    this.sunLights?.removeFromParent();
+    this.sunLights?.dispose();
+    this.sunLights = null;
+    if (this.split) {
+      this.sunLights = new SunLights(this.split.suns, { mapSize: SHADOW_MAP_SIZE });
+      for (const { shadow } of this.sunLights.lights) shadow.autoUpdate = false; // nothing moves but they do
+      this.scene.add(this.sunLights);
+    }
     this.formLight();
+  }
+
+  /** With sharp shadows, or in the sky with the rest of it. */
+  setSunsApart(apart) {
+    this.sunsApart = apart;
+    this.formLight();
+  }
+
+  /** Whether suns can be lit apart: where the sky has them, and the model keeps direct light apart. */
+  get canSunsBeApart() {
+    const model = this.gltf?.userData.prtkit;
+    return Boolean(this.split && model?.directApart && this.split.sky.order >= model.order);
   }
 
   /** One of WINDOWS. */
@@ -127,7 +168,13 @@ export class Picture {
   /** Once for each sky and model: turning the light does not change what its window takes out. */
   formLight() {
     const order = this.gltf?.userData.prtkit.order;
-    if (this.light && order) this.windowed = WINDOWS[this.window].apply(truncated(this.light, order));
+    if (this.light && order) {
+      const apart = this.sunsApart && this.canSunsBeApart;
+      const sky = WINDOWS[this.window].apply(truncated(apart ? this.split.sky : this.light, order));
+      this.lit = { sky, suns: apart ? lightOfSuns(this.split.suns, order) : null };
+      if (this.sunLights) this.sunLights.visible = apart;
+      if (apart) this.sunLights.fit(this.gltf.scene);
+    }
     this.relight();
   }
 
@@ -144,7 +191,8 @@ export class Picture {
   relight() {
     if (!this.light) return;
     this.background.material.uniforms.angle.value = this.angle;
-    this.gltf?.userData.prtkit.setLight(this.windowed, this.angle);
+    if (this.lit) this.gltf?.userData.prtkit.setLight(this.lit.sky, this.angle, this.lit.suns);
+    this.sunLights?.turn(this.angle);
     this.draw();
   }
 

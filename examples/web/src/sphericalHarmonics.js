@@ -104,6 +104,21 @@ export class ShLight {
     this.matrices = matricesByOrder.get(order);
   }
 
+  /** Of RGB coefficients [order²][3] in prtkit's convention: what `coefficients` gives. */
+  static fromCoefficients(order, coefficients) {
+    const light = new ShLight(order, new Float64Array(3 * order * order));
+    for (let l = 0; l < order; ++l) {
+      const size = 2 * l + 1;
+      for (let i = 0; i < size; ++i)
+        for (let j = 0; j < size; ++j) {
+          const factor = light.matrices[l][i * size + j]; // orthogonal: the transpose turns back
+          for (let channel = 0; channel < 3; ++channel)
+            light.polar[3 * (l * l + j) + channel] += factor * coefficients[3 * (l * l + i) + channel];
+        }
+    }
+    return light;
+  }
+
   /**
    * RGB coefficients [order²][3] as prtkit wants them, the light turned about +Y by `angle` radians: light from +Z comes
    * from +X after a quarter turn.
