@@ -83,13 +83,16 @@ float prtVisibility( sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3
   float spread = sun.shadowRadius / kPrtRadiusAt; // texels for each depth between
   float away = prtBlockerDistance( map, place, slope, spread, turn );
   if ( away < 0.0 ) return 1.0;
-  float radius = max( spread * away, 1.0 );
+  float width = spread * away, radius = max( width, 1.0 );
   float open = 0.0;
   for ( int i = 0; i < kPrtTaps; ++ i ) {
     ivec2 texelAt = ivec2( floor( place.xy + radius * sqrt( ( float( i ) + 0.5 ) / float( kPrtTaps ) ) * prtSpiral( i, turn ) ) );
     open += step( prtPlaneDepth( place, slope, texelAt ), prtMapDepth( map, texelAt ) );
   }
-  return mix( 1.0, open / float( kPrtTaps ), sun.shadowIntensity );
+  open /= float( kPrtTaps );
+  // A penumbra within a texel is not resolved. In a corner half of the taps are beyond the other wall: none is open.
+  open = mix( max( 2.0 * open - 1.0, 0.0 ), open, clamp( width - 1.0, 0.0, 1.0 ) );
+  return mix( 1.0, open, sun.shadowIntensity );
 }
 
 #define PRT_VISIBILITY( i ) prtVisibility( directionalShadowMap[ i ], directionalShadowMatrix[ i ], \
