@@ -23,6 +23,7 @@ import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { lightOfSuns, PrtkitPlugin, projectEquirectangular, readLightFile, SunLights } from "./PrtkitLoader.js";
+import { skyImage } from "./skyImage.js";
 import { truncated, WINDOWS } from "./windows.js";
 import { ExposureMeter } from "./exposureMeter.js";
 import backgroundFragment from "./background.frag?raw";
@@ -37,8 +38,6 @@ ShaderChunk.tonemapping_pars_fragment = ShaderChunk.tonemapping_pars_fragment.re
   }`,
 );
 
-const SHADOW_MAP_SIZE = 2048;
-
 async function loadLightFile(url) {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
@@ -46,7 +45,8 @@ async function loadLightFile(url) {
 }
 
 export class Picture {
-  constructor(canvas) {
+  /** `shadowMapSize`: texels along each side. */
+  constructor(canvas, { shadowMapSize = 2048 } = {}) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.toneMapping = CustomToneMapping;
     this.renderer.setClearColor(0x000000, 0);
@@ -76,6 +76,7 @@ export class Picture {
     this.light = null; // of the sky with its suns, all bands
     this.split = null; // the sky without its suns, and these, where a light file says them
     this.sunLights = null;
+    this.shadowMapSize = shadowMapSize;
     this.sunsApart = true; // where there are suns, and the model keeps direct light apart
     this.window = "auto";
     this.lit = null; // what lights the model: { sky, suns }, as many bands as it has, the sky under the window
@@ -115,36 +116,45 @@ export class Picture {
   }
 
   /**
-   * A lat-long sky; `center` says which axis its middle looks at: "x" as three has it, "z" as OpenEXR has it. `light`: where
-   * its light file is, which has its suns.
+   * `file`: a lat-long sky; `center` says which axis its middle looks at: "x" as three has it, "z" as OpenEXR has it.
+   * `light`: its light file, which has its suns. One of both is enough.
    */
-  async setSky(url, { exr = /\.exr(\?|$)/.test(url), center = "x", light: lightUrl } = {}) {
-    const [texture, split] = await Promise.all([
-      (exr ? new EXRLoader() : new HDRLoader()).setDataType(FloatType).loadAsync(url),
-      lightUrl ? loadLightFile(lightUrl) : null,
+  async setSky({ file, exr = /\.exr(\?|$)/.test(file), center = "x", light }) {
+    const [image, split] = await Promise.all([
+      file ? (exr ? new EXRLoader() : new HDRLoader()).setDataType(FloatType).loadAsync(file) : null,
+      light ? loadLightFile(light) : null,
     ]);
+    this.light = image
+      ? projectEquirectangular(image, undefined, { center })
+      : split.sky.plus(lightOfSuns(split.suns, split.sky.order));
+    this.showSky(image ?? skyImage(split.sky), image ? center : "z");
+    this.setSuns(split);
+    this.formLight();
+  }
+
+  showSky(texture, center) {
     texture.minFilter = texture.magFilter = this.renderer.extensions.has("OES_texture_float_linear")
       ? LinearFilter
       : NearestFilter;
     texture.wrapS = RepeatWrapping;
     texture.generateMipmaps = false;
-    const light = projectEquirectangular(texture, undefined, { center });
     const { environment, middle } = this.background.material.uniforms;
     environment.value?.dispose();
     environment.value = texture;
     middle.value = center === "x" ? 0.75 : 0.5;
     this.background.visible = true;
-    this.light = light;
-    this.split = split?.suns.length > 0 ? split : null;
+  }
+
+  /** `split`: what a light file says, or null. */
+  setSuns(split) {
     this.sunLights?.removeFromParent();
     this.sunLights?.dispose();
     this.sunLights = null;
-    if (this.split) {
-      this.sunLights = new SunLights(this.split.suns, { mapSize: SHADOW_MAP_SIZE });
-      for (const { shadow } of this.sunLights.lights) shadow.autoUpdate = false; // nothing moves but they do
-      this.scene.add(this.sunLights);
-    }
-    this.formLight();
+    this.split = split?.suns.length > 0 ? split : null;
+    if (!this.split) return;
+    this.sunLights = new SunLights(split.suns, { mapSize: this.shadowMapSize });
+    for (const { shadow } of this.sunLights.lights) shadow.autoUpdate = false; // nothing moves but they do
+    this.scene.add(this.sunLights);
   }
 
   /** With sharp shadows, or in the sky with the rest of it. */

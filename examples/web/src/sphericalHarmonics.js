@@ -150,6 +150,12 @@ export class ShLight {
     return result;
   }
 
+  /** This light and `other` together, in the bands that both have. */
+  plus(other) {
+    const order = Math.min(this.order, other.order);
+    return new ShLight(order, this.polar.slice(0, 3 * order * order).map((value, i) => value + other.polar[i]));
+  }
+
   /** The same light with the least filter under which its radiance is nowhere negative: `deringFactors`. */
   deringed() {
     const factors = deringFactors(this.order, this.polar);
