@@ -19,12 +19,17 @@ export class ShLight {
   meanLuminance(): number;
 }
 
+/** By name what a lamp is dimmed or coloured by: a number, or red, green and blue. */
+export type LampStrengths = Record<string, number | ArrayLike<number>>;
+
 /** The compressed transfer of one file: `gltf.userData.prtkit`. */
 export class PrtkitModel {
   readonly order: number;
   readonly channels: 1 | 3;
   /** Whether direct light is kept apart, so that suns can be lit with sharp shadows. */
   readonly directApart: boolean;
+  /** Names of the lamps that can be dimmed: lights and shining materials of the scene, and groups of them. */
+  readonly lamps: string[];
   /** Vertices that have transfer. */
   readonly vertices: number;
   /** Of the vertex attributes that transfer takes, as they are bound: packed weights in whole 32-bit words, others
@@ -32,8 +37,9 @@ export class PrtkitModel {
   readonly bytesPerVertex: number;
   /** Lights all meshes of the file by `light`, all of it or without its suns. `suns`: those that the scene's directional
    * lights add with their shadows; they light here what is lit after a bounce. Without them, and where `directApart` is
-   * false, three's lights add nothing. Throws a RangeError for a light of fewer bands than `order`. */
-  setLight(light: ShLight, angle?: number, suns?: ShLight | null): void;
+   * false, three's lights add nothing. Lamps that `lamps` does not name shine as in the scene. Throws a RangeError for a
+   * light of fewer bands than `order`, for lamps that are not there, and for strengths below zero. */
+  setLight(light: ShLight, angle?: number, suns?: ShLight | null, lamps?: LampStrengths): void;
   dispose(): void;
 }
 

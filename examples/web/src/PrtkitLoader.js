@@ -29,6 +29,7 @@ import {
   RGBAFormat,
   RGBAIntegerFormat,
   UnsignedIntType,
+  Vector3,
 } from "three";
 import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "./clusteredPca.js";
 import { relitMaterial, sunTraits } from "./relitMaterial.js";
@@ -71,6 +72,10 @@ export class PrtkitModel {
     this.order = this.clusters.order;
     this.channels = Math.max(...this.clusters.parts.map((part) => part.channels));
     this.directApart = this.clusters.parts[0].kind === "direct";
+    /** Names of the lamps that can be dimmed. */
+    this.lamps = this.clusters.parts.filter(({ kind }) => kind === "lamp").map(({ name }) => name);
+    /** By lamp, what its strength is; of shining materials, uniforms. */
+    this.strengths = new Map(this.lamps.map((name) => [name, { value: new Vector3(1, 1, 1) }]));
     this.uniforms = {
       prt_constants: { value: this.constantsTexture },
       prt_clusters: { value: this.clustersTexture },
@@ -83,15 +88,37 @@ export class PrtkitModel {
   /**
    * Lights all meshes by `light` turned about +Y by `angle` radians: forms the constants of all clusters. `suns`: those
    * that three's directional lights add with their shadows; here they light what is lit after a bounce. Where direct light
-   * is not apart they light in full here, and three's lights add nothing.
+   * is not apart they light in full here, and three's lights add nothing. `lamps`: strengths by name, numbers or
+   * [red, green, blue]; those that it does not name shine as in the scene.
    */
-  setLight(light, angle = 0, suns = null) {
+  setLight(light, angle = 0, suns = null, lamps = {}) {
     for (const { order } of suns ? [light, suns] : [light])
       if (order < this.order) throw new RangeError(`the light has order ${order}, the model needs ${this.order}`);
-    const columns = lightColumns(this.clusters, light.coefficients(angle), suns ? suns.coefficients(angle) : null);
+    this.setStrengths(lamps);
+    const strengths = [...this.strengths.values()].flatMap(({ value }) => value.toArray());
+    const columns = lightColumns(this.clusters, light.coefficients(angle), suns ? suns.coefficients(angle) : null, strengths);
     formConstants(this.clusters, this.rows, columns, this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
     this.uniforms.prtSunsApart.value = suns !== null && this.directApart;
+  }
+
+  /** By which what a material of this name shines with is multiplied. */
+  strengthOf(name) {
+    return this.strengths.get(name) ?? { value: new Vector3(1, 1, 1) };
+  }
+
+  setStrengths(lamps) {
+    const given = Object.entries(lamps).map(([name, strength]) => [
+      name,
+      typeof strength === "number" ? [strength, strength, strength] : strength,
+    ]);
+    for (const [name, strength] of given) {
+      if (!this.strengths.has(name)) throw new RangeError(`there is no lamp "${name}"`);
+      if (strength?.length !== 3 || ![...strength].every((value) => value >= 0 && value < Infinity))
+        throw new RangeError(`the strength of lamp "${name}" is neither a number nor three, or below zero`);
+    }
+    for (const { value } of this.strengths.values()) value.set(1, 1, 1);
+    for (const [name, strength] of given) this.strengths.get(name).value.set(...strength);
   }
 
   dispose() {
@@ -179,8 +206,13 @@ export class PrtkitPlugin {
           model.vertices += object.geometry.getAttribute("position").count;
         }
         const primitive = json.meshes?.[from.meshes]?.primitives?.[from.primitives];
-        const traits = model.directApart ? sunTraits(json.materials?.[primitive?.material]) : null;
-        object.material = relitMaterial(object.material, { uniforms: model.uniforms, defines: defines.get(object.geometry) }, traits);
+        const number = primitive?.material;
+        const traits = model.directApart ? sunTraits(json.materials?.[number]) : null;
+        object.material = relitMaterial(object.material, {
+          uniforms: { ...model.uniforms, prtStrength: model.strengthOf(json.materials?.[number]?.name || `material ${number}`) },
+          defines: defines.get(object.geometry),
+          traits,
+        });
         if (!traits) return;
         object.castShadow = traits.casts;
         object.receiveShadow = true;

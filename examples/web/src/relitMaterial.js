@@ -1,4 +1,4 @@
-// Base color, texture, cut-outs and blending of a material, lit by transfer, and by suns that are apart from it.
+// Base color, texture, cut-outs, blending and emission of a material, lit by transfer, and by suns that are apart from it.
 
 import { DoubleSide, MeshLambertMaterial, ShaderChunk, Vector4 } from "three";
 import exitRadiance from "./prt_exit_radiance.glsl.js";
@@ -27,14 +27,17 @@ export function sunTraits(gltfMaterial) {
 }
 
 /**
- * `source`: the material that GLTFLoader made. `uniforms` of the model, `defines` of the geometry's attributes. `traits`: of
- * sunTraits; null: the model keeps no direct light apart.
+ * `source`: the material that GLTFLoader made. `uniforms` of the model, and the strength of what shines; `defines` of the
+ * geometry's attributes; `traits`: of sunTraits; null: the model keeps no direct light apart.
  */
-export function relitMaterial(source, { uniforms, defines }, traits) {
+export function relitMaterial(source, { uniforms, defines, traits }) {
   const material = new MeshLambertMaterial({
     name: source.name,
     color: source.color,
     map: source.map ?? null,
+    emissive: source.emissive ?? 0x000000,
+    emissiveMap: source.emissiveMap ?? null,
+    emissiveIntensity: source.emissiveIntensity ?? 1,
     alphaTest: source.alphaTest,
     transparent: source.transparent,
     opacity: source.opacity,
@@ -59,7 +62,10 @@ export function relitMaterial(source, { uniforms, defines }, traits) {
       .replace("#include <shadowmap_vertex>", "");
     // In the place of all that three's lights would add: ambient light is in the sky.
     shader.fragmentShader = shader.fragmentShader
-      .replace("#include <lights_lambert_pars_fragment>", "varying vec3 vViewPosition;\nin vec3 prtRadiance;")
+      .replace(
+        "#include <lights_lambert_pars_fragment>",
+        "varying vec3 vViewPosition;\nin vec3 prtRadiance;\nuniform vec3 prtStrength;",
+      )
       .replace(
         "#include <shadowmap_pars_fragment>",
         `#include <shadowmap_pars_fragment>\n#ifdef PRT_SUNS\n${sunLight}\n#endif`,
@@ -74,6 +80,7 @@ export function relitMaterial(source, { uniforms, defines }, traits) {
 }
 
 const LIT = `
+  totalEmissiveRadiance *= prtStrength;
   reflectedLight.indirectDiffuse += max( prtRadiance, vec3( 0.0 ) ) * diffuseColor.rgb;
 #if defined( PRT_SUNS ) && NUM_DIR_LIGHTS > 0
   if ( prtSunsApart ) reflectedLight.directDiffuse += prtSunRadiance( diffuseColor.rgb, normal );

@@ -183,6 +183,45 @@ test("suns of three's light what keeps direct light apart, while they are apart"
   }
 });
 
+const WITH_LAMPS = {
+  version: 4,
+  order: 1,
+  parts: [{ kind: "direct", channels: 1 }, { kind: "lamp", channels: 1, name: "Lantern" }, { kind: "lamp", channels: 3, name: "Sign" }],
+  components: [0],
+  bases: { bufferView: 0, componentType: 5126 },
+};
+
+test("lamps are dimmed and coloured by name, and so is what shines", async () => {
+  const attributes = () => ({ _prt_cluster: new BufferAttribute(new Uint8Array(2), 1) });
+  const { gltf, parser, mesh } = scene(attributes(), WITH_LAMPS, { name: "Sign" });
+  mesh.material.emissive.setRGB(0.5, 0.25, 1);
+  mesh.material.emissiveIntensity = 8;
+  parser.getDependency = async () => bytesOf(2, 3, 5, 7, 11);
+  await new PrtkitPlugin(parser).afterRoot(gltf);
+  const model = gltf.userData.prtkit;
+  assert.deepEqual(model.lamps, ["Lantern", "Sign"]);
+  const { prtStrength } = compiled(mesh.material).uniforms;
+  const l0 = 2 * Math.sqrt(4 * Math.PI);
+  const lit = (...expected) => {
+    const [red, green, blue] = model.constantsTexture.image.data;
+    [red, green, blue].forEach((value, c) => assert.ok(Math.abs(value - l0 - expected[c]) < 1e-5, `${value - l0}, not ${expected[c]}`));
+  };
+  model.setLight(white());
+  lit(3 + 5, 3 + 7, 3 + 11);
+  assert.deepEqual(prtStrength.value.toArray(), [1, 1, 1]);
+  model.setLight(white(), 0, null, { Sign: [1, 0, 0.5], Lantern: 2 });
+  lit(6 + 5, 6, 6 + 5.5);
+  assert.deepEqual(prtStrength.value.toArray(), [1, 0, 0.5]);
+  model.setLight(white(), 0, null, { Lantern: 0 }); // the other shines as in the scene again
+  lit(5, 7, 11);
+  assert.deepEqual(prtStrength.value.toArray(), [1, 1, 1]);
+  assert.equal(mesh.material.emissiveIntensity, 8);
+  assert.deepEqual(mesh.material.emissive.toArray(), [0.5, 0.25, 1]);
+  for (const bad of [{ Moon: 1 }, { Sign: -1 }, { Sign: NaN }, { Sign: [1, 2] }, { Sign: [1, 2, -3] }, { Sign: Infinity }, { Sign: null }])
+    assert.throws(() => model.setLight(white(), 0, null, bad), RangeError);
+  lit(5, 7, 11); // what is refused changes nothing
+});
+
 test("suns go through thin sheets, not into media, and past glass", async () => {
   const sheet = { KHR_materials_diffuse_transmission: { diffuseTransmissionFactor: 0.25, diffuseTransmissionColorFactor: [1, 0.5, 0] } };
   const wax = { ...sheet, KHR_materials_volume: { thicknessFactor: 1, attenuationDistance: 0.1 } };
