@@ -13,6 +13,8 @@ export class ShLight {
   coefficients(angle?: number): Float64Array;
   /** This light and `other` together, in the bands that both have. */
   plus(other: ShLight): ShLight;
+  /** This light so many times as strong. */
+  times(factor: number): ShLight;
   /** The same light under the least filter that leaves it nowhere negative: for lights of few bands, once for each. */
   deringed(): ShLight;
   /** Luminance of the mean radiance over all directions; 0.25 over it is a good exposure. */
@@ -75,6 +77,8 @@ export class SunLights extends Group {
   fit(object: Object3D | Box3): this;
   /** Turns the suns about +Y by `angle` radians, as `setLight` does the light. */
   turn(angle: number): this;
+  /** Makes the suns so many times as strong as they were at first. */
+  dim(factor: number): this;
   dispose(): void;
 }
 

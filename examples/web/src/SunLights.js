@@ -46,6 +46,12 @@ export class SunLights extends Group {
     return this;
   }
 
+  /** Makes the suns so many times as strong as they were at first. */
+  dim(factor) {
+    this.lights.forEach((light, i) => (light.intensity = factor * Math.max(...this.suns[i].irradiance)));
+    return this;
+  }
+
   place() {
     const centre = this.box.getCenter(new Vector3());
     const radius = Math.max(this.box.getSize(new Vector3()).length() / 2, 1e-6);

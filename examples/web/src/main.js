@@ -57,6 +57,17 @@ function fill(select, names, chosen) {
   select.selectedIndex = Math.max(0, chosen);
 }
 
+function slider(name, min, value, max, change) {
+  const label = document.createElement("label");
+  const text = document.createElement("span");
+  const input = document.createElement("input");
+  text.textContent = text.title = name;
+  Object.assign(input, { type: "range", min, max, step: 0.01, value });
+  input.oninput = () => change(Number(input.value));
+  label.append(text, input);
+  return label;
+}
+
 async function start() {
   let picture;
   try {
@@ -112,11 +123,23 @@ async function start() {
     }
     showFigures(level, performance.now() - began);
     showSuns();
+    showLamps();
   }
 
   async function showSky() {
     await loading(sky().title, () => picture.setSky(sky()));
     showSuns();
+  }
+
+  /** A slider for each lamp, and for the daylight beside them; nothing for a model without lamps. */
+  function showLamps() {
+    const { lamps } = picture.gltf.userData.prtkit;
+    element("lamps").hidden = lamps.length === 0;
+    element("lamps").replaceChildren(
+      slider("daylight", 0, Math.sqrt(picture.daylight), 1, (value) => picture.setDaylight(value ** 2)),
+      ...lamps.map((name) => slider(name, 0, 1, 2, (value) => picture.setLamp(name, value))),
+    );
+    if (lamps.length === 0) picture.setDaylight(1);
   }
 
   /** Whether there is anything to choose. */
@@ -145,6 +168,7 @@ async function start() {
     fillQualities(0);
     showFigures(level, performance.now() - began);
     showSuns();
+    showLamps();
   }
 
   /** `image`, `light`: a sky and its light file, or one of both. */

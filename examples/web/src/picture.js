@@ -63,7 +63,7 @@ export class Picture {
       new ShaderMaterial({
         vertexShader: backgroundVertex,
         fragmentShader: backgroundFragment,
-        uniforms: { environment: { value: null }, angle: { value: 0 }, middle: { value: 0 } },
+        uniforms: { environment: { value: null }, angle: { value: 0 }, middle: { value: 0 }, strength: { value: 1 } },
         side: BackSide,
         depthWrite: false,
       }),
@@ -81,6 +81,8 @@ export class Picture {
     this.window = "auto";
     this.lit = null; // what lights the model: { sky, suns }, as many bands as it has, the sky under the window
     this.angle = 0;
+    this.daylight = 1; // times the sky and its suns
+    this.lamps = {}; // strengths by name
     this.stops = 0;
     this.drawn = 0;
     this.pending = false;
@@ -98,6 +100,7 @@ export class Picture {
       );
     this.removeModel();
     this.gltf = gltf;
+    this.lamps = {};
     this.scene.add(gltf.scene);
     if (!keepCamera) this.frame(camera);
     this.formLight();
@@ -109,6 +112,7 @@ export class Picture {
     this.gltf.scene.traverse((object) => {
       object.geometry?.dispose();
       object.material?.map?.dispose();
+      object.material?.emissiveMap?.dispose();
       object.material?.dispose();
     });
     this.gltf.userData.prtkit.dispose();
@@ -193,6 +197,17 @@ export class Picture {
     this.relight();
   }
 
+  /** Times the sky and its suns. */
+  setDaylight(factor) {
+    this.daylight = factor;
+    this.relight();
+  }
+
+  setLamp(name, strength) {
+    this.lamps[name] = strength;
+    this.relight();
+  }
+
   setExposure(stops) {
     this.stops = stops;
     this.relight();
@@ -200,9 +215,14 @@ export class Picture {
 
   relight() {
     if (!this.light) return;
-    this.background.material.uniforms.angle.value = this.angle;
-    if (this.lit) this.gltf?.userData.prtkit.setLight(this.lit.sky, this.angle, this.lit.suns);
-    this.sunLights?.turn(this.angle);
+    const { uniforms } = this.background.material;
+    uniforms.angle.value = this.angle;
+    uniforms.strength.value = this.daylight;
+    if (this.gltf && this.lit) {
+      const { sky, suns } = this.lit;
+      this.gltf.userData.prtkit.setLight(sky.times(this.daylight), this.angle, suns?.times(this.daylight) ?? null, this.lamps);
+    }
+    this.sunLights?.turn(this.angle).dim(this.daylight);
     this.draw();
   }
 

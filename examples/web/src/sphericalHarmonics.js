@@ -156,6 +156,11 @@ export class ShLight {
     return new ShLight(order, this.polar.slice(0, 3 * order * order).map((value, i) => value + other.polar[i]));
   }
 
+  /** This light so many times as strong. */
+  times(factor) {
+    return new ShLight(this.order, this.polar.map((value) => factor * value));
+  }
+
   /** The same light with the least filter under which its radiance is nowhere negative: `deringFactors`. */
   deringed() {
     const factors = deringFactors(this.order, this.polar);

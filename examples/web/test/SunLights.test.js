@@ -17,6 +17,7 @@ test("a sun is a directional light of its irradiance, which turns as the light d
   near(direction(light).z, 1, 1e-12);
   lights.turn(Math.PI / 2);
   near(direction(light).x, 1, 1e-12); // light from +Z comes from +X after a quarter turn
+  assert.equal(lights.dim(0.5).dim(0.25).lights[0].intensity, 0.75);
   assert.equal(new SunLights([{ ...sun, irradiance: [0, 0, 0] }]).lights[0].intensity, 0);
 });
 

@@ -385,6 +385,87 @@ await check("files that are dropped are shown and listed", async (page, errors) 
   assert.equal(await page.locator("#model option").count(), models.length + 1); // the broken one is not listed
 });
 
+/** A floor of 4 m, a square of half a metre that hangs over it, and lights of KHR_lights_punctual. */
+function lampScene(path, lights) {
+  const positions = [];
+  const normals = [];
+  const indices = [];
+  const square = (steps, size, y) => {
+    const first = positions.length / 3;
+    for (let i = 0; i <= steps; ++i)
+      for (let k = 0; k <= steps; ++k) {
+        positions.push(size * (k / steps - 0.5), y, size * (i / steps - 0.5));
+        normals.push(0, 1, 0);
+        if (i === steps || k === steps) continue;
+        const [a, b] = [first + i * (steps + 1) + k, first + (i + 1) * (steps + 1) + k];
+        indices.push(a, b, a + 1, a + 1, b, b + 1);
+      }
+  };
+  square(40, 4, 0);
+  square(4, 0.5, 0.6);
+  const count = positions.length / 3;
+  const data = Buffer.concat([Buffer.from(new Float32Array([...positions, ...normals]).buffer), Buffer.from(new Uint32Array(indices).buffer)]);
+  const bytes = 12 * count;
+  const json = {
+    asset: { version: "2.0" },
+    extensionsUsed: ["KHR_lights_punctual"],
+    extensions: { KHR_lights_punctual: { lights } },
+    scene: 0,
+    scenes: [{ nodes: [0, ...lights.map((_, i) => i + 1)] }],
+    nodes: [{ mesh: 0 }, ...lights.map((_, light) => ({ translation: [0.4 - light, 1.2, 0.2], extensions: { KHR_lights_punctual: { light } } }))],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1 }, indices: 2, material: 0 }] }],
+    materials: [{ doubleSided: true, pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: [0.8, 0.7, 0.6, 1] } }],
+    accessors: [
+      { bufferView: 0, componentType: 5126, count, type: "VEC3", min: [-2, 0, -2], max: [2, 0.6, 2] },
+      { bufferView: 1, componentType: 5126, count, type: "VEC3" },
+      { bufferView: 2, componentType: 5125, count: indices.length, type: "SCALAR" },
+    ],
+    bufferViews: [
+      { buffer: 0, byteLength: bytes },
+      { buffer: 0, byteOffset: bytes, byteLength: bytes },
+      { buffer: 0, byteOffset: 2 * bytes, byteLength: 4 * indices.length },
+    ],
+    buffers: [{ byteLength: data.length, uri: `data:application/octet-stream;base64,${data.toString("base64")}` }],
+  };
+  writeFileSync(path, JSON.stringify(json));
+}
+
+await check("lamps light as in prt, and are dimmed", async (page, errors) => {
+  const bulb = { type: "point", name: "Bulb", color: [1, 0.9, 0.7], intensity: 2 };
+  const red = { type: "point", name: "Red", color: [1, 0.1, 0.05], intensity: 1.5 };
+  const prtRun = (...options) => execFileSync(prt, options, { stdio: "ignore" });
+  /** A model of these lights, and what prt has of it at the vertices. */
+  const made = (name, lights) => {
+    const at = (suffix) => join(work, name + suffix);
+    lampScene(at(".gltf"), lights);
+    prtRun("bake", at(".gltf"), "-o", at(".baked.glb"), "--rays", "256", "--bounces", "1");
+    prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "16", "--clusters", "16", "--components", "16");
+    prtRun("relight", at(".glb"), "--env", warmSky, "--env-center", "x", "--suns", "0", "--window", "auto", "--albedo", "-o", at(".lit.glb"));
+    return { file: at(".glb"), colors: vertexColors(at(".lit.glb")) };
+  };
+  const both = made("both", [bulb, red]);
+  const dimmed = made("dimmed", [{ ...bulb, intensity: 0.5 }, { ...red, intensity: 3 }]);
+  await onlyWarmSky(page);
+  const view = { position: [1.5, 2.5, 3], target: [0, 0.2, 0], fieldOfView: 45 };
+  await page.goto(url({ model: "knot", angle: 0, ...query(view), panel: 1 }));
+  await picture(page);
+  for (const [strengths, { colors }] of [[{}, both], [{ Bulb: 0.25, Red: 2 }, dimmed]]) {
+    const before = await page.locator("#model option").count();
+    await dropped(page, { "lamps.glb": both.file });
+    await page.waitForFunction((n) => document.querySelectorAll("#model option").length > n, before);
+    assert.deepEqual(await page.locator("#lamps label").allTextContents(), ["daylight", "Bulb", "Red"]);
+    for (const [name, strength] of Object.entries(strengths))
+      await page.locator(`#lamps label:has-text("${name}") input`).fill(String(strength));
+    if (screenshots) await page.screenshot({ path: join(screenshots, `lamps-${Object.keys(strengths).length}.png`) });
+    const d = await radianceAgainst(page, colors);
+    console.log(`  ${(100 * d.rms).toFixed(2)} % rms, means ${d.ratio.toFixed(4)} times, over ${(100 * d.even).toFixed(0)} % of the model`);
+    assert.ok(d.rms < 0.01 && d.even > 0.2, `${d.rms} over ${d.even}`);
+  }
+  await page.selectOption("#model", { index: 0 });
+  await page.waitForFunction(() => document.querySelector("#lamps").hidden);
+  assert.deepEqual(errors, []);
+});
+
 await check("suns go back into the sky, and come out of it", async (page, errors) => {
   const view = { ...query(standardCamera), model: "knot", angle: 70 };
   await page.goto(url({ ...view, suns: 1 }));

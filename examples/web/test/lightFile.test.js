@@ -99,4 +99,5 @@ test("sky and suns together have the bands of both", () => {
   assert.equal(sum.order, 3);
   const [s, l] = [sky.coefficients(), lightOfSuns(suns, 3).coefficients()];
   sum.coefficients().forEach((value, i) => near(value, s[i] + l[i], 1e-12));
+  sky.times(0.25).coefficients().forEach((value, i) => near(value, 0.25 * s[i], 1e-12));
 });
