@@ -89,14 +89,14 @@ const difference = (page, a, b) =>
   );
 
 /** The picture of prt with the page's exposure; its own may be a little off it (METERED stops). */
-async function render(page, file, angle, { position, target, fieldOfView }, sky = join(distFolder, "skies/sky.exr"), window = "auto") {
+async function render(page, file, angle, { position, target, fieldOfView }, sky = join(distFolder, "skies/sky.exr"), window = "auto", suns = "0") {
   const output = join(work, "reference.png");
   const json = join(work, "reference.json");
   const exposure = await page.evaluate(() => Math.log2(globalThis.prtkitPicture.renderer.toneMappingExposure));
   const run = (stops) =>
     execFileSync(prt, ["render", join(distFolder, file), "--env", sky, "-o", output, "--json", json,
       "--rotate", String(angle), "--size", `${width}x${height}`, "--samples", "3", "--camera", position.join(","),
-      "--look-at", target.join(","), "--window", window, "--fov", String(fieldOfView), "--exposure", stops], { stdio: "ignore" });
+      "--look-at", target.join(","), "--window", window, "--fov", String(fieldOfView), "--exposure", stops, "--suns", suns, "--sun-rays", "64", "--backend", "cpu"], { stdio: "ignore" });
   run("auto");
   const metered = JSON.parse(readFileSync(json, "utf8")).exposure_stops;
   assert.ok(Math.abs(metered - exposure) < METERED, `the page meters ${exposure} stops, prt ${metered}`);
@@ -229,6 +229,25 @@ for (const [i, model] of models.entries())
       assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
       assert.ok(d.far < FAR_SHARE, `${d.far} of the pixels differ`);
     });
+
+for (const [i, model] of models.entries())
+  await check(`${model.name}: with suns apart the picture is that of prt render by rays`, async (page, errors) => {
+    const view = { fieldOfView: 35, ...(model.camera ?? standardCamera) };
+    const angle = 15 + 50 * i;
+    await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
+    await picture(page);
+    const shown = await canvas(page);
+    const expected = await render(page, model.levels[1].file, angle, view, undefined, "auto", "auto");
+    const d = await difference(page, shown, expected);
+    console.log(`  mean ${d.mean.toFixed(3)} of 255, ${(100 * d.far).toFixed(2)} % of the pixels differ by more than ${FAR}`);
+    if (screenshots) {
+      writeFileSync(join(screenshots, `${model.name}.suns.png`), Buffer.from(shown.split(",")[1], "base64"));
+      writeFileSync(join(screenshots, `${model.name}.suns.prt.png`), Buffer.from(expected.split(",")[1], "base64"));
+    }
+    assert.deepEqual(errors, []);
+    assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`);
+    assert.ok(d.far < 2 * FAR_SHARE, `${d.far} of the pixels differ`);
+  });
 
 /** A Radiance file of flat RGBE pixels: sky above, ground below, a warm side. */
 function radianceFile(path) {
