@@ -1,4 +1,4 @@
-import type { DataTexture } from "three";
+import type { Box3, DataTexture, DirectionalLight, Group, Object3D } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 
 /** Lighting as spherical harmonics that turns about +Y. */
@@ -7,13 +7,22 @@ export class ShLight {
   /** Coefficients about the polar axis +Y, [order²][3]. */
   readonly polar: Float64Array;
   constructor(order: number, polar: Float64Array);
+  /** Of RGB coefficients [order²][3] in prtkit's convention. */
+  static fromCoefficients(order: number, coefficients: ArrayLike<number>): ShLight;
   /** RGB coefficients [order²][3] in prtkit's convention, turned about +Y by `angle` radians. */
   coefficients(angle?: number): Float64Array;
+  /** This light and `other` together, in the bands that both have. */
+  plus(other: ShLight): ShLight;
+  /** This light so many times as strong. */
+  times(factor: number): ShLight;
   /** The same light under the least filter that leaves it nowhere negative: for lights of few bands, once for each. */
   deringed(): ShLight;
   /** Luminance of the mean radiance over all directions; 0.25 over it is a good exposure. */
   meanLuminance(): number;
 }
+
+/** By name what a lamp is dimmed or coloured by: a number, or red, green and blue. */
+export type LampStrengths = Record<string, number | ArrayLike<number>>;
 
 /** The compressed transfer of one file: `gltf.userData.prtkit`. */
 export class PrtkitModel {
@@ -21,14 +30,18 @@ export class PrtkitModel {
   readonly channels: 1 | 3;
   /** Whether direct light is kept apart, so that suns can be lit with sharp shadows. */
   readonly directApart: boolean;
+  /** Names of the lamps that can be dimmed: lights and shining materials of the scene, and groups of them. */
+  readonly lamps: string[];
   /** Vertices that have transfer. */
   readonly vertices: number;
   /** Of the vertex attributes that transfer takes, as they are bound: packed weights in whole 32-bit words, others
    * as vectors of four beside the cluster in a word of its own. */
   readonly bytesPerVertex: number;
-  /** Lights all meshes of the file by `light`, all of it or without its suns: `suns` are those that the scene's own
-   * lights add. Throws a RangeError for a light of fewer bands than `order`. */
-  setLight(light: ShLight, angle?: number, suns?: ShLight | null): void;
+  /** Lights all meshes of the file by `light`, all of it or without its suns. `suns`: those that the scene's directional
+   * lights add with their shadows; they light here what is lit after a bounce. Without them, and where `directApart` is
+   * false, three's lights add nothing. Lamps that `lamps` does not name shine as in the scene. Throws a RangeError for a
+   * light of fewer bands than `order`, for lamps that are not there, and for strengths below zero. */
+  setLight(light: ShLight, angle?: number, suns?: ShLight | null, lamps?: LampStrengths): void;
   dispose(): void;
 }
 
@@ -37,6 +50,36 @@ export class PrtkitPlugin implements GLTFLoaderPlugin {
   readonly name: string;
   constructor(parser: GLTFParser);
   afterRoot(gltf: GLTF): Promise<void>;
+}
+
+/** A disc of uniform radiance far away. */
+export interface Sun {
+  /** Unit direction to its middle. */
+  towards: number[];
+  /** On a receiver that faces it: red, green, blue. */
+  irradiance: number[];
+  /** Radians; 0: it has no extent. */
+  halfAngle: number;
+}
+
+/** What `prt project --suns` wrote, parsed from JSON: the sky without its suns, and these. Throws an Error for what is none. */
+export function readLightFile(json: unknown): { sky: ShLight; suns: Sun[] };
+
+/** Suns together as spherical harmonics: the third argument of `setLight`. */
+export function lightOfSuns(suns: Sun[], order?: number): ShLight;
+
+/** Suns as three's directional lights, with shadow maps that are fitted to what they shine on. Add it to the scene itself. */
+export class SunLights extends Group {
+  readonly lights: DirectionalLight[];
+  /** `mapSize`: texels along each side of a shadow map, 2048 if unset. */
+  constructor(suns: Sun[], options?: { mapSize?: number });
+  /** What is outside of `object` neither casts shadows nor gets any. Throws a RangeError where it is empty. */
+  fit(object: Object3D | Box3): this;
+  /** Turns the suns about +Y by `angle` radians, as `setLight` does the light. */
+  turn(angle: number): this;
+  /** Makes the suns so many times as strong as they were at first. */
+  dim(factor: number): this;
+  dispose(): void;
 }
 
 /** Which axis the centre column of an equirectangular image looks at. */

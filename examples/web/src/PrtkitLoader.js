@@ -8,6 +8,13 @@
 //   scene.background = scene.environment = halfFloatSky(sky);
 //   prtkit.setLight(light, angle); // again when the light turns or changes
 //
+// With suns apart, of a light file of `prt project --suns auto`:
+//
+//   const { sky, suns } = readLightFile(await (await fetch("light.json")).json());
+//   const lights = new SunLights(suns).fit(gltf.scene).turn(angle);
+//   scene.add(lights);
+//   prtkit.setLight(sky.deringed(), angle, lightOfSuns(suns, prtkit.order));
+//
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
 import {
@@ -18,20 +25,24 @@ import {
   FloatType,
   HalfFloatType,
   LinearFilter,
-  MeshBasicMaterial,
   NearestFilter,
   RGBAFormat,
   RGBAIntegerFormat,
   UnsignedIntType,
+  Vector3,
 } from "three";
 import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "./clusteredPca.js";
-import exitRadiance from "./prt_exit_radiance.glsl.js";
+import { relitMaterial, sunTraits } from "./relitMaterial.js";
 import { MAX_ORDER, projectLatLong } from "./sphericalHarmonics.js";
 
+export { lightOfSuns, readLightFile } from "./lightFile.js";
 export { ShLight } from "./sphericalHarmonics.js";
+export { SunLights } from "./SunLights.js";
 
 const EXTENSION = "PRTKIT_clustered_pca";
 const TEXTURE_WIDTH = 256;
+/** Of the shader: where its tables are. */
+const TABLES = { PRT_CONSTANTS_TEXTURE: 1, PRT_TEXTURE_WIDTH: TEXTURE_WIDTH };
 
 function tableTexture(count, data, format, type, internalFormat) {
   const height = Math.max(1, Math.ceil(count / TEXTURE_WIDTH));
@@ -61,20 +72,53 @@ export class PrtkitModel {
     this.order = this.clusters.order;
     this.channels = Math.max(...this.clusters.parts.map((part) => part.channels));
     this.directApart = this.clusters.parts[0].kind === "direct";
+    /** Names of the lamps that can be dimmed. */
+    this.lamps = this.clusters.parts.filter(({ kind }) => kind === "lamp").map(({ name }) => name);
+    /** By lamp, what its strength is; of shining materials, uniforms. */
+    this.strengths = new Map(this.lamps.map((name) => [name, { value: new Vector3(1, 1, 1) }]));
+    this.uniforms = {
+      prt_constants: { value: this.constantsTexture },
+      prt_clusters: { value: this.clustersTexture },
+      prtSunsApart: { value: false },
+    };
     this.vertices = 0;
     this.bytesPerVertex = 0;
   }
 
   /**
    * Lights all meshes by `light` turned about +Y by `angle` radians: forms the constants of all clusters. `suns`: those
-   * that three's own lights add with their shadows; here they light what is lit after a bounce.
+   * that three's directional lights add with their shadows; here they light what is lit after a bounce. Where direct light
+   * is not apart they light in full here, and three's lights add nothing. `lamps`: strengths by name, numbers or
+   * [red, green, blue]; those that it does not name shine as in the scene.
    */
-  setLight(light, angle = 0, suns = null) {
+  setLight(light, angle = 0, suns = null, lamps = {}) {
     for (const { order } of suns ? [light, suns] : [light])
       if (order < this.order) throw new RangeError(`the light has order ${order}, the model needs ${this.order}`);
-    const columns = lightColumns(this.clusters, light.coefficients(angle), suns ? suns.coefficients(angle) : null);
+    this.setStrengths(lamps);
+    const strengths = [...this.strengths.values()].flatMap(({ value }) => value.toArray());
+    const columns = lightColumns(this.clusters, light.coefficients(angle), suns ? suns.coefficients(angle) : null, strengths);
     formConstants(this.clusters, this.rows, columns, this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
+    this.uniforms.prtSunsApart.value = suns !== null && this.directApart;
+  }
+
+  /** By which what a material of this name shines with is multiplied. */
+  strengthOf(name) {
+    return this.strengths.get(name) ?? { value: new Vector3(1, 1, 1) };
+  }
+
+  setStrengths(lamps) {
+    const given = Object.entries(lamps).map(([name, strength]) => [
+      name,
+      typeof strength === "number" ? [strength, strength, strength] : strength,
+    ]);
+    for (const [name, strength] of given) {
+      if (!this.strengths.has(name)) throw new RangeError(`there is no lamp "${name}"`);
+      if (strength?.length !== 3 || ![...strength].every((value) => value >= 0 && value < Infinity))
+        throw new RangeError(`the strength of lamp "${name}" is neither a number nor three, or below zero`);
+    }
+    for (const { value } of this.strengths.values()) value.set(1, 1, 1);
+    for (const [name, strength] of given) this.strengths.get(name).value.set(...strength);
   }
 
   dispose() {
@@ -120,7 +164,7 @@ function convertGeometry(geometry, model) {
     geometry.setAttribute("prt_words_0", wordAttribute(words, groups.length, 0));
     if (groups.length > 4) geometry.setAttribute("prt_words_1", wordAttribute(words, groups.length, 4));
     model.bytesPerVertex = 4 * groups.length;
-    return { PRT_PACKED_WORDS: groups.length, PRT_CLUSTER_BITS: clusters.clusterBits };
+    return { ...TABLES, PRT_PACKED_WORDS: groups.length, PRT_CLUSTER_BITS: clusters.clusterBits };
   }
   const cluster = geometry.getAttribute("_prt_cluster");
   if (!cluster || groups.length > 12)
@@ -131,35 +175,7 @@ function convertGeometry(geometry, model) {
   groups.forEach((group, i) => geometry.setAttribute(`prt_weights_${i}`, group));
   const weight = groups.length > 0 ? (groups[0].data ?? groups[0]).array.BYTES_PER_ELEMENT : 0;
   model.bytesPerVertex = numbers.BYTES_PER_ELEMENT + 4 * groups.length * weight;
-  return { PRT_WEIGHT_VECTORS: groups.length };
-}
-
-/** Base colour, texture, cut-outs and blending of `source`, lit by transfer alone. */
-function relitMaterial(source, model, defines) {
-  const material = new MeshBasicMaterial({
-    name: source.name,
-    color: source.color,
-    map: source.map ?? null,
-    alphaTest: source.alphaTest,
-    transparent: source.transparent,
-    opacity: source.opacity,
-    side: source.side,
-    vertexColors: source.vertexColors,
-    depthWrite: source.depthWrite,
-  });
-  material.defines = { ...defines, PRT_CONSTANTS_TEXTURE: 1, PRT_TEXTURE_WIDTH: TEXTURE_WIDTH };
-  material.onBeforeCompile = (shader) => {
-    shader.uniforms.prt_constants = { value: model.constantsTexture };
-    shader.uniforms.prt_clusters = { value: model.clustersTexture };
-    shader.vertexShader = shader.vertexShader
-      .replace("#include <common>", `#include <common>\n${exitRadiance}\nout vec3 prtRadiance;`)
-      .replace("#include <begin_vertex>", "#include <begin_vertex>\nprtRadiance = prt_exit_radiance();");
-    shader.fragmentShader = shader.fragmentShader
-      .replace("#include <common>", "#include <common>\nin vec3 prtRadiance;")
-      .replace("#include <opaque_fragment>", "outgoingLight *= max(prtRadiance, vec3(0.0));\n#include <opaque_fragment>");
-  };
-  material.customProgramCacheKey = () => `${EXTENSION}:${JSON.stringify(material.defines)}`;
-  return material;
+  return { ...TABLES, PRT_WEIGHT_VECTORS: groups.length };
 }
 
 /** For `GLTFLoader.register`. Files without the extension load as ever. */
@@ -189,7 +205,17 @@ export class PrtkitPlugin {
           defines.set(object.geometry, convertGeometry(object.geometry, model));
           model.vertices += object.geometry.getAttribute("position").count;
         }
-        object.material = relitMaterial(object.material, model, defines.get(object.geometry));
+        const primitive = json.meshes?.[from.meshes]?.primitives?.[from.primitives];
+        const number = primitive?.material;
+        const traits = model.directApart ? sunTraits(json.materials?.[number]) : null;
+        object.material = relitMaterial(object.material, {
+          uniforms: { ...model.uniforms, prtStrength: model.strengthOf(json.materials?.[number]?.name || `material ${number}`) },
+          defines: defines.get(object.geometry),
+          traits,
+        });
+        if (!traits) return;
+        object.castShadow = traits.casts;
+        object.receiveShadow = true;
       });
     gltf.userData.prtkit = model;
   }

@@ -1,5 +1,5 @@
 // The page: the panel, the pointer, what the address asks for.
-//   ?model=knot&quality=0&sky=0&window=auto&angle=40&camera=x,y,z&target=x,y,z&fov=35&panel=0
+//   ?model=knot&quality=0&sky=0&suns=1&window=auto&angle=40&camera=x,y,z&target=x,y,z&fov=35&panel=0
 
 import { Picture } from "./picture.js";
 import { WINDOWS } from "./windows.js";
@@ -57,10 +57,22 @@ function fill(select, names, chosen) {
   select.selectedIndex = Math.max(0, chosen);
 }
 
+function slider(name, min, value, max, change) {
+  const label = document.createElement("label");
+  const text = document.createElement("span");
+  const input = document.createElement("input");
+  text.textContent = text.title = name;
+  Object.assign(input, { type: "range", min, max, step: 0.01, value });
+  input.oninput = () => change(Number(input.value));
+  label.append(text, input);
+  return label;
+}
+
 async function start() {
   let picture;
   try {
-    picture = new Picture(canvas);
+    const phone = matchMedia("(pointer: coarse)").matches;
+    picture = new Picture(canvas, { shadowMapSize: phone ? 1024 : 2048 });
   } catch {
     throw new Error("This page needs WebGL 2, which this browser does not offer.");
   }
@@ -110,9 +122,30 @@ async function start() {
       throw new Error(`${model().title}: ${error.message}`);
     }
     showFigures(level, performance.now() - began);
+    showSuns();
+    showLamps();
   }
 
-  const showSky = () => loading(sky().title, () => picture.setSky(sky().file, sky()));
+  async function showSky() {
+    await loading(sky().title, () => picture.setSky(sky()));
+    showSuns();
+  }
+
+  /** A slider for each lamp, and for the daylight beside them; nothing for a model without lamps. */
+  function showLamps() {
+    const { lamps } = picture.gltf.userData.prtkit;
+    element("lamps").hidden = lamps.length === 0;
+    element("lamps").replaceChildren(
+      slider("daylight", 0, Math.sqrt(picture.daylight), 1, (value) => picture.setDaylight(value ** 2)),
+      ...lamps.map((name) => slider(name, 0, 1, 2, (value) => picture.setLamp(name, value))),
+    );
+    if (lamps.length === 0) picture.setDaylight(1);
+  }
+
+  /** Whether there is anything to choose. */
+  function showSuns() {
+    element("suns").disabled = !picture.canSunsBeApart;
+  }
 
   const fillModels = (chosen) => fill(element("model"), models.map((m) => m.title), chosen);
   const fillSkies = (chosen) => fill(element("sky"), skies.map((s) => s.title), chosen);
@@ -125,25 +158,45 @@ async function start() {
       Math.min(chosen, model().levels.length - 1),
     );
 
-  /** A file of the user's: shown, and added to its list where that works. */
-  async function openFile(file) {
+  async function openModel(file) {
     const url = URL.createObjectURL(file);
-    if (/\.glb$/i.test(file.name)) {
-      const level = { title: "as in the file", file: url, fileBytes: file.size };
-      const began = performance.now();
-      await loading(file.name, () => picture.setModel(url));
-      models.push({ name: file.name, title: file.name, levels: [level] });
-      fillModels(models.length - 1);
-      fillQualities(0);
-      showFigures(level, performance.now() - began);
-    } else if (/\.(hdr|exr)$/i.test(file.name)) {
-      const entry = { title: file.name, file: url, exr: /\.exr$/i.test(file.name) };
-      await loading(file.name, () => picture.setSky(url, entry));
-      skies.push(entry);
-      fillSkies(skies.length - 1);
-    } else {
-      throw new Error("is neither a model (.glb) nor a sky (.hdr, .exr)");
-    }
+    const level = { title: "as in the file", file: url, fileBytes: file.size };
+    const began = performance.now();
+    await loading(file.name, () => picture.setModel(url));
+    models.push({ name: file.name, title: file.name, levels: [level] });
+    fillModels(models.length - 1);
+    fillQualities(0);
+    showFigures(level, performance.now() - began);
+    showSuns();
+    showLamps();
+  }
+
+  /** `image`, `light`: a sky and its light file, or one of both. */
+  async function openSky({ image, light }) {
+    const entry = { title: (image ?? light).name };
+    if (image) Object.assign(entry, { file: URL.createObjectURL(image), exr: /\.exr$/i.test(image.name) });
+    if (light) entry.light = URL.createObjectURL(light);
+    await loading(entry.title, () => picture.setSky(entry));
+    skies.push(entry);
+    fillSkies(skies.length - 1);
+    showSuns();
+  }
+
+  /** Files of the user's: shown, and added to their lists where that works. A light file goes with the sky of its name. */
+  async function openFiles(files) {
+    const stem = ({ name }) => name.replace(/\.[^.]*$/, "");
+    const isLight = ({ name }) => /\.json$/i.test(name);
+    const isImage = ({ name }) => /\.(hdr|exr)$/i.test(name);
+    const paired = (file) => isLight(file) && files.some((other) => isImage(other) && stem(other) === stem(file));
+    for (const file of files.filter((other) => !paired(other)))
+      try {
+        if (/\.glb$/i.test(file.name)) await openModel(file);
+        else if (isImage(file)) await openSky({ image: file, light: files.find((other) => isLight(other) && stem(other) === stem(file)) });
+        else if (isLight(file)) await openSky({ light: file });
+        else throw new Error("is neither a model (.glb) nor a sky (.hdr, .exr) nor its light (.json)");
+      } catch (error) {
+        throw new Error(`${file.name}: ${error.message}`);
+      }
   }
 
   const guarded = (work) => async (event) => {
@@ -155,21 +208,13 @@ async function start() {
     }
   };
 
-  const openFiles = guarded(async (files) => {
-    for (const file of files)
-      try {
-        await openFile(file);
-      } catch (error) {
-        throw new Error(`${file.name}: ${error.message}`);
-      }
-  });
-
   fillModels(models.findIndex((m) => m.name === asked.get("model")));
   fillQualities(Number(asked.get("quality") ?? 0));
   fillSkies(Number(asked.get("sky") ?? 0));
   const windows = Object.keys(WINDOWS);
   fill(element("window"), Object.values(WINDOWS).map((w) => w.title), windows.indexOf(asked.get("window")));
   picture.window = windows[element("window").selectedIndex];
+  element("suns").checked = picture.sunsApart = asked.get("suns") !== "0";
   if (asked.get("panel") === "0") element("panel").classList.add("hidden");
   element("panel").open = !matchMedia("(max-width: 600px)").matches;
 
@@ -180,9 +225,10 @@ async function start() {
   element("quality").onchange = guarded(() => showModel(true));
   element("sky").onchange = guarded(showSky);
   element("window").onchange = () => picture.setWindow(windows[element("window").selectedIndex]);
+  element("suns").onchange = () => picture.setSunsApart(element("suns").checked);
   element("angle").oninput = () => picture.setAngle((Number(element("angle").value) * Math.PI) / 180);
   element("exposure").oninput = () => picture.setExposure(Number(element("exposure").value));
-  element("files").onchange = () => openFiles([...element("files").files]);
+  element("files").onchange = guarded(() => openFiles([...element("files").files]));
 
   addEventListener("dragover", (event) => {
     event.preventDefault();
@@ -191,13 +237,14 @@ async function start() {
   addEventListener("dragleave", (event) => {
     if (!event.relatedTarget) element("drop").hidden = true; // out of the page
   });
-  addEventListener("drop", (event) => {
+  addEventListener("drop", guarded((event) => {
     event.preventDefault();
     element("drop").hidden = true;
-    openFiles([...event.dataTransfer.files]);
-  });
+    return openFiles([...event.dataTransfer.files]);
+  }));
 
   turnLightByDragging(picture);
+  turnLightByItself(picture);
   const stage = element("stage");
   const resize = () => picture.resize(stage.clientWidth, stage.clientHeight, Math.min(devicePixelRatio, 2));
   new ResizeObserver(resize).observe(stage);
@@ -205,6 +252,29 @@ async function start() {
   picture.setAngle((Number(asked.get("angle") ?? 0) * Math.PI) / 180);
   element("angle").value = asked.get("angle") ?? 0;
   await Promise.all([showModel(false), showSky()]);
+}
+
+function turnLight(picture, angle) {
+  element("angle").value = Math.round((Math.atan2(Math.sin(angle), Math.cos(angle)) * 180) / Math.PI);
+  picture.setAngle(angle);
+}
+
+const TURN_PER_SECOND = Math.PI / 12;
+
+/** While that is chosen. */
+function turnLightByItself(picture) {
+  let before = null;
+  const step = (now) => {
+    if (!element("turning").checked) return;
+    // A frame that took long, or a page that was hidden, does not make it jump.
+    if (before !== null) turnLight(picture, picture.angle + TURN_PER_SECOND * Math.min((now - before) / 1000, 0.1));
+    before = now;
+    requestAnimationFrame(step);
+  };
+  element("turning").onchange = () => {
+    before = null;
+    requestAnimationFrame(step);
+  };
 }
 
 /** Drag with the right button or with Shift: the light. OrbitControls has the rest. */
@@ -226,8 +296,7 @@ function turnLightByDragging(picture) {
     if (last === null) return;
     const angle = picture.angle + ((event.clientX - last) / canvas.clientHeight) * Math.PI;
     last = event.clientX;
-    element("angle").value = Math.round((Math.atan2(Math.sin(angle), Math.cos(angle)) * 180) / Math.PI);
-    picture.setAngle(angle);
+    turnLight(picture, angle);
   });
   canvas.addEventListener("pointerup", () => (last = null));
 }

@@ -2,6 +2,7 @@
 
 import {
   BackSide,
+  BasicShadowMap,
   BoxGeometry,
   CustomToneMapping,
   FloatType,
@@ -21,7 +22,8 @@ import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
-import { PrtkitPlugin, projectEquirectangular } from "./PrtkitLoader.js";
+import { lightOfSuns, PrtkitPlugin, projectEquirectangular, readLightFile, SunLights } from "./PrtkitLoader.js";
+import { skyImage } from "./skyImage.js";
 import { truncated, WINDOWS } from "./windows.js";
 import { ExposureMeter } from "./exposureMeter.js";
 import backgroundFragment from "./background.frag?raw";
@@ -36,11 +38,20 @@ ShaderChunk.tonemapping_pars_fragment = ShaderChunk.tonemapping_pars_fragment.re
   }`,
 );
 
+async function loadLightFile(url) {
+  const response = await fetch(url);
+  if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+  return readLightFile(await response.json());
+}
+
 export class Picture {
-  constructor(canvas) {
+  /** `shadowMapSize`: texels along each side. */
+  constructor(canvas, { shadowMapSize = 2048 } = {}) {
     this.renderer = new WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
     this.renderer.toneMapping = CustomToneMapping;
     this.renderer.setClearColor(0x000000, 0);
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = BasicShadowMap; // what transfer lights filters it as wide as the sun is
     this.meter = new ExposureMeter(this.renderer);
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(35, 1, 0.01, 100);
@@ -52,7 +63,7 @@ export class Picture {
       new ShaderMaterial({
         vertexShader: backgroundVertex,
         fragmentShader: backgroundFragment,
-        uniforms: { environment: { value: null }, angle: { value: 0 }, middle: { value: 0 } },
+        uniforms: { environment: { value: null }, angle: { value: 0 }, middle: { value: 0 }, strength: { value: 1 } },
         side: BackSide,
         depthWrite: false,
       }),
@@ -62,10 +73,16 @@ export class Picture {
     this.background.visible = false;
     this.scene.add(this.background);
     this.gltf = null;
-    this.light = null; // of the sky, all bands
+    this.light = null; // of the sky with its suns, all bands
+    this.split = null; // the sky without its suns, and these, where a light file says them
+    this.sunLights = null;
+    this.shadowMapSize = shadowMapSize;
+    this.sunsApart = true; // where there are suns, and the model keeps direct light apart
     this.window = "auto";
-    this.windowed = null; // as many bands as the model has, under the window
+    this.lit = null; // what lights the model: { sky, suns }, as many bands as it has, the sky under the window
     this.angle = 0;
+    this.daylight = 1; // times the sky and its suns
+    this.lamps = {}; // strengths by name
     this.stops = 0;
     this.drawn = 0;
     this.pending = false;
@@ -83,6 +100,7 @@ export class Picture {
       );
     this.removeModel();
     this.gltf = gltf;
+    this.lamps = {};
     this.scene.add(gltf.scene);
     if (!keepCamera) this.frame(camera);
     this.formLight();
@@ -94,28 +112,65 @@ export class Picture {
     this.gltf.scene.traverse((object) => {
       object.geometry?.dispose();
       object.material?.map?.dispose();
+      object.material?.emissiveMap?.dispose();
       object.material?.dispose();
     });
     this.gltf.userData.prtkit.dispose();
     this.gltf = null;
   }
 
-  /** A lat-long sky; `center` says which axis its middle looks at: "x" as three has it, "z" as OpenEXR has it. */
-  async setSky(url, { exr = /\.exr(\?|$)/.test(url), center = "x" } = {}) {
-    const texture = await (exr ? new EXRLoader() : new HDRLoader()).setDataType(FloatType).loadAsync(url);
+  /**
+   * `file`: a lat-long sky; `center` says which axis its middle looks at: "x" as three has it, "z" as OpenEXR has it.
+   * `light`: its light file, which has its suns. One of both is enough.
+   */
+  async setSky({ file, exr = /\.exr(\?|$)/.test(file), center = "x", light }) {
+    const [image, split] = await Promise.all([
+      file ? (exr ? new EXRLoader() : new HDRLoader()).setDataType(FloatType).loadAsync(file) : null,
+      light ? loadLightFile(light) : null,
+    ]);
+    this.light = image
+      ? projectEquirectangular(image, undefined, { center })
+      : split.sky.plus(lightOfSuns(split.suns, split.sky.order));
+    this.showSky(image ?? skyImage(split.sky), image ? center : "z");
+    this.setSuns(split);
+    this.formLight();
+  }
+
+  showSky(texture, center) {
     texture.minFilter = texture.magFilter = this.renderer.extensions.has("OES_texture_float_linear")
       ? LinearFilter
       : NearestFilter;
     texture.wrapS = RepeatWrapping;
     texture.generateMipmaps = false;
-    const light = projectEquirectangular(texture, undefined, { center });
     const { environment, middle } = this.background.material.uniforms;
     environment.value?.dispose();
     environment.value = texture;
     middle.value = center === "x" ? 0.75 : 0.5;
     this.background.visible = true;
-    this.light = light;
+  }
+
+  /** `split`: what a light file says, or null. */
+  setSuns(split) {
+    this.sunLights?.removeFromParent();
+    this.sunLights?.dispose();
+    this.sunLights = null;
+    this.split = split?.suns.length > 0 ? split : null;
+    if (!this.split) return;
+    this.sunLights = new SunLights(split.suns, { mapSize: this.shadowMapSize });
+    for (const { shadow } of this.sunLights.lights) shadow.autoUpdate = false; // nothing moves but they do
+    this.scene.add(this.sunLights);
+  }
+
+  /** With sharp shadows, or in the sky with the rest of it. */
+  setSunsApart(apart) {
+    this.sunsApart = apart;
     this.formLight();
+  }
+
+  /** Whether suns can be lit apart: where the sky has them, and the model keeps direct light apart. */
+  get canSunsBeApart() {
+    const model = this.gltf?.userData.prtkit;
+    return Boolean(this.split && model?.directApart && this.split.sky.order >= model.order);
   }
 
   /** One of WINDOWS. */
@@ -127,12 +182,29 @@ export class Picture {
   /** Once for each sky and model: turning the light does not change what its window takes out. */
   formLight() {
     const order = this.gltf?.userData.prtkit.order;
-    if (this.light && order) this.windowed = WINDOWS[this.window].apply(truncated(this.light, order));
+    if (this.light && order) {
+      const apart = this.sunsApart && this.canSunsBeApart;
+      const sky = WINDOWS[this.window].apply(truncated(apart ? this.split.sky : this.light, order));
+      this.lit = { sky, suns: apart ? lightOfSuns(this.split.suns, order) : null };
+      if (this.sunLights) this.sunLights.visible = apart;
+      if (apart) this.sunLights.fit(this.gltf.scene);
+    }
     this.relight();
   }
 
   setAngle(radians) {
     this.angle = radians;
+    this.relight();
+  }
+
+  /** Times the sky and its suns. */
+  setDaylight(factor) {
+    this.daylight = factor;
+    this.relight();
+  }
+
+  setLamp(name, strength) {
+    this.lamps[name] = strength;
     this.relight();
   }
 
@@ -143,8 +215,14 @@ export class Picture {
 
   relight() {
     if (!this.light) return;
-    this.background.material.uniforms.angle.value = this.angle;
-    this.gltf?.userData.prtkit.setLight(this.windowed, this.angle);
+    const { uniforms } = this.background.material;
+    uniforms.angle.value = this.angle;
+    uniforms.strength.value = this.daylight;
+    if (this.gltf && this.lit) {
+      const { sky, suns } = this.lit;
+      this.gltf.userData.prtkit.setLight(sky.times(this.daylight), this.angle, suns?.times(this.daylight) ?? null, this.lamps);
+    }
+    this.sunLights?.turn(this.angle).dim(this.daylight);
     this.draw();
   }
 

@@ -104,6 +104,21 @@ export class ShLight {
     this.matrices = matricesByOrder.get(order);
   }
 
+  /** Of RGB coefficients [order²][3] in prtkit's convention: what `coefficients` gives. */
+  static fromCoefficients(order, coefficients) {
+    const light = new ShLight(order, new Float64Array(3 * order * order));
+    for (let l = 0; l < order; ++l) {
+      const size = 2 * l + 1;
+      for (let i = 0; i < size; ++i)
+        for (let j = 0; j < size; ++j) {
+          const factor = light.matrices[l][i * size + j]; // orthogonal: the transpose turns back
+          for (let channel = 0; channel < 3; ++channel)
+            light.polar[3 * (l * l + j) + channel] += factor * coefficients[3 * (l * l + i) + channel];
+        }
+    }
+    return light;
+  }
+
   /**
    * RGB coefficients [order²][3] as prtkit wants them, the light turned about +Y by `angle` radians: light from +Z comes
    * from +X after a quarter turn.
@@ -133,6 +148,17 @@ export class ShLight {
         }
     }
     return result;
+  }
+
+  /** This light and `other` together, in the bands that both have. */
+  plus(other) {
+    const order = Math.min(this.order, other.order);
+    return new ShLight(order, this.polar.slice(0, 3 * order * order).map((value, i) => value + other.polar[i]));
+  }
+
+  /** This light so many times as strong. */
+  times(factor) {
+    return new ShLight(this.order, this.polar.map((value) => factor * value));
   }
 
   /** The same light with the least filter under which its radiance is nowhere negative: `deringFactors`. */

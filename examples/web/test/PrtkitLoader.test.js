@@ -12,7 +12,9 @@ import {
   Mesh,
   MeshStandardMaterial,
   RGBAFormat,
+  DoubleSide,
   ShaderChunk,
+  ShaderLib,
 } from "three";
 import { halfFloatSky, PrtkitPlugin, projectEquirectangular } from "../src/PrtkitLoader.js";
 
@@ -22,14 +24,18 @@ function bytesOf(...values) {
   return new Float32Array(values).buffer;
 }
 
-function scene(attributes, extension) {
+function scene(attributes, extension, material = {}) {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(6), 3));
   for (const [name, attribute] of Object.entries(attributes)) geometry.setAttribute(name, attribute);
   const mesh = new Mesh(geometry, new MeshStandardMaterial({ color: 0xff0000, alphaTest: 0.25 }));
   const group = new Group().add(mesh);
   const parser = {
-    json: { extensions: extension ? { PRTKIT_clustered_pca: extension } : {} },
+    json: {
+      extensions: extension ? { PRTKIT_clustered_pca: extension } : {},
+      meshes: [{ primitives: [{ material: 0 }] }],
+      materials: [material],
+    },
     associations: new Map([[mesh, { meshes: 0, primitives: 0 }]]),
     getDependency: async (kind, i) => [bytesOf(2, 0.5), new Uint8Array([7]).buffer][i],
   };
@@ -51,7 +57,7 @@ test("packed weights become words, and the material keeps its colour", async () 
   await new PrtkitPlugin(parser).afterRoot(gltf);
   assert.deepEqual([...mesh.geometry.getAttribute("prt_words_0").array], [0x04030201, 0x800000fa]);
   assert.equal(mesh.geometry.getAttribute("_prt_weights_0"), undefined);
-  assert.equal(mesh.material.type, "MeshBasicMaterial");
+  assert.equal(mesh.material.type, "MeshLambertMaterial");
   assert.equal(mesh.material.color.getHex(), 0xff0000);
   assert.equal(mesh.material.alphaTest, 0.25);
   assert.deepEqual(mesh.material.defines.PRT_PACKED_WORDS, 1);
@@ -130,20 +136,110 @@ test("a light of fewer bands than the model is refused", async () => {
   gltf.userData.prtkit.setLight(enough);
 });
 
+/** What three compiles of a material. */
+function compiled({ onBeforeCompile }) {
+  const { vertexShader, fragmentShader } = ShaderLib.lambert;
+  const shader = { uniforms: {}, vertexShader, fragmentShader };
+  onBeforeCompile(shader);
+  return shader;
+}
+
 test("the shader is that of the runtime", async () => {
   const bytes = new BufferAttribute(new Uint8Array(8), 4);
   const { gltf, parser, mesh } = scene({ _prt_weights_0: bytes }, packed);
   await new PrtkitPlugin(parser).afterRoot(gltf);
-  const shader = {
-    uniforms: {},
-    vertexShader: "#include <common>\nvoid main() {\n#include <begin_vertex>\n}",
-    fragmentShader: "#include <common>\nvoid main() {\n#include <opaque_fragment>\n}",
-  };
-  mesh.material.onBeforeCompile(shader);
+  const shader = compiled(mesh.material);
   assert.match(shader.vertexShader, /vec3 prt_exit_radiance\(\)/);
   assert.match(shader.vertexShader, /prtRadiance = prt_exit_radiance\(\);/);
   assert.doesNotMatch(shader.vertexShader, /#include "/);
-  assert.match(shader.fragmentShader, /outgoingLight \*= max\(prtRadiance/);
+  assert.match(shader.fragmentShader, /max\( prtRadiance, vec3\( 0.0 \) \) \* diffuseColor.rgb/);
+  // No light of three's but what suns add: it has ambient lights and probes in these.
+  assert.doesNotMatch(shader.fragmentShader, /#include <lights_(?!pars_begin)/);
+  assert.match(shader.fragmentShader, /prtSunRadiance\(/);
+});
+
+const apart = { ...packed, parts: [{ kind: "direct", channels: 1 }] };
+
+test("suns of three's light what keeps direct light apart, while they are apart", async () => {
+  const light = white();
+  const weights = () => ({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) });
+  for (const [extension, lit] of [[apart, true], [packed, false]]) {
+    const { gltf, parser, mesh } = scene(weights(), extension);
+    await new PrtkitPlugin(parser).afterRoot(gltf);
+    const model = gltf.userData.prtkit;
+    assert.equal(model.directApart, lit);
+    assert.equal(Boolean(mesh.material.defines.PRT_SUNS), lit);
+    assert.equal(mesh.receiveShadow && mesh.castShadow, lit);
+    const { prtSunsApart } = compiled(mesh.material).uniforms;
+    model.setLight(light);
+    assert.equal(prtSunsApart.value, false);
+    model.setLight(light, 0, light);
+    assert.equal(prtSunsApart.value, lit);
+    // Direct transfer leaves the suns out, a whole one has them.
+    const l0 = Math.sqrt(4 * Math.PI);
+    assert.ok(Math.abs(model.constantsTexture.image.data[0] - (lit ? 1 : 2) * 1.5 * l0) < 1e-5);
+    model.setLight(light);
+    assert.equal(prtSunsApart.value, false);
+  }
+});
+
+const WITH_LAMPS = {
+  version: 4,
+  order: 1,
+  parts: [{ kind: "direct", channels: 1 }, { kind: "lamp", channels: 1, name: "Lantern" }, { kind: "lamp", channels: 3, name: "Sign" }],
+  components: [0],
+  bases: { bufferView: 0, componentType: 5126 },
+};
+
+test("lamps are dimmed and coloured by name, and so is what shines", async () => {
+  const attributes = () => ({ _prt_cluster: new BufferAttribute(new Uint8Array(2), 1) });
+  const { gltf, parser, mesh } = scene(attributes(), WITH_LAMPS, { name: "Sign" });
+  mesh.material.emissive.setRGB(0.5, 0.25, 1);
+  mesh.material.emissiveIntensity = 8;
+  parser.getDependency = async () => bytesOf(2, 3, 5, 7, 11);
+  await new PrtkitPlugin(parser).afterRoot(gltf);
+  const model = gltf.userData.prtkit;
+  assert.deepEqual(model.lamps, ["Lantern", "Sign"]);
+  const { prtStrength } = compiled(mesh.material).uniforms;
+  const l0 = 2 * Math.sqrt(4 * Math.PI);
+  const lit = (...expected) => {
+    const [red, green, blue] = model.constantsTexture.image.data;
+    [red, green, blue].forEach((value, c) => assert.ok(Math.abs(value - l0 - expected[c]) < 1e-5, `${value - l0}, not ${expected[c]}`));
+  };
+  model.setLight(white());
+  lit(3 + 5, 3 + 7, 3 + 11);
+  assert.deepEqual(prtStrength.value.toArray(), [1, 1, 1]);
+  model.setLight(white(), 0, null, { Sign: [1, 0, 0.5], Lantern: 2 });
+  lit(6 + 5, 6, 6 + 5.5);
+  assert.deepEqual(prtStrength.value.toArray(), [1, 0, 0.5]);
+  model.setLight(white(), 0, null, { Lantern: 0 }); // the other shines as in the scene again
+  lit(5, 7, 11);
+  assert.deepEqual(prtStrength.value.toArray(), [1, 1, 1]);
+  assert.equal(mesh.material.emissiveIntensity, 8);
+  assert.deepEqual(mesh.material.emissive.toArray(), [0.5, 0.25, 1]);
+  for (const bad of [{ Moon: 1 }, { Sign: -1 }, { Sign: NaN }, { Sign: [1, 2] }, { Sign: [1, 2, -3] }, { Sign: Infinity }, { Sign: null }])
+    assert.throws(() => model.setLight(white(), 0, null, bad), RangeError);
+  lit(5, 7, 11); // what is refused changes nothing
+});
+
+test("suns go through thin sheets, not into media, and past glass", async () => {
+  const sheet = { KHR_materials_diffuse_transmission: { diffuseTransmissionFactor: 0.25, diffuseTransmissionColorFactor: [1, 0.5, 0] } };
+  const wax = { ...sheet, KHR_materials_volume: { thicknessFactor: 1, attenuationDistance: 0.1 } };
+  const glass = { KHR_materials_transmission: { transmissionFactor: 0.9 } };
+  for (const [material, lit, casts, transmission] of [
+    [{}, true, true, [1, 1, 1, 0]],
+    [{ extensions: sheet }, true, true, [1, 0.5, 0, 0.25]],
+    [{ extensions: wax }, false, true, [1, 0.5, 0, 0.25]],
+    [{ extensions: glass }, true, false, [1, 1, 1, 0]],
+    [{ alphaMode: "BLEND" }, true, false, [1, 1, 1, 0]],
+  ]) {
+    const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, apart, material);
+    await new PrtkitPlugin(parser).afterRoot(gltf);
+    assert.equal(Boolean(mesh.material.defines.PRT_SUNS), lit);
+    assert.equal(mesh.castShadow, casts);
+    assert.deepEqual(compiled(mesh.material).uniforms.prtTransmission.value.toArray(), transmission);
+    assert.equal(mesh.material.shadowSide, DoubleSide);
+  }
 });
 
 test("half floats and three channels are read", () => {

@@ -89,14 +89,14 @@ const difference = (page, a, b) =>
   );
 
 /** The picture of prt with the page's exposure; its own may be a little off it (METERED stops). */
-async function render(page, file, angle, { position, target, fieldOfView }, sky = join(distFolder, "skies/sky.exr"), window = "auto") {
+async function render(page, file, angle, { position, target, fieldOfView }, sky = join(distFolder, "skies/sky.exr"), window = "auto", suns = "0") {
   const output = join(work, "reference.png");
   const json = join(work, "reference.json");
   const exposure = await page.evaluate(() => Math.log2(globalThis.prtkitPicture.renderer.toneMappingExposure));
   const run = (stops) =>
     execFileSync(prt, ["render", join(distFolder, file), "--env", sky, "-o", output, "--json", json,
       "--rotate", String(angle), "--size", `${width}x${height}`, "--samples", "3", "--camera", position.join(","),
-      "--look-at", target.join(","), "--window", window, "--fov", String(fieldOfView), "--exposure", stops], { stdio: "ignore" });
+      "--look-at", target.join(","), "--window", window, "--fov", String(fieldOfView), "--exposure", stops, "--suns", suns, "--sun-rays", "64", "--backend", "cpu"], { stdio: "ignore" });
   run("auto");
   const metered = JSON.parse(readFileSync(json, "utf8")).exposure_stops;
   assert.ok(Math.abs(metered - exposure) < METERED, `the page meters ${exposure} stops, prt ${metered}`);
@@ -107,14 +107,112 @@ async function render(page, file, angle, { position, target, fieldOfView }, sky 
 // Skies are shown as three shows them, with +X in the middle; prt has +Z there.
 const THREE_TURN = 90;
 
-const { models } = JSON.parse(readFileSync(join(distFolder, "models/models.json"), "utf8"));
+const { models, skies } = JSON.parse(readFileSync(join(distFolder, "models/models.json"), "utf8"));
 const standardCamera = { position: [3.2, 2.6, 6.4], target: [0, 0.4, 0], fieldOfView: 35 };
 const query = (view) => ({
   camera: view.position.join(","),
   target: view.target.join(","),
   fov: view.fieldOfView,
   panel: 0,
+  suns: 0,
 });
+
+/** The radiance of vertices that prt wrote as colors: for each mesh and primitive its vec3 floats. */
+function vertexColors(path) {
+  const bytes = readFileSync(path);
+  const jsonBytes = bytes.readUInt32LE(12);
+  const json = JSON.parse(bytes.toString("utf8", 20, 20 + jsonBytes));
+  return json.meshes.map(({ primitives }) =>
+    primitives.map(({ attributes }) => {
+      const { bufferView, byteOffset = 0, count, componentType, type } = json.accessors[attributes.COLOR_0];
+      assert.deepEqual([componentType, type], [5126, "VEC3"]);
+      const view = json.bufferViews[bufferView];
+      const at = 20 + jsonBytes + 8 + (view.byteOffset ?? 0) + byteOffset;
+      const stride = view.byteStride ?? 12;
+      return Array.from({ length: 3 * count }, (_, i) => bytes.readFloatLE(at + Math.floor(i / 3) * stride + 4 * (i % 3)));
+    }),
+  );
+}
+
+/**
+ * Linear radiance of what the page shows against `colors` of vertices, drawn alike: where colors change little from pixel
+ * to pixel (next to a sharp shadow vertices say nothing), the root of the mean squared difference over that of the radiance,
+ * and of the means the ratio; and the share of such pixels.
+ */
+const radianceAgainst = (page, colors) =>
+  page.evaluate((truth) => {
+    const { renderer, scene, camera, meter, background, gltf } = globalThis.prtkitPicture;
+    const [columns, rows] = [960, 540];
+    const Target = meter.target.constructor;
+    const target = new Target(columns, rows, { type: meter.target.texture.type });
+    const pixels = () => {
+      const result = new Float32Array(4 * columns * rows);
+      renderer.setRenderTarget(target);
+      renderer.clear();
+      renderer.render(scene, camera);
+      renderer.readRenderTargetPixels(target, 0, 0, columns, rows, result);
+      renderer.setRenderTarget(null);
+      return result;
+    };
+    background.visible = false;
+    const shown = pixels();
+    const Material = background.material.constructor;
+    gltf.scene.traverse((object) => {
+      if (!object.isMesh) return;
+      const { meshes, primitives } = gltf.parser.associations.get(object);
+      const Attribute = object.geometry.index.constructor;
+      object.geometry.setAttribute("truth", new Attribute(new Float32Array(truth[meshes][primitives]), 3));
+      object.material = new Material({
+        side: object.material.side,
+        vertexShader: `attribute vec3 truth; varying vec3 color;
+          void main() { color = truth; gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }`,
+        fragmentShader: "varying vec3 color; void main() { gl_FragColor = vec4(color, 1.0); }",
+      });
+    });
+    const expected = pixels();
+    const green = (x, y) => (expected[4 * (y * columns + x) + 3] > 0 ? expected[4 * (y * columns + x) + 1] : NaN);
+    let [squares, differences, sum, meanShown, even, covered] = [0, 0, 0, 0, 0, 0];
+    for (let y = 2; y < rows - 2; ++y)
+      for (let x = 2; x < columns - 2; ++x) {
+        if (!(expected[4 * (y * columns + x) + 3] > 0)) continue;
+        ++covered;
+        let [low, high] = [Infinity, -Infinity];
+        for (let dy = -2; dy <= 2; ++dy)
+          for (let dx = -2; dx <= 2; ++dx) {
+            const value = green(x + dx, y + dy);
+            low = Number.isNaN(value) ? -Infinity : Math.min(low, value);
+            high = Math.max(high, value);
+          }
+        if (!(high - low < 0.05 * high)) continue;
+        ++even;
+        for (let c = 0; c < 3; ++c) {
+          const i = 4 * (y * columns + x) + c;
+          squares += expected[i] ** 2;
+          differences += (shown[i] - expected[i]) ** 2;
+          sum += expected[i];
+          meanShown += shown[i];
+        }
+      }
+    return { rms: Math.sqrt(differences / squares), ratio: meanShown / sum, even: even / covered };
+  }, colors);
+
+for (const [i, model] of models.entries())
+  for (const angle of [25 + 40 * i, 200])
+    await check(`${model.name}, turned by ${angle}: suns light as prt relight does by rays`, async (page, errors) => {
+      const view = { fieldOfView: 35, ...(model.camera ?? standardCamera) };
+      const { file } = model.levels[1];
+      await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
+      await picture(page);
+      assert.equal(await page.evaluate(() => globalThis.prtkitPicture.canSunsBeApart), true);
+      const lit = join(work, "lit.glb");
+      execFileSync(prt, ["relight", join(distFolder, file), "--env", join(distFolder, skies[0].light), "-o", lit, "--albedo",
+        "--window", "auto", "--rotate", String(angle)], { stdio: "ignore" });
+      const d = await radianceAgainst(page, vertexColors(lit));
+      console.log(`  ${(100 * d.rms).toFixed(2)} % rms, means ${d.ratio.toFixed(4)} times, over ${(100 * d.even).toFixed(0)} % of the model`);
+      assert.deepEqual(errors, []);
+      // Of 32 taps at the shadow map against 256 rays, and of pixels that look even but lie in a wide penumbra.
+      assert.ok(d.rms < 0.02, `${d.rms}`);
+    });
 
 for (const [i, model] of models.entries())
   for (const [quality, level] of model.levels.entries())
@@ -131,6 +229,25 @@ for (const [i, model] of models.entries())
       assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
       assert.ok(d.far < FAR_SHARE, `${d.far} of the pixels differ`);
     });
+
+for (const [i, model] of models.entries())
+  await check(`${model.name}: with suns apart the picture is that of prt render by rays`, async (page, errors) => {
+    const view = { fieldOfView: 35, ...(model.camera ?? standardCamera) };
+    const angle = 15 + 50 * i;
+    await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
+    await picture(page);
+    const shown = await canvas(page);
+    const expected = await render(page, model.levels[1].file, angle, view, undefined, "auto", "auto");
+    const d = await difference(page, shown, expected);
+    console.log(`  mean ${d.mean.toFixed(3)} of 255, ${(100 * d.far).toFixed(2)} % of the pixels differ by more than ${FAR}`);
+    if (screenshots) {
+      writeFileSync(join(screenshots, `${model.name}.suns.png`), Buffer.from(shown.split(",")[1], "base64"));
+      writeFileSync(join(screenshots, `${model.name}.suns.prt.png`), Buffer.from(expected.split(",")[1], "base64"));
+    }
+    assert.deepEqual(errors, []);
+    assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`);
+    assert.ok(d.far < 2 * FAR_SHARE, `${d.far} of the pixels differ`);
+  });
 
 /** A Radiance file of flat RGBE pixels: sky above, ground below, a warm side. */
 function radianceFile(path) {
@@ -247,26 +364,28 @@ await check("the panel chooses model and quality, and shows bytes", async (page,
   assert.deepEqual(errors, []);
 });
 
-const dropped = (page, name, path) =>
+/** `files`: paths by name. */
+const dropped = (page, files) =>
   page.evaluate(
-    async ([fileName, bytes]) => {
-      const files = new DataTransfer();
-      files.items.add(new File([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))], fileName));
-      dispatchEvent(new DragEvent("drop", { dataTransfer: files, bubbles: true, cancelable: true }));
+    async (contents) => {
+      const transfer = new DataTransfer();
+      for (const [name, bytes] of contents)
+        transfer.items.add(new File([Uint8Array.from(atob(bytes), (c) => c.charCodeAt(0))], name));
+      dispatchEvent(new DragEvent("drop", { dataTransfer: transfer, bubbles: true, cancelable: true }));
     },
-    [name, readFileSync(path).toString("base64")],
+    Object.entries(files).map(([name, path]) => [name, readFileSync(path).toString("base64")]),
   );
 
 await check("files that are dropped are shown and listed", async (page, errors) => {
   await page.goto(url({ model: "knot", panel: 0 }));
   await picture(page);
   let count = await drawn(page);
-  await dropped(page, "warm.hdr", warmSky);
+  await dropped(page, { "warm.hdr": warmSky });
   await page.waitForFunction(() => document.querySelector("#sky").selectedOptions[0].text === "warm.hdr");
   await picture(page, count);
   count = await drawn(page);
   const other = models.at(-1);
-  await dropped(page, "mine.glb", join(distFolder, other.levels[1].file));
+  await dropped(page, { "mine.glb": join(distFolder, other.levels[1].file) });
   await page.waitForFunction(() => document.querySelector("#model").selectedOptions[0].text === "mine.glb");
   await picture(page, count);
   // The same as chosen from the list, from the same place.
@@ -277,12 +396,169 @@ await check("files that are dropped are shown and listed", async (page, errors) 
   const d = await difference(page, await canvas(page), await render(page, other.levels[1].file, THREE_TURN, view, warmSky));
   assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`);
   assert.deepEqual(errors, []);
-  await dropped(page, "notes.txt", warmSky);
+  await dropped(page, { "notes.txt": warmSky });
   await page.waitForSelector("#message:not([hidden])");
   assert.match(await page.locator("#message").innerText(), /notes\.txt/);
-  await dropped(page, "broken.glb", warmSky);
+  await dropped(page, { "broken.glb": warmSky });
   await page.waitForFunction(() => /broken\.glb/.test(document.querySelector("#message").innerText));
   assert.equal(await page.locator("#model option").count(), models.length + 1); // the broken one is not listed
+});
+
+/** A floor of 4 m, a square of half a metre that hangs over it, and lights of KHR_lights_punctual. */
+function lampScene(path, lights) {
+  const positions = [];
+  const normals = [];
+  const indices = [];
+  const square = (steps, size, y) => {
+    const first = positions.length / 3;
+    for (let i = 0; i <= steps; ++i)
+      for (let k = 0; k <= steps; ++k) {
+        positions.push(size * (k / steps - 0.5), y, size * (i / steps - 0.5));
+        normals.push(0, 1, 0);
+        if (i === steps || k === steps) continue;
+        const [a, b] = [first + i * (steps + 1) + k, first + (i + 1) * (steps + 1) + k];
+        indices.push(a, b, a + 1, a + 1, b, b + 1);
+      }
+  };
+  square(40, 4, 0);
+  square(4, 0.5, 0.6);
+  const count = positions.length / 3;
+  const data = Buffer.concat([Buffer.from(new Float32Array([...positions, ...normals]).buffer), Buffer.from(new Uint32Array(indices).buffer)]);
+  const bytes = 12 * count;
+  const json = {
+    asset: { version: "2.0" },
+    extensionsUsed: ["KHR_lights_punctual"],
+    extensions: { KHR_lights_punctual: { lights } },
+    scene: 0,
+    scenes: [{ nodes: [0, ...lights.map((_, i) => i + 1)] }],
+    nodes: [{ mesh: 0 }, ...lights.map((_, light) => ({ translation: [0.4 - light, 1.2, 0.2], extensions: { KHR_lights_punctual: { light } } }))],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0, NORMAL: 1 }, indices: 2, material: 0 }] }],
+    materials: [{ doubleSided: true, pbrMetallicRoughness: { metallicFactor: 0, baseColorFactor: [0.8, 0.7, 0.6, 1] } }],
+    accessors: [
+      { bufferView: 0, componentType: 5126, count, type: "VEC3", min: [-2, 0, -2], max: [2, 0.6, 2] },
+      { bufferView: 1, componentType: 5126, count, type: "VEC3" },
+      { bufferView: 2, componentType: 5125, count: indices.length, type: "SCALAR" },
+    ],
+    bufferViews: [
+      { buffer: 0, byteLength: bytes },
+      { buffer: 0, byteOffset: bytes, byteLength: bytes },
+      { buffer: 0, byteOffset: 2 * bytes, byteLength: 4 * indices.length },
+    ],
+    buffers: [{ byteLength: data.length, uri: `data:application/octet-stream;base64,${data.toString("base64")}` }],
+  };
+  writeFileSync(path, JSON.stringify(json));
+}
+
+await check("lamps light as in prt, and are dimmed", async (page, errors) => {
+  const bulb = { type: "point", name: "Bulb", color: [1, 0.9, 0.7], intensity: 2 };
+  const red = { type: "point", name: "Red", color: [1, 0.1, 0.05], intensity: 1.5 };
+  const prtRun = (...options) => execFileSync(prt, options, { stdio: "ignore" });
+  /** A model of these lights, and what prt has of it at the vertices. */
+  const made = (name, lights) => {
+    const at = (suffix) => join(work, name + suffix);
+    lampScene(at(".gltf"), lights);
+    prtRun("bake", at(".gltf"), "-o", at(".baked.glb"), "--rays", "256", "--bounces", "1");
+    prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "16", "--clusters", "16", "--components", "16");
+    prtRun("relight", at(".glb"), "--env", warmSky, "--env-center", "x", "--suns", "0", "--window", "auto", "--albedo", "-o", at(".lit.glb"));
+    return { file: at(".glb"), colors: vertexColors(at(".lit.glb")) };
+  };
+  const both = made("both", [bulb, red]);
+  const dimmed = made("dimmed", [{ ...bulb, intensity: 0.5 }, { ...red, intensity: 3 }]);
+  await onlyWarmSky(page);
+  const view = { position: [1.5, 2.5, 3], target: [0, 0.2, 0], fieldOfView: 45 };
+  await page.goto(url({ model: "knot", angle: 0, ...query(view), panel: 1 }));
+  await picture(page);
+  for (const [strengths, { colors }] of [[{}, both], [{ Bulb: 0.25, Red: 2 }, dimmed]]) {
+    const before = await page.locator("#model option").count();
+    await dropped(page, { "lamps.glb": both.file });
+    await page.waitForFunction((n) => document.querySelectorAll("#model option").length > n, before);
+    assert.deepEqual(await page.locator("#lamps label").allTextContents(), ["daylight", "Bulb", "Red"]);
+    for (const [name, strength] of Object.entries(strengths))
+      await page.locator(`#lamps label:has-text("${name}") input`).fill(String(strength));
+    if (screenshots) await page.screenshot({ path: join(screenshots, `lamps-${Object.keys(strengths).length}.png`) });
+    const d = await radianceAgainst(page, colors);
+    console.log(`  ${(100 * d.rms).toFixed(2)} % rms, means ${d.ratio.toFixed(4)} times, over ${(100 * d.even).toFixed(0)} % of the model`);
+    assert.ok(d.rms < 0.01 && d.even > 0.2, `${d.rms} over ${d.even}`);
+  }
+  await page.selectOption("#model", { index: 0 });
+  await page.waitForFunction(() => document.querySelector("#lamps").hidden);
+  assert.deepEqual(errors, []);
+});
+
+await check("suns go back into the sky, and come out of it", async (page, errors) => {
+  const view = { ...query(standardCamera), model: "knot", angle: 70 };
+  await page.goto(url({ ...view, suns: 1 }));
+  await picture(page);
+  const apart = await canvas(page);
+  let count = await drawn(page);
+  await page.evaluate(() => document.querySelector("#suns").click());
+  await picture(page, count);
+  const together = await canvas(page);
+  count = await drawn(page);
+  await page.evaluate(() => document.querySelector("#suns").click());
+  await picture(page, count);
+  assert.ok((await difference(page, apart, await canvas(page))).mean < 0.01);
+  assert.ok((await difference(page, apart, together)).mean > 1);
+  await page.goto(url({ ...view, suns: 0 }));
+  await picture(page);
+  assert.ok((await difference(page, together, await canvas(page))).mean < 0.01);
+  assert.deepEqual(errors, []);
+});
+
+await check("a light file is dropped with its sky or alone", async (page, errors) => {
+  const lightFile = join(work, "warm.json");
+  execFileSync(prt, ["project", warmSky, "-o", lightFile, "--env-center", "x", "--suns", "0"], { stdio: "ignore" });
+  const light = JSON.parse(readFileSync(lightFile, "utf8"));
+  const suns = [{ towards: [0.6, 0.64, 0.48], irradiance: [6, 5, 4], half_angle_radians: 0.005 }];
+  writeFileSync(lightFile, JSON.stringify({ ...light, suns }));
+  await page.goto(url({ model: "knot", ...query(standardCamera), suns: 1 }));
+  await picture(page);
+  const names = () => page.locator("#sky option").allTextContents();
+  const pictures = [];
+  for (const files of [{ "warm.json": lightFile, "warm.hdr": warmSky }, { "warm.json": lightFile }]) {
+    const before = (await names()).length;
+    const count = await drawn(page);
+    await dropped(page, files);
+    await page.waitForFunction((n) => document.querySelectorAll("#sky option").length > n, before);
+    await picture(page, count);
+    assert.equal((await names()).length, before + 1);
+    assert.equal((await names()).at(-1), Object.keys(files).at(-1));
+    assert.equal(await page.locator("#suns").isDisabled(), false);
+    assert.ok(await page.evaluate(() => globalThis.prtkitPicture.sunLights.visible));
+    pictures.push(await canvas(page));
+    if (screenshots) await page.screenshot({ path: join(screenshots, `light-file-${pictures.length}.png`) });
+  }
+  // The same light; behind the model stands what the coefficients have of the sky.
+  const d = await difference(page, ...pictures);
+  assert.ok(d.mean < 8, `${d.mean}`);
+  await dropped(page, { "warm.hdr": warmSky });
+  await page.waitForFunction(() => document.querySelector("#suns").disabled); // an image alone has none
+  const notALight = join(work, "notes.json");
+  writeFileSync(notALight, "{}");
+  await dropped(page, { "notes.json": notALight });
+  await page.waitForSelector("#message:not([hidden])");
+  assert.match(await page.locator("#message").innerText(), /notes\.json: light file: /);
+  assert.deepEqual(errors, []);
+});
+
+await check("the light turns by itself", async (page, errors) => {
+  await page.goto(url({ model: "knot" }));
+  await picture(page);
+  const angle = () => page.evaluate(() => globalThis.prtkitPicture.angle);
+  const lightAngle = () => page.evaluate(() => {
+    const { position, target } = globalThis.prtkitPicture.sunLights.lights[0];
+    return Math.atan2(position.x - target.position.x, position.z - target.position.z);
+  });
+  const [before, sunBefore] = [await angle(), await lightAngle()];
+  await page.locator("#turning").check();
+  await page.waitForFunction((from) => globalThis.prtkitPicture.angle > from + 0.1, before);
+  await page.locator("#turning").uncheck();
+  const count = await drawn(page);
+  await page.waitForTimeout(300);
+  assert.ok((await drawn(page)) <= count + 1, "it goes on");
+  const turned = (await lightAngle()) - sunBefore - ((await angle()) - before);
+  assert.ok(Math.abs(Math.sin(turned / 2)) < 1e-6, "suns turn with the sky");
+  assert.deepEqual(errors, []);
 });
 
 await check("on a phone the panel leaves the model free", async (page, errors) => {

@@ -22,8 +22,9 @@ test("the package loads where it is installed", () => {
     symlinkSync(join(web, "node_modules/three"), join(folder, "node_modules/three"), "dir"); // the game's own
     writeFileSync(
       join(folder, "game.js"),
-      `import { PrtkitPlugin, projectEquirectangular, halfFloatSky, ShLight } from "prtkit-web";
-       console.log([PrtkitPlugin, projectEquirectangular, halfFloatSky, ShLight].every((f) => typeof f === "function"));`,
+      `import * as prtkit from "prtkit-web";
+       const names = ["PrtkitPlugin", "projectEquirectangular", "halfFloatSky", "ShLight", "SunLights", "readLightFile", "lightOfSuns"];
+       console.log(names.map((name) => prtkit[name]).every((f) => typeof f === "function"));`,
     );
     assert.equal(execFileSync("node", ["game.js"], { cwd: folder, encoding: "utf8" }), "true\n");
   } finally {

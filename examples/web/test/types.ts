@@ -2,7 +2,16 @@
 import { FloatType, Scene } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
-import { halfFloatSky, PrtkitModel, PrtkitPlugin, projectEquirectangular, ShLight } from "../src/PrtkitLoader.js";
+import {
+  halfFloatSky,
+  lightOfSuns,
+  PrtkitModel,
+  PrtkitPlugin,
+  projectEquirectangular,
+  readLightFile,
+  ShLight,
+  SunLights,
+} from "../src/PrtkitLoader.js";
 
 export async function show(scene: Scene): Promise<number> {
   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
@@ -18,5 +27,11 @@ export async function show(scene: Scene): Promise<number> {
   // @ts-expect-error a light is not an angle
   model.setLight(1);
   scene.add(gltf.scene);
+  const lighting = readLightFile(await (await fetch("light.json")).json());
+  const suns = new SunLights(lighting.suns, { mapSize: 1024 }).fit(gltf.scene).turn(1);
+  scene.add(suns);
+  model.setLight(lighting.sky.deringed(), 1, lightOfSuns(lighting.suns, model.order));
+  model.setLight(lighting.sky, 1, null, { [model.lamps[0]]: 0.5, Sign: [1, 0.5, 0] });
+  suns.lights[0].shadow.autoUpdate = false;
   return model.bytesPerVertex * model.vertices;
 }

@@ -1,13 +1,18 @@
-// Makes shaders/prt_exit_radiance.glsl, with what it includes, a JavaScript module: there is one source of it.
+// Makes GLSL JavaScript modules, with what it includes: shaders/prt_exit_radiance.glsl, of which there is one source, and
+// src/sunLight.glsl.
 import { readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
-const shaders = new URL("../../../shaders/", import.meta.url);
-const resolve = (name) =>
-  readFileSync(new URL(name, shaders), "utf8").replace(/^#include "(.+)"$/gm, (_, included) => resolve(included));
+const root = new URL("../../../", import.meta.url);
 
-const text = resolve("prt_exit_radiance.glsl");
-writeFileSync(
-  fileURLToPath(new URL("../src/prt_exit_radiance.glsl.js", import.meta.url)),
-  `// Made from shaders/prt_exit_radiance.glsl by tools/embed-shader.mjs.\nexport default ${JSON.stringify(text)};\n`,
-);
+function embed(folder, name) {
+  const resolve = (file) =>
+    readFileSync(new URL(folder + file, root), "utf8").replace(/^#include "(.+)"$/gm, (_, included) => resolve(included));
+  writeFileSync(
+    fileURLToPath(new URL(`../src/${name}.js`, import.meta.url)),
+    `// Made from ${folder}${name} by tools/embed-shader.mjs.\nexport default ${JSON.stringify(resolve(name))};\n`,
+  );
+}
+
+embed("shaders/", "prt_exit_radiance.glsl");
+embed("examples/web/src/", "sunLight.glsl");

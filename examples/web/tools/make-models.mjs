@@ -76,10 +76,13 @@ const models = scenes.map(({ name, file }, i) => {
     }),
   };
 });
-const skyEntries = skies.map(({ title, file, center }) => {
+// Light files have all bands, for models of any order.
+const skyEntries = skies.map(({ title, file, center = "x" }) => {
   const to = `skies/${basename(file)}`;
+  const light = `${to}.json`;
   copyFileSync(file, join(publicFolder, to));
-  return { title, file: to, center };
+  run(prt, "project", file, "-o", join(publicFolder, light), "--suns", "auto", "--order", "10", "--env-center", center);
+  return { title, file: to, center, light };
 });
 writeFileSync(manifest, JSON.stringify({ models, skies: skyEntries }, null, 2));
 rmSync(work, { recursive: true });

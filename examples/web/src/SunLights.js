@@ -1,0 +1,99 @@
+// The suns of a light file as three's own directional lights, with shadow maps that are fitted to what they shine on.
+
+import { Box3, DirectionalLight, Group, Vector3 } from "three";
+
+const RADIUS_AT = 0.1; // sunLight.glsl has the same
+const MARGIN = 2; // texels of a map beyond what it is fitted to
+
+/** The light of one sun: irradiance is what three multiplies with base color / pi and the cosine. */
+function lightOf({ irradiance }, mapSize) {
+  const strongest = Math.max(...irradiance);
+  const light = new DirectionalLight(0xffffff, strongest);
+  if (strongest > 0) light.color.setRGB(...irradiance.map((value) => value / strongest));
+  light.castShadow = true;
+  light.shadow.mapSize.set(mapSize, mapSize);
+  return light;
+}
+
+/**
+ * To be added to the scene itself. Other materials of the scene are lit by them as by any light.
+ */
+export class SunLights extends Group {
+  /** `suns`: of readLightFile. `mapSize`: texels along each side of a shadow map. */
+  constructor(suns, { mapSize = 2048 } = {}) {
+    super();
+    this.suns = suns;
+    this.angle = 0;
+    this.box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
+    this.lights = suns.map((sun) => lightOf(sun, mapSize));
+    for (const light of this.lights) this.add(light, light.target);
+    this.place();
+  }
+
+  /** Fits the shadow maps to `object`, an Object3D or a Box3: what is outside neither casts shadows nor gets any. */
+  fit(object) {
+    const box = object.isBox3 ? object.clone() : new Box3().setFromObject(object);
+    if (box.isEmpty()) throw new RangeError("there is nothing to fit shadow maps to");
+    this.box = box;
+    this.place();
+    return this;
+  }
+
+  /** Turns the suns about +Y by `angle` radians, as `setLight` does the light. */
+  turn(angle) {
+    this.angle = angle;
+    this.place();
+    return this;
+  }
+
+  /** Makes the suns so many times as strong as they were at first. */
+  dim(factor) {
+    this.lights.forEach((light, i) => (light.intensity = factor * Math.max(...this.suns[i].irradiance)));
+    return this;
+  }
+
+  place() {
+    const centre = this.box.getCenter(new Vector3());
+    const radius = Math.max(this.box.getSize(new Vector3()).length() / 2, 1e-6);
+    this.lights.forEach((light, i) => {
+      const { towards, halfAngle } = this.suns[i];
+      light.target.position.copy(centre);
+      light.position.fromArray(towards).applyAxisAngle(new Vector3(0, 1, 0), this.angle).multiplyScalar(2 * radius).add(centre);
+      fitShadow(light.shadow, light.position, this.box, Math.tan(Math.min(halfAngle, 1.5)));
+    });
+  }
+
+  dispose() {
+    for (const light of this.lights) light.dispose();
+  }
+}
+
+/** The camera of a shadow map, which stands at `from` and looks at the middle of `box`, sees it and nothing else. */
+function fitShadow(shadow, from, box, tangent) {
+  const { camera, mapSize } = shadow;
+  camera.position.copy(from);
+  camera.lookAt(box.getCenter(new Vector3())); // as three's shadow does
+  camera.updateMatrixWorld(true);
+  const low = new Vector3(Infinity, Infinity, Infinity);
+  const high = low.clone().negate();
+  for (let corner = 0; corner < 8; ++corner) {
+    const pick = (axis, bit) => (corner & bit ? box.max[axis] : box.min[axis]);
+    const at = new Vector3(pick("x", 1), pick("y", 2), pick("z", 4)).applyMatrix4(camera.matrixWorldInverse);
+    low.min(at);
+    high.max(at);
+  }
+  // The middle of the box is in the middle. Square, for three's filters know one radius for both axes.
+  const half = Math.max(high.x, high.y, 1e-6) / (1 - (2 * MARGIN) / mapSize.x);
+  Object.assign(camera, { left: -half, right: half, bottom: -half, top: half });
+  const slack = 1e-3 * (high.z - low.z) + 1e-6;
+  camera.near = -high.z - slack;
+  camera.far = -low.z + slack;
+  camera.updateProjectionMatrix();
+
+  const texel = (2 * half) / mapSize.x;
+  shadow.radius = (tangent * RADIUS_AT * (camera.far - camera.near)) / texel;
+  // For three's filters, which compare their taps with one depth. A tap r texels t aside, along a slope of angle a to the
+  // light, is r t tan(a) deeper, which a step d along the normal makes up for where d >= r t sin(a); taps are in a square.
+  shadow.normalBias = Math.SQRT2 * (shadow.radius + 1) * texel;
+  shadow.needsUpdate = true;
+}

@@ -1,0 +1,87 @@
+// Base color, texture, cut-outs, blending and emission of a material, lit by transfer, and by suns that are apart from it.
+
+import { DoubleSide, MeshLambertMaterial, ShaderChunk, Vector4 } from "three";
+import exitRadiance from "./prt_exit_radiance.glsl.js";
+import sunLight from "./sunLight.glsl.js";
+
+// Three packed the depths of its shadow maps into colors until release 181.
+const PACKED = ShaderChunk.shadowmap_pars_fragment.includes("unpackRGBAToDepth");
+
+/**
+ * How suns meet a material of the glTF: { lit, transmission, casts }. A medium has all of its light from transfer; shadow
+ * maps hold one depth, so that glass and what is blended casts no shadow.
+ */
+export function sunTraits(gltfMaterial) {
+  const extensions = gltfMaterial?.extensions ?? {};
+  const through = extensions.KHR_materials_diffuse_transmission;
+  const volume = extensions.KHR_materials_volume;
+  const factor = through?.diffuseTransmissionFactor ?? 0;
+  const medium = factor > 0 && volume?.thicknessFactor > 0 && volume.attenuationDistance > 0;
+  const color = through?.diffuseTransmissionColorFactor ?? [1, 1, 1];
+  const glass = (extensions.KHR_materials_transmission?.transmissionFactor ?? 0) > 0;
+  return {
+    lit: !medium,
+    transmission: new Vector4(...color, Math.min(Math.max(factor, 0), 1)),
+    casts: !glass && gltfMaterial?.alphaMode !== "BLEND",
+  };
+}
+
+/**
+ * `source`: the material that GLTFLoader made. `uniforms` of the model, and the strength of what shines; `defines` of the
+ * geometry's attributes; `traits`: of sunTraits; null: the model keeps no direct light apart.
+ */
+export function relitMaterial(source, { uniforms, defines, traits }) {
+  const material = new MeshLambertMaterial({
+    name: source.name,
+    color: source.color,
+    map: source.map ?? null,
+    emissive: source.emissive ?? 0x000000,
+    emissiveMap: source.emissiveMap ?? null,
+    emissiveIntensity: source.emissiveIntensity ?? 1,
+    alphaTest: source.alphaTest,
+    transparent: source.transparent,
+    opacity: source.opacity,
+    side: source.side,
+    shadowSide: DoubleSide, // every triangle blocks from both sides
+    vertexColors: source.vertexColors,
+    depthWrite: source.depthWrite,
+  });
+  material.defines = { ...defines };
+  if (traits?.lit) material.defines.PRT_SUNS = 1;
+  if (PACKED) material.defines.PRT_PACKED_SHADOW_MAPS = 1;
+  material.onBeforeCompile = (shader) => {
+    Object.assign(shader.uniforms, uniforms);
+    if (traits) shader.uniforms.prtTransmission = { value: traits.transmission };
+    shader.vertexShader = shader.vertexShader
+      .replace("#include <common>", `#include <common>\n${exitRadiance}\nout vec3 prtRadiance;\ncentroid out vec3 prtPlace;`)
+      .replace(
+        "#include <begin_vertex>",
+        "#include <begin_vertex>\nprtRadiance = prt_exit_radiance();\nprtPlace = ( modelMatrix * vec4( transformed, 1.0 ) ).xyz;",
+      )
+      // Places in shadow maps are found for each pixel.
+      .replace("#include <shadowmap_vertex>", "");
+    // In the place of all that three's lights would add: ambient light is in the sky.
+    shader.fragmentShader = shader.fragmentShader
+      .replace(
+        "#include <lights_lambert_pars_fragment>",
+        "varying vec3 vViewPosition;\nin vec3 prtRadiance;\nuniform vec3 prtStrength;",
+      )
+      .replace(
+        "#include <shadowmap_pars_fragment>",
+        `#include <shadowmap_pars_fragment>\n#ifdef PRT_SUNS\n${sunLight}\n#endif`,
+      )
+      .replace("#include <lights_lambert_fragment>", "")
+      .replace("#include <lights_fragment_begin>", LIT)
+      .replace("#include <lights_fragment_maps>", "")
+      .replace("#include <lights_fragment_end>", "");
+  };
+  material.customProgramCacheKey = () => `prtkit:${JSON.stringify(material.defines)}`;
+  return material;
+}
+
+const LIT = `
+  totalEmissiveRadiance *= prtStrength;
+  reflectedLight.indirectDiffuse += max( prtRadiance, vec3( 0.0 ) ) * diffuseColor.rgb;
+#if defined( PRT_SUNS ) && NUM_DIR_LIGHTS > 0
+  if ( prtSunsApart ) reflectedLight.directDiffuse += prtSunRadiance( diffuseColor.rgb, normal );
+#endif`;
