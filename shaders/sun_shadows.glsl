@@ -12,7 +12,7 @@ const int kSunSearch = 24, kSunTaps = 32;
 // Of a surface that the sun grazes: beyond, a plane that is interpolated from its pixels is not to be trusted.
 const float kSteepest = 50.0;
 
-// A plane before a map: its place, and metres of depth for each texel.
+// A plane before a map: a place on it, and metres of depth for each texel.
 struct MapPlane {
     int layer;
     vec3 place;
@@ -26,9 +26,12 @@ MapPlane plane_in_map(int layer, vec3 seen, vec3 face) {
                   dot(map.along.xyz, face));
     vec2 slope = -n.xy / (n.z < 0.0 ? min(n.z, -1e-4) : max(n.z, 1e-4));
     slope *= min(1.0, kSteepest / max(length(slope), 1e-6));
-    // The plane is exact but for rounding: that of the rasteriser, of 1/256 texel or less, and that of floats.
-    float bias = 0.05 * map.texel * (1.0 + length(slope)) + 2e-6 * map.depth;
-    return MapPlane(layer, place_in_map(map, seen), slope / map.texels_per_metre, bias);
+    // Two texels off the surface a roof under whose edge a wall ends still covers all that the filter reaches. What
+    // blocks is told from the surface halfway there.
+    vec2 aside = (n.z < 0.0 ? 2.0 : -2.0) * map.texel * n.xy;
+    vec3 place = place_in_map(map, seen) + vec3(aside * map.texels_per_metre, dot(aside, slope));
+    float bias = map.texel * length(vec3(slope, 1.0)) + 2e-6 * map.depth; // and the rounding of floats
+    return MapPlane(layer, place, slope / map.texels_per_metre, bias);
 }
 
 // The middle of a texel near the plane's place, from there, in texels.
@@ -49,8 +52,10 @@ ivec2 texel_at(MapPlane plane, vec2 offset) {
     return clamp(ivec2(floor(plane.place.xy + offset)), ivec2(0), textureSize(sun_depth, 0).xy - 1);
 }
 
+// Nothing is as far as the far plane: it lies behind all that is seen, but not behind planes that go on.
 float blocker_depth(MapPlane plane, ivec2 texel) {
-    return texelFetch(sun_depth, ivec3(texel, plane.layer), 0).r * suns_seen.maps[plane.layer].depth;
+    float depth = texelFetch(sun_depth, ivec3(texel, plane.layer), 0).r;
+    return depth < 1.0 ? depth * suns_seen.maps[plane.layer].depth : 1e30;
 }
 
 // Of what lets a part through: none before the first layer, all behind the last; between them as if they were spread
@@ -98,7 +103,7 @@ float sun_visibility(int sun, vec3 seen, vec3 face) {
     float tangent = suns_seen.suns[sun].towards.w, away = mean_blocker_distance(plane, tangent, turn);
     if (away < 0.0)
         return 1.0;
-    vec2 radius = max(tangent * away * suns_seen.maps[plane.layer].texels_per_metre, vec2(1.0));
+    vec2 radius = max(tangent * away * suns_seen.maps[plane.layer].texels_per_metre, vec2(0.75));
     float open = 0.0;
     for (int i = 0; i < kSunTaps; ++i) {
         ivec2 texel = texel_at(plane, radius * disc_point(i, kSunTaps, turn));

@@ -19,7 +19,7 @@ void main() {
         float occlusion = float(bits >> 3) / float(PRT_AO_LEVELS);
         if (has_ssao)
             occlusion *= texelFetch(ssao, pixel, 0).r;
-        lit = base.rgb * unshadowed_radiance(gbuffer_normal_at(pixel)) * occlusion;
+        lit += base.rgb * unshadowed_radiance(gbuffer_normal_at(pixel)) * occlusion;
     }
     result = vec4(min(lit, vec3(65000.0)), 1.0);
 }

@@ -8,9 +8,9 @@ out vec4 result;
 void main() {
     vec4 base = surface_base_color();
 #ifdef PRT_RADIANCE_GIVEN
-    vec3 lit = max(radiance, vec3(0.0));
+    vec3 lit = max(radiance, vec3(0.0)) * base.rgb;
 #else
-    vec3 lit = unshadowed_radiance(facing_normal()) * occlusion();
+    vec3 lit = unshadowed_radiance(facing_normal()) * occlusion() * base.rgb;
 #endif
-    result = vec4(min(lit * base.rgb, vec3(65000.0)), base.a);
+    result = vec4(min(lit + light_of_suns(base.rgb), vec3(65000.0)), base.a);
 }

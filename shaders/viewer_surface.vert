@@ -1,5 +1,5 @@
 // Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or from a PRT_VERTEX_RADIANCE
-// attribute; with neither, the fragment shader finds it from the normal and an ambient occlusion.
+// attribute; with neither, the fragment shader finds it from the normal and an ambient occlusion. PRT_SUNS: for suns apart.
 
 #include "shared_layout.h"
 
@@ -7,6 +7,9 @@ layout(location = PRT_LOCATION_POSITION) in vec3 position;
 layout(location = PRT_LOCATION_TEXCOORD) in vec2 texcoord;
 layout(location = PRT_LOCATION_COLOR) in vec4 color;
 
+#ifdef PRT_SUNS
+#include "sun_vertex.glsl"
+#endif
 #if defined(PRT_COMPRESSED)
 #include "prt_exit_radiance.glsl"
 out vec3 radiance;
@@ -33,6 +36,9 @@ void main() {
 #else
     normal = vertex_normal;
     ao = vertex_ao;
+#endif
+#ifdef PRT_SUNS
+    take_for_suns(position);
 #endif
     surface_texcoord = texcoord;
     surface_color = color;

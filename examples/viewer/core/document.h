@@ -9,6 +9,7 @@ namespace viewer {
 /// Tells two states of the light on the model apart.
 struct RadianceVersion {
     std::uint64_t transfer = 0, light = 0;
+    bool suns_apart = false;
 
     friend bool operator==(const RadianceVersion&, const RadianceVersion&) = default;
 };

@@ -20,7 +20,7 @@ public:
     void compress(const Document& document, const CompressionSettings& how);
     /// Reads environments; those that were still being read are read, too.
     void read_environments(const std::vector<std::filesystem::path>& paths);
-    void find_numbers(const Document& document, const prt::Light& light);
+    void find_numbers(const Document& document, const prt::Lighting& lighting);
     /// Writes the model with its compressed transfer.
     void save(const Document& document, const std::filesystem::path& output);
 

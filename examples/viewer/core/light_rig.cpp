@@ -1,8 +1,11 @@
 #include "core/light_rig.h"
 
+#include "prt/color.h"
 #include "prt/image_file.h"
 #include "prt/sh_basis.h"
 #include "prt/sky.h"
+#include "prt/sun_shadows.h"
+#include "prt/suns.h"
 #include "prt/tone_map.h"
 
 #include <glm/common.hpp>
@@ -10,6 +13,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numbers>
 
 namespace viewer {
@@ -29,7 +34,25 @@ LoadedEnvironment ready(std::string name, const prt::Environment& environment) {
     result.light = prt::project(environment, prt::kMaxOrder);
     result.lat_long = prt::resampled_lat_long(environment);
     result.mean = 0.25f / prt::automatic_exposure(result.light);
+    result.sky = result.light;
     return result;
+}
+
+/// About +Y, as prt::rotated_about_y.
+glm::vec3 turned(const glm::vec3& d, float angle) {
+    const float c = std::cos(angle), s = std::sin(angle);
+    return {c * d.x + s * d.z, d.y, c * d.z - s * d.x};
+}
+
+void add(prt::Light& sum, const prt::Light& light) {
+    sum = prt::sum(sum, light);
+}
+
+std::vector<prt::Sun> as_seen_by_rays(const std::vector<prt::SunDisc>& discs) {
+    std::vector<prt::Sun> suns;
+    for (const prt::SunDisc& sun : discs)
+        suns.push_back({sun.towards, sun.irradiance});
+    return suns;
 }
 
 /// The sky of the model over a ground that reflects it; dusk fades.
@@ -91,7 +114,13 @@ RigLight make_light(LightKind kind) {
 }
 
 LoadedEnvironment load_environment(const std::string& path) {
-    return ready(std::filesystem::path(path).filename().string(), prt::load_environment(path).environment);
+    const prt::Environment environment = prt::load_environment(path).environment;
+    LoadedEnvironment result = ready(std::filesystem::path(path).filename().string(), environment);
+    prt::SunSplit split = prt::find_suns(environment);
+    if (!split.suns.empty())
+        result.sky = prt::project(split.remainder, prt::kMaxOrder);
+    result.suns = std::move(split.suns);
+    return result;
 }
 
 LightRig::LightRig() {
@@ -140,13 +169,11 @@ float LightRig::unit() const {
     return environment ? environment->mean : 1;
 }
 
-std::vector<prt::Sun> LightRig::suns() const {
-    std::vector<prt::Sun> suns;
-    if (settings_.day && day_sun_irradiance_ != glm::vec3(0)) {
-        const float c = std::cos(settings_.rotation), s = std::sin(settings_.rotation);
-        suns.push_back({{c * day_sun_.x + s * day_sun_.z, day_sun_.y, c * day_sun_.z - s * day_sun_.x},
-                        day_sun_irradiance_});
-    }
+/// Those that are not in the environment's image.
+std::vector<prt::SunDisc> LightRig::own_suns() const {
+    std::vector<prt::SunDisc> suns;
+    if (settings_.day && day_sun_irradiance_ != glm::vec3(0))
+        suns.push_back({turned(day_sun_, settings_.rotation), day_sun_irradiance_});
     for (const RigLight& light : settings_.lights)
         if (light.on && light.kind == LightKind::sun)
             suns.push_back(
@@ -154,23 +181,56 @@ std::vector<prt::Sun> LightRig::suns() const {
     return suns;
 }
 
-prt::Light LightRig::light(int order) const {
-    prt::Light sum = prt::constant_light(order, glm::vec3(0));
-    if (const LoadedEnvironment* environment = base())
-        sum = prt::sum(sum, prt::rotated_about_y(prt::truncated(environment->light, order),
-                                                 static_cast<double>(settings_.rotation)));
-    for (const prt::Sun& sun : suns())
-        sum = prt::sum(sum, prt::directional_light(order, sun.towards, sun.irradiance));
+/// Those that are.
+std::vector<prt::SunDisc> LightRig::turned_suns() const {
+    const LoadedEnvironment* environment = base();
+    std::vector<prt::SunDisc> suns;
+    if (environment)
+        suns = environment->suns;
+    for (prt::SunDisc& sun : suns)
+        sun.towards = turned(sun.towards, settings_.rotation);
+    return suns;
+}
+
+/// Lights that are no suns.
+void LightRig::add_shapes(prt::Light& sum) const {
     for (const RigLight& light : settings_.lights) {
         if (!light.on)
             continue;
         const glm::vec3 radiance = light.color * (light.strength * unit());
         if (light.kind == LightKind::cone || light.kind == LightKind::sphere)
-            sum = prt::sum(sum, prt::cone_light(order, light.direction, half_angle(light), radiance));
+            add(sum, prt::cone_light(sum.order, light.direction, half_angle(light), radiance));
         else if (light.kind == LightKind::hemisphere)
-            sum = prt::sum(sum, prt::hemisphere_light(order, light.direction, radiance, glm::vec3(0)));
+            add(sum, prt::hemisphere_light(sum.order, light.direction, radiance, glm::vec3(0)));
     }
+}
+
+prt::Light LightRig::light(int order) const {
+    prt::Light sum = prt::constant_light(order, glm::vec3(0));
+    if (const LoadedEnvironment* environment = base())
+        add(sum, prt::rotated_about_y(prt::truncated(environment->light, order),
+                                      static_cast<double>(settings_.rotation)));
+    for (const prt::SunDisc& sun : own_suns())
+        add(sum, prt::as_light(sun, order));
+    add_shapes(sum);
     return prt::windowed(sum, settings_.window);
+}
+
+LightApart LightRig::light_apart(int order) const {
+    std::vector<prt::SunDisc> suns = turned_suns();
+    std::ranges::copy(own_suns(), std::back_inserter(suns));
+    std::ranges::stable_sort(suns, std::greater(),
+                             [](const prt::SunDisc& sun) { return prt::luminance(sun.irradiance); });
+    const auto most = std::min<std::size_t>(suns.size(), prt::kMostShadowedSuns);
+    prt::Light sky = prt::constant_light(order, glm::vec3(0)), of_suns = sky;
+    if (const LoadedEnvironment* environment = base())
+        add(sky, prt::rotated_about_y(prt::truncated(environment->sky, order),
+                                      static_cast<double>(settings_.rotation)));
+    add_shapes(sky);
+    for (std::size_t i = 0; i < suns.size(); ++i)
+        add(i < most ? of_suns : sky, prt::as_light(suns[i], order));
+    suns.resize(most);
+    return {{prt::windowed(sky, settings_.window), std::move(of_suns)}, std::move(suns)};
 }
 
 prt::DistantLight LightRig::distant_light() const {
@@ -179,7 +239,7 @@ prt::DistantLight LightRig::distant_light() const {
                        std::none_of(settings_.lights.begin(), settings_.lights.end(),
                                     [](const RigLight& l) { return l.on && l.kind != LightKind::sun; });
     if (plain)
-        return prt::DistantLight(environment->lat_long, suns());
+        return prt::DistantLight(environment->lat_long, as_seen_by_rays(own_suns()));
     // All in one image, in the axes of the world.
     prt::Image image{1024, 512, std::vector<glm::vec3>(std::size_t{1024} * 512, glm::vec3(0))};
     if (environment) {
@@ -204,7 +264,7 @@ prt::DistantLight LightRig::distant_light() const {
                     image.at(x, y) += radiance * (0.5f + 0.5f * glm::dot(d, light.direction));
                 }
     }
-    return prt::DistantLight(std::move(image), suns());
+    return prt::DistantLight(std::move(image), as_seen_by_rays(own_suns()));
 }
 
 const prt::Image* LightRig::background() const {

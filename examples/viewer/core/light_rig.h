@@ -5,6 +5,8 @@
 #include "prt/distant_light.h"
 #include "prt/environment.h"
 #include "prt/light.h"
+#include "prt/sun_disc.h"
+#include "prt/transfer_layout.h"
 
 #include <array>
 #include <cstdint>
@@ -78,9 +80,17 @@ struct LoadedEnvironment {
     std::string name;
     prt::Image lat_long;
     prt::Light light; ///< of the highest order
-    float mean = 1;   ///< luminance
+    prt::Light sky;   ///< the same without its suns
+    std::vector<prt::SunDisc> suns;
+    float mean = 1; ///< luminance
 };
 LoadedEnvironment load_environment(const std::string& path);
+
+/// Light taken apart: what lights transfer, and the suns that are shadowed at each pixel.
+struct LightApart {
+    prt::Lighting lighting;
+    std::vector<prt::SunDisc> suns;
+};
 
 class LightRig {
 public:
@@ -95,6 +105,9 @@ public:
 
     /// All lights together, under the window.
     prt::Light light(int order) const;
+    /// The same, its strongest suns apart: the environment's own, the day's and those that were added. The
+    /// window is for the rest.
+    LightApart light_apart(int order) const;
     /// The same light as rays meet it. Suns are suns; all else is in its environment.
     prt::DistantLight distant_light() const;
 
@@ -104,7 +117,9 @@ public:
 
 private:
     const LoadedEnvironment* base() const;
-    std::vector<prt::Sun> suns() const;
+    std::vector<prt::SunDisc> own_suns() const;
+    std::vector<prt::SunDisc> turned_suns() const;
+    void add_shapes(prt::Light& sum) const;
     float unit() const;
 
     LightSettings settings_;

@@ -27,6 +27,6 @@ void save_compressed(const Model& model, const prt::CompressedTransfer& compress
 /// Colors of all pictures of numbers that there are; `raw` may be null.
 std::vector<std::pair<PictureKind, std::vector<glm::vec3>>>
 number_pictures(const Model& model, const prt::Transfer* raw, const prt::ClusteredTransfer& compressed,
-                const prt::Light& light);
+                const prt::Lighting& lighting);
 
 } // namespace viewer

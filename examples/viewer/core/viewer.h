@@ -68,7 +68,8 @@ public:
     void message(const std::string& text);
     void dismiss_messages() { messages_.clear(); }
 
-    /// What a side shows: what was asked for, or what stands in for it until it is there, and why.
+    /// What a side shows: what was asked for, or what stands in for it until it is there, and why; or what
+    /// it leaves out.
     struct Shown {
         PictureKind kind;
         std::string note;
@@ -105,8 +106,12 @@ private:
     void take(const Failure& failure);
     void upload_model();
     void recompress_where_asked();
-    RadianceVersion version() const { return {document_.transfer_version, lighting_.rig.version()}; }
-    const prt::Light& light() { return lighting_.light(document_.light_order()); }
+    RadianceVersion version() const {
+        return {document_.transfer_version, lighting_.rig.version(), settings.suns_apart};
+    }
+    const LightApart& light() {
+        return lighting_.light_for_pictures(document_.light_order(), settings.suns_apart);
+    }
     bool wants(PictureKind kind) const { return settings.left == kind || settings.right == kind; }
 
     void follow_light();

@@ -50,7 +50,7 @@ void Viewer::draw(std::uint32_t framebuffer, int width, int height) {
 
 void Viewer::follow_light() {
     if (gpu_->model && gpu_->lit != version()) {
-        gpu_->model->set_light(light());
+        gpu_->model->set_lighting(light().lighting, light().suns);
         if (document_.compressed())
             statistics_.figures.milliseconds.constants = 1e3 * gpu_->model->seconds_constants();
         gpu_->lit = version();
@@ -69,7 +69,7 @@ void Viewer::find_numbers() {
     if (!wanted || !document_.compressed() || gpu_->numbers == version() || jobs_.busy(JobKind::numbers))
         return;
     gpu_->numbers = version();
-    jobs_.find_numbers(document_, light());
+    jobs_.find_numbers(document_, light().lighting);
 }
 
 FrameView Viewer::frame_view() {
@@ -84,7 +84,7 @@ FrameView Viewer::frame_view() {
              .height = seen_.size.y,
              .textured = settings.drawing.textured},
             {.raw = document_.raw(), .compressed = document_.compressed(), .version = version()},
-            [this] { return light(); });
+            [this] { return lighting_.light(document_.light_order()); });
     view.exposure = exposure * std::exp2(settings.exposure_stops);
     view.background = gpu_->background.name() != 0 ? &gpu_->background : nullptr;
     view.background_rotation = lights.rotation;
@@ -92,8 +92,12 @@ FrameView Viewer::frame_view() {
 }
 
 Viewer::Shown Viewer::shown(PictureKind wanted) const {
-    if (wanted == PictureKind::reference || !gpu_->model || gpu_->model->can_draw(wanted))
+    if (wanted == PictureKind::reference || !gpu_->model)
         return {wanted, ""};
+    if (gpu_->model->can_draw(wanted))
+        return {wanted, gpu_->model->takes_suns_as_sky(wanted)
+                            ? "no direct light is kept apart, so that suns are lit as sky"
+                            : ""};
     std::string why = "not there yet";
     const bool needs_raw =
         wanted == PictureKind::prt || wanted == PictureKind::error || wanted == PictureKind::seams;

@@ -15,10 +15,17 @@ public:
 
     /// The rig's light, formed once for all that want it.
     const prt::Light& light(int order);
+    /// The same with its suns apart, or with all in its sky.
+    const LightApart& light_for_pictures(int order, bool suns_apart);
 
 private:
     prt::Light light_;
     std::uint64_t version_ = 0; ///< of the rig
+    LightApart apart_;
+    struct {
+        std::uint64_t rig = 0;
+        bool suns_apart = false;
+    } apart_version_;
 };
 
 inline const prt::Light& ViewerLight::light(int order) {
@@ -26,6 +33,14 @@ inline const prt::Light& ViewerLight::light(int order) {
         light_ = rig.light(order);
     version_ = rig.version();
     return light_;
+}
+
+inline const LightApart& ViewerLight::light_for_pictures(int order, bool suns_apart) {
+    if (apart_version_.rig != rig.version() || apart_version_.suns_apart != suns_apart ||
+        apart_.lighting.sky.order != order)
+        apart_ = suns_apart ? rig.light_apart(order) : LightApart{{light(order)}, {}};
+    apart_version_ = {rig.version(), suns_apart};
+    return apart_;
 }
 
 } // namespace viewer

@@ -130,6 +130,7 @@ void FrameRenderer::draw(int index, PictureKind kind, GpuModel& model, const Dra
     side.shows_image = false;
     const bool numbers = shows_numbers(kind);
     const GeometryPass pass = geometry_pass(model, settings, view);
+    model.draw_shadows(kind, {view.camera, size_.width, size_.height});
     clear(side, kind, columns);
     if (settings.background && view.background && !numbers)
         draw_background(side, view);

@@ -38,19 +38,19 @@ void GpuModel::set_raw(const prt::Transfer& transfer) {
     drop_raw(); // there may not be room for two
     raw_ = Raw{RawTransfer(transfer, most_receivers_), scene_.make_vertex_arrays()};
     scene_.attach_receivers(raw_->arrays, raw_->transfer.radiance(), PRT_LOCATION_RADIANCE, 3);
-    if (light_ && light_->order >= transfer.layout.order)
-        raw_->transfer.set_light({*light_});
+    if (lights(transfer.layout))
+        raw_->transfer.set_light(*lit_.lighting);
 }
 
 void GpuModel::set_compressed(const prt::ClusteredTransfer& transfer) {
-    compressed_ = Compressed{prt::GlTransfer(transfer), scene_.make_vertex_arrays()};
+    compressed_ = Compressed{prt::GlTransfer(transfer), scene_.make_vertex_arrays(), transfer.bases.layout};
     for (std::size_t i = 0; i < compressed_->arrays.size(); ++i)
         compressed_->transfer.attach(compressed_->arrays[i].name(),
                                      model_->scene.vertex_arrays[i].first_receiver);
-    programs_.surfaces.erase({Source::compressed, false});
-    programs_.surfaces.erase({Source::compressed, true});
-    if (light_ && light_->order >= transfer.bases.layout.order)
-        compressed_->transfer.set_light({*light_});
+    std::erase_if(programs_.surfaces,
+                  [](const auto& program) { return program.first.source == Source::compressed; });
+    if (lights(transfer.bases.layout))
+        compressed_->transfer.set_light(*lit_.lighting);
 }
 
 void GpuModel::set_occlusion(std::span<const float> occlusion) {
@@ -62,19 +62,55 @@ void GpuModel::set_numbers(PictureKind kind, std::span<const glm::vec3> colors) 
     numbers_.colors[kind] = prt::make_buffer(colors);
 }
 
-void GpuModel::set_light(const prt::Light& light) {
-    light_ = light;
+/// Has as many bands.
+bool GpuModel::lights(const prt::TransferLayout& layout) const {
+    return lit_.lighting && lit_.lighting->sky.order >= layout.order;
+}
+
+void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns) {
+    lit_.lighting = lighting;
+    lit_.suns.assign(suns.begin(), suns.end());
     for (std::size_t i = 0; i < 9; ++i) {
         const int band = i == 0 ? 0 : i < 4 ? 1 : 2;
-        irradiance_[i] = light.coefficients[i] * static_cast<float>(prt::clamped_cosine_factor(band));
+        lit_.irradiance[i] =
+            lighting.sky.coefficients[i] * static_cast<float>(prt::clamped_cosine_factor(band));
     }
     if (compressed_) {
         const prt::Stopwatch stopwatch;
-        compressed_->transfer.set_light({light});
+        compressed_->transfer.set_light(lighting);
         compressed_->seconds_constants = stopwatch.seconds();
     }
     if (raw_)
-        raw_->transfer.set_light({light});
+        raw_->transfer.set_light(lighting);
+}
+
+bool GpuModel::keeps_direct_apart(PictureKind kind) const {
+    switch (source_of(kind)) {
+    case Source::raw:
+        return raw_->transfer.layout().has(prt::PartKind::direct);
+    case Source::compressed:
+        return compressed_->layout.has(prt::PartKind::direct);
+    case Source::numbers:
+    case Source::normals:
+        break;
+    }
+    return true;
+}
+
+bool GpuModel::shows_suns(PictureKind kind) const {
+    return !lit_.suns.empty() && !shows_numbers(kind) && keeps_direct_apart(kind);
+}
+
+bool GpuModel::takes_suns_as_sky(PictureKind kind) const {
+    return !lit_.suns.empty() && !keeps_direct_apart(kind);
+}
+
+void GpuModel::draw_shadows(PictureKind kind, const prt::SunShadows::View& view) {
+    if (!shows_suns(kind))
+        return;
+    if (!shadows_)
+        shadows_.emplace(scene_);
+    shadows_->draw(lit_.suns, view);
 }
 
 bool GpuModel::can_draw(PictureKind kind) const {
@@ -105,32 +141,37 @@ const prt::GlVertexArrays& GpuModel::arrays(Source source) const {
     return plain_;
 }
 
-const prt::GlObject& GpuModel::program(Source source, bool gbuffer) {
-    prt::GlObject& program = programs_.surfaces[{source, gbuffer}];
+const prt::GlObject& GpuModel::program(const Surface& surface) {
+    prt::GlObject& program = programs_.surfaces[surface];
     if (program.name() == 0) {
-        const std::string defines = source == Source::compressed ? compressed_->transfer.defines()
-                                    : source == Source::normals  ? ""
-                                                                 : "#define PRT_VERTEX_RADIANCE\n";
+        std::string defines = surface.source == Source::compressed ? compressed_->transfer.defines()
+                              : surface.source == Source::normals  ? ""
+                                                                   : "#define PRT_VERTEX_RADIANCE\n";
+        if (surface.suns)
+            defines += "#define PRT_SUNS\n";
         program = prt::make_program("viewer_surface.vert",
-                                    gbuffer ? "viewer_gbuffer.frag" : "viewer_forward.frag", defines);
+                                    surface.gbuffer ? "viewer_gbuffer.frag" : "viewer_forward.frag", defines);
     }
     return program;
 }
 
 const prt::GlObject& GpuModel::use(PictureKind kind, const GeometryPass& pass) {
     const Source source = source_of(kind);
-    const prt::GlObject& chosen = program(source, pass.gbuffer);
+    const bool suns = shows_suns(kind);
+    const prt::GlObject& chosen = program({source, pass.gbuffer, suns});
     glUseProgram(chosen.name());
     set_matrix(chosen, pass.view_projection);
     glUniform1i(prt::uniform(chosen, "textured"), pass.textured && source != Source::numbers);
     if (source == Source::normals) {
         glUniform1i(prt::uniform(chosen, "occluded"), kind == PictureKind::baked_ao);
         glUniform1i(prt::uniform(chosen, "dithered"), pass.dithered);
-        glUniform3fv(prt::uniform(chosen, "irradiance_sh"), 9, glm::value_ptr(irradiance_.front()));
+        glUniform3fv(prt::uniform(chosen, "irradiance_sh"), 9, glm::value_ptr(lit_.irradiance.front()));
         glVertexAttrib1f(PRT_LOCATION_AO, 1); // until there is an occlusion
     }
     if (source == Source::compressed)
         compressed_->transfer.use();
+    if (suns)
+        shadows_->use();
     if (source == Source::numbers)
         scene_.attach_receivers(numbers_.arrays, numbers_.colors.at(kind), PRT_LOCATION_RADIANCE, 3);
     return chosen;

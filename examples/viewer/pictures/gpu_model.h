@@ -8,6 +8,7 @@
 
 #include "prt/gl_scene.h"
 #include "prt/gl_transfer.h"
+#include "prt/sun_shadows.h"
 
 #include <array>
 #include <map>
@@ -35,24 +36,37 @@ public:
     void set_compressed(const prt::ClusteredTransfer& transfer);
     void set_occlusion(std::span<const float> occlusion);
     void set_numbers(PictureKind kind, std::span<const glm::vec3> colors);
-    /// Of as many bands as the transfers have, and three at least.
-    void set_light(const prt::Light& light);
+    /// Of as many bands as the transfers have, and three at least. `suns` are shadowed at each pixel where
+    /// the picture's transfer keeps direct light apart, and where it has none.
+    void set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns);
+    void set_light(const prt::Light& light) { set_lighting({light}, {}); }
+    /// There are suns apart, but that picture's transfer keeps no direct light apart, and so is lit by sky
+    /// and suns together. For pictures that `can_draw`.
+    bool takes_suns_as_sky(PictureKind kind) const;
     bool can_draw(PictureKind kind) const;
     /// Seconds that the constants of the compressed transfer took, forming and uploading.
     double seconds_constants() const { return compressed_ ? compressed_->seconds_constants : 0; }
 
+    /// Draws shadow maps for what is seen, where `kind` needs them; before what is drawn of that.
+    void draw_shadows(PictureKind kind, const prt::SunShadows::View& view);
     void draw_opaque(PictureKind kind, const GeometryPass& pass);
     /// Always forward.
     void draw_blended(PictureKind kind, const GeometryPass& pass);
     /// Edges of all triangles.
     void draw_wires(const GeometryPass& pass, const glm::vec3& color);
     /// The first nine coefficients of exit radiance by normal: irradiance.glsl.
-    const std::array<glm::vec3, 9>& irradiance() const { return irradiance_; }
+    const std::array<glm::vec3, 9>& irradiance() const { return lit_.irradiance; }
     std::size_t drawn_triangles() const { return drawn_triangles_; } ///< of the last opaque drawing
 
 private:
     enum class Source { normals, raw, compressed, numbers };
     static Source source_of(PictureKind kind);
+    struct Surface { ///< that a program draws
+        Source source;
+        bool gbuffer, suns;
+
+        friend auto operator<=>(const Surface&, const Surface&) = default;
+    };
     struct Raw {
         RawTransfer transfer;
         prt::GlVertexArrays arrays;
@@ -60,17 +74,27 @@ private:
     struct Compressed {
         prt::GlTransfer transfer;
         prt::GlVertexArrays arrays;
+        prt::TransferLayout layout;
         double seconds_constants = 0;
+    };
+    /// What all that is drawn is lit by.
+    struct Lit {
+        std::optional<prt::Lighting> lighting;
+        std::array<glm::vec3, 9> irradiance{}; ///< of the sky
+        std::vector<prt::SunDisc> suns;
     };
     struct Numbers {
         std::map<PictureKind, prt::GlObject> colors;
         prt::GlVertexArrays arrays;
     };
     struct Programs {
-        std::map<std::pair<Source, bool>, prt::GlObject> surfaces; ///< by source, and whether to a G-buffer
+        std::map<Surface, prt::GlObject> surfaces;
         prt::GlObject wires;
     };
-    const prt::GlObject& program(Source source, bool gbuffer);
+    bool lights(const prt::TransferLayout& layout) const;
+    bool keeps_direct_apart(PictureKind kind) const;
+    bool shows_suns(PictureKind kind) const;
+    const prt::GlObject& program(const Surface& surface);
     const prt::GlObject& use(PictureKind kind, const GeometryPass& pass);
     const prt::GlVertexArrays& arrays(Source source) const;
 
@@ -78,8 +102,8 @@ private:
     std::size_t most_receivers_;
     prt::GlScene scene_;
     prt::GlVertexArrays plain_;
-    std::optional<prt::Light> light_;
-    std::array<glm::vec3, 9> irradiance_{};
+    std::optional<prt::SunShadows> shadows_; ///< once there are suns
+    Lit lit_;
     std::optional<Raw> raw_;
     std::optional<Compressed> compressed_;
     std::optional<prt::GlObject> occlusion_;

@@ -11,7 +11,7 @@ public:
     /// `most_receivers`: that one dispatch takes, a multiple of 256.
     RawTransfer(const prt::Transfer& transfer, std::size_t most_receivers);
 
-    int order() const { return layout_.order; }
+    const prt::TransferLayout& layout() const { return layout_; }
     /// Forms the radiance. `lighting` has as many bands as the transfer at least.
     void set_light(const prt::Lighting& lighting);
     /// Three floats for each receiver.

@@ -35,6 +35,7 @@ struct Settings {
     bool difference = false; ///< instead of left and right
     float white = 0.3f;      ///< difference that is white, over the mean radiance of the right picture
     DrawSettings drawing;
+    bool suns_apart = true;   ///< from the sky: shadowed at each pixel
     bool lobe = false;        ///< of the receiver under the pointer
     float exposure_stops = 0; ///< beside the automatic exposure
     bool day_runs = false;    ///< an hour a second

@@ -50,6 +50,11 @@ constexpr Command kCommands[] = {
      place<kDrawing, &DrawSettings::background>},
     {"textured", 'T', "base colour", "base colour", "Textures and colours; off shows light alone. Key T.",
      place<kDrawing, &DrawSettings::textured>},
+    {"suns_apart", 'U', "suns apart from the sky, with sharp shadows", "suns apart",
+     "Suns are taken out of the sky and shadowed at each pixel; off, all light is in bands. Not the "
+     "reference, which "
+     "has neither. Key U.",
+     place<&Settings::suns_apart>},
     {"", 'N', "day instead of the environment", "", "", nullptr,
      [](Controls& c) { c.viewer().lights.day = !c.viewer().lights.day; }},
     {"", ' ', "let the day run", "let the day run", "An hour a second. Space.", place<&Settings::day_runs>},

@@ -53,7 +53,7 @@ void draw_label(ImDrawList& list, float x, float y, const std::string& text) {
 std::string side_label(const Viewer& viewer, PictureKind kind) {
     const Viewer::Shown shown = viewer.shown(kind);
     if (shown.kind == kind)
-        return name_of(kind).title;
+        return name_of(kind).title + (shown.note.empty() ? "" : ": " + shown.note);
     return fmt::format("{}: {}. Meanwhile: {}", name_of(kind).title, shown.note, name_of(shown.kind).title);
 }
 

@@ -2,15 +2,19 @@
 
 #include "core/light_rig.h"
 
+#include "prt/image_file.h"
 #include "prt/sh.h"
 #include "prt/sh_basis.h"
+#include "support/temporary_folder.h"
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace viewer {
 namespace {
@@ -44,6 +48,7 @@ std::shared_ptr<LoadedEnvironment> gradient() {
     auto environment = std::make_shared<LoadedEnvironment>();
     environment->lat_long = image;
     environment->light = prt::project({image, prt::EnvironmentLayout::lat_long}, prt::kMaxOrder);
+    environment->sky = environment->light;
     environment->mean = 1;
     return environment;
 }
@@ -139,6 +144,74 @@ TEST(LightRig, LightIsNowhereNegativeUnlessAWindowIsChosenThatLetsIt) {
         EXPECT_LT(least_over_mean(rig.light(6)), -0.1f);
     }
     EXPECT_EQ(LightRig().settings().window, prt::Window::automatic);
+}
+
+prt::Light together(const LightApart& apart) {
+    return prt::sum(apart.lighting.sky, *apart.lighting.suns);
+}
+
+TEST(LightRig, TakenApartIsTheSameLight) {
+    LightRig rig; // a clear day with its sun
+    LightSettings settings = rig.settings();
+    settings.window = prt::Window::none;
+    settings.rotation = 0.7f;
+    settings.lights = {make_light(LightKind::cone), make_light(LightKind::sun)};
+    settings.lights[1].direction = {1, 0, 0};
+    rig.set(settings);
+    const LightApart apart = rig.light_apart(kOrder);
+    ASSERT_EQ(apart.suns.size(), 2U);
+    EXPECT_LT(relative_difference(together(apart), rig.light(kOrder)), 1e-6);
+    const auto rays = rig.distant_light().suns();
+    for (const prt::Sun& sun : rays) // the same suns as rays meet
+        EXPECT_TRUE(std::ranges::any_of(apart.suns, [&](const prt::SunDisc& disc) {
+            return disc.towards == sun.towards && disc.irradiance == sun.irradiance;
+        }));
+    settings.lights[1].on = false;
+    rig.set(settings);
+    EXPECT_EQ(rig.light_apart(kOrder).suns.size(), 1U);
+}
+
+TEST(LightRig, KeepsTheStrongestSunsApartAndTheOthersInTheSky) {
+    LightRig rig;
+    LightSettings settings = rig.settings();
+    settings.day = settings.environment_on = false;
+    settings.window = prt::Window::none;
+    for (const float strength : {1.0f, 5.0f, 2.0f, 4.0f, 3.0f}) {
+        settings.lights.push_back(make_light(LightKind::sun));
+        settings.lights.back().strength = strength;
+        settings.lights.back().color = glm::vec3(1);
+    }
+    rig.set(settings);
+    const LightApart apart = rig.light_apart(kOrder);
+    ASSERT_EQ(apart.suns.size(), 4U);
+    EXPECT_NEAR(apart.suns.front().irradiance.r, 5 * std::numbers::pi_v<float>, 1e-4f);
+    EXPECT_NEAR(apart.suns.back().irradiance.r, 2 * std::numbers::pi_v<float>, 1e-4f);
+    EXPECT_LT(relative_difference(together(apart), rig.light(kOrder)), 1e-6);
+}
+
+TEST(LightRig, FindsTheSunsOfAnEnvironmentAndTurnsThemWithIt) {
+    const prt::test::TemporaryFolder folder;
+    prt::Image image{256, 128, std::vector<glm::vec3>(std::size_t{256} * 128, glm::vec3(1))};
+    const glm::dvec3 at = prt::lat_long_direction(256, 128, 100.5, 40.5);
+    image.at(100, 40) = glm::vec3(2e4f);
+    prt::write_exr(folder / "sun.exr", image, prt::EnvironmentLayout::lat_long);
+    LightRig rig;
+    rig.set_environment(std::make_shared<LoadedEnvironment>(load_environment((folder / "sun.exr").string())));
+    LightSettings settings = rig.settings();
+    settings.window = prt::Window::none;
+    rig.set(settings);
+    const LightApart apart = rig.light_apart(kOrder);
+    ASSERT_EQ(apart.suns.size(), 1U);
+    EXPECT_GT(glm::dot(glm::dvec3(apart.suns[0].towards), at), std::cos(0.01)); // a texel is 0.025 wide
+    EXPECT_NEAR(together(apart).coefficients[0].g / rig.light(kOrder).coefficients[0].g, 1, 1e-3);
+    EXPECT_LT(relative_difference(apart.lighting.sky, prt::constant_light(kOrder, glm::vec3(1))), 0.01);
+    EXPECT_TRUE(rig.distant_light().suns().empty()); // rays meet it in the image
+    settings.rotation = 1;
+    rig.set(settings);
+    EXPECT_LT(glm::distance(rig.light_apart(kOrder).suns[0].towards,
+                            glm::vec3(glm::rotate(glm::dmat4(1), 1.0, glm::dvec3(0, 1, 0)) *
+                                      glm::dvec4(glm::dvec3(apart.suns[0].towards), 0))),
+              1e-5f);
 }
 
 TEST(LightRig, CountsItsChanges) {

@@ -5,6 +5,7 @@
 
 #include "prt/bake.h"
 #include "prt/compress.h"
+#include "prt/gl_renderer.h"
 #include "prt/path_tracer.h"
 #include "prt/ray_renderer.h"
 #include "prt/receiver_colors.h"
@@ -147,6 +148,12 @@ protected:
     Settings settings;
     FrameView view;
     std::vector<float> alpha;
+};
+
+/// A sky, and a sun beside it.
+struct SunApart {
+    std::vector<prt::SunDisc> suns{{glm::normalize(glm::vec3(0.6f, 1, 0.4f)), {3, 2.5f, 2}, 0.01}};
+    prt::Lighting lighting{prt::overcast_sky(6, {0.3f, 0.4f, 0.6f}), prt::as_light(suns[0], 6)};
 };
 
 // Half precision of the target is 0.05 %, and both interpolate between vertices.
@@ -477,6 +484,57 @@ TEST_F(ViewerPictures, OfWiresAreDarkWhereTrianglesMeet) {
     for (int dx = -2; dx <= 2; ++dx)
         darkest = std::min(darkest, wires.at(kWidth / 2 + dx, kHeight / 2).g);
     EXPECT_LT(darkest, 0.5f);
+}
+
+TEST_F(ViewerPictures, OfSunsApartAreThoseOfTheRenderer) {
+    const SunApart light_apart;
+    const prt::Transfer transfer = baked();
+    const prt::ClusteredTransfer small = compressed(transfer);
+    gpu->set_raw(transfer);
+    gpu->set_compressed(small);
+    gpu->set_lighting(light_apart.lighting, light_apart.suns);
+    const auto rendered = [&](const std::vector<glm::vec3>& radiance) {
+        prt::Picture picture = picture_of(radiance);
+        picture.suns = light_apart.suns;
+        return prt::render_gl(picture, *context);
+    };
+    const prt::Image raw = rendered(prt::exit_radiance(transfer, light_apart.lighting));
+    EXPECT_LT(mean_difference(drawn(PictureKind::prt), raw), kSame);
+    EXPECT_LT(mean_difference(drawn(PictureKind::prt_compressed),
+                              rendered(prt::exit_radiance(small, light_apart.lighting))),
+              kSame);
+    settings.drawing.deferred = true;
+    EXPECT_LT(mean_difference(drawn(PictureKind::prt), raw), kSame);
+}
+
+TEST_F(ViewerPictures, AddTheSameSunsToEveryWayToLightTheSky) {
+    const SunApart light_apart;
+    prt::Lighting black = light_apart.lighting;
+    for (glm::vec3& c : black.sky.coefficients)
+        c = glm::vec3(0);
+    gpu->set_lighting(black, light_apart.suns);
+    const std::vector<glm::vec3> none(model->scene.receivers(), glm::vec3(0));
+    prt::Picture picture = picture_of(none);
+    picture.suns = light_apart.suns;
+    const prt::Image expected = prt::render_gl(picture, *context);
+    for (const PictureKind kind : {PictureKind::unshadowed, PictureKind::ssao, PictureKind::ssao_normals})
+        EXPECT_LT(mean_difference(drawn(kind), expected), kSame) << name_of(kind).id;
+    settings.drawing.deferred = true;
+    EXPECT_LT(mean_difference(drawn(PictureKind::unshadowed), expected), kSame);
+}
+
+TEST_F(ViewerPictures, OfTransferInOnePartTakeSunsAsSky) {
+    const SunApart light_apart;
+    const prt::Transfer transfer = baked();
+    const prt::Transfer whole = prt::as_whole(transfer);
+    gpu->set_raw(whole);
+    gpu->set_lighting(light_apart.lighting, light_apart.suns);
+    EXPECT_TRUE(gpu->takes_suns_as_sky(PictureKind::prt));
+    EXPECT_FALSE(gpu->takes_suns_as_sky(PictureKind::unshadowed));
+    EXPECT_LT(mean_difference(drawn(PictureKind::prt), rays(prt::exit_radiance(whole, light_apart.lighting))),
+              kSame);
+    gpu->set_raw(transfer);
+    EXPECT_FALSE(gpu->takes_suns_as_sky(PictureKind::prt));
 }
 
 } // namespace

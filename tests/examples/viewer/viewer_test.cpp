@@ -207,6 +207,50 @@ TEST_F(ViewerTest, SurvivesWhatIsBroken) {
     EXPECT_EQ(right(), PictureKind::prt_compressed);
 }
 
+TEST_F(ViewerTest, LightsSunsApartUnlessToldOtherwise) {
+    open({shipped()});
+    viewer->settings.split = 0;
+    const auto picture = [&] {
+        frame();
+        return viewer->renderer().read(1);
+    };
+    const prt::Image apart = picture();
+    const float stops = viewer->lighting().meter.stops();
+    viewer->settings.suns_apart = false;
+    const prt::Image together = picture();
+    double difference = 0, sum = 0;
+    for (std::size_t i = 0; i < apart.pixels.size(); ++i) {
+        difference += static_cast<double>(glm::distance(apart.pixels[i], together.pixels[i]));
+        sum += static_cast<double>(glm::length(together.pixels[i]));
+    }
+    EXPECT_GT(difference, 0.02 * sum);
+    EXPECT_EQ(viewer->lighting().meter.stops(), stops); // so that both can be compared
+    viewer->settings.suns_apart = true;
+    EXPECT_EQ(picture().pixels, apart.pixels);
+    viewer->lights.time.hour = 0; // no sun, no difference
+    const prt::Image night = picture();
+    viewer->settings.suns_apart = false;
+    EXPECT_EQ(picture().pixels, night.pixels);
+}
+
+TEST_F(ViewerTest, SaysWhereTransferKeepsNoDirectLightApart) {
+    prt::GltfDocument document = prt::load_gltf(unbaked());
+    const prt::Scene scene = prt::extract_scene(document);
+    prt::BakeOptions options;
+    options.rays = 64;
+    prt::BakedTransfer bake = prt::bake(scene, options).baked;
+    bake.transfer = prt::as_whole(bake.transfer);
+    prt::write_transfer(document, scene, bake);
+    prt::save_glb(document, folder / "whole.glb");
+    open({folder / "whole.glb"});
+    EXPECT_EQ(viewer->shown(PictureKind::prt).kind, PictureKind::prt);
+    EXPECT_NE(viewer->shown(PictureKind::prt).note.find("no direct light is kept apart"), std::string::npos);
+    EXPECT_TRUE(viewer->shown(PictureKind::unshadowed).note.empty());
+    viewer->settings.suns_apart = false;
+    frame();
+    EXPECT_TRUE(viewer->shown(PictureKind::prt).note.empty());
+}
+
 TEST_F(ViewerTest, TakesEnvironments) {
     open({shipped()});
     EXPECT_TRUE(viewer->lights.day);
