@@ -7,9 +7,11 @@
 #include "prt/mesh_edges.h"
 #include "prt/ray_renderer.h"
 #include "prt/receiver_colors.h"
+#include "prt/sun_radiance.h"
 #include "prt/support/error.h"
 #include "prt/tone_map.h"
 #include "report/verdict.h"
+#include "solid_materials.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -28,9 +30,9 @@ struct Candidate {
     std::optional<std::span<const std::uint16_t>> clusters;
 
     /// Exit radiance by the road that a game takes.
-    std::vector<glm::vec3> radiance(const Light& light, int threads) const {
-        return model.compressed ? exit_radiance(model.compressed->transfer, light, threads)
-                                : exit_radiance(transfer, light, threads);
+    std::vector<glm::vec3> radiance(const Lighting& lighting, int threads) const {
+        return model.compressed ? exit_radiance(model.compressed->transfer, lighting, threads)
+                                : exit_radiance(transfer, lighting, threads);
     }
 };
 
@@ -42,9 +44,17 @@ Candidate candidate(const SceneFile& model, const Path& path) {
     throw Error(path.string() + ": holds no transfer; run prt bake and prt compress first");
 }
 
+/// Under one lighting.
+struct NamedError {
+    std::string name;
+    LitError error;
+    std::size_t suns = 0; ///< that are apart
+    bool judged = false;  ///< by which the verdict goes
+};
+
 /// Errors under the lights that were named and under those that are always tried.
 struct Evaluation {
-    std::vector<std::pair<std::string, LitError>> named, standard;
+    std::vector<NamedError> named, standard;
     std::string worst_sun; ///< where it stands
     std::vector<ClusterShare> clusters;
     double relative_l2 = 0;
@@ -60,6 +70,8 @@ std::string place_of(const Scene& scene, std::uint32_t receiver) {
 }
 
 std::string about_lights(const Evaluation& evaluation) {
+    const bool apart = std::any_of(evaluation.named.begin(), evaluation.named.end(),
+                                   [](const NamedError& e) { return e.suns > 0; });
     return "lit_rms: relative L2 of exit radiance for albedo 1. lit_max and 99.9 %: the largest error of a "
            "receiver, and that which 99.9 % stay below. Darker half: relative L2 of the half of the area "
            "where the radiance is least. Seam: the largest jump of the error along an edge between two "
@@ -67,7 +79,10 @@ std::string about_lights(const Evaluation& evaluation) {
            "relative ones are over the mean radiance. The worst sun is that of 64 all over the sphere whose "
            "error is largest; errors under it are over the radiance of all 64, since one that lights nothing "
            "leaves nothing to divide by. It stands " +
-           evaluation.worst_sun + ". Random white: every coefficient alike; over the root mean square of R.";
+           evaluation.worst_sun + ". Random white: every coefficient alike; over the root mean square of R." +
+           (apart ? " Suns apart: transfer without the direct light of suns, which renderers add with sharp "
+                    "shadows; over the radiance under the whole light. The verdict goes by these."
+                  : "");
 }
 
 Table lights_table(const Evaluation& evaluation, const Scene& scene) {
@@ -82,16 +97,16 @@ Table lights_table(const Evaluation& evaluation, const Scene& scene) {
                      {"crossing_percentile_99", "seams, 99 %", share, 2},
                      {"inner_percentile_99", "inner, 99 %", share, 2},
                      {"mean_radiance", "mean radiance"}};
-    for (const char* key :
-         {"crossing_edges", "crossing_rms", "seam_place_metres", "inner_edges", "inner_rms", "inner_max"})
+    for (const char* key : {"crossing_edges", "crossing_rms", "seam_place_metres", "inner_edges", "inner_rms",
+                            "inner_max", "suns_apart", "judged"})
         table.columns.push_back({key});
     for (const auto* lights : {&evaluation.named, &evaluation.standard})
-        for (const auto& [name, e] : *lights)
+        for (const auto& [name, e, suns, judged] : *lights)
             table.rows.push_back(
                 {name, e.rms, e.max, e.percentile_999, e.darker_half_rms, e.crossing.max,
                  e.crossing.percentile_99, e.inner.percentile_99, e.mean, e.crossing.edges, e.crossing.rms,
                  e.crossing.edges > 0 ? Json(place_of(scene, e.crossing.worst.first)) : Json(), e.inner.edges,
-                 e.inner.rms, e.inner.max});
+                 e.inner.rms, e.inner.max, suns, judged});
     return table;
 }
 
@@ -121,26 +136,25 @@ public:
         edges_ = mesh_edges(baked.scene);
     }
 
-    Evaluation measure(const std::vector<LoadedLight>& lights) const {
+    Evaluation measure(const std::vector<SplitLight>& lights) const {
         Evaluation evaluation;
         evaluation.relative_l2 = relative_l2(reference(), shipped_.transfer, areas_);
         if (!std::isfinite(evaluation.relative_l2))
             throw Error(a_.baked.string() + ": lets no light through anywhere, and " + a_.shipped.string() +
                         " does: no error is relative to that");
         ClusterShares shares(model_.compressed ? model_.compressed->transfer.bases.clusters() : 0);
-        for (const LoadedLight& light : lights) {
-            const auto wanted = wanted_under(light.light), lit = shipped_.radiance(light.light, a_.threads);
+        for (const SplitLight& light : lights) {
+            add_named(light, evaluation);
             if (shipped_.clusters)
-                shares.add(*shipped_.clusters, areas_, wanted, lit);
-            evaluation.named.emplace_back(light.name,
-                                          lit_error(wanted, lit, areas_, edges_, shipped_.clusters));
+                shares.add(*shipped_.clusters, areas_, wanted_under(judged(light)),
+                           shipped_.radiance(judged(light), a_.threads));
         }
         add_worst_sun(evaluation);
         // Half of what random light gives is negative, and the mean of no use to divide by.
-        const Light random = random_white_light(reference().layout.order);
+        const Lighting random{random_white_light(reference().layout.order)};
         const double square = lit_scale(wanted_under(random), areas_).mean_square;
-        evaluation.standard.emplace_back("random white",
-                                         error_under(random, LitScale{square, std::sqrt(square / 3)}));
+        evaluation.standard.push_back(
+            {"random white", error_under(random, LitScale{square, std::sqrt(square / 3)})});
         if (model_.compressed)
             evaluation.clusters = shares.finish(model_.compressed->transfer, areas_);
         return evaluation;
@@ -166,14 +180,21 @@ public:
 
     Verdict verdict(const Evaluation& evaluation) const {
         Verdict v;
-        v.under = evaluation.named.size() == 1 ? evaluation.named.front().first
-                                               : fmt::format("these {} lights", evaluation.named.size());
-        for (const auto& [name, error] : evaluation.named) {
+        std::size_t lights = 0;
+        bool apart = false;
+        for (const auto& [name, error, suns, judged] : evaluation.named) {
+            if (!judged)
+                continue;
+            ++lights;
+            apart = apart || suns > 0;
+            v.under = name;
             v.lit_rms = std::max(v.lit_rms, error.rms);
             v.seam_99 = std::max(v.seam_99, error.crossing.percentile_99);
             if (error.crossing.edges > 0)
                 v.seam = std::max(v.seam.value_or(0), error.crossing.max);
         }
+        if (lights > 1)
+            v.under = fmt::format("these {} lights{}", lights, apart ? ", suns apart" : "");
         if (model_.compressed)
             v.bytes_per_vertex = bytes_per_receiver(model_.compressed->transfer);
         return v;
@@ -181,27 +202,60 @@ public:
 
     /// Lit by the bake and by what is shipped, as `prt render` lights them, at one exposure and without
     /// textures, which would hide errors; then the error as the figures count it, and clusters.
-    void add_pictures(const LoadedLight& light, Report& report) const {
-        const Light drawn = deringed(light.light);
+    void add_pictures(const SplitLight& light, Report& report) const {
+        const TraceScene scene(model_.scene,
+                               load_textures(model_.scene, BadTextures::ignore, TextureNeeds::visibility),
+                               {.solid = solid_materials(baked_), .threads = a_.threads});
+        const Lighting lighting = judged(light);
+        Lighting drawn = lighting;
+        drawn.sky = deringed(drawn.sky);
+        const std::span<const SunDisc> suns =
+            suns_apart(light) ? light.split.suns : std::span<const SunDisc>();
         const auto before = wanted_under(drawn);
-        const float exposure = exposure_of(before);
-        add_picture(report, "Before: the bake, under " + light.name, before, exposure);
-        add_picture(report, "After: as shipped", shipped_.radiance(drawn, a_.threads), exposure);
-        const auto wanted = wanted_under(light.light), lit = shipped_.radiance(light.light, a_.threads);
-        add_picture(report, fmt::format("Error (white: {:.0f} % of the mean radiance)", 100 * kWhiteError),
-                    error_colors(wanted, lit, areas_), 1);
+        const float exposure =
+            exposure_of(before, sun_radiance(scene, suns, {.rays = 16, .threads = a_.threads}));
+        const auto add = [&](std::string title, std::span<const glm::vec3> colors, float exposed,
+                             std::span<const SunDisc> by = {}) {
+            report.pictures.push_back({std::move(title), picture(scene, colors, by, exposed)});
+        };
+        add("Before: the bake, under " + light.sky.name, before, exposure, suns);
+        add("After: as shipped", shipped_.radiance(drawn, a_.threads), exposure, suns);
+        const auto wanted = wanted_under(lighting), lit = shipped_.radiance(lighting, a_.threads);
+        add(fmt::format("Error (white: {:.0f} % of the mean radiance)", 100 * kWhiteError),
+            error_colors(wanted, lit, areas_), 1);
         if (model_.compressed)
-            add_picture(report, "Clusters", cluster_colors(model_.compressed->transfer), 1);
+            add("Clusters", cluster_colors(model_.compressed->transfer), 1);
     }
 
 private:
     const Transfer& reference() const { return baked_.baked->transfer; }
-    std::vector<glm::vec3> wanted_under(const Light& light) const {
-        return exit_radiance(reference(), light, a_.threads);
+    /// Whether the renderer can shadow its suns.
+    bool suns_apart(const SplitLight& light) const {
+        return !light.split.suns.empty() && reference().layout.has(PartKind::direct) &&
+               shipped_.transfer.layout.has(PartKind::direct);
     }
-    LitError error_under(const Light& light, const std::optional<LitScale>& scale) const {
-        return lit_error(wanted_under(light), shipped_.radiance(light, a_.threads), areas_, edges_,
+    /// By what the verdict goes.
+    Lighting judged(const SplitLight& light) const {
+        return suns_apart(light) ? lighting_of(light) : Lighting{light.whole};
+    }
+    std::vector<glm::vec3> wanted_under(const Lighting& lighting) const {
+        return exit_radiance(reference(), lighting, a_.threads);
+    }
+    LitError error_under(const Lighting& lighting, const std::optional<LitScale>& scale = {}) const {
+        return lit_error(wanted_under(lighting), shipped_.radiance(lighting, a_.threads), areas_, edges_,
                          shipped_.clusters, scale);
+    }
+
+    /// With its suns apart errors are over what the whole light gives, since suns are in the picture.
+    void add_named(const SplitLight& light, Evaluation& evaluation) const {
+        const bool apart = suns_apart(light);
+        const Lighting whole{light.whole};
+        evaluation.named.push_back({light.sky.name, error_under(whole), 0, !apart});
+        if (apart)
+            evaluation.named.push_back(
+                {light.sky.name + ", suns apart",
+                 error_under(lighting_of(light), lit_scale(wanted_under(whole), areas_)),
+                 light.split.suns.size(), true});
     }
 
     /// Suns of one strength: errors are over what all of them light (docs/math.md, eq. 35).
@@ -209,49 +263,50 @@ private:
         const DirectionalLights suns = directional_lights(reference().layout.order);
         LitScale all;
         for (const Light& sun : suns.lights) {
-            const LitScale one = lit_scale(wanted_under(sun), areas_);
+            const LitScale one = lit_scale(wanted_under({sun}), areas_);
             all.mean_square += one.mean_square / static_cast<double>(suns.lights.size());
             all.mean += one.mean / static_cast<double>(suns.lights.size());
         }
         LitError worst;
         for (std::size_t i = 0; i < suns.lights.size(); ++i) {
-            const LitError error = error_under(suns.lights[i], all);
+            const LitError error = error_under({suns.lights[i]}, all);
             if (error.rms < worst.rms)
                 continue;
             worst = error;
             const glm::vec3& d = suns.directions[i];
             evaluation.worst_sun = fmt::format("towards {:.2f} {:.2f} {:.2f}", d.x, d.y, d.z);
         }
-        evaluation.standard.emplace_back(fmt::format("worst of {} suns", suns.lights.size()), worst);
+        evaluation.standard.push_back({fmt::format("worst of {} suns", suns.lights.size()), worst});
     }
 
     /// Brings what 98 % of the receivers stay below to 0.8.
-    static float exposure_of(std::span<const glm::vec3> radiance) {
+    static float exposure_of(std::span<const glm::vec3> radiance, std::span<const glm::vec3> of_suns) {
         std::vector<float> values;
-        for (const glm::vec3& r : radiance)
+        for (std::size_t p = 0; p < radiance.size(); ++p) {
+            const glm::vec3 r = radiance[p] + of_suns[p];
             values.push_back(std::max({r.x, r.y, r.z}));
+        }
         const auto at =
             values.begin() + static_cast<std::ptrdiff_t>(0.98 * static_cast<double>(values.size() - 1));
         std::nth_element(values.begin(), at, values.end());
         return *at > 0 ? 0.8f / *at : 1.0f;
     }
 
-    void add_picture(Report& report, std::string title, std::span<const glm::vec3> colors,
-                     float exposure) const {
+    /// A PNG.
+    std::vector<std::byte> picture(const TraceScene& scene, std::span<const glm::vec3> colors,
+                                   std::span<const SunDisc> suns, float exposure) const {
         constexpr int kWidth = 720, kHeight = 450, kSamples = 2;
         Picture picture;
         picture.scene = &model_.scene;
         picture.radiance = colors;
+        picture.suns = suns;
         picture.textured = false;
         picture.camera = automatic_camera(model_.scene, static_cast<float>(kWidth) / kHeight, 0.6f);
         picture.width = kWidth;
         picture.height = kHeight;
         picture.samples = kSamples;
-        const Image image = render_rays(picture, TraceScene(model_.scene, {}, {.threads = a_.threads}),
-                                        {.threads = a_.threads});
-        report.pictures.push_back(
-            {std::move(title),
-             encode_png(kWidth, kHeight, tone_mapped(image, kSamples, exposure, ToneMap::srgb))});
+        const Image image = render_rays(picture, scene, {.threads = a_.threads});
+        return encode_png(kWidth, kHeight, tone_mapped(image, kSamples, exposure, ToneMap::srgb));
     }
 
     const ComparisonOptions& a_;
@@ -263,17 +318,25 @@ private:
 };
 
 /// Where a difference is seen if anywhere.
-const LoadedLight& worst_of(const Evaluation& evaluation, const std::vector<LoadedLight>& lights) {
-    const auto worst =
-        std::max_element(evaluation.named.begin(), evaluation.named.end(),
-                         [](const auto& a, const auto& b) { return a.second.rms < b.second.rms; });
-    return lights[static_cast<std::size_t>(worst - evaluation.named.begin())];
+const SplitLight& worst_of(const Evaluation& evaluation, const std::vector<SplitLight>& lights) {
+    std::size_t light = 0, worst = 0;
+    double most = -1;
+    for (const NamedError& e : evaluation.named) {
+        if (!e.judged) // its row with suns apart comes next
+            continue;
+        if (e.error.rms > most) {
+            most = e.error.rms;
+            worst = light;
+        }
+        ++light;
+    }
+    return lights[worst];
 }
 
 } // namespace
 
-void add_comparison(const ComparisonOptions& options, SceneFile& baked,
-                    const std::vector<LoadedLight>& lights, Report& report) {
+void add_comparison(const ComparisonOptions& options, SceneFile& baked, const std::vector<SplitLight>& lights,
+                    Report& report) {
     const Comparison comparison(options, baked);
     const Evaluation evaluation = comparison.measure(lights);
     report.verdict = in_one_line(comparison.verdict(evaluation));

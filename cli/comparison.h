@@ -2,8 +2,8 @@
 
 // A compressed file, or another bake of the same scene, held against its bake.
 
-#include "inputs.h"
 #include "report/report.h"
+#include "split_light.h"
 
 #include <vector>
 
@@ -16,10 +16,11 @@ struct ComparisonOptions {
     int threads = 0;
 };
 
-/// Adds a verdict, errors under `lights` and those that are always tried, sizes and, for compressed files,
-/// clusters to `report`. Puts `baked`, which was loaded from `options.baked`, in the order of the shipped
-/// file. Throws `Error` where the files do not belong together.
-void add_comparison(const ComparisonOptions& options, SceneFile& baked,
-                    const std::vector<LoadedLight>& lights, Report& report);
+/// Adds a verdict, errors under `lights`, with their suns apart, too, where transfer allows it, and under
+/// those that are always tried, sizes and, for compressed files, clusters to `report`. Puts `baked`, which
+/// was loaded from `options.baked`, in the order of the shipped file. Throws `Error` where the files do not
+/// belong together.
+void add_comparison(const ComparisonOptions& options, SceneFile& baked, const std::vector<SplitLight>& lights,
+                    Report& report);
 
 } // namespace prt::cli

@@ -1,13 +1,16 @@
 #pragma once
 
-#include "inputs.h"
+#include "split_light.h"
 
 #include <vector>
 
 namespace prt::cli {
 
+/// What to evaluate under when the user names no lights: uniform, overcast, and a sun high in the front.
+std::vector<SplitLight> default_lights(int order);
+
 /// A light turned about +Y by `count` equal angles, named after them.
-std::vector<LoadedLight> rotations(LoadedLight light, int count);
+std::vector<SplitLight> rotations(SplitLight light, int count);
 
 /// Suns all over the sphere, evenly spread.
 struct DirectionalLights {

@@ -92,10 +92,4 @@ LoadedLight load_light(const Path& path, int order, const LightOptions& options,
     return result;
 }
 
-std::vector<LoadedLight> default_lights(int order) {
-    return {{"uniform", constant_light(order, glm::vec3(1)), {}},
-            {"overcast sky", overcast_sky(order, glm::vec3(1)), {}},
-            {"sun", directional_light(order, glm::normalize(glm::vec3(0.5f, 1, 0.7f)), glm::vec3(1)), {}}};
-}
-
 } // namespace prt::cli

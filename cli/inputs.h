@@ -72,7 +72,4 @@ Environment load_environment_map(const Path& path, const EnvironmentOptions& opt
 /// Lighting from an environment map or a light file, windowed and rotated, with `order` bands.
 LoadedLight load_light(const Path& path, int order, const LightOptions& options, int threads);
 
-/// What to evaluate under when the user names no lights: uniform, overcast, and a sun high in the front.
-std::vector<LoadedLight> default_lights(int order);
-
 } // namespace prt::cli

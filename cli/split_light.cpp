@@ -49,8 +49,24 @@ Lighting lighting_of(const SplitLight& light) {
 SplitLight dark_sky(int order) {
     SplitLight dark;
     dark.sky.name = "no sky";
-    dark.sky.light = constant_light(order, glm::vec3(0));
+    dark.sky.light = dark.whole = constant_light(order, glm::vec3(0));
     return dark;
+}
+
+SplitLight together(SplitLight light) {
+    light.sky.light = light.whole;
+    light.split.suns.clear();
+    return light;
+}
+
+SplitLight turned(SplitLight light, double angle) {
+    light.sky.environment.reset();
+    light.sky.light = rotated_about_y(light.sky.light, angle);
+    light.whole = rotated_about_y(light.whole, angle);
+    for (SunDisc& sun : light.split.suns)
+        sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)) *
+                                glm::dvec4(glm::dvec3(sun.towards), 0));
+    return light;
 }
 
 SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
@@ -62,24 +78,26 @@ SplitLight load_split_light(const Path& path, int order, const SunCount& suns, c
         if (file.sky.order < order)
             throw Error(fmt::format("{}: has order {}, but order {} is needed", path.string(), file.sky.order,
                                     order));
-        const bool apart = suns.count != 0;
-        result.sky.light = truncated(apart ? file.sky : all_light(file), order);
-        if (apart)
-            result.split.suns = file.suns;
+        result.whole = truncated(all_light(file), order);
+        result.sky.light = truncated(file.sky, order);
+        result.split.suns = file.suns;
     } else {
         result.sky.environment = load_environment_map(path, options.environment);
+        const Environment& image = *result.sky.environment;
         result.split = about(path, [&] {
-            return find_suns(*result.sky.environment,
-                             {.order = order, .count = suns.count, .threads = threads});
+            return find_suns(image, {.order = order, .count = suns.count, .threads = threads});
         });
+        result.whole = project(image, order, threads);
         result.sky.light = project(result.split.remainder, order, threads);
     }
     result.sky.light = windowed(result.sky.light, options.window);
+    result.whole = windowed(result.whole, options.window);
+    if (suns.count == 0)
+        result = together(std::move(result));
     if (const double turn = glm::radians(options.rotation_degrees); turn != 0) {
-        result.sky.light = rotated_about_y(result.sky.light, turn);
-        for (SunDisc& sun : result.split.suns)
-            sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), turn, glm::dvec3(0, 1, 0)) *
-                                    glm::dvec4(glm::dvec3(sun.towards), 0));
+        auto image = std::move(result.sky.environment);
+        result = turned(std::move(result), turn);
+        result.sky.environment = std::move(image);
     }
     return result;
 }

@@ -24,6 +24,7 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
 struct SplitLight {
     LoadedLight sky;
     SunSplit split;
+    Light whole; ///< all of it together, as `load_light` gives it
 };
 
 /// The suns together, as they light what is lit after a bounce.
@@ -34,6 +35,12 @@ Lighting lighting_of(const SplitLight& light);
 
 /// Without light.
 SplitLight dark_sky(int order);
+
+/// The same with its suns in its sky.
+SplitLight together(SplitLight light);
+
+/// Turned about +Y, as `rotated_about_y`, without its image.
+SplitLight turned(SplitLight light, double angle);
 
 /// Takes suns out of an environment map, or those of a light file, whose number is its own unless none is
 /// asked for; turned with the rest as asked. A window is for the rest alone.

@@ -19,17 +19,18 @@ struct EvaluateArguments {
     ReportFiles files;
     std::vector<Path> lights;
     LightOptions light_options;
+    SunCount suns = {std::nullopt};
     int rotations = 1; ///< of each light about +Y
     bool sweep = false;
     GltfOptions reading;
     int threads = 0;
 };
 
-Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::vector<LoadedLight>& lights,
+Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::vector<SplitLight>& lights,
                 Session& session) {
     std::vector<Light> all;
-    for (const LoadedLight& light : lights)
-        all.push_back(light.light);
+    for (const SplitLight& light : lights)
+        all.push_back(light.whole);
     CompressOptions options;
     options.threads = a.threads;
     ProgressBar bar = session.progress_bar("sweeping");
@@ -39,10 +40,11 @@ Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::v
 }
 
 /// Those that were named, turned as asked, or the default ones.
-std::vector<LoadedLight> lights_of(const EvaluateArguments& a, int order) {
-    std::vector<LoadedLight> lights;
+std::vector<SplitLight> lights_of(const EvaluateArguments& a, int order) {
+    std::vector<SplitLight> lights;
     for (const Path& path : a.lights)
-        for (LoadedLight& light : rotations(load_light(path, order, a.light_options, a.threads), a.rotations))
+        for (SplitLight& light :
+             rotations(load_split_light(path, order, a.suns, a.light_options, a.threads), a.rotations))
             lights.push_back(std::move(light));
     return lights.empty() ? default_lights(order) : lights;
 }
@@ -88,7 +90,7 @@ void run(EvaluateArguments a, Session& session) {
     SceneFile baked = load_scene_file(a.baked, a.reading);
     if (!baked.baked)
         throw Error(a.baked.string() + ": holds no raw transfer; the first file is the output of prt bake");
-    const std::vector<LoadedLight> lights = lights_of(a, baked.baked->transfer.layout.order);
+    const std::vector<SplitLight> lights = lights_of(a, baked.baked->transfer.layout.order);
     Report report = empty_report(a, session);
     if (!a.shipped.empty())
         add_comparison({.baked = a.baked,
@@ -121,6 +123,11 @@ void add_evaluate(CLI::App& app, Session& session) {
         ->check(named)
         ->type_name("FILE");
     add_light_options(command, a.light_options);
+    add_suns(
+        command, a.suns,
+        "find suns in the images, so many or as many as pay, and measure transfer that keeps direct light "
+        "apart without their direct light, too: as it is lit beside shadow maps",
+        "auto");
     command->add_option("--rotations", a.rotations, "turn each light about +Y by this many equal angles")
         ->capture_default_str()
         ->check(CLI::Range(1, 64));

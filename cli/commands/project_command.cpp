@@ -81,7 +81,8 @@ void run(const ProjectArguments& a, Session& session) {
         light = load_split_light(a.environment, a.order, a.suns, a.light_options, a.threads);
     else
         light.sky = load_light(a.environment, a.order, a.light_options, a.threads);
-    const auto& [loaded, split] = light;
+    const LoadedLight& loaded = light.sky;
+    const SunSplit& split = light.split;
     const double seconds = stopwatch.seconds();
     Json file = light_json(loaded.light);
     if (apart)

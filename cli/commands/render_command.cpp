@@ -136,21 +136,18 @@ SplitLight load_lit(const RenderArguments& a, const SceneFile& model) {
     const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
     if (a.environment.empty())
         return dark_sky(order);
-    const auto load = [&](const SunCount& suns) {
-        return load_split_light(a.environment, order, suns, a.light_options, a.threads);
-    };
-    if (a.look.show == Show::ao || a.look.show == Show::clusters)
-        return load({0});
-    const std::string why = why_together(a, model);
+    const bool lit = a.look.show == Show::lit || a.look.show == Show::error;
+    const std::string why = lit ? why_together(a, model) : "";
     if (!why.empty() && a.suns.count.count.value_or(0) > 0)
         throw Error(why + ", or light it with --suns 0");
-    SplitLight light = load(a.suns.count);
+    SplitLight light =
+        load_split_light(a.environment, order, lit ? a.suns.count : SunCount{0}, a.light_options, a.threads);
     if (why.empty() || light.split.suns.empty())
         return light;
     print_notices(a.environment.string(),
                   {fmt::format("its suns ({}) are lit with the sky, and no shadow of theirs is sharp: {}",
                                light.split.suns.size(), why)});
-    return load({0});
+    return together(std::move(light));
 }
 
 /// Of a model without transfer, too, which has no lamps.

@@ -116,6 +116,35 @@ TEST_F(RenderSuns, ExposesForThem) {
     EXPECT_NEAR(report()["exposure_stops"].get<double>(), std::log2(0.22 / (0.7 * 0.4 * 0.7152)), 0.4);
 }
 
+/// Of a sky that is a sun alone transfer has nothing to give but what bounced, which none did; over the light
+/// of the whole sun that is no error, and the verdict says so.
+TEST_F(RenderSuns, AreApartInTheVerdict) {
+    const auto rows = [&](const char* shipped, const char* sky) {
+        const Outcome outcome =
+            prt({"evaluate", at("b.glb"), at(shipped), "--lights", at(sky), "--json", at("r.json")});
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        const nlohmann::json all = report();
+        nlohmann::json found = {{"verdict", all["verdict"]}};
+        for (const nlohmann::json& row : all["lights"])
+            found[row["light"].get<std::string>()] = row;
+        return found;
+    };
+    const auto sun = rows("c.glb", "sun.json");
+    EXPECT_GT(sun["sun.json"]["lit_rms"], 0);
+    EXPECT_FALSE(sun["sun.json"]["judged"]);
+    EXPECT_EQ(sun["sun.json, suns apart"]["lit_rms"], 0);
+    EXPECT_EQ(sun["sun.json, suns apart"]["suns_apart"], 1);
+    EXPECT_TRUE(sun["sun.json, suns apart"]["judged"]);
+    EXPECT_NE(sun["verdict"].get<std::string>().find("0.00 % under sun.json, suns apart"), std::string::npos)
+        << sun["verdict"];
+    const auto sky = rows("c.glb", "sunny.exr");
+    EXPECT_LT(sky["sunny.exr, suns apart"]["lit_rms"], sky["sunny.exr"]["lit_rms"]);
+    EXPECT_FALSE(rows("c.glb", "plain.exr").contains("plain.exr, suns apart"));
+    const auto whole = rows("w.glb", "sunny.exr");
+    EXPECT_FALSE(whole.contains("sunny.exr, suns apart"));
+    EXPECT_TRUE(whole["sunny.exr"]["judged"]);
+}
+
 TEST_F(RenderSuns, SaysWhatItCannotDo) {
     const auto refused = [&](std::vector<std::string> arguments, int status, const char* words) {
         arguments.insert(arguments.begin(), "render");
