@@ -11,11 +11,11 @@ mkdir -p out
 build/release/examples/scenes/example_scenes out/scenes
 sky=out/scenes/sky.exr
 
-# name, bounces, preset of the compressor, options of the camera
+# name, bounces, preset of the compressor, options of the camera; the sky and the rays of a vertex where they are others
 road() {
     local name=$1 bounces=$2 preset=$3
     echo
-    $prt bake "out/scenes/$name.glb" -o "out/$name.baked.glb" --bounces "$bounces"
+    $prt bake "out/scenes/$name.glb" -o "out/$name.baked.glb" --bounces "$bounces" --rays "${rays:-1024}"
     $prt compress "out/$name.baked.glb" -o "out/$name.shipped.glb" --preset "$preset"
     $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png" "${@:4}"
     $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png" "${@:4}"
@@ -25,6 +25,9 @@ road knot 0 u32
 road room 3 u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
 road tree 3 u64 --camera 1.5,1.7,5.5 --look-at 0,1.9,0
 road terrain 0 u64 --camera 1,4.5,11 --look-at 0,2.6,0
+rays=256 sky=out/scenes/night.exr road night_room 3 u64 --camera 0.6,1.7,2.6 --look-at 0,1.8,-6 --fov 50
+# The courtyard, 139 000 vertices: minutes on a few cores.
+rays=128 sky=out/scenes/noon.exr road courtyard 3 u64 --camera 3.9,1.75,4.9 --look-at -1.3,2.75,-6 --fov 46
 $prt render out/knot.shipped.glb --env "$sky" --show clusters -o out/knot.clusters.png
 $prt render out/knot.shipped.glb --env "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png
 echo

@@ -493,7 +493,8 @@ class LampRoad : public Road, public testing::WithParamInterface<LampScene> {};
 INSTANTIATE_TEST_SUITE_P(
     Scenes, LampRoad,
     testing::Values(LampScene{"courtyard", "Lanterns=Lantern*", 8, 2}, // lanterns and windows
-                    LampScene{"night_room", "Lamps=Lamp*", 3, 4}));    // also bulbs and the sign
+                    LampScene{"night_room", "Lamps=Lamp*", 3, 4}), // also bulbs and the sign
+                         [](const auto& scene) { return std::string(scene.param.name); });
 
 TEST_P(LampRoad, BakesTheLampsOfAScene) {
     const auto& [name, group, lights, lamps] = GetParam();

@@ -8,7 +8,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace examples {
 namespace {
@@ -70,30 +72,39 @@ void add_awning(Mesh& cloth, Mesh& iron, const Awning& a, const glm::mat4& place
     append(iron, placed(awning_rods(a), place));
 }
 
-/// Pennants on a rope that hangs between two points, of one cloth in every `colors` from number `color` on.
-Mesh pennants(const glm::vec3& from, const glm::vec3& to, int color, int colors) {
-    constexpr float kPitch = 0.42f, kHang = 0.9f;
-    const int count = static_cast<int>(glm::distance(from, to) / kPitch);
-    const auto rope = [&](float t) {
-        return glm::mix(from, to, t) - glm::vec3(0, 4 * kHang * t * (1 - t), 0);
-    };
+/// A rope that hangs between two points.
+struct Rope {
+    glm::vec3 from, to;
+
+    glm::vec3 at(float t) const { return glm::mix(from, to, t) - glm::vec3(0, 3.6f * t * (1 - t), 0); }
+};
+
+/// Every third pennant on a rope, from number `first` on.
+Mesh pennants(const Rope& rope, int first) {
+    const int count = static_cast<int>(glm::distance(rope.from, rope.to) / 0.42f);
     Mesh mesh;
-    for (int i = color; i < count; i += colors) {
+    for (int i = first; i < count; i += 3) {
         const float begin = (static_cast<float>(i) + 0.12f) / static_cast<float>(count),
                     end = (static_cast<float>(i) + 0.88f) / static_cast<float>(count);
         append(mesh, parametric_surface(2, 3, [&](float u, float v) {
                    const float narrow = 0.5f + (u - 0.5f) * (0.06f + 0.94f * v);
                    const float blown = 0.05f * std::sin(static_cast<float>(i) * 2.1f) * (1 - v) * (1 - v);
-                   return rope(std::lerp(begin, end, narrow)) + glm::vec3(blown, -0.42f * (1 - v), blown);
+                   return rope.at(std::lerp(begin, end, narrow)) + glm::vec3(blown, -0.42f * (1 - v), blown);
                }));
     }
     return mesh;
 }
 
-void add_bunting(Courtyard& to, const glm::vec3& from, const glm::vec3& to_point) {
-    Mesh* const cloths[] = {&to.saffron_pennants, &to.red_pennants, &to.blue_pennants};
-    for (int color = 0; color < 3; ++color)
-        append(*cloths[color], pennants(from, to_point, color, 3));
+void add_bunting(Courtyard& to, const Rope& rope) {
+    append(to.saffron_pennants, pennants(rope, 0));
+    append(to.red_pennants, pennants(rope, 1));
+    append(to.blue_pennants, pennants(rope, 2));
+    std::array<glm::vec3, 25> points;
+    std::array<float, points.size()> radii;
+    radii.fill(0.008f);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        points[i] = rope.at(static_cast<float>(i) / (points.size() - 1));
+    append(to.iron, bar(points, radii, 4));
 }
 
 /// A cloth that hangs over the balcony's rail.
@@ -112,12 +123,12 @@ void add_awnings(Courtyard& to) {
     add_awning(to.red_cloth, to.iron, over_arch, left_wing());
     Awning thin = over_arch;
     thin.middle = 3.5f * kBay;
-    append(to.saffron_cloth, placed(awning_cloth(thin), left_wing()));
+    append(to.thin_cloth, placed(awning_cloth(thin), left_wing()));
     append(to.iron, placed(awning_rods(thin), left_wing()));
     add_awning(to.blue_cloth, to.iron, over_arch, back_wing());
-    add_bunting(to, {-kHalf + 0.05f, 6.55f, -0.9f}, {-0.3f, 6.6f, -kDeep + 0.05f});
-    add_bunting(to, {-kHalf + 0.05f, 6.55f, -5.6f}, {kHalf, 4.1f, -4.6f});
-    append(to.iron, bar({kHalf + 0.15f, kGardenWall, -4.6f}, {kHalf + 0.15f, 4.15f, -4.6f}, 0.03f));
+    add_bunting(to, {{-kHalf + 0.05f, 6.55f, -0.9f}, {-0.3f, 6.6f, -kDeep + 0.05f}});
+    add_bunting(to, {{-kHalf + 0.05f, 6.55f, -5.6f}, {kHalf + 0.15f, 4.1f, -4.6f}});
+    append(to.iron, bar({kHalf + 0.15f, kGardenWall, -4.6f}, {kHalf + 0.15f, 4.13f, -4.6f}, 0.02f));
     append(to.banner, placed(hung_cloth(2.5f * kBay, 1.1f), back_wing()));
 }
 

@@ -8,7 +8,7 @@ namespace examples {
 struct Courtyard {
     Mesh paving, plaster, garden_plaster, stone, glazed_tiles, roof_tiles, wood, painted_wood, iron,
         dark_panes, lit_panes;
-    Mesh water, clay, soil, red_cloth, blue_cloth, saffron_cloth, banner, saffron_pennants, red_pennants,
+    Mesh water, clay, soil, red_cloth, blue_cloth, thin_cloth, banner, saffron_pennants, red_pennants,
         blue_pennants;
     Mesh bark, leaves, oranges, flowers, vine_leaves;
     Mesh lantern_panes, flames;
