@@ -41,8 +41,7 @@ void check_options(const BakeOptions& options) {
     if (!(options.lamps.radius >= 0 && std::isfinite(options.lamps.radius)))
         throw Error("the radius of lamps must be finite and not negative");
     if (options.lamps.rays < 1 || options.lamps.rays > kMostRays)
-        throw Error(
-            fmt::format("rays to lamps must lie in 1..{}, not {}", kMostRays, options.lamps.rays));
+        throw Error(fmt::format("rays to lamps must lie in 1..{}, not {}", kMostRays, options.lamps.rays));
     if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
         throw Error("the error to reach must be finite and above 0");
     if (!(options.subsurface.metres_per_unit > 0 && std::isfinite(options.subsurface.metres_per_unit)))
@@ -168,8 +167,9 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     Propagated exit =
         propagate_all(plan, std::move(direct.transfer), operators, progress.part(traced_sky, 1));
     if (!plan.lamps.empty())
-        exit.transfer = with_lamps(
-            exit.transfer, propagate_lamps(plan, std::move(lamps), operators, progress.part(1, 1)), plan.lamps);
+        exit.transfer =
+            with_lamps(exit.transfer, propagate_lamps(plan, std::move(lamps), operators, progress.part(1, 1)),
+                       plan.lamps);
     seconds.transport = transport.seconds();
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit));

@@ -25,7 +25,8 @@ double memory_needed(const BakePlan& plan) {
 
 } // namespace
 
-double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, std::size_t numbers) {
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
+                       std::size_t numbers) {
     const auto count = static_cast<double>(receivers);
     const double vector = 4.0 * static_cast<double>(numbers);
     // The transfer itself, once more in the file being written and once more joined to it.

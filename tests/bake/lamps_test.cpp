@@ -120,8 +120,8 @@ TEST(Lamps, OfSpotsEndSoftlyAtTheirCone) {
         floor_under({light}), lamp_options(),
         [&](const glm::dvec3& p) {
             const double distance = std::sqrt(4 + glm::dot(p, p)), cosine = 2 / distance;
-            const double rise = std::clamp(
-                (cosine - std::cos(0.6)) / (std::cos(0.3) - std::cos(0.6)), 0.0, 1.0);
+            const double rise =
+                std::clamp((cosine - std::cos(0.6)) / (std::cos(0.3) - std::cos(0.6)), 0.0, 1.0);
             (rise == 1 ? full : rise == 0 ? none : between) += 1;
             return glm::dvec3(rise * rise * cosine / (std::numbers::pi * distance * distance));
         },
@@ -142,8 +142,8 @@ TEST(Lamps, FarAwayLightEverythingAlike) {
 
 /// The shadow of a roof under a point: sharp, where the line to the light goes through the roof.
 TEST(Lamps, CastShadows) {
-    Scene scene = test::join({SceneBuilder().floor({0, 0, 0}, 2, 8).build(),
-                              SceneBuilder().floor({0, 1, 0}, 0.61f, 1).build()});
+    Scene scene = test::join(
+        {SceneBuilder().floor({0, 0, 0}, 2, 8).build(), SceneBuilder().floor({0, 1, 0}, 0.61f, 1).build()});
     scene.lights = {point("lamp", {0, 2, 0})};
     expect_radiance(
         scene, lamp_options(),
@@ -173,8 +173,8 @@ TEST(Lamps, ThatAreSpheresShineAsTheirSolidAngle) {
             const double square = glm::dot(to, to);
             return glm::dvec3(4, 2, 1) * 0.25 / square * to.y / std::sqrt(square);
         },
-        // The polyhedron lies within the sphere by (pi / 48)² / 6 of its radius, a share of its image of 0.2 %
-        // and some more where its triangles are seen from the side; the rest is sampling.
+        // The polyhedron lies within the sphere by (pi / 48)² / 6 of its radius, a share of its image of 0.2
+        // % and some more where its triangles are seen from the side; the rest is sampling.
         0.02);
 }
 
@@ -198,9 +198,9 @@ TEST(Lamps, ThatArePolygonsShineByLambertsFormula) {
         const std::vector<glm::dvec3> corners = {
             {-s, height, -s}, {s, height, -s}, {s, height, s}, {-s, height, s}};
         expect_radiance(
-            floor_with(SceneBuilder().floor({0, static_cast<float>(height), 0}, static_cast<float>(s), 2)
-                           .build(),
-                       glm::vec3(2), true),
+            floor_with(
+                SceneBuilder().floor({0, static_cast<float>(height), 0}, static_cast<float>(s), 2).build(),
+                glm::vec3(2), true),
             // Below the square R = 2 (2 cos), of standard deviation 1.15: 0.036 over 1024 rays that were not
             // spread evenly.
             options, [&](const glm::dvec3& p) { return glm::dvec3(2 * of_polygon(corners, p)); }, 0.02);
@@ -262,10 +262,9 @@ TEST(Lamps, OfAGroupAreTheirSum) {
 }
 
 TEST(Lamps, IndirectAreAllWithoutDirectLight) {
-    Scene scene = test::painted(
-        test::join({SceneBuilder().floor({0, 0, 0}, 2, 8).build(),
-                    SceneBuilder().sphere({0.5f, 0.7f, 0}, 0.3f, 8).build()}),
-        glm::vec3(0.5f));
+    Scene scene = test::painted(test::join({SceneBuilder().floor({0, 0, 0}, 2, 8).build(),
+                                            SceneBuilder().sphere({0.5f, 0.7f, 0}, 0.3f, 8).build()}),
+                                glm::vec3(0.5f));
     scene.lights = {point("lamp", {-1, 1, 0}, {1, 0.5f, 0})};
     BakeOptions options = lamp_options(2);
     const auto all = lit_by_lamps(scene, options);
@@ -283,8 +282,8 @@ TEST(Lamps, IndirectAreAllWithoutDirectLight) {
 }
 
 TEST(Lamps, AtHardPlacesAreFinite) {
-    Scene scene = test::join({SceneBuilder().floor({0, 0, 0}, 2, 8).build(),
-                              SceneBuilder().sphere({0, 1, 0}, 0.3f, 16).build()});
+    Scene scene = test::join(
+        {SceneBuilder().floor({0, 0, 0}, 2, 8).build(), SceneBuilder().sphere({0, 1, 0}, 0.3f, 16).build()});
     scene.lights = {point("on a vertex", {0, 0, 0}), point("in a wall", {0, 1, 0})};
     for (const double radius : {0.0, 0.1}) {
         BakeOptions options = lamp_options();

@@ -108,8 +108,11 @@ GltfDocument document_of(const GlbFile& file) {
 
 void write_bakes(const Path& folder) {
     const TransferLayout both{2, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    const TransferLayout lamps{
+        2, {{PartKind::indirect, 1}, {PartKind::lamp, 3, "lanterns", {"a", "b"}}, {PartKind::lamp, 1, "c"}}};
     for (const auto& [name, layout] :
-         {std::pair("1", layout_of_one(2, 1)), std::pair("3", layout_of_one(2, 3)), std::pair("parts", both)})
+         {std::pair("1", layout_of_one(2, 1)), std::pair("3", layout_of_one(2, 3)), std::pair("parts", both),
+          std::pair("lamps", lamps)})
         for (const TransferStorage storage : {TransferStorage::float32, TransferStorage::float16}) {
             GltfDocument document = document_of(floor_file(1));
             const Scene scene = extract_scene(document);
@@ -123,7 +126,8 @@ void write_bakes(const Path& folder) {
 void write_shipped(const Path& folder, const std::string& name, const CompressOptions& options) {
     GltfDocument document = document_of(floor_file(2));
     const Scene scene = extract_scene(document);
-    const BakedTransfer baked = bake_of(scene, {3, {{PartKind::direct, 1}, {PartKind::indirect, 1}}});
+    const BakedTransfer baked =
+        bake_of(scene, {3, {{PartKind::direct, 1}, {PartKind::indirect, 1}, {PartKind::lamp, 3, "lamp"}}});
     const CompressResult result = compress(baked.transfer, receiver_areas(scene), mesh_edges(scene), options);
     write_clustered(document, scene, {result.transfer, baked.record});
     save_glb(document, folder / (name + ".glb"));

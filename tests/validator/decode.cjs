@@ -188,19 +188,20 @@ const channels = Math.max(...parts.map((part) => part.channels));
 
 /// E[ a·b ] of the light in band l on two parts under natural light: docs/math.md, section 4.
 function power(l, kindA, kindB) {
-  if (parts.length === 1) return l === 0 ? 1 : 1 / (4 * l);
+  if (parts.filter(({ kind }) => kind !== "lamp").length === 1) return l === 0 ? 1 : 1 / (4 * l);
   const sky = l === 0 ? 1 : 1 / (4 * l * l);
   return kindA === "direct" || kindB === "direct" ? sky : sky + 0.1;
 }
 
-/// A vector by colour and part: [colours][parts][order²].
+/// A vector by colour and part: [colours][parts][columns].
 function byColor(vector) {
   return Array.from({ length: channels }, (_, c) => {
     let at = 0;
     return parts.map((part) => {
-      const from = at + Math.min(c, part.channels - 1) * order * order;
-      at += part.channels * order * order;
-      return vector.slice(from, from + order * order);
+      const columns = columnsOf(part, order);
+      const from = at + Math.min(c, part.channels - 1) * columns;
+      at += part.channels * columns;
+      return vector.slice(from, from + columns);
     });
   });
 }
@@ -210,13 +211,18 @@ function costs(vector) {
   let squares = 0;
   let lit = 0;
   for (const of of byColor(vector))
-    for (let i = 0; i < order * order; ++i)
-      parts.forEach((a, p) => {
-        squares += of[p][i] ** 2;
+    parts.forEach((a, p) =>
+      of[p].forEach((value, i) => {
+        squares += value ** 2;
+        if (a.kind === "lamp") {
+          lit += value ** 2; // as it is, by itself
+          return;
+        }
         parts.forEach((b, q) => {
-          lit += of[p][i] * of[q][i] * power(Math.floor(Math.sqrt(i)), a.kind, b.kind);
+          if (b.kind !== "lamp") lit += value * of[q][i] * power(Math.floor(Math.sqrt(i)), a.kind, b.kind);
         });
-      });
+      }),
+    );
   return [squares, lit];
 }
 

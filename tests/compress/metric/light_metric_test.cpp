@@ -127,6 +127,26 @@ TEST(MetricOfParts, OfLightsWithSunsIsTheMeanOfWhatEachTurnOfEachCosts) {
     EXPECT_NEAR(found, sums.rms(), 0.01 * found); // the hundredth of natural light
 }
 
+/// Lamps shine as they are, each by itself, beside any sky.
+TEST(MetricOfParts, OfLampsIsTheMeanOverTheirStrengths) {
+    const TransferLayout layout{
+        2, {{PartKind::whole, 1}, {PartKind::lamp, 1, "white"}, {PartKind::lamp, 3, "red"}}};
+    std::mt19937 random(14);
+    const Transfer a = random_transfer(30, layout, 14), b = random_transfer(30, layout, 114);
+    std::normal_distribution<float> normal;
+    LitSums sums;
+    for (int i = 0; i < 4000; ++i) {
+        Lighting lighting{random_light(2, random)};
+        for (std::size_t k = 1; k < 4; ++k)
+            lighting.sky.coefficients[k] *= 0.5f; // a quarter of the power
+        for (int k = 0; k < 2; ++k)
+            lighting.lamps.emplace_back(normal(random), normal(random), normal(random));
+        sums.add(exit_radiance(a, lighting), exit_radiance(b, lighting));
+    }
+    const double found = expected_lit_rms(a, b, std::vector<float>(30, 1.0f), natural_metric(layout));
+    EXPECT_NEAR(found, sums.rms(), 0.02 * found); // 4000 lights: 1 to 2 %
+}
+
 TEST(MetricOfParts, PlainCountsAGreyPartForEachColor) {
     const TransferLayout layout{2, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
     Transfer a = zero_transfer(layout, 5), b = a;

@@ -235,6 +235,15 @@ static void test_suns_apart(const prt_model* model, const prt_model_info* info) 
     free(sky);
 }
 
+/* A model without lamps has no names of any. */
+static void test_lamps(const prt_model* model, const prt_model_info* info) {
+    const char* name = NULL;
+    prt_message message;
+    EXPECT(info->lamps == 0);
+    EXPECT(prt_model_lamp_name(model, 0, &name, &message) == PRT_BAD_ARGUMENT);
+    EXPECT(prt_model_lamp_name(NULL, 0, &name, &message) == PRT_BAD_ARGUMENT);
+}
+
 static void test_shader(const prt_model* model) {
     prt_message message;
     size_t size = 0;
@@ -258,6 +267,7 @@ static void test_model(const char* path) {
     test_meshes(model, &info);
     test_relighting(model, &info);
     test_suns_apart(model, &info);
+    test_lamps(model, &info);
     test_shader(model);
     prt_model_destroy(model);
 }

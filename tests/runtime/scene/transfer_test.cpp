@@ -177,7 +177,11 @@ TEST(TransferInGltf, PartsComeBackAsTheyAre) {
     const OnDisk files(demanding_file());
     GltfDocument document = load_gltf(files.source);
     const Scene scene = extract_scene(document);
-    const TransferLayout layout{3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    const TransferLayout layout{3,
+                                {{PartKind::direct, 1},
+                                 {PartKind::indirect, 3},
+                                 {PartKind::lamp, 3, "lanterns", {"Lantern.1", "glass"}},
+                                 {PartKind::lamp, 1, "sign"}}};
     const BakedTransfer baked = random_bake(scene, layout);
     write_transfer(document, scene, baked);
     save_glb(document, files.written);

@@ -282,10 +282,25 @@ TEST(ConstantsShader, FormsWhatCppForms) {
         for (std::size_t i = 0; i < bases.rows.size(); ++i)
             bases.rows[i] = std::sin(static_cast<float>(i));
     }
+    // Lamps beside a sky and alone, more than a word has bits.
+    for (const bool sky : {true, false}) {
+        transfers.push_back(transfers[1]);
+        ClusteredBases& bases = transfers.back().bases;
+        bases.layout.parts.clear();
+        if (sky)
+            bases.layout.parts = {{PartKind::direct, 1}, {PartKind::indirect, 3}};
+        for (int k = 0; k < 40; ++k)
+            bases.layout.parts.push_back({PartKind::lamp, k % 3 == 0 ? 3 : 1, "lamp " + std::to_string(k)});
+        bases.rows.resize(constant_rows(bases) * bases.dimension());
+        for (std::size_t i = 0; i < bases.rows.size(); ++i)
+            bases.rows[i] = std::sin(static_cast<float>(i));
+    }
     for (const ClusteredTransfer& transfer : transfers) {
         const ConstantFormer former(transfer);
         std::vector<glm::vec4> expected(former.rows()), measured(former.rows()), coefficients;
-        const Lighting lighting{light, rotated_about_y(light, 1)};
+        Lighting lighting{light, rotated_about_y(light, 1)};
+        for (std::size_t k = 0; k < former.layout().lamps(); ++k)
+            lighting.lamps.emplace_back(0.1f * static_cast<float>(k), 1, 2);
         former.form(lighting, expected);
         for (const glm::vec3& c : light_columns(former.layout(), lighting))
             coefficients.emplace_back(c, 0);

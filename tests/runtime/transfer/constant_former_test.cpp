@@ -110,6 +110,28 @@ TEST(ConstantsOfParts, AreTheSumOfEachUnderItsLight) {
     }
 }
 
+/// As `exit_radiance` of the rows themselves.
+TEST(ConstantsOfParts, AreLitByLampsBesideTheSkyAndAlone) {
+    for (const bool has_sky : {true, false}) {
+        TransferLayout layout{4, {}};
+        if (has_sky)
+            layout.parts = {{PartKind::whole, 3}};
+        layout.parts.push_back({PartKind::lamp, 1, "white"});
+        layout.parts.push_back({PartKind::lamp, 3, "red"});
+        const ClusteredTransfer t = random_transfer(layout, WeightFormat::snorm8);
+        Lighting lighting{random_light(4)};
+        lighting.lamps = {{1, 2, 3}, {0, 5, 1}};
+        const ConstantFormer former(t);
+        std::vector<glm::vec4> constants(former.rows());
+        former.form(lighting, constants);
+        const std::vector<glm::vec3> columns = light_columns(layout, lighting);
+        for (std::size_t row = 0; row < former.rows(); ++row) {
+            const std::span<const float> of(&t.bases.rows[row * t.bases.dimension()], t.bases.dimension());
+            EXPECT_LT(glm::distance(glm::vec3(constants[row]), exit_radiance(of, layout, columns)), 1e-4f);
+        }
+    }
+}
+
 TEST_P(Constants, FormedInPartsAreTheSame) {
     const auto [order, channels, format] = GetParam();
     const ConstantFormer former(random_transfer(order, channels, format));

@@ -57,6 +57,95 @@ TEST(TransferLayout, ThatMakesNoSenseIsRefused) {
         EXPECT_THROW(check_layout(layout), Error);
 }
 
+/// A sky in two parts, a white lamp and a coloured one.
+TransferLayout with_two_lamps(int order) {
+    TransferLayout layout = direct_and_indirect(order, 1, 3);
+    layout.parts.push_back({PartKind::lamp, 1, "white"});
+    layout.parts.push_back({PartKind::lamp, 3, "red"});
+    return layout;
+}
+
+TEST(TransferLayout, OfLampsHasANumberForEachChannelOfEach) {
+    const TransferLayout layout = with_two_lamps(4), lamps{4, {layout.parts.end() - 2, layout.parts.end()}};
+    EXPECT_NO_THROW(check_layout(layout));
+    EXPECT_NO_THROW(check_layout(lamps)); // no sky comes in
+    EXPECT_EQ(layout.lamps(), 2u);
+    EXPECT_EQ(layout.dimension(), 68u);
+    EXPECT_EQ(layout.columns(), 34u);
+    EXPECT_EQ(lamps.dimension(), 4u);
+    EXPECT_EQ(lamps.columns(), 2u);
+    TransferLayout wrong = layout;
+    wrong.parts[3].name = "white";
+    EXPECT_THROW(check_layout(wrong), Error); // which of them?
+    wrong.parts[3].name = "";
+    EXPECT_THROW(check_layout(wrong), Error);
+    wrong = layout;
+    wrong.parts[0].name = "sun";
+    EXPECT_THROW(check_layout(wrong), Error);
+    wrong = layout;
+    std::swap(wrong.parts[1], wrong.parts[2]);
+    EXPECT_THROW(check_layout(wrong), Error); // lamps stand behind
+    wrong = {4, {}};
+    for (std::size_t k = 0; k <= kMostLamps; ++k)
+        wrong.parts.push_back({PartKind::lamp, 1, std::to_string(k)});
+    EXPECT_THROW(check_layout(wrong), Error);
+    wrong.parts.pop_back();
+    EXPECT_NO_THROW(check_layout(wrong));
+}
+
+TEST(LightColumns, OfLampsAreTheirStrengths) {
+    const TransferLayout layout = with_two_lamps(3);
+    Lighting lighting{light_of(3, 1)};
+    std::vector<glm::vec3> columns = light_columns(layout, lighting);
+    ASSERT_EQ(columns.size(), 20u);
+    EXPECT_EQ(columns[17], lighting.sky.coefficients[8]);
+    EXPECT_EQ(columns[18], glm::vec3(1)); // as in the scene
+    EXPECT_EQ(columns[19], glm::vec3(1));
+    lighting.lamps = {{1, 2, 3}, {4, 5, 6}};
+    columns = light_columns(layout, lighting);
+    EXPECT_EQ(columns[18], glm::vec3(1, 2, 3));
+    EXPECT_EQ(columns[19], glm::vec3(4, 5, 6));
+    lighting.lamps.pop_back();
+    EXPECT_THROW(light_columns(layout, lighting), Error);
+}
+
+TEST(ExitRadiance, OfLampsIsTheirLightTimesTheirStrength) {
+    Transfer transfer = transfer_of(with_two_lamps(2), 3, 8);
+    Lighting lighting{light_of(2, 1)};
+    lighting.lamps = {{1, 2, 3}, {4, 5, 6}};
+    const auto lit = exit_radiance(transfer, lighting);
+    lighting.lamps.assign(2, glm::vec3(0));
+    const auto by_sky = exit_radiance(transfer, lighting);
+    for (std::size_t p = 0; p < 3; ++p) {
+        const auto t = transfer.vector(p);
+        const glm::vec3 lamps =
+            t[16] * glm::vec3(1, 2, 3) + glm::vec3(t[17], t[18], t[19]) * glm::vec3(4, 5, 6);
+        EXPECT_LT(glm::distance(lit[p], by_sky[p] + lamps), 1e-5f);
+    }
+}
+
+TEST(AsWhole, LeavesLampsAsTheyAre) {
+    const Transfer parts = transfer_of(with_two_lamps(3), 20, 9), whole = as_whole(parts);
+    EXPECT_EQ(whole.layout.parts.size(), 3u);
+    EXPECT_EQ(whole.layout.parts[0], (TransferPart{PartKind::whole, 3}));
+    EXPECT_EQ(whole.layout.parts[2], parts.layout.parts[3]);
+    Lighting lighting{light_of(3, 2)};
+    lighting.lamps = {{1, 0.5f, 2}, {2, 1, 0}};
+    const auto expected = exit_radiance(parts, lighting), lit = exit_radiance(whole, lighting);
+    for (std::size_t p = 0; p < 20; ++p)
+        EXPECT_LT(glm::distance(lit[p], expected[p]), 1e-4f);
+    EXPECT_LT(relative_l2(whole, parts, std::vector<float>(20, 1.0f)), 1e-6);
+    Transfer other = parts;
+    other.layout.parts[3].name = "green";
+    EXPECT_THROW(relative_l2(parts, other, std::vector<float>(20, 1.0f)), Error);
+}
+
+TEST(MeanVisibility, CountsNoLamps) {
+    Transfer transfer = transfer_of(with_two_lamps(1), 1, 10);
+    transfer.vectors = {0.5f, 0.1f, 0.2f, 0.3f, 9, 9, 9, 9};
+    EXPECT_NEAR(mean_visibility(transfer, std::vector<float>{1}), 0.7 / kY00, 1e-6);
+}
+
 TEST(LightColumns, AreTheSkyForDirectLightAndTheSkyWithItsSunsForTheRest) {
     const Light sky = light_of(4, 1), suns = light_of(3, 2);
     for (const TransferLayout& layout :

@@ -1,0 +1,146 @@
+// Lamps of a scene on the road from the file to what is lit.
+
+#include "program.h"
+#include "prt/gltf.h"
+#include "support/glb_file.h"
+#include "support/scene_builder.h"
+#include "support/temporary_folder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+namespace prt::test {
+namespace {
+
+constexpr float kHeight = 1.5f;
+
+/// A floor under a white lamp of intensity 2, and one of a name of its own beside it.
+GlbFile floor_with_lamps() {
+    GlbFile file = scene_file(SceneBuilder().floor({0, 0, 0}, 1, 6).build());
+    file.json["extensionsUsed"].push_back("KHR_lights_punctual");
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "point"}, {"intensity", 2}}, {{"type", "point"}, {"intensity", 1}, {"color", {1, 0, 0}}}};
+    const auto add = [&](const char* name, int light, const std::vector<float>& place) {
+        file.json["scenes"][0]["nodes"].push_back(file.json["nodes"].size());
+        file.json["nodes"].push_back({{"name", name},
+                                      {"translation", place},
+                                      {"extensions", {{"KHR_lights_punctual", {{"light", light}}}}}});
+    };
+    add("Lamp.white", 0, {0, kHeight, 0});
+    add("Lamp.red", 1, {0.5f, kHeight, 0});
+    return file;
+}
+
+class LampsOnTheRoad : public testing::Test {
+protected:
+    void SetUp() override {
+        floor_with_lamps().write(folder / "s.glb");
+        bake("b.glb", {});
+    }
+    std::string at(const std::string& name) const { return (folder / name).string(); }
+    void bake(const std::string& name, const std::vector<std::string>& more) const {
+        std::vector<std::string> all = {"bake", at("s.glb"), "-o", at(name), "--rays", "64", "--order", "3"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome outcome = prt(all);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+    }
+    /// Names of the lamps of a file.
+    std::vector<std::string> lamps_of(const std::string& name) const {
+        EXPECT_EQ(prt({"info", at(name), "--json", at("i.json")}).status, 0);
+        const auto info = nlohmann::json::parse(std::ifstream(folder / "i.json"));
+        const auto& transfer = info.contains("transfer") ? info["transfer"] : info["clustered_pca"];
+        std::vector<std::string> names;
+        for (const auto& part : transfer["parts"])
+            if (part["kind"] == "lamp")
+                names.push_back(part["name"]);
+        return names;
+    }
+    /// Vertices of what was lit, without a sky.
+    VertexArray lit(const std::string& model, const std::string& strengths) const {
+        const Outcome outcome = prt({"relight", at(model), "-o", at("lit.glb"), "--lamps", strengths});
+        EXPECT_EQ(outcome.status, 0) << outcome.err;
+        return extract_scene(load_gltf(folder / "lit.glb")).vertex_arrays[0];
+    }
+
+    TemporaryFolder folder;
+};
+
+TEST_F(LampsOnTheRoad, LightAsTheirStrengthsSay) {
+    ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "16"}).status, 0);
+    EXPECT_EQ(lamps_of("b.glb"), (std::vector<std::string>{"Lamp.white", "Lamp.red"}));
+    EXPECT_EQ(lamps_of("c.glb"), lamps_of("b.glb"));
+    folder.file("strengths.json", R"({"Lamp.white": [3, 0, 1], "*": 0})");
+    for (const char* model : {"b.glb", "c.glb"}) {
+        const VertexArray vertices = lit(model, at("strengths.json"));
+        for (std::size_t p = 0; p < vertices.size(); ++p) {
+            const glm::vec3 to = glm::vec3(0, kHeight, 0) - vertices.positions[p];
+            const float distance = glm::length(to);
+            const float white =
+                2 * kHeight / (static_cast<float>(std::numbers::pi) * distance * distance * distance);
+            EXPECT_LT(glm::distance(glm::vec3(vertices.colors[p]), white * glm::vec3(3, 0, 1)), 0.01f * white)
+                << model;
+        }
+    }
+    const VertexArray off = lit("b.glb", "off"), on = lit("b.glb", "on");
+    for (std::size_t p = 0; p < off.size(); ++p) {
+        EXPECT_EQ(glm::vec3(off.colors[p]), glm::vec3(0));
+        EXPECT_GT(on.colors[p].r, on.colors[p].g); // the red one shines, too
+    }
+}
+
+TEST_F(LampsOnTheRoad, AreGroupedOrLeftOut) {
+    bake("g.glb", {"--lamp-group", "all of them=Lamp.*"});
+    EXPECT_EQ(lamps_of("g.glb"), std::vector<std::string>{"all of them"});
+    bake("n.glb", {"--lamps", "none"});
+    EXPECT_TRUE(lamps_of("n.glb").empty());
+    const VertexArray together = lit("g.glb", "on"), apart = lit("b.glb", "on");
+    for (std::size_t p = 0; p < apart.size(); ++p)
+        EXPECT_LT(glm::distance(together.colors[p], apart.colors[p]), 1e-5f);
+}
+
+TEST_F(LampsOnTheRoad, AloneLightAPicture) {
+    const Outcome outcome =
+        prt({"render", at("b.glb"), "-o", at("p.png"), "--backend", "cpu", "--json", at("r.json")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    const auto report = nlohmann::json::parse(std::ifstream(folder / "r.json"));
+    // 0.3 of radiance in the middle, less about it: its mean becomes 0.22.
+    EXPECT_NEAR(report["exposure_stops"].get<double>(), 0, 1);
+}
+
+TEST_F(LampsOnTheRoad, ThatAreWrongAreSaidSoInALine) {
+    bake("n.glb", {"--lamps", "none"});
+    folder.file("unknown.json", R"({"Lamp.blue": 1})");
+    folder.file("negative.json", R"({"Lamp.white": -1})");
+    folder.file("word.json", R"({"Lamp.white": "bright"})");
+    folder.file("list.json", "[1, 2]");
+    folder.file("nan.json", R"({"Lamp.white": NaN})");
+    const auto refused = [&](const std::vector<std::string>& arguments, int status, const char* words) {
+        const Outcome outcome = prt(arguments);
+        EXPECT_EQ(outcome.status, status) << words;
+        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "no.glb")) << words;
+    };
+    const auto strengths = [&](const char* file) {
+        return std::vector<std::string>{"relight", at("b.glb"), "-o", at("no.glb"), "--lamps", at(file)};
+    };
+    refused(strengths("unknown.json"), 1,
+            "no lamp of the model is called 'Lamp.blue'; there are: Lamp.white");
+    refused(strengths("negative.json"), 1, "the strength of 'Lamp.white'");
+    refused(strengths("word.json"), 1, "the strength of 'Lamp.white'");
+    refused(strengths("list.json"), 1, "no object of lamps");
+    refused(strengths("nan.json"), 1, "no JSON from byte");
+    refused(strengths("missing.json"), 1, "missing.json");
+    refused({"relight", at("n.glb"), "-o", at("no.glb")}, 1, "has no lamps, and without --env");
+    refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamp-group", "Lantern"}, 2, "NAME=PATTERN");
+    refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamp-group", "a=Lantern*"}, 1, "'Lantern*'");
+    refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamp-radius", "-1"}, 2, "--lamp-radius");
+    refused({"bake", at("s.glb"), "-o", at("no.glb"), "--lamps", "some"}, 2, "--lamps");
+}
+
+} // namespace
+} // namespace prt::test
