@@ -96,7 +96,8 @@ export class PrtkitModel {
       if (order < this.order) throw new RangeError(`the light has order ${order}, the model needs ${this.order}`);
     this.setStrengths(lamps);
     const strengths = [...this.strengths.values()].flatMap(({ value }) => value.toArray());
-    const columns = lightColumns(this.clusters, light.coefficients(angle), suns ? suns.coefficients(angle) : null, strengths);
+    const sunlight = suns ? suns.coefficients(angle) : null;
+    const columns = lightColumns(this.clusters, light.coefficients(angle), sunlight, strengths);
     formConstants(this.clusters, this.rows, columns, this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
     this.uniforms.prtSunsApart.value = suns !== null && this.directApart;
@@ -207,9 +208,10 @@ export class PrtkitPlugin {
         }
         const primitive = json.meshes?.[from.meshes]?.primitives?.[from.primitives];
         const number = primitive?.material;
-        const traits = model.directApart ? sunTraits(json.materials?.[number]) : null;
+        const gltfMaterial = json.materials?.[number];
+        const traits = model.directApart ? sunTraits(gltfMaterial) : null;
         object.material = relitMaterial(object.material, {
-          uniforms: { ...model.uniforms, prtStrength: model.strengthOf(json.materials?.[number]?.name || `material ${number}`) },
+          uniforms: { ...model.uniforms, prtStrength: model.strengthOf(gltfMaterial?.name || `material ${number}`) },
           defines: defines.get(object.geometry),
           traits,
         });
