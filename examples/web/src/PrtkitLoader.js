@@ -104,8 +104,9 @@ export class PrtkitModel {
   }
 
   /** By which what a material of this name shines with is multiplied. */
-  strengthOf(name) {
-    return this.strengths.get(name) ?? { value: new Vector3(1, 1, 1) };
+  strengthOf(material) {
+    const lamp = this.clusters.parts.find(({ kind, name, members = [name] }) => kind === "lamp" && members.includes(material));
+    return lamp ? this.strengths.get(lamp.name) : { value: new Vector3(1, 1, 1) };
   }
 
   setStrengths(lamps) {
