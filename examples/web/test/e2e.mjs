@@ -88,7 +88,9 @@ const difference = (page, a, b) =>
     [a, b, FAR],
   );
 
-const exampleSky = join(distFolder, "skies/sky.exr");
+
+const { models, skies } = JSON.parse(readFileSync(join(distFolder, "models/models.json"), "utf8"));
+const exampleSky = join(distFolder, skies[0].file);
 
 /** The picture of prt with the page's exposure; its own may be a little off it (METERED stops). */
 async function render(page, file, angle, { position, target, fieldOfView }, { sky = exampleSky, window = "auto", suns = "0" } = {}) {
@@ -110,7 +112,6 @@ async function render(page, file, angle, { position, target, fieldOfView }, { sk
 // Skies are shown as three shows them, with +X in the middle; prt has +Z there.
 const THREE_TURN = 90;
 
-const { models, skies } = JSON.parse(readFileSync(join(distFolder, "models/models.json"), "utf8"));
 const standardCamera = { position: [3.2, 2.6, 6.4], target: [0, 0.4, 0], fieldOfView: 35 };
 const query = (view) => ({
   camera: view.position.join(","),
