@@ -96,15 +96,17 @@ export class PrtkitModel {
       if (order < this.order) throw new RangeError(`the light has order ${order}, the model needs ${this.order}`);
     this.setStrengths(lamps);
     const strengths = [...this.strengths.values()].flatMap(({ value }) => value.toArray());
-    const columns = lightColumns(this.clusters, light.coefficients(angle), suns ? suns.coefficients(angle) : null, strengths);
+    const sunlight = suns ? suns.coefficients(angle) : null;
+    const columns = lightColumns(this.clusters, light.coefficients(angle), sunlight, strengths);
     formConstants(this.clusters, this.rows, columns, this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
     this.uniforms.prtSunsApart.value = suns !== null && this.directApart;
   }
 
   /** By which what a material of this name shines with is multiplied. */
-  strengthOf(name) {
-    return this.strengths.get(name) ?? { value: new Vector3(1, 1, 1) };
+  strengthOf(material) {
+    const lamp = this.clusters.parts.find(({ kind, name, members = [name] }) => kind === "lamp" && members.includes(material));
+    return lamp ? this.strengths.get(lamp.name) : { value: new Vector3(1, 1, 1) };
   }
 
   setStrengths(lamps) {
@@ -207,9 +209,10 @@ export class PrtkitPlugin {
         }
         const primitive = json.meshes?.[from.meshes]?.primitives?.[from.primitives];
         const number = primitive?.material;
-        const traits = model.directApart ? sunTraits(json.materials?.[number]) : null;
+        const gltfMaterial = json.materials?.[number];
+        const traits = model.directApart ? sunTraits(gltfMaterial) : null;
         object.material = relitMaterial(object.material, {
-          uniforms: { ...model.uniforms, prtStrength: model.strengthOf(json.materials?.[number]?.name || `material ${number}`) },
+          uniforms: { ...model.uniforms, prtStrength: model.strengthOf(gltfMaterial?.name || `material ${number}`) },
           defines: defines.get(object.geometry),
           traits,
         });

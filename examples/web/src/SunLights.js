@@ -58,7 +58,8 @@ export class SunLights extends Group {
     this.lights.forEach((light, i) => {
       const { towards, halfAngle } = this.suns[i];
       light.target.position.copy(centre);
-      light.position.fromArray(towards).applyAxisAngle(new Vector3(0, 1, 0), this.angle).multiplyScalar(2 * radius).add(centre);
+      light.position.fromArray(towards).applyAxisAngle(new Vector3(0, 1, 0), this.angle);
+      light.position.multiplyScalar(2 * radius).add(centre);
       fitShadow(light.shadow, light.position, this.box, Math.tan(Math.min(halfAngle, 1.5)));
     });
   }

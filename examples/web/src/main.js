@@ -185,13 +185,14 @@ async function start() {
   /** Files of the user's: shown, and added to their lists where that works. A light file goes with the sky of its name. */
   async function openFiles(files) {
     const stem = ({ name }) => name.replace(/\.[^.]*$/, "");
+    const ofOne = (a, b) => stem(a) === stem(b);
     const isLight = ({ name }) => /\.json$/i.test(name);
     const isImage = ({ name }) => /\.(hdr|exr)$/i.test(name);
-    const paired = (file) => isLight(file) && files.some((other) => isImage(other) && stem(other) === stem(file));
+    const paired = (file) => isLight(file) && files.some((other) => isImage(other) && ofOne(other, file));
     for (const file of files.filter((other) => !paired(other)))
       try {
         if (/\.glb$/i.test(file.name)) await openModel(file);
-        else if (isImage(file)) await openSky({ image: file, light: files.find((other) => isLight(other) && stem(other) === stem(file)) });
+        else if (isImage(file)) await openSky({ image: file, light: files.find((other) => isLight(other) && ofOne(other, file)) });
         else if (isLight(file)) await openSky({ light: file });
         else throw new Error("is neither a model (.glb) nor a sky (.hdr, .exr) nor its light (.json)");
       } catch (error) {

@@ -131,7 +131,7 @@ export class Picture {
     this.light = image
       ? projectEquirectangular(image, undefined, { center })
       : split.sky.plus(lightOfSuns(split.suns, split.sky.order));
-    this.showSky(image ?? skyImage(split.sky), image ? center : "z");
+    this.showSky(image ?? skyImage(split.sky.deringed()), image ? center : "z");
     this.setSuns(split);
     this.formLight();
   }

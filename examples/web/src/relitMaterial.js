@@ -54,10 +54,7 @@ export function relitMaterial(source, { uniforms, defines, traits }) {
     if (traits) shader.uniforms.prtTransmission = { value: traits.transmission };
     shader.vertexShader = shader.vertexShader
       .replace("#include <common>", `#include <common>\n${exitRadiance}\nout vec3 prtRadiance;\ncentroid out vec3 prtPlace;`)
-      .replace(
-        "#include <begin_vertex>",
-        "#include <begin_vertex>\nprtRadiance = prt_exit_radiance();\nprtPlace = ( modelMatrix * vec4( transformed, 1.0 ) ).xyz;",
-      )
+      .replace("#include <begin_vertex>", `#include <begin_vertex>${LIT_VERTEX}`)
       // Places in shadow maps are found for each pixel.
       .replace("#include <shadowmap_vertex>", "");
     // In the place of all that three's lights would add: ambient light is in the sky.
@@ -78,6 +75,10 @@ export function relitMaterial(source, { uniforms, defines, traits }) {
   material.customProgramCacheKey = () => `prtkit:${JSON.stringify(material.defines)}`;
   return material;
 }
+
+const LIT_VERTEX = `
+  prtRadiance = prt_exit_radiance();
+  prtPlace = ( modelMatrix * vec4( transformed, 1.0 ) ).xyz;`;
 
 const LIT = `
   totalEmissiveRadiance *= prtStrength;

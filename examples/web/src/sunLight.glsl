@@ -86,7 +86,8 @@ float prtVisibility( sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3
   float width = spread * away, radius = max( width, 1.0 );
   float open = 0.0;
   for ( int i = 0; i < kPrtTaps; ++ i ) {
-    ivec2 texelAt = ivec2( floor( place.xy + radius * sqrt( ( float( i ) + 0.5 ) / float( kPrtTaps ) ) * prtSpiral( i, turn ) ) );
+    float share = sqrt( ( float( i ) + 0.5 ) / float( kPrtTaps ) ); // even over the disc
+    ivec2 texelAt = ivec2( floor( place.xy + radius * share * prtSpiral( i, turn ) ) );
     open += step( prtPlaneDepth( place, slope, texelAt ), prtMapDepth( map, texelAt ) );
   }
   open /= float( kPrtTaps );

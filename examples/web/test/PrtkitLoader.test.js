@@ -222,6 +222,19 @@ test("lamps are dimmed and coloured by name, and so is what shines", async () =>
   lit(5, 7, 11); // what is refused changes nothing
 });
 
+test("what shines is dimmed with the group that it is a member of", async () => {
+  const [sky, lantern, sign] = WITH_LAMPS.parts;
+  const parts = [sky, lantern, { ...sign, name: "Street", members: ["Tube", "material 0"] }];
+  for (const [material, expected] of [["Tube", 0.5], ["", 0.5], ["Street", 1], ["Lantern", 2]]) {
+    const attributes = { _prt_cluster: new BufferAttribute(new Uint8Array(2), 1) };
+    const { gltf, parser, mesh } = scene(attributes, { ...WITH_LAMPS, parts }, { name: material });
+    parser.getDependency = async () => bytesOf(2, 3, 5, 7, 11);
+    await new PrtkitPlugin(parser).afterRoot(gltf);
+    gltf.userData.prtkit.setLight(white(), 0, null, { Street: 0.5, Lantern: 2 });
+    assert.equal(compiled(mesh.material).uniforms.prtStrength.value.x, expected, material);
+  }
+});
+
 test("suns go through thin sheets, not into media, and past glass", async () => {
   const sheet = { KHR_materials_diffuse_transmission: { diffuseTransmissionFactor: 0.25, diffuseTransmissionColorFactor: [1, 0.5, 0] } };
   const wax = { ...sheet, KHR_materials_volume: { thicknessFactor: 1, attenuationDistance: 0.1 } };

@@ -27,7 +27,8 @@ const run = (program, ...options) => execFileSync(program, options, { stdio: ["i
 mkdirSync(work, { recursive: true });
 mkdirSync(join(publicFolder, "models"), { recursive: true });
 mkdirSync(join(publicFolder, "skies"), { recursive: true });
-if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work); // the sky is written last
+const names = process.env.PRT_SCENES?.split(",") ?? ["knot", "room", "tree", "terrain"];
+if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work, ...names, "sky"); // the sky is written last
 
 const levels = [
   { name: "u32", title: "small", options: ["--preset", "u32"] },
@@ -39,7 +40,7 @@ const cameras = {
   tree: { position: [1.5, 1.7, 5.5], target: [0, 1.9, 0] },
   terrain: { position: [1, 4.5, 11], target: [0, 2.6, 0] },
 };
-const scenes = (process.env.PRT_SCENES?.split(",") ?? ["knot", "room", "tree", "terrain"]).map((name) => ({ name, file: join(work, `${name}.glb`) }));
+const scenes = names.map((name) => ({ name, file: join(work, `${name}.glb`) }));
 // The example sky is in OpenEXR's layout; those of users are taken as three takes them.
 const skies = [{ title: "clear day", file: join(work, "sky.exr"), center: "z" }];
 for (const path of extra) {
