@@ -46,16 +46,17 @@ struct Look {
     bool background = true;
 };
 
-struct Suns {
-    SunCount count = {std::nullopt}; ///< as many as pay: their shadows show first, and no order has them
-    int rays = 32;                   ///< for each pixel and sun
+/// What is lit beside the sky.
+struct Lights {
+    SunCount suns = {std::nullopt}; ///< as many as pay: their shadows show first, and no order has them
+    int sun_rays = 32;              ///< for each pixel and sun
+    LampChoice lamps;
 };
 
 struct RenderArguments {
     Path model, environment, output, json, baked;
     LightOptions light_options = {{}, Window::automatic, 0}; ///< a picture shows ringing as bruises
-    Suns suns;
-    LampChoice lamps;
+    Lights lights;
     View view;
     Backend backend = Backend::automatic;
     Look look;
@@ -138,10 +139,10 @@ SplitLight load_lit(const RenderArguments& a, const SceneFile& model) {
         return dark_sky(order);
     const bool lit = a.look.show == Show::lit || a.look.show == Show::error;
     const std::string why = lit ? why_together(a, model) : "";
-    if (!why.empty() && a.suns.count.count.value_or(0) > 0)
+    if (!why.empty() && a.lights.suns.count.value_or(0) > 0)
         throw Error(why + ", or light it with --suns 0");
     SplitLight light =
-        load_split_light(a.environment, order, lit ? a.suns.count : SunCount{0}, a.light_options, a.threads);
+        load_split_light(a.environment, order, lit ? a.lights.suns : SunCount{0}, a.light_options, a.threads);
     if (why.empty() || light.split.suns.empty())
         return light;
     print_notices(a.environment.string(),
@@ -157,7 +158,7 @@ TransferLayout layout_of_any(const SceneFile& model) {
 
 Lighting lighting_of(const RenderArguments& a, const SceneFile& model, const SplitLight& light) {
     Lighting lighting = cli::lighting_of(light);
-    lighting.lamps = lamp_strengths(a.lamps, layout_of_any(model));
+    lighting.lamps = lamp_strengths(a.lights.lamps, layout_of_any(model));
     return lighting;
 }
 
@@ -242,8 +243,7 @@ void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lig
     if (a.look.show != Show::lit || !model.compressed)
         return;
     if (model.compressed->transfer.bases.max_components() <= kMostVertexComponents) {
-        picture.transfer = &model.compressed->transfer;
-        picture.lighting = &lighting;
+        picture.in_shader = {&model.compressed->transfer, &lighting};
     } else {
         print_notices(
             a.model.string(),
@@ -265,8 +265,9 @@ Rendered render(const RenderArguments& a, const Picture& picture, const TraceSce
     const bool exposed = a.look.show == Show::lit && suffix_of(a.output) != ".exr";
     const Stopwatch stopwatch;
     Rendered result;
-    result.image = context ? render_gl(picture, *context)
-                           : render_rays(picture, scene, {.sun_rays = a.suns.rays, .threads = a.threads});
+    result.image = context
+                       ? render_gl(picture, *context)
+                       : render_rays(picture, scene, {.sun_rays = a.lights.sun_rays, .threads = a.threads});
     result.seconds = stopwatch.seconds();
     if (exposed)
         result.exposure = choose_exposure(a.look.exposure, picture, scene, light);
@@ -321,7 +322,7 @@ void run(RenderArguments a, Session& session) {
     check_together(a);
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
-                      {a.model, a.environment, a.lamps.file, a.baked});
+                      {a.model, a.environment, a.lights.lamps.file, a.baked});
     const SceneFile model = load_scene_file(a.model, a.reading);
     if (!model.record())
         print_notices(a.model.string(), {"holds no transfer: its sky casts no shadows"});
@@ -416,12 +417,12 @@ void add_render(CLI::App& app, Session& session) {
         ->check(CLI::Range(1, 16));
     command->add_flag("!--no-background", a.look.background, "do not show the environment behind the scene");
     add_light_options(command, a.light_options);
-    add_suns(command, a.suns.count,
+    add_suns(command, a.lights.suns,
              "find suns in the image, so many or as many as pay, and light every pixel by them with sharp "
              "shadows; those of a light file are lit so, too; 0: all light is in the sky",
              "auto");
-    add_lamps(command, a.lamps);
-    command->add_option("--sun-rays", a.suns.rays, "rays from a pixel to each sun")
+    add_lamps(command, a.lights.lamps);
+    command->add_option("--sun-rays", a.lights.sun_rays, "rays from a pixel to each sun")
         ->capture_default_str()
         ->check(CLI::Range(1, 1 << 20));
     add_reading(command, a.reading);

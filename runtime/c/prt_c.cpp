@@ -388,7 +388,13 @@ prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_m
         out->cluster_of = receivers.clusters.data();
         out->cluster_table = reinterpret_cast<const std::uint32_t*>(model->layouts.data());
         out->meshes = model->scene.primitives.size();
-        out->lamps = model->former.layout().lamps();
+    });
+}
+
+prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, lamps);
+        *lamps = model->former.layout().lamps();
     });
 }
 

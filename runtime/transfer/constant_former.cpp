@@ -17,19 +17,27 @@ struct Blocks {
     std::size_t first, last;
 };
 
-/// Colors of kLanes rows.
+/// Colors of kLanes rows, in two sums that do not wait for each other.
 struct ColorLanes {
-    Lanes color[3];
+    Lanes even[3], odd[3];
 };
 
 /// Adds the products of a part, [Stored][count][kLanes], with its light, [3][count].
 template <std::size_t Stored>
 [[gnu::always_inline]] inline void add_part(const float* from, const float* light, std::size_t count,
                                             ColorLanes& sums) {
-    for (std::size_t i = 0; i < count; ++i)
+    const auto product = [&](std::size_t c, std::size_t i) __attribute__((always_inline)) {
+        return lanes_at(from + ((Stored == 1 ? 0 : c) * count + i) * kLanes) * light[c * count + i];
+    };
+    std::size_t i = 0;
+    for (; i + 2 <= count; i += 2)
+        for (std::size_t c = 0; c < 3; ++c) {
+            sums.even[c] += product(c, i);
+            sums.odd[c] += product(c, i + 1);
+        }
+    if (i < count)
         for (std::size_t c = 0; c < 3; ++c)
-            sums.color[c] +=
-                lanes_at(from + ((Stored == 1 ? 0 : c) * count + i) * kLanes) * light[c * count + i];
+            sums.even[c] += product(c, i);
 }
 
 /// `light`: of each part [3][its columns].
@@ -51,8 +59,9 @@ void form_rows(const TransferLayout& layout, const float* matrix, const float* l
         }
         const std::size_t kept = std::min(kLanes, rows - block * kLanes);
         for (std::size_t lane = 0; lane < kept; ++lane)
-            constants[block * kLanes + lane] = {sums.color[0][lane], sums.color[1][lane], sums.color[2][lane],
-                                                0};
+            constants[block * kLanes + lane] = {sums.even[0][lane] + sums.odd[0][lane],
+                                                sums.even[1][lane] + sums.odd[1][lane],
+                                                sums.even[2][lane] + sums.odd[2][lane], 0};
     }
 }
 

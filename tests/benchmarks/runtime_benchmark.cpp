@@ -14,6 +14,7 @@
 
 #include <cstring>
 #include <random>
+#include <string>
 
 namespace prt {
 namespace {
@@ -145,12 +146,14 @@ ClusteredTransfer clustered(int clusters, int components, const TransferLayout& 
     return t;
 }
 
-/// Four channels: grey direct light, and three of what bounced.
+/// Four channels: grey direct light, and three of what bounced. Lamps have three numbers each.
 void constants(State& state) {
     const auto channels = static_cast<int>(state.range(0));
-    const TransferLayout layout =
-        channels == 4 ? TransferLayout{kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}
-                      : layout_of_one(kOrder, channels);
+    TransferLayout layout = channels == 4
+                                ? TransferLayout{kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}
+                                : layout_of_one(kOrder, channels);
+    for (int lamp = 0; lamp < state.range(1); ++lamp)
+        layout.parts.push_back({PartKind::lamp, 3, std::to_string(lamp)});
     const ConstantFormer former(clustered(256, 8, layout, 256, 1));
     const auto light = random_light();
     std::vector<glm::vec4> out(former.rows());
@@ -159,7 +162,7 @@ void constants(State& state) {
         benchmark::ClobberMemory();
     }
 }
-BENCHMARK(constants)->ArgName("channels")->Arg(1)->Arg(3)->Arg(4);
+BENCHMARK(constants)->ArgNames({"channels", "lamps"})->Args({1, 0})->Args({3, 0})->Args({4, 0})->Args({4, 3});
 
 constexpr std::size_t kVertices = 1'000'000;
 

@@ -113,31 +113,31 @@ void add_pillar(Mesh& stone, const glm::vec2& low, const glm::vec2& high) {
 /// A wall of a gallery from x = 0 to `length`, facing +z: glazed tiles, a band of stone, plaster above.
 void add_gallery_wall(Courtyard& to, float length, const glm::mat4& place) {
     constexpr float kDado = 1.3f;
-    append(to.glazed_tiles, placed(wall_with_openings({0, kStep}, {length, kDado}, {}), place));
-    append(to.plaster, placed(wall_with_openings({0, kDado}, {length, kCeiling}, {}), place));
-    append(to.stone, placed(moulding({{0, kDado - 0.05f},
-                                      {0.04f, kDado - 0.04f},
-                                      {0.04f, kDado - 0.04f},
-                                      {0.04f, kDado + 0.03f},
-                                      {0.04f, kDado + 0.03f},
-                                      {0, kDado + 0.05f}},
-                                     straight_way({0, 0, 0}, {length, 0, 0})),
-                            place));
+    append(to.building.glazed_tiles, placed(wall_with_openings({0, kStep}, {length, kDado}, {}), place));
+    append(to.building.plaster, placed(wall_with_openings({0, kDado}, {length, kCeiling}, {}), place));
+    append(to.building.stone, placed(moulding({{0, kDado - 0.05f},
+                                               {0.04f, kDado - 0.04f},
+                                               {0.04f, kDado - 0.04f},
+                                               {0.04f, kDado + 0.03f},
+                                               {0.04f, kDado + 0.03f},
+                                               {0, kDado + 0.05f}},
+                                              straight_way({0, 0, 0}, {length, 0, 0})),
+                                     place));
 }
 
 /// A double door in a frame of stone, before the wall z = 0.
 void add_door(Courtyard& to, float x, const glm::mat4& place) {
     constexpr float kWidth = 1.5f, kTop = 2.6f, kFrame = 0.16f;
     const float left = x - kWidth / 2, right = x + kWidth / 2;
-    append(to.stone, placed(box({left - kFrame, kStep, 0}, {left, kTop + kFrame, 0.1f}), place));
-    append(to.stone, placed(box({right, kStep, 0}, {right + kFrame, kTop + kFrame, 0.1f}), place));
-    append(to.stone, placed(box({left, kTop, 0}, {right, kTop + kFrame, 0.1f}), place));
+    append(to.building.stone, placed(box({left - kFrame, kStep, 0}, {left, kTop + kFrame, 0.1f}), place));
+    append(to.building.stone, placed(box({right, kStep, 0}, {right + kFrame, kTop + kFrame, 0.1f}), place));
+    append(to.building.stone, placed(box({left, kTop, 0}, {right, kTop + kFrame, 0.1f}), place));
     for (const float half : {left, x + 0.01f}) {
         const float end = half + kWidth / 2 - 0.01f;
-        append(to.painted_wood, placed(box({half, kStep, 0}, {end, kTop, 0.04f}), place));
+        append(to.building.painted_wood, placed(box({half, kStep, 0}, {end, kTop, 0.04f}), place));
         for (int panel = 0; panel < 3; ++panel) {
             const float low = kStep + 0.14f + 0.79f * static_cast<float>(panel);
-            append(to.painted_wood,
+            append(to.building.painted_wood,
                    placed(box({half + 0.12f, low, 0.04f}, {end - 0.12f, low + 0.6f, 0.065f}), place));
         }
     }
@@ -145,12 +145,12 @@ void add_door(Courtyard& to, float x, const glm::mat4& place) {
 
 /// A ceiling of boards on beams, which lie across.
 void add_ceiling(Courtyard& to, float length, float depth, const glm::mat4& place) {
-    append(to.wood,
+    append(to.building.wood,
            placed(rectangle({0, kCeiling, -depth}, {length, 0, 0}, {0, 0, depth}, kShapeSpacing), place));
     const int beams = static_cast<int>(length / 0.73f);
     for (int i = 0; i <= beams; ++i) {
         const float x = length * static_cast<float>(i) / static_cast<float>(beams);
-        append(to.wood,
+        append(to.building.wood,
                placed(box({x - 0.07f, kCeiling - 0.2f, -depth}, {x + 0.07f, kCeiling - 0.005f, 0}, 0.3f),
                       place));
     }
@@ -160,8 +160,8 @@ void add_ceiling(Courtyard& to, float length, float depth, const glm::mat4& plac
 
 void add_arcades(Courtyard& to) {
     const float inner = kArcadeWall + kGallery;
-    add_arches(to.stone, to.plaster, left_wing());
-    add_arches(to.stone, to.plaster, back_wing());
+    add_arches(to.building.stone, to.building.plaster, left_wing());
+    add_arches(to.building.stone, to.building.plaster, back_wing());
     // Galleries: walls begin at the outer corner and overlap nowhere.
     const glm::mat4 left = placement({-kHalf - inner, 0, 0}, 90),
                     back = placement({-kHalf - inner, 0, -kDeep - inner}, 0),
@@ -177,16 +177,17 @@ void add_arcades(Courtyard& to) {
     // The end of the left gallery is an arch between two pillars.
     const float width = kWing;
     const glm::mat4 end = placement({-kHalf - kWing, 0, 0}, 0);
-    append(to.plaster, placed(spandrels(width, 1), end));
-    append(to.plaster, placed(spandrels_behind(width, 1), end));
-    append(to.stone, placed(arch_ring(width / 2), end));
+    append(to.building.plaster, placed(spandrels(width, 1), end));
+    append(to.building.plaster, placed(spandrels_behind(width, 1), end));
+    append(to.building.stone, placed(arch_ring(width / 2), end));
     const float pier = width / 2 - kArch - 0.06f, outer = -kHalf - kWing;
-    add_pillar(to.stone, {outer, -kArcadeWall - 0.02f}, {outer + pier, 0.02f});
-    add_pillar(to.stone, {-kHalf - pier, -kArcadeWall - 0.02f}, {-kHalf + 0.02f, 0.02f});
+    add_pillar(to.building.stone, {outer, -kArcadeWall - 0.02f}, {outer + pier, 0.02f});
+    add_pillar(to.building.stone, {-kHalf - pier, -kArcadeWall - 0.02f}, {-kHalf + 0.02f, 0.02f});
     // Corners of the court.
-    add_pillar(to.stone, {-kHalf - kArcadeWall - 0.06f, -kDeep - kArcadeWall - 0.06f},
+    add_pillar(to.building.stone, {-kHalf - kArcadeWall - 0.06f, -kDeep - kArcadeWall - 0.06f},
                {-kHalf + 0.06f, -kDeep + 0.06f});
-    add_pillar(to.stone, {kHalf - 0.06f, -kDeep - kArcadeWall - 0.06f}, {kHalf + kOuterWall, -kDeep + 0.06f});
+    add_pillar(to.building.stone, {kHalf - 0.06f, -kDeep - kArcadeWall - 0.06f},
+               {kHalf + kOuterWall, -kDeep + 0.06f});
 }
 
 } // namespace examples

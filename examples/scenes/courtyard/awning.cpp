@@ -96,15 +96,15 @@ Mesh pennants(const Rope& rope, int first) {
 }
 
 void add_bunting(Courtyard& to, const Rope& rope) {
-    append(to.saffron_pennants, pennants(rope, 0));
-    append(to.red_pennants, pennants(rope, 1));
-    append(to.blue_pennants, pennants(rope, 2));
+    append(to.cloth.saffron_pennants, pennants(rope, 0));
+    append(to.cloth.red_pennants, pennants(rope, 1));
+    append(to.cloth.blue_pennants, pennants(rope, 2));
     std::array<glm::vec3, 25> points;
     std::array<float, points.size()> radii;
     radii.fill(0.008f);
     for (std::size_t i = 0; i < points.size(); ++i)
         points[i] = rope.at(static_cast<float>(i) / (points.size() - 1));
-    append(to.iron, bar(points, radii, 4));
+    append(to.building.iron, bar(points, radii, 4));
 }
 
 /// A cloth that hangs over the balcony's rail.
@@ -120,16 +120,16 @@ Mesh hung_cloth(float middle, float width) {
 
 void add_awnings(Courtyard& to) {
     const Awning over_arch = {1.5f * kBay, 2.0f, 1.5f, 3.85f, 3.05f};
-    add_awning(to.red_cloth, to.iron, over_arch, left_wing());
+    add_awning(to.cloth.red_cloth, to.building.iron, over_arch, left_wing());
     Awning thin = over_arch;
     thin.middle = 3.5f * kBay;
-    append(to.thin_cloth, placed(awning_cloth(thin), left_wing()));
-    append(to.iron, placed(awning_rods(thin), left_wing()));
-    add_awning(to.blue_cloth, to.iron, over_arch, back_wing());
+    append(to.cloth.thin_cloth, placed(awning_cloth(thin), left_wing()));
+    append(to.building.iron, placed(awning_rods(thin), left_wing()));
+    add_awning(to.cloth.blue_cloth, to.building.iron, over_arch, back_wing());
     add_bunting(to, {{-kHalf + 0.05f, 6.55f, -0.9f}, {-0.3f, 6.6f, -kDeep + 0.05f}});
     add_bunting(to, {{-kHalf + 0.05f, 6.55f, -5.6f}, {kHalf + 0.15f, 4.1f, -4.6f}});
-    append(to.iron, bar({kHalf + 0.15f, kGardenWall, -4.6f}, {kHalf + 0.15f, 4.13f, -4.6f}, 0.02f));
-    append(to.banner, placed(hung_cloth(2.5f * kBay, 1.1f), back_wing()));
+    append(to.building.iron, bar({kHalf + 0.15f, kGardenWall, -4.6f}, {kHalf + 0.15f, 4.13f, -4.6f}, 0.02f));
+    append(to.cloth.banner, placed(hung_cloth(2.5f * kBay, 1.1f), back_wing()));
 }
 
 } // namespace examples

@@ -57,19 +57,20 @@ Mesh corbel(float x) {
 void add_balcony(Courtyard& to) {
     const glm::mat4 wing = back_wing();
     const float left = kBay - 0.25f, right = 4 * kBay + 0.25f;
-    append(to.stone, placed(box({left, kFloor - 0.1f, 0}, {right, kFloor, kOut}), wing));
+    append(to.building.stone, placed(box({left, kFloor - 0.1f, 0}, {right, kFloor, kOut}), wing));
     for (int i = 1; i <= 4; ++i)
-        append(to.stone, placed(corbel(static_cast<float>(i) * kBay), wing));
+        append(to.building.stone, placed(corbel(static_cast<float>(i) * kBay), wing));
     const auto add_row = [&](const glm::vec3& from, const glm::vec3& to_point, const glm::vec3& out) {
         const int count = static_cast<int>(glm::distance(from, to_point) / 0.13f);
         for (int i = 0; i <= count; ++i)
-            append(to.iron, placed(baluster(glm::mix(from, to_point,
-                                                     static_cast<float>(i) / static_cast<float>(count)),
-                                            out),
-                                   wing));
+            append(
+                to.building.iron,
+                placed(baluster(glm::mix(from, to_point, static_cast<float>(i) / static_cast<float>(count)),
+                                out),
+                       wing));
         const glm::vec3 up(0, kRail - kFloor, 0);
-        append(to.iron, placed(bar(from + up, to_point + up, 0.024f, 8), wing));
-        append(to.iron, placed(bar(from + 0.07f * up, to_point + 0.07f * up, 0.014f), wing));
+        append(to.building.iron, placed(bar(from + up, to_point + up, 0.024f, 8), wing));
+        append(to.building.iron, placed(bar(from + 0.07f * up, to_point + 0.07f * up, 0.014f), wing));
     };
     const float front = kOut - 0.08f;
     const glm::vec3 a(left + 0.06f, kFloor, front), b(right - 0.06f, kFloor, front);

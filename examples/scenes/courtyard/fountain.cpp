@@ -51,45 +51,45 @@ Mesh stream(float angle) {
 } // namespace
 
 void add_fountain(Courtyard& to) {
-    append(to.stone,
+    append(to.building.stone,
            polygonal_lathe(
                kFountain,
                {{1.95f, 0}, {1.95f, 0.11f}, {1.95f, 0.11f}, {1.92f, 0.13f}, {1.92f, 0.13f}, {1.56f, 0.13f}},
                8));
-    append(to.glazed_tiles, polygonal_lathe(kFountain, {{1.56f, 0.13f}, {1.56f, 0.53f}}, 8));
-    append(to.stone, polygonal_lathe(kFountain,
-                                     {{1.56f, 0.53f},
-                                      {1.62f, 0.55f},
-                                      {1.66f, 0.6f},
-                                      {1.65f, 0.64f},
-                                      {1.62f, kRim},
-                                      {1.62f, kRim},
-                                      {kInner, kRim},
-                                      {kInner, kRim},
-                                      {kInner, kLevel - 0.05f}},
-                                     8));
-    append(to.water, basin_water());
+    append(to.building.glazed_tiles, polygonal_lathe(kFountain, {{1.56f, 0.13f}, {1.56f, 0.53f}}, 8));
+    append(to.building.stone, polygonal_lathe(kFountain,
+                                              {{1.56f, 0.53f},
+                                               {1.62f, 0.55f},
+                                               {1.66f, 0.6f},
+                                               {1.65f, 0.64f},
+                                               {1.62f, kRim},
+                                               {1.62f, kRim},
+                                               {kInner, kRim},
+                                               {kInner, kRim},
+                                               {kInner, kLevel - 0.05f}},
+                                              8));
+    append(to.garden.water, basin_water());
     const Outline foot = {
         {0.34f, 0.3f},         {0.34f, 0.66f}, {0.34f, 0.66f}, {0.3f, 0.7f},           {0.2f, 0.76f},
         {0.13f, 0.9f},         {0.12f, 1.02f}, {0.17f, 1.1f},  {0.17f, 1.1f},          {0.19f, 1.12f},
         {0.17f, 1.16f},        {0.12f, 1.2f},  {0.12f, 1.2f},  {0.2f, 1.27f},          {0.45f, 1.4f},
         {0.62f, 1.54f},        {0.67f, kBowl}, {0.67f, kBowl}, {0.65f, kBowl + 0.03f}, {0.61f, kBowl + 0.02f},
         {0.57f, kBowl - 0.05f}};
-    append(to.stone, lathe(kFountain, foot, 32));
-    append(to.water,
+    append(to.building.stone, lathe(kFountain, foot, 32));
+    append(to.garden.water,
            lathe(kFountain, {{0.6f, kBowl - 0.005f}, {0.3f, kBowl + 0.005f}, {0.05f, kBowl + 0.02f}}, 32));
-    append(to.stone, lathe(kFountain,
-                           {{0.09f, kBowl - 0.03f},
-                            {0.07f, kBowl + 0.12f},
-                            {0.1f, kBowl + 0.2f},
-                            {0.13f, kBowl + 0.28f},
-                            {0.1f, kBowl + 0.36f},
-                            {0.04f, kBowl + 0.42f},
-                            {0.05f, kBowl + 0.46f},
-                            {0, kBowl + 0.52f}},
-                           20));
+    append(to.building.stone, lathe(kFountain,
+                                    {{0.09f, kBowl - 0.03f},
+                                     {0.07f, kBowl + 0.12f},
+                                     {0.1f, kBowl + 0.2f},
+                                     {0.13f, kBowl + 0.28f},
+                                     {0.1f, kBowl + 0.36f},
+                                     {0.04f, kBowl + 0.42f},
+                                     {0.05f, kBowl + 0.46f},
+                                     {0, kBowl + 0.52f}},
+                                    20));
     for (int i = 0; i < 8; ++i)
-        append(to.water, stream(kTurn * (static_cast<float>(i) + 0.5f) / 8));
+        append(to.garden.water, stream(kTurn * (static_cast<float>(i) + 0.5f) / 8));
 }
 
 } // namespace examples

@@ -12,16 +12,16 @@ using namespace plan;
 
 void add_garden_wall(Courtyard& to) {
     const float inner = kHalf, outer = kHalf + kOuterWall;
-    append(to.garden_plaster,
+    append(to.building.garden_plaster,
            placed(wall_with_openings({0, 0}, {kDeep, kGardenWall}, {}), placement({inner, 0, -kDeep}, -90)));
-    append(to.garden_plaster,
+    append(to.building.garden_plaster,
            placed(wall_with_openings({0, 0}, {kDeep, kGardenWall}, {}, 0.3f), placement({outer, 0, 0}, 90)));
-    append(to.garden_plaster,
+    append(to.building.garden_plaster,
            placed(wall_with_openings({0, 0}, {kOuterWall, kGardenWall}, {}), placement({inner, 0, 0}, 0)));
-    append(to.stone, moulding({{0.05f, 0}, {0.05f, 0.45f}, {0.05f, 0.45f}, {0, 0.5f}},
-                              straight_way({inner, 0, -kDeep}, {inner, 0, 0.05f})));
-    append(to.stone, moulding({{0.05f, 0}, {0.05f, 0.45f}, {0.05f, 0.45f}, {0, 0.5f}},
-                              straight_way({inner - 0.05f, 0, 0}, {outer, 0, 0})));
+    append(to.building.stone, moulding({{0.05f, 0}, {0.05f, 0.45f}, {0.05f, 0.45f}, {0, 0.5f}},
+                                       straight_way({inner, 0, -kDeep}, {inner, 0, 0.05f})));
+    append(to.building.stone, moulding({{0.05f, 0}, {0.05f, 0.45f}, {0.05f, 0.45f}, {0, 0.5f}},
+                                       straight_way({inner - 0.05f, 0, 0}, {outer, 0, 0})));
     // Round tiles across the wall, to both sides.
     const int tiles = static_cast<int>(std::lround(kDeep / 0.26f));
     Mesh coping = parametric_surface(6 * tiles, 8, [&](float u, float v) {
@@ -30,7 +30,7 @@ void add_garden_wall(Courtyard& to) {
         return glm::vec3(x, kGardenWall + 0.2f - 0.5f * std::abs(x - middle) + wave,
                          std::lerp(0.1f, -kDeep, u));
     });
-    append(to.roof_tiles, with_scaled_texcoords(coping, {static_cast<float>(tiles) / 8, 0.25f}));
+    append(to.building.roof_tiles, with_scaled_texcoords(coping, {static_cast<float>(tiles) / 8, 0.25f}));
 }
 
 } // namespace examples

@@ -6,12 +6,22 @@ namespace examples {
 
 /// The meshes of the courtyard by what they are made of. Each becomes a part.
 struct Courtyard {
-    Mesh paving, plaster, garden_plaster, stone, glazed_tiles, roof_tiles, wood, painted_wood, iron,
-        dark_panes, lit_panes;
-    Mesh water, clay, soil, red_cloth, blue_cloth, thin_cloth, banner, saffron_pennants, red_pennants,
-        blue_pennants;
-    Mesh bark, leaves, oranges, flowers, vine_leaves;
-    Mesh lantern_panes, flames;
+    struct Building {
+        Mesh paving, plaster, garden_plaster, stone, glazed_tiles, roof_tiles, wood, painted_wood, iron;
+    };
+    struct Glass {
+        Mesh dark_panes, lit_panes, lantern_panes, flames;
+    };
+    struct Garden {
+        Mesh water, clay, soil, bark, leaves, oranges, flowers, vine_leaves;
+    };
+    struct Cloth {
+        Mesh red_cloth, blue_cloth, thin_cloth, banner, saffron_pennants, red_pennants, blue_pennants;
+    };
+    Building building;
+    Glass glass;
+    Garden garden;
+    Cloth cloth;
     std::vector<Lamp> lamps;
 };
 

@@ -46,37 +46,38 @@ void add_leaves(Mesh& leaves, Chance& growth, const glm::vec3& middle, const glm
 } // namespace
 
 void add_orange_tree(Courtyard& to) {
-    append(to.stone, polygonal_lathe(kTree,
-                                     {{0.92f, 0},
-                                      {0.92f, 0.08f},
-                                      {0.92f, 0.08f},
-                                      {0.86f, 0.11f},
-                                      {0.86f, kPlanter - 0.08f},
-                                      {0.86f, kPlanter - 0.08f},
-                                      {0.92f, kPlanter - 0.05f},
-                                      {0.92f, kPlanter},
-                                      {0.92f, kPlanter},
-                                      {0.74f, kPlanter},
-                                      {0.74f, kPlanter},
-                                      {0.74f, kPlanter - 0.15f}},
-                                     4));
-    append(to.soil, rectangle(kTree + glm::vec3(-0.74f, kPlanter - 0.1f, 0.74f), {1.48f, 0, 0},
-                              {0, 0, -1.48f}, 0.14f));
+    append(to.building.stone, polygonal_lathe(kTree,
+                                              {{0.92f, 0},
+                                               {0.92f, 0.08f},
+                                               {0.92f, 0.08f},
+                                               {0.86f, 0.11f},
+                                               {0.86f, kPlanter - 0.08f},
+                                               {0.86f, kPlanter - 0.08f},
+                                               {0.92f, kPlanter - 0.05f},
+                                               {0.92f, kPlanter},
+                                               {0.92f, kPlanter},
+                                               {0.74f, kPlanter},
+                                               {0.74f, kPlanter},
+                                               {0.74f, kPlanter - 0.15f}},
+                                              4));
+    append(to.garden.soil, rectangle(kTree + glm::vec3(-0.74f, kPlanter - 0.1f, 0.74f), {1.48f, 0, 0},
+                                     {0, 0, -1.48f}, 0.14f));
     Chance growth(7);
     const glm::vec3 root = kTree + glm::vec3(0, kPlanter - 0.12f, 0), crown = kTree + glm::vec3(0, 3.2f, 0);
-    const glm::vec3 fork = add_branch(to.bark, root, {0.12f, 1.6f, 0.06f}, 0.12f, 0.095f, 12);
+    const glm::vec3 fork = add_branch(to.garden.bark, root, {0.12f, 1.6f, 0.06f}, 0.12f, 0.095f, 12);
     constexpr int kLimbs = 6, kTwigs = 5, kLeaves = 84;
     for (int limb = 0; limb < kLimbs; ++limb) {
         const float angle = kTurn * (static_cast<float>(limb) + growth.between(-0.2f, 0.2f)) / kLimbs;
         const float lean = limb == 0 ? 0.2f : growth.between(0.9f, 1.4f);
         const glm::vec3 along(lean * std::sin(angle), growth.between(0.7f, 1.4f), lean * std::cos(angle));
-        const glm::vec3 end = add_branch(to.bark, fork, along, 0.07f, 0.035f, 8);
+        const glm::vec3 end = add_branch(to.garden.bark, fork, along, 0.07f, 0.035f, 8);
         for (int twig = 0; twig < kTwigs; ++twig) {
             const glm::vec3 out = glm::normalize(along + growth.direction() + glm::vec3(0, 0.25f, 0)) *
                                   growth.between(0.45f, 0.85f);
-            const glm::vec3 tip = add_branch(to.bark, end, out, 0.03f, 0.01f, 5);
-            add_leaves(to.leaves, growth, tip, crown, kLeaves);
-            append(to.oranges, sphere(tip + 0.42f * growth.direction() + glm::vec3(0, -0.1f, 0), 0.052f, 10));
+            const glm::vec3 tip = add_branch(to.garden.bark, end, out, 0.03f, 0.01f, 5);
+            add_leaves(to.garden.leaves, growth, tip, crown, kLeaves);
+            append(to.garden.oranges,
+                   sphere(tip + 0.42f * growth.direction() + glm::vec3(0, -0.1f, 0), 0.052f, 10));
         }
     }
 }

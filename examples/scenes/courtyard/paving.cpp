@@ -22,7 +22,7 @@ void add_paving(Courtyard& to) {
         p = {p.x, 0, -p.y};
     for (glm::vec3& n : ground.normals)
         n = {0, 1, 0};
-    append(to.paving, ground);
+    append(to.building.paving, ground);
 
     const std::array hole = {Opening{{-kHalf + curb, 0}, {kHalf + kOuterWall, kDeep - curb}}};
     Mesh galleries = wall_with_openings({-kHalf - kWing, 0},
@@ -31,9 +31,9 @@ void add_paving(Courtyard& to) {
         p = {p.x, kStep, -p.y};
     for (glm::vec3& n : galleries.normals)
         n = {0, 1, 0};
-    append(to.paving, galleries);
+    append(to.building.paving, galleries);
     const auto riser = [&](const glm::vec3& from, const glm::vec3& to_point) {
-        append(to.stone,
+        append(to.building.stone,
                moulding({{0, 0}, {0, kStep - 0.02f}, {-0.02f, kStep}}, straight_way(from, to_point)));
     };
     riser({-kHalf + curb, 0, 0}, {-kHalf + curb, 0, -kDeep + curb});

@@ -35,8 +35,8 @@ void add_bougainvillea(Courtyard& to) {
             if (base.x > kHalf - 0.03f && base.y < kGardenWall)
                 continue; // inside the wall
             const bool is_leaf = i % 3 == 2;
-            add_blade(is_leaf ? to.vine_leaves : to.flowers, chance, base, out + glm::vec3(-0.3f, 0.1f, 0),
-                      is_leaf ? 0.13f : 0.11f);
+            add_blade(is_leaf ? to.garden.vine_leaves : to.garden.flowers, chance, base,
+                      out + glm::vec3(-0.3f, 0.1f, 0), is_leaf ? 0.13f : 0.11f);
         }
     }
 }
@@ -48,8 +48,8 @@ void add_pot(Courtyard& to, const glm::vec3& place, float size, bool flowering, 
                        {0.26f, 0.44f},  {0.22f, 0.44f}, {0.22f, 0.44f}, {0.215f, 0.38f}};
     for (glm::vec2& point : outline)
         point *= size;
-    append(to.clay, lathe(place, outline, 20));
-    append(to.soil,
+    append(to.garden.clay, lathe(place, outline, 20));
+    append(to.garden.soil,
            lathe(place, {{0.22f * size, 0.39f * size}, {0.1f * size, 0.4f * size}, {0, 0.41f * size}}, 20));
     Chance chance(seed);
     for (int i = 0; i < 70; ++i) {
@@ -58,7 +58,7 @@ void add_pot(Courtyard& to, const glm::vec3& place, float size, bool flowering, 
             place + glm::vec3(0, 0.4f * size + chance.between(0, 0.3f) * size, 0) + 0.12f * size * out;
         const bool blooms = flowering && i % 3 == 0;
         const glm::vec3 head = blooms ? base + size * (0.2f * out + glm::vec3(0, 0.28f, 0)) : base;
-        add_blade(blooms ? to.flowers : to.vine_leaves, chance, head,
+        add_blade(blooms ? to.garden.flowers : to.garden.vine_leaves, chance, head,
                   out + glm::vec3(0, blooms ? 0.3f : 1.1f, 0),
                   size * (blooms ? 0.13f : chance.between(0.28f, 0.42f)));
     }

@@ -43,10 +43,11 @@ Mesh eave(const glm::vec3& from, const glm::vec3& to) {
 } // namespace
 
 void add_roofs(Courtyard& to) {
-    append(to.roof_tiles, placed(tiled_slope(-0.25f, kDeep + kWing + 0.15f), left_wing()));
-    append(to.roof_tiles, placed(tiled_slope(-kWing - 0.15f, 2 * kHalf + kOuterWall + 0.25f), back_wing()));
-    append(to.wood, eave({-kHalf, 0, 0.2f}, {-kHalf, 0, -kDeep - 0.3f}));
-    append(to.wood, eave({-kHalf, 0, -kDeep}, {kHalf + kOuterWall + 0.2f, 0, -kDeep}));
+    append(to.building.roof_tiles, placed(tiled_slope(-0.25f, kDeep + kWing + 0.15f), left_wing()));
+    append(to.building.roof_tiles,
+           placed(tiled_slope(-kWing - 0.15f, 2 * kHalf + kOuterWall + 0.25f), back_wing()));
+    append(to.building.wood, eave({-kHalf, 0, 0.2f}, {-kHalf, 0, -kDeep - 0.3f}));
+    append(to.building.wood, eave({-kHalf, 0, -kDeep}, {kHalf + kOuterWall + 0.2f, 0, -kDeep}));
 }
 
 } // namespace examples

@@ -34,10 +34,10 @@ void add_casement(Courtyard& to, const Window& window, const glm::mat4& wing) {
     const auto& [low, high] = window.opening;
     const float back = -kReveal, front = back + 0.05f, middle = (low.x + high.x) / 2;
     append(
-        window.lit ? to.lit_panes : to.dark_panes,
+        window.lit ? to.glass.lit_panes : to.glass.dark_panes,
         placed(rectangle({low, back + 0.01f}, {high.x - low.x, 0, 0}, {0, high.y - low.y, 0}, 0.2f), wing));
     const auto add_bar = [&](float x0, float y0, float x1, float y1) {
-        append(to.painted_wood, placed(box({x0, y0, back}, {x1, y1, front}, 0.3f), wing));
+        append(to.building.painted_wood, placed(box({x0, y0, back}, {x1, y1, front}, 0.3f), wing));
     };
     add_bar(low.x, low.y, low.x + 0.06f, high.y);
     add_bar(high.x - 0.06f, low.y, high.x, high.y);
@@ -54,9 +54,9 @@ void add_shutters(Courtyard& to, const Opening& o, const glm::mat4& wing) {
     const float width = (o.high.x - o.low.x) / 2;
     for (const float x : {o.low.x - width - 0.05f, o.high.x + 0.05f}) {
         const auto add_board = [&](const glm::vec3& low, const glm::vec3& high) {
-            append(to.painted_wood, placed(box({x + low.x, o.low.y + low.y, low.z},
-                                               {x + high.x, o.low.y + high.y, high.z}, 0.3f),
-                                           wing));
+            append(to.building.painted_wood, placed(box({x + low.x, o.low.y + low.y, low.z},
+                                                        {x + high.x, o.low.y + high.y, high.z}, 0.3f),
+                                                    wing));
         };
         const float height = o.high.y - o.low.y;
         add_board({0, 0, 0.02f}, {0.06f, height, 0.07f});
@@ -66,9 +66,10 @@ void add_shutters(Courtyard& to, const Opening& o, const glm::mat4& wing) {
         const int slats = static_cast<int>(height / 0.085f);
         for (int i = 1; i < slats; ++i) {
             const float y = height * static_cast<float>(i) / static_cast<float>(slats);
-            append(to.painted_wood, placed(rectangle({x + 0.05f, o.low.y + y - 0.03f, 0.055f},
-                                                     {width - 0.1f, 0, 0}, {0, 0.07f, -0.025f}, 0.3f),
-                                           wing));
+            append(to.building.painted_wood,
+                   placed(rectangle({x + 0.05f, o.low.y + y - 0.03f, 0.055f}, {width - 0.1f, 0, 0},
+                                    {0, 0.07f, -0.025f}, 0.3f),
+                          wing));
         }
     }
 }
@@ -77,7 +78,7 @@ void add_shutters(Courtyard& to, const Opening& o, const glm::mat4& wing) {
 void add_frame(Courtyard& to, const Opening& o, const glm::mat4& wing) {
     constexpr float kBroad = 0.11f;
     const auto add_stone = [&](float x0, float y0, float x1, float y1, float proud) {
-        append(to.stone, placed(box({x0, y0, -0.02f}, {x1, y1, proud}), wing));
+        append(to.building.stone, placed(box({x0, y0, -0.02f}, {x1, y1, proud}), wing));
     };
     add_stone(o.low.x - kBroad, o.low.y, o.low.x, o.high.y, 0.03f);
     add_stone(o.high.x, o.low.y, o.high.x + kBroad, o.high.y, 0.03f);
@@ -92,9 +93,9 @@ void add_front(Courtyard& to, const std::vector<Window>& windows, float width, c
     std::vector<Opening> openings;
     for (const Window& window : windows)
         openings.push_back(window.opening);
-    append(to.plaster, placed(wall_with_openings({0, kStorey}, {width, kEaves}, openings), wing));
+    append(to.building.plaster, placed(wall_with_openings({0, kStorey}, {width, kEaves}, openings), wing));
     for (const Window& window : windows) {
-        append(to.plaster, placed(reveal(window.opening), wing));
+        append(to.building.plaster, placed(reveal(window.opening), wing));
         add_casement(to, window, wing);
         add_frame(to, window.opening, wing);
         if (window.opening.low.y > kStorey + 0.3f)
@@ -118,15 +119,17 @@ void add_cornice(Courtyard& to) {
                              {0.12f, 0},     {0.12f, 0},      {0.15f, 0},      {0.15f, 0},
                              {0.15f, 0.07f}, {0.15f, 0.07f},  {0, 0.1f}};
     const float y = kStorey - 0.02f;
-    append(to.stone, moulding(outline, straight_way({-kHalf, y, 0.15f}, {-kHalf, y, -kDeep})));
-    append(to.stone, moulding(outline, straight_way({-kHalf, y, -kDeep}, {kHalf + kOuterWall, y, -kDeep})));
-    append(to.stone, moulding(outline, straight_way({-kHalf - kWing, y, 0}, {-kHalf + 0.15f, y, 0})));
+    append(to.building.stone, moulding(outline, straight_way({-kHalf, y, 0.15f}, {-kHalf, y, -kDeep})));
+    append(to.building.stone,
+           moulding(outline, straight_way({-kHalf, y, -kDeep}, {kHalf + kOuterWall, y, -kDeep})));
+    append(to.building.stone,
+           moulding(outline, straight_way({-kHalf - kWing, y, 0}, {-kHalf + 0.15f, y, 0})));
 }
 
 /// Plain walls to the outside, up to the higher side of the roofs.
 void add_outer_walls(Courtyard& to) {
     const float top = kEaves + kRoofSlope * (kWing + 0.1f), outer = kHalf + kWing;
-    Mesh& walls = to.plaster;
+    Mesh& walls = to.building.plaster;
     append(walls, placed(wall_with_openings({0, 0}, {kDeep + kWing, top}, {}, kTall),
                          placement({-outer, 0, -kDeep - kWing}, -90)));
     append(walls, placed(wall_with_openings({0, 0}, {2 * kHalf + kOuterWall + kWing, top}, {}, kTall),

@@ -58,9 +58,9 @@ public:
         : picture_(picture), target_(picture), scene_(*picture.scene, picture.textures),
           arrays_(scene_.make_vertex_arrays()) {
         scene_.shine(picture.emission);
-        if (picture.transfer) {
-            transfer_.emplace(*picture.transfer);
-            transfer_->set_light({*picture.lighting});
+        if (picture.in_shader.transfer) {
+            transfer_.emplace(*picture.in_shader.transfer);
+            transfer_->set_light({*picture.in_shader.lighting});
             for (std::size_t i = 0; i < arrays_.size(); ++i)
                 transfer_->attach(arrays_[i].name(), picture.scene->vertex_arrays[i].first_receiver);
         } else {

@@ -125,7 +125,8 @@ protected:
 TEST_F(Pictures, OfCompressedTransferAgree) {
     BakeOptions bake_options;
     bake_options.rays = 64;
-    bake_options.repairs.bad_textures = BadTextures::ignore; // the scene names a texture whose image it does not hold
+    bake_options.repairs.bad_textures =
+        BadTextures::ignore; // the scene names a texture whose image it does not hold
     const Transfer transfer = bake(objects.scene, bake_options).baked.transfer;
     CompressOptions options;
     options.clusters = 8;
@@ -136,9 +137,8 @@ TEST_F(Pictures, OfCompressedTransferAgree) {
     const auto radiance = exit_radiance(compressed, light);
     picture.radiance = radiance;
     const Image rays = render_rays(picture, TraceScene(objects.scene));
-    picture.transfer = &compressed;
     const Lighting lighting{light};
-    picture.lighting = &lighting;
+    picture.in_shader = {&compressed, &lighting};
     const Image gl = render_gl(picture, *context);
     const Difference d = difference(rays, gl);
     RecordProperty("mean_absolute_difference_255ths", std::to_string(d.mean));

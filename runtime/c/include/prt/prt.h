@@ -110,12 +110,13 @@ typedef struct prt_model_info {
     const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
     size_t meshes;
     int direct_apart; /* 1 where suns can be lit apart from the sky, else 0 */
-    size_t lamps;     /* of the scene, that have strengths */
 } prt_model_info;
 /* Pointers live as long as the model. */
 PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message);
 
-/* The name of a lamp, which lives as long as the model. */
+/* How many lamps of the scene have strengths. */
+PRT_API prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, prt_message* message);
+/* The name of one, which lives as long as the model. */
 PRT_API prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char** name,
                                        prt_message* message);
 
@@ -139,7 +140,7 @@ PRT_API prt_status prt_model_form_constants(const prt_model* model, int order, c
 /* The same for a sky without its suns, whose direct light the renderer adds with sharp shadows, and for
  * their light, which the model is lit by after a bounce; `suns` may be null: there are none. Only a model
  * whose transfer keeps direct light apart knows the two apart: info.direct_apart. `lamps`: their strengths,
- * [info.lamps][3], at most 1e20; null: 1, as in the scene, as without this function. */
+ * [lamps][3], at most 1e20; null: 1, as in the scene, as without this function. */
 PRT_API prt_status prt_model_form_constants_apart(const prt_model* model, int order, const float* sky,
                                                   const float* suns, const float* lamps, float* constants,
                                                   prt_message* message);

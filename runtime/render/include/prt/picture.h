@@ -22,15 +22,20 @@ struct Background {
     float rotation = 0;           ///< about +Y, as in `rotated_about_y`; radians
 };
 
+/// Transfer, and the lighting that a vertex shader multiplies it with.
+struct LitInShader {
+    const ClusteredTransfer* transfer = nullptr;
+    const Lighting* lighting = nullptr;
+};
+
 struct Picture {
     const Scene* scene = nullptr;
     std::span<const Texture> textures; ///< load_textures(*scene)
 
     /// Per receiver: exit radiance for albedo 1, or a color to show.
     std::span<const glm::vec3> radiance;
-    /// Where set, OpenGL forms the exit radiance in the vertex shader from these instead of `radiance`.
-    const ClusteredTransfer* transfer = nullptr;
-    const Lighting* lighting = nullptr;
+    /// Where set, OpenGL forms the exit radiance in the vertex shader from it instead of `radiance`.
+    LitInShader in_shader;
     /// Their light is not in the radiance above but is added at each pixel, sharply shadowed.
     std::span<const SunDisc> suns = {};
 
