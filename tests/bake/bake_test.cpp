@@ -66,7 +66,7 @@ TEST(Bake, ReportsWhatItDid) {
     const BakeResult result = bake(scene, options);
     EXPECT_EQ(result.statistics.receivers.all, scene.receivers());
     EXPECT_EQ(result.statistics.triangles, scene.triangles());
-    EXPECT_GT(result.statistics.rays_per_second, 0);
+    EXPECT_GT(result.statistics.rays_per_second(), 0);
     EXPECT_GT(result.statistics.mean_visibility, 0.5);
     EXPECT_LT(result.statistics.mean_visibility, 1);
     EXPECT_EQ(result.baked.record.receivers, receivers_id(scene));

@@ -17,7 +17,7 @@ namespace {
 using test::GlbFile;
 using Json = nlohmann::ordered_json;
 
-Scene scene_in(const GlbFile& file) {
+Scene scene_with_lights(const GlbFile& file) {
     const std::string bytes = file.bytes();
     return extract_scene(parse_gltf(std::as_bytes(std::span(bytes)), "memory.glb"));
 }
@@ -36,7 +36,7 @@ GlbFile with_light(const Json& light, const Json& node = Json::object()) {
 
 std::string error_of(const GlbFile& file) {
     try {
-        scene_in(file);
+        scene_with_lights(file);
     } catch (const Error& error) {
         return error.what();
     }
@@ -46,15 +46,16 @@ std::string error_of(const GlbFile& file) {
 TEST(PunctualLights, StandWhereTheirNodesStand) {
     // A quarter turn about +X takes -Z to +Y.
     const double half = std::sqrt(0.5);
-    const Scene scene = scene_in(with_light({{"type", "spot"},
-                                             {"intensity", 20},
-                                             {"color", {1, 0.5, 0.25}},
-                                             {"range", 12.5},
-                                             {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.5}}}},
-                                            {{"name", "Torch"},
-                                             {"translation", {1, 2, 3}},
-                                             {"rotation", {half, 0, 0, half}},
-                                             {"scale", {2, 2, 2}}}));
+    const Scene scene =
+        scene_with_lights(with_light({{"type", "spot"},
+                                      {"intensity", 20},
+                                      {"color", {1, 0.5, 0.25}},
+                                      {"range", 12.5},
+                                      {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.5}}}},
+                                     {{"name", "Torch"},
+                                      {"translation", {1, 2, 3}},
+                                      {"rotation", {half, 0, 0, half}},
+                                      {"scale", {2, 2, 2}}}));
     ASSERT_EQ(scene.lights.size(), 1u);
     const PunctualLight& light = scene.lights[0];
     EXPECT_EQ(light.name, "Torch");
@@ -68,7 +69,7 @@ TEST(PunctualLights, StandWhereTheirNodesStand) {
 }
 
 TEST(PunctualLights, HaveTheDefaultsOfTheExtension) {
-    const Scene scene = scene_in(with_light({{"type", "spot"}, {"name", "its own"}}));
+    const Scene scene = scene_with_lights(with_light({{"type", "spot"}, {"name", "its own"}}));
     const PunctualLight& light = scene.lights.at(0);
     EXPECT_EQ(light.name, "its own");
     EXPECT_EQ(light.intensity, glm::vec3(1));
@@ -76,11 +77,11 @@ TEST(PunctualLights, HaveTheDefaultsOfTheExtension) {
     EXPECT_FLOAT_EQ(light.inner_cone, 0);
     EXPECT_FLOAT_EQ(light.outer_cone, static_cast<float>(std::numbers::pi / 4));
     EXPECT_EQ(light.direction, glm::vec3(0, 0, -1));
-    EXPECT_EQ(scene_in(with_light({{"type", "point"}})).lights.at(0).name, "light 0");
+    EXPECT_EQ(scene_with_lights(with_light({{"type", "point"}})).lights.at(0).name, "light 0");
 }
 
 TEST(PunctualLights, OfHiddenNodesAreLeftOut) {
-    const Scene scene = scene_in(
+    const Scene scene = scene_with_lights(
         with_light({{"type", "point"}}, {{"extensions", {{"KHR_node_visibility", {{"visible", false}}}}}}));
     EXPECT_TRUE(scene.lights.empty());
 }
@@ -112,7 +113,7 @@ Emission emission_of(const Json& material) {
     GlbFile file = test::triangle_file();
     file.json["materials"] = Json::array({material});
     file.json["meshes"][0]["primitives"][0]["material"] = 0;
-    return scene_in(file).materials.at(0).emission;
+    return scene_with_lights(file).materials.at(0).emission;
 }
 
 TEST(Emission, IsFactorTimesStrength) {
