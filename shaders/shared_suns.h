@@ -13,8 +13,8 @@
 #define PRT_BINDING_TINT_TEXCOORDS 8
 #define PRT_BINDING_SUNS 9
 
-// Texture units.
-#define PRT_UNIT_SUN_DEPTH 7
+// Texture units, beside those of shared_layout.h and shared_viewer.h (0 to 7).
+#define PRT_UNIT_SUN_DEPTH 13
 #define PRT_UNIT_SUN_LAYERS 8
 #define PRT_UNIT_SUN_PASSES 9
 #define PRT_UNIT_TRANSMISSION_FACTOR 10

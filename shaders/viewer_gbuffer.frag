@@ -1,6 +1,6 @@
 // A surface into the G-buffer: base color, and in alpha five bits of ambient occlusion and one that says whether the
-// exit radiance is already in the third target, which holds that of suns apart otherwise; the normal, octahedral (Meyer et
-// al. 2010).
+// exit radiance is already in the third target, which holds that of suns apart otherwise; the normal, octahedral (Meyer
+// et al. 2010).
 
 #include "viewer_lighting.glsl"
 #include "shared_viewer.h"

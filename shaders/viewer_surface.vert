@@ -1,5 +1,6 @@
 // Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or from a PRT_VERTEX_RADIANCE
-// attribute; with neither, the fragment shader finds it from the normal and an ambient occlusion. PRT_SUNS: for suns apart.
+// attribute; with neither, the fragment shader finds it from the normal and an ambient occlusion. PRT_SUNS: for suns
+// apart.
 
 #include "shared_layout.h"
 

@@ -8,6 +8,7 @@
 #include "prt/ray_renderer.h"
 #include "prt/receiver_colors.h"
 #include "prt/receivers.h"
+#include "prt/sun_shadows.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "prt/tone_map.h"
@@ -112,9 +113,9 @@ Exposure parse_exposure(const std::string& text) {
 
 constexpr int kUnshadowedOrder = 6;
 
-/// The context to draw with; null: draw on the CPU.
-std::unique_ptr<GlContext> choose_backend(Backend backend) {
-    if (backend == Backend::cpu)
+/// The context to draw with; null: draw on the CPU, as where there are more `suns` than OpenGL shadows.
+std::unique_ptr<GlContext> choose_backend(Backend backend, std::size_t suns) {
+    if (backend == Backend::cpu || (backend == Backend::automatic && suns > kMostShadowedSuns))
         return nullptr;
     std::string why;
     auto context = GlContext::create(backend == Backend::gpu ? GlDevice::any : GlDevice::hardware, &why);
@@ -348,7 +349,7 @@ void run(RenderArguments a, Session& session) {
         background = resampled_lat_long(*light.sky.environment);
         picture.background.image = &background;
     }
-    const std::unique_ptr<GlContext> context = choose_backend(a.backend);
+    const std::unique_ptr<GlContext> context = choose_backend(a.backend, picture.suns.size());
     if (context)
         light_in_shader(a, model, lighting, picture);
     const Light all_light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;

@@ -1,11 +1,29 @@
 #version 330 core
-// The pixel of a relit surface: radiance times albedo, exposed.
-in vec3 radiance; // of the vertex shader that prtkit writes, for albedo 1
+// The pixel of a relit surface: what transfer gives, and the sun with its shadow, times albedo, exposed.
+in vec3 radiance, normal, sun_place;
 out vec4 pixel;
 uniform vec3 albedo;
 uniform float exposure;
+uniform vec3 towards_sun, sun_irradiance;
+uniform sampler2DShadow shadow_map;
+uniform float sun_radius; // of a penumbra, over the way from what blocks
+
+// Share of the sun that shows: 16 taps over the penumbra of what would block halfway to the near side of the
+// map. `bias` and the place are in units of the map.
+float sun_visibility(float bias) {
+    float radius = max(0.5 * sun_radius * sun_place.z, 1.0 / float(textureSize(shadow_map, 0).x)), open = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        float angle = 2.4 * float(i);
+        vec2 tap = radius * sqrt((float(i) + 0.5) / 16.0) * vec2(cos(angle), sin(angle));
+        open += texture(shadow_map, sun_place + vec3(tap, -bias)) / 16.0;
+    }
+    return open;
+}
 
 void main() {
-    vec3 exposed = 1.0 - exp(-exposure * albedo * max(radiance, 0.0));
+    float cosine = max(dot(normalize(normal), towards_sun), 0.0);
+    float texel = 1.0 / float(textureSize(shadow_map, 0).x);
+    vec3 sun = sun_irradiance / 3.14159265 * cosine * sun_visibility(2.0 * texel / max(cosine, 0.1));
+    vec3 exposed = 1.0 - exp(-exposure * albedo * (max(radiance, 0.0) + sun));
     pixel = vec4(pow(exposed, vec3(1.0 / 2.2)), 1.0);
 }

@@ -1,7 +1,8 @@
 // A game that relights a model: game SHIPPED.glb SKY.exr OUTPUT.png [frames]
 //
 // What an engine does is all here, top to bottom; only the window is missing, so that it runs anywhere: after
-// so many frames, in which the sky turns once, it writes the last as a picture.
+// so many frames, in which the sky turns once, it writes the last as a picture. The sun of the sky is apart:
+// the game draws it with its own shadow map, transfer does all the rest.
 
 #include "prt/color.h"
 #include "prt/constant_former.h"
@@ -12,6 +13,7 @@
 #include "prt/scene.h"
 #include "prt/sh_rotation.h"
 #include "prt/shader_source.h"
+#include "prt/suns.h"
 #include "shared_layout.h" // where the shader has its attributes
 
 #include <epoxy/gl.h>
@@ -20,6 +22,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -29,12 +32,19 @@
 namespace {
 
 constexpr int kWidth = 640, kHeight = 400;
-constexpr int kConstantsUnit = 0, kClustersUnit = 1; // texture units
+constexpr int kConstantsUnit = 0, kClustersUnit = 1, kShadowUnit = 2; // texture units
+constexpr int kShadowTexels = 2048;                                   // of the shadow map, along a side
 
 struct World {
     prt::Scene scene;
     prt::ClusteredTransfer transfer;
-    prt::Light sky;
+    prt::Light sky;   ///< without the sun
+    prt::SunDisc sun; ///< black where the sky has none, or the transfer keeps no direct light apart
+};
+
+/// What draws: the relit picture, and the sun's view of it.
+struct Programs {
+    GLuint picture, shadow;
 };
 
 struct Mesh {
@@ -51,12 +61,21 @@ World load(const char* model, const char* sky) {
     auto compressed = prt::read_clustered(document, scene);
     if (!compressed)
         throw std::runtime_error("the model is not compressed");
-    const prt::Environment environment = prt::load_environment(sky).environment;
-    const prt::Light light = prt::project(environment, compressed->transfer.bases.layout.order);
-    return {std::move(scene), std::move(compressed->transfer), prt::deringed(light)}; // nowhere negative
+    const prt::TransferLayout& layout = compressed->transfer.bases.layout;
+    const int suns = layout.has(prt::PartKind::direct) ? 1 : 0;
+    const prt::SunSplit split =
+        prt::find_suns(prt::load_environment(sky).environment, {.order = layout.order, .count = suns});
+    const prt::Light light = prt::deringed(prt::project(split.remainder, layout.order)); // nowhere negative
+    return {std::move(scene), std::move(compressed->transfer), light,
+            split.suns.empty() ? prt::SunDisc{} : split.suns[0]};
 }
 
-// ---- Once: the program. prtkit writes the vertex shader for the model, the fragment shader is the game's.
+// ---- Once: the programs. prt_exit_radiance() is prtkit's, written for the model; all else is the game's.
+
+std::string read(const std::string& file) {
+    std::ifstream stream(GAME_FOLDER "/" + file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
 
 GLuint compile(GLenum stage, const std::string& source) {
     const GLuint name = glCreateShader(stage);
@@ -70,19 +89,30 @@ GLuint compile(GLenum stage, const std::string& source) {
     return name;
 }
 
-GLuint link(const prt::ClusteredTransfer& transfer) {
-    std::ifstream file(GAME_FOLDER "/game.frag");
-    const std::string fragment{std::istreambuf_iterator<char>(file), {}};
-    const std::string vertex =
-        prt::relight_shader(transfer, prt::ConstantSource::texture, prt::ShaderLanguage::glsl330);
+GLuint link(const std::string& vertex, const std::string& fragment) {
     const GLuint program = glCreateProgram();
     glAttachShader(program, compile(GL_VERTEX_SHADER, vertex));
     glAttachShader(program, compile(GL_FRAGMENT_SHADER, fragment));
     glLinkProgram(program);
-    glUseProgram(program);
-    glUniform1i(glGetUniformLocation(program, "prt_constants"), kConstantsUnit);
-    glUniform1i(glGetUniformLocation(program, "prt_clusters"), kClustersUnit);
+    GLint linked = 0;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (!linked)
+        throw std::runtime_error("a program does not link");
     return program;
+}
+
+Programs make_programs(const prt::ClusteredTransfer& transfer) {
+    constexpr auto kLanguage = prt::ShaderLanguage::glsl330;
+    const std::string relight = prt::shader_source(
+        "prt_exit_radiance.glsl", prt::relight_defines(transfer, prt::ConstantSource::texture, kLanguage),
+        kLanguage);
+    const Programs programs{link(relight + read("game.vert"), read("game.frag")),
+                            link(read("shadow.vert"), read("shadow.frag"))};
+    glUseProgram(programs.picture);
+    glUniform1i(glGetUniformLocation(programs.picture, "prt_constants"), kConstantsUnit);
+    glUniform1i(glGetUniformLocation(programs.picture, "prt_clusters"), kClustersUnit);
+    glUniform1i(glGetUniformLocation(programs.picture, "shadow_map"), kShadowUnit);
+    return programs;
 }
 
 // ---- Once: vertices. Their weights stand in one buffer for the whole model, their clusters in another.
@@ -151,6 +181,9 @@ std::vector<Mesh> upload_meshes(const World& world) {
         buffer(GL_ARRAY_BUFFER, vertices.positions);
         glEnableVertexAttribArray(PRT_LOCATION_POSITION);
         glVertexAttribPointer(PRT_LOCATION_POSITION, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+        buffer(GL_ARRAY_BUFFER, vertices.normals);
+        glEnableVertexAttribArray(PRT_LOCATION_NORMAL);
+        glVertexAttribPointer(PRT_LOCATION_NORMAL, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
         attach_transfer(receivers, weights, clusters, vertices.first_receiver);
         buffer(GL_ELEMENT_ARRAY_BUFFER, primitive.triangles);
         meshes.push_back(mesh);
@@ -183,9 +216,9 @@ std::vector<glm::vec4> make_tables(const prt::ClusteredTransfer& transfer) {
     return constants;
 }
 
-// ---- Once: a screen and a camera.
+// ---- Once: a screen, a shadow map and a camera.
 
-void make_screen() {
+GLuint make_screen() {
     GLuint framebuffer = 0, targets[2] = {};
     glGenFramebuffers(1, &framebuffer);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -196,8 +229,24 @@ void make_screen() {
         glFramebufferRenderbuffer(GL_FRAMEBUFFER, i == 0 ? GL_COLOR_ATTACHMENT0 : GL_DEPTH_ATTACHMENT,
                                   GL_RENDERBUFFER, targets[i]);
     }
-    glViewport(0, 0, kWidth, kHeight);
     glEnable(GL_DEPTH_TEST);
+    return framebuffer;
+}
+
+GLuint make_shadow_map() {
+    GLuint framebuffer = 0, map = 0;
+    glGenTextures(1, &map);
+    glActiveTexture(GL_TEXTURE0 + kShadowUnit);
+    glBindTexture(GL_TEXTURE_2D, map);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, kShadowTexels, kShadowTexels, 0, GL_DEPTH_COMPONENT,
+                 GL_FLOAT, nullptr);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glGenFramebuffers(1, &framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, map, 0);
+    glDrawBuffer(GL_NONE);
+    return framebuffer;
 }
 
 void set_camera(GLuint program, const World& world) {
@@ -209,14 +258,47 @@ void set_camera(GLuint program, const World& world) {
         glm::lookAt(center + size * glm::vec3(0.6f, 0.6f, 1.1f), center, glm::vec3(0, 1, 0));
     glUniformMatrix4fv(glGetUniformLocation(program, "view_projection"), 1, GL_FALSE,
                        glm::value_ptr(view_projection));
-    // The mean luminance of the sky is its first coefficient times the first basis function.
-    const float mean = prt::luminance(world.sky.coefficients[0]) * static_cast<float>(prt::kY00);
-    glUniform1f(glGetUniformLocation(program, "exposure"), 1.5f / mean);
+    // The mean luminance of the light is its first coefficient times the first basis function.
+    const prt::Light all = prt::sum(world.sky, prt::as_light(world.sun, world.sky.order));
+    const float mean = prt::luminance(all.coefficients[0]) * static_cast<float>(prt::kY00);
+    glUniform1f(glGetUniformLocation(program, "exposure"), 0.8f / mean);
 }
 
-// ---- Every frame: upload the constants of the light that is, draw.
+// ---- Every frame: draw what blocks the sun, upload the constants of the light that is, draw.
+
+/// From the world to the sun's map, [0, 1]³: a cube round the scene.
+glm::mat4 sun_view(const World& world, const glm::vec3& towards_sun) {
+    const prt::Bounds box = prt::bounds(world.scene);
+    const glm::vec3 center = 0.5f * (box.low + box.high);
+    const float radius = 0.505f * glm::length(box.high - box.low);
+    const glm::vec3 up = std::abs(towards_sun.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+    const glm::mat4 to_unit_cube =
+        glm::translate(glm::mat4(1), glm::vec3(0.5f)) * glm::scale(glm::mat4(1), glm::vec3(0.5f));
+    return to_unit_cube * glm::ortho(-radius, radius, -radius, radius, 0.0f, 2 * radius) *
+           glm::lookAt(center + radius * towards_sun, center, up);
+}
+
+void draw_shadows(GLuint program, const std::vector<Mesh>& meshes, const glm::mat4& sun_map) {
+    glViewport(0, 0, kShadowTexels, kShadowTexels);
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "sun_map"), 1, GL_FALSE, glm::value_ptr(sun_map));
+    glClear(GL_DEPTH_BUFFER_BIT);
+    for (const Mesh& mesh : meshes) {
+        glBindVertexArray(mesh.vertex_array);
+        glDrawElements(GL_TRIANGLES, mesh.indices, GL_UNSIGNED_INT, nullptr);
+    }
+}
+
+void set_sun(GLuint program, const prt::SunDisc& sun, const glm::mat4& sun_map) {
+    glUseProgram(program);
+    glUniformMatrix4fv(glGetUniformLocation(program, "sun_map"), 1, GL_FALSE, glm::value_ptr(sun_map));
+    glUniform3fv(glGetUniformLocation(program, "towards_sun"), 1, glm::value_ptr(sun.towards));
+    glUniform3fv(glGetUniformLocation(program, "sun_irradiance"), 1, glm::value_ptr(sun.irradiance));
+    glUniform1f(glGetUniformLocation(program, "sun_radius"), static_cast<float>(std::tan(sun.half_angle)));
+}
 
 void draw(GLuint program, const std::vector<Mesh>& meshes, const std::vector<glm::vec4>& constants) {
+    glViewport(0, 0, kWidth, kHeight);
     glActiveTexture(GL_TEXTURE0 + kConstantsUnit);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, prt::kConstantTextureWidth,
                     static_cast<GLsizei>(constants.size()) / prt::kConstantTextureWidth, GL_RGBA, GL_FLOAT,
@@ -231,9 +313,9 @@ void draw(GLuint program, const std::vector<Mesh>& meshes, const std::vector<glm
 }
 
 void play(const World& world, int frames) {
-    make_screen();
-    const GLuint program = link(world.transfer);
-    set_camera(program, world);
+    const GLuint screen = make_screen(), shadow_map = make_shadow_map();
+    const Programs programs = make_programs(world.transfer);
+    set_camera(programs.picture, world);
     const std::vector<Mesh> meshes = upload_meshes(world);
     std::vector<glm::vec4> constants = make_tables(world.transfer);
     const prt::ConstantFormer former(world.transfer);
@@ -241,8 +323,17 @@ void play(const World& world, int frames) {
     for (int frame = 0; frame < frames; ++frame) {
         const double angle = glm::two_pi<double>() * (frame + 1) / frames;
         prt::ShRotation::about_y(world.sky.order, angle).apply(world.sky.coefficients, turned);
-        former.form(turned, constants);
-        draw(program, meshes, constants);
+        prt::SunDisc sun = world.sun;
+        sun.towards = glm::vec3(glm::rotate(glm::dmat4(1), angle, glm::dvec3(0, 1, 0)) *
+                                glm::dvec4(glm::dvec3(world.sun.towards), 0));
+        // The sun lights what is lit after a bounce; its direct light is the shader's.
+        former.form({turned, prt::as_light(sun, world.sky.order).coefficients}, constants);
+        const glm::mat4 sun_map = sun_view(world, sun.towards);
+        glBindFramebuffer(GL_FRAMEBUFFER, shadow_map);
+        draw_shadows(programs.shadow, meshes, sun_map);
+        set_sun(programs.picture, sun, sun_map);
+        glBindFramebuffer(GL_FRAMEBUFFER, screen);
+        draw(programs.picture, meshes, constants);
     }
 }
 

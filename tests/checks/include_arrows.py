@@ -26,7 +26,7 @@ PARTS = {
     "shaders": ("shaders", "", ""),
     "cli": ("cli", "runtime shader fit image scene render gl bake bake_gpu compress compress_study", "glm fmt CLI nlohmann"),
     "example_scenes": ("examples/scenes", "runtime image", "glm tinygltf"),
-    "game": ("examples/game", "runtime shader image scene gl", "glm epoxy"),
+    "game": ("examples/game", "runtime shader fit image scene gl", "glm epoxy"),
     "viewer": ("examples/viewer", "runtime fit image scene render gl shader bake compress",
                "glm fmt CLI nlohmann imgui glfw epoxy meshoptimizer"),
     # It measures the viewer's own pictures.

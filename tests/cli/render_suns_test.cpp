@@ -43,7 +43,7 @@ protected:
     std::string at(const char* name) const { return (folder / name).string(); }
     Outcome render(std::vector<std::string> arguments) const {
         for (const char* a : {"--size", "64x32", "--camera", "0.7,1.5,0.001", "--look-at", "0.7,0,0", "--fov",
-                              "40", "--backend", "cpu"})
+                              "40", "--backend", backend})
             arguments.emplace_back(a);
         arguments.insert(arguments.begin(), "render");
         return prt(arguments);
@@ -61,11 +61,17 @@ protected:
     }
 
     TemporaryFolder folder;
+    const char* backend = "cpu";
 };
 
 /// The shadow of the roof begins at x = 1, which pixels of 3 cm tell.
-TEST_F(RenderSuns, ShadowsThemSharply) {
-    for (const char* model : {"s.glb", "b.glb", "c.glb"}) { // s.glb: without transfer
+TEST_F(RenderSuns, ShadowsThemSharplyByRaysAndByMaps) {
+    for (const auto& [model, by] : {std::pair("s.glb", "cpu"), // without transfer
+                                    {"b.glb", "cpu"},
+                                    {"c.glb", "cpu"},
+                                    {"s.glb", "gpu"},
+                                    {"c.glb", "gpu"}}) {
+        backend = by;
         const Image image = rendered({at(model), "--env", at("sun.json")});
         ASSERT_EQ(image.width, 64);
         const int edge = 32 + static_cast<int>(0.3 * 16 / (1.5 * std::tan(20 * std::numbers::pi / 180)));
@@ -155,6 +161,11 @@ TEST_F(RenderSuns, SaysWhatItCannotDo) {
         EXPECT_FALSE(std::filesystem::exists(folder / "no.png"));
     };
     refused({at("w.glb"), "--env", at("sun.json"), "--suns", "1"}, 1, "no direct light apart");
+    std::ifstream file(folder / "sun.json");
+    nlohmann::json five = nlohmann::json::parse(file);
+    five["suns"] = std::vector<nlohmann::json>(5, five["suns"][0]);
+    folder.file("five.json", five.dump());
+    refused({at("b.glb"), "--env", at("five.json"), "--backend", "gpu"}, 1, "at most 4 suns, not 5");
     refused({at("b.glb"), "--env", at("sunny.exr"), "--suns", "many"}, 2, "many");
     refused({at("b.glb"), "--env", at("sunny.exr"), "--sun-rays", "0"}, 2, "--sun-rays");
 }

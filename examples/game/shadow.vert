@@ -1,0 +1,8 @@
+#version 330 core
+// What blocks the sun, as the sun sees it.
+layout(location = 0) in vec3 position;
+uniform mat4 sun_map;
+
+void main() {
+    gl_Position = vec4(2.0 * (sun_map * vec4(position, 1.0)).xyz - 1.0, 1.0);
+}
