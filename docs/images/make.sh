@@ -20,6 +20,18 @@ render() { "$prt" render "$work/$1.glb" --env "$sky" -o "$work/$2.png" --size 84
 room_view=(--camera "1.2,1.9,4.2" --look-at "0,1.8,-5" --fov 45)
 tree_view=(--camera "1.5,1.7,5.5" --look-at "0,1.9,0")
 
+# The courtyard at noon and at night, lanterns and windows lit.
+bake courtyard courtyard --bounces 3 --rays 256 --lamp-rays 16
+ship courtyard u64
+echo '{ "*": 0 }' > "$work/off.json"
+court() {
+    "$prt" render "$work/courtyard.shipped.glb" --env "$work/$1.exr" -o "$work/court.$1.png" --size 1280x720 --samples 3 \
+        --camera 3.9,1.75,4.9 --look-at -1.3,2.75,-6 --fov 46 "${@:2}"
+}
+court noon --lamps "$work/off.json"
+court night --exposure auto-0.7
+node $images/sheet.mjs $images/courtyard.jpg 2 700 "$work"/court.{noon,night}.png
+
 bake knot knot --bounces 1
 bake room room --bounces 3
 bake tree tree --bounces 3

@@ -20,7 +20,7 @@ struct Mesh {
 inline constexpr float kTurn = 6.2831853f;
 
 /// A grid of (columns + 1) x (rows + 1) vertices over (u, v) in [0, 1]², front where u x v points. Normals by
-/// central differences of `surface`, which must be defined a little beyond [0, 1]. Texture coordinates
+/// central differences of `surface`, which must be defined a little beyond [0, 1]. Texture coordinates are
 /// (u, 1 - v): a picture stands upright where v points up.
 Mesh parametric_surface(int columns, int rows, const std::function<glm::vec3(float u, float v)>& surface);
 

@@ -17,6 +17,10 @@ struct Fixtures {
 };
 
 constexpr glm::vec3 kWarm(1, 0.72f, 0.42f);
+/// Bulbs and shades are seen by their emission. If they reflected the lamp, which is centimetres away, they
+/// would be spots many times brighter than the room, and bounces would be the noise of the few rays that find
+/// them.
+constexpr glm::vec3 kBulb(0);
 
 /// A bell of sheet metal under a cord, open below; the bulb looks out of it.
 void add_ceiling_lamp(Fixtures& to, const glm::vec3& place) {
@@ -29,7 +33,7 @@ void add_ceiling_lamp(Fixtures& to, const glm::vec3& place) {
         {"LampCeiling", place + glm::vec3(0, 0.02f, 0), kWarm, 16, 12, {0, -1, 0}, 0.6f, 1.15f});
 }
 
-/// A shade of cloth that light comes through, on a turned foot, on a round table.
+/// A shade of cloth that shines, on a turned foot, on a round table.
 void add_table_lamp(Fixtures& to, const glm::vec3& floor) {
     constexpr float kTable = 0.72f;
     append(to.table, lathe(floor,
@@ -61,8 +65,10 @@ void add_table_lamp(Fixtures& to, const glm::vec3& floor) {
                             {0.015f, 0.36f}},
                            24));
     append(to.bulbs, sphere(foot + glm::vec3(0, 0.39f, 0), 0.035f, 16));
+    // Outside and inside.
     append(to.shades, lathe(foot + glm::vec3(0, 0.3f, 0), {{0.24f, 0}, {0.15f, 0.28f}}, 32));
-    to.lamps.push_back({"LampTable", foot + glm::vec3(0, 0.45f, 0), kWarm, 5, 10});
+    append(to.shades, lathe(foot + glm::vec3(0, 0.3f, 0), {{0.145f, 0.28f}, {0.235f, 0}}, 32));
+    to.lamps.push_back({"LampTable", foot + glm::vec3(0, 0.45f, 0), kWarm, 4, 10});
 }
 
 /// A bowl on a stem that throws blue light at the ceiling.
@@ -100,7 +106,7 @@ ExampleScene night_room() {
     Fixtures fixtures;
     add_ceiling_lamp(fixtures, {0, 2.7f, -1.6f});
     add_table_lamp(fixtures, {-1.5f, 0, -6.2f});
-    add_floor_lamp(fixtures, {3.3f, 0, -7.4f});
+    add_floor_lamp(fixtures, {1.75f, 0, -9.1f});
     // The sign stands a little before the back wall, in a case.
     constexpr float kWide = 2.6f, kHigh = 1.3f, kWall = -10, kProud = 0.12f;
     const glm::vec3 corner(-0.3f - kWide / 2, 1.55f, kWall + kProud);
@@ -119,9 +125,9 @@ ExampleScene night_room() {
     const std::vector<Part> things = {
         {"brass", {0.5f, 0.36f, 0.16f}, fixtures.brass},
         {"wood", {0.24f, 0.13f, 0.07f}, fixtures.table},
-        {"shades", {0.8f, 0.7f, 0.52f}, fixtures.shades, 0.5f, {0.8f, 0.7f, 0.52f}},
-        shining({"Bulbs", glm::vec3(0.9f), fixtures.bulbs}, kWarm, 12),
-        shining({"Blue bulb", glm::vec3(0.9f), fixtures.cool_bulbs}, {0.18f, 0.42f, 1}, 12),
+        shining({"LampTable shade", kBulb, fixtures.shades}, kWarm, 1.6f),
+        shining({"Bulbs", kBulb, fixtures.bulbs}, kWarm, 12),
+        shining({"Blue bulb", kBulb, fixtures.cool_bulbs}, {0.18f, 0.42f, 1}, 12),
         sign};
     scene.parts.insert(scene.parts.end(), things.begin(), things.end());
     scene.lamps = fixtures.lamps;

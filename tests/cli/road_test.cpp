@@ -487,13 +487,12 @@ TEST_F(Road, BouncesOnTheGpuLandInTheFileAndItsReport) {
 
 struct LampScene {
     const char *name, *group;
-    int lights, lamps;
+    int lights, lamps; ///< besides the group windows that are lit; bulbs and a sign
 };
 class LampRoad : public Road, public testing::WithParamInterface<LampScene> {};
-INSTANTIATE_TEST_SUITE_P(
-    Scenes, LampRoad,
-    testing::Values(LampScene{"courtyard", "Lanterns=Lantern*", 8, 2}, // lanterns and windows
-                    LampScene{"night_room", "Lamps=Lamp*", 3, 4}), // also bulbs and the sign
+INSTANTIATE_TEST_SUITE_P(Scenes, LampRoad,
+                         testing::Values(LampScene{"courtyard", "Lanterns=Lantern*", 8, 2},
+                                         LampScene{"night_room", "Lamps=Lamp*", 3, 4}),
                          [](const auto& scene) { return std::string(scene.param.name); });
 
 TEST_P(LampRoad, BakesTheLampsOfAScene) {

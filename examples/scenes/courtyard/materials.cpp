@@ -34,7 +34,7 @@ ExampleScene finished(const Courtyard& c) {
                      kPlankMetres),
         {"iron", {0.03f, 0.03f, 0.035f}, c.building.iron},
         {"panes", {0.04f, 0.05f, 0.06f}, c.glass.dark_panes},
-        shining({"Window light", {0.25f, 0.2f, 0.14f}, c.glass.lit_panes}, {1, 0.6f, 0.24f}, 1.2f),
+        shining({"Window light", {0.25f, 0.2f, 0.14f}, c.glass.lit_panes}, {1, 0.6f, 0.24f}, 0.7f),
         {"water", {0.06f, 0.2f, 0.22f}, c.garden.water},
         {"clay", {0.5f, 0.22f, 0.11f}, c.garden.clay},
         {"soil", {0.08f, 0.055f, 0.04f}, c.garden.soil},
@@ -56,8 +56,9 @@ ExampleScene finished(const Courtyard& c) {
         {"flowers", {0.68f, 0.06f, 0.3f}, c.garden.flowers, 0.4f, {0.8f, 0.1f, 0.4f}},
         with_picture({"vine leaves", {0.14f, 0.27f, 0.06f}, c.garden.vine_leaves, 0.4f, {0.3f, 0.45f, 0.08f}},
                      leaf, 1),
-        shining({"Lantern glass", {0.5f, 0.3f, 0.12f}, c.glass.lantern_panes}, {1, 0.55f, 0.18f}, 3),
-        shining({"Lantern flames", {1, 0.8f, 0.5f}, c.glass.flames}, {1, 0.7f, 0.32f}, 20)};
+        shining({"Lantern glass", {0.1f, 0.06f, 0.02f}, c.glass.lantern_panes}, {1, 0.55f, 0.18f}, 3),
+        shining({"Lantern flames", glm::vec3(0), c.glass.flames}, {1, 0.7f, 0.32f}, 20)};
+    // Glass and flames hardly reflect: the lamp between them is so near that bounces would be noise.
     for (Part& part : parts)
         if (part.name == "Lantern glass")
             part.opacity = 0.3f;
