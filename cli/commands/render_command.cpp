@@ -5,6 +5,7 @@
 #include "outputs.h"
 #include "prt/gl_renderer.h"
 #include "prt/light_meter.h"
+#include "prt/light_passing.h"
 #include "prt/ray_renderer.h"
 #include "prt/receiver_colors.h"
 #include "prt/receivers.h"
@@ -113,15 +114,26 @@ Exposure parse_exposure(const std::string& text) {
 
 constexpr int kUnshadowedOrder = 6;
 
-/// The context to draw with; null: draw on the CPU, as where there are more `suns` than OpenGL shadows.
-std::unique_ptr<GlContext> choose_backend(Backend backend, std::size_t suns) {
-    if (backend == Backend::cpu || (backend == Backend::automatic && suns > kMostShadowedSuns))
+/// The context to draw with; null: draw on the CPU.
+std::unique_ptr<GlContext> choose_backend(Backend backend, bool shadows_on_cpu) {
+    if (backend == Backend::cpu)
         return nullptr;
     std::string why;
     auto context = GlContext::create(backend == Backend::gpu ? GlDevice::any : GlDevice::hardware, &why);
+    if (context && backend == Backend::automatic && shadows_on_cpu)
+        return nullptr;
     if (!context && backend == Backend::gpu)
         throw Error("there is no OpenGL 4.5 for --backend gpu (" + why + ")");
     return context;
+}
+
+/// What is solid though its material does not say so: OpenGL's renderer would light it by suns twice.
+bool has_unnamed_media(const SceneFile& model) {
+    const std::vector<bool> solid = solid_materials(model);
+    for (std::size_t m = 0; m < solid.size(); ++m)
+        if (solid[m] && !has_medium(model.scene.materials[m]))
+            return true;
+    return false;
 }
 
 /// Why suns cannot be lit apart from the sky, and what to do about it; empty: they can. What holds no
@@ -130,6 +142,9 @@ std::string why_together(const RenderArguments& a, const SceneFile& model) {
     if (model.record() && layout_of(model).has(PartKind::whole))
         return a.model.string() + ": keeps no direct light apart, so that suns cannot be lit apart from the "
                                   "sky; compress it without --whole";
+    if (a.backend == Backend::gpu && has_unnamed_media(model))
+        return "--backend gpu does not know media of --subsurface, which suns light through transfer alone; "
+               "draw with --backend cpu";
     return {};
 }
 
@@ -349,7 +364,8 @@ void run(RenderArguments a, Session& session) {
         background = resampled_lat_long(*light.sky.environment);
         picture.background.image = &background;
     }
-    const std::unique_ptr<GlContext> context = choose_backend(a.backend, picture.suns.size());
+    const std::unique_ptr<GlContext> context = choose_backend(
+        a.backend, suns && (picture.suns.size() > kMostShadowedSuns || has_unnamed_media(model)));
     if (context)
         light_in_shader(a, model, lighting, picture);
     const Light all_light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;

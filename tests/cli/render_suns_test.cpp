@@ -98,6 +98,20 @@ TEST_F(RenderSuns, LightsWithTheSkyWhatIsNotApart) {
     EXPECT_EQ(none.err.find("apart"), std::string::npos) << none.err; // nothing to tell
 }
 
+/// Where marble lies under all of it, the sun comes through transfer alone, and so does its shadow.
+TEST_F(RenderSuns, LightsMediaThroughTransfer) {
+    ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("m.glb"), "--rays", "256", "--order", "4", "--subsurface",
+                   "marble"})
+                  .status,
+              0);
+    // Windowed alike: a window for the rest alone leaves the suns as they are.
+    const Image apart = rendered({at("m.glb"), "--env", at("sun.json"), "--window", "none"}),
+                together =
+                    rendered({at("m.glb"), "--env", at("sun.json"), "--suns", "0", "--window", "none"});
+    for (std::size_t i = 0; i < apart.pixels.size(); ++i)
+        ASSERT_LT(glm::distance(apart.pixels[i], together.pixels[i]), 1e-4f);
+}
+
 /// A sky without suns is lit as it was before there were any.
 TEST_F(RenderSuns, LeavesPlainSkiesAlone) {
     const Image found = rendered({at("c.glb"), "--env", at("plain.exr")}),
@@ -166,6 +180,11 @@ TEST_F(RenderSuns, SaysWhatItCannotDo) {
     five["suns"] = std::vector<nlohmann::json>(5, five["suns"][0]);
     folder.file("five.json", five.dump());
     refused({at("b.glb"), "--env", at("five.json"), "--backend", "gpu"}, 1, "at most 4 suns, not 5");
+    ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("m.glb"), "--rays", "64", "--order", "4", "--subsurface",
+                   "marble"})
+                  .status,
+              0);
+    refused({at("m.glb"), "--env", at("sunny.exr"), "--suns", "1", "--backend", "gpu"}, 1, "--subsurface");
     refused({at("b.glb"), "--env", at("sunny.exr"), "--suns", "many"}, 2, "many");
     refused({at("b.glb"), "--env", at("sunny.exr"), "--sun-rays", "0"}, 2, "--sun-rays");
 }
