@@ -12,6 +12,10 @@
 
 namespace {
 
+nlohmann::json json_of(const std::optional<double>& number) {
+    return number ? nlohmann::json(*number) : nlohmann::json();
+}
+
 nlohmann::json json_of(const std::vector<comparison::SceneResult>& scenes,
                        const std::vector<comparison::Sky>& skies) {
     nlohmann::json json = nlohmann::json::array();
@@ -24,8 +28,8 @@ nlohmann::json json_of(const std::vector<comparison::SceneResult>& scenes,
             rows.push_back({{"method", row.method},
                             {"bytes_per_vertex", row.bytes_per_vertex},
                             {"relative_l2", errors},
-                            {"frame_milliseconds", row.frame_milliseconds},
-                            {"relight_milliseconds", row.relight_milliseconds}});
+                            {"frame_milliseconds", json_of(row.frame_milliseconds)},
+                            {"relight_milliseconds", json_of(row.relight_milliseconds)}});
         }
         json.push_back({{"scene", scene.name},
                         {"vertices", scene.vertices},

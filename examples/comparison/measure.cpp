@@ -3,8 +3,11 @@
 #include "pictures/frame_renderer.h"
 
 #include "prt/bake.h"
+#include "prt/gl_renderer.h"
 #include "prt/path_tracer.h"
+#include "prt/ray_renderer.h"
 #include "prt/search.h"
+#include "prt/suns.h"
 #include "prt/support/stopwatch.h"
 #include "prt/tone_map.h"
 
@@ -40,8 +43,9 @@ prt::Image mean_of(const prt::Image& a, const prt::Image& b) {
 class SceneMeasurement {
 public:
     SceneMeasurement(const std::filesystem::path& path, const std::vector<Sky>& skies, const Options& options,
-                     const std::function<void(const std::string&)>& say)
-        : skies_(skies), options_(options), say_(say), model_(viewer::load_model(path).model), gpu_(model_) {
+                     const prt::GlContext& context, const std::function<void(const std::string&)>& say)
+        : skies_(skies), options_(options), context_(context), say_(say),
+          model_(viewer::load_model(path).model), gpu_(model_) {
         result_.name = path.stem().string();
         result_.vertices = model_->scene.receivers();
         result_.triangles = model_->scene.triangles();
@@ -62,7 +66,8 @@ public:
         say_("ambient occlusion");
         gpu_.set_occlusion(viewer::ambient_occlusion(*model_, {}));
         add_row("baked AO", PictureKind::baked_ao, 1); // eight bits
-        add_transfer();
+        const prt::Transfer split = add_transfer();
+        add_suns_apart(split);
         return std::move(result_);
     }
 
@@ -160,7 +165,8 @@ private:
         add_row(fmt::format("{} (radius {:g})", method, best_radius), kind, 0);
     }
 
-    void add_transfer() {
+    /// As it was baked, in its parts.
+    prt::Transfer add_transfer() {
         say_("bake");
         prt::BakeOptions bake_options;
         bake_options.order = kOrders[std::size(kOrders) - 1];
@@ -168,8 +174,8 @@ private:
         bake_options.bounces = prt::kEndlessBounces;
         bake_options.tracer.backend = prt::Backend::cpu;
         bake_options.repairs.bad_textures = prt::BadTextures::ignore;
-        // All light is in one sky here, suns too.
-        const prt::Transfer raw = prt::as_whole(prt::bake(model_->scene, bake_options).baked.transfer);
+        prt::Transfer split = prt::bake(model_->scene, bake_options).baked.transfer;
+        const prt::Transfer raw = prt::as_whole(split); // all light is in one sky, suns too
         result_.channels = raw.layout.channels();
         for (const int order : kOrders) {
             const prt::Transfer transfer = viewer::truncated(raw, order);
@@ -188,10 +194,60 @@ private:
             add_row(fmt::format("PRT, order 6, {:g} bytes", bytes), PictureKind::prt_compressed,
                     found.result.statistics.bytes_with_bases(result_.vertices));
         }
+        return split;
+    }
+
+    enum class Shadows { map, rays };
+
+    /// Under `sky` without its sun, whose light is added at each pixel.
+    template <class Transfer>
+    prt::Image drawn_with_sun(const Sky& sky, const Transfer& transfer, Shadows shadows) const {
+        prt::Lighting lighting{sky.rest, prt::constant_light(sky.rest.order, glm::vec3(0))};
+        for (const prt::SunDisc& sun : sky.suns)
+            lighting.suns = prt::sum(*lighting.suns, prt::as_light(sun, sky.rest.order));
+        const std::vector<glm::vec3> radiance = prt::exit_radiance(transfer, lighting);
+        prt::Picture picture;
+        picture.scene = &model_->scene;
+        picture.textures = model_->trace->textures();
+        picture.radiance = radiance;
+        picture.suns = sky.suns;
+        picture.textured = false;
+        picture.camera = view_.camera;
+        picture.width = options_.width;
+        picture.height = options_.height;
+        picture.samples = 1;
+        return shadows == Shadows::map ? prt::render_gl(picture, context_)
+                                       : prt::render_rays(picture, *model_->trace, {.sun_rays = 64});
+    }
+
+    template <class Transfer>
+    void add_sun_row(std::string method, double bytes, const Transfer& transfer, Shadows shadows) {
+        say_(method);
+        Row row{.method = std::move(method), .bytes_per_vertex = bytes, .errors = {}, .picture = {}};
+        for (std::size_t i = 0; i < skies_.size(); ++i) {
+            prt::Image picture = drawn_with_sun(skies_[i], transfer, shadows);
+            row.errors.push_back(
+                error_against(picture, references_[i].a, references_[i].b, result_.surfaces));
+            if (i == 0)
+                row.picture = std::move(picture);
+        }
+        result_.rows.push_back(std::move(row));
+    }
+
+    void add_suns_apart(const prt::Transfer& split) {
+        add_sun_row("PRT, order 6, sun by rays", static_cast<double>(split.dimension()) * 2, split,
+                    Shadows::rays);
+        prt::SearchOptions search;
+        search.budget.bytes_per_vertex = 8;
+        const prt::SearchResult found = prt::compress_within(split, model_->areas, model_->edges, search);
+        const double bytes = found.result.statistics.bytes_with_bases(result_.vertices);
+        add_sun_row("PRT, 8 bytes, sun by rays", bytes, found.result.transfer, Shadows::rays);
+        add_sun_row("PRT, 8 bytes, sun by shadow map", bytes, found.result.transfer, Shadows::map);
     }
 
     const std::vector<Sky>& skies_;
     const Options& options_;
+    const prt::GlContext& context_;
     const std::function<void(const std::string&)>& say_;
     std::shared_ptr<const viewer::Model> model_;
     viewer::GpuModel gpu_;
@@ -207,8 +263,10 @@ private:
 
 Sky load_sky(const std::filesystem::path& path) {
     const prt::Environment environment = prt::load_environment(path).environment;
+    constexpr int kOrder = kOrders[std::size(kOrders) - 1];
+    const prt::SunSplit split = prt::find_suns(environment, {.order = kOrder, .count = 1});
     return {path.stem().string(), prt::resampled_lat_long(environment),
-            prt::project(environment, prt::kMaxOrder)};
+            prt::project(environment, prt::kMaxOrder), split.suns, prt::project(split.remainder, kOrder)};
 }
 
 double error_against(const prt::Image& picture, const prt::Image& a, const prt::Image& b,
@@ -225,7 +283,7 @@ double error_against(const prt::Image& picture, const prt::Image& a, const prt::
 
 SceneResult measure(const std::filesystem::path& scene, const std::vector<Sky>& skies, const Options& options,
                     const prt::GlContext& context, const std::function<void(const std::string&)>& say) {
-    SceneResult result = SceneMeasurement(scene, skies, options, say).run();
+    SceneResult result = SceneMeasurement(scene, skies, options, context, say).run();
     result.device = context.renderer();
     return result;
 }

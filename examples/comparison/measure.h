@@ -8,8 +8,10 @@
 #include "prt/environment.h"
 #include "prt/gl_context.h"
 #include "prt/image_file.h"
+#include "prt/sun_disc.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,16 +28,19 @@ struct Sky {
     std::string name;
     prt::Image lat_long;
     prt::Light light; ///< of the highest order
+    /// Its brightest sun apart, where it has one, and what is left without.
+    std::vector<prt::SunDisc> suns = {};
+    prt::Light rest = {}; ///< of order 6
 };
 Sky load_sky(const std::filesystem::path& path);
 
 struct Row {
     std::string method;
     double bytes_per_vertex = 0;
-    std::vector<double> errors;      ///< [skies] relative L2 of exit radiance over the pixels of the scene
-    double frame_milliseconds = 0;   ///< drawing
-    double relight_milliseconds = 0; ///< once per change of the light
-    prt::Image picture;              ///< under the first sky, linear
+    std::vector<double> errors; ///< [skies] relative L2 of exit radiance over the pixels of the scene
+    /// Drawing, and once per change of the light; none where the row is not a frame of the viewer's.
+    std::optional<double> frame_milliseconds = {}, relight_milliseconds = {};
+    prt::Image picture; ///< under the first sky, linear
 };
 
 struct SceneResult {

@@ -21,8 +21,9 @@ constexpr int kTileWidth = 300;
 std::vector<const Row*> shown(const SceneResult& scene) {
     std::vector<const Row*> rows;
     for (const Row& row : scene.rows)
-        for (const std::string_view wanted : {"unshadowed irradiance", "SSAO, with normals", "baked AO",
-                                              "PRT, order 3", "PRT, order 6, 12 bytes"})
+        for (const std::string_view wanted :
+             {"unshadowed irradiance", "SSAO, with normals", "baked AO", "PRT, order 3",
+              "PRT, order 6, 12 bytes", "PRT, 8 bytes, sun by shadow map"})
             if (row.method.starts_with(wanted))
                 rows.push_back(&row);
     return rows;
@@ -122,9 +123,16 @@ std::string explanation(const SceneResult& scene, const Options& options) {
         "are of {}: drawing a frame, and what a change of the light takes once. All methods but "
         "PRT light by three bands "
         "of the environment, as games do. SSAO has 16 samples and the best of five radii for "
-        "each scene. The bake has {} rays, "
-        "endless bounces.\n",
+        "each scene. Rows with a sun by shadow map or by rays have the brightest sun of the sky, where it "
+        "has "
+        "one, taken out of it (`--suns 1`) and added at each pixel: their pictures are those of `prt "
+        "render`, and "
+        "not timed. The bake has {} rays, endless bounces.\n",
         options.width, options.height, options.passes, scene.device, options.bake_rays);
+}
+
+std::string milliseconds(const std::optional<double>& time, int digits) {
+    return time ? fmt::format(" {:.{}f} ms |", *time, digits) : " |";
 }
 
 std::string table(const SceneResult& scene, const std::vector<Sky>& skies) {
@@ -139,7 +147,7 @@ std::string table(const SceneResult& scene, const std::vector<Sky>& skies) {
         table += fmt::format("| {} | {:.4g} |", row.method, row.bytes_per_vertex);
         for (const double error : row.errors)
             table += fmt::format(" {:.2f} % |", 100 * error);
-        table += fmt::format(" {:.1f} ms | {:.3f} ms |\n", row.frame_milliseconds, row.relight_milliseconds);
+        table += milliseconds(row.frame_milliseconds, 1) + milliseconds(row.relight_milliseconds, 3) + "\n";
     }
     table += "\nNoise of a reference:";
     for (std::size_t i = 0; i < skies.size(); ++i)

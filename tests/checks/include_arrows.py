@@ -30,7 +30,7 @@ PARTS = {
     "viewer": ("examples/viewer", "runtime fit image scene render gl shader bake compress",
                "glm fmt CLI nlohmann imgui glfw epoxy meshoptimizer"),
     # It measures the viewer's own pictures.
-    "comparison": ("examples/comparison", "viewer runtime image scene render gl shader bake compress",
+    "comparison": ("examples/comparison", "viewer runtime image scene render gl shader bake compress fit",
                    "glm fmt CLI nlohmann epoxy"),
 }
 # What a folder or file may include although the table forbids it.
