@@ -1,7 +1,7 @@
-// The light of a transfer vector. Define what prt::part_defines gives: PRT_NUMBERS of a vector, PRT_COEFFICIENTS (order²);
-// channels, 1 or 3, of the parts of distant light that are there, PRT_FIRST_CHANNELS and PRT_SECOND_CHANNELS; and
-// PRT_LAMPS with a bit for each that has color, the first 32 in PRT_COLORED_LAMPS. Define PRT_TRANSFER(at, i), number i of
-// the vector at `at`, and PRT_LIGHT(i), color i of prt::light_columns.
+// The light of a transfer vector. Define what prt::part_defines gives: PRT_NUMBERS of a vector, PRT_COEFFICIENTS
+// (order²); channels, 1 or 3, of the parts of distant light that are there, PRT_FIRST_CHANNELS and PRT_SECOND_CHANNELS;
+// and PRT_LAMPS with a bit for each that has color, the first 32 in PRT_COLORED_LAMPS. Define PRT_TRANSFER(at, i),
+// number i of the vector at `at`, and PRT_LIGHT(i), color i of prt::light_columns.
 
 #ifndef PRT_FIRST_CHANNELS
 #define PRT_FIRST_CHANNELS 0

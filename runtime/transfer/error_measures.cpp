@@ -33,10 +33,9 @@ void check_finite(std::span<const float> numbers, const char* what) {
 
 /// Of the same lights, in as many channels as may be.
 bool same_parts(const TransferLayout& a, const TransferLayout& b) {
-    return std::equal(a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
-                      [](const TransferPart& p, const TransferPart& q) {
-                          return p.kind == q.kind && p.name == q.name;
-                      });
+    return std::equal(
+        a.parts.begin(), a.parts.end(), b.parts.begin(), b.parts.end(),
+        [](const TransferPart& p, const TransferPart& q) { return p.kind == q.kind && p.name == q.name; });
 }
 
 /// What every measure of exit radiance is given.

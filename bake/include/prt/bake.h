@@ -107,8 +107,8 @@ struct BakeStatistics {
     double mean_visibility = 0; ///< area-weighted T_0 / Y_00 of the direct light
     /// Estimated relative L2 error of the direct light by sampling, from independent samples.
     double sampling_error = 0;
-    double rounding_error = 0;        ///< relative L2 of storing float16
-    double remaining_energy = 0;      ///< of the bounces that were not done, over the largest transfer
+    double rounding_error = 0;   ///< relative L2 of storing float16
+    double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
     Lamps lamps;
     Gather gather;                    ///< the operator of the bounces
     std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
@@ -129,6 +129,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 
 /// Bytes that a bake takes at most at a time, roughly, but for the operator of its bounces, whose size is
 /// found by tracing some receivers. `numbers`: of a transfer vector, all parts together.
-double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles, std::size_t numbers);
+double estimate_memory(const BakeOptions& options, std::size_t receivers, std::size_t triangles,
+                       std::size_t numbers);
 
 } // namespace prt

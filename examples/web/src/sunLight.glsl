@@ -1,6 +1,7 @@
-// What three's directional lights add to a surface that transfer lights from the sky: Lambertian on the side that shows,
-// diffusely through thin sheets (docs/math.md, eq. 38). Included into the fragment shader of MeshLambertMaterial.
-// Names without prt are three's own. Define PRT_PACKED_SHADOW_MAPS where three packs depths into colors.
+// What three's directional lights add to a surface that transfer lights from the sky: Lambertian on the side that
+// shows, diffusely through thin sheets (docs/math.md, eq. 38). Included into the fragment shader of
+// MeshLambertMaterial. Names without prt are three's own. Define PRT_PACKED_SHADOW_MAPS where three packs depths into
+// colors.
 
 uniform bool prtSunsApart;
 uniform vec4 prtTransmission; // color of what passes a thin sheet, and how much
@@ -9,131 +10,136 @@ centroid in vec3 prtPlace;
 
 #if NUM_DIR_LIGHTS > 0
 
-#if defined( USE_SHADOWMAP ) && NUM_DIR_LIGHT_SHADOWS > 0
+#if defined(USE_SHADOWMAP) && NUM_DIR_LIGHT_SHADOWS > 0
 
-uniform mat4 directionalShadowMatrix[ NUM_DIR_LIGHT_SHADOWS ];
+uniform mat4 directionalShadowMatrix[NUM_DIR_LIGHT_SHADOWS];
 
-#if defined( SHADOWMAP_TYPE_BASIC ) && ! defined( USE_REVERSED_DEPTH_BUFFER )
+#if defined(SHADOWMAP_TYPE_BASIC) && !defined(USE_REVERSED_DEPTH_BUFFER)
 
-// Percentage-closer soft shadows (R. Fernando, SIGGRAPH 2005 sketch): what blocks is looked for in the cone that the sun
-// fills, and the map is filtered over what that cone is as wide as at the mean blocker. Both compare with the plane of
-// the surface, so that a slope does not shadow itself.
+// Percentage-closer soft shadows (R. Fernando, SIGGRAPH 2005 sketch): what blocks is looked for in the cone that the
+// sun fills, and the map is filtered over what that cone is as wide as at the mean blocker. Both compare with the plane
+// of the surface, so that a slope does not shadow itself.
 
 const int kPrtSearch = 24, kPrtTaps = 32;
 const float kPrtSteepest = 50.0; // beyond, a plane that is interpolated from its pixels is not to be trusted
 const float kPrtRadiusAt = 0.1;  // SunLights: shadow.radius is that of a blocker so far off, as a share of the depth
 
-float prtMapDepth( sampler2D map, ivec2 texel ) {
-  vec4 stored = texelFetch( map, clamp( texel, ivec2( 0 ), textureSize( map, 0 ) - 1 ), 0 );
+float prtMapDepth(sampler2D map, ivec2 texel) {
+  vec4 stored = texelFetch(map, clamp(texel, ivec2(0), textureSize(map, 0) - 1), 0);
 #ifdef PRT_PACKED_SHADOW_MAPS
-  return unpackRGBAToDepth( stored );
+  return unpackRGBAToDepth(stored);
 #else
   return stored.r;
 #endif
 }
 
 // Of the plane at the middle of a texel; `slope`: depth for each texel.
-float prtPlaneDepth( vec3 place, vec2 slope, ivec2 texel ) {
-  return place.z + dot( slope, vec2( texel ) + 0.5 - place.xy );
+float prtPlaneDepth(vec3 place, vec2 slope, ivec2 texel) {
+  return place.z + dot(slope, vec2(texel) + 0.5 - place.xy);
 }
 
 // Point i on a spiral (H. Vogel 1979).
-vec2 prtSpiral( int i, float turn ) {
-  float angle = turn + 2.39996323 * float( i );
-  return vec2( cos( angle ), sin( angle ) );
+vec2 prtSpiral(int i, float turn) {
+  float angle = turn + 2.39996323 * float(i);
+  return vec2(cos(angle), sin(angle));
 }
 
-// How far off blockers are on average over the disc of the sun, as a share of the map's depth; negative: there are none.
-// `spread`: texels that the sun's radius is wide for each depth between. Taps are as many for every doubling of the radius:
-// blockers next to the surface are found in the middle, those far off anywhere.
-float prtBlockerDistance( sampler2D map, vec3 place, vec2 slope, float spread, float turn ) {
+// How far off blockers are on average over the disc of the sun, as a share of the map's depth; negative: there are
+// none. `spread`: texels that the sun's radius is wide for each depth between. Taps are as many for every doubling of
+// the radius: blockers next to the surface are found in the middle, those far off anywhere.
+float prtBlockerDistance(sampler2D map, vec3 place, vec2 slope, float spread, float turn) {
   float away = 0.0, found = 0.0;
-  float steps = log2( spread * place.z + 1.5 ) + 1.0; // from half a texel
-  for ( int i = 0; i < kPrtSearch; ++ i ) {
-    float radius = exp2( steps * ( float( i ) + 0.5 ) / float( kPrtSearch ) - 1.0 );
-    ivec2 texelAt = ivec2( floor( place.xy + radius * prtSpiral( i, turn ) ) );
-    float depth = prtMapDepth( map, texelAt );
-    float between = max( place.z - depth, 0.0 );
-    float share = radius / ( spread * between + 1.5 ); // of the sun's radius there
-    if ( share <= 1.0 && depth < prtPlaneDepth( place, slope, texelAt ) ) {
+  float steps = log2(spread * place.z + 1.5) + 1.0; // from half a texel
+  for (int i = 0; i < kPrtSearch; ++i) {
+    float radius = exp2(steps * (float(i) + 0.5) / float(kPrtSearch) - 1.0);
+    ivec2 texelAt = ivec2(floor(place.xy + radius * prtSpiral(i, turn)));
+    float depth = prtMapDepth(map, texelAt);
+    float between = max(place.z - depth, 0.0);
+    float share = radius / (spread * between + 1.5); // of the sun's radius there
+    if (share <= 1.0 && depth < prtPlaneDepth(place, slope, texelAt)) {
       away += share * share * between;
       found += share * share;
     }
   }
-  return found > 0.0 ? away / found : - 1.0;
+  return found > 0.0 ? away / found : -1.0;
 }
 
 // Share of a sun's light that arrives at a place in the world. `face`: unit normal of the triangle, on the lit side.
-float prtVisibility( sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 at, vec3 face ) {
+float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 at, vec3 face) {
   // Rows of the matrix are orthogonal: an orthographic camera's. Texels along the first two, the depth along the third.
-  mat3 axes = transpose( mat3( toMap ) );
-  axes[ 0 ] *= sun.shadowMapSize.x;
-  axes[ 1 ] *= sun.shadowMapSize.y;
-  vec3 squares = vec3( dot( axes[ 0 ], axes[ 0 ] ), dot( axes[ 1 ], axes[ 1 ] ), dot( axes[ 2 ], axes[ 2 ] ) );
+  mat3 axes = transpose(mat3(toMap));
+  axes[0] *= sun.shadowMapSize.x;
+  axes[1] *= sun.shadowMapSize.y;
+  vec3 squares = vec3(dot(axes[0], axes[0]), dot(axes[1], axes[1]), dot(axes[2], axes[2]));
   // A texel off the surface: in a corner what is nearer to it than a texel does not see the other wall in the map.
-  vec3 place = ( toMap * vec4( at + face * inversesqrt( squares.x ), 1.0 ) ).xyz;
-  if ( any( lessThan( place, vec3( 0.0 ) ) ) || any( greaterThan( place, vec3( 1.0 ) ) ) ) return 1.0;
+  vec3 place = (toMap * vec4(at + face * inversesqrt(squares.x), 1.0)).xyz;
+  if (any(lessThan(place, vec3(0.0))) || any(greaterThan(place, vec3(1.0))))
+    return 1.0;
   place.xy *= sun.shadowMapSize;
   vec3 n = face * axes / squares;
-  vec2 slope = - n.xy / ( n.z < 0.0 ? min( n.z, -1e-12 ) : max( n.z, 1e-12 ) );
-  slope *= min( 1.0, kPrtSteepest * sqrt( squares.z / squares.x ) / max( length( slope ), 1e-12 ) );
+  vec2 slope = -n.xy / (n.z < 0.0 ? min(n.z, -1e-12) : max(n.z, 1e-12));
+  slope *= min(1.0, kPrtSteepest * sqrt(squares.z / squares.x) / max(length(slope), 1e-12));
 
   // Patterns of neighbouring pixels are turned against each other (J. Jimenez, SIGGRAPH 2014 course).
-  float turn = 6.2831853 * fract( 52.9829189 * fract( dot( gl_FragCoord.xy, vec2( 0.06711056, 0.00583715 ) ) ) );
+  float turn = 6.2831853 * fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
   float spread = sun.shadowRadius / kPrtRadiusAt; // texels for each depth between
-  float away = prtBlockerDistance( map, place, slope, spread, turn );
-  if ( away < 0.0 ) return 1.0;
-  float width = spread * away, radius = max( width, 1.0 );
+  float away = prtBlockerDistance(map, place, slope, spread, turn);
+  if (away < 0.0)
+    return 1.0;
+  float width = spread * away, radius = max(width, 1.0);
   float open = 0.0;
-  for ( int i = 0; i < kPrtTaps; ++ i ) {
-    float share = sqrt( ( float( i ) + 0.5 ) / float( kPrtTaps ) ); // even over the disc
-    ivec2 texelAt = ivec2( floor( place.xy + radius * share * prtSpiral( i, turn ) ) );
-    open += step( prtPlaneDepth( place, slope, texelAt ), prtMapDepth( map, texelAt ) );
+  for (int i = 0; i < kPrtTaps; ++i) {
+    float share = sqrt((float(i) + 0.5) / float(kPrtTaps)); // even over the disc
+    ivec2 texelAt = ivec2(floor(place.xy + radius * share * prtSpiral(i, turn)));
+    open += step(prtPlaneDepth(place, slope, texelAt), prtMapDepth(map, texelAt));
   }
-  open /= float( kPrtTaps );
+  open /= float(kPrtTaps);
   // A penumbra within a texel is not resolved. In a corner half of the taps are beyond the other wall: none is open.
-  open = mix( max( 2.0 * open - 1.0, 0.0 ), open, clamp( width - 1.0, 0.0, 1.0 ) );
-  return mix( 1.0, open, sun.shadowIntensity );
+  open = mix(max(2.0 * open - 1.0, 0.0), open, clamp(width - 1.0, 0.0, 1.0));
+  return mix(1.0, open, sun.shadowIntensity);
 }
 
-#define PRT_VISIBILITY( i ) prtVisibility( directionalShadowMap[ i ], directionalShadowMatrix[ i ], \
-  directionalLightShadows[ i ], prtPlace, towardsSun * worldFace )
+#define PRT_VISIBILITY(i)                                                                                              \
+  prtVisibility(directionalShadowMap[i], directionalShadowMatrix[i], directionalLightShadows[i], prtPlace,             \
+                towardsSun* worldFace)
 
 #else
 
 // Other types of shadow maps: three's own filter.
-#define PRT_VISIBILITY( i ) getShadow( directionalShadowMap[ i ], directionalLightShadows[ i ].shadowMapSize, \
-  directionalLightShadows[ i ].shadowIntensity, directionalLightShadows[ i ].shadowBias, \
-  directionalLightShadows[ i ].shadowRadius, directionalShadowMatrix[ i ] * \
-  vec4( prtPlace + directionalLightShadows[ i ].shadowNormalBias * towardsSun * worldFace, 1.0 ) )
+#define PRT_VISIBILITY(i)                                                                                              \
+  getShadow(directionalShadowMap[i], directionalLightShadows[i].shadowMapSize,                                         \
+            directionalLightShadows[i].shadowIntensity, directionalLightShadows[i].shadowBias,                         \
+            directionalLightShadows[i].shadowRadius,                                                                   \
+            directionalShadowMatrix[i] *                                                                               \
+                vec4(prtPlace + directionalLightShadows[i].shadowNormalBias * towardsSun * worldFace, 1.0))
 
 #endif
 #endif
 
 // `normal`: unit, in the view's axes, on the side that shows.
-vec3 prtSunRadiance( vec3 base, vec3 normal ) {
-  vec3 face = normalize( cross( dFdx( vViewPosition ), dFdy( vViewPosition ) ) );
-  vec3 facing = dot( normal, normal ) > 0.5 ? normal : face; // not where a vertex has none
-  vec3 worldFace = face * mat3( viewMatrix );
-  vec3 reflected = base * ( 1.0 - prtTransmission.a ), transmitted = prtTransmission.rgb * prtTransmission.a;
-  vec3 sum = vec3( 0.0 );
+vec3 prtSunRadiance(vec3 base, vec3 normal) {
+  vec3 face = normalize(cross(dFdx(vViewPosition), dFdy(vViewPosition)));
+  vec3 facing = dot(normal, normal) > 0.5 ? normal : face; // not where a vertex has none
+  vec3 worldFace = face * mat3(viewMatrix);
+  vec3 reflected = base * (1.0 - prtTransmission.a), transmitted = prtTransmission.rgb * prtTransmission.a;
+  vec3 sum = vec3(0.0);
   float cosine, towardsSun, visible;
   vec3 share;
-  #pragma unroll_loop_start
-  for ( int i = 0; i < NUM_DIR_LIGHTS; i ++ ) {
+#pragma unroll_loop_start
+  for (int i = 0; i < NUM_DIR_LIGHTS; i++) {
 
-    cosine = dot( facing, directionalLights[ i ].direction );
-    towardsSun = sign( dot( face, directionalLights[ i ].direction ) );
+    cosine = dot(facing, directionalLights[i].direction);
+    towardsSun = sign(dot(face, directionalLights[i].direction));
     share = cosine > 0.0 ? reflected : transmitted;
     // On a side that the triangle turns away from the sun it shadows itself.
-    visible = cosine * towardsSun > 0.0 && share != vec3( 0.0 ) ? 1.0 : 0.0;
-    #if defined( USE_SHADOWMAP ) && ( UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS )
-    if ( visible > 0.0 && receiveShadow ) visible = PRT_VISIBILITY( UNROLLED_LOOP_INDEX );
-    #endif
-    sum += directionalLights[ i ].color * share * ( RECIPROCAL_PI * abs( cosine ) * visible );
-
+    visible = cosine * towardsSun > 0.0 && share != vec3(0.0) ? 1.0 : 0.0;
+#if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
+    if (visible > 0.0 && receiveShadow)
+      visible = PRT_VISIBILITY(UNROLLED_LOOP_INDEX);
+#endif
+    sum += directionalLights[i].color * share * (RECIPROCAL_PI * abs(cosine) * visible);
   }
-  #pragma unroll_loop_end
+#pragma unroll_loop_end
   return sum;
 }
 

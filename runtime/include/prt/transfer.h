@@ -56,8 +56,8 @@ Transfer as_whole(const Transfer& transfer, int threads = 0);
 /// The same of one vector [layout.dimension()].
 std::vector<float> as_whole(std::span<const float> transfer, const TransferLayout& layout);
 
-/// Area-weighted mean of the sum of T_0 / Y_00 over the parts but lamps, each the mean over its channels: the share of
-/// a uniform sky's light that arrives.
+/// Area-weighted mean of the sum of T_0 / Y_00 over the parts but lamps, each the mean over its channels: the
+/// share of a uniform sky's light that arrives.
 double mean_visibility(const Transfer& transfer, std::span<const float> areas);
 
 } // namespace prt

@@ -121,8 +121,7 @@ glm::vec3 transformed_normal(const glm::vec3& normal, const glm::dmat4& matrix) 
 
 class SceneExtractor {
 public:
-    explicit SceneExtractor(const GltfContents& contents)
-        : contents_(contents), model_(contents.model) {
+    explicit SceneExtractor(const GltfContents& contents) : contents_(contents), model_(contents.model) {
         for (std::size_t i = 0; i < contents.images.size(); ++i) {
             const tinygltf::Image& image = model_.images[i];
             const std::string name = !image.uri.empty() ? image.uri : image.name;

@@ -55,8 +55,7 @@ glm::vec3 color_of(const Json& light) {
 void read_cone(const Json& light, PunctualLight& to) {
     const Json spot = light.value("spot", Json::object());
     const double inner = number(spot, "innerConeAngle", 0, 0, std::numbers::pi / 2),
-                 outer =
-                     number(spot, "outerConeAngle", std::numbers::pi / 4, 0, std::numbers::pi / 2 + 1e-6);
+                 outer = number(spot, "outerConeAngle", std::numbers::pi / 4, 0, std::numbers::pi / 2 + 1e-6);
     if (!(inner < outer))
         throw Error("its inner cone is not within the outer one");
     to.inner_cone = static_cast<float>(inner);
@@ -67,8 +66,7 @@ PunctualLight read_light(const Json& light) {
     PunctualLight result;
     result.name = light.value("name", "");
     result.kind = kind_of(light.at("type").get<std::string>());
-    result.intensity =
-        color_of(light) * static_cast<float>(number(light, "intensity", 1, 0, kMostIntensity));
+    result.intensity = color_of(light) * static_cast<float>(number(light, "intensity", 1, 0, kMostIntensity));
     if (light.contains("range")) // 0 would be a light that shines nowhere
         result.range = static_cast<float>(number(light, "range", 0, 1e-30, 1e30));
     if (result.kind == PunctualKind::spot)
@@ -107,8 +105,7 @@ std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::
             light.name = node.value("name", "").empty() ? light.name : node.value("name", "");
             if (light.name.empty())
                 light.name = numbered;
-            const glm::dvec3 along = -glm::dvec3(transform.world[2]),
-                             place = glm::dvec3(transform.world[3]);
+            const glm::dvec3 along = -glm::dvec3(transform.world[2]), place = glm::dvec3(transform.world[3]);
             const double length = glm::length(along);
             if (!(length > 0 && std::isfinite(length)))
                 throw Error("its node has no direction");

@@ -15,7 +15,7 @@ inline constexpr double kMostIntensity = 1e9;
 
 /// The lights of all visible nodes, in the order of the nodes; positions are seen from `origin`. Throws
 /// `Error` for what the extension does not allow.
-std::vector<PunctualLight> read_lights(const GltfContents& contents,
-                                       const std::vector<NodeTransform>& nodes, const glm::dvec3& origin);
+std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::vector<NodeTransform>& nodes,
+                                       const glm::dvec3& origin);
 
 } // namespace prt
