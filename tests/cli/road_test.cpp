@@ -489,6 +489,9 @@ struct LampScene {
     const char *name, *group;
     int lights, lamps; ///< besides the group windows that are lit; bulbs and a sign
 };
+void PrintTo(const LampScene& scene, std::ostream* to) {
+    *to << scene.name;
+}
 class LampRoad : public Road, public testing::WithParamInterface<LampScene> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, LampRoad,
                          testing::Values(LampScene{"courtyard", "Lanterns=Lantern*", 8, 2},
