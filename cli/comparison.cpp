@@ -72,6 +72,8 @@ std::string place_of(const Scene& scene, std::uint32_t receiver) {
 std::string about_lights(const Evaluation& evaluation) {
     const bool apart = std::any_of(evaluation.named.begin(), evaluation.named.end(),
                                    [](const NamedError& e) { return e.suns > 0; });
+    const bool lamps = std::any_of(evaluation.standard.begin(), evaluation.standard.end(),
+                                   [](const NamedError& e) { return e.judged; });
     return "lit_rms: relative L2 of exit radiance for albedo 1. lit_max and 99.9 %: the largest error of a "
            "receiver, and that which 99.9 % stay below. Darker half: relative L2 of the half of the area "
            "where the radiance is least. Seam: the largest jump of the error along an edge between two "
@@ -82,7 +84,11 @@ std::string about_lights(const Evaluation& evaluation) {
            evaluation.worst_sun + ". Random white: every coefficient alike; over the root mean square of R." +
            (apart ? " Suns apart: transfer without the direct light of suns, which renderers add with sharp "
                     "shadows; over the radiance under the whole light. The verdict goes by these."
-                  : "");
+                  : "") +
+           (lamps
+                ? " Lamps: all of the scene as bright as they are there, without a sky; under skies they are "
+                  "off."
+                : "");
 }
 
 Table lights_table(const Evaluation& evaluation, const Scene& scene) {
@@ -147,12 +153,13 @@ public:
             add_named(light, evaluation);
             if (shipped_.clusters)
                 shares.add(*shipped_.clusters, areas_, wanted_under(judged(light)),
-                           shipped_.radiance(judged(light), a_.threads));
+                           shipped_under(judged(light)));
         }
         add_worst_sun(evaluation);
         // Half of what random light gives is negative, and the mean of no use to divide by.
         const Lighting random{random_white_light(reference().layout.order)};
         const double square = lit_scale(wanted_under(random), areas_).mean_square;
+        add_lamps(evaluation);
         evaluation.standard.push_back(
             {"random white", error_under(random, LitScale{square, std::sqrt(square / 3)})});
         if (model_.compressed)
@@ -182,17 +189,18 @@ public:
         Verdict v;
         std::size_t lights = 0;
         bool apart = false;
-        for (const auto& [name, error, suns, judged] : evaluation.named) {
-            if (!judged)
-                continue;
-            ++lights;
-            apart = apart || suns > 0;
-            v.under = name;
-            v.lit_rms = std::max(v.lit_rms, error.rms);
-            v.seam_99 = std::max(v.seam_99, error.crossing.percentile_99);
-            if (error.crossing.edges > 0)
-                v.seam = std::max(v.seam.value_or(0), error.crossing.max);
-        }
+        for (const auto* rows : {&evaluation.named, &evaluation.standard})
+            for (const auto& [name, error, suns, judged] : *rows) {
+                if (!judged)
+                    continue;
+                ++lights;
+                apart = apart || suns > 0;
+                v.under = name;
+                v.lit_rms = std::max(v.lit_rms, error.rms);
+                v.seam_99 = std::max(v.seam_99, error.crossing.percentile_99);
+                if (error.crossing.edges > 0)
+                    v.seam = std::max(v.seam.value_or(0), error.crossing.max);
+            }
         if (lights > 1)
             v.under = fmt::format("these {} lights{}", lights, apart ? ", suns apart" : "");
         if (model_.compressed)
@@ -219,8 +227,8 @@ public:
             report.pictures.push_back({std::move(title), picture(scene, colors, by, exposed)});
         };
         add("Before: the bake, under " + light.sky.name, before, exposure, suns);
-        add("After: as shipped", shipped_.radiance(drawn, a_.threads), exposure, suns);
-        const auto wanted = wanted_under(lighting), lit = shipped_.radiance(lighting, a_.threads);
+        add("After: as shipped", shipped_under(drawn), exposure, suns);
+        const auto wanted = wanted_under(lighting), lit = shipped_under(lighting);
         add(fmt::format("Error (white: {:.0f} % of the mean radiance)", 100 * kWhiteError),
             error_colors(wanted, lit, areas_), 1);
         if (model_.compressed)
@@ -238,12 +246,31 @@ private:
     Lighting judged(const SplitLight& light) const {
         return suns_apart(light) ? lighting_of(light) : Lighting{light.whole};
     }
+    /// Lamps are off unless the lighting says how bright they are.
+    Lighting with_lamps(Lighting lighting) const {
+        if (lighting.lamps.empty())
+            lighting.lamps.assign(reference().layout.lamps(), glm::vec3(0));
+        return lighting;
+    }
     std::vector<glm::vec3> wanted_under(const Lighting& lighting) const {
-        return exit_radiance(reference(), lighting, a_.threads);
+        return exit_radiance(reference(), with_lamps(lighting), a_.threads);
+    }
+    std::vector<glm::vec3> shipped_under(const Lighting& lighting) const {
+        return shipped_.radiance(with_lamps(lighting), a_.threads);
     }
     LitError error_under(const Lighting& lighting, const std::optional<LitScale>& scale = {}) const {
-        return lit_error(wanted_under(lighting), shipped_.radiance(lighting, a_.threads), areas_, edges_,
-                         shipped_.clusters, scale);
+        return lit_error(wanted_under(lighting), shipped_under(lighting), areas_, edges_, shipped_.clusters,
+                         scale);
+    }
+
+    /// All lamps of the scene as bright as they are there, without a sky.
+    void add_lamps(Evaluation& evaluation) const {
+        const std::size_t lamps = reference().layout.lamps();
+        if (lamps == 0)
+            return;
+        const Lighting on{.sky = constant_light(reference().layout.order, glm::vec3(0)),
+                          .lamps = std::vector<glm::vec3>(lamps, glm::vec3(1))};
+        evaluation.standard.push_back({"lamps", error_under(on), 0, true});
     }
 
     /// With its suns apart errors are over what the whole light gives, since suns are in the picture.

@@ -222,7 +222,7 @@ TEST(Lamps, FillAClosedRoomByAllBounces) {
         normal = -normal;
     ball.materials[0].emission.radiance = glm::vec3(3);
     BakeOptions options = lamp_options(kEndlessBounces);
-    options.rays = 1024;
+    options.rays = options.lamps.rays = 1024;
     const Transfer transfer = bake(ball, options).baked.transfer;
     ASSERT_EQ(transfer.layout.parts.size(), 1u); // no sky comes in
     EXPECT_EQ(transfer.layout.parts[0].kind, PartKind::lamp);
@@ -230,11 +230,12 @@ TEST(Lamps, FillAClosedRoomByAllBounces) {
     const auto lit = exit_radiance(transfer, constant_light(2, glm::vec3(1)));
     const std::vector<float> areas = receiver_areas(ball);
     // Faces lean up to 5.3 degrees away from the plane of a vertex, and nothing comes from between: the share
-    // sin² of the light, 0.85 %, is missing before each bounce.
+    // sin² of the light, 0.85 %, is missing before each bounce: 5.9 are left at least. Samples of 6 cos have
+    // a standard deviation of 1.73: 0.054 over 1024 that were not spread evenly.
     for (std::size_t p = 0; p < lit.size(); ++p)
         if (areas[p] > 0) {
-            EXPECT_LT(lit[p].x, 6 + 1e-3f) << p;
-            EXPECT_GT(lit[p].x, 5.9f) << p;
+            EXPECT_LT(lit[p].x, 6.06f) << p;
+            EXPECT_GT(lit[p].x, 5.84f) << p;
         }
 }
 

@@ -24,9 +24,11 @@ const Json* punctual_of(const Json& object) {
 double number(const Json& light, const char* key, double otherwise, double least, double most) {
     if (!light.contains(key))
         return otherwise;
-    const double value = light[key].get<double>();
+    const double value = light[key].is_number() ? light[key].get<double>() : NAN;
     if (!(value >= least && value <= most))
-        throw Error(std::string(key) + " is " + light[key].dump() + ", not within what can be");
+        throw Error(std::string(key) + " is " +
+                    light[key].dump(-1, ' ', true, Json::error_handler_t::replace) +
+                    ", not within what can be");
     return value;
 }
 

@@ -69,7 +69,8 @@ TEST(PunctualLights, StandWhereTheirNodesStand) {
 }
 
 TEST(PunctualLights, HaveTheDefaultsOfTheExtension) {
-    const Scene scene = scene_with_lights(with_light({{"type", "spot"}, {"name", "its own"}}));
+    const Scene scene =
+        scene_with_lights(with_light({{"type", "spot"}, {"name", "its own"}, {"spot", Json::object()}}));
     const PunctualLight& light = scene.lights.at(0);
     EXPECT_EQ(light.name, "its own");
     EXPECT_EQ(light.intensity, glm::vec3(1));
