@@ -145,7 +145,9 @@ CompressResult compress(const Transfer& transfer, std::span<const float> areas, 
     check_input(transfer, areas, edges, options);
     const Stopwatch stopwatch;
     const Task task{transfer, options, significance_of(areas),
-                    options.metric ? *options.metric : natural_metric(transfer.layout)};
+                    options.metric
+                        ? *options.metric
+                        : balanced(natural_metric(transfer.layout), transfer, areas, options.threads)};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;
     FoundClusters found = find_clusters(task, progress.part(0, 0.7));

@@ -137,7 +137,7 @@ void resolve(const CLI::App& command, CompressArguments& a) {
 void add_lighting(const CompressArguments& a, const Path& path, const TransferLayout& layout,
                   std::vector<Lighting>& lights) {
     const int threads = a.options.compress.threads;
-    if (layout.parts.size() < 2) {
+    if (layout.parts.size() - layout.lamps() < 2) {
         lights.push_back({load_light(path, layout.order, a.light_options, threads).light});
         return;
     }
@@ -148,14 +148,17 @@ void add_lighting(const CompressArguments& a, const Path& path, const TransferLa
         lights.push_back({light.sky.light, suns});
 }
 
-LightMetric chosen_metric(const CompressArguments& a, const Transfer& transfer) {
+LightMetric chosen_metric(const CompressArguments& a, const Transfer& transfer,
+                          std::span<const float> areas) {
+    if (a.lights.empty() && a.metric == MetricChoice::plain)
+        return plain_metric(transfer.layout);
+    const int threads = a.options.compress.threads;
     if (a.lights.empty())
-        return a.metric == MetricChoice::plain ? plain_metric(transfer.layout)
-                                               : natural_metric(transfer.layout);
+        return balanced(natural_metric(transfer.layout), transfer, areas, threads);
     std::vector<Lighting> lights;
     for (const Path& path : a.lights)
         add_lighting(a, path, transfer.layout, lights);
-    return metric_of_lights(lights, transfer.layout);
+    return balanced(metric_of_lights(lights, transfer.layout), transfer, areas, threads);
 }
 
 /// "error 0.012, 5.1 bytes per vertex, 6.2 shader operations"
@@ -303,7 +306,7 @@ void run(CompressArguments a, Session& session) {
         model.baked->transfer = as_whole(model.baked->transfer, a.options.compress.threads);
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
-    options.compress.metric = chosen_metric(a, transfer);
+    options.compress.metric = chosen_metric(a, transfer, receiver_areas(model.scene));
     if (a.components_given && options.compress.coding.components > static_cast<int>(transfer.dimension()))
         throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
                                 transfer.dimension(), options.compress.coding.components));

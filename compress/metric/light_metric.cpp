@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace prt {
 namespace {
@@ -179,6 +180,37 @@ LightMetric metric_of_lights(std::span<const Light> lights, const TransferLayout
     for (const Light& light : lights)
         skies.push_back({light});
     return metric_of_lights(skies, layout);
+}
+
+LightMetric balanced(LightMetric metric, const Transfer& transfer, std::span<const float> areas,
+                     int threads) {
+    const auto of_lamps = static_cast<Eigen::Index>(numbers_of_lamps(metric.layout));
+    const Eigen::Index n = dimension_of(metric.layout), of_sky = n - of_lamps;
+    if (of_lamps == 0 || of_sky == 0)
+        return metric;
+    constexpr std::size_t kGrain = 1024;
+    const std::size_t blocks = (transfer.receivers() + kGrain - 1) / kGrain;
+    std::vector<double> sky(blocks, 0), lamps(blocks, 0);
+    const Eigen::Map<Matrix> moments = matrix_of(metric);
+    parallel_for(transfer.receivers(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+        const auto count = static_cast<Eigen::Index>(end - begin);
+        const Matrix t =
+            Eigen::Map<const Eigen::MatrixXf>(transfer.vector(begin).data(), n, count).cast<double>();
+        const auto cost = [&](const auto& part, const auto& of_part, Eigen::Index p) {
+            return part.col(p).dot(of_part * part.col(p));
+        };
+        for (Eigen::Index p = 0; p < count; ++p) {
+            const auto area = static_cast<double>(areas[begin + static_cast<std::size_t>(p)]);
+            sky[begin / kGrain] += area * cost(t.topRows(of_sky), moments.topLeftCorner(of_sky, of_sky), p);
+            lamps[begin / kGrain] +=
+                area * cost(t.bottomRows(of_lamps), moments.bottomRightCorner(of_lamps, of_lamps), p);
+        }
+    });
+    const double all_sky = std::accumulate(sky.begin(), sky.end(), 0.0),
+                 all_lamps = std::accumulate(lamps.begin(), lamps.end(), 0.0);
+    if (all_sky > 0 && all_lamps > 0)
+        matrix_of(metric).bottomRightCorner(of_lamps, of_lamps) *= all_sky / all_lamps;
+    return metric;
 }
 
 double expected_lit_rms(const Transfer& reference, const Transfer& approximation,

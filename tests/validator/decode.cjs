@@ -210,12 +210,13 @@ function byColor(vector) {
 function costs(vector) {
   let squares = 0;
   let lit = 0;
+  let byLamps = 0;
   for (const of of byColor(vector))
     parts.forEach((a, p) =>
       of[p].forEach((value, i) => {
         squares += value ** 2;
         if (a.kind === "lamp") {
-          lit += value ** 2; // as it is, by itself
+          byLamps += value ** 2; // as it is, by itself
           return;
         }
         parts.forEach((b, q) => {
@@ -223,20 +224,26 @@ function costs(vector) {
         });
       }),
     );
-  return [squares, lit];
+  return [squares, lit, byLamps];
 }
 
-const sums = { error: 0, norm: 0, litError: 0, litNorm: 0 };
+const sums = { error: 0, norm: 0, litError: 0, litNorm: 0, lampError: 0, lampNorm: 0 };
 baked.primitives().forEach((primitive, i) => {
   const weights = areas(baked, primitive);
   const decoded = decodedVectors(shipped, shipped.primitives()[i]);
   rawVectors(baked, primitive).forEach((vector, p) => {
-    const [error, litError] = costs(vector.map((value, k) => value - decoded[p][k]));
-    const [norm, litNorm] = costs(vector);
+    const [error, litError, lampError] = costs(vector.map((value, k) => value - decoded[p][k]));
+    const [norm, litNorm, lampNorm] = costs(vector);
     sums.error += weights[p] * error;
     sums.norm += weights[p] * norm;
     sums.litError += weights[p] * litError;
     sums.litNorm += weights[p] * litNorm;
+    sums.lampError += weights[p] * lampError;
+    sums.lampNorm += weights[p] * lampNorm;
   });
 });
+// All lamps together cost as much as the sky, where both give something.
+const scale = sums.litNorm > 0 && sums.lampNorm > 0 ? sums.litNorm / sums.lampNorm : 1;
+sums.litError += scale * sums.lampError;
+sums.litNorm += scale * sums.lampNorm;
 console.log(Math.sqrt(sums.error / sums.norm), Math.sqrt(sums.litError / sums.litNorm));

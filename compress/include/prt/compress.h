@@ -67,7 +67,7 @@ struct CompressOptions {
     /// Packed weights: bases count in the size, so that clusters leave out directions which take more than
     /// they give.
     bool bases_count = false;
-    /// What an error costs; nothing: `natural_metric`.
+    /// What an error costs; nothing: `natural_metric`, `balanced`.
     std::optional<LightMetric> metric = {};
     /// mu of docs/math.md, eq. 28: what a jump of the error along a mesh edge costs, in units of the error
     /// itself.

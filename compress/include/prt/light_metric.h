@@ -33,6 +33,12 @@ LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLay
 /// All light in one sky each.
 LightMetric metric_of_lights(std::span<const Light> lights, const TransferLayout& layout);
 
+/// Weighs lamps so that all of them together, as they stand to each other, cost as much as distant light does
+/// on `transfer`: an error counts alike by day and by night, however bright lamps are beside a sky. Where
+/// either gives nothing all stays as it is.
+LightMetric balanced(LightMetric metric, const Transfer& transfer, std::span<const float> areas,
+                     int threads = 0);
+
 /// sqrt( E sum_p a_p |R_p - R'_p|² / E sum_p a_p |R_p|² ), the expectation over the lightings of `metric`:
 /// the `lit_rms` of all of them at once. Throws `Error` when layouts or numbers of receivers differ.
 double expected_lit_rms(const Transfer& reference, const Transfer& approximation,

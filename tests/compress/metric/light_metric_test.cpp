@@ -147,6 +147,35 @@ TEST(MetricOfParts, OfLampsIsTheMeanOverTheirStrengths) {
     EXPECT_NEAR(found, sums.rms(), 0.02 * found); // 4000 lights: 1 to 2 %
 }
 
+/// However bright lamps are: to lose them all is half of all there is, and so is to lose the sky.
+TEST(MetricOfParts, BalancedCountsLampsTogetherAsMuchAsTheSky) {
+    const TransferLayout layout{
+        3,
+        {{PartKind::direct, 1}, {PartKind::indirect, 3}, {PartKind::lamp, 1, "a"}, {PartKind::lamp, 3, "b"}}};
+    const std::size_t of_sky = 36, of_a = 1;
+    const std::vector<float> areas = {1, 2, 0, 4, 5};
+    for (const float bright : {1e-3f, 1.0f, 1e3f}) {
+        Transfer transfer = random_transfer(5, layout, 15);
+        for (std::size_t p = 0; p < 5; ++p)
+            for (float& v : transfer.vector(p).subspan(of_sky))
+                v *= bright;
+        Transfer without_lamps = transfer, without_sky = transfer, without_a = transfer;
+        for (std::size_t p = 0; p < 5; ++p) {
+            std::ranges::fill(without_lamps.vector(p).subspan(of_sky), 0.0f);
+            std::ranges::fill(without_sky.vector(p).first(of_sky), 0.0f);
+            std::ranges::fill(without_a.vector(p).subspan(of_sky, of_a), 0.0f);
+        }
+        const LightMetric plain = natural_metric(layout), metric = balanced(plain, transfer, areas);
+        EXPECT_NEAR(expected_lit_rms(transfer, without_lamps, areas, metric), std::sqrt(0.5), 1e-6);
+        EXPECT_NEAR(expected_lit_rms(transfer, without_sky, areas, metric), std::sqrt(0.5), 1e-6);
+        // Among themselves they count as before.
+        EXPECT_NEAR(expected_lit_rms(transfer, without_a, areas, metric) * std::sqrt(2),
+                    expected_lit_rms(transfer, without_a, areas, plain) /
+                        expected_lit_rms(transfer, without_lamps, areas, plain),
+                    1e-6);
+    }
+}
+
 TEST(MetricOfParts, PlainCountsAGreyPartForEachColor) {
     const TransferLayout layout{2, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
     Transfer a = zero_transfer(layout, 5), b = a;
