@@ -117,25 +117,45 @@ Transfer all_in_one(const std::vector<Transfer>& colors) {
     return all;
 }
 
+/// A lamp in a closed room whose walls reflect all of its light would fill it without end; what the solver
+/// then gives means nothing.
+void check_has_an_end(const Propagated& lit) {
+    float least = 0, most = 0;
+    for (const float v : lit.transfer.vectors) {
+        least = std::min(least, v);
+        most = std::max(most, v);
+    }
+    if (!lit.converged || least < -1e-2f * most)
+        throw Error(
+            "the light of lamps has no end: walls of a closed room reflect all of it (a base color of "
+            "1); make them darker, or give a number of bounces");
+}
+
 /// Exit light of lamps, with all bounces, from what they give without: of the scene's receivers.
-Transfer propagate_lamps(const BakePlan& plan, Transfer light, const TransportOperators& operators,
-                         const Progress& progress) {
+Propagated propagate_lamps(const BakePlan& plan, Transfer light, const TransportOperators& operators,
+                           const Progress& progress) {
     if (plan.channels == 1 && light.layout.channels() == 3) {
         std::vector<Transfer> colors = one_by_one(light);
-        for (Transfer& color : colors)
-            color = propagate_lamps(plan, std::move(color), operators, progress);
-        return all_in_one(colors);
+        Propagated all;
+        for (Transfer& color : colors) {
+            Propagated one = propagate_lamps(plan, std::move(color), operators, progress);
+            color = std::move(one.transfer);
+            all.bounces = std::max(all.bounces, one.bounces);
+            all.remaining = std::max(all.remaining, one.remaining);
+        }
+        all.transfer = all_in_one(colors);
+        return all;
     }
     Transfer unbounced;
     if (plan.options.lamps.mode == LampMode::indirect) {
         unbounced = exit_without_bounces(plan, light, operators.refill);
         leave_back_sides(plan, unbounced);
     }
-    Transfer exit =
-        propagate(std::move(light), operators, plan.bounces, plan.options.threads, progress).transfer;
-    leave_back_sides(plan, exit);
+    Propagated exit = propagate(std::move(light), operators, plan.bounces, plan.options.threads, progress);
+    leave_back_sides(plan, exit.transfer);
+    check_has_an_end(exit);
     for (std::size_t i = 0; i < unbounced.vectors.size(); ++i)
-        exit.vectors[i] -= unbounced.vectors[i];
+        exit.transfer.vectors[i] -= unbounced.vectors[i];
     return exit;
 }
 
@@ -166,10 +186,12 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
                                        direct.gather ? &*direct.gather : nullptr};
     Propagated exit =
         propagate_all(plan, std::move(direct.transfer), operators, progress.part(traced_sky, 1));
-    if (!plan.lamps.empty())
-        exit.transfer =
-            with_lamps(exit.transfer, propagate_lamps(plan, std::move(lamps), operators, progress.part(1, 1)),
-                       plan.lamps);
+    if (!plan.lamps.empty()) {
+        const Propagated lit = propagate_lamps(plan, std::move(lamps), operators, progress.part(1, 1));
+        exit.transfer = with_lamps(exit.transfer, lit.transfer, plan.lamps);
+        exit.bounces = std::max(exit.bounces, lit.bounces);
+        exit.remaining = std::max(exit.remaining, lit.remaining);
+    }
     seconds.transport = transport.seconds();
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit));

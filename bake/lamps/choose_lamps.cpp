@@ -31,6 +31,9 @@ public:
         if (is_new)
             lamps_.push_back({name, {}, {}, {}});
         Lamp& lamp = lamps_[at->second];
+        if (!is_new && grouped == lamp.members.empty())
+            throw Error(fmt::format("a lamp outside of group '{}' has that name: give the group another",
+                                    printable(name)));
         if (grouped && std::find(lamp.members.begin(), lamp.members.end(), own) == lamp.members.end())
             lamp.members.push_back(own);
         return lamp;

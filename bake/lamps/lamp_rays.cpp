@@ -160,8 +160,12 @@ ShiningTriangles::ShiningTriangles(const TraceScene& scene, const Lamp& lamp) : 
         const glm::dvec3 a(vertices.positions[corners.x]), b(vertices.positions[corners.y]),
             c(vertices.positions[corners.z]);
         const double area = 0.5 * glm::length(glm::cross(b - a, c - a));
-        // A texel as large as the triangle, at its middle, is the mean or near to it: it only steers.
-        const glm::vec3 mean = surfaces.emission({t, glm::vec2(1.0f / 3), static_cast<float>(area)});
+        // A texel as large as the triangle, at its middle, is the mean or near to it: it only steers. Where
+        // one of four times that is black, all is.
+        const SurfacePoint middle{t, glm::vec2(1.0f / 3), static_cast<float>(area)};
+        const glm::vec3 mean = surfaces.emission(middle);
+        if (mean == glm::vec3(0) && surfaces.emission({t, middle.uv, 4 * middle.footprint}) == glm::vec3(0))
+            continue;
         // What is dark at its middle may shine elsewhere.
         const double least = 0.05 * luminance(glm::dvec3(surfaces.material(t).emission.radiance));
         if (area > 0)
@@ -172,7 +176,7 @@ ShiningTriangles::ShiningTriangles(const TraceScene& scene, const Lamp& lamp) : 
 
 glm::dvec3 ShiningTriangles::irradiance_along(const LampReceiver& receiver, const Shining& t, double angle,
                                               const glm::dvec2& u) const {
-    const glm::dvec3 from(receiver.position);
+    const glm::dvec3 from(receiver.origin);
     const ShiningPoint point = point_of(t.a, t.b, t.c, angle, from, u);
     const double cosine = glm::dot(glm::dvec3(receiver.normal), glm::normalize(point.place - from));
     if (!(cosine > 0))
@@ -186,12 +190,16 @@ glm::dvec3 ShiningTriangles::irradiance_along(const LampReceiver& receiver, cons
     const float open = transmittance(scene_.rays(), scene_.surfaces(), receiver.origin, way, 1);
     if (open <= 0)
         return glm::dvec3(0);
-    const glm::dvec3 radiance(scene_.surfaces().emission({t.triangle, point.uv, 0}));
+    const SurfacePoint seen{t.triangle, point.uv, 0};
+    const glm::dvec3 radiance =
+        glm::dvec3(scene_.surfaces().emission(seen)) * static_cast<double>(scene_.surfaces().coverage(seen));
     return radiance * (cosine * static_cast<double>(open) * point.angle / angle);
 }
 
 LampIrradiance ShiningTriangles::irradiance(const LampReceiver& receiver, int rays) const {
-    const glm::dvec3 position(receiver.position), normal(receiver.normal);
+    // From where rays start: in the plane of a wall that shines its solid angle is none, and a hair before it
+    // half of all there is.
+    const glm::dvec3 position(receiver.origin), normal(receiver.normal);
     struct Seen {
         const Shining* shining;
         double angle, until; ///< solid angle, and the sum of all weights so far

@@ -34,6 +34,8 @@ void check_lamps(const TransferLayout& layout) {
     for (const TransferPart& part : layout.parts) {
         if (part.name.empty() != (part.kind != PartKind::lamp))
             throw Error("lamps of transfer have names, and other parts have none");
+        if (part.kind != PartKind::lamp && !part.members.empty())
+            throw Error("a part of transfer that is no lamp has members");
         if (!part.name.empty() && !names.insert(part.name).second)
             throw Error("two lamps of the transfer are called '" + printable(part.name) + "'");
     }

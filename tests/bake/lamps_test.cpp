@@ -207,10 +207,47 @@ TEST(Lamps, ThatArePolygonsShineByLambertsFormula) {
     }
 }
 
+/// A floor meets a wall that shines: at the edge half of the sky of a vertex is wall, of which all are seen
+/// edge on from the wall's own plane.
+TEST(Lamps, LightWhatStandsInTheirPlane) {
+    Scene wall = SceneBuilder()
+                     .quad({-50, 0, 0}, {50, 0, 0}, {50, 100, 0}, {-50, 100, 0}) // faces +z
+                     .build();
+    wall.materials[0].emission.radiance = glm::vec3(1);
+    const Scene scene = test::join({SceneBuilder()
+                                        .quad({-1, 0, 0}, {-1, 0, 2}, {1, 0, 2}, {1, 0, 0}) // faces up
+                                        .build(),
+                                    wall});
+    BakeOptions options = lamp_options();
+    options.lamps.rays = 1024;
+    const auto lit = lit_by_lamps(scene, options);
+    const VertexArray& floor = scene.vertex_arrays[0];
+    for (std::size_t p = 0; p < floor.size(); ++p)
+        if (floor.positions[p].z == 0) {
+            EXPECT_NEAR(lit[p].x, 0.5f, 0.02f) << p;
+        }
+}
+
+/// A quarter of an emitter that is there to a quarter is seen, and nothing of one that is cut out.
+TEST(Lamps, ShineByAsMuchOfThemAsIsThere) {
+    Scene scene = floor_with(SceneBuilder().floor({0, 1, 0}, 0.7f, 2).build(), glm::vec3(2), true);
+    const auto whole = lit_by_lamps(scene, lamp_options());
+    Material& sign = scene.materials[scene.primitives[1].material];
+    sign.alpha_mode = AlphaMode::blend;
+    sign.base_color.a = 0.25f;
+    const auto quarter = lit_by_lamps(scene, lamp_options());
+    sign.alpha_mode = AlphaMode::mask;
+    const auto none = lit_by_lamps(scene, lamp_options());
+    ASSERT_GT(whole[40].x, 0.03f);
+    EXPECT_NEAR(quarter[40].x, 0.25f * whole[40].x, 1e-3f);
+    EXPECT_EQ(none[40].x, 0);
+}
+
 TEST(Lamps, ShineFromTheirFrontAlone) {
     const Scene ceiling = floor_with(SceneBuilder().floor({0, 1, 0}, 0.7f, 2).build(), glm::vec3(2));
     const auto lit = lit_by_lamps(ceiling, lamp_options());
-    EXPECT_EQ(lit[40], glm::vec3(0)); // the middle of the floor below
+    for (const glm::vec3& r : lit)
+        EXPECT_EQ(r, glm::vec3(0));
 }
 
 /// Within a closed ball of albedo rho whose wall shines, what falls on it is L (1 + rho + rho² ...).
@@ -325,6 +362,29 @@ TEST(Lamps, ThatCannotBeAreRefused) {
     EXPECT_NE(error_of(floor_under(many), lamp_options()).find("10000 lamps"), std::string::npos);
     EXPECT_NE(error_of(floor_under({point("lamp", {0, 1, 0}, glm::vec3(1e9f))}), lamp_options()).find("1e6"),
               std::string::npos);
+}
+
+/// Light that nothing takes away would grow without end.
+TEST(Lamps, OfWhiteClosedRoomsAreRefusedButForANumberOfBounces) {
+    Scene room = test::painted(SceneBuilder().sphere({0, 0, 0}, 1, 12).build(), glm::vec3(1));
+    for (glm::uvec3& t : room.primitives[0].triangles) // the front inside
+        std::swap(t.y, t.z);
+    for (glm::vec3& normal : room.vertex_arrays[0].normals)
+        normal = -normal;
+    for (const float intensity : {1e-4f, 1.0f}) {
+        room.lights = {point("lamp", {0, 0, 0}, glm::vec3(intensity))};
+        EXPECT_NE(error_of(room, lamp_options(kEndlessBounces)).find("no end"), std::string::npos);
+        EXPECT_EQ(error_of(room, lamp_options(3)), "no error");
+    }
+}
+
+TEST(Lamps, WithTheNameOfAnothersGroupAreRefused) {
+    const Scene scene = floor_under({point("Lantern", {0, 1, 0}), point("Bulb", {1, 1, 0})});
+    BakeOptions options = lamp_options();
+    options.lamps.groups = {{"Lantern", "Bulb"}};
+    EXPECT_NE(error_of(scene, options).find("'Lantern'"), std::string::npos);
+    options.lamps.groups = {{"Lantern", "*"}};
+    EXPECT_EQ(error_of(scene, options), "no error");
 }
 
 TEST(Lamps, AreFoundByPatterns) {

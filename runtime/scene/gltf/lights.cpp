@@ -1,12 +1,14 @@
 // Reads KHR_lights_punctual from the JSON: tinygltf does not tell a range of 0 from none.
 #include "gltf/lights.h"
 
+#include "gltf/transfer_json.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace prt {
@@ -49,7 +51,7 @@ glm::vec3 color_of(const Json& light) {
     for (int c = 0; c < 3; ++c) {
         color[c] = light["color"].at(static_cast<std::size_t>(c)).get<float>();
         if (!(color[c] >= 0 && color[c] <= kMostIntensity))
-            throw Error("its color is not in 0..1");
+            throw Error("its color is not in 0..1e9");
     }
     return color;
 }
@@ -81,7 +83,8 @@ const Json* light_of(const GltfContents& contents, const Json& node, std::size_t
     const Json* use = punctual_of(node);
     if (!use)
         return nullptr;
-    index = use->at("light").get<std::size_t>();
+    index =
+        static_cast<std::size_t>(whole_number(use->at("light"), "light", 0, std::numeric_limits<int>::max()));
     const Json* list = punctual_of(contents.json);
     if (!list || !list->contains("lights") || index >= list->at("lights").size())
         throw Error("light " + std::to_string(index) + " is not there");
@@ -109,12 +112,14 @@ std::vector<PunctualLight> read_lights(const GltfContents& contents, const std::
                 light.name = numbered;
             const glm::dvec3 along = -glm::dvec3(transform.world[2]), place = glm::dvec3(transform.world[3]);
             const double length = glm::length(along);
-            if (!(length > 0 && std::isfinite(length)))
+            const bool aimed = light.kind != PunctualKind::point;
+            if (aimed && !(length > 0 && std::isfinite(length)))
                 throw Error("its node has no direction");
             for (int axis = 0; axis < 3; ++axis)
                 if (!(std::abs(place[axis]) <= kFarthestVertex))
                     throw Error("lies farther than 1e9 m from the world's origin");
-            light.direction = glm::vec3(along / length);
+            if (aimed)
+                light.direction = glm::vec3(along / length);
             light.position = glm::vec3(place - origin);
             lights.push_back(std::move(light));
         } catch (const Error& error) {

@@ -164,6 +164,8 @@ private:
 
     Emission read_emission(const tinygltf::Material& file) {
         Emission emission;
+        if (file.extensions.contains("KHR_materials_unlit")) // shows its base color, and lights nothing
+            return emission;
         for (std::size_t c = 0; c < 3 && c < file.emissiveFactor.size(); ++c)
             emission.radiance[static_cast<int>(c)] = static_cast<float>(file.emissiveFactor[c]);
         range_.clamp(emission.radiance, "emissiveFactor of materials");

@@ -105,6 +105,10 @@ TEST(PunctualLights, ThatCannotBeAreRefused) {
     GlbFile missing = with_light({{"type", "point"}});
     missing.json["nodes"].back()["extensions"]["KHR_lights_punctual"]["light"] = 7;
     EXPECT_NE(error_of(missing).find("light 7 is not there"), std::string::npos);
+    for (const Json& index : {Json(0.5), Json(-1), Json(1e30), Json("0")}) {
+        missing.json["nodes"].back()["extensions"]["KHR_lights_punctual"]["light"] = index;
+        EXPECT_NE(error_of(missing).find("light is " + index.dump()), std::string::npos) << error_of(missing);
+    }
     EXPECT_NE(error_of(with_light({{"type", "point"}}, {{"translation", {2e9, 0, 0}}})).find("1e9"),
               std::string::npos);
 }
