@@ -53,7 +53,8 @@ private:
     /// Warfare", SIGGRAPH 2014 courses).
     DiscSample disc_sample(int x, int y) const {
         const int across = picture_.samples;
-        const double gradient = 0.06711056 * (x / across) + 0.00583715 * (y / across);
+        const int column = x / across, row = y / across; // of pixels
+        const double gradient = 0.06711056 * column + 0.00583715 * row;
         const double noise = 52.9829189 * (gradient - std::floor(gradient));
         return {y % across * across + x % across, samples(), 2 * std::numbers::pi * noise};
     }

@@ -58,7 +58,7 @@ void write(const std::filesystem::path& folder, std::span<char* const> names) {
     };
     std::filesystem::create_directories(folder);
     const auto written = [&](std::string_view name, const char* suffix) {
-        const std::filesystem::path path = folder / (std::string(name) + suffix);
+        std::filesystem::path path = folder / (std::string(name) + suffix);
         std::printf("%s\n", path.c_str());
         return path;
     };

@@ -242,8 +242,9 @@ Mesh bar(const glm::vec3& from, const glm::vec3& to, float radius, int segments)
 
 Mesh sphere(const glm::vec3& center, float radius, int segments) {
     Outline outline;
-    for (int i = 0; i <= segments / 2; ++i) {
-        const float angle = kTurn * static_cast<float>(i) / static_cast<float>(segments / 2 * 2);
+    const int rows = segments / 2;
+    for (int i = 0; i <= rows; ++i) {
+        const float angle = kTurn / 2 * static_cast<float>(i) / static_cast<float>(rows);
         outline.emplace_back(radius * std::abs(std::sin(angle)), -radius * std::cos(angle));
     }
     outline.front().x = outline.back().x = 0;
