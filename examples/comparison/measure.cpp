@@ -174,6 +174,7 @@ private:
         bake_options.bounces = prt::kEndlessBounces;
         bake_options.tracer.backend = prt::Backend::cpu;
         bake_options.repairs.bad_textures = prt::BadTextures::ignore;
+        bake_options.lamps.mode = prt::LampMode::none; // references are lit by skies alone
         prt::Transfer split = prt::bake(model_->scene, bake_options).baked.transfer;
         const prt::Transfer raw = prt::as_whole(split); // all light is in one sky, suns too
         result_.channels = raw.layout.channels();
@@ -202,9 +203,7 @@ private:
     /// Under `sky` without its sun, whose light is added at each pixel.
     template <class Transfer>
     prt::Image drawn_with_sun(const Sky& sky, const Transfer& transfer, Shadows shadows) const {
-        prt::Lighting lighting{sky.rest, prt::constant_light(sky.rest.order, glm::vec3(0))};
-        for (const prt::SunDisc& sun : sky.suns)
-            lighting.suns = prt::sum(*lighting.suns, prt::as_light(sun, sky.rest.order));
+        const prt::Lighting lighting{sky.rest, prt::as_light(sky.suns, sky.rest.order)};
         const std::vector<glm::vec3> radiance = prt::exit_radiance(transfer, lighting);
         prt::Picture picture;
         picture.scene = &model_->scene;

@@ -245,11 +245,13 @@ TEST_F(ViewerPictures, OfBakedOcclusionAreThoseOfTracedOcclusion) {
 }
 
 // The open share of a floor at distance d from an endless wall of height h: 1 - (1 - d / sqrt(d² + h²)) / 2.
+// A lamp over it adds nothing.
 TEST_F(ViewerPictures, OcclusionOfVerticesByAWallIsItsClosedForm) {
     prt::Scene wall = SceneBuilder()
                           .floor({0, 0, 2}, 2, 16)
                           .quad({-400, 0, -0.001f}, {400, 0, -0.001f}, {400, 1, -0.001f}, {-400, 1, -0.001f})
                           .build();
+    wall.lights.push_back({.name = "lamp", .position = {0, 1, 2}});
     const auto walled = make_model(wall, "wall");
     const std::vector<float> open = ambient_occlusion(*walled, {});
     double squared = 0, sum = 0, checked = 0;
