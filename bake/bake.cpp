@@ -92,31 +92,6 @@ Propagated propagate_all(const BakePlan& plan, Transfer direct, const TransportO
     return exit;
 }
 
-/// The colors of `colored` light that transport of one channel takes one after the other.
-std::vector<Transfer> one_by_one(const Transfer& colored) {
-    const std::size_t count = colored.dimension() / 3;
-    std::vector<Transfer> colors;
-    for (std::size_t c = 0; c < 3; ++c) {
-        colors.push_back(
-            zero_transfer(layout_of_one(colored.layout.order, 1, PartKind::direct), colored.receivers()));
-        for (std::size_t p = 0; p < colored.receivers(); ++p)
-            std::copy_n(colored.vector(p).begin() + static_cast<std::ptrdiff_t>(c * count), count,
-                        colors.back().vector(p).begin());
-    }
-    return colors;
-}
-
-Transfer all_in_one(const std::vector<Transfer>& colors) {
-    const std::size_t count = colors[0].dimension();
-    Transfer all =
-        zero_transfer(layout_of_one(colors[0].layout.order, 3, PartKind::direct), colors[0].receivers());
-    for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t p = 0; p < all.receivers(); ++p)
-            std::copy_n(colors[c].vector(p).begin(), count,
-                        all.vector(p).begin() + static_cast<std::ptrdiff_t>(c * count));
-    return all;
-}
-
 /// A lamp in a closed room whose walls reflect all of its light would fill it without end; what the solver
 /// then gives means nothing.
 void check_has_an_end(const Propagated& lit) {
@@ -134,16 +109,16 @@ void check_has_an_end(const Propagated& lit) {
 /// Exit light of lamps, with all bounces, from what they give without: of the scene's receivers.
 Propagated propagate_lamps(const BakePlan& plan, Transfer light, const TransportOperators& operators,
                            const Progress& progress) {
-    if (plan.channels == 1 && light.layout.channels() == 3) {
-        std::vector<Transfer> colors = one_by_one(light);
+    if (plan.channels == 1 && light.layout.channels() == 3) { // colors one after the other
         Propagated all;
-        for (Transfer& color : colors) {
-            Propagated one = propagate_lamps(plan, std::move(color), operators, progress);
-            color = std::move(one.transfer);
+        Transfer colors[3];
+        for (int c = 0; c < 3; ++c) {
+            Propagated one = propagate_lamps(plan, one_channel(light, c), operators, progress);
+            colors[c] = std::move(one.transfer);
             all.bounces = std::max(all.bounces, one.bounces);
             all.remaining = std::max(all.remaining, one.remaining);
         }
-        all.transfer = all_in_one(colors);
+        all.transfer = in_color(colors[0], colors[1], colors[2]);
         return all;
     }
     Transfer unbounced;

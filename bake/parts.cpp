@@ -40,20 +40,18 @@ Transfer rest_of(const Transfer& direct, const Transfer& all) {
     return rest;
 }
 
-/// Of files: docs/format.md.
-constexpr float kMostRadiance = 1e6f;
-
-/// Channels that the light of coefficient `k` needs.
-int channels_of(const Transfer& light, std::size_t k) {
-    if (light.layout.channels() == 1)
-        return 1;
-    const std::size_t stride = channel_size(light);
-    for (std::size_t p = 0; p < light.receivers(); ++p) {
-        const auto t = light.vector(p);
-        if (t[k] != t[stride + k] || t[k] != t[2 * stride + k])
-            return 3;
+/// Whether coefficients [first, first + count) are the same in all channels.
+bool are_grey(const Transfer& transfer, std::size_t first, std::size_t count) {
+    if (transfer.layout.channels() == 1)
+        return true;
+    const std::size_t size = channel_size(transfer);
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
+        const auto red = transfer.vector(p).subspan(first, count);
+        for (const std::size_t c : {1u, 2u})
+            if (!std::ranges::equal(red, transfer.vector(p).subspan(c * size + first, count)))
+                return false;
     }
-    return 1;
+    return true;
 }
 
 } // namespace
@@ -91,14 +89,16 @@ Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vecto
         layout.parts.clear();
     const std::size_t of_sky = layout.dimension();
     for (std::size_t k = 0; k < lamps.size(); ++k)
-        layout.parts.push_back({PartKind::lamp, channels_of(light, k), lamps[k].name, lamps[k].members});
+        layout.parts.push_back(
+            {PartKind::lamp, are_grey(light, k, 1) ? 1 : 3, lamps[k].name, lamps[k].members});
+    const std::span<const TransferPart> parts = layout.lamp_parts();
     Transfer all = zero_transfer(layout, sky.receivers());
     for (std::size_t p = 0; p < all.receivers(); ++p) {
         auto to = std::copy_n(sky.vector(p).begin(), of_sky, all.vector(p).begin());
         for (std::size_t k = 0; k < lamps.size(); ++k)
-            for (int c = 0; c < layout.parts[layout.parts.size() - lamps.size() + k].channels; ++c) {
+            for (int c = 0; c < parts[k].channels; ++c) {
                 *to = light.vector(p)[static_cast<std::size_t>(c) * stride + k];
-                if (!(std::abs(*to++) <= kMostRadiance))
+                if (!(std::abs(*to++) <= kLargestTransfer))
                     throw Error(fmt::format("lamp '{}' lights a vertex with a radiance above 1e6, more than "
                                             "files hold: give it less intensity, and more at runtime",
                                             printable(lamps[k].name)));
@@ -108,28 +108,28 @@ Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vecto
 }
 
 Transfer narrowed(Transfer transfer) {
-    if (transfer.layout.channels() == 1)
+    if (transfer.layout.channels() == 1 || !are_grey(transfer, 0, channel_size(transfer)))
         return transfer;
-    const std::size_t size = channel_size(transfer);
-    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
-        const auto red = transfer.vector(p).first(size);
-        for (const std::size_t c : {1u, 2u})
-            if (!std::equal(red.begin(), red.end(), transfer.vector(p).subspan(c * size).begin()))
-                return transfer;
-    }
-    Transfer white =
-        zero_transfer(layout_of_one(transfer.layout.order, 1, kind_of(transfer)), transfer.receivers());
-    for (std::size_t p = 0; p < white.receivers(); ++p)
-        std::copy_n(transfer.vector(p).begin(), size, white.vector(p).begin());
-    return white;
+    return one_channel(transfer, 0);
 }
 
-Transfer in_color(const Transfer& white) {
-    Transfer wide = zero_transfer(layout_of_one(white.layout.order, 3, kind_of(white)), white.receivers());
-    for (std::size_t p = 0; p < white.receivers(); ++p)
-        for (std::size_t c = 0; c < 3; ++c)
-            std::copy(white.vector(p).begin(), white.vector(p).end(),
-                      wide.vector(p).begin() + static_cast<std::ptrdiff_t>(c * white.dimension()));
+Transfer one_channel(const Transfer& colored, int channel) {
+    Transfer one =
+        zero_transfer(layout_of_one(colored.layout.order, 1, kind_of(colored)), colored.receivers());
+    const std::size_t size = one.dimension();
+    for (std::size_t p = 0; p < one.receivers(); ++p)
+        std::ranges::copy(colored.vector(p).subspan(static_cast<std::size_t>(channel) * size, size),
+                          one.vector(p).begin());
+    return one;
+}
+
+Transfer in_color(const Transfer& red, const Transfer& green, const Transfer& blue) {
+    Transfer wide = zero_transfer(layout_of_one(red.layout.order, 3, kind_of(red)), red.receivers());
+    for (std::size_t p = 0; p < wide.receivers(); ++p) {
+        auto to = wide.vector(p).begin();
+        for (const Transfer* channel : {&red, &green, &blue})
+            to = std::ranges::copy(channel->vector(p), to).out;
+    }
     return wide;
 }
 

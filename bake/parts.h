@@ -22,7 +22,14 @@ Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vecto
 /// `transfer` of one part in one channel where all three are the same.
 Transfer narrowed(Transfer transfer);
 
+/// `colored` transfer of one part: one of its channels.
+Transfer one_channel(const Transfer& colored, int channel);
+
+/// Three channels of one part.
+Transfer in_color(const Transfer& red, const Transfer& green, const Transfer& blue);
 /// `white` in three equal channels.
-Transfer in_color(const Transfer& white);
+inline Transfer in_color(const Transfer& white) {
+    return in_color(white, white, white);
+}
 
 } // namespace prt

@@ -77,11 +77,7 @@ LoadedLight load_light(const Path& path, int order, const LightOptions& options,
     LoadedLight result;
     result.name = path.filename().string();
     if (suffix_of(path) == ".json") {
-        const Light light = all_light(read_light_file(path));
-        if (light.order < order)
-            throw Error(
-                fmt::format("{}: has order {}, but order {} is needed", path.string(), light.order, order));
-        result.light = truncated(light, order);
+        result.light = all_light(read_light_file(path, order));
     } else {
         result.environment = load_environment_map(path, options.environment);
         result.light = about(path, [&] { return project(*result.environment, order, threads); });

@@ -28,9 +28,8 @@ glm::vec3 color_of(const Json& value, const std::string& name) {
 
 std::vector<std::string> names_of(const TransferLayout& layout) {
     std::vector<std::string> names;
-    for (const TransferPart& part : layout.parts)
-        if (part.kind == PartKind::lamp)
-            names.push_back(part.name);
+    for (const TransferPart& lamp : layout.lamp_parts())
+        names.push_back(lamp.name);
     return names;
 }
 

@@ -139,4 +139,13 @@ LightFile read_light_file(const std::filesystem::path& path) {
     }
 }
 
+LightFile read_light_file(const std::filesystem::path& path, int order) {
+    LightFile file = read_light_file(path);
+    if (file.sky.order < order)
+        throw Error(
+            fmt::format("{}: has order {}, but order {} is needed", path.string(), file.sky.order, order));
+    file.sky = truncated(file.sky, order);
+    return file;
+}
+
 } // namespace prt::cli

@@ -20,6 +20,8 @@ struct LightFile {
 
 /// Throws `Error` that names the file.
 LightFile read_light_file(const std::filesystem::path& path);
+/// Its first `order` bands. Throws `Error`, too, where it has fewer.
+LightFile read_light_file(const std::filesystem::path& path, int order);
 
 /// Its coefficients with its suns added.
 Light all_light(const LightFile& file);

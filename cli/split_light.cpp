@@ -34,10 +34,7 @@ void add_suns(CLI::App* command, SunCount& suns, const std::string& text, const 
 }
 
 Light light_of_suns(const SplitLight& light) {
-    Light suns = constant_light(light.sky.light.order, glm::vec3(0));
-    for (const SunDisc& sun : light.split.suns)
-        suns = sum(suns, as_light(sun, suns.order));
-    return suns;
+    return as_light(light.split.suns, light.sky.light.order);
 }
 
 Lighting lighting_of(const SplitLight& light) {
@@ -72,15 +69,17 @@ SplitLight turned(SplitLight light, double angle) {
 SplitLight load_split_light(const Path& path, int order, const SunCount& suns, const LightOptions& options,
                             int threads) {
     SplitLight result;
+    if (suns.count == 0) {
+        result.sky = load_light(path, order, options, threads);
+        result.whole = result.sky.light;
+        return result;
+    }
     result.sky.name = path.filename().string();
     if (suffix_of(path) == ".json") {
-        const LightFile file = read_light_file(path);
-        if (file.sky.order < order)
-            throw Error(fmt::format("{}: has order {}, but order {} is needed", path.string(), file.sky.order,
-                                    order));
-        result.whole = truncated(all_light(file), order);
-        result.sky.light = truncated(file.sky, order);
-        result.split.suns = file.suns;
+        LightFile file = read_light_file(path, order);
+        result.whole = all_light(file);
+        result.sky.light = std::move(file.sky);
+        result.split.suns = std::move(file.suns);
     } else {
         result.sky.environment = load_environment_map(path, options.environment);
         const Environment& image = *result.sky.environment;
@@ -92,8 +91,6 @@ SplitLight load_split_light(const Path& path, int order, const SunCount& suns, c
     }
     result.sky.light = windowed(result.sky.light, options.window);
     result.whole = windowed(result.whole, options.window);
-    if (suns.count == 0)
-        result = together(std::move(result));
     if (const double turn = glm::radians(options.rotation_degrees); turn != 0) {
         auto image = std::move(result.sky.environment);
         result = turned(std::move(result), turn);

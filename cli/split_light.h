@@ -33,6 +33,10 @@ Light light_of_suns(const SplitLight& light);
 /// Its suns' light goes through `direct` transfer apart from the sky's, where there are any.
 Lighting lighting_of(const SplitLight& light);
 
+/// Why suns cannot be lit apart from the sky where transfer is one part, and what to do about it.
+inline constexpr const char* kNotApart = "keeps no direct light apart, so that suns cannot be lit apart from "
+                                         "the sky; compress it without --whole";
+
 /// Without light.
 SplitLight dark_sky(int order);
 

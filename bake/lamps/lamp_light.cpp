@@ -3,10 +3,11 @@
 #include "lamps/lamp_light.h"
 
 #include "lamps/lamp_rays.h"
-#include "prt/support/parallel.h"
+#include "trace/each_receiver.h"
 #include "trace/sample_sequence.h"
 
 #include <numbers>
+#include <vector>
 
 namespace prt {
 namespace {
@@ -25,39 +26,27 @@ Transfer lamp_light(const TraceScene& scene, const Receivers& receivers, std::sp
                     const LampLightOptions& options, std::size_t& rays, const Progress& progress) {
     Transfer lit = zero_transfer(layout_of_one(order_for(lamps.size()), options.channels, PartKind::direct),
                                  receivers.size());
+    if (lamps.empty())
+        return lit;
     const std::size_t stride = lit.dimension() / static_cast<std::size_t>(options.channels);
-    const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
+    std::vector<ShiningTriangles> shining;
+    for (const Lamp& lamp : lamps)
+        shining.emplace_back(scene, lamp);
     std::atomic<std::size_t> traced = 0;
-    constexpr std::size_t kBatch = 1 << 14; // receivers between two looks at the progress
-    for (std::size_t k = 0; k < lamps.size(); ++k) {
-        const ShiningTriangles shining(scene, lamps[k]);
-        for (std::size_t first = 0; first < indices.size(); first += kBatch) {
-            progress.update(
-                (static_cast<double>(k) + static_cast<double>(first) / static_cast<double>(indices.size())) /
-                static_cast<double>(lamps.size()));
-            const std::size_t count = std::min(kBatch, indices.size() - first);
-            parallel_for(count, 64, options.threads, [&](std::size_t begin, std::size_t end) {
-                std::size_t here = 0;
-                for (std::size_t i = begin; i < end; ++i) {
-                    const std::uint32_t p = indices[first + i];
-                    const LampReceiver receiver{receivers.positions[p], receivers.normals[p],
-                                                scene.rays().ray_origin(receivers, p),
-                                                receiver_seed(p, options.seed + k)};
-                    const LampIrradiance of_lights =
-                                             irradiance_of_lights(scene, lamps[k], receiver,
+    for_each_receiver(receivers_on_surfaces(receivers), options.threads, progress, [&](std::uint32_t p) {
+        LampReceiver receiver{receivers.positions[p], receivers.normals[p],
+                              scene.rays().ray_origin(receivers, p)};
+        for (std::size_t k = 0; k < lamps.size(); ++k) {
+            receiver.seed = receiver_seed(p, options.seed + k);
+            const LampIrradiance of_lights = irradiance_of_lights(scene, lamps[k], receiver,
                                                                   options.lamps.radius, options.lamps.rays),
-                                         of_surfaces = shining.irradiance(receiver, options.lamps.rays);
-                    const glm::dvec3 radiance =
-                        (of_lights.irradiance + of_surfaces.irradiance) / std::numbers::pi;
-                    for (int c = 0; c < options.channels; ++c)
-                        lit.vector(p)[static_cast<std::size_t>(c) * stride + k] =
-                            static_cast<float>(radiance[c]);
-                    here += of_lights.rays + of_surfaces.rays;
-                }
-                traced += here;
-            });
+                                 of_surfaces = shining[k].irradiance(receiver, options.lamps.rays);
+            const glm::dvec3 radiance = (of_lights.irradiance + of_surfaces.irradiance) / std::numbers::pi;
+            for (int c = 0; c < options.channels; ++c)
+                lit.vector(p)[static_cast<std::size_t>(c) * stride + k] = static_cast<float>(radiance[c]);
+            traced += of_lights.rays + of_surfaces.rays;
         }
-    }
+    });
     rays += traced;
     return lit;
 }

@@ -5,8 +5,8 @@
 #include "lamps/punctual.h"
 #include "lamps/spherical_triangle.h"
 #include "prt/color.h"
-#include "prt/support/tangent_frame.h"
 #include "scene/transmittance.h"
+#include "trace/disc_share.h"
 
 #include <glm/common.hpp>
 
@@ -55,45 +55,32 @@ SeenLight seen(const PunctualLight& light, const LampReceiver& receiver, double 
     return seen;
 }
 
-/// Distance along a direction of that cosine to a sphere's middle; 0 within it.
+/// Distance to a sphere along a direction of that cosine to its middle; 0 within it, infinite where it is.
 double distance_to_sphere(double distance, double cosine, double radius) {
     if (distance <= radius)
         return 0;
+    if (radius <= 0 || std::isinf(distance))
+        return distance;
     const double across = distance * distance * (1 - cosine * cosine);
     return distance * cosine - std::sqrt(std::max(0.0, radius * radius - across));
 }
 
-/// Share of the light of a sphere, or of a point where `rays` is 1 and it has no extent, that arrives, with
-/// its cosine; 1 for what faces it and is open.
+/// Half angle of the cone that a light fills, radians; within a sphere light comes from everywhere.
+double half_angle_of(const SeenLight& light, double radius) {
+    if (light.light->kind == PunctualKind::directional || radius <= 0)
+        return 0;
+    return radius < light.distance ? std::asin(radius / light.distance) : std::numbers::pi / 2;
+}
+
+/// Share of the light that arrives, with its cosine; 1 for what faces it and is open.
 double arriving(const TraceScene& scene, const SeenLight& light, const LampReceiver& receiver, double radius,
                 int rays) {
-    const bool distant = light.light->kind == PunctualKind::directional;
-    const glm::dvec3 normal(receiver.normal);
-    const auto open = [&](const glm::dvec3& towards, double length) {
-        return static_cast<double>(transmittance(scene.rays(), scene.surfaces(), receiver.origin,
-                                                 glm::vec3(towards), static_cast<float>(length)));
-    };
-    if (distant || radius <= 0) {
-        const double cosine = glm::dot(normal, light.towards);
-        return cosine > 0 ? cosine * open(light.towards, light.distance) : 0;
-    }
-    // Within it light comes from everywhere.
-    const double sine = std::min(1.0, radius / std::max(light.distance, 1e-30));
-    const double depth = 1 - std::sqrt(1 - sine * sine); // of the cap of directions
-    const TangentFrame frame = tangent_frame(glm::vec3(light.towards));
-    const double turn = 2 * std::numbers::pi * unit_number(receiver.seed);
-    double sum = 0;
-    for (int i = 0; i < rays; ++i) { // a spiral, as that of suns
-        const double cosine = 1 - depth * (i + 0.5) / rays, across = std::sqrt(1 - cosine * cosine);
-        const double angle = turn + i * std::numbers::pi * (3 - std::sqrt(5.0));
-        const glm::dvec3 towards = glm::normalize(glm::dvec3(frame.normal) * cosine +
-                                                  glm::dvec3(frame.tangent) * (across * std::cos(angle)) +
-                                                  glm::dvec3(frame.bitangent) * (across * std::sin(angle)));
-        const double up = glm::dot(normal, towards);
-        if (up > 0)
-            sum += up * open(towards, distance_to_sphere(light.distance, cosine, radius));
-    }
-    return sum / (rays * (1 - 0.5 * depth));
+    const DiscDirections directions(glm::vec3(light.towards), half_angle_of(light, radius), rays);
+    return share_of_disc(scene, receiver.origin, receiver.normal, directions,
+                         2 * std::numbers::pi * unit_number(receiver.seed), [&](int i) {
+                             return static_cast<float>(
+                                 distance_to_sphere(light.distance, directions.cosine(i), radius));
+                         });
 }
 
 /// A point of a triangle that shines, as sampled.
@@ -141,7 +128,7 @@ LampIrradiance irradiance_of_lights(const TraceScene& scene, const Lamp& lamp, c
     }
     LampIrradiance result;
     for (const SeenLight& light : lights) {
-        const int rays = radius > 0 && light.light->kind != PunctualKind::directional
+        const int rays = half_angle_of(light, radius) > 0
                              ? std::max(1, static_cast<int>(std::ceil(most * light.weight / all)))
                              : 1;
         result.irradiance += light.normal_irradiance * arriving(scene, light, receiver, radius, rays);

@@ -15,7 +15,7 @@ namespace prt {
 SunLight::SunLight(const Picture& picture, const TraceScene& scene, int points)
     : picture_(picture), scene_(scene) {
     for (const SunDisc& sun : picture.suns)
-        suns_.push_back({DiscDirections(sun, points), sun.irradiance});
+        suns_.push_back({DiscDirections(sun.towards, sun.half_angle, points), sun.irradiance});
 }
 
 glm::vec3 SunLight::irradiance(const LitSide& side, const DiscSample& sample) const {

@@ -2,10 +2,10 @@
 
 // What a picture adds at a pixel for suns: their light, shadowed by rays.
 
-#include "pictures/disc_directions.h"
 #include "pictures/lit_side.h"
 #include "pictures/primary_rays.h"
 #include "prt/trace_scene.h"
+#include "trace/disc_directions.h"
 
 #include <vector>
 

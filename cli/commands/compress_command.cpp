@@ -137,7 +137,7 @@ void resolve(const CLI::App& command, CompressArguments& a) {
 void add_lighting(const CompressArguments& a, const Path& path, const TransferLayout& layout,
                   std::vector<Lighting>& lights) {
     const int threads = a.options.compress.threads;
-    if (layout.parts.size() - layout.lamps() < 2) {
+    if (layout.distant_parts().size() < 2) {
         lights.push_back({load_light(path, layout.order, a.light_options, threads).light});
         return;
     }
@@ -152,13 +152,12 @@ LightMetric chosen_metric(const CompressArguments& a, const Transfer& transfer,
                           std::span<const float> areas) {
     if (a.lights.empty() && a.metric == MetricChoice::plain)
         return plain_metric(transfer.layout);
-    const int threads = a.options.compress.threads;
-    if (a.lights.empty())
-        return balanced(natural_metric(transfer.layout), transfer, areas, threads);
     std::vector<Lighting> lights;
     for (const Path& path : a.lights)
         add_lighting(a, path, transfer.layout, lights);
-    return balanced(metric_of_lights(lights, transfer.layout), transfer, areas, threads);
+    return balanced(lights.empty() ? natural_metric(transfer.layout)
+                                   : metric_of_lights(lights, transfer.layout),
+                    transfer, areas, a.options.compress.threads);
 }
 
 /// "error 0.012, 5.1 bytes per vertex, 6.2 shader operations"

@@ -76,11 +76,7 @@ void run(const ProjectArguments& a, Session& session) {
     if (apart && suffix_of(a.environment) == ".json")
         throw Error(a.environment.string() + ": is a light file, and suns are found in images");
     const Stopwatch stopwatch;
-    SplitLight light;
-    if (apart)
-        light = load_split_light(a.environment, a.order, a.suns, a.light_options, a.threads);
-    else
-        light.sky = load_light(a.environment, a.order, a.light_options, a.threads);
+    const SplitLight light = load_split_light(a.environment, a.order, a.suns, a.light_options, a.threads);
     const LoadedLight& loaded = light.sky;
     const SunSplit& split = light.split;
     const double seconds = stopwatch.seconds();

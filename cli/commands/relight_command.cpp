@@ -63,9 +63,7 @@ void check_model(const RelightArguments& a, const SceneFile& model) {
         throw Error(a.model.string() + ": has no lamps, and without --env nothing lights it");
     if (layout_of(model).has(PartKind::whole)) {
         if (a.suns.count.value_or(0) > 0)
-            throw Error(a.model.string() +
-                        ": keeps no direct light apart, so that suns cannot be lit apart from the sky; "
-                        "compress it without --whole, or light it with --suns 0");
+            throw Error(a.model.string() + ": " + kNotApart + ", or light it with --suns 0");
         print_notices(a.model.string(), {"keeps no direct light apart: suns are lit with the sky, and no "
                                          "shadow is sharp"});
     }

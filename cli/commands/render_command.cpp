@@ -128,8 +128,7 @@ std::unique_ptr<GlContext> choose_backend(Backend backend, bool shadows_on_cpu) 
 }
 
 /// What is solid though its material does not say so: OpenGL's renderer would light it by suns twice.
-bool has_unnamed_media(const SceneFile& model) {
-    const std::vector<bool> solid = solid_materials(model);
+bool has_unnamed_media(const SceneFile& model, const std::vector<bool>& solid) {
     for (std::size_t m = 0; m < solid.size(); ++m)
         if (solid[m] && !has_medium(model.scene.materials[m]))
             return true;
@@ -138,23 +137,22 @@ bool has_unnamed_media(const SceneFile& model) {
 
 /// Why suns cannot be lit apart from the sky, and what to do about it; empty: they can. What holds no
 /// transfer has direct light only.
-std::string why_together(const RenderArguments& a, const SceneFile& model) {
+std::string why_together(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
     if (model.record() && layout_of(model).has(PartKind::whole))
-        return a.model.string() + ": keeps no direct light apart, so that suns cannot be lit apart from the "
-                                  "sky; compress it without --whole";
-    if (a.backend == Backend::gpu && has_unnamed_media(model))
+        return a.model.string() + ": " + kNotApart;
+    if (a.backend == Backend::gpu && has_unnamed_media(model, solid))
         return "--backend gpu does not know media of --subsurface, which suns light through transfer alone; "
                "draw with --backend cpu";
     return {};
 }
 
 /// With its suns apart where they can be, and are wanted.
-SplitLight load_lit(const RenderArguments& a, const SceneFile& model) {
+SplitLight load_lit(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
     const int order = model.order() > 0 ? model.order() : kUnshadowedOrder;
     if (a.environment.empty())
         return dark_sky(order);
     const bool lit = a.look.show == Show::lit || a.look.show == Show::error;
-    const std::string why = lit ? why_together(a, model) : "";
+    const std::string why = lit ? why_together(a, model, solid) : "";
     if (!why.empty() && a.lights.suns.count.value_or(0) > 0)
         throw Error(why + ", or light it with --suns 0");
     SplitLight light =
@@ -342,13 +340,14 @@ void run(RenderArguments a, Session& session) {
     const SceneFile model = load_scene_file(a.model, a.reading);
     if (!model.record())
         print_notices(a.model.string(), {"holds no transfer: its sky casts no shadows"});
-    const SplitLight light = load_lit(a, model);
+    const std::vector<bool> solid = solid_materials(model);
+    const SplitLight light = load_lit(a, model, solid);
     const Lighting lighting = lighting_of(a, model, light);
     const bool suns = !light.split.suns.empty() && a.look.show == Show::lit;
     const TraceScene scene(
         model.scene,
         load_textures(model.scene, BadTextures::error, suns ? TextureNeeds::all : TextureNeeds::pictures),
-        {.solid = solid_materials(model), .threads = a.threads});
+        {.solid = solid, .threads = a.threads});
     const std::vector<glm::vec3> colors = colors_to_show(a, model, lighting);
     Picture picture = empty_picture(a, model.scene);
     picture.textures = scene.textures();
@@ -365,7 +364,7 @@ void run(RenderArguments a, Session& session) {
         picture.background.image = &background;
     }
     const std::unique_ptr<GlContext> context = choose_backend(
-        a.backend, suns && (picture.suns.size() > kMostShadowedSuns || has_unnamed_media(model)));
+        a.backend, suns && (picture.suns.size() > kMostShadowedSuns || has_unnamed_media(model, solid)));
     if (context)
         light_in_shader(a, model, lighting, picture);
     const Light all_light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;

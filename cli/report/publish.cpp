@@ -44,12 +44,11 @@ Json parts_figures(const TransferLayout& layout) {
 
 std::string parts_in_words(const TransferLayout& layout) {
     std::vector<std::string> words;
-    for (const TransferPart& part : layout.parts)
-        if (part.kind != PartKind::lamp)
-            words.push_back(words.empty() ? fmt::format("{} of {} light",
-                                                        part.channels == 1 ? "1 channel" : "3 channels",
-                                                        to_string(part.kind))
-                                          : fmt::format("{} of {}", part.channels, to_string(part.kind)));
+    for (const TransferPart& part : layout.distant_parts())
+        words.push_back(words.empty()
+                            ? fmt::format("{} of {} light", part.channels == 1 ? "1 channel" : "3 channels",
+                                          to_string(part.kind))
+                            : fmt::format("{} of {}", part.channels, to_string(part.kind)));
     if (const std::size_t lamps = layout.lamps())
         words.push_back(fmt::format("{} lamp{}", lamps, lamps == 1 ? "" : "s"));
     return fmt::format("{}", fmt::join(words, ", "));

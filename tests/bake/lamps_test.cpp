@@ -250,13 +250,19 @@ TEST(Lamps, ShineFromTheirFrontAlone) {
         EXPECT_EQ(r, glm::vec3(0));
 }
 
+/// A ball of radius 1 with its front inside.
+Scene closed_room(int rows, const glm::vec3& color) {
+    Scene room = test::painted(SceneBuilder().sphere({0, 0, 0}, 1, rows).build(), color);
+    for (glm::uvec3& t : room.primitives[0].triangles)
+        std::swap(t.y, t.z);
+    for (glm::vec3& normal : room.vertex_arrays[0].normals)
+        normal = -normal;
+    return room;
+}
+
 /// Within a closed ball of albedo rho whose wall shines, what falls on it is L (1 + rho + rho² ...).
 TEST(Lamps, FillAClosedRoomByAllBounces) {
-    Scene ball = test::painted(SceneBuilder().sphere({0, 0, 0}, 1, 24).build(), glm::vec3(0.5f));
-    for (glm::uvec3& t : ball.primitives[0].triangles) // the front inside
-        std::swap(t.y, t.z);
-    for (glm::vec3& normal : ball.vertex_arrays[0].normals)
-        normal = -normal;
+    Scene ball = closed_room(24, glm::vec3(0.5f));
     ball.materials[0].emission.radiance = glm::vec3(3);
     BakeOptions options = lamp_options(kEndlessBounces);
     options.rays = options.lamps.rays = 1024;
@@ -366,11 +372,7 @@ TEST(Lamps, ThatCannotBeAreRefused) {
 
 /// Light that nothing takes away would grow without end.
 TEST(Lamps, OfWhiteClosedRoomsAreRefusedButForANumberOfBounces) {
-    Scene room = test::painted(SceneBuilder().sphere({0, 0, 0}, 1, 12).build(), glm::vec3(1));
-    for (glm::uvec3& t : room.primitives[0].triangles) // the front inside
-        std::swap(t.y, t.z);
-    for (glm::vec3& normal : room.vertex_arrays[0].normals)
-        normal = -normal;
+    Scene room = closed_room(12, glm::vec3(1));
     for (const float intensity : {1e-4f, 1.0f}) {
         room.lights = {point("lamp", {0, 0, 0}, glm::vec3(intensity))};
         EXPECT_NE(error_of(room, lamp_options(kEndlessBounces)).find("no end"), std::string::npos);

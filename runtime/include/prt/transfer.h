@@ -13,6 +13,10 @@
 
 namespace prt {
 
+/// Largest magnitude of a number of transfer that files hold: light that is scattered often adds up to a few,
+/// and far beyond squares and sums of what is lit pass what a float holds.
+inline constexpr float kLargestTransfer = 1e6f;
+
 /// The transfer vectors of a list of receivers: exit radiance of a Lambertian receiver of albedo rho is
 /// R_c = rho_c · sum_i T[c][i] L_c[i] (docs/math.md, eq. 7).
 struct Transfer {

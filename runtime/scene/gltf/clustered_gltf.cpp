@@ -169,12 +169,12 @@ void check_rows(const GltfContents& contents, std::size_t rows, std::size_t axes
 void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& bases) {
     const std::size_t rows = bases.first_rows().back(), dimension = bases.dimension();
     if (!json.contains("values")) {
-        bases.rows = read_float_view(contents, json, rows * dimension, kLargestValue, "the bases");
+        bases.rows = read_float_view(contents, json, rows * dimension, kLargestTransfer, "the bases");
         return;
     }
     constexpr float kAnyFinite = std::numeric_limits<float>::max(); // small steps may have large scales
     CodedBases& coded = bases.coded;
-    coded.origin = read_float_view(contents, json.at("origin"), dimension, kLargestValue, "the origin");
+    coded.origin = read_float_view(contents, json.at("origin"), dimension, kLargestTransfer, "the origin");
     coded.axes = read_row_code(contents, json.at("axes"));
     coded.values = read_row_code(contents, json.at("values"));
     const std::size_t axes = coded.values.drops.size();
@@ -185,7 +185,7 @@ void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& 
         throw Error("the step of the bases is " + step.dump() + ", no number from 0 on");
     check_rows(contents, rows, axes, dimension);
     bases.rows = decode_bases(coded, bases.components);
-    check_magnitudes(bases.rows, kLargestValue, "the decoded bases");
+    check_magnitudes(bases.rows, kLargestTransfer, "the decoded bases");
 }
 
 Json write_packing(GltfContents& contents, const ClusteredTransfer& transfer) {

@@ -182,6 +182,12 @@ Json& member(Json& object, const char* key, Json::value_t type) {
     return object[key];
 }
 
+const Json* extension_of(const Json& object, const char* name) {
+    if (!object.contains("extensions") || !object["extensions"].contains(name))
+        return nullptr;
+    return &object["extensions"][name];
+}
+
 Json& extensions_of(Json& object) {
     return member(object, "extensions", Json::value_t::object);
 }

@@ -66,6 +66,8 @@ void for_each_primitive(AnyJson& json, Visit&& visit) {
 /// The member `key` of `object`, made if it is not there. Not by `object[key][..]`: where memory ends while a
 /// null becomes an object, it is left as one without members, which cannot be destroyed (nlohmann-json 3.11).
 Json& member(Json& object, const char* key, Json::value_t type);
+/// The extension `name` of `object`, null where it does not have it.
+const Json* extension_of(const Json& object, const char* name);
 Json& extensions_of(Json& object);
 
 } // namespace prt

@@ -24,12 +24,6 @@ struct Place {
     std::string name;
 };
 
-const Json* draco_extension(const Json& primitive) {
-    if (!primitive.contains("extensions") || !primitive["extensions"].contains(kDracoExtension))
-        return nullptr;
-    return &primitive["extensions"][kDracoExtension];
-}
-
 void erase_draco_extension(Json& primitive) {
     primitive["extensions"].erase(kDracoExtension);
     if (primitive["extensions"].empty())
@@ -41,7 +35,7 @@ bool has_plain_data(const GltfContents& contents, const Json& primitive) {
     const auto is_plain = [&](const Json& reference) {
         return contents.model.accessors.at(reference.get<std::size_t>()).bufferView >= 0;
     };
-    const Json& compressed = draco_extension(primitive)->at("attributes");
+    const Json& compressed = extension_of(primitive, kDracoExtension)->at("attributes");
     return primitive.contains("indices") && is_plain(primitive["indices"]) &&
            std::all_of(compressed.items().begin(), compressed.items().end(),
                        [&](const auto& item) { return is_plain(primitive.at("attributes").at(item.key())); });
@@ -186,13 +180,14 @@ private:
 
 bool has_draco_primitives(const Json& json) {
     bool found = false;
-    for_each_primitive(json, [&](const Json& primitive) { found = found || draco_extension(primitive); });
+    for_each_primitive(
+        json, [&](const Json& primitive) { found = found || extension_of(primitive, kDracoExtension); });
     return found;
 }
 
 Json without_draco_indices(Json json) {
     for_each_primitive(json, [&](Json& primitive) {
-        if (draco_extension(primitive) && primitive.contains("indices") &&
+        if (extension_of(primitive, kDracoExtension) && primitive.contains("indices") &&
             !json.at("accessors").at(primitive["indices"].get<std::size_t>()).contains("bufferView"))
             primitive.erase("indices");
     });
@@ -206,7 +201,7 @@ void decompress_primitives(GltfContents& contents) {
     for (std::size_t m = 0; m < contents.model.meshes.size(); ++m)
         for (std::size_t p = 0; p < contents.model.meshes[m].primitives.size(); ++p) {
             Json& primitive = contents.json.at("meshes").at(m).at("primitives").at(p);
-            const Json* extension = draco_extension(primitive);
+            const Json* extension = extension_of(primitive, kDracoExtension);
             if (!extension)
                 continue;
             if (is_required || !has_plain_data(contents, primitive))

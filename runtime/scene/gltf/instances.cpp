@@ -100,8 +100,7 @@ void expand_instances(GltfContents& contents) {
     bool found = false;
     const std::size_t before = contents.model.nodes.size();
     for (std::size_t n = 0; n < before; ++n) {
-        const Json& node = contents.json["nodes"][n];
-        if (!node.contains("extensions") || !node["extensions"].contains(kInstancing))
+        if (!extension_of(contents.json["nodes"][n], kInstancing))
             continue;
         try {
             instances += expand(contents, n, bytes);

@@ -16,12 +16,6 @@ namespace {
 
 constexpr const char* kPunctual = "KHR_lights_punctual";
 
-const Json* punctual_of(const Json& object) {
-    if (!object.contains("extensions") || !object["extensions"].contains(kPunctual))
-        return nullptr;
-    return &object["extensions"][kPunctual];
-}
-
 /// The number `key`, `otherwise` where it is not there; within the bounds.
 double number(const Json& light, const char* key, double otherwise, double least, double most) {
     if (!light.contains(key))
@@ -80,12 +74,12 @@ PunctualLight read_light(const Json& light) {
 
 /// The light of a node, nothing where it has none.
 const Json* light_of(const GltfContents& contents, const Json& node, std::size_t& index) {
-    const Json* use = punctual_of(node);
+    const Json* use = extension_of(node, kPunctual);
     if (!use)
         return nullptr;
     index =
         static_cast<std::size_t>(whole_number(use->at("light"), "light", 0, std::numeric_limits<int>::max()));
-    const Json* list = punctual_of(contents.json);
+    const Json* list = extension_of(contents.json, kPunctual);
     if (!list || !list->contains("lights") || index >= list->at("lights").size())
         throw Error("light " + std::to_string(index) + " is not there");
     return &list->at("lights").at(index);

@@ -17,12 +17,6 @@ namespace {
 
 constexpr const char* kFallback = "data:application/octet-stream;base64,AAAA";
 
-const Json* extension_of(const Json& object) {
-    if (!object.contains("extensions") || !object["extensions"].contains(kMeshoptExtension))
-        return nullptr;
-    return &object["extensions"][kMeshoptExtension];
-}
-
 void erase_extension(Json& object) {
     object["extensions"].erase(kMeshoptExtension);
     if (object["extensions"].empty())
@@ -192,12 +186,14 @@ std::size_t append(std::vector<std::byte>& to, std::span<const std::byte> bytes)
 
 bool has_meshopt_views(const Json& json) {
     const auto views = json.find("bufferViews");
-    return views != json.end() && std::any_of(views->begin(), views->end(), extension_of);
+    return views != json.end() && std::any_of(views->begin(), views->end(), [](const Json& view) {
+               return extension_of(view, kMeshoptExtension) != nullptr;
+           });
 }
 
 Json without_meshopt(Json json) {
     for (Json& view : json["bufferViews"])
-        if (const Json* extension = extension_of(view)) {
+        if (const Json* extension = extension_of(view, kMeshoptExtension)) {
             const Json source = *extension;
             view = {{"buffer", source.at("buffer")},
                     {"byteOffset", source.value("byteOffset", std::size_t{0})},
@@ -206,7 +202,7 @@ Json without_meshopt(Json json) {
     if (json.contains("buffers"))
         for (std::size_t b = 0; b < json["buffers"].size(); ++b) {
             Json& buffer = json["buffers"][b];
-            if (const Json* extension = extension_of(buffer);
+            if (const Json* extension = extension_of(buffer, kMeshoptExtension);
                 extension && extension->value("fallback", false))
                 buffer = {{"byteLength", 3}, {"uri", kFallback}};
         }
@@ -218,7 +214,7 @@ void decompress_views(GltfContents& contents) {
     Json& views = contents.json["bufferViews"];
     double total = 0;
     for (std::size_t v = 0; v < views.size(); ++v) {
-        const Json* extension = extension_of(views[v]);
+        const Json* extension = extension_of(views[v], kMeshoptExtension);
         if (!extension)
             continue;
         try {

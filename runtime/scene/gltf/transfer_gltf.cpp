@@ -55,10 +55,10 @@ std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const S
         TransferOfVertices read;
         for (const Primitive& primitive : scene.primitives) {
             const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
-            const Json& json = primitive_json(contents, primitive);
-            if (!json.contains("extensions") || !json["extensions"].contains(kTransferExtension))
+            const Json* of_primitive = extension_of(primitive_json(contents, primitive), kTransferExtension);
+            if (!of_primitive)
                 throw Error(primitive_name(primitive) + " has no " + kTransferExtension);
-            const Json& view = json["extensions"][kTransferExtension].at("vectors");
+            const Json& view = of_primitive->at("vectors");
             if (!read.is_new(primitive, view))
                 continue;
             if (is_half(view))

@@ -97,14 +97,14 @@ BakeRecord read_record(const Json& json) {
 }
 
 const Json* find_extension(const GltfContents& contents, const char* name, int expected_version) {
-    if (!contents.json.contains("extensions") || !contents.json["extensions"].contains(name))
+    const Json* extension = extension_of(contents.json, name);
+    if (!extension)
         return nullptr;
-    const Json& extension = contents.json["extensions"][name];
-    const Json version = extension.value("version", Json(0));
+    const Json version = extension->value("version", Json(0));
     if (!version.is_number_integer() || version != expected_version)
         throw Error(std::string(name) + " has version " + version.dump() + ", this program reads " +
                     std::to_string(expected_version));
-    return &extension;
+    return extension;
 }
 
 Json parts_json(const TransferLayout& layout) {
@@ -184,7 +184,7 @@ void read_float_view(const GltfContents& contents, const Json& object, std::span
     } else if (!to.empty()) {
         std::memcpy(to.data(), bytes.data(), to.size_bytes());
     }
-    check_magnitudes(to, kLargestValue, what);
+    check_magnitudes(to, kLargestTransfer, what);
 }
 
 std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,

@@ -44,9 +44,8 @@ private:
 /// is none.
 int whole_number(const Json& value, const std::string& name, int least, int most);
 
-/// Largest magnitude of a value of transfer, and of a weight that is a float: light that is scattered often
-/// adds up to a few, and far beyond squares and sums of what is lit pass what a float holds.
-inline constexpr float kLargestValue = 1e6f, kLargestWeight = 1e9f;
+/// Largest magnitude of a weight that is a float, as `kLargestTransfer` of transfer.
+inline constexpr float kLargestWeight = 1e9f;
 
 /// Throws `Error` unless all are finite and at most `largest`.
 void check_magnitudes(std::span<const float> values, float largest, const std::string& what);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "prt/sun_disc.h"
 #include "prt/support/tangent_frame.h"
 
 #include <glm/geometric.hpp>
@@ -10,19 +9,21 @@
 
 namespace prt {
 
-/// Points of a disc far away, evenly over its solid angle on a spiral (R. Swinbank, R. J. Purser, "Fibonacci
-/// grids", 2006).
+/// Directions to a disc or a sphere, evenly over its solid angle on a spiral (R. Swinbank, R. J. Purser,
+/// "Fibonacci grids", 2006).
 class DiscDirections {
 public:
-    /// One where the sun has no extent, else `rays`.
-    DiscDirections(const SunDisc& sun, int rays)
-        : frame_(tangent_frame(sun.towards)), count_(sun.half_angle > 0 ? rays : 1),
-          depth_(1 - std::cos(sun.half_angle)) {}
+    /// About unit `towards`, in the cone of that half angle, radians; one where that is 0, else `rays`.
+    DiscDirections(const glm::vec3& towards, double half_angle, int rays)
+        : frame_(tangent_frame(towards)), count_(half_angle > 0 ? rays : 1),
+          depth_(1 - std::cos(half_angle)) {}
 
     int count() const { return count_; }
+    /// To the middle, of direction `i`.
+    double cosine(int i) const { return 1 - depth_ * (i + 0.5) / count_; }
     /// Unit; `turn` about the middle, in radians, makes those of two places differ.
     glm::vec3 direction(int i, double turn) const {
-        const double cosine = 1 - depth_ * (i + 0.5) / count_, sine = std::sqrt(1 - cosine * cosine);
+        const double cosine = this->cosine(i), sine = std::sqrt(1 - cosine * cosine);
         const double angle = turn + i * std::numbers::pi * (3 - std::sqrt(5.0));
         return glm::vec3(glm::normalize(glm::dvec3(frame_.normal) * cosine +
                                         glm::dvec3(frame_.tangent) * (sine * std::cos(angle)) +
