@@ -33,9 +33,8 @@ Eigen::Map<const Matrix> matrix_of(const LightMetric& metric) {
 
 std::size_t numbers_of_lamps(const TransferLayout& layout) {
     std::size_t numbers = 0;
-    for (const TransferPart& part : layout.parts)
-        if (part.kind == PartKind::lamp)
-            numbers += layout.numbers_of(part);
+    for (const TransferPart& part : layout.lamp_parts())
+        numbers += layout.numbers_of(part);
     return numbers;
 }
 
@@ -69,7 +68,7 @@ LightMetric banded_metric(const TransferLayout& layout, Power&& power) {
     Eigen::Map<Matrix> moments = matrix_of(metric);
     for (int c = 0; c < 3; ++c) {
         const std::vector<Eigen::Index> begins = blocks_of_color(layout, c);
-        const std::size_t skies = begins.size() - layout.lamps();
+        const std::size_t skies = layout.distant_parts().size();
         for (std::size_t a = skies; a < begins.size(); ++a)
             moments(begins[a], begins[a]) += color_share(layout);
         for (std::size_t a = 0; a < skies; ++a)
@@ -96,7 +95,7 @@ void add_outer_product(const Lighting& lighting, double scale, LightMetric& metr
         const std::vector<Eigen::Index> begins = blocks_of_color(layout, c);
         Eigen::VectorXd light = Eigen::VectorXd::Zero(dimension_of(layout));
         const glm::vec3* color = columns.data();
-        for (std::size_t part = 0; part < begins.size() - layout.lamps(); ++part)
+        for (std::size_t part = 0; part < layout.distant_parts().size(); ++part)
             for (std::size_t i = 0; i < layout.columns_of(layout.parts[part]); ++i)
                 light[begins[part] + static_cast<Eigen::Index>(i)] = static_cast<double>((*color++)[c]);
         matrix_of(metric) += color_share(layout) * scale * light * light.transpose();
@@ -145,7 +144,7 @@ LightMetric plain_metric(const TransferLayout& layout) {
 
 LightMetric natural_metric(const TransferLayout& layout) {
     const auto whole = [](int l) { return l == 0 ? 1.0 : 0.25 / l; };
-    if (layout.parts.size() - layout.lamps() == 1)
+    if (layout.distant_parts().size() == 1)
         return banded_metric(layout, [&](int l, PartKind, PartKind) { return whole(l); });
     // All parts see the sky, those behind the first the suns as well.
     return banded_metric(layout, [&](int l, PartKind a, PartKind b) {

@@ -401,11 +401,10 @@ prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, prt_mess
 prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char** name, prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, name);
-        const std::vector<prt::TransferPart>& parts = model->former.layout().parts;
-        const std::size_t lamps = model->former.layout().lamps();
-        if (lamp >= lamps)
-            throw Error("the model has " + std::to_string(lamps) + " lamps");
-        *name = parts[parts.size() - lamps + lamp].name.c_str();
+        const std::span<const prt::TransferPart> lamps = model->former.layout().lamp_parts();
+        if (lamp >= lamps.size())
+            throw Error("the model has " + std::to_string(lamps.size()) + " lamps");
+        *name = lamps[lamp].name.c_str();
     });
 }
 

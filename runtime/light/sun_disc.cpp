@@ -45,4 +45,11 @@ Light as_light(const SunDisc& sun, int order) {
     return result;
 }
 
+Light as_light(std::span<const SunDisc> suns, int order) {
+    Light together = constant_light(order, glm::vec3(0));
+    for (const SunDisc& sun : suns)
+        together = sum(together, as_light(sun, order));
+    return together;
+}
+
 } // namespace prt

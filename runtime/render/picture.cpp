@@ -20,16 +20,15 @@ std::vector<glm::vec3> emission_strengths(const Scene& scene, const TransferLayo
     std::vector<glm::vec3> strengths(scene.materials.size(), glm::vec3(1));
     if (lamps.empty())
         return strengths;
-    const std::size_t skies = layout.parts.size() - layout.lamps();
-    for (std::size_t m = 0; m < strengths.size(); ++m)
-        for (std::size_t k = 0; k < layout.lamps(); ++k) {
-            const TransferPart& part = layout.parts[skies + k];
-            const std::string name = lamp_name(scene, m);
-            const bool member =
-                std::find(part.members.begin(), part.members.end(), name) != part.members.end();
-            if (member || (part.members.empty() && part.name == name))
-                strengths[m] = lamps[k];
+    for (std::size_t m = 0; m < strengths.size(); ++m) {
+        const std::string name = lamp_name(scene, m);
+        auto strength = lamps.begin();
+        for (const TransferPart& lamp : layout.lamp_parts()) {
+            if (lamp.members.empty() ? lamp.name == name : std::ranges::count(lamp.members, name) > 0)
+                strengths[m] = *strength;
+            ++strength;
         }
+    }
     return strengths;
 }
 

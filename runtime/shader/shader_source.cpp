@@ -103,18 +103,18 @@ std::string part_defines(const TransferLayout& layout) {
         define("PRT_NUMBERS", layout.dimension()) +
         define("PRT_COEFFICIENTS", static_cast<std::size_t>(coefficient_count(layout.order)));
     const char* const channels[] = {"PRT_FIRST_CHANNELS", "PRT_SECOND_CHANNELS"};
-    const std::size_t skies = layout.parts.size() - layout.lamps();
-    for (std::size_t part = 0; part < skies; ++part)
-        defines += define(channels[part], static_cast<std::size_t>(layout.parts[part].channels));
-    if (layout.lamps() == 0)
+    const std::span<const TransferPart> distant = layout.distant_parts(), lamps = layout.lamp_parts();
+    for (std::size_t i = 0; i < distant.size(); ++i)
+        defines += define(channels[i], static_cast<std::size_t>(distant[i].channels));
+    if (lamps.empty())
         return defines;
     std::uint32_t colored[kMostLamps / 32] = {};
-    for (std::size_t k = 0; k < layout.lamps(); ++k)
-        if (layout.parts[skies + k].channels == 3)
+    for (std::size_t k = 0; k < lamps.size(); ++k)
+        if (lamps[k].channels == 3)
             colored[k / 32] |= 1u << (k % 32);
     static_assert(std::size(colored) == 2);
-    defines += define("PRT_LAMPS", layout.lamps()) + "#define PRT_COLORED_LAMPS " +
-               std::to_string(colored[0]) + "u, " + std::to_string(colored[1]) + "u\n";
+    defines += define("PRT_LAMPS", lamps.size()) + "#define PRT_COLORED_LAMPS " + std::to_string(colored[0]) +
+               "u, " + std::to_string(colored[1]) + "u\n";
     return defines;
 }
 

@@ -41,35 +41,39 @@ std::vector<glm::vec3> exit_radiance(const Transfer& transfer, const Light& ligh
 }
 
 TransferLayout as_whole(const TransferLayout& layout) {
-    TransferLayout whole{layout.order, {}};
-    int channels = 0;
-    for (const TransferPart& part : layout.parts)
-        if (part.kind != PartKind::lamp)
-            channels = std::max(channels, part.channels);
-        else
-            whole.parts.push_back(part);
-    if (channels > 0)
-        whole.parts.insert(whole.parts.begin(), {PartKind::whole, channels});
+    const std::span<const TransferPart> distant = layout.distant_parts(), lamps = layout.lamp_parts();
+    TransferLayout whole{layout.order, {lamps.begin(), lamps.end()}};
+    if (distant.empty())
+        return whole;
+    int channels = 1;
+    for (const TransferPart& part : distant)
+        channels = std::max(channels, part.channels);
+    whole.parts.insert(whole.parts.begin(), {PartKind::whole, channels});
     return whole;
 }
 
+namespace {
+
+/// `from` of `layout` to `to` of `whole`, which is `as_whole(layout)`; `to` is zero.
+void add_parts(std::span<const float> from, const TransferLayout& layout, const TransferLayout& whole,
+               std::span<float> to) {
+    const auto count = static_cast<std::size_t>(coefficient_count(layout.order));
+    for (const TransferPart& part : layout.distant_parts()) {
+        for (int c = 0; c < whole.parts.front().channels; ++c)
+            for (std::size_t i = 0; i < count; ++i)
+                to[static_cast<std::size_t>(c) * count + i] +=
+                    from[static_cast<std::size_t>(std::min(c, part.channels - 1)) * count + i];
+        from = from.subspan(layout.numbers_of(part));
+    }
+    std::ranges::copy(from, to.last(from.size()).begin()); // lamps
+}
+
+} // namespace
+
 std::vector<float> as_whole(std::span<const float> transfer, const TransferLayout& layout) {
     const TransferLayout whole = as_whole(layout);
-    const auto count = static_cast<std::size_t>(coefficient_count(layout.order));
     std::vector<float> sum(whole.dimension(), 0.0f);
-    const float* from = transfer.data();
-    for (const TransferPart& part : layout.parts) {
-        if (part.kind == PartKind::lamp)
-            break;
-        const int channels = whole.parts.front().channels;
-        for (int c = 0; c < channels; ++c)
-            for (std::size_t i = 0; i < count; ++i)
-                sum[static_cast<std::size_t>(c) * count + i] +=
-                    from[static_cast<std::size_t>(std::min(c, part.channels - 1)) * count + i];
-        from += layout.numbers_of(part);
-    }
-    const float* const end = transfer.data() + transfer.size();
-    std::copy(from, end, sum.end() - (end - from));
+    add_parts(transfer, layout, whole, sum);
     return sum;
 }
 
@@ -77,7 +81,7 @@ Transfer as_whole(const Transfer& transfer, int threads) {
     Transfer whole = zero_transfer(as_whole(transfer.layout), transfer.receivers());
     parallel_for(transfer.receivers(), 4096, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
-            std::ranges::copy(as_whole(transfer.vector(p), transfer.layout), whole.vector(p).begin());
+            add_parts(transfer.vector(p), transfer.layout, whole.layout, whole.vector(p));
     });
     return whole;
 }
@@ -86,12 +90,9 @@ double mean_visibility(const Transfer& transfer, std::span<const float> areas) {
     double sum = 0, area = 0;
     for (std::size_t p = 0; p < areas.size(); ++p) {
         const float* from = transfer.vector(p).data();
-        for (const TransferPart& part : transfer.layout.parts) {
-            if (part.kind == PartKind::lamp)
-                break;
+        for (const TransferPart& part : transfer.layout.distant_parts())
             for (int c = 0; c < part.channels; ++c, from += transfer.layout.columns_of(part))
                 sum += static_cast<double>(areas[p]) * static_cast<double>(*from) / part.channels;
-        }
         area += static_cast<double>(areas[p]);
     }
     return area > 0 ? sum / (area * kY00) : 0;

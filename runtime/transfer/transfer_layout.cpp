@@ -30,13 +30,18 @@ void check_lamps(const TransferLayout& layout) {
     if (layout.lamps() > kMostLamps)
         throw Error("the transfer has " + std::to_string(layout.lamps()) + " lamps, more than " +
                     std::to_string(kMostLamps));
-    std::set<std::string> names;
-    for (const TransferPart& part : layout.parts) {
-        if (part.name.empty() != (part.kind != PartKind::lamp))
-            throw Error("lamps of transfer have names, and other parts have none");
-        if (part.kind != PartKind::lamp && !part.members.empty())
+    constexpr const char* kNames = "lamps of transfer have names, and other parts have none";
+    for (const TransferPart& part : layout.distant_parts()) {
+        if (!part.name.empty())
+            throw Error(kNames);
+        if (!part.members.empty())
             throw Error("a part of transfer that is no lamp has members");
-        if (!part.name.empty() && !names.insert(part.name).second)
+    }
+    std::set<std::string> names;
+    for (const TransferPart& part : layout.lamp_parts()) {
+        if (part.name.empty())
+            throw Error(kNames);
+        if (!names.insert(part.name).second)
             throw Error("two lamps of the transfer are called '" + printable(part.name) + "'");
     }
 }
@@ -83,9 +88,14 @@ std::size_t TransferLayout::columns() const {
     return columns;
 }
 
-std::size_t TransferLayout::lamps() const {
-    return static_cast<std::size_t>(std::count_if(
-        parts.begin(), parts.end(), [](const TransferPart& part) { return part.kind == PartKind::lamp; }));
+std::span<const TransferPart> TransferLayout::distant_parts() const {
+    return std::span(parts).first(parts.size() - lamps());
+}
+
+std::span<const TransferPart> TransferLayout::lamp_parts() const {
+    const auto first = std::find_if(parts.begin(), parts.end(),
+                                    [](const TransferPart& part) { return part.kind == PartKind::lamp; });
+    return {first, parts.end()};
 }
 
 TransferLayout layout_of_one(int order, int channels, PartKind kind) {
@@ -121,19 +131,17 @@ void write_light_columns(const TransferLayout& layout, const LightingView& light
     check_strengths(lamps, layout);
     assert(columns.size() >= layout.columns());
     auto to = columns.begin();
-    auto strength = lamps.begin();
-    for (const TransferPart& part : layout.parts) {
-        if (part.kind == PartKind::lamp) {
-            *to++ = lamps.empty() ? glm::vec3(1) : *strength++;
-            continue;
-        }
+    for (const TransferPart& part : layout.distant_parts())
         for (std::size_t i = 0; i < layout.columns_of(part); ++i) {
             *to = sky[i];
             if (!suns.empty() && part.kind != PartKind::direct)
                 *to += suns[i];
             ++to;
         }
-    }
+    if (lamps.empty())
+        std::fill_n(to, layout.lamps(), glm::vec3(1));
+    else
+        std::ranges::copy(lamps, to);
 }
 
 std::vector<glm::vec3> light_columns(const TransferLayout& layout, const LightingView& lighting) {

@@ -6,6 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include <span>
+
 namespace prt {
 
 /// A disc of uniform radiance far away, directional where it has no extent.
@@ -19,5 +21,7 @@ struct SunDisc {
 /// A sun as SH coefficients (docs/math.md, eq. 14): what lights transfer after a bounce. Throws `Error` for a
 /// half angle outside 0..pi/2 and for what is not finite.
 Light as_light(const SunDisc& sun, int order);
+/// Suns together.
+Light as_light(std::span<const SunDisc> suns, int order);
 
 } // namespace prt

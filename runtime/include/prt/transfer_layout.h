@@ -58,8 +58,10 @@ struct TransferLayout {
     std::size_t dimension() const;
     /// Colors of light that a transfer vector is multiplied with.
     std::size_t columns() const;
-    /// Parts that are lamps; they stand behind the others.
-    std::size_t lamps() const;
+    /// The parts of distant light, and behind them those that are lamps.
+    std::span<const TransferPart> distant_parts() const;
+    std::span<const TransferPart> lamp_parts() const;
+    std::size_t lamps() const { return lamp_parts().size(); }
 
     friend bool operator==(const TransferLayout&, const TransferLayout&) = default;
 };
