@@ -5,8 +5,6 @@
 #include "prt/sh.h"
 #include "prt/support/error.h"
 
-#include <glm/geometric.hpp>
-
 #include <fmt/core.h>
 
 #include <cmath>
@@ -19,55 +17,14 @@ namespace {
 
 constexpr const char* kChannels[3] = {"red", "green", "blue"};
 
-const Json& member(const Json& object, const char* key) {
-    if (!object.is_object() || !object.contains(key))
-        throw Error(fmt::format("\"{}\" is missing", key));
-    return object[key];
-}
-
-double number(const Json& object, const char* key) {
-    const Json& value = member(object, key);
-    if (!value.is_number())
-        throw Error(fmt::format("\"{}\" is no number", key));
-    return value.get<double>();
-}
-
-std::vector<float> numbers(const Json& object, const char* key, std::size_t count) {
-    const Json& list = member(object, key);
-    if (!list.is_array())
-        throw Error(fmt::format("\"{}\" is no list of numbers", key));
-    if (list.size() != count)
-        throw Error(fmt::format("\"{}\" has {} numbers and needs {}", key, list.size(), count));
-    std::vector<float> values;
-    for (const Json& value : list) {
-        if (!value.is_number())
-            throw Error(fmt::format("\"{}\" is no list of numbers", key));
-        values.push_back(value.get<float>());
-        if (!std::isfinite(values.back()))
-            throw Error(fmt::format("\"{}\" holds what is no finite float", key));
-    }
-    return values;
-}
-
-glm::vec3 vector_of(const Json& object, const char* key) {
-    const std::vector<float> values = numbers(object, key, 3);
-    return {values[0], values[1], values[2]};
-}
-
 SunDisc sun_of(const Json& entry) {
     SunDisc sun;
-    sun.towards = vector_of(entry, "towards");
+    sun.towards = direction_of(entry, "towards");
     sun.irradiance = vector_of(entry, "irradiance");
-    sun.half_angle = number(entry, "half_angle_radians");
-    const double length = glm::length(glm::dvec3(sun.towards));
-    if (!(length > 0))
-        throw Error("\"towards\" is no direction");
+    sun.half_angle = number_in(entry, "half_angle_radians", 0, 0.5 * std::numbers::pi);
     for (int c = 0; c < 3; ++c)
         if (sun.irradiance[c] < 0)
             throw Error("\"irradiance\" is negative");
-    if (!(sun.half_angle >= 0 && sun.half_angle <= 0.5 * std::numbers::pi))
-        throw Error("\"half_angle_radians\" is not in 0..pi/2");
-    sun.towards = glm::vec3(glm::dvec3(sun.towards) / length);
     return sun;
 }
 

@@ -16,7 +16,8 @@ namespace {
 
 class Lamps {
 public:
-    explicit Lamps(const std::vector<LampGroup>& groups) : groups_(groups), used_(groups.size(), false) {}
+    explicit Lamps(std::vector<LampGroup> groups)
+        : groups_(std::move(groups)), used_(groups_.size(), false) {}
 
     Lamp& called(const std::string& own) {
         std::string name = own;
@@ -29,7 +30,7 @@ public:
             }
         const auto [at, is_new] = places_.try_emplace(name, lamps_.size());
         if (is_new)
-            lamps_.push_back({name, {}, {}, {}});
+            lamps_.push_back({.name = name});
         Lamp& lamp = lamps_[at->second];
         if (!is_new && grouped == lamp.members.empty())
             throw Error(fmt::format("a lamp outside of group '{}' has that name: give the group another",
@@ -37,6 +38,14 @@ public:
         if (grouped && std::find(lamp.members.begin(), lamp.members.end(), own) == lamp.members.end())
             lamp.members.push_back(own);
         return lamp;
+    }
+
+    void add_key(const PunctualLight& light, std::uint32_t index) {
+        if (!places_.try_emplace(light.name, lamps_.size()).second)
+            throw Error(fmt::format("two lamps are called '{}', and one of them is of the light set: give it "
+                                    "another name",
+                                    printable(light.name)));
+        lamps_.push_back({.name = light.name, .lights = {index}, .towards = -light.direction});
     }
 
     std::vector<Lamp> finish() {
@@ -53,7 +62,7 @@ public:
     }
 
 private:
-    const std::vector<LampGroup>& groups_;
+    std::vector<LampGroup> groups_;
     std::vector<bool> used_;
     std::map<std::string, std::size_t> places_;
     std::vector<Lamp> lamps_;
@@ -82,16 +91,20 @@ bool matches(const std::string& text, const std::string& pattern) {
 }
 
 std::vector<Lamp> choose_lamps(const Surfaces& surfaces, const LampOptions& options) {
-    if (options.mode == LampMode::none)
-        return {};
     const Scene& scene = surfaces.scene();
-    Lamps lamps(options.groups);
-    for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-        lamps.called(scene.lights[i].name).lights.push_back(i);
-    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
+    const std::vector<PunctualLight>& lights = scene.lights;
+    const bool of_scene = options.mode != LampMode::none;
+    Lamps lamps(of_scene ? options.groups : std::vector<LampGroup>());
+    for (std::uint32_t i = 0; i < lights.size() && of_scene; ++i)
+        if (!lights[i].key)
+            lamps.called(lights[i].name).lights.push_back(i);
+    for (std::uint32_t t = 0; t < surfaces.triangles() && of_scene; ++t)
         if (surfaces.material(t).emission.radiance != glm::vec3(0))
             lamps.called(lamp_name(scene, scene.primitives[surfaces.primitive(t)].material))
                 .triangles.push_back(t);
+    for (std::uint32_t i = 0; i < lights.size(); ++i)
+        if (lights[i].key)
+            lamps.add_key(lights[i], i);
     return lamps.finish();
 }
 

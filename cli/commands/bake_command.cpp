@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "light_set.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
@@ -15,7 +16,7 @@ namespace prt::cli {
 namespace {
 
 struct BakeArguments {
-    Path scene, output, json;
+    Path scene, output, json, light_set;
     std::vector<std::string> no_shadow; ///< names of materials
     BakeOptions options;
     GltfOptions reading;
@@ -276,14 +277,16 @@ BakeResult baked(const BakeArguments& a, Scene& scene, Session& session) {
 }
 
 void run(BakeArguments a, Session& session) {
-    a.reading.outputs =
-        check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.scene});
+    a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
+                                      {a.scene, a.light_set});
     GltfOptions reading = a.reading;
     reading.missing_images =
         a.options.repairs.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
     GltfDocument document = load_gltf(a.scene, reading);
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
+    if (!a.light_set.empty())
+        std::ranges::move(read_light_set(a.light_set), std::back_inserter(scene.lights));
     const BakeResult result = about(a.scene, [&] { return baked(a, scene, session); });
     const std::vector<std::byte> file = about(a.scene, [&] {
         write_transfer(document, scene, result.baked);
@@ -315,6 +318,12 @@ void add_bake(CLI::App& app, Session& session) {
         ->excludes(rays);
     add_transport(command, a.options);
     add_lamps(command, a.options.lamps);
+    command
+        ->add_option("--light-set", a.light_set,
+                     "distant lights to keep one by one, by whose shadows suns shine later: a .json with the "
+                     "sun's arc of a day, or a list")
+        ->check(named)
+        ->type_name("FILE");
     command
         ->add_option("--no-shadow", a.no_shadow,
                      "a material whose surfaces stop no light, as the sky or the outline that is a shell "

@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include "lamp_strengths.h"
+#include "light_set.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
@@ -20,6 +21,7 @@ namespace {
 struct RelightArguments {
     Path model, environment, output, json;
     SunCount suns = {std::nullopt};
+    SunShadows shadows = SunShadows::sharp;
     LampChoice lamps;
     int rays = 256; ///< for each vertex and sun
     LightOptions light_options;
@@ -40,10 +42,20 @@ std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
     return colors;
 }
 
+/// How bright the lamps are, and the keys that shine for suns of `light`, which then has none.
+std::vector<glm::vec3> strengths_under(const RelightArguments& a, const TransferLayout& layout,
+                                       SplitLight& light) {
+    std::vector<glm::vec3> strengths = lamp_strengths(a.lamps, layout);
+    if (a.shadows == SunShadows::baked)
+        shine_by_keys(a.model, layout, light, strengths);
+    return strengths;
+}
+
 /// Exit radiance for albedo 1: the sky by transfer, suns by rays, and what they give after a bounce.
 std::vector<glm::vec3> radiance_of(const RelightArguments& a, const SceneFile& model, const TraceScene& scene,
-                                   const SplitLight& light, const Progress& progress) {
-    const Lighting lighting{light.sky.light, light_of_suns(light), lamp_strengths(a.lamps, layout_of(model))};
+                                   const SplitLight& light, std::vector<glm::vec3> strengths,
+                                   const Progress& progress) {
+    const Lighting lighting{light.sky.light, light_of_suns(light), std::move(strengths)};
     std::vector<glm::vec3> radiance = model.compressed
                                           ? exit_radiance(model.compressed->transfer, lighting, a.threads)
                                           : exit_radiance(model.baked->transfer, lighting, a.threads);
@@ -56,12 +68,17 @@ std::vector<glm::vec3> radiance_of(const RelightArguments& a, const SceneFile& m
     return radiance;
 }
 
+/// Whether suns can only be lit with the sky.
+bool is_together(const RelightArguments& a, const SceneFile& model) {
+    return a.shadows == SunShadows::sharp && layout_of(model).has(PartKind::whole);
+}
+
 void check_model(const RelightArguments& a, const SceneFile& model) {
     if (!model.record())
         throw Error(a.model.string() + ": holds no transfer; run prt bake first");
     if (a.environment.empty() && layout_of(model).lamps() == 0)
         throw Error(a.model.string() + ": has no lamps, and without --env nothing lights it");
-    if (layout_of(model).has(PartKind::whole)) {
+    if (is_together(a, model)) {
         if (a.suns.count.value_or(0) > 0)
             throw Error(a.model.string() + ": " + kNotApart + ", or light it with --suns 0");
         print_notices(a.model.string(), {"keeps no direct light apart: suns are lit with the sky, and no "
@@ -69,7 +86,7 @@ void check_model(const RelightArguments& a, const SceneFile& model) {
     }
 }
 
-Report report_of(const RelightArguments& a, const SplitLight& light, std::span<const glm::vec3> radiance,
+Report report_of(const RelightArguments& a, std::size_t suns, std::span<const glm::vec3> radiance,
                  std::span<const float> areas) {
     glm::dvec3 sum(0);
     double area = 0;
@@ -81,7 +98,7 @@ Report report_of(const RelightArguments& a, const SplitLight& light, std::span<c
     Report report;
     add_figures(report, {{"output", a.output.string()},
                          {"receivers", radiance.size()},
-                         {"suns", light.split.suns.size()},
+                         {"suns", suns},
                          {"mean_radiance", {mean.r, mean.g, mean.b}}});
     report.sentences = {
         fmt::format("{{output}}: radiance of {{receivers}} vertices{}, {{suns}} suns apart, mean "
@@ -97,20 +114,23 @@ void run(RelightArguments a, Session& session) {
     const Stopwatch stopwatch;
     SceneFile model = load_scene_file(a.model, a.reading);
     check_model(a, model);
-    const SunCount suns = layout_of(model).has(PartKind::whole) ? SunCount{0} : a.suns;
-    const SplitLight light = a.environment.empty() ? dark_sky(model.order())
-                                                   : load_split_light(a.environment, model.order(), suns,
-                                                                      a.light_options, a.threads);
+    const SunCount suns = is_together(a, model) ? SunCount{0} : a.suns;
+    SplitLight light = a.environment.empty()
+                           ? dark_sky(model.order())
+                           : load_split_light(a.environment, model.order(), suns, a.light_options, a.threads);
     const TraceScene scene(model.scene, load_textures(model.scene, BadTextures::error),
                            {.solid = solid_materials(model), .threads = a.threads});
     ProgressBar bar = session.progress_bar("relighting");
-    std::vector<glm::vec3> radiance = radiance_of(a, model, scene, light, bar.progress());
+    const std::size_t suns_apart = light.split.suns.size();
+    std::vector<glm::vec3> strengths = strengths_under(a, layout_of(model), light);
+    std::vector<glm::vec3> radiance =
+        radiance_of(a, model, scene, light, std::move(strengths), bar.progress());
     if (a.albedo) {
         const std::vector<glm::vec3> colors = base_colors(scene.surfaces());
         for (std::size_t p = 0; p < radiance.size(); ++p)
             radiance[p] *= colors[p];
     }
-    Report report = report_of(a, light, radiance, receiver_areas(model.scene));
+    Report report = report_of(a, suns_apart, radiance, receiver_areas(model.scene));
     discard_transfer(model.document);
     write_vertex_colors(model.document, model.scene, radiance);
     const std::vector<std::byte> file = about(a.model, [&] { return encode_glb(model.document); });
@@ -137,6 +157,7 @@ void add_relight(CLI::App& app, Session& session) {
              "find suns in the image, so many or as many as pay, and shadow them by rays; those of a light "
              "file are lit so, too",
              "auto");
+    add_sun_shadows(command, a.shadows);
     add_lamps(command, a.lamps);
     command->add_option("--sun-rays", a.rays, "rays from a vertex to each sun")
         ->capture_default_str()

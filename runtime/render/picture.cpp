@@ -24,7 +24,9 @@ std::vector<glm::vec3> emission_strengths(const Scene& scene, const TransferLayo
         const std::string name = lamp_name(scene, m);
         auto strength = lamps.begin();
         for (const TransferPart& lamp : layout.lamp_parts()) {
-            if (lamp.members.empty() ? lamp.name == name : std::ranges::count(lamp.members, name) > 0)
+            const bool is_member =
+                lamp.members.empty() ? lamp.name == name : std::ranges::count(lamp.members, name) > 0;
+            if (is_member && !lamp.towards)
                 strengths[m] = *strength;
             ++strength;
         }

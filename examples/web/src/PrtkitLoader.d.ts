@@ -32,6 +32,8 @@ export class PrtkitModel {
   readonly directApart: boolean;
   /** Names of the lamps that can be dimmed: lights and shining materials of the scene, and groups of them. */
   readonly lamps: string[];
+  /** Keys of the light set by which suns can shine: distant lights that are dark until they are set. */
+  readonly keys: { name: string; towards: number[] }[];
   /** Vertices that have transfer. */
   readonly vertices: number;
   /** Of the vertex attributes that transfer takes, as they are bound: packed weights in whole 32-bit words, others
@@ -39,9 +41,13 @@ export class PrtkitModel {
   readonly bytesPerVertex: number;
   /** Lights all meshes of the file by `light`, all of it or without its suns. `suns`: those that the scene's directional
    * lights add with their shadows; they light here what is lit after a bounce. Without them, and where `directApart` is
-   * false, three's lights add nothing. Lamps that `lamps` does not name shine as in the scene. Throws a RangeError for a
+   * false, three's lights add nothing. Lamps that `lamps` does not name shine as in the scene,
+   * keys do not. Throws a RangeError for a
    * light of fewer bands than `order`, for lamps that are not there, and for strengths below zero. */
   setLight(light: ShLight, angle?: number, suns?: ShLight | null, lamps?: LampStrengths): void;
+  /** Strengths of the keys by which `suns` shine without a shadow map, for `lamps` of `setLight` with the same angle; the
+   * suns are then left out of its light. Throws a RangeError where the model has no keys. */
+  strengthsOfSuns(suns: Sun[], angle?: number): Record<string, [number, number, number]>;
   dispose(): void;
 }
 

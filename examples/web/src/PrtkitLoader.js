@@ -15,6 +15,10 @@
 //   scene.add(lights);
 //   prtkit.setLight(sky.deringed(), angle, lightOfSuns(suns, prtkit.order));
 //
+// Where the model has a light set (`prt bake --light-set`), suns have hard shadows without any light of three's:
+//
+//   prtkit.setLight(sky.deringed(), angle, null, prtkit.strengthsOfSuns(suns, angle));
+//
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
 import {
@@ -32,6 +36,7 @@ import {
   Vector3,
 } from "three";
 import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "./clusteredPca.js";
+import { strengthsOfSuns } from "./lightSet.js";
 import { relitMaterial, sunTraits } from "./relitMaterial.js";
 import { MAX_ORDER, projectLatLong } from "./sphericalHarmonics.js";
 
@@ -73,9 +78,13 @@ export class PrtkitModel {
     this.channels = Math.max(...this.clusters.parts.map((part) => part.channels));
     this.directApart = this.clusters.parts[0].kind === "direct";
     /** Names of the lamps that can be dimmed. */
-    this.lamps = this.clusters.parts.filter(({ kind }) => kind === "lamp").map(({ name }) => name);
-    /** By lamp, what its strength is; of shining materials, uniforms. */
-    this.strengths = new Map(this.lamps.map((name) => [name, { value: new Vector3(1, 1, 1) }]));
+    const lamps = this.clusters.parts.filter(({ kind }) => kind === "lamp");
+    this.lamps = lamps.filter(({ towards }) => !towards).map(({ name }) => name);
+    /** Keys of the light set by which suns can shine: { name, towards }. */
+    this.keys = lamps.filter(({ towards }) => towards);
+    /** By lamp or key, what its strength is; of shining materials, uniforms. */
+    this.strengths = new Map(lamps.map(({ name }) => [name, { value: new Vector3() }]));
+    this.setStrengths({});
     this.uniforms = {
       prt_constants: { value: this.constantsTexture },
       prt_clusters: { value: this.clustersTexture },
@@ -103,9 +112,20 @@ export class PrtkitModel {
     this.uniforms.prtSunsApart.value = suns !== null && this.directApart;
   }
 
+  /**
+   * Strengths of the keys by which `suns` shine, turned as `setLight` turns its light: what `lamps` of it is given beside
+   * those of lamps, in the place of suns that three's lights add.
+   */
+  strengthsOfSuns(suns, angle = 0) {
+    if (this.keys.length === 0) throw new RangeError("the model has no light set");
+    return strengthsOfSuns(this.keys, suns, angle);
+  }
+
   /** By which what a material of this name shines with is multiplied. */
   strengthOf(material) {
-    const lamp = this.clusters.parts.find(({ kind, name, members = [name] }) => kind === "lamp" && members.includes(material));
+    const lamp = this.clusters.parts.find(
+      ({ kind, name, towards, members = [name] }) => kind === "lamp" && !towards && members.includes(material),
+    );
     return lamp ? this.strengths.get(lamp.name) : { value: new Vector3(1, 1, 1) };
   }
 
@@ -119,7 +139,8 @@ export class PrtkitModel {
       if (strength?.length !== 3 || ![...strength].every((value) => value >= 0 && value < Infinity))
         throw new RangeError(`the strength of lamp "${name}" is neither a number nor three, or below zero`);
     }
-    for (const { value } of this.strengths.values()) value.set(1, 1, 1);
+    for (const { value } of this.strengths.values()) value.set(0, 0, 0);
+    for (const name of this.lamps) this.strengths.get(name).value.set(1, 1, 1);
     for (const [name, strength] of given) this.strengths.get(name).value.set(...strength);
   }
 

@@ -39,15 +39,19 @@ const floats = (bytes) => new Float32Array(bytes.buffer.slice(bytes.byteOffset, 
 
 const LAYOUTS = [[], ["direct"], ["indirect"], ["whole"], ["direct", "indirect"]];
 
+const isUnit = (v) => Array.isArray(v) && v.length === 3 && Math.abs(Math.hypot(...v) - 1) <= 1e-3;
+
 function areParts(parts) {
   if (!Array.isArray(parts) || !parts.every((part) => part?.channels === 1 || part?.channels === 3)) return false;
   const skies = parts.filter(({ kind }) => kind !== "lamp");
-  const names = parts.slice(skies.length).map(({ name }) => name);
+  const lamps = parts.slice(skies.length);
+  const names = lamps.map(({ name }) => name);
   return (
     parts.length > 0 &&
     names.every((name) => typeof name === "string" && name !== "") &&
     new Set(names).size === names.length &&
-    parts.slice(skies.length).every(({ kind }) => kind === "lamp") &&
+    lamps.every(({ kind, towards }) => kind === "lamp" && (towards === undefined || isUnit(towards))) &&
+    skies.every(({ towards }) => towards === undefined) &&
     LAYOUTS.some((kinds) => kinds.length === skies.length && kinds.every((kind, i) => kind === skies[i].kind))
   );
 }
@@ -66,8 +70,8 @@ const dimensionOf = ({ order, parts }) =>
  * what is wrong with a file that is damaged or of another version.
  */
 export function decodeClusters(extension, view) {
-  if (extension.version !== 4)
-    throw new Error(`PRTKIT_clustered_pca: version ${extension.version} is not known, only 4; compress the model again`);
+  if (extension.version !== 5)
+    throw new Error(`PRTKIT_clustered_pca: version ${extension.version} is not known, only 5; compress the model again`);
   const { order, parts, components, bases, packing } = extension;
   if (!(order >= 1 && order <= 10) || !areParts(parts) || !Array.isArray(components))
     throw new Error("PRTKIT_clustered_pca: order, parts or components are wrong");
@@ -164,15 +168,15 @@ export function clusterTable(clusters) {
 /**
  * The colours that the parts are multiplied with, one behind the other, [columns][3]: `sky` [>= order²][3] for direct
  * light, with `suns` added for the rest (null: all light is in the sky), and `lamps` [lamps][3], what each lamp is dimmed
- * or coloured by (null: all shine as in the scene).
+ * or coloured by (null: all shine as in the scene, and keys of a light set, which are not in it, do not).
  */
 export function lightColumns({ order, parts }, sky, suns = null, lamps = null) {
   const columns = new Float64Array(3 * parts.reduce((sum, part) => sum + columnsOf(order, part), 0));
   let at = 0;
   let lamp = 0;
-  for (const { kind } of parts)
+  for (const { kind, towards } of parts)
     if (kind === "lamp") {
-      for (let c = 0; c < 3; ++c) columns[at++] = lamps ? lamps[3 * lamp + c] : 1;
+      for (let c = 0; c < 3; ++c) columns[at++] = lamps ? lamps[3 * lamp + c] : towards ? 0 : 1;
       ++lamp;
     } else for (let i = 0; i < 3 * order * order; ++i) columns[at++] = sky[i] + (suns && kind !== "direct" ? suns[i] : 0);
   return columns;

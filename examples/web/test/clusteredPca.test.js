@@ -17,7 +17,7 @@ const bytesOf = (...values) => new Uint8Array(new Float32Array(values).buffer);
 
 /** Two clusters of order 1: mean 2 with directions 0.5 and 0.25, mean 3 with none. Widths 3 and 5. */
 const plain = {
-  version: 4,
+  version: 5,
   order: 1,
   parts: [{ kind: "whole", channels: 1 }],
   components: [2, 0],
@@ -51,7 +51,7 @@ test("the shader's rows times integers are the rows times weights", () => {
 test("coded bases are sums over axes", () => {
   // One axis (3, -1) of three channels and order 1 would be dimension 3; here dimension 3, two axes.
   const extension = {
-    version: 4,
+    version: 5,
     order: 1,
     parts: [{ kind: "direct", channels: 3 }],
     components: [1],
@@ -100,6 +100,11 @@ test("parts that make no sense are refused", () => {
   const of = (...kinds) => kinds.map((kind) => ({ kind, channels: 1 }));
   for (const parts of [undefined, [], of("lamp"), of("indirect", "direct"), of("direct", "whole"), of("direct", "direct"), of("direct,indirect")])
     assert.throws(() => decodeClusters({ ...plain, parts }, (i) => plainViews[i]), /parts/);
+  for (const towards of [[0, 1], [0, 2, 0], "up", [0, 1, 0]]) {
+    const lamp = { kind: "lamp", channels: 1, name: "key", towards };
+    const parts = towards[1] === 1 && towards.length === 3 ? [{ ...of("whole")[0], towards }] : [...of("whole"), lamp];
+    assert.throws(() => decodeClusters({ ...plain, parts }, (i) => plainViews[i]), /parts/);
+  }
   assert.throws(() => decodeClusters({ ...plain, parts: [{ kind: "whole", channels: 2 }] }, (i) => plainViews[i]), /parts/);
 });
 
@@ -112,7 +117,7 @@ test("files that are damaged or of another version are refused with a reason", (
 
 test("a row has a value for each coefficient of each channel", () => {
   const extension = {
-    version: 4,
+    version: 5,
     order: 2,
     parts: [{ kind: "whole", channels: 3 }],
     components: [0],

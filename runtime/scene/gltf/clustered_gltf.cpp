@@ -19,7 +19,7 @@
 namespace prt {
 namespace {
 
-constexpr int kClusteredVersion = 4;
+constexpr int kClusteredVersion = 5;
 
 int weight_component_type(WeightFormat format) {
     switch (format) {

@@ -11,7 +11,7 @@
 namespace prt {
 namespace {
 
-constexpr int kTransferVersion = 3;
+constexpr int kTransferVersion = 4;
 
 void write_into(GltfContents& contents, const Scene& scene, const BakedTransfer& baked) {
     const std::vector<Json*> primitives = unshare(contents, scene);

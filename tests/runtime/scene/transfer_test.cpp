@@ -181,7 +181,8 @@ TEST(TransferInGltf, PartsComeBackAsTheyAre) {
                                 {{PartKind::direct, 1},
                                  {PartKind::indirect, 3},
                                  {PartKind::lamp, 3, "lanterns", {"Lantern.1", "glass"}},
-                                 {PartKind::lamp, 1, "sign"}}};
+                                 {PartKind::lamp, 1, "sign"},
+                                 {PartKind::lamp, 1, "noon", {}, glm::vec3(0.6f, 0.8f, 0)}}};
     const BakedTransfer baked = random_bake(scene, layout);
     write_transfer(document, scene, baked);
     save_glb(document, files.written);
@@ -433,6 +434,9 @@ TEST(TransferInGltf, EverythingThatTheSchemaForbidsIsRefused) {
         [&](auto& j) { extension(j)["parts"].push_back(extension(j)["parts"][0]); },
         [&](auto& j) { extension(j)["parts"] = nlohmann::ordered_json::array(); },
         [&](auto& j) { extension(j)["parts"] = "whole"; },
+        [&](auto& j) {
+            extension(j)["parts"][0]["towards"] = {0, 1, 0};
+        },
         [&](auto& j) { extension(j)["components"][1] = 1.5; },
         [&](auto& j) { extension(j)["components"][1] = (1LL << 33) + 1; },
         [&](auto& j) { extension(j)["components"][0] = -1; },
