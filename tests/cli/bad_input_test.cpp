@@ -322,7 +322,7 @@ TEST_F(BadLightFile, ItsSunsAreCheckedOneByOne) {
     refuse_at("/suns/0/towards", {0, 1}, "has 2 numbers and needs 3");
     refuse_at("/suns/0/towards", {0, 0, 0}, "no direction");
     refuse_at("/suns/0/irradiance/1", -1, "\"irradiance\" is negative");
-    refuse_at("/suns/0/half_angle_radians", 2, "0..pi/2");
+    refuse_at("/suns/0/half_angle_radians", 2, "0..1.5708");
 }
 
 TEST_F(BadLightFile, SunsAreFoundInImagesAlone) {

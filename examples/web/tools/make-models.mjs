@@ -27,8 +27,9 @@ const run = (program, ...options) => execFileSync(program, options, { stdio: ["i
 mkdirSync(work, { recursive: true });
 mkdirSync(join(publicFolder, "models"), { recursive: true });
 mkdirSync(join(publicFolder, "skies"), { recursive: true });
-const names = process.env.PRT_SCENES?.split(",") ?? ["knot", "room", "tree", "terrain"];
-if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work, ...names, "sky"); // the sky is written last
+const names = process.env.PRT_SCENES?.split(",") ?? ["knot", "room", "tree", "terrain", "night_room", "courtyard"];
+const times = process.env.PRT_SCENES ? [] : ["noon", "evening", "night"]; // for what has lamps
+if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work, ...names, ...times, "sky"); // the sky is written last
 
 const levels = [
   { name: "u32", title: "small", options: ["--preset", "u32"] },
@@ -39,10 +40,14 @@ const cameras = {
   room: { position: [1.2, 1.9, 4.2], target: [0, 1.8, -5], fieldOfView: 45 },
   tree: { position: [1.5, 1.7, 5.5], target: [0, 1.9, 0] },
   terrain: { position: [1, 4.5, 11], target: [0, 2.6, 0] },
+  night_room: { position: [0.6, 1.7, 2.6], target: [0, 1.8, -6], fieldOfView: 50 },
+  courtyard: { position: [3.9, 1.75, 4.9], target: [-1.3, 2.75, -6], fieldOfView: 46 },
 };
+const large = new Set(["courtyard"]); // fewer rays, and one file: it would take an hour
 const scenes = names.map((name) => ({ name, file: join(work, `${name}.glb`) }));
 // The example sky is in OpenEXR's layout; those of users are taken as three takes them.
 const skies = [{ title: "clear day", file: join(work, "sky.exr"), center: "z" }];
+for (const title of times) skies.push({ title, file: join(work, `${title}.exr`), center: "z" });
 for (const path of extra) {
   const title = basename(path, extname(path));
   if ([".glb", ".gltf"].includes(extname(path))) scenes.push({ name: title, file: path });
@@ -52,17 +57,18 @@ for (const path of extra) {
 const isNewer = (made, from) => existsSync(made) && statSync(made).mtimeMs >= statSync(from).mtimeMs;
 
 const models = scenes.map(({ name, file }, i) => {
-  const baked = join(work, `${name}.${rays}.baked.glb`);
+  const count = large.has(name) ? Math.min(256, Number(rays)) : rays;
+  const baked = join(work, `${name}.${count}.baked.glb`);
   if (!isNewer(baked, file)) {
     console.log(`baking ${name} (${i + 1} of ${scenes.length})`);
-    run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", rays);
+    run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", String(count), "--lamp-rays", "32");
   }
   console.log(`compressing ${name} (${i + 1} of ${scenes.length})`);
   return {
     name,
     title: name,
     camera: cameras[name],
-    levels: levels.map((level) => {
+    levels: levels.filter((level) => !large.has(name) || level.name === "u64").map((level) => {
       const shipped = `models/${name}.${level.name}.glb`;
       const json = join(work, "compress.json");
       run(prt, "compress", baked, "-o", join(publicFolder, shipped), "--meshopt", "--json", json, ...level.options);
