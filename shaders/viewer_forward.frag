@@ -12,5 +12,5 @@ void main() {
 #else
     vec3 lit = unshadowed_radiance(facing_normal()) * occlusion() * base.rgb;
 #endif
-    result = vec4(min(lit + light_of_suns(base.rgb), vec3(65000.0)), base.a);
+    result = vec4(min(lit + light_beside_the_sky(base.rgb), vec3(65000.0)), base.a);
 }

@@ -1,6 +1,6 @@
 // A surface into the G-buffer: base color, and in alpha five bits of ambient occlusion and one that says whether the
-// exit radiance is already in the third target, which holds that of suns apart otherwise; the normal, octahedral (Meyer
-// et al. 2010).
+// exit radiance is already in the third target, which holds that of suns apart and the surface's own otherwise; the
+// normal, octahedral (Meyer et al. 2010).
 
 #include "viewer_lighting.glsl"
 #include "shared_viewer.h"
@@ -32,13 +32,14 @@ void main() {
 #ifdef PRT_RADIANCE_GIVEN
     target_base = vec4(base.rgb, 1.0 / 255.0);
     target_normal = vec2(0.5);
-    target_radiance = vec4(min(max(radiance, vec3(0.0)) * base.rgb + light_of_suns(base.rgb), vec3(65000.0)), 1.0);
+    target_radiance =
+        vec4(min(max(radiance, vec3(0.0)) * base.rgb + light_beside_the_sky(base.rgb), vec3(65000.0)), 1.0);
 #else
     float threshold = dithered ? bayer_threshold(uvec2(gl_FragCoord.xy) & 7u) : 0.5;
     float levels = float(PRT_AO_LEVELS);
     float level = min(floor(occlusion() * levels + threshold), levels);
     target_base = vec4(base.rgb, 8.0 * level / 255.0);
     target_normal = octahedral(facing_normal());
-    target_radiance = vec4(min(light_of_suns(base.rgb), vec3(65000.0)), 1.0);
+    target_radiance = vec4(min(light_beside_the_sky(base.rgb), vec3(65000.0)), 1.0);
 #endif
 }

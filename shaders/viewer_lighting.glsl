@@ -1,6 +1,8 @@
-// What viewer_surface.vert hands to a fragment shader: the surface's normal and occlusion where it has them, and suns.
+// What viewer_surface.vert hands to a fragment shader: the surface's normal and occlusion where it has them, what it
+// gives off, and suns.
 
 #include "surface.glsl"
+#include "emission.glsl"
 #ifdef PRT_SUNS
 #include "sun_light.glsl"
 #endif
@@ -22,11 +24,12 @@ float occlusion() {
 }
 #endif
 
-// Suns apart from the sky, on a surface of that base color.
-vec3 light_of_suns(vec3 base) {
+// What is the same however the sky is shown: suns apart from it, on a surface of that base color, and what that gives
+// off by itself.
+vec3 light_beside_the_sky(vec3 base) {
 #ifdef PRT_SUNS
-    return sun_radiance(base);
+    return sun_radiance(base) + emitted_radiance();
 #else
-    return vec3(0.0);
+    return emitted_radiance();
 #endif
 }

@@ -1,6 +1,6 @@
 // Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or from a PRT_VERTEX_RADIANCE
 // attribute; with neither, the fragment shader finds it from the normal and an ambient occlusion. PRT_SUNS: for suns
-// apart.
+// apart. What a surface gives off comes on top of all.
 
 #include "shared_layout.h"
 
@@ -8,6 +8,7 @@ layout(location = PRT_LOCATION_POSITION) in vec3 position;
 layout(location = PRT_LOCATION_TEXCOORD) in vec2 texcoord;
 layout(location = PRT_LOCATION_COLOR) in vec4 color;
 
+#include "emission_vertex.glsl"
 #ifdef PRT_SUNS
 #include "sun_vertex.glsl"
 #endif
@@ -41,6 +42,7 @@ void main() {
 #ifdef PRT_SUNS
     take_for_suns(position);
 #endif
+    take_for_emission();
     surface_texcoord = texcoord;
     surface_color = color;
     gl_Position = view_projection * vec4(position, 1.0);

@@ -38,6 +38,8 @@ bake tree tree --bounces 3
 bake terrain terrain --bounces 1
 ship knot u32
 ship room u32
+bake night_room night_room --bounces 3 --rays 256
+ship night_room u64
 ship tree u64
 ship terrain u64
 render knot.shipped knot

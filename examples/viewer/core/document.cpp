@@ -10,6 +10,15 @@ int Document::light_order() const {
     return std::max({3, raw_order(), compressed() ? compressed()->bases.layout.order : 0});
 }
 
+std::vector<const prt::TransferLayout*> Document::layouts() const {
+    std::vector<const prt::TransferLayout*> layouts;
+    if (raw())
+        layouts.push_back(&raw()->layout);
+    if (compressed())
+        layouts.push_back(&compressed()->bases.layout);
+    return layouts;
+}
+
 void Document::open(const LoadedModel& model) {
     loaded = model;
     occlusion = nullptr;

@@ -8,7 +8,7 @@ namespace viewer {
 
 /// Tells two states of the light on the model apart.
 struct RadianceVersion {
-    std::uint64_t transfer = 0, light = 0;
+    std::uint64_t transfer = 0, light = 0, lamps = 0;
     bool suns_apart = false;
 
     friend bool operator==(const RadianceVersion&, const RadianceVersion&) = default;
@@ -34,6 +34,8 @@ struct Document {
     int raw_order() const { return raw() ? raw()->layout.order : 0; }
     /// The largest number of components of a cluster.
     int most_components() const { return compressed() ? compressed()->bases.max_components() : 0; }
+    /// Of all transfer that there is.
+    std::vector<const prt::TransferLayout*> layouts() const;
     /// Bands that the light needs: as many as the transfers have, three at least.
     int light_order() const;
 

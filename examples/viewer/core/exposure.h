@@ -3,6 +3,7 @@
 // Automatic exposure of what the camera sees of the model.
 
 #include "core/document.h"
+#include "pictures/lamps.h"
 
 #include "prt/light_meter.h"
 
@@ -28,9 +29,12 @@ public:
     struct Lit {
         const prt::Transfer* raw;
         const prt::ClusteredTransfer* compressed;
+        const LampSettings& lamps;
+        float darkness;          ///< of the night, 0..1
         RadianceVersion version; ///< tells lights and transfers apart
     };
-    /// Factor on radiance; `light` is called where something has changed. Where nothing lit is seen of the
+    /// Factor on radiance: what is seen of the model comes to a mean luminance of 0.22, at night to less;
+    /// `light` is called where something has changed. Where nothing lit is seen of the
     /// model, the light is measured.
     float exposure(const View& view, const Lit& lit, const std::function<prt::Light()>& light);
     /// Of the last exposure.

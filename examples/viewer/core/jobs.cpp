@@ -78,10 +78,10 @@ void Jobs::read_environments(const std::vector<std::filesystem::path>& paths) {
     });
 }
 
-void Jobs::find_numbers(const Document& document, const prt::Lighting& lighting) {
-    start(JobKind::numbers, [loaded = document.loaded, lighting](Channel& channel) {
-        channel.post(NumberPictures{
-            loaded.model, number_pictures(*loaded.model, loaded.raw.get(), *loaded.compressed, lighting)});
+void Jobs::find_numbers(const Document& document, const prt::Lighting& lighting, const LampSettings& lamps) {
+    start(JobKind::numbers, [loaded = document.loaded, lighting, lamps](Channel& channel) {
+        channel.post(NumberPictures{loaded.model, number_pictures(*loaded.model, loaded.raw.get(),
+                                                                  *loaded.compressed, lighting, lamps)});
     });
 }
 

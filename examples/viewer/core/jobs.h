@@ -3,6 +3,7 @@
 // All that the viewer does in the background.
 
 #include "core/document.h"
+#include "pictures/lamps.h"
 
 #include <array>
 
@@ -20,7 +21,7 @@ public:
     void compress(const Document& document, const CompressionSettings& how);
     /// Reads environments; those that were still being read are read, too.
     void read_environments(const std::vector<std::filesystem::path>& paths);
-    void find_numbers(const Document& document, const prt::Lighting& lighting);
+    void find_numbers(const Document& document, const prt::Lighting& lighting, const LampSettings& lamps);
     /// Writes the model with its compressed transfer.
     void save(const Document& document, const std::filesystem::path& output);
 

@@ -21,11 +21,12 @@ namespace viewer {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
+constexpr double kSunHalfAngle = 0.265 * kPi / 180; ///< radians, as seen from Earth
 const glm::vec3 kGround(0.24f, 0.2f, 0.15f);
 
 glm::dvec3 sun_at(double hour) {
     const double angle = (hour - 12) / 12 * kPi, latitude = kPi / 4;
-    return {std::sin(angle), std::cos(angle) * std::cos(latitude), std::cos(angle) * std::sin(latitude)};
+    return {-std::sin(angle), std::cos(angle) * std::cos(latitude), std::cos(angle) * std::sin(latitude)};
 }
 
 LoadedEnvironment ready(std::string name, const prt::Environment& environment) {
@@ -55,12 +56,26 @@ std::vector<prt::Sun> as_seen_by_rays(const std::vector<prt::SunDisc>& discs) {
     return suns;
 }
 
-/// The sky of the model over a ground that reflects it; dusk fades.
+/// Share of the sky's daylight, 0..1; the rest is night. Dusk ends where the sun is 8.6 degrees below the
+/// horizon, between the ends of civil and of nautical twilight.
+double daylight(const glm::dvec3& sun) {
+    const double share = std::clamp(1 + sun.y / 0.15, 0.0, 1.0);
+    return share * share;
+}
+
+/// Without a moon, a little lighter towards the horizon: a thousandth of the sky at noon, as the night of the
+/// example scenes, so that their lanterns and their sky fit into one picture. Real nights are far darker.
+glm::dvec3 night_radiance(const glm::dvec3& direction) {
+    const glm::dvec3 zenith(0.004, 0.007, 0.018), horizon(0.012, 0.016, 0.03);
+    return glm::mix(horizon, zenith, std::sqrt(direction.y));
+}
+
+/// The sky of the model over a ground that reflects it; dusk fades into night.
 prt::Image day_image(const Day& day, const glm::dvec3& sun) {
     constexpr int kWidth = 128, kHeight = 64;
     const glm::dvec3 above = glm::normalize(glm::dvec3(sun.x, std::max(sun.y, 0.02), sun.z));
     const prt::PreethamSky sky(day.turbidity, above);
-    const auto fade = static_cast<float>(std::clamp(1 + sun.y / 0.15, 0.02, 1.0));
+    const double share = daylight(sun);
     prt::Image image{kWidth, kHeight, {}};
     image.pixels.reserve(std::size_t{kWidth} * kHeight);
     glm::dvec3 irradiance(0);
@@ -69,10 +84,10 @@ prt::Image day_image(const Day& day, const glm::dvec3& sun) {
             const glm::dvec3 d = prt::lat_long_direction(kWidth, kHeight, x + 0.5, y + 0.5);
             glm::dvec3 pixel = irradiance * glm::dvec3(kGround) / kPi; // the upper rows came first
             if (d.y > 0) {
-                pixel = glm::max(sky.radiance(d), 0.0);
+                pixel = glm::mix(night_radiance(d), glm::max(sky.radiance(d), 0.0), share);
                 irradiance += pixel * (d.y * 2 * kPi / kWidth * kPi / kHeight * std::sqrt(1 - d.y * d.y));
             }
-            image.pixels.push_back(fade * glm::vec3(pixel));
+            image.pixels.emplace_back(pixel);
         }
     return image;
 }
@@ -158,6 +173,10 @@ void LightRig::set_environment(std::shared_ptr<const LoadedEnvironment> environm
     ++background_version_;
 }
 
+float LightRig::darkness() const {
+    return settings_.day ? static_cast<float>(1 - daylight(day_sun_)) : 0.0f;
+}
+
 const LoadedEnvironment* LightRig::base() const {
     if (settings_.day)
         return &day_;
@@ -173,7 +192,7 @@ float LightRig::unit() const {
 std::vector<prt::SunDisc> LightRig::own_suns() const {
     std::vector<prt::SunDisc> suns;
     if (settings_.day && day_sun_irradiance_ != glm::vec3(0))
-        suns.push_back({turned(day_sun_, settings_.rotation), day_sun_irradiance_});
+        suns.push_back({turned(day_sun_, settings_.rotation), day_sun_irradiance_, kSunHalfAngle});
     for (const RigLight& light : settings_.lights)
         if (light.on && light.kind == LightKind::sun)
             suns.push_back(

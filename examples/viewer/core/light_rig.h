@@ -111,6 +111,9 @@ public:
     /// The same light as rays meet it. Suns are suns; all else is in its environment.
     prt::DistantLight distant_light() const;
 
+    /// How much it is night, 0..1; an environment map is as it is.
+    float darkness() const;
+
     /// Behind the scene: the environment or the day's sky, not turned; null where neither is on.
     const prt::Image* background() const;
     std::uint64_t background_version() const { return background_version_; }

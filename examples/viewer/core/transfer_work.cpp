@@ -93,14 +93,15 @@ void save_compressed(const Model& model, const prt::CompressedTransfer& compress
 
 std::vector<std::pair<PictureKind, std::vector<glm::vec3>>>
 number_pictures(const Model& model, const prt::Transfer* raw, const prt::ClusteredTransfer& compressed,
-                const prt::Lighting& lighting) {
+                const prt::Lighting& lighting, const LampSettings& lamps) {
     std::vector<std::pair<PictureKind, std::vector<glm::vec3>>> pictures;
     pictures.emplace_back(PictureKind::clusters, prt::cluster_colors(compressed));
     pictures.emplace_back(PictureKind::components, prt::component_colors(compressed));
     if (!raw)
         return pictures;
-    const auto reference = prt::exit_radiance(*raw, lighting, 1),
-               approximation = prt::exit_radiance(compressed, lighting, 1);
+    const auto reference = prt::exit_radiance(*raw, with_lamps(lighting, lamps, raw->layout), 1),
+               approximation =
+                   prt::exit_radiance(compressed, with_lamps(lighting, lamps, compressed.bases.layout), 1);
     pictures.emplace_back(PictureKind::error, prt::error_colors(reference, approximation, model.areas));
     pictures.emplace_back(PictureKind::seams, prt::seam_colors(reference, approximation, model.areas,
                                                                model.edges, compressed.receivers.clusters));

@@ -3,6 +3,7 @@
 // What the viewer computes of transfer in the background.
 
 #include "core/findings.h"
+#include "pictures/lamps.h"
 
 namespace viewer {
 
@@ -27,6 +28,6 @@ void save_compressed(const Model& model, const prt::CompressedTransfer& compress
 /// Colors of all pictures of numbers that there are; `raw` may be null.
 std::vector<std::pair<PictureKind, std::vector<glm::vec3>>>
 number_pictures(const Model& model, const prt::Transfer* raw, const prt::ClusteredTransfer& compressed,
-                const prt::Lighting& lighting);
+                const prt::Lighting& lighting, const LampSettings& lamps);
 
 } // namespace viewer

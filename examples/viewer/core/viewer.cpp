@@ -118,6 +118,7 @@ void Viewer::update(double seconds) {
             message(error.what());
         }
     lighting_.rig.set(lights);
+    lighting_.set_lamps(settings.lit.lamps);
     recompress_where_asked();
 }
 
@@ -125,11 +126,19 @@ void Viewer::update(double seconds) {
 
 void Viewer::take(const LoadedModel& loaded) {
     document_.open(loaded);
+    settings.lit.lamps.each.clear();
+    follow_lamps();
     compression = document_.compressed_as;
     seen_.hovered.reset();
     lighting_.meter = {};
     reset_camera();
     upload_model();
+}
+
+/// Lists the lamps of the transfer that there is; those that stay keep their strength.
+void Viewer::follow_lamps() {
+    std::vector<Lamp>& lamps = settings.lit.lamps.each;
+    lamps = lamps_of(document_.layouts(), lamps);
 }
 
 void Viewer::upload_model() {
@@ -147,6 +156,7 @@ void Viewer::upload_model() {
 
 void Viewer::take(const Baked& baked) {
     document_.set(baked);
+    follow_lamps();
     if (gpu_->model)
         gpu_->model->set_raw(*baked.transfer);
 }
@@ -155,6 +165,7 @@ void Viewer::take(const Compressed& compressed) {
     if (compression == document_.compressed_as)
         compression = compressed.how; // the file's own, when a model was opened
     document_.set(compressed);
+    follow_lamps();
     if (gpu_->model)
         gpu_->model->set_compressed(*compressed.transfer);
 }

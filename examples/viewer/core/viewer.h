@@ -106,15 +106,18 @@ private:
     void take(const Failure& failure);
     void upload_model();
     void recompress_where_asked();
+    void follow_lamps();
     RadianceVersion version() const {
-        return {document_.transfer_version, lighting_.rig.version(), settings.suns_apart};
+        return {document_.transfer_version, lighting_.rig.version(), lighting_.lamps_version(),
+                settings.lit.suns_apart};
     }
     const LightApart& light() {
-        return lighting_.light_for_pictures(document_.light_order(), settings.suns_apart);
+        return lighting_.light_for_pictures(document_.light_order(), settings.lit.suns_apart);
     }
     bool wants(PictureKind kind) const { return settings.left == kind || settings.right == kind; }
 
     void follow_light();
+    std::string left_out(PictureKind kind) const;
     void find_numbers();
     FrameView frame_view();
     void draw_sides(const std::array<PictureKind, 2>& kinds, const FrameView& view);

@@ -50,7 +50,7 @@ void Viewer::draw(std::uint32_t framebuffer, int width, int height) {
 
 void Viewer::follow_light() {
     if (gpu_->model && gpu_->lit != version()) {
-        gpu_->model->set_lighting(light().lighting, light().suns);
+        gpu_->model->set_lighting(light().lighting, light().suns, lighting_.lamps());
         if (document_.compressed())
             statistics_.figures.milliseconds.constants = 1e3 * gpu_->model->seconds_constants();
         gpu_->lit = version();
@@ -69,7 +69,7 @@ void Viewer::find_numbers() {
     if (!wanted || !document_.compressed() || gpu_->numbers == version() || jobs_.busy(JobKind::numbers))
         return;
     gpu_->numbers = version();
-    jobs_.find_numbers(document_, light().lighting);
+    jobs_.find_numbers(document_, light().lighting, lighting_.lamps());
 }
 
 FrameView Viewer::frame_view() {
@@ -77,27 +77,39 @@ FrameView Viewer::frame_view() {
     view.camera = camera.camera();
     float exposure = 1;
     if (document_.model())
-        exposure = lighting_.meter.exposure(
-            {.model = document_.model(),
-             .camera = view.camera,
-             .width = seen_.size.x,
-             .height = seen_.size.y,
-             .textured = settings.drawing.textured},
-            {.raw = document_.raw(), .compressed = document_.compressed(), .version = version()},
-            [this] { return lighting_.light(document_.light_order()); });
+        exposure = lighting_.meter.exposure({.model = document_.model(),
+                                             .camera = view.camera,
+                                             .width = seen_.size.x,
+                                             .height = seen_.size.y,
+                                             .textured = settings.drawing.textured},
+                                            {.raw = document_.raw(),
+                                             .compressed = document_.compressed(),
+                                             .lamps = lighting_.lamps(),
+                                             .darkness = lighting_.rig.darkness(),
+                                             .version = version()},
+                                            [this] { return lighting_.light(document_.light_order()); });
     view.exposure = exposure * std::exp2(settings.exposure_stops);
     view.background = gpu_->background.name() != 0 ? &gpu_->background : nullptr;
     view.background_rotation = lights.rotation;
     return view;
 }
 
+/// What a picture that is there leaves out.
+std::string Viewer::left_out(PictureKind kind) const {
+    const bool transfer = kind == PictureKind::prt || kind == PictureKind::prt_compressed;
+    if (!transfer && !shows_numbers(kind) && any_shines(settings.lit.lamps))
+        return kind == PictureKind::reference ? "without lamps and what shines"
+                                              : "without the light of lamps";
+    if (kind != PictureKind::reference && gpu_->model->takes_suns_as_sky(kind))
+        return "no direct light is kept apart, so that suns are lit as sky";
+    return "";
+}
+
 Viewer::Shown Viewer::shown(PictureKind wanted) const {
-    if (wanted == PictureKind::reference || !gpu_->model)
+    if (!gpu_->model)
         return {wanted, ""};
-    if (gpu_->model->can_draw(wanted))
-        return {wanted, gpu_->model->takes_suns_as_sky(wanted)
-                            ? "no direct light is kept apart, so that suns are lit as sky"
-                            : ""};
+    if (wanted == PictureKind::reference || gpu_->model->can_draw(wanted))
+        return {wanted, left_out(wanted)};
     std::string why = "not there yet";
     const bool needs_raw =
         wanted == PictureKind::prt || wanted == PictureKind::error || wanted == PictureKind::seams;

@@ -4,6 +4,7 @@
 
 #include "core/exposure.h"
 #include "core/light_rig.h"
+#include "pictures/lamps.h"
 
 namespace viewer {
 
@@ -13,12 +14,19 @@ public:
     std::vector<std::shared_ptr<const LoadedEnvironment>> environments; ///< in the order that they came
     ExposureMeter meter;
 
+    /// Counts up `lamps_version` where something changes.
+    void set_lamps(const LampSettings& lamps);
+    const LampSettings& lamps() const { return lamps_; }
+    std::uint64_t lamps_version() const { return lamps_version_; }
+
     /// The rig's light, formed once for all that want it.
     const prt::Light& light(int order);
     /// The same with its suns apart, or with all in its sky.
     const LightApart& light_for_pictures(int order, bool suns_apart);
 
 private:
+    LampSettings lamps_;
+    std::uint64_t lamps_version_ = 1;
     prt::Light light_;
     std::uint64_t version_ = 0; ///< of the rig
     LightApart apart_;
@@ -27,6 +35,13 @@ private:
         bool suns_apart = false;
     } apart_version_;
 };
+
+inline void ViewerLight::set_lamps(const LampSettings& lamps) {
+    if (lamps == lamps_)
+        return;
+    lamps_ = lamps;
+    ++lamps_version_;
+}
 
 inline const prt::Light& ViewerLight::light(int order) {
     if (version_ != rig.version() || light_.order != order)

@@ -1,5 +1,6 @@
 #include "pictures/gpu_model.h"
 
+#include "prt/light_set.h"
 #include "prt/sh.h"
 #include "prt/support/stopwatch.h"
 #include "shared_layout.h"
@@ -39,7 +40,7 @@ void GpuModel::set_raw(const prt::Transfer& transfer) {
     raw_ = Raw{RawTransfer(transfer, most_receivers_), scene_.make_vertex_arrays()};
     scene_.attach_receivers(raw_->arrays, raw_->transfer.radiance(), PRT_LOCATION_RADIANCE, 3);
     if (lights(transfer.layout))
-        raw_->transfer.set_light(*lit_.lighting);
+        raw_->transfer.set_light(lighting_of(transfer.layout));
 }
 
 void GpuModel::set_compressed(const prt::ClusteredTransfer& transfer) {
@@ -50,7 +51,7 @@ void GpuModel::set_compressed(const prt::ClusteredTransfer& transfer) {
     std::erase_if(programs_.surfaces,
                   [](const auto& program) { return program.first.source == Source::compressed; });
     if (lights(transfer.bases.layout))
-        compressed_->transfer.set_light(*lit_.lighting);
+        compressed_->transfer.set_light(lighting_of(transfer.bases.layout));
 }
 
 void GpuModel::set_occlusion(std::span<const float> occlusion) {
@@ -67,8 +68,20 @@ bool GpuModel::lights(const prt::TransferLayout& layout) const {
     return lit_.lighting && lit_.lighting->sky.order >= layout.order;
 }
 
-void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns) {
+prt::Lighting GpuModel::lighting_of(const prt::TransferLayout& layout) const {
+    prt::Lighting lighting = with_lamps(*lit_.lighting, lit_.lamps, layout);
+    if (!lit_.suns.empty() && prt::has_light_set(layout)) {
+        lighting.suns.reset(); // keys have their bounces
+        for (const prt::SunDisc& sun : lit_.suns)
+            prt::add_sun(layout, sun, lighting.lamps);
+    }
+    return lighting;
+}
+
+void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
+                            const LampSettings& lamps) {
     lit_.lighting = lighting;
+    lit_.lamps = lamps;
     lit_.suns.assign(suns.begin(), suns.end());
     for (std::size_t i = 0; i < 9; ++i) {
         const int band = i == 0 ? 0 : i < 4 ? 1 : 2;
@@ -77,32 +90,44 @@ void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::
     }
     if (compressed_) {
         const prt::Stopwatch stopwatch;
-        compressed_->transfer.set_light(lighting);
+        compressed_->transfer.set_light(lighting_of(compressed_->layout));
         compressed_->seconds_constants = stopwatch.seconds();
     }
     if (raw_)
-        raw_->transfer.set_light(lighting);
+        raw_->transfer.set_light(lighting_of(raw_->transfer.layout()));
 }
 
-bool GpuModel::keeps_direct_apart(PictureKind kind) const {
-    switch (source_of(kind)) {
-    case Source::raw:
-        return raw_->transfer.layout().has(prt::PartKind::direct);
-    case Source::compressed:
-        return compressed_->layout.has(prt::PartKind::direct);
-    case Source::numbers:
-    case Source::normals:
-        break;
-    }
-    return true;
+const prt::TransferLayout* GpuModel::layout_of(Source source) const {
+    if (compressed_ && source != Source::raw)
+        return &compressed_->layout;
+    return raw_ ? &raw_->transfer.layout() : nullptr;
+}
+
+/// As `prt render` shows it: what no transfer knows shines as in the scene, unless all lamps are off.
+std::vector<glm::vec3> GpuModel::emission_of(Source source) const {
+    if (source == Source::numbers || !lit_.lamps.on)
+        return {};
+    const prt::TransferLayout none, *layout = layout_of(source);
+    return prt::emission_strengths(model_->scene, layout ? *layout : none,
+                                   layout ? strengths_of(lit_.lamps, *layout) : std::vector<glm::vec3>());
+}
+
+/// Of transfer that a picture shows; null where it shows none.
+const prt::TransferLayout* GpuModel::layout_shown(PictureKind kind) const {
+    const Source source = source_of(kind);
+    return source == Source::raw || source == Source::compressed ? layout_of(source) : nullptr;
 }
 
 bool GpuModel::shows_suns(PictureKind kind) const {
-    return !lit_.suns.empty() && !shows_numbers(kind) && keeps_direct_apart(kind);
+    const prt::TransferLayout* layout = layout_shown(kind);
+    const bool apart = !layout || (layout->has(prt::PartKind::direct) && !prt::has_light_set(*layout));
+    return !lit_.suns.empty() && !shows_numbers(kind) && apart;
 }
 
 bool GpuModel::takes_suns_as_sky(PictureKind kind) const {
-    return !lit_.suns.empty() && !keeps_direct_apart(kind);
+    const prt::TransferLayout* layout = layout_shown(kind);
+    return !lit_.suns.empty() && layout && !layout->has(prt::PartKind::direct) &&
+           !prt::has_light_set(*layout);
 }
 
 void GpuModel::draw_shadows(PictureKind kind, const prt::SunShadows::View& view) {
@@ -159,6 +184,7 @@ const prt::GlObject& GpuModel::use(PictureKind kind, const GeometryPass& pass) {
     const Source source = source_of(kind);
     const bool suns = shows_suns(kind);
     const prt::GlObject& chosen = program({source, pass.gbuffer, suns});
+    scene_.shine(emission_of(source));
     glUseProgram(chosen.name());
     set_matrix(chosen, pass.view_projection);
     glUniform1i(prt::uniform(chosen, "textured"), pass.textured && source != Source::numbers);

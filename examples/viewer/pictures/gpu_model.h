@@ -2,6 +2,7 @@
 
 // A model on the GPU, with all that it can be lit by.
 
+#include "pictures/lamps.h"
 #include "pictures/model.h"
 #include "pictures/raw_transfer.h"
 #include "pictures/settings.h"
@@ -37,9 +38,12 @@ public:
     void set_occlusion(std::span<const float> occlusion);
     void set_numbers(PictureKind kind, std::span<const glm::vec3> colors);
     /// Of as many bands as the transfers have, and three at least. `suns` are shadowed at each pixel where
-    /// the picture's transfer keeps direct light apart, and where it has none.
-    void set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns);
-    void set_light(const prt::Light& light) { set_lighting({light}, {}); }
+    /// the picture's transfer keeps direct light apart, and where it has none. `lamps`, by name, are those
+    /// of each transfer, and what shines shows it; `lighting` needs none.
+    void set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
+                      const LampSettings& lamps = {});
+    /// A sky alone: no lamp shines.
+    void set_light(const prt::Light& light) { set_lighting({light}, {}, {.on = false}); }
     /// There are suns apart, but that picture's transfer keeps no direct light apart, and so is lit by sky
     /// and suns together. For pictures that `can_draw`.
     bool takes_suns_as_sky(PictureKind kind) const;
@@ -82,6 +86,7 @@ private:
         std::optional<prt::Lighting> lighting;
         std::array<glm::vec3, 9> irradiance{}; ///< of the sky
         std::vector<prt::SunDisc> suns;
+        LampSettings lamps;
     };
     struct Numbers {
         std::map<PictureKind, prt::GlObject> colors;
@@ -92,7 +97,11 @@ private:
         prt::GlObject wires;
     };
     bool lights(const prt::TransferLayout& layout) const;
-    bool keeps_direct_apart(PictureKind kind) const;
+    prt::Lighting lighting_of(const prt::TransferLayout& layout) const;
+    /// That knows the lamps of such a picture; null: none does.
+    const prt::TransferLayout* layout_of(Source source) const;
+    std::vector<glm::vec3> emission_of(Source source) const;
+    const prt::TransferLayout* layout_shown(PictureKind kind) const;
     bool shows_suns(PictureKind kind) const;
     const prt::GlObject& program(const Surface& surface);
     const prt::GlObject& use(PictureKind kind, const GeometryPass& pass);

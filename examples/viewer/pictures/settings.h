@@ -2,6 +2,7 @@
 
 // All that the user sets, as plain data: panels, keys and scripts change it, drawing reads it.
 
+#include "pictures/lamps.h"
 #include "pictures/picture_kind.h"
 
 namespace viewer {
@@ -29,13 +30,21 @@ struct DrawSettings {
     friend bool operator==(const DrawSettings&, const DrawSettings&) = default;
 };
 
+/// What the model is lit by.
+struct LitBy {
+    bool suns_apart = true; ///< from the sky: shadowed at each pixel
+    LampSettings lamps;
+
+    friend bool operator==(const LitBy&, const LitBy&) = default;
+};
+
 struct Settings {
     PictureKind left = PictureKind::unshadowed, right = PictureKind::prt_compressed;
     float split = 0.5f;      ///< of the width
     bool difference = false; ///< instead of left and right
     float white = 0.3f;      ///< difference that is white, over the mean radiance of the right picture
     DrawSettings drawing;
-    bool suns_apart = true;   ///< from the sky: shadowed at each pixel
+    LitBy lit;
     bool lobe = false;        ///< of the receiver under the pointer
     float exposure_stops = 0; ///< beside the automatic exposure
     bool day_runs = false;    ///< an hour a second

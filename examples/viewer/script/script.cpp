@@ -3,6 +3,7 @@
 #include "script/script.h"
 
 #include "gpu/offscreen.h"
+#include "script/lamp_step.h"
 #include "ui/commands.h"
 #include "ui/controls.h"
 #include "ui/user_interface.h"
@@ -19,6 +20,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <thread>
 
@@ -54,7 +56,17 @@ const auto& named(const Table& table, const std::string& id, const char* what) {
     return *row;
 }
 
-void take(const Json& json, const Place& place) {
+void take_number(const Json& json, const Command& command, float& value) {
+    const auto number = json.get<float>();
+    if (command.range.strict && !(number >= command.range.low && std::isfinite(number)))
+        throw prt::Error(fmt::format("{} is a finite number from {} on, not {}", command.id,
+                                     command.range.low, json.dump()));
+    value = number;
+}
+
+/// Sets what `command` is of.
+void take(const Json& json, const Command& command, Settings& settings) {
+    const Place place = command.place(settings);
     if (PictureKind* const* kind = std::get_if<PictureKind*>(&place))
         **kind = named(kPictures, json, "picture").kind;
     else if (bool* const* on = std::get_if<bool*>(&place))
@@ -62,7 +74,7 @@ void take(const Json& json, const Place& place) {
     else if (int* const* number = std::get_if<int*>(&place))
         **number = json.get<int>();
     else
-        *std::get<float*>(place) = json.get<float>();
+        take_number(json, command, *std::get<float*>(place));
 }
 
 RigLight light_of(const Json& json) {
@@ -198,7 +210,7 @@ void wait(Player& player, const Json& json) {
 void set(Player& player, const Json& json) {
     for (const Command& command : commands())
         if (command.place && *command.id != 0 && json.contains(command.id))
-            take(json.at(command.id), command.place(player.viewer->settings));
+            take(json.at(command.id), command, player.viewer->settings);
 }
 
 /// In the world of the model's file.
@@ -238,6 +250,10 @@ void set_window(Player& player, const Json& json) {
 
 void add_light(Player& player, const Json& json) {
     player.viewer->lights.lights.push_back(light_of(json));
+}
+
+void set_lamps(Player& player, const Json& json) {
+    set_strengths(player.viewer->settings.lit.lamps.each, json);
 }
 
 void compress(Player& player, const Json& json) {
@@ -365,6 +381,7 @@ constexpr Step kSteps[] = {{"size", set_size},
                            {"day", set_day},
                            {"no_sky", remove_sky},
                            {"light", add_light},
+                           {"lamps", set_lamps},
                            {"compress", compress},
                            {"press", press},
                            {"move", move},

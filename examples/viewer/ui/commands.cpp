@@ -18,6 +18,8 @@ Place place(Settings& settings) {
 }
 
 constexpr auto kDrawing = &Settings::drawing;
+constexpr auto kLit = &Settings::lit;
+constexpr auto kLamps = &LitBy::lamps;
 constexpr auto kSsao = &DrawSettings::ssao;
 
 void swap_sides(Controls& c) {
@@ -54,7 +56,9 @@ constexpr Command kCommands[] = {
      "Suns are taken out of the sky and shadowed at each pixel; off, all light is in bands. Not the "
      "reference, which "
      "has neither. Key U.",
-     place<&Settings::suns_apart>},
+     place<kLit, &LitBy::suns_apart>},
+    {"lamps", 'O', "lamps of the model, on or off", "on", "All lamps of the model. Key O.",
+     place<kLit, kLamps, &LampSettings::on>},
     {"", 'N', "day instead of the environment", "", "", nullptr,
      [](Controls& c) { c.viewer().lights.day = !c.viewer().lights.day; }},
     {"", ' ', "let the day run", "let the day run", "An hour a second. Space.", place<&Settings::day_runs>},
@@ -88,6 +92,14 @@ constexpr Command kCommands[] = {
      place<&Settings::exposure_stops>,
      nullptr,
      {-6, 6, "%+.2f stops"}},
+    {"lamp_strength",
+     0,
+     "",
+     "all",
+     "What the strength of every lamp is multiplied with; 1 is as in the scene.",
+     place<kLit, kLamps, &LampSettings::strength>,
+     nullptr,
+     {0, 10, "%.2f", true, true}},
     {"ssao_radius",
      0,
      "",

@@ -21,6 +21,7 @@ struct Range {
     float low = 0, high = 1;
     const char* format = "%.3f";
     bool logarithmic = false;
+    bool strict = false; ///< nothing below `low` makes sense, in scripts neither
 };
 
 struct Command {

@@ -57,6 +57,13 @@ std::string side_label(const Viewer& viewer, PictureKind kind) {
     return fmt::format("{}: {}. Meanwhile: {}", name_of(kind).title, shown.note, name_of(shown.kind).title);
 }
 
+/// The name, and what the picture leaves out.
+std::string brief_label(const Viewer& viewer, PictureKind kind) {
+    const Viewer::Shown shown = viewer.shown(kind);
+    const bool partly = shown.kind == kind && !shown.note.empty();
+    return name_of(kind).title + (partly ? " (" + shown.note + ")" : "");
+}
+
 /// What the colors of a picture of numbers mean.
 struct Legend {
     bool heat = true; ///< a ramp from `low` to `high`; else colors that only tell apart
@@ -116,8 +123,8 @@ void draw_legend(ImDrawList& list, const Legend& legend, float x, float bottom, 
 void draw_difference(const Viewer& viewer, ImDrawList& list, const ImVec2& size) {
     const Settings& s = viewer.settings;
     const std::string text =
-        fmt::format("{} - {}: relative L2 {:.2f} %", name_of(s.left).title, name_of(s.right).title,
-                    100 * viewer.figures().difference.relative_l2);
+        fmt::format("{} - {}: relative L2 {:.2f} %", brief_label(viewer, s.left),
+                    brief_label(viewer, s.right), 100 * viewer.figures().difference.relative_l2);
     const float width = ImGui::CalcTextSize(text.c_str()).x;
     draw_legend(list, {true, "0", fmt::format("{:.0f} % of the mean", 100 * s.white), text},
                 size.x - width - scaled(16), size.y - scaled(12), width);

@@ -2,6 +2,7 @@
 
 #include "ui/commands.h"
 #include "ui/overlay.h"
+#include "ui/widgets.h"
 
 #include <fmt/core.h>
 #include <imgui.h>
@@ -9,72 +10,10 @@
 
 #include <algorithm>
 #include <cfloat>
-#include <initializer_list>
 #include <string>
 
 namespace viewer {
 namespace {
-
-/// Explains the control before it to a pointer that rests on it.
-void tip(const char* text) {
-    constexpr float kRest = 0.35f; // seconds
-    if (!ImGui::IsItemHovered() || ImGui::GetCurrentContext()->HoveredIdTimer < kRest)
-        return;
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(scaled(320));
-    ImGui::TextUnformatted(text);
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-}
-
-void line(const char* name, const std::string& value, const char* what = nullptr) {
-    ImGui::TextDisabled("%s", name);
-    if (what && ImGui::IsItemHovered())
-        ImGui::SetTooltip("%s", what);
-    ImGui::SameLine(scaled(150));
-    ImGui::TextUnformatted(value.c_str());
-}
-
-void check(const char* label, bool& value, const char* what) {
-    ImGui::Checkbox(label, &value);
-    tip(what);
-}
-
-/// The drop-down `command` for pictures.
-void choose_picture(const Command& command, PictureKind& kind) {
-    if (!ImGui::BeginCombo(command.label, name_of(kind).title, ImGuiComboFlags_HeightLarge))
-        return tip(command.tip);
-    for (const PictureName& name : kPictures)
-        if (ImGui::Selectable(name.title, name.kind == kind))
-            kind = name.kind;
-    ImGui::EndCombo();
-}
-
-/// What the table says of the setting.
-void control(Settings& settings, const Command& command) {
-    const Place place = command.place(settings);
-    const Range& range = command.range;
-    const ImGuiSliderFlags flags = range.logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None;
-    if (PictureKind* const* kind = std::get_if<PictureKind*>(&place))
-        return choose_picture(command, **kind);
-    if (bool* const* value = std::get_if<bool*>(&place))
-        ImGui::Checkbox(command.label, *value);
-    else if (int* const* number = std::get_if<int*>(&place))
-        ImGui::SliderInt(command.label, *number, static_cast<int>(range.low), static_cast<int>(range.high));
-    else
-        ImGui::SliderFloat(command.label, std::get<float*>(place), range.low, range.high, range.format,
-                           flags);
-    tip(command.tip);
-}
-
-/// The settings called `ids`, in one line.
-void controls(Settings& settings, std::initializer_list<const char*> ids) {
-    for (const char* const* id = ids.begin(); id != ids.end(); ++id) {
-        if (id != ids.begin())
-            ImGui::SameLine();
-        control(settings, setting(*id));
-    }
-}
 
 void choose_side(Viewer& viewer, const char* id) {
     control(viewer.settings, setting(id));
@@ -211,6 +150,30 @@ void light_panel(Viewer& viewer) {
     }
 }
 
+/// The light of a lamp, and what colors it.
+void lamp_controls(Lamp& lamp) {
+    constexpr float kBrightest = 10; // of the slider; a script may go beyond
+    check("##on", lamp.on, "On or off.");
+    ImGui::SameLine();
+    ImGui::ColorEdit3("##colour", &lamp.color.x, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float);
+    tip("What the light of this lamp is multiplied with.");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(scaled(110)); // and as much for the name
+    ImGui::SliderFloat(lamp.name.c_str(), &lamp.strength, 0, std::max(kBrightest, lamp.strength), "%.2f",
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    tip("Strength; 1 is as in the scene.");
+}
+
+void lamp_panel(Viewer& viewer) {
+    controls(viewer.settings, {"lamps", "lamp_strength"});
+    std::vector<Lamp>& lamps = viewer.settings.lit.lamps.each;
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+        ImGui::PushID(static_cast<int>(i));
+        lamp_controls(lamps[i]);
+        ImGui::PopID();
+    }
+}
+
 void compression_controls(Viewer& viewer) {
     if (viewer.jobs().busy())
         ImGui::ProgressBar(static_cast<float>(viewer.jobs().share()), {-1, 0}, viewer.jobs().label().c_str());
@@ -343,6 +306,9 @@ void draw_panels(Viewer& viewer) {
                 picture_panel(viewer);
             if (ImGui::CollapsingHeader("Light", ImGuiTreeNodeFlags_DefaultOpen))
                 light_panel(viewer);
+            const bool lamps = !viewer.settings.lit.lamps.each.empty();
+            if (lamps && ImGui::CollapsingHeader("Lamps", ImGuiTreeNodeFlags_DefaultOpen))
+                lamp_panel(viewer);
             if (ImGui::CollapsingHeader("Transfer", ImGuiTreeNodeFlags_DefaultOpen))
                 transfer_panel(viewer);
             if (viewer.settings.lobe)

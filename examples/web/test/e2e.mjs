@@ -502,7 +502,7 @@ await check("suns shine by the keys of a light set as in prt", async (page, erro
   prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "16", "--clusters", "16", "--components", "16");
   prtRun("relight", at(".glb"), "--env", at(".light.json"), "--suns", "1", "--sun-shadows", "baked", "--window", "auto", "--albedo", "-o", at(".lit.glb"));
   const view = { position: [1.5, 2.5, 3], target: [0, 0.2, 0], fieldOfView: 45 };
-  await page.goto(url({ model: "knot", angle: 0, ...query(view), panel: 1 }));
+  await page.goto(url({ model: "knot", angle: 0, ...query(view), panel: 1, suns: 1 }));
   await picture(page);
   await dropped(page, { "set.glb": at(".glb") });
   await page.waitForFunction(() => /set/.test(document.querySelector("#model").selectedOptions[0].textContent));

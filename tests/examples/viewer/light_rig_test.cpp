@@ -106,9 +106,45 @@ TEST(LightRig, LetsTheSunRiseInTheEastAndStandInTheSouthAtNoon) {
     };
     EXPECT_NEAR(sun(12).z, std::sqrt(0.5f), 1e-6f); // +Z is south
     EXPECT_NEAR(sun(12).y, std::sqrt(0.5f), 1e-6f);
-    EXPECT_LT(sun(7).x, -0.9f); // looking south, east is on the left
-    EXPECT_GT(sun(17).x, 0.9f);
+    EXPECT_GT(sun(7).x, 0.9f); // looking south, east is on the left
+    EXPECT_LT(sun(17).x, -0.9f);
     EXPECT_EQ(sun(0), glm::vec3(0)); // night
+}
+
+TEST(LightRig, TheSunOfTheDayIsHalfADegreeAcross) {
+    LightRig rig;
+    const LightApart apart = rig.light_apart(kOrder);
+    ASSERT_EQ(apart.suns.size(), 1U);
+    EXPECT_NEAR(apart.suns[0].half_angle, 0.265 * std::numbers::pi / 180, 1e-12);
+}
+
+TEST(LightRig, DayFallsIntoABlueNightThatIsDarkerThanDusk) {
+    LightRig rig;
+    LightSettings settings = rig.settings();
+    const auto mean = [&](double hour) {
+        settings.time.hour = hour;
+        rig.set(settings);
+        return 0.2820948f * rig.light(kOrder).coefficients[0]; // of radiance over all directions
+    };
+    glm::vec3 last = mean(17.5);
+    EXPECT_EQ(rig.darkness(), 0);
+    for (const double hour : {18.0, 18.25, 18.5, 18.75}) { // the sun has set
+        const glm::vec3 now = mean(hour);
+        EXPECT_LT(now.g, last.g) << hour;
+        last = now;
+    }
+    EXPECT_GT(rig.darkness(), 0.5f);
+    const glm::vec3 night = mean(21);
+    EXPECT_EQ(rig.darkness(), 1);
+    EXPECT_LT(night.g, last.g);
+    EXPECT_EQ(mean(0), night);
+    EXPECT_EQ(mean(4), night);
+    EXPECT_LT(night.g, 0.005f * mean(18).g);
+    EXPECT_GT(night.g, 0);
+    EXPECT_GT(night.b, 1.5f * night.r);
+    settings.day = false; // an environment map is as it is
+    rig.set(settings);
+    EXPECT_EQ(rig.darkness(), 0);
 }
 
 /// The least radiance of any channel on a grid of two degrees, over the mean of the channel.

@@ -216,7 +216,7 @@ TEST_F(ViewerTest, LightsSunsApartUnlessToldOtherwise) {
     };
     const prt::Image apart = picture();
     const float stops = viewer->lighting().meter.stops();
-    viewer->settings.suns_apart = false;
+    viewer->settings.lit.suns_apart = false;
     const prt::Image together = picture();
     double difference = 0, sum = 0;
     for (std::size_t i = 0; i < apart.pixels.size(); ++i) {
@@ -225,11 +225,11 @@ TEST_F(ViewerTest, LightsSunsApartUnlessToldOtherwise) {
     }
     EXPECT_GT(difference, 0.02 * sum);
     EXPECT_EQ(viewer->lighting().meter.stops(), stops); // so that both can be compared
-    viewer->settings.suns_apart = true;
+    viewer->settings.lit.suns_apart = true;
     EXPECT_EQ(picture().pixels, apart.pixels);
     viewer->lights.time.hour = 0; // no sun, no difference
     const prt::Image night = picture();
-    viewer->settings.suns_apart = false;
+    viewer->settings.lit.suns_apart = false;
     EXPECT_EQ(picture().pixels, night.pixels);
 }
 
@@ -246,7 +246,7 @@ TEST_F(ViewerTest, SaysWhereTransferKeepsNoDirectLightApart) {
     EXPECT_EQ(viewer->shown(PictureKind::prt).kind, PictureKind::prt);
     EXPECT_NE(viewer->shown(PictureKind::prt).note.find("no direct light is kept apart"), std::string::npos);
     EXPECT_TRUE(viewer->shown(PictureKind::unshadowed).note.empty());
-    viewer->settings.suns_apart = false;
+    viewer->settings.lit.suns_apart = false;
     frame();
     EXPECT_TRUE(viewer->shown(PictureKind::prt).note.empty());
 }

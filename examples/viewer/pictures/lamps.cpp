@@ -1,0 +1,49 @@
+#include "pictures/lamps.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace viewer {
+namespace {
+
+glm::vec3 strength_of(const LampSettings& settings, const Lamp& lamp) {
+    return settings.on && lamp.on ? settings.strength * lamp.strength * lamp.color : glm::vec3(0);
+}
+
+} // namespace
+
+std::vector<Lamp> lamps_of(std::span<const prt::TransferLayout* const> layouts,
+                           const std::vector<Lamp>& known) {
+    std::vector<Lamp> lamps;
+    for (const prt::TransferLayout* layout : layouts)
+        for (const prt::TransferPart& part : layout->lamp_parts()) {
+            if (part.towards || std::ranges::count(lamps, part.name, &Lamp::name) > 0)
+                continue;
+            const auto before = std::ranges::find(known, part.name, &Lamp::name);
+            lamps.push_back(before == known.end() ? Lamp{.name = part.name} : *before);
+        }
+    return lamps;
+}
+
+std::vector<glm::vec3> strengths_of(const LampSettings& settings, const prt::TransferLayout& layout) {
+    std::vector<glm::vec3> strengths;
+    for (const prt::TransferPart& part : layout.lamp_parts()) {
+        const auto known = std::ranges::find(settings.each, part.name, &Lamp::name);
+        const glm::vec3 strength = strength_of(settings, known == settings.each.end() ? Lamp{} : *known);
+        strengths.push_back(part.towards ? glm::vec3(0) : strength);
+    }
+    return strengths;
+}
+
+bool any_shines(const LampSettings& settings) {
+    return std::ranges::any_of(settings.each,
+                               [&](const Lamp& lamp) { return strength_of(settings, lamp) != glm::vec3(0); });
+}
+
+prt::Lighting with_lamps(prt::Lighting lighting, const LampSettings& settings,
+                         const prt::TransferLayout& layout) {
+    lighting.lamps = strengths_of(settings, layout);
+    return lighting;
+}
+
+} // namespace viewer

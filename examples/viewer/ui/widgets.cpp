@@ -1,0 +1,72 @@
+#include "ui/widgets.h"
+
+#include "ui/overlay.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+namespace viewer {
+namespace {
+
+/// The drop-down `command` for pictures.
+void choose_picture(const Command& command, PictureKind& kind) {
+    if (!ImGui::BeginCombo(command.label, name_of(kind).title, ImGuiComboFlags_HeightLarge))
+        return tip(command.tip);
+    for (const PictureName& name : kPictures)
+        if (ImGui::Selectable(name.title, name.kind == kind))
+            kind = name.kind;
+    ImGui::EndCombo();
+}
+
+} // namespace
+
+void tip(const char* text) {
+    constexpr float kRest = 0.35f; // seconds
+    if (!ImGui::IsItemHovered() || ImGui::GetCurrentContext()->HoveredIdTimer < kRest)
+        return;
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(scaled(320));
+    ImGui::TextUnformatted(text);
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+void line(const char* name, const std::string& value, const char* what) {
+    ImGui::TextDisabled("%s", name);
+    if (what && ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s", what);
+    ImGui::SameLine(scaled(150));
+    ImGui::TextUnformatted(value.c_str());
+}
+
+void check(const char* label, bool& value, const char* what) {
+    ImGui::Checkbox(label, &value);
+    tip(what);
+}
+
+void control(Settings& settings, const Command& command) {
+    const Place place = command.place(settings);
+    const Range& range = command.range;
+    const ImGuiSliderFlags flags = (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
+                                   (range.strict ? ImGuiSliderFlags_AlwaysClamp : 0);
+    if (PictureKind* const* kind = std::get_if<PictureKind*>(&place))
+        return choose_picture(command, **kind);
+    if (bool* const* value = std::get_if<bool*>(&place))
+        ImGui::Checkbox(command.label, *value);
+    else if (int* const* number = std::get_if<int*>(&place))
+        ImGui::SliderInt(command.label, *number, static_cast<int>(range.low), static_cast<int>(range.high));
+    else
+        ImGui::SliderFloat(command.label, std::get<float*>(place), range.low, range.high, range.format,
+                           flags);
+    tip(command.tip);
+}
+
+void controls(Settings& settings, std::initializer_list<const char*> ids) {
+    for (const char* const* id = ids.begin(); id != ids.end(); ++id) {
+        if (id != ids.begin())
+            ImGui::SameLine();
+        control(settings, setting(*id));
+    }
+}
+
+} // namespace viewer
