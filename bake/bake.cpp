@@ -150,9 +150,15 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const double traced_sky = plan.bounces != 0 ? 0.85 : 0.95,
                  traced_all = plan.lamps.empty() ? traced_sky : traced_sky - 0.2;
     DirectLight direct = trace_direct(plan, *tracer, progress.part(0, traced_all));
-    Transfer lamps = lamp_light(traced, plan.receivers(), plan.lamps,
-                                {plan.options.lamps, plan.lamp_channels(), options.seed, options.threads},
-                                direct.rays, progress.part(traced_all, traced_sky));
+    LampLight lamps = tracer->lamp_light({.scene = traced,
+                                          .receivers = plan.receivers(),
+                                          .lamps = plan.lamps,
+                                          .options = plan.options.lamps,
+                                          .channels = plan.lamp_channels(),
+                                          .seed = options.seed,
+                                          .threads = options.threads},
+                                         progress.part(traced_all, traced_sky));
+    direct.rays += lamps.rays;
     const SealedIn sealed = find_sealed_in(plan, *tracer, direct.transfer, progress.stop);
     seconds.tracing = tracer->seconds();
 
@@ -162,7 +168,8 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     Propagated exit =
         propagate_all(plan, std::move(direct.transfer), operators, progress.part(traced_sky, 1));
     if (!plan.lamps.empty()) {
-        const Propagated lit = propagate_lamps(plan, std::move(lamps), operators, progress.part(1, 1));
+        const Propagated lit =
+            propagate_lamps(plan, std::move(lamps.transfer), operators, progress.part(1, 1));
         exit.transfer = with_lamps(exit.transfer, lit.transfer, plan.lamps);
         exit.bounces = std::max(exit.bounces, lit.bounces);
         exit.remaining = std::max(exit.remaining, lit.remaining);

@@ -35,8 +35,8 @@ std::size_t traced_fronts(const BakePlan& plan) {
 }
 
 /// All notices in the order in which they came up.
-std::vector<std::string> notices_of(const BakePlan& plan, const Tracer& tracer, const DirectLight& direct,
-                                    const SealedIn& sealed, const Propagated& exit) {
+std::vector<std::string> notices_of(const BakePlan& plan, const DirectLight& direct, const SealedIn& sealed,
+                                    const Propagated& exit) {
     std::vector<std::string> notices = plan.notices;
     notices.insert(notices.end(), direct.notices.begin(), direct.notices.end());
     const std::size_t refilled = sealed.refill.size();
@@ -44,16 +44,14 @@ std::vector<std::string> notices_of(const BakePlan& plan, const Tracer& tracer, 
         notices.push_back(fmt::format(
             "{} receivers are sealed in by backs of faces; {} of them take the light of their neighbours{}",
             sealed.receivers, refilled, refilled < sealed.receivers ? ", the others stay dark" : ""));
-    if (!plan.lamps.empty() && tracer.backend() == Backend::gpu)
-        notices.emplace_back("rays to lamps are traced on the CPU");
     if (!exit.converged)
         notices.push_back(fmt::format("the sum over all bounces still changes by {:.2g} after {} steps",
                                       exit.remaining, exit.bounces));
     return notices;
 }
 
-BakeStatistics statistics_of(const BakePlan& plan, const Tracer& tracer, const DirectLight& direct,
-                             const SealedIn& sealed, const Propagated& exit) {
+BakeStatistics statistics_of(const BakePlan& plan, const DirectLight& direct, const SealedIn& sealed,
+                             const Propagated& exit) {
     BakeStatistics s;
     const std::size_t fronts = plan.transport->fronts;
     s.receivers = {.all = fronts,
@@ -72,7 +70,7 @@ BakeStatistics statistics_of(const BakePlan& plan, const Tracer& tracer, const D
                    s.lamps.triangles + lamp.triangles.size()};
     if (direct.gather)
         s.gather = {.entries = direct.gather->entries(), .bytes = direct.gather->bytes()};
-    s.notices = notices_of(plan, tracer, direct, sealed, exit);
+    s.notices = notices_of(plan, direct, sealed, exit);
     return s;
 }
 
@@ -91,7 +89,7 @@ TransferStorage choose_storage(BakeStatistics& s) {
 BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight& direct,
                   const SealedIn& sealed, Propagated exit) {
     BakeResult result;
-    result.statistics = statistics_of(plan, tracer, direct, sealed, exit);
+    result.statistics = statistics_of(plan, direct, sealed, exit);
     result.statistics.device = tracer.device();
     BakedTransfer& baked = result.baked;
     baked.storage = plan.options.storage ? *plan.options.storage : choose_storage(result.statistics);

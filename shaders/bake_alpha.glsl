@@ -1,6 +1,8 @@
 // Coverage of surfaces that are cut out, blended or glass, as on the CPU (bake/scene/surfaces.cpp,
 // runtime/render/texture.cpp).
 
+#include "bake_wrap.glsl"
+
 layout(std430, binding = PRT_BINDING_ALPHA_TRIANGLES) readonly buffer AlphaTriangles {
     AlphaTriangle alpha_triangles[];
 };
@@ -10,14 +12,6 @@ layout(std430, binding = PRT_BINDING_ALPHA_MATERIALS) readonly buffer AlphaMater
 layout(std430, binding = PRT_BINDING_ALPHA_TEXELS) readonly buffer AlphaTexels {
     uint alpha_texels[]; // four to a word
 };
-
-int wrapped(int i, int size, uint wrap) {
-    if (wrap == PRT_WRAP_CLAMP)
-        return clamp(i, 0, size - 1);
-    int period = wrap == PRT_WRAP_MIRROR ? 2 * size : size;
-    int rest = i - period * int(floor(float(i) / float(period)));
-    return rest < size ? rest : 2 * size - 1 - rest;
-}
 
 float alpha_texel(uint first, int x, int y, int width) {
     uint i = first + uint(y * width + x);

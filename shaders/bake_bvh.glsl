@@ -43,14 +43,19 @@ bool hit_triangle(uint slot, vec3 origin, vec3 direction, float t_min, float t_m
     return inside && facing != 0.0 && sum != 0.0 && t >= t_min && t < t_max;
 }
 
-// The nearest hit in [t_min, infinity), or with `any` the first that is found.
-bool trace_ray(vec3 origin, vec3 direction, float t_min, bool any, out BvhHit nearest) {
+// The next number above a distance: where a ray goes on behind what it met. GPUs may take smaller ones for 0.
+float behind(float t) {
+    return max(uintBitsToFloat(floatBitsToUint(abs(t)) + 1u), 1.17549435e-38);
+}
+
+// The nearest hit in [t_min, t_max), or with `any` the first that is found.
+bool trace_ray(vec3 origin, vec3 direction, float t_min, float t_max, bool any, out BvhHit nearest) {
     vec3 safe = mix(direction, vec3(1e-20), lessThan(abs(direction), vec3(1e-20)));
     vec3 inverse = 1.0 / safe;
     uint octant = (safe.x < 0.0 ? 1u : 0u) | (safe.y < 0.0 ? 2u : 0u) | (safe.z < 0.0 ? 4u : 0u);
     nearest.triangle = 0u;
     nearest.slot = 0u;
-    nearest.t = kFar;
+    nearest.t = t_max;
     nearest.uv = vec2(0.0);
     nearest.back = false;
     bool found = false, running = true;

@@ -3,6 +3,7 @@
 // and Chiu (1997).
 
 #include "shared_samples.h"
+#include "bake_frame.glsl"
 
 layout(std430, binding = PRT_BINDING_SAMPLES) readonly buffer Samples {
     uvec2 sobol[]; // reversed Sobol points of a whole chunk, then of the last chunk
@@ -10,13 +11,6 @@ layout(std430, binding = PRT_BINDING_SAMPLES) readonly buffer Samples {
 
 float to_signed_unit(uint v) {
     return (float(v >> 8) + 0.5) * (1.0 / 8388608.0) - 1.0;
-}
-
-// Duff et al. 2017.
-mat3 tangent_frame(vec3 n) {
-    float s = (floatBitsToUint(n.z) >> 31) != 0u ? -1.0 : 1.0;
-    float a = -1.0 / (s + n.z), b = n.x * n.y * a;
-    return mat3(vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x), vec3(b, s + n.y * n.y * a, -n.y), n);
 }
 
 vec3 ray_direction(uvec2 point, uint seed, mat3 frame) {

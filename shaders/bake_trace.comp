@@ -76,7 +76,7 @@ float trace(vec3 origin, vec3 normal, vec3 direction, uint receiver, uint chunk,
     float left = 1.0, t = 0.0;
     bool running = true;
     while (running) {
-        running = trace_ray(origin, direction, t, false, hit);
+        running = trace_ray(origin, direction, t, kFar, false, hit);
         if (running) {
             float footprint = footprint_of(hit, direction, normal);
             uint alpha = floatBitsToUint(corners[3u * hit.slot + 1u].w);
@@ -87,13 +87,13 @@ float trace(vec3 origin, vec3 normal, vec3 direction, uint receiver, uint chunk,
                 note_hit(receiver, chunk, hit, left - passes, footprint);
 #endif
             left = passes;
-            t = uintBitsToFloat(floatBitsToUint(hit.t) + 1u); // the next number
+            t = behind(hit.t);
             running = left > 0.0;
         }
     }
     return 1.0 - left;
 #else
-    bool found = trace_ray(origin, direction, 0.0, !follow, hit);
+    bool found = trace_ray(origin, direction, 0.0, kFar, !follow, hit);
 #ifdef PRT_HITS
     if (found && follow)
         note_hit(receiver, chunk, hit, 1.0, footprint_of(hit, direction, normal));

@@ -24,6 +24,10 @@
 #define PRT_BINDING_TOUCHING 6
 #define PRT_BINDING_TOUCHING_RANGES 7
 #define PRT_BINDING_PASSES 8
+#define PRT_BINDING_PUNCTUAL_LIGHTS 3 // lamps have neither
+#define PRT_BINDING_SHINING_TRIANGLES 6
+#define PRT_BINDING_EMISSION_IMAGES 7
+#define PRT_BINDING_EMISSION_TEXELS 8
 #define PRT_BINDING_ALPHA_TRIANGLES 9
 #define PRT_BINDING_ALPHA_MATERIALS 10
 #define PRT_BINDING_ALPHA_TEXELS 11
@@ -51,5 +55,7 @@
 // Rays that are generated and traced together, and the threads that do it.
 #define PRT_CHUNK 1024
 #define PRT_TRACE_THREADS 64
+// Receivers of a workgroup whose rays to lamps are traced together.
+#define PRT_LAMP_THREADS 64
 
 #endif

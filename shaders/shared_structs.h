@@ -10,6 +10,48 @@ struct Receiver {
     vec4 normal;
 };
 
+// A receiver that lamps shine on.
+struct LampReceiver {
+    vec4 origin; // of its rays, off the surface; w: its index, as bits
+    vec4 normal;
+    vec4 position;
+};
+
+// A light of KHR_lights_punctual.
+struct PunctualLight {
+    vec3 intensity; // irradiance at one metre, or at all where directional
+    uint directional;
+    vec3 position;
+    float inverse_range;              // 0: without end
+    vec3 direction;                   // unit, the way that it shines
+    float half_angle;                 // of a directional one, radians
+    float inner_cosine, outer_cosine; // of a spot; both below -1 where it is none
+    uint unused[2];
+};
+
+// A triangle that shines.
+struct ShiningTriangle {
+    vec3 a;          // corners
+    float luminance; // mean
+    vec3 b;
+    float offset; // that takes a ray's end off it, metres
+    vec3 c;
+    uint two_sided;
+    vec3 radiance;    // times the texel
+    uint alpha;       // place in the alpha table, counting from 1; 0: opaque
+    vec2 texcoord[3]; // transformed
+    uint image;       // of EmissionImage, or PRT_NO_TEXELS
+    uint unused;
+};
+
+// The finest level of a texture of radiance.
+struct EmissionImage {
+    uint texels; // where it begins among the texels, red in the lowest byte
+    int width, height;
+    uint wrap;   // PRT_WRAPS(of u, of v)
+    uint linear; // holds numbers; else colors by the sRGB curve
+};
+
 // A surface that a ray met.
 struct HitRecord {
     uint receiver; // in the batch

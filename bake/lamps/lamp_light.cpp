@@ -1,4 +1,4 @@
-// Casts rays at lamps from every receiver.
+// Casts rays at lamps from every receiver, on the CPU.
 
 #include "lamps/lamp_light.h"
 
@@ -6,6 +6,7 @@
 #include "trace/each_receiver.h"
 #include "trace/sample_sequence.h"
 
+#include <atomic>
 #include <numbers>
 #include <vector>
 
@@ -22,33 +23,41 @@ int order_for(std::size_t lamps) {
 
 } // namespace
 
-Transfer lamp_light(const TraceScene& scene, const Receivers& receivers, std::span<const Lamp> lamps,
-                    const LampLightOptions& options, std::size_t& rays, const Progress& progress) {
-    Transfer lit = zero_transfer(layout_of_one(order_for(lamps.size()), options.channels, PartKind::direct),
-                                 receivers.size());
-    if (lamps.empty())
-        return lit;
-    const std::size_t stride = lit.dimension() / static_cast<std::size_t>(options.channels);
+LampLight no_lamp_light(const LampTask& task) {
+    return {zero_transfer(layout_of_one(order_for(task.lamps.size()), task.channels, PartKind::direct),
+                          task.receivers.size())};
+}
+
+void put_irradiance(const LampTask& task, std::uint32_t p, std::size_t lamp, const glm::dvec3& irradiance,
+                    LampLight& light) {
+    const std::size_t stride = light.transfer.dimension() / static_cast<std::size_t>(task.channels);
+    for (int c = 0; c < task.channels; ++c)
+        light.transfer.vector(p)[static_cast<std::size_t>(c) * stride + lamp] =
+            static_cast<float>(irradiance[c] / std::numbers::pi);
+}
+
+LampLight lamp_light_on_cpu(const LampTask& task, const Progress& progress) {
+    LampLight light = no_lamp_light(task);
     std::vector<ShiningTriangles> shining;
-    for (const Lamp& lamp : lamps)
-        shining.emplace_back(scene, lamp);
+    for (const Lamp& lamp : task.lamps)
+        shining.emplace_back(task.scene, lamp);
     std::atomic<std::size_t> traced = 0;
-    for_each_receiver(receivers_on_surfaces(receivers), options.threads, progress, [&](std::uint32_t p) {
-        LampReceiver receiver{receivers.positions[p], receivers.normals[p],
-                              scene.rays().ray_origin(receivers, p)};
-        for (std::size_t k = 0; k < lamps.size(); ++k) {
-            receiver.seed = receiver_seed(p, options.seed + k);
-            const LampIrradiance of_lights = irradiance_of_lights(scene, lamps[k], receiver,
-                                                                  options.lamps.radius, options.lamps.rays),
-                                 of_surfaces = shining[k].irradiance(receiver, options.lamps.rays);
-            const glm::dvec3 radiance = (of_lights.irradiance + of_surfaces.irradiance) / std::numbers::pi;
-            for (int c = 0; c < options.channels; ++c)
-                lit.vector(p)[static_cast<std::size_t>(c) * stride + k] = static_cast<float>(radiance[c]);
+    const auto work = [&](std::uint32_t p) {
+        LampReceiver receiver{task.receivers.positions[p], task.receivers.normals[p],
+                              task.scene.rays().ray_origin(task.receivers, p)};
+        for (std::size_t k = 0; k < task.lamps.size(); ++k) {
+            receiver.seed = receiver_seed(p, task.seed + k);
+            const LampIrradiance of_lights = irradiance_of_lights(task.scene, task.lamps[k], receiver,
+                                                                  task.options.radius, task.options.rays),
+                                 of_surfaces = shining[k].irradiance(receiver, task.options.rays);
+            put_irradiance(task, p, k, of_lights.irradiance + of_surfaces.irradiance, light);
             traced += of_lights.rays + of_surfaces.rays;
         }
-    });
-    rays += traced;
-    return lit;
+    };
+    if (!task.lamps.empty())
+        for_each_receiver(receivers_on_surfaces(task.receivers), task.threads, progress, work);
+    light.rays = traced;
+    return light;
 }
 
 } // namespace prt

@@ -8,23 +8,34 @@
 #include "prt/trace_scene.h"
 #include "prt/transfer.h"
 
-#include <atomic>
 #include <cstdint>
 #include <span>
 
 namespace prt {
 
-struct LampLightOptions {
-    LampOptions lamps;
+/// Which light is asked for: what `lamps` give at strength 1, without a bounce, of receivers of albedo 1.
+struct LampTask {
+    const TraceScene& scene;
+    const Receivers& receivers;
+    std::span<const Lamp> lamps;
+    LampOptions options;
     int channels = 3; ///< 1 where all of them are white
     std::uint64_t seed = 0;
     int threads = 0;
 };
 
-/// What `lamps` give at strength 1, without a bounce, of receivers of albedo 1: transfer of one part whose
-/// coefficient k is the light of lamp k; those past the last are zero. Adds the rays that it takes to
-/// `rays`. Throws `Cancelled` when asked to stop.
-Transfer lamp_light(const TraceScene& scene, const Receivers& receivers, std::span<const Lamp> lamps,
-                    const LampLightOptions& options, std::size_t& rays, const Progress& progress);
+struct LampLight {
+    Transfer transfer;    ///< of one part, whose coefficient k is the light of lamp k; past the last is zero
+    std::size_t rays = 0; ///< that it took
+};
+
+/// Darkness for `task`.
+LampLight no_lamp_light(const LampTask& task);
+/// Writes the irradiance of receiver `p` by lamp `lamp`, as light of the task.
+void put_irradiance(const LampTask& task, std::uint32_t p, std::size_t lamp, const glm::dvec3& irradiance,
+                    LampLight& light);
+
+/// By rays through Embree's tree. Throws `Cancelled` when asked to stop.
+LampLight lamp_light_on_cpu(const LampTask& task, const Progress& progress);
 
 } // namespace prt

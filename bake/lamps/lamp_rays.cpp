@@ -3,7 +3,6 @@
 #include "lamps/lamp_rays.h"
 
 #include "lamps/punctual.h"
-#include "lamps/spherical_triangle.h"
 #include "prt/color.h"
 #include "scene/transmittance.h"
 #include "trace/disc_share.h"
@@ -14,16 +13,6 @@
 
 namespace prt {
 namespace {
-
-/// Even steps of a sequence in 0..1 that stays even wherever it ends (the golden ratio).
-double golden(int i, double begin) {
-    const double x = begin + i * (std::numbers::phi - 1);
-    return x - std::floor(x);
-}
-
-double unit_number(std::uint32_t seed) {
-    return 0x1p-32 * static_cast<double>(seed);
-}
 
 /// Where a light is seen from a receiver, and what it gives there unless something is in its way.
 struct SeenLight {
@@ -56,16 +45,6 @@ SeenLight seen(const PunctualLight& light, const LampReceiver& receiver, double 
     return seen;
 }
 
-/// Distance to a sphere along a direction of that cosine to its middle; 0 within it, infinite where it is.
-double distance_to_sphere(double distance, double cosine, double radius) {
-    if (distance <= radius)
-        return 0;
-    if (radius <= 0 || std::isinf(distance))
-        return distance;
-    const double across = distance * distance * (1 - cosine * cosine);
-    return distance * cosine - std::sqrt(std::max(0.0, radius * radius - across));
-}
-
 /// Half angle of the cone that a light fills, radians; within a sphere light comes from everywhere.
 double half_angle_of(const SeenLight& light, double radius) {
     if (light.light->kind == PunctualKind::directional)
@@ -80,40 +59,12 @@ double arriving(const TraceScene& scene, const SeenLight& light, const LampRecei
                 int rays) {
     const DiscDirections directions(glm::vec3(light.towards), half_angle_of(light, radius), rays);
     return share_of_disc(scene, receiver.origin, receiver.normal, directions,
-                         2 * std::numbers::pi * unit_number(receiver.seed), [&](int i) {
-                             return static_cast<float>(
-                                 distance_to_sphere(light.distance, directions.cosine(i), radius));
+                         2 * std::numbers::pi * lamp_geometry::unit_number(receiver.seed), [&](int i) {
+                             if (radius <= 0 || std::isinf(light.distance))
+                                 return static_cast<float>(light.distance);
+                             return static_cast<float>(lamp_geometry::distance_to_sphere(
+                                 light.distance, 1 - directions.cosine(i), radius));
                          });
-}
-
-/// A point of a triangle that shines, as sampled.
-struct ShiningPoint {
-    glm::dvec3 place;
-    glm::vec2 uv;
-    double angle; ///< solid angle that it stands for
-};
-
-/// Even over the solid angle, or where that is so small that there is no difference, over the area.
-ShiningPoint point_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, double angle,
-                      const glm::dvec3& from, const glm::dvec2& u) {
-    constexpr double kSmall = 1e-3;
-    const glm::dvec3 ab = b - a, ac = c - a, normal = glm::cross(ab, ac);
-    if (angle < kSmall) {
-        const double root = std::sqrt(u.x);
-        const glm::vec2 uv(static_cast<float>(root * (1 - u.y)), static_cast<float>(root * u.y));
-        const glm::dvec3 place = a + static_cast<double>(uv.x) * ab + static_cast<double>(uv.y) * ac,
-                         to = place - from;
-        const double square = glm::dot(to, to);
-        return {place, uv, 0.5 * std::abs(glm::dot(normal, to)) / (square * std::sqrt(square))};
-    }
-    const glm::dvec3 direction =
-        direction_in(glm::normalize(a - from), glm::normalize(b - from), glm::normalize(c - from), angle, u);
-    const double along = glm::dot(a - from, normal) / glm::dot(direction, normal);
-    const glm::dvec3 place = from + along * direction, inside = place - a;
-    const double square = glm::dot(normal, normal);
-    const glm::dvec2 uv(glm::dot(glm::cross(inside, ac), normal) / square,
-                        glm::dot(glm::cross(ab, inside), normal) / square);
-    return {place, glm::vec2(glm::clamp(uv, 0.0, 1.0)), angle};
 }
 
 } // namespace
@@ -132,7 +83,8 @@ LampIrradiance irradiance_of_lights(const TraceScene& scene, const Lamp& lamp, c
     LampIrradiance result;
     for (const SeenLight& light : lights) {
         const int rays = half_angle_of(light, radius) > 0
-                             ? std::max(1, static_cast<int>(std::ceil(most * light.weight / all)))
+                             ? static_cast<int>(lamp_geometry::rays_of_share(static_cast<std::uint32_t>(most),
+                                                                             light.weight / all))
                              : 1;
         result.irradiance += light.normal_irradiance * arriving(scene, light, receiver, radius, rays);
         result.rays += static_cast<std::size_t>(rays);
@@ -164,61 +116,61 @@ ShiningTriangles::ShiningTriangles(const TraceScene& scene, const Lamp& lamp) : 
     }
 }
 
-glm::dvec3 ShiningTriangles::irradiance_along(const LampReceiver& receiver, const Shining& t, double angle,
+glm::dvec3 ShiningTriangles::irradiance_along(const LampReceiver& receiver, const Shining& t,
+                                              const lamp_geometry::SeenTriangle& seen,
                                               const glm::dvec2& u) const {
-    const glm::dvec3 from(receiver.origin);
-    const ShiningPoint point = point_of(t.a, t.b, t.c, angle, from, u);
-    const double cosine = glm::dot(glm::dvec3(receiver.normal), glm::normalize(point.place - from));
+    const lamp_geometry::TrianglePoint point = lamp_geometry::point_of(seen, u);
+    const double cosine = glm::dot(glm::dvec3(receiver.normal), glm::normalize(point.place));
     if (!(cosine > 0))
         return glm::dvec3(0);
     // The ray ends on the side that is seen, not on the triangle itself.
-    glm::dvec3 outward = glm::normalize(glm::cross(t.b - t.a, t.c - t.a));
-    if (glm::dot(outward, point.place - from) > 0)
-        outward = -outward;
+    const glm::dvec3 outward = glm::normalize(seen.volume > 0 ? -seen.normal : seen.normal);
     const auto off = static_cast<double>(scene_.rays().triangle_offset(t.triangle));
-    const glm::vec3 way(point.place + off * outward - glm::dvec3(receiver.origin));
+    const glm::vec3 way(point.place + off * outward);
     const float open = transmittance(scene_.rays(), scene_.surfaces(), receiver.origin, way, 1);
     if (open <= 0)
         return glm::dvec3(0);
-    const SurfacePoint seen{t.triangle, point.uv, 0};
-    const glm::dvec3 radiance =
-        glm::dvec3(scene_.surfaces().emission(seen)) * static_cast<double>(scene_.surfaces().coverage(seen));
-    return radiance * (cosine * static_cast<double>(open) * point.angle / angle);
+    const SurfacePoint place{t.triangle, glm::vec2(point.uv), 0};
+    const glm::dvec3 radiance = glm::dvec3(scene_.surfaces().emission(place)) *
+                                static_cast<double>(scene_.surfaces().coverage(place));
+    return radiance * (cosine * static_cast<double>(open) * point.angle / seen.angle);
 }
 
 LampIrradiance ShiningTriangles::irradiance(const LampReceiver& receiver, int rays) const {
     // From where rays start: in the plane of a wall that shines its solid angle is none, and a hair before it
     // half of all there is.
-    const glm::dvec3 position(receiver.origin), normal(receiver.normal);
-    struct Seen {
-        const Shining* shining;
-        double angle, until; ///< solid angle, and the sum of all weights so far
+    const glm::dvec3 from(receiver.origin), normal(receiver.normal);
+    const auto see = [&](const Shining& t) {
+        return lamp_geometry::see_triangle(t.a - from, t.b - from, t.c - from, t.b - t.a, t.c - t.a, normal,
+                                           t.two_sided);
     };
-    thread_local std::vector<Seen> seen;
-    seen.clear();
+    struct Weighted {
+        const Shining* shining;
+        double until; ///< the sum of all weights so far
+    };
+    thread_local std::vector<Weighted> weighted;
+    weighted.clear();
     double all = 0;
     for (const Shining& t : triangles_) {
-        const glm::dvec3 a = t.a - position, b = t.b - position, c = t.c - position;
-        const bool below = std::max({glm::dot(a, normal), glm::dot(b, normal), glm::dot(c, normal)}) <= 0;
-        if (below || (!t.two_sided && glm::dot(glm::cross(b - a, c - a), a) >= 0))
-            continue;
-        const double angle = solid_angle(a, b, c);
+        const double angle = see(t).angle;
         if (angle > 0)
-            seen.push_back({&t, angle, all += angle * t.luminance});
+            weighted.push_back({&t, all += angle * t.luminance});
     }
     LampIrradiance result;
-    if (seen.empty())
+    if (weighted.empty())
         return result;
+    const double shift = lamp_geometry::unit_number(receiver.seed);
     std::size_t at = 0;
     double before = 0;
     for (int i = 0; i < rays; ++i) {
-        const double target = all * (i + unit_number(receiver.seed)) / rays;
-        for (; at + 1 < seen.size() && seen[at].until <= target; ++at)
-            before = seen[at].until;
-        const Shining& t = *seen[at].shining;
-        const glm::dvec2 u(std::clamp((target - before) / (seen[at].until - before), 0.0, 1.0),
-                           golden(i, unit_number(receiver.seed * 2654435761u)));
-        result.irradiance += irradiance_along(receiver, t, seen[at].angle, u) * (all / (t.luminance * rays));
+        const double target = all * (i + shift) / rays;
+        for (; at + 1 < weighted.size() && weighted[at].until <= target; ++at)
+            before = weighted[at].until;
+        const Weighted& t = weighted[at];
+        const glm::dvec2 u(std::clamp((target - before) / (t.until - before), 0.0, 1.0),
+                           lamp_geometry::golden(static_cast<std::uint32_t>(i), receiver.seed * 2654435761u));
+        result.irradiance += irradiance_along(receiver, *t.shining, see(*t.shining), u) *
+                             (all / (t.shining->luminance * rays));
         ++result.rays;
     }
     return result;

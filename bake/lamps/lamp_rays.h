@@ -3,11 +3,13 @@
 // Shadow rays from a receiver to one lamp.
 
 #include "lamps/choose_lamps.h"
+#include "lamps/lamp_geometry.h"
 #include "prt/trace_scene.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace prt {
@@ -33,21 +35,24 @@ LampIrradiance irradiance_of_lights(const TraceScene& scene, const Lamp& lamp, c
 /// The triangles of a lamp that shine, with how bright each is on average.
 class ShiningTriangles {
 public:
-    ShiningTriangles(const TraceScene& scene, const Lamp& lamp);
-
-    /// Irradiance by `rays` rays that are spread over what is seen of them by its solid angle.
-    LampIrradiance irradiance(const LampReceiver& receiver, int rays) const;
-
-private:
     struct Shining {
         std::uint32_t triangle;
         glm::dvec3 a, b, c;
         double luminance; ///< mean
         bool two_sided;
     };
-    /// Of a sample of a triangle, as if the triangle were all there is.
-    glm::dvec3 irradiance_along(const LampReceiver& receiver, const Shining& t, double angle,
-                                const glm::dvec2& u) const;
+
+    ShiningTriangles(const TraceScene& scene, const Lamp& lamp);
+
+    std::span<const Shining> all() const { return triangles_; }
+
+    /// Irradiance by `rays` rays that are spread over what is seen of them by its solid angle.
+    LampIrradiance irradiance(const LampReceiver& receiver, int rays) const;
+
+private:
+    /// Of a sample of a triangle that is seen so, as if the triangle were all there is.
+    glm::dvec3 irradiance_along(const LampReceiver& receiver, const Shining& t,
+                                const lamp_geometry::SeenTriangle& seen, const glm::dvec2& u) const;
 
     const TraceScene& scene_;
     std::vector<Shining> triangles_;

@@ -2,26 +2,25 @@
 
 #include "lamps/punctual.h"
 
-#include <glm/geometric.hpp>
+#include "lamps/lamp_geometry.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace prt {
 
-double cone_share(const PunctualLight& light, const glm::dvec3& along) {
+ConeCosines cone_cosines(const PunctualLight& light) {
     if (light.kind != PunctualKind::spot)
-        return 1;
-    const double inner = std::cos(static_cast<double>(light.inner_cone)),
-                 outer = std::cos(static_cast<double>(light.outer_cone));
-    const double share = std::clamp(
-        (glm::dot(glm::dvec3(light.direction), along) - outer) / std::max(0.001, inner - outer), 0.0, 1.0);
-    return share * share;
+        return {-2, -3};
+    return {std::cos(static_cast<double>(light.inner_cone)), std::cos(static_cast<double>(light.outer_cone))};
+}
+
+double cone_share(const PunctualLight& light, const glm::dvec3& along) {
+    const ConeCosines cone = cone_cosines(light);
+    return lamp_geometry::share_in_cone(glm::dot(glm::dvec3(light.direction), along), cone.inner, cone.outer);
 }
 
 double range_share(const PunctualLight& light, double distance) {
-    const double ratio = distance / static_cast<double>(light.range);
-    return std::clamp(1 - ratio * ratio * ratio * ratio, 0.0, 1.0);
+    return lamp_geometry::share_in_range(distance / static_cast<double>(light.range));
 }
 
 } // namespace prt

@@ -4,6 +4,7 @@
 
 #include "trace/embree_tracer.h"
 
+#include "lamps/lamp_light.h"
 #include "prt/sh.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
@@ -307,6 +308,10 @@ void EmbreeTracer::trace(const Receivers& receivers, std::span<const std::uint32
     const double busy = trace + accumulate, wall = all.seconds();
     seconds_.trace += busy > 0 ? wall * trace / busy : wall;
     seconds_.accumulate += busy > 0 ? wall * accumulate / busy : 0;
+}
+
+LampLight EmbreeTracer::lamp_light(const LampTask& task, const Progress& progress) {
+    return lamp_light_on_cpu(task, progress);
 }
 
 } // namespace prt

@@ -16,6 +16,7 @@ public:
     void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                const Progress& progress = {}) override;
+    LampLight lamp_light(const LampTask& task, const Progress& progress) override;
 
 private:
     const TraceScene& scene_;

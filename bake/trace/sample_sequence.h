@@ -45,10 +45,13 @@ using uint = std::uint32_t; // as GLSL calls it, for the text that both compile
     return ((v & 0x55555555u) << 1) | ((v >> 1) & 0x55555555u);
 }
 
-/// Seed of the samples of a receiver.
-constexpr std::uint32_t receiver_seed(std::uint32_t receiver, std::uint64_t seed) {
+/// Seed of the samples of a receiver: the hash of its index XOR what all of them have in common.
+constexpr std::uint32_t seed_scramble(std::uint64_t seed) {
     const auto low = static_cast<std::uint32_t>(seed), high = static_cast<std::uint32_t>(seed >> 32);
-    return pcg_hash(receiver ^ pcg_hash(low ^ pcg_hash(high)));
+    return pcg_hash(low ^ pcg_hash(high));
+}
+constexpr std::uint32_t receiver_seed(std::uint32_t receiver, std::uint64_t seed) {
+    return pcg_hash(receiver ^ seed_scramble(seed));
 }
 
 } // namespace prt

@@ -11,6 +11,9 @@
 
 namespace prt {
 
+struct LampLight;
+struct LampTask;
+
 /// Rays of one call. Rays of a receiver are a sequence that depends on the seed alone: tracing [0, 64) and
 /// then [64, 128) is tracing [0, 128).
 struct TraceOptions {
@@ -61,6 +64,9 @@ public:
     virtual void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                        const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                        const Progress& progress = {}) = 0;
+    /// Direct light of lamps (bake/lamps/lamp_light.h), by samples that are the same for every tracer. Throws
+    /// `Cancelled` when asked to stop.
+    virtual LampLight lamp_light(const LampTask& task, const Progress& progress) = 0;
     TraceSeconds seconds() const { return seconds_; }
 
 protected:

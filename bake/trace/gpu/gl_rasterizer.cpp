@@ -7,6 +7,7 @@
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
+#include "trace/gpu/gl_lamp_light.h"
 #include "trace/gpu/gpu_receivers.h"
 #include "trace/gpu/touching_triangles.h"
 
@@ -178,6 +179,10 @@ void GlRasterizer::dispatch(const GlObject& shader, std::size_t receivers, std::
     set_uniform(shader, "texel_depth", 1 / static_cast<float>(maps_.resolution()));
     glDispatchCompute(static_cast<GLuint>((receivers + 63) / 64), 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+LampLight GlRasterizer::lamp_light(const LampTask& task, const Progress& progress) {
+    return lamp_light_on_gpu(gpu_scene_, task, progress);
 }
 
 } // namespace prt

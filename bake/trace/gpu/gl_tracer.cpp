@@ -8,6 +8,7 @@
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
+#include "trace/gpu/gl_lamp_light.h"
 #include "trace/gpu/gpu_receivers.h"
 #include "trace/gpu/gpu_structs.h"
 #include "trace/sample_sequence.h"
@@ -308,6 +309,10 @@ void GlTracer::trace_hits(const GlObject& shader, const Job& job, Chunks chunks,
     buffers.read();
     seconds_.transfer += transfer.seconds();
     buffers.sort(gpu_scene_.has_alpha(), hits);
+}
+
+LampLight GlTracer::lamp_light(const LampTask& task, const Progress& progress) {
+    return lamp_light_on_gpu(gpu_scene_, task, progress);
 }
 
 } // namespace prt

@@ -25,6 +25,7 @@ public:
     void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                const Progress& progress = {}) override;
+    LampLight lamp_light(const LampTask& task, const Progress& progress) override;
     /// Pieces that were traced again since their hits did not fit: only blended surfaces can make some, the
     /// first time that rays meet more of them than before.
     std::size_t traced_again() const { return traced_again_; }

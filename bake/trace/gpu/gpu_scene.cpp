@@ -3,10 +3,9 @@
 #include "trace/gpu/gpu_scene.h"
 
 #include "prt/light_passing.h"
-#include "prt/support/error.h"
+#include "trace/gpu/storage_buffer.h"
 #include "trace/gpu/wide_bvh.h"
 
-#include <epoxy/gl.h>
 #include <glm/geometric.hpp>
 
 #include <bit>
@@ -128,17 +127,6 @@ AlphaTables make_alpha_tables(const Scene& scene, const Surfaces& surfaces,
     return tables;
 }
 
-template <class T>
-GlObject storage_buffer(const std::vector<T>& values, const char* what) {
-    GLint64 largest = 0;
-    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
-    if (static_cast<GLint64>(values.size() * sizeof(T)) > largest)
-        throw Error(std::string("the scene is too large for this GPU: ") + what + " take " +
-                    std::to_string(values.size() * sizeof(T) >> 20) + " MB, and a buffer holds " +
-                    std::to_string(largest >> 20) + " MB");
-    return make_buffer(std::as_bytes(std::span(values)));
-}
-
 } // namespace
 
 GpuScene::GpuScene(const TraceScene& trace_scene)
@@ -153,7 +141,7 @@ GpuScene::GpuScene(const TraceScene& trace_scene)
         indices[t] =
             surfaces.material(t).casts_shadow ? surfaces.corners(t) : glm::uvec3(surfaces.corners(t).x);
     const WideBvh bvh = build_wide_bvh(positions, indices, trace_scene.threads());
-    const AlphaTables alpha = make_alpha_tables(scene, surfaces, trace_scene.textures());
+    AlphaTables alpha = make_alpha_tables(scene, surfaces, trace_scene.textures());
 
     std::vector<glm::vec4> corners;
     corners.reserve(3 * bvh.triangles.size());
@@ -167,6 +155,7 @@ GpuScene::GpuScene(const TraceScene& trace_scene)
     alpha_triangles_ = storage_buffer(alpha.triangles, "the cut-out triangles");
     alpha_materials_ = storage_buffer(alpha.materials, "the cut-out materials");
     alpha_texels_ = storage_buffer(alpha.texels, "the cut-out textures");
+    alpha_index_ = std::move(alpha.index);
     // On every level at most seven siblings wait besides the child that is visited.
     stack_size_ = 7 * bvh.depth + 2;
 }

@@ -25,6 +25,42 @@ static_assert(sizeof(Receiver) == 32);
 PRT_AT(Receiver, origin, 0);
 PRT_AT(Receiver, normal, 16);
 
+static_assert(sizeof(LampReceiver) == 48);
+PRT_AT(LampReceiver, origin, 0);
+PRT_AT(LampReceiver, normal, 16);
+PRT_AT(LampReceiver, position, 32);
+
+static_assert(sizeof(PunctualLight) == 64);
+PRT_AT(PunctualLight, intensity, 0);
+PRT_AT(PunctualLight, directional, 12);
+PRT_AT(PunctualLight, position, 16);
+PRT_AT(PunctualLight, inverse_range, 28);
+PRT_AT(PunctualLight, direction, 32);
+PRT_AT(PunctualLight, half_angle, 44);
+PRT_AT(PunctualLight, inner_cosine, 48);
+PRT_AT(PunctualLight, outer_cosine, 52);
+PRT_AT(PunctualLight, unused, 56);
+
+static_assert(sizeof(ShiningTriangle) == 96);
+PRT_AT(ShiningTriangle, a, 0);
+PRT_AT(ShiningTriangle, luminance, 12);
+PRT_AT(ShiningTriangle, b, 16);
+PRT_AT(ShiningTriangle, offset, 28);
+PRT_AT(ShiningTriangle, c, 32);
+PRT_AT(ShiningTriangle, two_sided, 44);
+PRT_AT(ShiningTriangle, radiance, 48);
+PRT_AT(ShiningTriangle, alpha, 60);
+PRT_AT(ShiningTriangle, texcoord, 64);
+PRT_AT(ShiningTriangle, image, 88);
+PRT_AT(ShiningTriangle, unused, 92);
+
+static_assert(sizeof(EmissionImage) == 20);
+PRT_AT(EmissionImage, texels, 0);
+PRT_AT(EmissionImage, width, 4);
+PRT_AT(EmissionImage, height, 8);
+PRT_AT(EmissionImage, wrap, 12);
+PRT_AT(EmissionImage, linear, 16);
+
 static_assert(sizeof(HitRecord) == 32);
 PRT_AT(HitRecord, receiver, 0);
 PRT_AT(HitRecord, chunk, 4);

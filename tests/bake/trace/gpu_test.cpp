@@ -162,7 +162,8 @@ TEST(GpuStructs, LieInMemoryAsTheDriverReadsThem) {
         trace = make_compute_program(
             "bake_trace.comp",
             "#define PRT_STACK_SIZE 9\n#define PRT_ORDER 2\n#define PRT_ALPHA\n#define PRT_HITS\n"),
-        raster = make_compute_program("bake_raster.comp", "#define PRT_ORDER 2\n");
+        raster = make_compute_program("bake_raster.comp", "#define PRT_ORDER 2\n"),
+        lamps = make_compute_program("bake_lamps.comp", "#define PRT_STACK_SIZE 9\n#define PRT_ALPHA\n");
     const auto expect = [](const GlObject& program, const char* last, std::size_t offset, std::size_t size) {
         EXPECT_EQ(layout_of(program, last, GL_OFFSET), static_cast<int>(offset)) << last;
         EXPECT_EQ(layout_of(program, last, GL_TOP_LEVEL_ARRAY_STRIDE), static_cast<int>(size)) << last;
@@ -172,6 +173,12 @@ TEST(GpuStructs, LieInMemoryAsTheDriverReadsThem) {
     expect(trace, "alpha_triangles[0].next", offsetof(gpu::AlphaTriangle, next), sizeof(gpu::AlphaTriangle));
     expect(trace, "alpha_materials[0].wrap", offsetof(gpu::AlphaMaterial, wrap), sizeof(gpu::AlphaMaterial));
     expect(trace, "nodes[0].high[0]", offsetof(gpu::WideNode, high), sizeof(gpu::WideNode));
+    expect(lamps, "receivers[0].position", offsetof(gpu::LampReceiver, position), sizeof(gpu::LampReceiver));
+    expect(lamps, "lights[0].outer_cosine", offsetof(gpu::PunctualLight, outer_cosine),
+           sizeof(gpu::PunctualLight));
+    expect(lamps, "shining[0].image", offsetof(gpu::ShiningTriangle, image), sizeof(gpu::ShiningTriangle));
+    expect(lamps, "emission_images[0].linear", offsetof(gpu::EmissionImage, linear),
+           sizeof(gpu::EmissionImage));
     expect(raster, "directions[0].basis[0]", offsetof(gpu::Direction, basis), sizeof(gpu::Direction));
 }
 

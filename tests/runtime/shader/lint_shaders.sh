@@ -38,6 +38,10 @@ for file in *.vert *.frag *.comp; do
                 compiles "$file" "PRT_STACK_SIZE 30" "PRT_ORDER 10" $defines
             done
             ;;
+        bake_lamps.comp)
+            compiles "$file" "PRT_STACK_SIZE 30"
+            compiles "$file" "PRT_STACK_SIZE 30" PRT_ALPHA
+            ;;
         bake_raster.*)
             for defines in PRT_OPAQUE PRT_ALPHA "PRT_ALPHA PRT_PEEL"; do
                 # shellcheck disable=SC2086

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "prt/gl_objects.h"
+
+#include <epoxy/gl.h>
+
+#include <string>
+#include <vector>
+
+namespace prt {
+
+/// A buffer of `values` for shaders. Throws `Error` that says `what` they are where they do not fit one.
+template <class T>
+GlObject storage_buffer(const std::vector<T>& values, const char* what) {
+    GLint64 largest = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
+    if (static_cast<GLint64>(values.size() * sizeof(T)) > largest)
+        throw Error(std::string("the scene is too large for this GPU: ") + what + " take " +
+                    std::to_string(values.size() * sizeof(T) >> 20) + " MB, and a buffer holds " +
+                    std::to_string(largest >> 20) + " MB");
+    return make_buffer(std::as_bytes(std::span(values)));
+}
+
+} // namespace prt

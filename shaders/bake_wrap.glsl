@@ -1,0 +1,8 @@
+// The texel that stands for one beside the texture, as on the CPU (runtime/render/texture.cpp).
+int wrapped(int i, int size, uint wrap) {
+    if (wrap == PRT_WRAP_CLAMP)
+        return clamp(i, 0, size - 1);
+    int period = wrap == PRT_WRAP_MIRROR ? 2 * size : size;
+    int rest = i - period * int(floor(float(i) / float(period)));
+    return rest < size ? rest : 2 * size - 1 - rest;
+}
