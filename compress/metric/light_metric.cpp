@@ -31,11 +31,12 @@ Eigen::Map<const Matrix> matrix_of(const LightMetric& metric) {
     return {metric.moments.data(), dimension_of(metric.layout), dimension_of(metric.layout)};
 }
 
-std::size_t numbers_of_lamps(const TransferLayout& layout) {
+/// Numbers of a vector that are of distant light; lamps follow.
+Eigen::Index of_sky_in(const TransferLayout& layout) {
     std::size_t numbers = 0;
-    for (const TransferPart& part : layout.lamp_parts())
+    for (const TransferPart& part : layout.distant_parts())
         numbers += layout.numbers_of(part);
-    return numbers;
+    return static_cast<Eigen::Index>(numbers);
 }
 
 LightMetric zero_metric(const TransferLayout& layout) {
@@ -105,8 +106,7 @@ void add_outer_product(const Lighting& lighting, double scale, LightMetric& metr
 /// Adds a share of natural light to distant light that costs `given`, and lamps as they stand beside that.
 void add_natural(double given, LightMetric& metric) {
     LightMetric natural = natural_metric(metric.layout);
-    const auto lamps = static_cast<Eigen::Index>(numbers_of_lamps(metric.layout));
-    const Eigen::Index sky = dimension_of(metric.layout) - lamps;
+    const Eigen::Index sky = of_sky_in(metric.layout);
     const double scale = given / matrix_of(natural).diagonal().head(sky).sum();
     matrix_of(natural).topLeftCorner(sky, sky) *= tuning::kNaturalShare;
     matrix_of(metric) += scale * matrix_of(natural);
@@ -129,6 +129,42 @@ Lighting changed(const Lighting& lighting, auto&& change) {
     if (lighting.suns)
         result.suns = change(*lighting.suns);
     return result;
+}
+
+/// What the transfer costs without approximation: of all distant light together, then of each lamp.
+std::vector<double> costs_of_parts(LightMetric& metric, const Transfer& transfer,
+                                   std::span<const float> areas, int threads) {
+    const TransferLayout& layout = metric.layout;
+    const Eigen::Index n = dimension_of(layout), of_sky = of_sky_in(layout);
+    constexpr std::size_t kGrain = 1024;
+    const std::size_t blocks = (transfer.receivers() + kGrain - 1) / kGrain;
+    std::vector<Eigen::VectorXd> of_block(
+        blocks, Eigen::VectorXd::Zero(1 + static_cast<Eigen::Index>(layout.lamps())));
+    const Eigen::Map<Matrix> moments = matrix_of(metric);
+    parallel_for(transfer.receivers(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+        const auto count = static_cast<Eigen::Index>(end - begin);
+        const Matrix t =
+            Eigen::Map<const Eigen::MatrixXf>(transfer.vector(begin).data(), n, count).cast<double>();
+        Eigen::VectorXd& sums = of_block[begin / kGrain];
+        for (Eigen::Index p = 0; p < count; ++p) {
+            const auto area = static_cast<double>(areas[begin + static_cast<std::size_t>(p)]);
+            const auto cost = [&](Eigen::Index first, Eigen::Index size) {
+                const auto part = t.col(p).segment(first, size);
+                return area * part.dot(moments.block(first, first, size, size) * part);
+            };
+            sums[0] += cost(0, of_sky);
+            Eigen::Index first = of_sky, lamp = 1;
+            for (const TransferPart& part : layout.lamp_parts()) {
+                sums[lamp++] += cost(first, part.channels);
+                first += part.channels;
+            }
+        }
+    });
+    std::vector<double> costs(1 + layout.lamps(), 0);
+    for (const Eigen::VectorXd& sums : of_block)
+        for (std::size_t i = 0; i < costs.size(); ++i)
+            costs[i] += sums[static_cast<Eigen::Index>(i)];
+    return costs;
 }
 
 } // namespace
@@ -183,32 +219,19 @@ LightMetric metric_of_lights(std::span<const Light> lights, const TransferLayout
 
 LightMetric balanced(LightMetric metric, const Transfer& transfer, std::span<const float> areas,
                      int threads) {
-    const auto of_lamps = static_cast<Eigen::Index>(numbers_of_lamps(metric.layout));
-    const Eigen::Index n = dimension_of(metric.layout), of_sky = n - of_lamps;
-    if (of_lamps == 0 || of_sky == 0)
-        return metric;
-    constexpr std::size_t kGrain = 1024;
-    const std::size_t blocks = (transfer.receivers() + kGrain - 1) / kGrain;
-    std::vector<double> sky(blocks, 0), lamps(blocks, 0);
-    const Eigen::Map<Matrix> moments = matrix_of(metric);
-    parallel_for(transfer.receivers(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
-        const auto count = static_cast<Eigen::Index>(end - begin);
-        const Matrix t =
-            Eigen::Map<const Eigen::MatrixXf>(transfer.vector(begin).data(), n, count).cast<double>();
-        const auto cost = [&](const auto& part, const auto& of_part, Eigen::Index p) {
-            return part.col(p).dot(of_part * part.col(p));
-        };
-        for (Eigen::Index p = 0; p < count; ++p) {
-            const auto area = static_cast<double>(areas[begin + static_cast<std::size_t>(p)]);
-            sky[begin / kGrain] += area * cost(t.topRows(of_sky), moments.topLeftCorner(of_sky, of_sky), p);
-            lamps[begin / kGrain] +=
-                area * cost(t.bottomRows(of_lamps), moments.bottomRightCorner(of_lamps, of_lamps), p);
-        }
-    });
-    const double all_sky = std::accumulate(sky.begin(), sky.end(), 0.0),
-                 all_lamps = std::accumulate(lamps.begin(), lamps.end(), 0.0);
-    if (all_sky > 0 && all_lamps > 0)
-        matrix_of(metric).bottomRightCorner(of_lamps, of_lamps) *= all_sky / all_lamps;
+    const std::vector<double> costs = costs_of_parts(metric, transfer, areas, threads);
+    const std::span<const double> of_lamps = std::span(costs).subspan(1);
+    const auto shining = std::ranges::count_if(of_lamps, [](double cost) { return cost > 0; });
+    const double sky = costs[0], all = sky > 0 ? sky : std::reduce(of_lamps.begin(), of_lamps.end());
+    Eigen::Index begin = of_sky_in(metric.layout);
+    auto cost = of_lamps.begin();
+    for (const TransferPart& lamp : metric.layout.lamp_parts()) {
+        const Eigen::Index size = lamp.channels;
+        if (*cost > 0)
+            matrix_of(metric).block(begin, begin, size, size) *= all / (*cost * static_cast<double>(shining));
+        begin += size;
+        ++cost;
+    }
     return metric;
 }
 

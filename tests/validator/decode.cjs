@@ -210,13 +210,13 @@ function byColor(vector) {
 function costs(vector) {
   let squares = 0;
   let lit = 0;
-  let byLamps = 0;
+  const byLamps = new Map();
   for (const of of byColor(vector))
     parts.forEach((a, p) =>
       of[p].forEach((value, i) => {
         squares += value ** 2;
         if (a.kind === "lamp") {
-          byLamps += value ** 2; // as it is, by itself
+          byLamps.set(p, (byLamps.get(p) ?? 0) + value ** 2); // as it is, by itself
           return;
         }
         parts.forEach((b, q) => {
@@ -227,7 +227,8 @@ function costs(vector) {
   return [squares, lit, byLamps];
 }
 
-const sums = { error: 0, norm: 0, litError: 0, litNorm: 0, lampError: 0, lampNorm: 0 };
+const sums = { error: 0, norm: 0, litError: 0, litNorm: 0 };
+const lamps = new Map(); // by part: its error and norm
 baked.primitives().forEach((primitive, i) => {
   const weights = areas(baked, primitive);
   const decoded = decodedVectors(shipped, shipped.primitives()[i]);
@@ -238,12 +239,20 @@ baked.primitives().forEach((primitive, i) => {
     sums.norm += weights[p] * norm;
     sums.litError += weights[p] * litError;
     sums.litNorm += weights[p] * litNorm;
-    sums.lampError += weights[p] * lampError;
-    sums.lampNorm += weights[p] * lampNorm;
+    for (const [lamp, square] of lampNorm) {
+      const sum = lamps.get(lamp) ?? { error: 0, norm: 0 };
+      sum.error += weights[p] * lampError.get(lamp);
+      sum.norm += weights[p] * square;
+      lamps.set(lamp, sum);
+    }
   });
 });
-// All lamps together cost as much as the sky, where both give something.
-const scale = sums.litNorm > 0 && sums.lampNorm > 0 ? sums.litNorm / sums.lampNorm : 1;
-sums.litError += scale * sums.lampError;
-sums.litNorm += scale * sums.lampNorm;
+// All lamps together cost as much as the sky and each as much as the others, where both give something.
+const shining = [...lamps.values()].filter(({ norm }) => norm > 0);
+const all = sums.litNorm > 0 ? sums.litNorm : shining.reduce((sum, { norm }) => sum + norm, 0);
+for (const { error, norm } of shining) {
+  const scale = all / (norm * shining.length);
+  sums.litError += scale * error;
+  sums.litNorm += scale * norm;
+}
 console.log(Math.sqrt(sums.error / sums.norm), Math.sqrt(sums.litError / sums.litNorm));

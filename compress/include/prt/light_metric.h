@@ -33,9 +33,9 @@ LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLay
 /// All light in one sky each.
 LightMetric metric_of_lights(std::span<const Light> lights, const TransferLayout& layout);
 
-/// Weighs lamps so that all of them together, as they stand to each other, cost as much as distant light does
-/// on `transfer`: an error counts alike by day and by night, however bright lamps are beside a sky. Where
-/// either gives nothing all stays as it is.
+/// Weighs lamps so that each costs as much as the others on `transfer`, and all together as much as distant
+/// light, where there is any: an error counts alike by day and by night, and whichever lamps are dimmed,
+/// however bright they are beside a sky and each other.
 LightMetric balanced(LightMetric metric, const Transfer& transfer, std::span<const float> areas,
                      int threads = 0);
 
