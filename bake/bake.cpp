@@ -129,8 +129,10 @@ Propagated propagate_lamps(const BakePlan& plan, Transfer light, const Transport
     Propagated exit = propagate(std::move(light), operators, plan.bounces, plan.options.threads, progress);
     leave_back_sides(plan, exit.transfer);
     check_has_an_end(exit);
+    const std::size_t stride = static_cast<std::size_t>(coefficient_count(unbounced.layout.order));
     for (std::size_t i = 0; i < unbounced.vectors.size(); ++i)
-        exit.transfer.vectors[i] -= unbounced.vectors[i];
+        if (const std::size_t k = i % stride; k < plan.lamps.size() && !plan.lamps[k].towards)
+            exit.transfer.vectors[i] -= unbounced.vectors[i]; // of keys nobody else adds it
     return exit;
 }
 

@@ -25,6 +25,8 @@ const std::map<std::string, SunShadows> kSunShadows = {{"sharp", SunShadows::sha
 
 /// A name that is misspelt would otherwise be left out in silence.
 void check_known(const Json& object, std::initializer_list<const char*> keys) {
+    if (!object.is_object())
+        throw Error("is no object");
     for (const auto& [key, value] : object.items())
         if (std::find(keys.begin(), keys.end(), key) == keys.end())
             throw Error(fmt::format("\"{}\" is no member of it", printable(key)));
@@ -41,7 +43,8 @@ int day_of_year(const Json& date) {
     int year = 0, used = 0;
     unsigned month = 0, day = 0;
     const std::string text = date.is_string() ? date.get<std::string>() : "";
-    const bool read = std::sscanf(text.c_str(), "%4d-%2u-%2u%n", &year, &month, &day, &used) == 3 &&
+    const bool read = text.find_first_not_of("0123456789-") == std::string::npos && text.size() == 10 &&
+                      std::sscanf(text.c_str(), "%4d-%2u-%2u%n", &year, &month, &day, &used) == 3 &&
                       static_cast<std::size_t>(used) == text.size();
     const std::chrono::year first{year};
     const std::chrono::year_month_day when{first, std::chrono::month{month}, std::chrono::day{day}};

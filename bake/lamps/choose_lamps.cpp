@@ -42,9 +42,10 @@ public:
 
     void add_key(const PunctualLight& light, std::uint32_t index) {
         if (!places_.try_emplace(light.name, lamps_.size()).second)
-            throw Error(fmt::format("two lamps are called '{}', and one of them is of the light set: give it "
-                                    "another name",
-                                    printable(light.name)));
+            throw Error(
+                fmt::format("two lamps are called '{}', and one of them is of the light set, or both: "
+                            "give them other names",
+                            printable(light.name)));
         lamps_.push_back({.name = light.name, .lights = {index}, .towards = -light.direction});
     }
 
@@ -56,7 +57,7 @@ public:
         if (lamps_.size() > kMostLamps)
             throw Error(fmt::format("the scene has {} lamps of different names, and at most {} can be dimmed "
                                     "apart: put some into groups (--lamp-group) or leave them out (--lamps "
-                                    "none)",
+                                    "none); a light set may have fewer keys",
                                     lamps_.size(), kMostLamps));
         return std::move(lamps_);
     }

@@ -23,9 +23,13 @@ double half_a_day(const SunArc& arc) {
     return kHoursPerRadian * std::acos(std::clamp(cosine, -1.0, 1.0));
 }
 
-std::string clock(double hour) {
-    const int minutes = static_cast<int>(std::lround(60 * hour));
-    return fmt::format("sun {:02}:{:02}", minutes / 60, minutes % 60);
+/// To the minute, or to the thousandth of a second where keys stand closer than that.
+std::string clock(double hour, bool close) {
+    const auto milliseconds =
+        static_cast<long>(std::lround((close ? 3.6e6 : 60.0) * hour)) * (close ? 1 : 60000);
+    const long minutes = milliseconds / 60000;
+    const std::string time = fmt::format("sun {:02}:{:02}", minutes / 60, minutes % 60);
+    return close ? fmt::format("{}:{:06.3f}", time, static_cast<double>(milliseconds % 60000) / 1000) : time;
 }
 
 } // namespace
@@ -49,10 +53,11 @@ std::vector<PunctualLight> keys_of(const SunArc& arc) {
     const double half = half_a_day(arc);
     if (half <= 0)
         throw Error("the sun does not rise on that day at that latitude");
+    const bool close = 2 * half * 60 < 1.01 * (arc.keys - 1);
     std::vector<PunctualLight> keys;
     for (int k = 0; k < arc.keys; ++k) {
         const double share = arc.keys > 1 ? 2.0 * k / (arc.keys - 1) - 1 : 0, hour = 12 + half * share;
-        PunctualLight key{.name = clock(hour), .kind = PunctualKind::directional, .key = true};
+        PunctualLight key{.name = clock(hour, close), .kind = PunctualKind::directional, .key = true};
         key.direction = -glm::vec3(towards_sun(arc, hour));
         key.half_angle = static_cast<float>(arc.half_angle);
         keys.push_back(key);

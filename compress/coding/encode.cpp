@@ -47,13 +47,33 @@ std::size_t axes_in_use(const QuantisedClusters& clusters, double step) {
     return used;
 }
 
-/// Axis i times the deviation of the points along it, in units of `unit`.
-std::vector<std::int32_t> integer_axes(const Frame& frame, std::size_t axes, double unit) {
+/// What rounding may be coarser by in each column: 1 for distant light, and for lamps such that an error of a
+/// unit costs as much as it does there on average.
+Eigen::ArrayXd units_of(const TransferLayout& layout, const Eigen::MatrixXd& moments) {
+    Eigen::Index skies = 0;
+    for (const TransferPart& part : layout.distant_parts())
+        skies += static_cast<Eigen::Index>(layout.numbers_of(part));
+    const Eigen::ArrayXd costs = moments.diagonal();
+    const double usual = skies > 0 ? costs.head(skies).mean() : costs.mean();
+    Eigen::ArrayXd units = Eigen::ArrayXd::Ones(costs.size());
+    for (Eigen::Index a = skies; a < units.size(); ++a)
+        if (costs[a] > 0 && usual > 0)
+            units[a] = static_cast<double>(static_cast<float>(std::sqrt(usual / costs[a])));
+    return units;
+}
+
+/// Axis i times the deviation of the points along it, in each column's units of `unit`.
+Eigen::ArrayXd deviations_along(const Frame& frame, std::size_t i, const Eigen::ArrayXd& units) {
+    const auto full = static_cast<Eigen::Index>(frame.full());
+    const Eigen::Map<const Eigen::ArrayXd> axis(&frame.synthesis[i * frame.full()], full);
+    return std::sqrt(frame.variances[i]) * axis / units;
+}
+
+std::vector<std::int32_t> integer_axes(const Frame& frame, const Eigen::ArrayXd& units, double unit) {
     std::vector<std::int32_t> values;
-    for (std::size_t i = 0; i < axes; ++i)
-        for (std::size_t a = 0; a < frame.full(); ++a)
-            values.push_back(static_cast<std::int32_t>(
-                std::lround(std::sqrt(frame.variances[i]) * frame.synthesis[i * frame.full() + a] / unit)));
+    for (std::size_t i = 0; i < frame.dimension; ++i)
+        for (const double v : deviations_along(frame, i, units))
+            values.push_back(static_cast<std::int32_t>(std::lround(v / unit)));
     return values;
 }
 
@@ -149,14 +169,15 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
     const Eigen::MatrixXd moments =
         frame.scale * frame.scale * Eigen::Map<const Eigen::MatrixXd>(metric.moments.data(), full, full);
 
-    // Rounding every value of every axis to `unit` adds axes · trace · unit² / 12.
-    double unit = std::sqrt(
-        12 * most_error / (static_cast<double>(std::max<std::size_t>(frame.dimension, 1)) * moments.trace()));
+    // Rounding every value of every axis to its column's units of `unit` adds axes · cost of a unit · unit²
+    // / 12.
+    const Eigen::ArrayXd units = units_of(frame.layout, moments);
+    const double cost = (moments.diagonal().array() * units.square()).sum();
+    double unit =
+        std::sqrt(12 * most_error / (static_cast<double>(std::max<std::size_t>(frame.dimension, 1)) * cost));
     double largest = 0;
     for (std::size_t i = 0; i < frame.dimension; ++i)
-        for (std::size_t a = 0; a < frame.full(); ++a)
-            largest = std::max(largest, std::sqrt(frame.variances[i]) *
-                                            std::abs(frame.synthesis[i * frame.full() + a]));
+        largest = std::max(largest, deviations_along(frame, i, units).abs().maxCoeff());
     unit = std::max(unit, largest / kLargestValue);
 
     CodedBases coded;
@@ -164,15 +185,18 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
         coded.origin.push_back(static_cast<float>(v));
         v = static_cast<double>(coded.origin.back());
     }
-    std::vector<std::int32_t> values = integer_axes(frame, frame.dimension, unit);
+    if ((units != 1).any())
+        coded.units.assign(units.begin(), units.end());
+    std::vector<std::int32_t> values = integer_axes(frame, units, unit);
     truncate(frame, axes_left(values, frame.full()));
     values.resize(frame.dimension * frame.full());
     coded.axes = encode_rows(values, frame.full());
     for (std::size_t i = 0; i < frame.dimension; ++i) {
         coded.scales.push_back(static_cast<float>(unit / std::sqrt(frame.variances[i])));
         for (std::size_t a = 0; a < frame.full(); ++a)
-            frame.synthesis[i * frame.full() + a] =
-                static_cast<double>(coded.scales[i]) * values[i * frame.full() + a];
+            frame.synthesis[i * frame.full() + a] = static_cast<double>(coded.scales[i]) *
+                                                    values[i * frame.full() + a] *
+                                                    units[static_cast<Eigen::Index>(a)];
     }
     const auto kept = static_cast<Eigen::Index>(frame.dimension);
     if (kept == 0) // all receivers alike

@@ -20,13 +20,15 @@ std::vector<std::size_t> ClusteredBases::first_rows() const {
 }
 
 std::size_t coded_bytes(const CodedBases& coded) {
-    return (coded.origin.size() + coded.scales.size() + 1) * sizeof(float) + coded.axes.drops.size() +
-           coded.axes.bits.size() + coded.values.drops.size() + coded.values.bits.size();
+    return (coded.origin.size() + coded.units.size() + coded.scales.size() + 1) * sizeof(float) +
+           coded.axes.drops.size() + coded.axes.bits.size() + coded.values.drops.size() +
+           coded.values.bits.size();
 }
 
 std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components) {
     const std::size_t axes = coded.scales.size(), dimension = coded.origin.size();
-    if (coded.axes.drops.size() != dimension || coded.values.drops.size() != axes)
+    if (coded.axes.drops.size() != dimension || coded.values.drops.size() != axes ||
+        (!coded.units.empty() && coded.units.size() != dimension))
         throw Error("the code of the bases has columns of another number");
     std::size_t rows = 0;
     for (const int m : components)
@@ -38,14 +40,16 @@ std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>&
     for (const int m : components)
         for (int j = 0; j <= m; ++j, ++row) {
             float* to = &result[row * dimension];
-            if (j == 0)
-                std::copy(coded.origin.begin(), coded.origin.end(), to);
             const float step = j == 0 ? coded.step : 2 * coded.step;
             for (std::size_t i = 0; i < axes; ++i) {
                 const float y = step * coded.scales[i] * static_cast<float>(values[row * axes + i]);
                 for (std::size_t a = 0; y != 0 && a < dimension; ++a)
                     to[a] += y * static_cast<float>(axis_values[i * dimension + a]);
             }
+            for (std::size_t a = 0; a < coded.units.size(); ++a)
+                to[a] *= coded.units[a];
+            for (std::size_t a = 0; j == 0 && a < dimension; ++a)
+                to[a] += coded.origin[a];
         }
     return result;
 }

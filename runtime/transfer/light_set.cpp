@@ -30,14 +30,15 @@ Place at_key(const Key& key, const glm::dvec3& sun) {
     return {key.lamp, key.lamp, 1, 0, glm::dot(key.towards, sun)};
 }
 
-/// The place nearest to the sun within the arc from `a` to `b`; none where that is one of the keys, and where
-/// these are in one line, so that no arc is theirs.
+/// The place nearest to the sun within the arc from `a` to `b`; none where that is one of the keys, where
+/// these are one, and where they stand more than a right angle apart: what only one of them lights would be
+/// far too bright.
 Place within_arc(const Key& a, const Key& b, const glm::dvec3& sun) {
-    constexpr double kInOneLine = 1e-9;
+    constexpr double kSame = 1e-9;
     const double between = glm::dot(a.towards, b.towards), to_a = glm::dot(a.towards, sun),
                  to_b = glm::dot(b.towards, sun);
     const double of_a = to_a - between * to_b, of_b = to_b - between * to_a;
-    if (1 - between * between < kInOneLine || of_a <= 0 || of_b <= 0)
+    if (between < 0 || 1 - between < kSame || of_a <= 0 || of_b <= 0)
         return {};
     const double length = glm::length(of_a * a.towards + of_b * b.towards); // of the sun on the arc's plane
     return {a.lamp, b.lamp, of_a / length, of_b / length, (of_a * to_a + of_b * to_b) / length};

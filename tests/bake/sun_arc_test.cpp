@@ -13,6 +13,8 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
+#include <string>
 
 namespace prt {
 namespace {
@@ -141,6 +143,34 @@ TEST(SunArc, HasTheSunsPenumbra) {
     EXPECT_GT(dark, 0);
     EXPECT_GT(half, 0);
     EXPECT_GT(full, 0);
+}
+
+/// A day of minutes has keys that differ by seconds.
+TEST(SunArc, OfShortDaysHasNamesThatDiffer) {
+    const auto keys = keys_of({.latitude = glm::radians(66.54), .day = kDecember, .keys = 24});
+    std::set<std::string> names;
+    for (const PunctualLight& key : keys)
+        names.insert(key.name);
+    EXPECT_EQ(names.size(), 24u);
+}
+
+/// Bounces alone of lamps, and all of keys, which no renderer adds to.
+TEST(SunArc, KeepsItsDirectLightWhereLampsDoNot) {
+    Scene scene = floor_with({});
+    PunctualLight key;
+    key.name = "noon";
+    key.kind = PunctualKind::directional;
+    key.key = true;
+    key.direction = {0, -1, 0};
+    scene.lights = {{.name = "lamp", .position = {0, 1, 0}}, key};
+    BakeOptions options = options_of(LampMode::indirect);
+    options.bounces = 1;
+    const Transfer transfer = bake(scene, options).baked.transfer;
+    Lighting lighting{constant_light(2, glm::vec3(0))};
+    lighting.lamps = {glm::vec3(1), glm::vec3(0)};
+    EXPECT_NEAR(exit_radiance(transfer, lighting)[12].g, 0, 1e-6);
+    lighting.lamps = {glm::vec3(0), glm::vec3(1)};
+    EXPECT_NEAR(exit_radiance(transfer, lighting)[12].g, 1 / std::numbers::pi, 1e-5);
 }
 
 TEST(SunArc, OfTwoKeysOfOneNameIsRefused) {

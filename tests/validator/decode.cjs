@@ -105,7 +105,8 @@ function clusterRows(glb, extension) {
   const count = extension.components.reduce((sum, m) => sum + 1 + m, 0);
   let rows;
   if ("values" in extension.bases) {
-    const { origin, scales, step, axes, values } = extension.bases;
+    const { origin, scales, step, axes, values, units } = extension.bases;
+    const unit = units ? glb.floats(units) : Array(dimension).fill(1);
     const start = glb.floats(origin);
     const scale = glb.floats(scales);
     const axis = codedRows(glb, axes, scale.length);
@@ -113,7 +114,7 @@ function clusterRows(glb, extension) {
     rows = codedRows(glb, values, count).map((value, r) => {
       const row = isMean[r] ? [...start] : Array(dimension).fill(0);
       value.forEach((v, i) => {
-        for (let a = 0; a < dimension; ++a) row[a] += (isMean[r] ? 1 : 2) * step * scale[i] * v * axis[i][a];
+        for (let a = 0; a < dimension; ++a) row[a] += (isMean[r] ? 1 : 2) * step * scale[i] * v * axis[i][a] * unit[a];
       });
       return row;
     });

@@ -26,7 +26,8 @@ double declination(int day);
 /// Towards the sun at an hour of true solar time, 12 where it is highest; unit, below the horizon by night.
 glm::dvec3 towards_sun(const SunArc& arc, double hour);
 
-/// Keys at even times from sunrise to sunset, both of them too, named "sun HH:MM" in true solar time; a
+/// Keys at even times from sunrise to sunset, both of them too, named "sun HH:MM" in true solar time, with
+/// seconds where there are several a minute; a
 /// single one at noon. Where the sun does not set they go from midnight to midnight. Throws `Error` where it
 /// does not rise.
 std::vector<PunctualLight> keys_of(const SunArc& arc);

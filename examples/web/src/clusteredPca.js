@@ -86,8 +86,9 @@ export function decodeClusters(extension, view) {
   if (bases.values) {
     const origin = floats(view(bases.origin.bufferView));
     const scales = floats(view(bases.scales.bufferView));
+    const units = bases.units ? floats(view(bases.units.bufferView)) : new Float32Array(dimension).fill(1);
     const axisCount = scales.length;
-    if (origin.length !== dimension || bases.axes.drops.length !== dimension || bases.values.drops.length !== axisCount)
+    if (origin.length !== dimension || units.length !== dimension || bases.axes.drops.length !== dimension || bases.values.drops.length !== axisCount)
       throw new Error("PRTKIT_clustered_pca: the sizes of the coded bases do not fit together");
     const axes = codedRows(view(bases.axes.bufferView), bases.axes.drops, axisCount);
     const values = codedRows(view(bases.values.bufferView), bases.values.drops, rowCount);
@@ -101,7 +102,7 @@ export function decodeClusters(extension, view) {
           const value = values[r * axisCount + i];
           if (value === 0) continue;
           const factor = (isMean ? 1 : 2) * bases.step * scales[i] * value;
-          for (let a = 0; a < dimension; ++a) row[a] += factor * axes[i * dimension + a];
+          for (let a = 0; a < dimension; ++a) row[a] += factor * axes[i * dimension + a] * units[a];
         }
         rows.set(row, r * dimension);
       }

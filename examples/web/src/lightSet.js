@@ -10,12 +10,13 @@ function turned([x, y, z], angle) {
   return [c * x + s * z, y, c * z - s * x];
 }
 
-/** The place nearest to `sun` within the arc from key `a` to key `b`; null where that is one of the keys. */
+/** The place nearest to `sun` within the arc from key `a` to key `b`; null where that is one of the keys, and
+ * where these are one, or more than a right angle apart: what only one of them lights would be far too bright. */
 function withinArc(a, b, sun) {
   const between = dot(a, b);
   const ofA = dot(a, sun) - between * dot(b, sun);
   const ofB = dot(b, sun) - between * dot(a, sun);
-  if (1 - between * between < 1e-9 || ofA <= 0 || ofB <= 0) return null;
+  if (between < 0 || 1 - between < 1e-9 || ofA <= 0 || ofB <= 0) return null;
   const length = Math.hypot(...a.map((x, i) => ofA * x + ofB * b[i]));
   return { shares: [ofA / length, ofB / length], cosine: (ofA * dot(a, sun) + ofB * dot(b, sun)) / length };
 }

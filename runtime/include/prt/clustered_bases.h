@@ -20,9 +20,12 @@ struct CodedBases {
     float step = 0;
     RowCode axes;   ///< rows [axes], columns [dimension]
     RowCode values; ///< rows as in ClusteredBases, columns [axes]
+    /// [dimension]: what the axes' numbers are multiplied with in each column; empty: 1. A lamp that is a
+    /// thousand times as bright as a sky would leave it no digits otherwise.
+    std::vector<float> units = {};
 };
 
-/// Bytes of origin, scales, axes and values.
+/// Bytes of origin, units, scales, axes and values.
 std::size_t coded_bytes(const CodedBases& coded);
 
 /// The rows that `coded` stands for, [rows][dimension]; cluster k has one mean and `components[k]`

@@ -151,11 +151,14 @@ Json write_bases(GltfContents& contents, const ClusteredBases& bases) {
     if (!bases.is_coded())
         return write_float_view(contents, bases.rows);
     const CodedBases& coded = bases.coded;
-    return {{"origin", write_float_view(contents, coded.origin)},
-            {"scales", write_float_view(contents, coded.scales)},
-            {"step", coded.step},
-            {"axes", write_row_code(contents, coded.axes)},
-            {"values", write_row_code(contents, coded.values)}};
+    Json json = {{"origin", write_float_view(contents, coded.origin)},
+                 {"scales", write_float_view(contents, coded.scales)},
+                 {"step", coded.step},
+                 {"axes", write_row_code(contents, coded.axes)},
+                 {"values", write_row_code(contents, coded.values)}};
+    if (!coded.units.empty())
+        json["units"] = write_float_view(contents, coded.units);
+    return json;
 }
 
 /// Throws where the rows, those that constants are formed from, and what they are decoded from would take too
@@ -175,6 +178,8 @@ void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& 
     constexpr float kAnyFinite = std::numeric_limits<float>::max(); // small steps may have large scales
     CodedBases& coded = bases.coded;
     coded.origin = read_float_view(contents, json.at("origin"), dimension, kLargestTransfer, "the origin");
+    if (json.contains("units"))
+        coded.units = read_float_view(contents, json["units"], dimension, kAnyFinite, "the units");
     coded.axes = read_row_code(contents, json.at("axes"));
     coded.values = read_row_code(contents, json.at("values"));
     const std::size_t axes = coded.values.drops.size();

@@ -60,6 +60,8 @@ void code_bases(ClusteredBases& bases, std::mt19937& random) {
     coded.origin.assign(bases.dimension(), 0.5f);
     coded.scales = {1, 0.5f, 0.25f, 0.125f};
     coded.step = 0.01f;
+    coded.units.assign(bases.dimension(), 1);
+    coded.units.back() = 4;
     coded.axes = encode_rows(integers(axes * bases.dimension()), bases.dimension());
     coded.values = encode_rows(integers(bases.first_rows().back() * axes), axes);
     bases.rows = decode_bases(coded, bases.components);

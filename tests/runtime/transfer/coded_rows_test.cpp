@@ -114,6 +114,17 @@ TEST(CodedBases, AreTheOriginInMeansAndScaledSumsOfTheAxes) {
     // Five, three and one floats, a byte for each column, and the bits.
     EXPECT_EQ(coded_bytes(coded),
               (5 + 3 + 1) * 4 + 5 + coded.axes.bits.size() + 3 + coded.values.bits.size());
+    CodedBases scaled = coded;
+    scaled.units = {1, 2, 0.5f, 1024, 1};
+    const std::vector<float> wide = decode_bases(scaled, components);
+    for (std::size_t v = 0; v < rows.size(); ++v) {
+        const std::size_t i = v % kDimension;
+        const float begin = is_mean[v / kDimension] ? coded.origin[i] : 0;
+        EXPECT_EQ(wide[v], begin + scaled.units[i] * (rows[v] - begin));
+    }
+    EXPECT_EQ(coded_bytes(scaled), coded_bytes(coded) + 5 * 4);
+    scaled.units.pop_back();
+    EXPECT_THROW(decode_bases(scaled, components), Error);
     CodedBases other = coded;
     other.origin.push_back(0);
     EXPECT_THROW(decode_bases(other, components), Error);

@@ -44,7 +44,9 @@ TEST(LightSet, LightsAsTheSunDoesBetweenItsKeys) {
     std::mt19937 random(1);
     std::uniform_real_distribution<double> share(0, 1);
     for (int trial = 0; trial < 200; ++trial) {
-        const glm::dvec3 a = unit_vector(random), b = unit_vector(random), c = unit_vector(random);
+        const glm::dvec3 a = unit_vector(random), c = unit_vector(random);
+        glm::dvec3 b = unit_vector(random);
+        b = glm::dot(a, b) < 0 ? -b : b;
         const double t = share(random);
         const glm::dvec3 sun = glm::normalize((1 - t) * a + t * b);
         const TransferLayout layout = layout_of({c, a, b});
@@ -92,6 +94,19 @@ TEST(LightSet, AddsItsSunsToWhatShines) {
     EXPECT_NEAR(add_sun(layout, {{0, 1, 0}, glm::vec3(2)}, strengths), 0, 1e-6);
     EXPECT_EQ(strengths[0], glm::vec3(5));
     EXPECT_EQ(strengths[1], glm::vec3(3));
+}
+
+/// The wall that only one of two keys sees gets no more than twice the sun's irradiance, wherever they stand.
+TEST(LightSet, NeverShinesFarTooBright) {
+    std::mt19937 random(2);
+    for (int trial = 0; trial < 500; ++trial) {
+        const TransferLayout layout =
+            layout_of({unit_vector(random), unit_vector(random), unit_vector(random)});
+        std::vector<glm::vec3> strengths(4, glm::vec3(0));
+        add_sun(layout, {glm::vec3(unit_vector(random)), glm::vec3(1)}, strengths);
+        for (const glm::vec3& strength : strengths)
+            EXPECT_LE(strength.r, 1.0001f);
+    }
 }
 
 TEST(LightSet, OfKeysInOnePlaceOrOppositeIsFinite) {
