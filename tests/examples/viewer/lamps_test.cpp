@@ -167,7 +167,7 @@ TEST_F(LampPictures, ShowSunsByALightSetWhereThereIsOne) {
         picture.samples = 1;
         const prt::Image right = prt::render_gl(picture, *context);
         double difference = 0, sum = 0;
-        for (std::size_t i = 0; i < alpha.size(); ++i)
+        for (std::size_t i = 0; i < image.pixels.size(); ++i)
             if (on_surface(i)) {
                 difference += std::abs(static_cast<double>(image.pixels[i].g - right.pixels[i].g));
                 sum += static_cast<double>(right.pixels[i].g);
