@@ -33,7 +33,8 @@ struct LampSettings {
 /// The largest strength; what shines stays within what floats hold.
 inline constexpr float kMostLampStrength = 1e9f;
 
-/// Those that the layouts have but keys of light sets, each name once, as `known` has them set; new ones shine as in the scene.
+/// Those that the layouts have but keys of light sets, each name once, as `known` has them set; new ones
+/// shine as in the scene.
 std::vector<Lamp> lamps_of(std::span<const prt::TransferLayout* const> layouts,
                            const std::vector<Lamp>& known);
 
