@@ -7,19 +7,22 @@
 namespace prt::cli {
 namespace {
 
-/// Materials of which no vertex has direct light.
+/// Materials that are in use and of which no vertex has direct light.
 std::vector<bool> without_direct_light(const Scene& scene, const Transfer& transfer) {
     const std::size_t count = transfer.layout.numbers_of(transfer.layout.parts.front());
-    std::vector<bool> without(scene.materials.size(), true);
+    std::vector<bool> used(scene.materials.size(), false), lit = used;
     for (const Primitive& primitive : scene.primitives)
         for (const glm::uvec3& t : primitive.triangles)
             for (int corner = 0; corner < 3; ++corner) {
                 const std::size_t p = scene.vertex_arrays[primitive.vertices].first_receiver + t[corner];
                 const auto direct = transfer.vector(p).first(count);
+                used[primitive.material] = true;
                 if (std::any_of(direct.begin(), direct.end(), [](float v) { return v != 0; }))
-                    without[primitive.material] = false;
+                    lit[primitive.material] = true;
             }
-    return without;
+    for (std::size_t m = 0; m < used.size(); ++m)
+        used[m] = used[m] && !lit[m];
+    return used;
 }
 
 } // namespace

@@ -70,6 +70,7 @@ TEST_F(RenderSuns, ShadowsThemSharplyByRaysAndByMaps) {
                                     {"b.glb", "cpu"},
                                     {"c.glb", "cpu"},
                                     {"s.glb", "gpu"},
+                                    {"b.glb", "gpu"},
                                     {"c.glb", "gpu"}}) {
         backend = by;
         const Image image = rendered({at(model), "--env", at("sun.json")});
