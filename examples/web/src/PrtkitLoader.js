@@ -213,7 +213,7 @@ export class PrtkitPlugin {
     const extension = json.extensions?.[EXTENSION];
     if (!extension) return;
     const wanted = [extension.packing?.bufferView, extension.bases.bufferView];
-    for (const part of ["origin", "scales", "axes", "values"]) wanted.push(extension.bases[part]?.bufferView);
+    for (const part of ["origin", "units", "scales", "axes", "values"]) wanted.push(extension.bases[part]?.bufferView);
     const views = new Map();
     for (const i of wanted)
       if (i !== undefined) views.set(i, new Uint8Array(await this.parser.getDependency("bufferView", i)));

@@ -77,6 +77,14 @@ test("coded bases are sums over axes", () => {
     assert.equal(rows[a], [1, 2, 3][a] + 0.5 * (2 * -16 * axes[0][a] + 4 * 3 * axes[1][a]));
     assert.equal(rows[3 + a], 2 * 0.5 * (2 * 1 * axes[0][a]));
   }
+  // With units, what the axes give is multiplied by them, and what the mean begins with is not.
+  const scaled = { ...extension, bases: { ...extension.bases, units: { bufferView: 4, componentType: 5126 } } };
+  const wide = decodeClusters(scaled, (i) => [...views, bytesOf(1, 0.5, 4)][i]).rows;
+  for (let a = 0; a < 3; ++a) {
+    assert.equal(wide[a] - [1, 2, 3][a], [1, 0.5, 4][a] * (rows[a] - [1, 2, 3][a]));
+    assert.equal(wide[3 + a], [1, 0.5, 4][a] * rows[3 + a]);
+  }
+  assert.throws(() => decodeClusters(scaled, (i) => [...views, bytesOf(1)][i]), /fit together/);
 });
 
 test("three channels meet three colours", () => {
