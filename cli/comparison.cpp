@@ -89,8 +89,7 @@ std::string about_lights(const Evaluation& evaluation) {
            (lamps
                 ? " Lamps: all of the scene as bright as they are there, without a sky; under skies they are "
                   "off. The worst lamp, and the worst key of a light set, is that whose error is largest "
-                  "when "
-                  "it shines alone."
+                  "when it shines alone."
                 : "");
 }
 

@@ -15,7 +15,7 @@
 #include <cstdio>
 #include <initializer_list>
 #include <numbers>
-#include <set>
+#include <span>
 
 namespace prt::cli {
 namespace {
@@ -112,19 +112,6 @@ std::vector<PunctualLight> keys_of_file(const Json& json) {
     return json.contains("arc") ? keys_of_arc(json["arc"]) : keys_of_list(json["lights"]);
 }
 
-} // namespace
-
-std::vector<PunctualLight> read_light_set(const std::filesystem::path& path) {
-    return about(path, [&] { return keys_of_file(read_json(path)); });
-}
-
-void add_sun_shadows(CLI::App* command, SunShadows& shadows) {
-    choice(command, "--sun-shadows", shadows, kSunShadows,
-           "of suns apart: sharp ones, found here; or those that were baked for the keys of the model's "
-           "light set, between which suns are interpolated",
-           "sharp");
-}
-
 void shine_by_keys(const Path& model, const TransferLayout& layout, SplitLight& light,
                    std::span<glm::vec3> strengths) {
     if (!has_light_set(layout))
@@ -138,6 +125,27 @@ void shine_by_keys(const Path& model, const TransferLayout& layout, SplitLight& 
                                        glm::degrees(away))});
     light.whole = light.sky.light;
     light.split.suns.clear();
+}
+
+} // namespace
+
+std::vector<PunctualLight> read_light_set(const std::filesystem::path& path) {
+    return about(path, [&] { return keys_of_file(read_json(path)); });
+}
+
+void add_sun_shadows(CLI::App* command, SunShadows& shadows) {
+    choice(command, "--sun-shadows", shadows, kSunShadows,
+           "of suns apart: sharp ones, found here; or those that were baked for the keys of the model's "
+           "light set, between which suns are interpolated",
+           "sharp");
+}
+
+std::vector<glm::vec3> strengths_under(const Path& model, const TransferLayout& layout,
+                                       const LampChoice& lamps, SunShadows shadows, SplitLight& light) {
+    std::vector<glm::vec3> strengths = lamp_strengths(lamps, layout);
+    if (shadows == SunShadows::baked)
+        shine_by_keys(model, layout, light, strengths);
+    return strengths;
 }
 
 } // namespace prt::cli

@@ -2,6 +2,7 @@
 
 // Light sets: which distant lights `bake` keeps, and suns that shine by them.
 
+#include "lamp_strengths.h"
 #include "prt/scene.h"
 #include "split_light.h"
 
@@ -9,7 +10,6 @@
 #include <glm/vec3.hpp>
 
 #include <filesystem>
-#include <span>
 #include <vector>
 
 namespace prt::cli {
@@ -25,9 +25,10 @@ enum class SunShadows {
 /// --sun-shadows
 void add_sun_shadows(CLI::App* command, SunShadows& shadows);
 
-/// Takes the suns out of `light` and lets the keys of the model's light set shine for them in `strengths`
-/// [layout.lamps()]. Says so where one stands far from all keys. Throws `Error` where there are none.
-void shine_by_keys(const Path& model, const TransferLayout& layout, SplitLight& light,
-                   std::span<glm::vec3> strengths);
+/// [layout.lamps()]: lamps as `lamps` says; where shadows are baked, keys of the model's light set shine for
+/// the suns of `light`, which then has none, and a note says where one stands far from all keys. Throws
+/// `Error` where there are no keys.
+std::vector<glm::vec3> strengths_under(const Path& model, const TransferLayout& layout,
+                                       const LampChoice& lamps, SunShadows shadows, SplitLight& light);
 
 } // namespace prt::cli

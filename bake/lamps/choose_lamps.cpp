@@ -69,6 +69,17 @@ private:
     std::vector<Lamp> lamps_;
 };
 
+void add_lamps_of_scene(const Surfaces& surfaces, Lamps& lamps) {
+    const Scene& scene = surfaces.scene();
+    for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
+        if (!scene.lights[i].key)
+            lamps.called(scene.lights[i].name).lights.push_back(i);
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
+        if (surfaces.material(t).emission.radiance != glm::vec3(0))
+            lamps.called(lamp_name(scene, scene.primitives[surfaces.primitive(t)].material))
+                .triangles.push_back(t);
+}
+
 } // namespace
 
 bool matches(const std::string& text, const std::string& pattern) {
@@ -92,17 +103,11 @@ bool matches(const std::string& text, const std::string& pattern) {
 }
 
 std::vector<Lamp> choose_lamps(const Surfaces& surfaces, const LampOptions& options) {
-    const Scene& scene = surfaces.scene();
-    const std::vector<PunctualLight>& lights = scene.lights;
     const bool of_scene = options.mode != LampMode::none;
     Lamps lamps(of_scene ? options.groups : std::vector<LampGroup>());
-    for (std::uint32_t i = 0; i < lights.size() && of_scene; ++i)
-        if (!lights[i].key)
-            lamps.called(lights[i].name).lights.push_back(i);
-    for (std::uint32_t t = 0; t < surfaces.triangles() && of_scene; ++t)
-        if (surfaces.material(t).emission.radiance != glm::vec3(0))
-            lamps.called(lamp_name(scene, scene.primitives[surfaces.primitive(t)].material))
-                .triangles.push_back(t);
+    if (of_scene)
+        add_lamps_of_scene(surfaces, lamps);
+    const std::vector<PunctualLight>& lights = surfaces.scene().lights;
     for (std::uint32_t i = 0; i < lights.size(); ++i)
         if (lights[i].key)
             lamps.add_key(lights[i], i);

@@ -1,6 +1,5 @@
 #include "commands/commands.h"
 
-#include "lamp_strengths.h"
 #include "light_set.h"
 #include "options.h"
 #include "outputs.h"
@@ -40,15 +39,6 @@ std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
             colors[p] = surfaces.base_color({t, glm::vec2(corner == 1, corner == 2), areas[p]});
         }
     return colors;
-}
-
-/// How bright the lamps are, and the keys that shine for suns of `light`, which then has none.
-std::vector<glm::vec3> strengths_under(const RelightArguments& a, const TransferLayout& layout,
-                                       SplitLight& light) {
-    std::vector<glm::vec3> strengths = lamp_strengths(a.lamps, layout);
-    if (a.shadows == SunShadows::baked)
-        shine_by_keys(a.model, layout, light, strengths);
-    return strengths;
 }
 
 /// Exit radiance for albedo 1: the sky by transfer, suns by rays, and what they give after a bounce.
@@ -122,7 +112,7 @@ void run(RelightArguments a, Session& session) {
                            {.solid = solid_materials(model), .threads = a.threads});
     ProgressBar bar = session.progress_bar("relighting");
     const std::size_t suns_apart = light.split.suns.size();
-    std::vector<glm::vec3> strengths = strengths_under(a, layout_of(model), light);
+    std::vector<glm::vec3> strengths = strengths_under(a.model, layout_of(model), a.lamps, a.shadows, light);
     std::vector<glm::vec3> radiance =
         radiance_of(a, model, scene, light, std::move(strengths), bar.progress());
     if (a.albedo) {

@@ -1,6 +1,5 @@
 #include "commands/commands.h"
 
-#include "lamp_strengths.h"
 #include "light_set.h"
 #include "options.h"
 #include "outputs.h"
@@ -176,9 +175,8 @@ TransferLayout layout_of_any(const SceneFile& model) {
 
 /// Suns of `light` that shine by keys leave it.
 Lighting lighting_of(const RenderArguments& a, const SceneFile& model, SplitLight& light) {
-    std::vector<glm::vec3> lamps = lamp_strengths(a.lights.lamps, layout_of_any(model));
-    if (a.lights.shadows == SunShadows::baked)
-        shine_by_keys(a.model, layout_of_any(model), light, lamps);
+    std::vector<glm::vec3> lamps =
+        strengths_under(a.model, layout_of_any(model), a.lights.lamps, a.lights.shadows, light);
     Lighting lighting = cli::lighting_of(light);
     lighting.lamps = std::move(lamps);
     return lighting;

@@ -119,6 +119,18 @@ protected:
         renderer->draw(1, kind, *gpu, settings, view, {0, kColumns});
         return renderer->read(1, &alpha);
     }
+    /// What the renderer of `prt render` draws from the same place.
+    prt::Picture picture_of(std::span<const glm::vec3> radiance) const {
+        prt::Picture picture;
+        picture.scene = &model->scene;
+        picture.textures = model->trace->textures();
+        picture.radiance = radiance;
+        picture.camera = view.camera;
+        picture.width = kColumns;
+        picture.height = kRows;
+        picture.samples = 1;
+        return picture;
+    }
     bool on_surface(std::size_t pixel) const { return alpha[pixel] == 1; }
 
     std::unique_ptr<prt::GlContext> context;
@@ -157,15 +169,7 @@ TEST_F(LampPictures, ShowSunsByALightSetWhereThereIsOne) {
         EXPECT_FALSE(gpu->takes_suns_as_sky(kind));
         renderer->draw(1, kind, *gpu, settings, view, {0, kColumns});
         const prt::Image image = renderer->read(1, &alpha);
-        prt::Picture picture;
-        picture.scene = &model->scene;
-        picture.textured = true;
-        picture.radiance = expected;
-        picture.camera = view.camera;
-        picture.width = kColumns;
-        picture.height = kRows;
-        picture.samples = 1;
-        const prt::Image right = prt::render_gl(picture, *context);
+        const prt::Image right = prt::render_gl(picture_of(expected), *context);
         double difference = 0, sum = 0;
         for (std::size_t i = 0; i < image.pixels.size(); ++i)
             if (on_surface(i)) {
@@ -261,15 +265,8 @@ TEST_F(LampPictures, ShowTexturesOfWhatShinesAsTheRendererDoes) {
     load(std::move(scene));
     const std::vector<glm::vec3> nothing(model->scene.receivers(), glm::vec3(0)),
         strengths(model->scene.materials.size(), glm::vec3(0.5f));
-    prt::Picture picture;
-    picture.scene = &model->scene;
-    picture.textures = model->trace->textures();
-    picture.radiance = nothing;
+    prt::Picture picture = picture_of(nothing);
     picture.emission = strengths;
-    picture.camera = view.camera;
-    picture.width = kColumns;
-    picture.height = kRows;
-    picture.samples = 1;
     const prt::Image expected = prt::render_gl(picture, *context);
     for (const bool deferred : {false, true}) {
         settings.deferred = deferred;
