@@ -8,6 +8,10 @@
 
 namespace prt {
 
+const char* to_string(GuideKind kind) {
+    return kind == GuideKind::normal ? "normal" : "position";
+}
+
 int ClusteredBases::max_components() const {
     return components.empty() ? 0 : *std::max_element(components.begin(), components.end());
 }
@@ -15,32 +19,36 @@ int ClusteredBases::max_components() const {
 std::vector<std::size_t> ClusteredBases::first_rows() const {
     std::vector<std::size_t> first(clusters() + 1, 0);
     for (std::size_t k = 0; k < clusters(); ++k)
-        first[k + 1] = first[k] + 1 + static_cast<std::size_t>(components[k]);
+        first[k + 1] = first[k] + fixed_rows() + static_cast<std::size_t>(components[k]);
     return first;
+}
+
+std::size_t coded_bytes(const RowCode& code) {
+    return code.drops.size() + code.bits.size();
 }
 
 std::size_t coded_bytes(const CodedBases& coded) {
     return (coded.origin.size() + coded.units.size() + coded.scales.size() + 1) * sizeof(float) +
-           coded.axes.drops.size() + coded.axes.bits.size() + coded.values.drops.size() +
-           coded.values.bits.size();
+           coded_bytes(coded.axes) + coded_bytes(coded.values);
 }
 
-std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components) {
+std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components,
+                                std::size_t guide_rows) {
     const std::size_t axes = coded.scales.size(), dimension = coded.origin.size();
     if (coded.axes.drops.size() != dimension || coded.values.drops.size() != axes ||
         (!coded.units.empty() && coded.units.size() != dimension))
         throw Error("the code of the bases has columns of another number");
     std::size_t rows = 0;
     for (const int m : components)
-        rows += 1 + static_cast<std::size_t>(m);
+        rows += 1 + guide_rows + static_cast<std::size_t>(m);
     const std::vector<std::int32_t> axis_values = decode_rows(coded.axes, axes),
                                     values = decode_rows(coded.values, rows);
     std::vector<float> result(rows * dimension, 0.0f);
     std::size_t row = 0;
     for (const int m : components)
-        for (int j = 0; j <= m; ++j, ++row) {
+        for (std::size_t j = 0; j <= guide_rows + static_cast<std::size_t>(m); ++j, ++row) {
             float* to = &result[row * dimension];
-            const float step = j == 0 ? coded.step : 2 * coded.step;
+            const float step = j <= guide_rows ? coded.step : 2 * coded.step;
             for (std::size_t i = 0; i < axes; ++i) {
                 const float y = step * coded.scales[i] * static_cast<float>(values[row * axes + i]);
                 for (std::size_t a = 0; y != 0 && a < dimension; ++a)
@@ -65,7 +73,7 @@ std::vector<ClusterLayout> cluster_layouts(const ClusteredBases& bases) {
             continue;
         assert(bases.components[k] <= kMostPackedComponents);
         for (std::size_t j = 0; j < layout.components; ++j)
-            layout.widths[j / 8] |= static_cast<std::uint32_t>(bases.bits[first[k] - k + j] - 1)
+            layout.widths[j / 8] |= static_cast<std::uint32_t>(bases.bits[first[k] - k * bases.fixed_rows() + j] - 1)
                                     << (4 * (j % 8));
     }
     return layouts;
@@ -74,7 +82,11 @@ std::vector<ClusterLayout> cluster_layouts(const ClusteredBases& bases) {
 std::size_t basis_bytes(const ClusteredBases& bases) {
     // A byte for each m_k, four bits for the width of each packed weight.
     const std::size_t layout = bases.clusters() + (bases.bits.size() + 1) / 2;
-    return layout + (bases.is_coded() ? coded_bytes(bases.coded) : bases.rows.size() * sizeof(float));
+    const std::size_t guides = bases.guides.empty()
+                                   ? 0
+                                   : bases.guides.size() * sizeof(Guide) +
+                                         coded_bytes(encode_rows(bases.centers, bases.guide_rows()));
+    return layout + guides + (bases.is_coded() ? coded_bytes(bases.coded) : bases.rows.size() * sizeof(float));
 }
 
 } // namespace prt

@@ -65,25 +65,29 @@ void form_rows(const TransferLayout& layout, const float* matrix, const float* l
     }
 }
 
-/// Rows by which the stored weights are multiplied. A packed weight is w = 2 q / largest - 1, so that
-/// mean + sum w_j row_j = (mean - sum row_j) + sum q_j (2 / largest_j) row_j.
+/// Rows by which coordinates of guides and stored weights are multiplied. A packed weight is w = 2 q /
+/// largest - 1, so that mean + sum w_j row_j = (mean - sum row_j) + sum q_j (2 / largest_j) row_j.
 std::vector<float> rows_of_stored(const ClusteredTransfer& transfer) {
     const ClusteredBases& bases = transfer.bases;
+    const bool packed = transfer.receivers.format == WeightFormat::packed;
     std::vector<float> rows = bases.rows;
-    if (transfer.receivers.format != WeightFormat::packed)
-        return rows;
     const std::size_t dimension = bases.dimension();
     const std::uint8_t* bits = bases.bits.data();
+    const std::int32_t* center = bases.centers.data();
     float* mean = rows.data();
     for (const int components : bases.components) {
         float* row = mean + dimension;
-        for (int j = 0; j < components; ++j, row += dimension) {
-            const float scale = 2 / static_cast<float>((1u << *bits++) - 1);
+        const auto fold = [&](float offset, float scale) {
             for (std::size_t i = 0; i < dimension; ++i) {
-                mean[i] -= row[i];
+                mean[i] -= offset * row[i];
                 row[i] *= scale;
             }
-        }
+            row += dimension;
+        };
+        for (std::size_t g = 0; g < bases.guide_rows(); ++g)
+            fold(static_cast<float>(*center++), bases.guide_scale(g));
+        for (int j = 0; j < components; ++j)
+            fold(packed ? 1.0f : 0.0f, packed ? 2 / static_cast<float>((1u << *bits++) - 1) : 1.0f);
         mean = row;
     }
     return rows;

@@ -95,7 +95,7 @@ using Words [[gnu::vector_size(4 * kLaneCount)]] = std::int32_t;
 /// clusters are contiguous (prt compress --reorder) memory is what limits.
 [[gnu::always_inline]] inline void evaluate_lanes(const std::byte* weights, std::size_t stride,
                                                   std::size_t components, const glm::vec4* row,
-                                                  glm::vec3* radiance) {
+                                                  const Lanes (&known)[3], glm::vec3* radiance) {
     Lanes sums[3] = {};
     for (std::size_t first = 0; first < components; first += 4) {
         Words four = word_of_each(weights + first, stride);
@@ -106,11 +106,11 @@ using Words [[gnu::vector_size(4 * kLaneCount)]] = std::int32_t;
             q = q < -127 ? Words{} - 127 : q;
             const Lanes w = __builtin_convertvector(q, Lanes);
             for (int c = 0; c < 3; ++c)
-                sums[c] += w * row[1 + j][c];
+                sums[c] += w * row[j][c];
         }
     }
     for (int c = 0; c < 3; ++c)
-        sums[c] = sums[c] * (1.0f / 127) + row[0][c];
+        sums[c] = sums[c] * (1.0f / 127) + known[c];
     // r0 g0 r1 g1 .. and then b in between.
     const auto interleave = [&]<int... I>(std::integer_sequence<int, I...>) __attribute__((always_inline)) {
         const auto part = [&]<int Part>() __attribute__((always_inline)) {
@@ -126,6 +126,29 @@ using Words [[gnu::vector_size(4 * kLaneCount)]] = std::int32_t;
         part.template operator()<2>();
     };
     interleave(std::make_integer_sequence<int, kLaneCount>());
+}
+
+/// The mean of a cluster, and what the guides of a receiver add to it.
+[[gnu::always_inline]] inline Color known_color(const glm::vec4* row, const float* guides,
+                                                std::size_t count) {
+    Color sum = color_at(row);
+    for (std::size_t g = 0; g < count; ++g)
+        sum += guides[g] * color_at(row + 1 + g);
+    return sum;
+}
+
+/// The same for kLaneCount receivers of one cluster.
+[[gnu::always_inline]] inline void known_lanes(const glm::vec4* row, const float* guides, std::size_t count,
+                                               Lanes (&known)[3]) {
+    for (int c = 0; c < 3; ++c)
+        known[c] = Lanes{} + row[0][c];
+    for (std::size_t g = 0; g < count; ++g) {
+        Lanes x;
+        for (std::size_t lane = 0; lane < kLaneCount; ++lane)
+            x[lane] = guides[lane * count + g];
+        for (int c = 0; c < 3; ++c)
+            known[c] += x * row[1 + g][c];
+    }
 }
 
 /// Whether kLaneCount receivers are of one cluster.
@@ -145,17 +168,22 @@ template <WeightFormat Format>
     const std::size_t stride = receivers.stride();
     const std::uint16_t* clusters = receivers.clusters.data();
     const std::byte* weights = receivers.weights.data();
+    const std::size_t guides = receivers.guides.size() / receivers.size();
     for (std::size_t p = begin; p < end; ++p) {
         const ClusterLayout& layout = layouts[clusters[p]];
         const glm::vec4* row = constants + layout.first_row;
         if constexpr (Format == WeightFormat::snorm8)
             if (p + kLaneCount <= end && all_alike(clusters + p)) {
-                evaluate_lanes(weights + p * stride, stride, layout.components, row, radiance + p);
+                Lanes known[3];
+                known_lanes(row, receivers.guides.data() + p * guides, guides, known);
+                evaluate_lanes(weights + p * stride, stride, layout.components, row + 1 + guides, known,
+                               radiance + p);
                 p += kLaneCount - 1;
                 continue;
             }
         const Color sum =
-            color_at(row) + sum_of_weights<Format>(receivers, layout, weights + p * stride, row + 1);
+            known_color(row, receivers.guides.data() + p * guides, guides) +
+            sum_of_weights<Format>(receivers, layout, weights + p * stride, row + 1 + guides);
         radiance[p] = {sum[0], sum[1], sum[2]};
     }
 }

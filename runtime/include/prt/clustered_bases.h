@@ -6,11 +6,29 @@
 #include "prt/coded_rows.h"
 #include "prt/transfer_layout.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace prt {
+
+/// What is known of a receiver wherever its transfer is rebuilt: its unit normal, or its position in metres,
+/// both in the frame of the bake.
+enum class GuideKind { normal, position };
+
+const char* to_string(GuideKind kind);
+
+/// Coordinates that serve as weights and are stored nowhere: every cluster is a linear function of them
+/// before its directions add what they do not tell (docs/math.md, eq. 20).
+struct Guide {
+    GuideKind kind = GuideKind::normal;
+    glm::vec3 origin{0}; ///< 0 for normals; positions are seen from here, which is seen from Scene::origin
+    glm::vec3 scale{1};  ///< a row counts so often for each unit of its coordinate
+
+    bool operator==(const Guide&) const = default;
+};
 
 /// Rows as sums over a few axes: row = [origin, for means] + sum_i step · scales[i] · value_i · axis_i, with
 /// twice the step for directions. Values and axes are integers of few bits (docs/format.md).
@@ -25,18 +43,27 @@ struct CodedBases {
     std::vector<float> units = {};
 };
 
+/// Bytes of drops and bits.
+std::size_t coded_bytes(const RowCode& code);
+
 /// Bytes of origin, units, scales, axes and values.
 std::size_t coded_bytes(const CodedBases& coded);
 
-/// The rows that `coded` stands for, [rows][dimension]; cluster k has one mean and `components[k]`
-/// directions. Throws `Error` where a code is damaged.
-std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components);
+/// The rows that `coded` stands for, [rows][dimension]; cluster k has one mean, `guide_rows` of guides and
+/// `components[k]` directions. Throws `Error` where a code is damaged.
+std::vector<float> decode_bases(const CodedBases& coded, const std::vector<int>& components,
+                                std::size_t guide_rows = 0);
 
-/// Means and directions of all clusters: T = mean + sum_j w_j direction_j.
+/// Means, rows of guides and directions of all clusters: with x the coordinates of a receiver's guides,
+/// T = mean + sum_i (scale_i x_i - center_i) guide_i + sum_j w_j direction_j.
 struct ClusteredBases {
     TransferLayout layout;
+    std::vector<Guide> guides;   ///< none, or each kind once at most, normals first; the same in all clusters
     std::vector<int> components; ///< [clusters] number of directions m_k
-    std::vector<float> rows;     ///< per cluster its mean, then its m_k directions; each [dimension]
+    /// Per cluster its mean, three rows for each guide, then its m_k directions; each [dimension].
+    std::vector<float> rows;
+    /// [clusters][guide_rows()]: where a cluster is, so that its mean is that of its receivers.
+    std::vector<std::int32_t> centers;
     /// Per cluster the bits of its m_k weights, 1..16; empty unless weights are packed.
     std::vector<std::uint8_t> bits;
     /// What `rows` was decoded from; without axes where the file holds `rows` themselves.
@@ -46,8 +73,13 @@ struct ClusteredBases {
     std::size_t dimension() const { return layout.dimension(); }
     bool is_coded() const { return !coded.origin.empty(); }
     int max_components() const;
-    /// Index of the first row of cluster `cluster` in `rows`; its bits start at first_row(k) - k. [clusters +
-    /// 1]
+    std::size_t guide_rows() const { return 3 * guides.size(); }
+    /// Rows of a cluster that are no directions.
+    std::size_t fixed_rows() const { return 1 + guide_rows(); }
+    /// The factor of row i of the guides.
+    float guide_scale(std::size_t i) const { return guides[i / 3].scale[static_cast<int>(i % 3)]; }
+    /// Index of the first row of cluster `cluster` in `rows`; its bits start at first_row(k) - k
+    /// fixed_rows(). [clusters + 1]
     std::vector<std::size_t> first_rows() const;
 };
 

@@ -5,7 +5,8 @@
 // Each frame, or each time the lighting changes:
 //     former.form(light, constants);                       // M_k·L and B_kj·L: prt/constant_former.h
 // then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or here:
-//     R = constants[first_k] + sum_j w_j constants[first_k + 1 + j]   // docs/math.md, eq. 29
+//     R = constants[first_k] + sum_i x_i constants[first_k + 1 + i] + sum_j w_j constants[first_k + 1 + g + j]
+// docs/math.md, eq. 29, with x the g coordinates of the guides, seen from their origin.
 // Stable.
 
 #include "prt/clustered_bases.h"
@@ -41,6 +42,9 @@ struct ClusteredReceivers {
         clusters; ///< [receivers]; packed: the same as in the words, for use on the CPU
     std::vector<std::byte>
         weights; ///< [receivers][components] of `format`, unused ones 0; or [receivers][words]
+    /// [receivers][guide rows]: coordinates of the guides, seen from their origins; a vertex shader has them
+    /// from the mesh.
+    std::vector<float> guides;
 
     std::size_t size() const { return clusters.size(); }
     /// Bytes of `weights` that one receiver has.
@@ -68,7 +72,7 @@ std::size_t bytes_per_receiver(const ClusteredTransfer& transfer);
 /// EXT_meshopt_compression takes away on disk and nothing takes away in a vertex buffer.
 std::size_t bits_per_receiver(const ClusteredTransfer& transfer);
 
-/// Rows of constants: a mean and m_k directions for each cluster.
+/// Rows of constants: for each cluster a mean, three of each guide, and m_k directions.
 std::size_t constant_rows(const ClusteredBases& bases);
 
 /// Exit radiance for albedo 1 of every receiver, `radiance` [receivers], from formed constants: what the
