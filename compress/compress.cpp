@@ -19,6 +19,7 @@ struct Task {
     const CompressOptions& options;
     std::vector<float> significance;
     LightMetric metric;
+    GuideCoordinates guides;
 };
 
 /// Points in a frame, and the clusters found there.
@@ -40,7 +41,7 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
         const double to = 1 - 0.1 * (1 - from);
         FoundClusters found;
         found.frame = fit_frame(task.transfer, task.significance, task.metric, most_dropped, options.threads);
-        found.points = PointBlocks(task.transfer, found.frame, options.threads);
+        found.points = PointBlocks(task.transfer, found.frame, task.guides, options.threads);
         std::mt19937_64 random(options.seed);
         found.clustering =
             cluster_points(found.points, task.significance, how, random, progress.part(from, to));
@@ -57,15 +58,20 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
 struct Coding {
     Frame frame;
     CodedBases coded_frame; ///< of the frame, where bases are coded
+    GuideCoordinates guides;
     PointBlocks points;
     CodedClusters coded;
 };
 
 /// Codes in the clusters that were found, in the same frame.
 Coding first_codes(const Task& task, const AlternationOptions& how, FoundClusters&& found) {
-    Coding coding{std::move(found.frame), {}, std::move(found.points), {}};
+    Coding coding{std::move(found.frame), {}, task.guides, std::move(found.points), {}};
     coding.coded.clusters = quantised_clusters(coding.points, task.significance, found.clustering,
                                                grid_of(task.options.coding.format), task.options.threads);
+    const std::vector<float> scales = scale_guides(found.clustering, coding.coded.clusters);
+    for (std::size_t g = 0; g < scales.size(); ++g)
+        coding.guides.scale(g) *= scales[g];
+    coding.points.scale_guides(scales);
     coding.coded.codes.clusters = std::move(found.clustering.clusters);
     encode_all(coding.points, how, coding.coded);
     return coding;
@@ -78,7 +84,7 @@ void round_frame(const Task& task, Coding& coding) {
     coding.coded_frame = code_frame(coding.frame, task.metric, tuning::kAxisRoundingShare * error);
     coding.coded.clusters = truncated(coding.coded.clusters, coding.frame.dimension);
     coding.points = {}; // the points of the one frame make room for those of the other
-    coding.points = PointBlocks(task.transfer, coding.frame, task.options.threads);
+    coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, task.options.threads);
     encode_in_place(coding.points, coding.coded.clusters, coding.coded.codes, task.options.threads);
 }
 
@@ -93,6 +99,8 @@ void drop_empty(QuantisedClusters& clusters, Codes& codes) {
         if (!new_index[k])
             continue;
         std::copy_n(clusters.mean(k), clusters.dimension, clusters.mean(kept));
+        std::copy_n(clusters.center(k), clusters.guides, clusters.center(kept));
+        std::copy_n(clusters.slope(k, 0), clusters.guides * clusters.dimension, clusters.slope(kept, 0));
         if (most > 0) {
             std::copy_n(clusters.row(k, 0), most * clusters.dimension, clusters.row(kept, 0));
             std::copy_n(&clusters.grids[k * most], most, &clusters.grids[kept * most]);
@@ -100,7 +108,7 @@ void drop_empty(QuantisedClusters& clusters, Codes& codes) {
         clusters.components[kept] = clusters.components[k];
         new_index[k] = kept++;
     }
-    clusters.components.resize(kept);
+    clusters.components.resize(kept); // of the others encode takes so many
     for (std::uint32_t& k : codes.clusters)
         k = new_index[k];
 }
@@ -127,7 +135,7 @@ ClusteredTransfer code(const Task& task, std::span<const Edge> edges, FoundClust
     coding.points = {};
     drop_empty(coded.clusters, coded.codes);
     progress.update(0.9);
-    return encode(coding.frame, coding.coded_frame, coded.clusters, coded.codes,
+    return encode(coding.frame, coding.coded_frame, coded.clusters, coded.codes, coding.guides,
                   {options.coding.format, options.coding.cluster_bits, coded.step});
 }
 
@@ -140,22 +148,25 @@ double mean_components_of(const ClusteredTransfer& transfer) {
 
 } // namespace
 
-CompressResult compress(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
+CompressResult compress(const Transfer& transfer, const ReceiverSurface& surface,
                         const CompressOptions& options, const Progress& progress) {
-    check_input(transfer, areas, edges, options);
+    check_input(transfer, surface, options);
+    const std::span<const float> areas = surface.areas;
     const Stopwatch stopwatch;
     const Task task{transfer, options, significance_of(areas),
                     options.metric
                         ? *options.metric
-                        : balanced(natural_metric(transfer.layout), transfer, areas, options.threads)};
+                        : balanced(natural_metric(transfer.layout), transfer, areas, options.threads),
+                    guide_coordinates(surface, options.guides)};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;
     FoundClusters found = find_clusters(task, progress.part(0, 0.7));
     for (const double error : found.clustering.history)
         statistics.lit_rms_by_iteration.push_back(std::sqrt(error + found.frame.dropped));
-    result.transfer = code(task, edges, std::move(found), progress.part(0.7, 0.98));
+    result.transfer = code(task, surface.edges, std::move(found), progress.part(0.7, 0.98));
     statistics.clusters = static_cast<int>(result.transfer.bases.clusters());
     statistics.mean_components = mean_components_of(result.transfer);
+    statistics.guide_rows = static_cast<int>(result.transfer.bases.guide_rows());
     statistics.bytes_per_receiver = bytes_per_receiver(result.transfer);
     statistics.bits_per_receiver = bits_per_receiver(result.transfer);
     statistics.basis_bytes = basis_bytes(result.transfer.bases);

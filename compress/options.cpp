@@ -47,6 +47,16 @@ void check_options(const CompressOptions& o) {
         out_of_range("the share of the bases must lie in 0..1", *o.basis_share);
 }
 
+/// Nothing where a renderer has none.
+void check_attribute(std::span<const glm::vec3> values, std::size_t receivers, const char* name) {
+    if (!values.empty() && values.size() != receivers)
+        throw Error("there are " + std::string(name) + " for " + std::to_string(values.size()) +
+                    " receivers of " + std::to_string(receivers));
+    for (const glm::vec3& v : values)
+        if (!(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z)))
+            throw Error("the " + std::string(name) + " of receivers are not finite");
+}
+
 void check_finite(const Transfer& transfer, std::span<const float> areas) {
     if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(),
                      [](float v) { return std::abs(v) <= kMostTransfer; }))
@@ -65,8 +75,7 @@ WeightCoding preset_u64() {
     return {.components = 9, .fixed_bits = {9, 8, 7, 7, 6, 6, 5, 4, 4}, .cluster_bits = 8};
 }
 
-void check_input(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-                 const CompressOptions& options) {
+void check_input(const Transfer& transfer, const ReceiverSurface& surface, const CompressOptions& options) {
     check_layout(transfer.layout);
     check_options(options);
     const std::optional<LightMetric>& metric = options.metric;
@@ -74,11 +83,13 @@ void check_input(const Transfer& transfer, std::span<const float> areas, std::sp
         throw Error("the metric has another order or other parts than the transfer");
     if (transfer.receivers() == 0)
         throw Error("there are no receivers to compress");
-    if (areas.size() != transfer.receivers())
-        throw Error("there are areas for " + std::to_string(areas.size()) + " receivers of " +
+    if (surface.areas.size() != transfer.receivers())
+        throw Error("there are areas for " + std::to_string(surface.areas.size()) + " receivers of " +
                     std::to_string(transfer.receivers()));
-    check_finite(transfer, areas);
-    for (const Edge& edge : edges)
+    check_finite(transfer, surface.areas);
+    check_attribute(surface.normals, transfer.receivers(), "normals");
+    check_attribute(surface.positions, transfer.receivers(), "positions");
+    for (const Edge& edge : surface.edges)
         if (edge.first >= transfer.receivers() || edge.second >= transfer.receivers())
             throw Error("an edge joins receivers " + std::to_string(edge.first) + " and " +
                         std::to_string(edge.second) + " of " + std::to_string(transfer.receivers()));

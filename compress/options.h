@@ -9,8 +9,7 @@
 namespace prt {
 
 /// Throws `Error` for what cannot be compressed, or not so.
-void check_input(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-                 const CompressOptions& options);
+void check_input(const Transfer& transfer, const ReceiverSurface& surface, const CompressOptions& options);
 
 /// As given, or by the format of the weights.
 double basis_share(const CompressOptions& options);

@@ -76,8 +76,7 @@ Effort effort_of_preset(const CompressStatistics& too_large) {
 /// What is compressed, and what for. Keeps references.
 struct SearchTask {
     const Transfer& transfer;
-    std::span<const float> areas;
-    std::span<const Edge> edges;
+    const ReceiverSurface& surface;
     const SearchOptions& options;
     const Progress& progress;
 
@@ -216,7 +215,7 @@ SearchTrial Search::attempt(int clusters, const Line& line) {
         return known->second;
     // How many tries there will be is not known; each takes a tenth of what is left of the bar.
     const double done = 1 - std::pow(0.9, static_cast<double>(tried_.size()));
-    CompressResult result = compress(task_.transfer, task_.areas, task_.edges, options_on(line, clusters),
+    CompressResult result = compress(task_.transfer, task_.surface, options_on(line, clusters),
                                      task_.progress.part(done, done + 0.1 * (1 - done)));
     const CompressStatistics& s = result.statistics;
     const SearchTrial trial{.clusters = clusters,
@@ -368,21 +367,19 @@ void Search::search_fewer_components() {
 
 } // namespace
 
-SearchResult compress_within(const Transfer& transfer, std::span<const float> areas,
-                             std::span<const Edge> edges, const SearchOptions& options,
-                             const Progress& progress) {
+SearchResult compress_within(const Transfer& transfer, const ReceiverSurface& surface,
+                             const SearchOptions& options, const Progress& progress) {
     check_budget(options);
-    const SearchTask task{transfer, areas, edges, options, progress};
+    const SearchTask task{transfer, surface, options, progress};
     return Search(task).run();
 }
 
-SearchResult compress_preset(const Transfer& transfer, std::span<const float> areas,
-                             std::span<const Edge> edges, const CompressOptions& options,
-                             const Progress& progress) {
+SearchResult compress_preset(const Transfer& transfer, const ReceiverSurface& surface,
+                             const CompressOptions& options, const Progress& progress) {
     const Stopwatch stopwatch;
     SearchResult found;
     // The search that may follow is one of small meshes: it takes no time to speak of.
-    found.result = compress(transfer, areas, edges, options, progress.part(0, 0.9));
+    found.result = compress(transfer, surface, options, progress.part(0, 0.9));
     const CompressStatistics& s = found.result.statistics;
     const auto receivers = static_cast<double>(transfer.receivers());
     const int payload = payload_of(options.coding, transfer.dimension());
@@ -397,7 +394,7 @@ SearchResult compress_preset(const Transfer& transfer, std::span<const float> ar
         fitting.choose_components = options.coding.format == WeightFormat::packed;
         fitting.budget.bytes_per_vertex = bound + most_bases / receivers;
         const Progress rest = progress.part(0.9, 1);
-        const SearchTask task{transfer, areas, edges, fitting, rest};
+        const SearchTask task{transfer, surface, fitting, rest};
         found = Search(task, effort_of_preset(s)).run();
         found.result.statistics.seconds = stopwatch.seconds();
     }

@@ -49,6 +49,10 @@ inline constexpr double kMeanSquareWeight = 0.2;
 
 // clusters/
 
+/// Variance of guides, whose own is 1 over all receivers, below which a cluster learns little from them. By
+/// hand. [preset]
+inline constexpr double kGuideRidge = 1e-6;
+
 /// Lloyd's iteration for the start: most iterations, and the fall of the error that ends it. By hand.
 /// [preset]
 inline constexpr int kMostLloydIterations = 50;

@@ -174,18 +174,17 @@ struct Outcome {
 Outcome run_compressor(const CompressArguments& a, const SceneFile& model, const SearchOptions& options,
                        Session& session) {
     const Transfer& transfer = model.baked->transfer;
-    const std::vector<float> areas = receiver_areas(model.scene);
+    const SceneSurface owner(model.scene);
+    const ReceiverSurface surface = owner.view();
     const CompressOptions& o = options.compress;
-    const std::vector<Edge> edges =
-        o.seam_price > 0 || o.border_price > 0 ? mesh_edges(model.scene) : std::vector<Edge>{};
     ProgressBar bar = session.progress_bar("compressing");
     if (a.preset) {
-        SearchResult found = compress_preset(transfer, areas, edges, o, bar.progress());
+        SearchResult found = compress_preset(transfer, surface, o, bar.progress());
         return {std::move(found.result), std::move(found.trials)};
     }
     if (!options.budget.any())
-        return {compress(transfer, areas, edges, o, bar.progress()), {}};
-    SearchResult found = compress_within(transfer, areas, edges, options, bar.progress());
+        return {compress(transfer, surface, o, bar.progress()), {}};
+    SearchResult found = compress_within(transfer, surface, options, bar.progress());
     if (!found.kept && !a.best_effort)
         throw Error(a.baked.string() + ": nothing keeps the budget; the nearest has " +
                     in_words(found.result.statistics, transfer.receivers()) + " (--best-effort writes it)");

@@ -35,7 +35,7 @@ Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::v
     options.threads = a.threads;
     ProgressBar bar = session.progress_bar("sweeping");
     const Transfer& transfer = baked.baked->transfer;
-    return sweep(transfer, receiver_areas(baked.scene), mesh_edges(baked.scene), all, options,
+    return sweep(transfer, SceneSurface(baked.scene).view(), all, options,
                  residual_vq_candidates(transfer, options.seed), bar.progress());
 }
 

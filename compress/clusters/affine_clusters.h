@@ -5,27 +5,53 @@
 
 namespace prt {
 
-/// An affine subspace per cluster: its points are near mean + sum_j w_j row_j (docs/math.md, eq. 20). Without
-/// rows this is plain vector quantisation.
+/// An affine subspace per cluster: its points are near mean + sum_i (x_i - center_i) guide_i + sum_j w_j
+/// row_j with x the guides of the point (docs/math.md, eq. 20). Without rows this is plain vector
+/// quantisation.
 struct AffineClusters {
     std::size_t dimension = 0, max_components = 0;
+    std::size_t guides = 0;
     std::vector<float> means;    ///< [clusters][dimension]
+    std::vector<float> slopes;   ///< [clusters][guides][dimension]
+    std::vector<float> centers;  ///< [clusters][guides]
     std::vector<float> rows;     ///< [clusters][max_components][dimension]
     std::vector<int> components; ///< [clusters] rows in use
 
     AffineClusters() = default;
-    AffineClusters(std::size_t clusters, std::size_t dimensions, std::size_t most_components)
-        : dimension(dimensions), max_components(most_components), means(clusters * dimensions),
-          rows(clusters * most_components * dimensions), components(clusters, 0) {}
+    AffineClusters(std::size_t clusters, std::size_t dimensions, std::size_t most_components,
+                   std::size_t guide_count = 0)
+        : dimension(dimensions), max_components(most_components), guides(guide_count),
+          means(clusters * dimensions), slopes(clusters * guide_count * dimensions),
+          centers(clusters * guide_count), rows(clusters * most_components * dimensions),
+          components(clusters, 0) {}
 
     std::size_t clusters() const { return components.size(); }
     std::size_t components_of(std::size_t k) const { return static_cast<std::size_t>(components[k]); }
     float* mean(std::size_t k) { return means.data() + k * dimension; }
     const float* mean(std::size_t k) const { return means.data() + k * dimension; }
+    float* slope(std::size_t k, std::size_t g) { return slopes.data() + (k * guides + g) * dimension; }
+    const float* slope(std::size_t k, std::size_t g) const {
+        return slopes.data() + (k * guides + g) * dimension;
+    }
+    float* center(std::size_t k) { return centers.data() + k * guides; }
+    const float* center(std::size_t k) const { return centers.data() + k * guides; }
     float* row(std::size_t k, std::size_t j) { return rows.data() + (k * max_components + j) * dimension; }
     const float* row(std::size_t k, std::size_t j) const {
         return rows.data() + (k * max_components + j) * dimension;
     }
 };
+
+/// What is left of `point` [dimension + guides] when the mean and the guides of cluster `k` have told what
+/// they know; in place, the first `dimension` numbers.
+inline void subtract_known(const AffineClusters& clusters, std::size_t k, float* point) {
+    const float* guides = point + clusters.dimension;
+    for (std::size_t i = 0; i < clusters.dimension; ++i)
+        point[i] -= clusters.mean(k)[i];
+    for (std::size_t g = 0; g < clusters.guides; ++g) {
+        const float x = guides[g] - clusters.center(k)[g];
+        for (std::size_t i = 0; i < clusters.dimension; ++i)
+            point[i] -= x * clusters.slope(k, g)[i];
+    }
+}
 
 } // namespace prt

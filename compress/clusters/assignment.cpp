@@ -9,17 +9,13 @@
 namespace prt {
 namespace {
 
-/// Squared distance of a block's points to an affine subspace: |d|² - |B d|² with d = x - mean (docs/math.md,
+/// Squared length of `d`, what mean and guides leave, outside of the directions: |d|² - |B d|² (docs/math.md,
 /// eq. 23). In float it loses digits below 1e-6 |d|²; it only decides between clusters.
-[[gnu::always_inline]] inline Lanes squared_distance(const float* block, std::size_t dimension,
-                                                     const float* mean, const float* directions,
-                                                     std::size_t components) {
-    Lanes d[kMostDimensions];
+[[gnu::always_inline]] inline Lanes squared_outside(const Lanes* d, std::size_t dimension,
+                                                    const float* directions, std::size_t components) {
     Lanes total = {};
-    for (std::size_t i = 0; i < dimension; ++i) {
-        d[i] = lanes_at(block + i * kLanes) - mean[i];
+    for (std::size_t i = 0; i < dimension; ++i)
         total += d[i] * d[i];
-    }
     std::size_t j = 0;
     for (; j + 4 <= components; j += 4) { // four at a time hide the latency of the sums
         const float* b = directions + j * dimension;
@@ -46,8 +42,10 @@ PRT_TARGET_CLONES
 void nearest_of_block(const float* block, const PenalisedClusters& clusters,
                       std::span<const std::uint32_t> candidates, std::uint32_t* nearest, float* errors) {
     const auto distance = [&](std::uint32_t k) __attribute__((always_inline)) {
-        return squared_distance(block, clusters.dimension, clusters.mean(k), clusters.row(k, 0),
-                                clusters.components_of(k)) +
+        Lanes left[kMostDimensions];
+        known_subtracted(block, clusters.dimension, clusters.mean(k), clusters.center(k),
+                         clusters.slope(k, 0), clusters.guides, left);
+        return squared_outside(left, clusters.dimension, clusters.row(k, 0), clusters.components_of(k)) +
                clusters.penalties[k];
     };
     keep_nearest(candidates, nearest, errors, distance);
@@ -55,7 +53,11 @@ void nearest_of_block(const float* block, const PenalisedClusters& clusters,
 
 PRT_TARGET_CLONES
 void distances_of_block(const float* block, std::size_t dimension, const float* center, float* distances) {
-    const Lanes distance = squared_distance(block, dimension, center, nullptr, 0);
+    Lanes distance = {};
+    for (std::size_t i = 0; i < dimension; ++i) {
+        const Lanes d = lanes_at(block + i * kLanes) - center[i];
+        distance += d * d;
+    }
     for (std::size_t lane = 0; lane < kLanes; ++lane)
         distances[lane] = distance[lane];
 }

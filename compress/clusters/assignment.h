@@ -14,14 +14,29 @@ namespace prt {
 struct PenalisedClusters : AffineClusters {
     std::vector<float> penalties; ///< [clusters] added to the squared distance of a point
 
-    PenalisedClusters(std::size_t clusters, std::size_t dimensions, std::size_t most_components)
-        : AffineClusters(clusters, dimensions, most_components), penalties(clusters, 0.0f) {}
+    PenalisedClusters(std::size_t clusters, std::size_t dimensions, std::size_t most_components,
+                      std::size_t guide_count = 0)
+        : AffineClusters(clusters, dimensions, most_components, guide_count), penalties(clusters, 0.0f) {}
 };
 
 struct Assignment {
     std::vector<std::uint32_t> clusters; ///< [points]
     std::vector<float> errors;           ///< [points] squared distance to the cluster, and its penalty
 };
+
+/// What is left of a block's points when the mean and the guides of a cluster have told what they know:
+/// `subtract_known` in lanes.
+[[gnu::always_inline]] inline void known_subtracted(const float* block, std::size_t dimension,
+                                                    const float* mean, const float* center,
+                                                    const float* slopes, std::size_t guides, Lanes* left) {
+    for (std::size_t i = 0; i < dimension; ++i)
+        left[i] = lanes_at(block + i * kLanes) - mean[i];
+    for (std::size_t g = 0; g < guides; ++g) {
+        const Lanes x = lanes_at(block + (dimension + g) * kLanes) - center[g];
+        for (std::size_t i = 0; i < dimension; ++i)
+            left[i] -= x * slopes[g * dimension + i];
+    }
+}
 
 using ClusterLists = std::vector<std::vector<std::uint32_t>>; ///< [clusters][..] numbers of clusters
 

@@ -4,6 +4,7 @@
 #include "clusters/cluster_moments.h"
 
 #include "prt/support/parallel.h"
+#include "tuning.h"
 
 #include <Eigen/Dense>
 
@@ -22,8 +23,9 @@ struct Change {
 
 } // namespace
 
-ClusterMoments::ClusterMoments(std::size_t clusters, std::size_t dimension)
-    : dimension_(dimension), stride_(1 + dimension + dimension * (dimension + 1) / 2),
+ClusterMoments::ClusterMoments(std::size_t clusters, std::size_t dimension, std::size_t guides)
+    : dimension_(dimension), guides_(guides),
+      stride_(1 + (dimension + guides) + (dimension + guides) * (dimension + guides + 1) / 2),
       values_(clusters * stride_, 0) {}
 
 void ClusterMoments::add(std::span<const float> point, double significance, std::span<double> moments) {
@@ -61,7 +63,7 @@ void ClusterMoments::update(const PointBlocks& points, std::span<const float> si
             changes[after[p]].push_back({p, 1});
     }
     parallel_for(count, 1, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<float> point(dimension_);
+        std::vector<float> point(dimension_ + guides_);
         for (std::size_t k = begin; k < end; ++k)
             for (const Change& change : changes[k]) {
                 points.copy_point(change.point, point.data());
@@ -82,8 +84,9 @@ struct Covariance {
     Eigen::MatrixXd matrix; ///< lower triangle
 };
 
-Covariance covariance_of(const ClusterMoments::View& moments) {
-    const auto d = static_cast<Eigen::Index>(moments.dimension);
+/// Of coordinates and guides together.
+Covariance joint_covariance(const ClusterMoments::View& moments) {
+    const auto d = static_cast<Eigen::Index>(moments.width());
     Covariance result{Eigen::Map<const Eigen::VectorXd>(&moments.values[1], d) / moments.significance(),
                       Eigen::MatrixXd::Zero(d, d)};
     const double* product = moments.values.data() + 1 + d;
@@ -93,10 +96,32 @@ Covariance covariance_of(const ClusterMoments::View& moments) {
     return result;
 }
 
+/// What guides tell of the coordinates, and what they leave of them.
+struct Regression {
+    Eigen::MatrixXd slopes;   ///< [guides][dimension]
+    Eigen::MatrixXd residual; ///< covariance, lower triangle
+};
+
+/// Least squares with a ridge: a cluster whose guides hardly differ learns nothing from them.
+Regression regression_of(const Covariance& joint, const ClusterMoments::View& moments) {
+    const auto d = static_cast<Eigen::Index>(moments.dimension),
+               g = static_cast<Eigen::Index>(moments.guides);
+    if (g == 0)
+        return {Eigen::MatrixXd(0, d), joint.matrix};
+    const Eigen::MatrixXd across = joint.matrix.bottomLeftCorner(g, d),
+                          own = joint.matrix.bottomRightCorner(g, g).selfadjointView<Eigen::Lower>();
+    const Eigen::MatrixXd ridged = own + tuning::kGuideRidge * Eigen::MatrixXd::Identity(g, g);
+    Regression result{ridged.ldlt().solve(across), joint.matrix.topLeftCorner(d, d)};
+    const Eigen::MatrixXd told = result.slopes.transpose() * (2 * across - own * result.slopes);
+    result.residual.triangularView<Eigen::Lower>() -= told;
+    return result;
+}
+
 /// What float rounding of the points alone can make along one direction: (2^-24)² of their squared size, with
 /// a margin of 4.
-double rounding_floor(const Covariance& covariance) {
-    return 4 * 0x1p-48 * (covariance.mean.squaredNorm() + covariance.matrix.trace());
+double rounding_floor(const Covariance& joint, std::size_t dimension) {
+    const auto d = static_cast<Eigen::Index>(dimension);
+    return 4 * 0x1p-48 * (joint.mean.head(d).squaredNorm() + joint.matrix.diagonal().head(d).sum());
 }
 
 /// L with covariance = L L^T, where its rank is at most half of the dimension: pivoted Cholesky until nothing
@@ -129,10 +154,9 @@ struct Spectrum {
     Eigen::MatrixXd directions;    ///< columns
 };
 
-Spectrum spectrum_of(const Covariance& covariance, bool with_directions) {
+Spectrum spectrum_of(const Eigen::MatrixXd& covariance, double floor, bool with_directions) {
     const int what = with_directions ? Eigen::ComputeEigenvectors : Eigen::EigenvaluesOnly;
-    const double floor = rounding_floor(covariance);
-    const auto d = covariance.matrix.rows();
+    const auto d = covariance.rows();
     Spectrum spectrum{std::vector<double>(static_cast<std::size_t>(d), 0.0), {}};
     const auto take = [&](const Eigen::VectorXd& ascending) {
         Eigen::Index kept = 0;
@@ -140,7 +164,7 @@ Spectrum spectrum_of(const Covariance& covariance, bool with_directions) {
             spectrum.variances[static_cast<std::size_t>(kept++)] = ascending[i];
         return kept;
     };
-    if (const auto factor = low_rank_factor(covariance.matrix, 0.25 * floor)) {
+    if (const auto factor = low_rank_factor(covariance, 0.25 * floor)) {
         if (factor->cols() == 0)
             return spectrum;
         const Eigen::MatrixXd gram = factor->transpose() * *factor;
@@ -151,7 +175,7 @@ Spectrum spectrum_of(const Covariance& covariance, bool with_directions) {
                 (*factor * solver.eigenvectors().rowwise().reverse().leftCols(kept)).colwise().normalized();
         return spectrum;
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance.matrix, what);
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(covariance, what);
     const Eigen::Index kept = take(solver.eigenvalues());
     if (with_directions)
         spectrum.directions = solver.eigenvectors().rowwise().reverse().leftCols(kept);
@@ -161,16 +185,30 @@ Spectrum spectrum_of(const Covariance& covariance, bool with_directions) {
 } // namespace
 
 ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spending) {
-    ClusterFit fit{std::vector<float>(moments.dimension, 0.0f), {}, {}, {}, 0};
+    ClusterFit fit;
+    fit.mean.assign(moments.dimension, 0.0f);
+    fit.center.assign(moments.guides, 0.0f);
+    fit.slopes.assign(moments.guides * moments.dimension, 0.0f);
+    fit.guide_variances.assign(moments.guides, 0.0);
     if (!(moments.significance() > kLeastSignificance))
         return fit;
     fit.significance = moments.significance();
     if (moments.dimension == 0)
         return fit;
-    const Covariance covariance = covariance_of(moments);
-    std::transform(covariance.mean.begin(), covariance.mean.end(), fit.mean.begin(),
-                   [](double v) { return static_cast<float>(v); });
-    Spectrum spectrum = spectrum_of(covariance, true);
+    const Covariance joint = joint_covariance(moments);
+    const Regression regression = regression_of(joint, moments);
+    const auto to_float = [](double v) { return static_cast<float>(v); };
+    const auto d = static_cast<std::ptrdiff_t>(moments.dimension);
+    std::transform(joint.mean.begin(), joint.mean.begin() + d, fit.mean.begin(), to_float);
+    std::transform(joint.mean.begin() + d, joint.mean.end(), fit.center.begin(), to_float);
+    for (std::size_t g = 0; g < moments.guides; ++g) {
+        const auto row = static_cast<Eigen::Index>(g);
+        for (std::size_t i = 0; i < moments.dimension; ++i)
+            fit.slopes[g * moments.dimension + i] =
+                to_float(regression.slopes(row, static_cast<Eigen::Index>(i)));
+        fit.guide_variances[g] = std::max(0.0, joint.matrix(d + row, d + row));
+    }
+    Spectrum spectrum = spectrum_of(regression.residual, rounding_floor(joint, moments.dimension), true);
     fit.variances = std::move(spectrum.variances);
     fit.plan = plan_components(fit.variances, fit.significance, spending);
     for (std::size_t j = 0; j < fit.plan.bits.size(); ++j) {
@@ -188,10 +226,11 @@ ClusterFit fit_cluster(const ClusterMoments::View& moments, const Spending& spen
 double cluster_cost(const ClusterMoments::View& moments, const Spending& spending) {
     if (!(moments.significance() > kLeastSignificance) || moments.dimension == 0)
         return 0;
-    const Covariance covariance = covariance_of(moments);
-    return cost_of(
-        plan_components(spectrum_of(covariance, false).variances, moments.significance(), spending),
-        moments.significance(), spending);
+    const Covariance joint = joint_covariance(moments);
+    const Spectrum spectrum =
+        spectrum_of(regression_of(joint, moments).residual, rounding_floor(joint, moments.dimension), false);
+    return cost_of(plan_components(spectrum.variances, moments.significance(), spending),
+                   moments.significance(), spending);
 }
 
 } // namespace prt

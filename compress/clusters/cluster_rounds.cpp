@@ -28,10 +28,13 @@ PenalisedClusters penalised_clusters(const std::vector<ClusterFit>& fits, std::s
     std::size_t most = 0;
     for (const ClusterFit& fit : fits)
         most = std::max(most, fit.plan.bits.size());
-    PenalisedClusters result(fits.size(), dimension, most);
+    const std::size_t guides = fits.empty() ? 0 : fits.front().center.size();
+    PenalisedClusters result(fits.size(), dimension, most, guides);
     for (std::size_t k = 0; k < fits.size(); ++k) {
         const ClusterFit& fit = fits[k];
         std::copy(fit.mean.begin(), fit.mean.end(), result.mean(k));
+        std::copy(fit.center.begin(), fit.center.end(), result.center(k));
+        std::copy(fit.slopes.begin(), fit.slopes.end(), result.slope(k, 0));
         if (!fit.directions.empty())
             std::copy(fit.directions.begin(), fit.directions.end(), result.row(k, 0));
         result.components[k] = static_cast<int>(fit.plan.bits.size());
@@ -45,8 +48,9 @@ PenalisedClusters penalised_clusters(const std::vector<ClusterFit>& fits, std::s
 
 ClusterState ClusterRounds::start(const PenalisedClusters& centers) const {
     const std::size_t count = centers.clusters();
-    ClusterState state{assign(points, centers, threads).clusters, ClusterMoments(count, points.dimension),
-                       std::vector<ClusterFit>(count), 0};
+    ClusterState state{assign(points, centers, threads).clusters,
+                       ClusterMoments(count, points.dimension, points.guides), std::vector<ClusterFit>(count),
+                       0};
     state.moments.build(points, significance, state.clusters, threads);
     return state;
 }

@@ -38,7 +38,7 @@ PenalisedClusters seed_centers(const PointBlocks& points, std::span<const float>
                                const Progress& progress) {
     std::vector<float> errors(points.count, 1.0f); // the first center: by significance alone
     std::vector<std::size_t> centers;
-    std::vector<float> center(points.dimension);
+    std::vector<float> center(points.width());
     while (centers.size() < most) {
         progress.update(static_cast<double>(centers.size()) / static_cast<double>(most));
         const std::size_t point = draw(significance, errors, random);
@@ -52,7 +52,8 @@ PenalisedClusters seed_centers(const PointBlocks& points, std::span<const float>
     }
     PenalisedClusters clusters(centers.size(), points.dimension, 0);
     for (std::size_t k = 0; k < centers.size(); ++k)
-        points.copy_point(centers[k], clusters.mean(k));
+        for (std::size_t i = 0; i < points.dimension; ++i)
+            clusters.mean(k)[i] = points.coordinate(centers[k], i);
     return clusters;
 }
 

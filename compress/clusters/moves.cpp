@@ -24,7 +24,8 @@ struct PossibleMerge {
 class Moves {
 public:
     Moves(const ClusterRounds& rounds, const Spending& spending, const ClusterState& state)
-        : rounds_(rounds), points_(rounds.points), spending_(spending), state_(state) {}
+        : rounds_(rounds), points_(rounds.points), spending_(spending), state_(state),
+          clusters_(penalised_clusters(state.fits, rounds.points.dimension)) {}
 
     /// [clusters]; the gain is 0 where a cluster is not worth a look.
     std::vector<PossibleSplit> splits() const;
@@ -37,7 +38,7 @@ public:
 private:
     double cost(std::size_t k) const { return state_.fits[k].cost(spending_); }
     double cost_of_moments(std::span<const double> moments) const {
-        return cluster_cost({points_.dimension, moments}, spending_);
+        return cluster_cost({points_.dimension, points_.guides, moments}, spending_);
     }
     PossibleSplit split(std::size_t k, std::span<const std::uint32_t> members) const;
     PossibleMerge merge(std::size_t k, std::size_t other) const;
@@ -46,18 +47,21 @@ private:
     const PointBlocks& points_;
     const Spending& spending_;
     const ClusterState& state_;
+    PenalisedClusters clusters_; ///< of the state
 };
 
 PossibleSplit Moves::split(std::size_t k, std::span<const std::uint32_t> members) const {
     const ClusterFit& fit = state_.fits[k];
     PossibleSplit result;
-    std::vector<float> point(points_.dimension);
+    std::vector<float> point(points_.width()), left;
     std::vector<double> low(state_.moments.stride(), 0), high(state_.moments.stride(), 0);
     for (const std::uint32_t p : members) {
         points_.copy_point(p, point.data());
+        left = point;
+        subtract_known(clusters_, k, left.data());
         double along = 0;
         for (std::size_t i = 0; i < points_.dimension; ++i)
-            along += static_cast<double>(fit.directions[i]) * static_cast<double>(point[i] - fit.mean[i]);
+            along += static_cast<double>(fit.directions[i]) * static_cast<double>(left[i]);
         ClusterMoments::add(point, static_cast<double>(rounds_.significance[p]), along > 0 ? high : low);
         if (along > 0)
             result.leaving.push_back(p);
@@ -91,7 +95,7 @@ PossibleMerge Moves::merge(std::size_t k, std::size_t other) const {
 }
 
 std::vector<PossibleMerge> Moves::merges() const {
-    const MeanDistances means(penalised_clusters(state_.fits, points_.dimension));
+    const MeanDistances means(clusters_);
     std::vector<std::vector<PossibleMerge>> found(state_.fits.size());
     parallel_for(found.size(), 1, rounds_.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {

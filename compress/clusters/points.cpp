@@ -11,12 +11,13 @@
 
 namespace prt {
 
-PointBlocks::PointBlocks(const Transfer& transfer, const Frame& frame, int threads)
-    : count(transfer.receivers()), dimension(frame.dimension) {
+PointBlocks::PointBlocks(const Transfer& transfer, const Frame& frame, const GuideCoordinates& coordinates,
+                         int threads)
+    : count(transfer.receivers()), dimension(frame.dimension), guides(coordinates.count()) {
     assert(dimension <= kMostDimensions); // arrays of the kernels have so many
     if (dimension == 0)                   // all receivers alike
         return;
-    values.resize(blocks() * dimension * kLanes);
+    values.resize(blocks() * width() * kLanes);
     parallel_for(blocks(), 64, threads, [&](std::size_t begin, std::size_t end) {
         const auto full = static_cast<Eigen::Index>(frame.full()),
                    kept = static_cast<Eigen::Index>(dimension);
@@ -24,16 +25,25 @@ PointBlocks::PointBlocks(const Transfer& transfer, const Frame& frame, int threa
         const Eigen::Map<const Eigen::VectorXd> origin(frame.origin.data(), full);
         Eigen::MatrixXd vectors(full, static_cast<Eigen::Index>(kLanes));
         for (std::size_t b = begin; b < end; ++b) {
+            float* to = values.data() + b * width() * kLanes;
             for (std::size_t lane = 0; lane < kLanes; ++lane) {
                 const std::size_t p = b * kLanes + lane < count ? b * kLanes + lane : b * kLanes;
+                for (std::size_t g = 0; g < guides; ++g)
+                    to[(dimension + g) * kLanes + lane] = coordinates.scaled(p, g);
                 const Eigen::Map<const Eigen::VectorXf> vector(transfer.vector(p).data(), full);
                 vectors.col(static_cast<Eigen::Index>(lane)) = vector.cast<double>() - origin;
             }
             Eigen::Map<Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-                values.data() + b * dimension * kLanes, kept, static_cast<Eigen::Index>(kLanes)) =
-                (analysis.transpose() * vectors).cast<float>();
+                to, kept, static_cast<Eigen::Index>(kLanes)) = (analysis.transpose() * vectors).cast<float>();
         }
     });
+}
+
+void PointBlocks::scale_guides(std::span<const float> scales) {
+    for (std::size_t b = 0; b < blocks(); ++b)
+        for (std::size_t g = 0; g < guides; ++g)
+            for (std::size_t lane = 0; lane < kLanes; ++lane)
+                values[(b * width() + dimension + g) * kLanes + lane] *= scales[g];
 }
 
 double total_error(std::span<const float> significance, std::span<const float> errors) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "clusters/guide_coordinates.h"
 #include "metric/frame.h"
 #include "prt/support/vector_lanes.h"
 #include "prt/transfer.h"
@@ -15,21 +16,27 @@ inline constexpr std::size_t kLanes = kLaneCount;
 inline constexpr std::size_t kMostDimensions = kMostTransferNumbers;
 
 /// Transfer vectors as points of the space of a frame, laid out for vector units: blocks of kLanes points, in
-/// each block coordinate by coordinate. The last block is filled up with copies of its first point.
+/// each block coordinate by coordinate, and then its guides. The last block is filled up with copies of its
+/// first point.
 struct PointBlocks {
-    std::size_t count = 0, dimension = 0;
-    std::vector<float> values; ///< [blocks][dimension][kLanes]
+    std::size_t count = 0, dimension = 0, guides = 0;
+    std::vector<float> values; ///< [blocks][width][kLanes]
 
     PointBlocks() = default;
-    PointBlocks(const Transfer& transfer, const Frame& frame, int threads);
+    PointBlocks(const Transfer& transfer, const Frame& frame, const GuideCoordinates& guides, int threads);
 
+    /// Numbers of a point.
+    std::size_t width() const { return dimension + guides; }
     std::size_t blocks() const { return (count + kLanes - 1) / kLanes; }
-    const float* block(std::size_t b) const { return values.data() + b * dimension * kLanes; }
+    const float* block(std::size_t b) const { return values.data() + b * width() * kLanes; }
     float coordinate(std::size_t point, std::size_t i) const {
-        return values[(point / kLanes * dimension + i) * kLanes + point % kLanes];
+        return values[(point / kLanes * width() + i) * kLanes + point % kLanes];
     }
+    /// Multiplies the guides by `scales` [guides].
+    void scale_guides(std::span<const float> scales);
+    /// Coordinates and guides, [width].
     void copy_point(std::size_t point, float* to) const {
-        for (std::size_t i = 0; i < dimension; ++i)
+        for (std::size_t i = 0; i < width(); ++i)
             to[i] = coordinate(point, i);
     }
 };

@@ -14,8 +14,10 @@ namespace {
 double basis_step(const AffineClusters& clusters, double error, double share) {
     double rows = 0, largest = 0;
     for (const int m : clusters.components)
-        rows += 1 + 4 * tuning::kMeanSquareWeight * m;
+        rows += static_cast<double>(1 + clusters.guides) + 4 * tuning::kMeanSquareWeight * m;
     for (const float v : clusters.means)
+        largest = std::max(largest, static_cast<double>(std::abs(v)));
+    for (const float v : clusters.slopes)
         largest = std::max(largest, static_cast<double>(std::abs(v)));
     for (const float v : clusters.rows)
         largest = std::max(largest, static_cast<double>(std::abs(v)) / 2);

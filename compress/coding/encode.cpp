@@ -31,6 +31,8 @@ std::vector<std::int32_t> integer_rows(const QuantisedClusters& clusters, double
     };
     for (std::size_t k = 0; k < clusters.clusters(); ++k) {
         put(clusters.mean(k), step);
+        for (std::size_t g = 0; g < clusters.guides; ++g)
+            put(clusters.slope(k, g), step);
         for (std::size_t j = 0; j < clusters.components_of(k); ++j)
             put(clusters.row(k, j), 2 * step);
     }
@@ -84,10 +86,13 @@ std::size_t axes_left(std::span<const std::int32_t> values, std::size_t full) {
 }
 
 ClusteredBases make_bases(const Frame& frame, const QuantisedClusters& clusters,
-                          const CodedBases& coded_frame, double step) {
+                          const CodedBases& coded_frame, const std::vector<Guide>& guides, double step) {
     ClusteredBases bases;
     bases.layout = frame.layout;
     bases.components = clusters.components;
+    bases.guides = guides;
+    for (std::size_t c = 0; c < clusters.clusters() * clusters.guides; ++c)
+        bases.centers.push_back(static_cast<std::int32_t>(std::lround(clusters.centers[c])));
     if (step > 0) {
         const std::size_t axes = axes_in_use(clusters, step);
         bases.coded = coded_frame;
@@ -96,7 +101,7 @@ ClusteredBases make_bases(const Frame& frame, const QuantisedClusters& clusters,
         const std::vector<std::int32_t> all = decode_rows(coded_frame.axes, coded_frame.scales.size());
         bases.coded.axes = encode_rows(std::span(all).first(axes * frame.full()), frame.full());
         bases.coded.values = encode_rows(integer_rows(clusters, step, axes), axes);
-        bases.rows = decode_bases(bases.coded, bases.components);
+        bases.rows = decode_bases(bases.coded, bases.components, bases.guide_rows());
         return bases;
     }
     const auto full = static_cast<Eigen::Index>(frame.full()),
@@ -114,6 +119,8 @@ ClusteredBases make_bases(const Frame& frame, const QuantisedClusters& clusters,
     };
     for (std::size_t k = 0; k < clusters.clusters(); ++k) {
         put(clusters.mean(k), true);
+        for (std::size_t g = 0; g < clusters.guides; ++g)
+            put(clusters.slope(k, g), false);
         for (std::size_t j = 0; j < clusters.components_of(k); ++j)
             put(clusters.row(k, j), false);
     }
@@ -209,10 +216,11 @@ CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error
 }
 
 ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedClusters& clusters,
-                         const Codes& codes, const Encoding& encoding) {
+                         const Codes& codes, const GuideCoordinates& guides, const Encoding& encoding) {
     ClusteredTransfer result;
-    result.bases = make_bases(frame, clusters, coded_frame, encoding.step);
+    result.bases = make_bases(frame, clusters, coded_frame, guides.guides, encoding.step);
     ClusteredReceivers& receivers = result.receivers;
+    receivers.guides = guides.values;
     receivers.format = encoding.format;
     receivers.clusters.assign(codes.clusters.begin(), codes.clusters.end());
     if (encoding.format == WeightFormat::packed) {

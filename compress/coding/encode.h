@@ -19,8 +19,8 @@ struct Encoding {
 CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error);
 
 /// The transfer that `clusters` and `codes` stand for in the space of `frame`. `coded_frame` is what
-/// code_frame made of it, where there is a step.
+/// code_frame made of it, where there is a step; `guides` are scaled as the clusters see them.
 ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, const QuantisedClusters& clusters,
-                         const Codes& codes, const Encoding& encoding);
+                         const Codes& codes, const GuideCoordinates& guides, const Encoding& encoding);
 
 } // namespace prt

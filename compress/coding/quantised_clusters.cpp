@@ -35,17 +35,19 @@ struct MemberCoordinates {
 };
 
 MemberCoordinates coordinates_of(const PointBlocks& points, std::span<const float> significance,
-                                 const ClusterFit& fit, std::span<const std::uint32_t> members) {
-    const std::size_t count = fit.plan.bits.size(), n = members.size();
+                                 const AffineClusters& clusters, std::size_t k,
+                                 std::span<const std::uint32_t> members) {
+    const std::size_t count = clusters.components_of(k), n = members.size();
     MemberCoordinates result{std::vector<double>(count * n, 0), {}};
-    std::vector<float> point(points.dimension);
+    std::vector<float> point(points.width());
     for (std::size_t r = 0; r < n; ++r) {
         points.copy_point(members[r], point.data());
+        subtract_known(clusters, k, point.data());
         result.significance.push_back(static_cast<double>(significance[members[r]]));
         for (std::size_t j = 0; j < count; ++j)
             for (std::size_t i = 0; i < points.dimension; ++i)
-                result.along[j * n + r] += static_cast<double>(fit.directions[j * points.dimension + i]) *
-                                           static_cast<double>(point[i] - fit.mean[i]);
+                result.along[j * n + r] +=
+                    static_cast<double>(clusters.row(k, j)[i]) * static_cast<double>(point[i]);
     }
     return result;
 }
@@ -71,7 +73,7 @@ QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const 
     parallel_for(fits.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             const std::size_t n = members[k].size();
-            const MemberCoordinates of = coordinates_of(points, significance, fits[k], members[k]);
+            const MemberCoordinates of = coordinates_of(points, significance, result, k, members[k]);
             for (std::size_t j = 0; j < result.components_of(k); ++j) {
                 const WeightGrid own = grid ? *grid : WeightGrid::of_bits(fits[k].plan.bits[j]);
                 result.grids[k * result.max_components + j] = own;
@@ -86,11 +88,32 @@ QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const 
     return result;
 }
 
+std::vector<float> scale_guides(const Clustering& clustering, QuantisedClusters& clusters) {
+    std::vector<float> scales;
+    for (std::size_t g = 0; g < clusters.guides; ++g) {
+        double variance = 0;
+        for (const ClusterFit& fit : clustering.fits)
+            variance += fit.significance * fit.guide_variances[g];
+        scales.push_back(static_cast<float>(1 / std::sqrt(std::max(variance, tuning::kGuideRidge))));
+        for (std::size_t k = 0; k < clusters.clusters(); ++k) {
+            const float center = scales.back() * clusters.center(k)[g], whole = std::round(center);
+            clusters.center(k)[g] = whole;
+            for (std::size_t i = 0; i < clusters.dimension; ++i) {
+                clusters.slope(k, g)[i] /= scales.back();
+                clusters.mean(k)[i] += (whole - center) * clusters.slope(k, g)[i];
+            }
+        }
+    }
+    return scales;
+}
+
 void round_rows(AffineClusters& clusters, double step) {
     const auto to_multiple = [](float v, double of) {
         return static_cast<float>(std::round(static_cast<double>(v) / of) * of);
     };
     for (float& v : clusters.means)
+        v = to_multiple(v, step);
+    for (float& v : clusters.slopes)
         v = to_multiple(v, step);
     for (float& v : clusters.rows)
         v = to_multiple(v, 2 * step);
@@ -108,6 +131,7 @@ QuantisedClusters truncated(const QuantisedClusters& clusters, std::size_t dimen
     };
     if (clusters.dimension > 0) {
         keep(result.means);
+        keep(result.slopes);
         keep(result.rows);
     }
     return result;

@@ -23,7 +23,11 @@ QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const 
                                      const Clustering& clustering, const std::optional<WeightGrid>& grid,
                                      int threads);
 
-/// Rounds means to multiples of `step` and rows to multiples of 2 `step`.
+/// Guides in units of their deviation within a cluster, on average, as weights are, so that their rows need
+/// the digits of means; centers become whole numbers. Returns what the guides are to be multiplied with.
+std::vector<float> scale_guides(const Clustering& clustering, QuantisedClusters& clusters);
+
+/// Rounds means and slopes to multiples of `step` and rows to multiples of 2 `step`.
 void round_rows(AffineClusters& clusters, double step);
 
 /// The same clusters over the first `dimension` axes.

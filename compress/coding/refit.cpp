@@ -8,7 +8,8 @@
 namespace prt {
 namespace {
 
-/// sum_p a_p z_p z_p^T and sum_p a_p z_p (y_p - what its code stands for)^T, z = (1, w_1, ..., w_m).
+/// sum_p a_p z_p z_p^T and sum_p a_p z_p (y_p - what its code stands for)^T, z = (1, guides - center, w_1,
+/// ..., w_m).
 struct NormalEquations {
     Eigen::MatrixXd left, right;
 };
@@ -16,23 +17,27 @@ struct NormalEquations {
 NormalEquations normal_equations(const PointBlocks& points, std::span<const float> significance,
                                  const Codes& codes, const AffineClusters& clusters, std::size_t k,
                                  std::span<const std::uint32_t> members) {
-    const auto d = static_cast<Eigen::Index>(clusters.dimension), m = Eigen::Index{clusters.components[k]};
-    NormalEquations equations{Eigen::MatrixXd::Zero(m + 1, m + 1), Eigen::MatrixXd::Zero(m + 1, d)};
-    std::vector<float> point(clusters.dimension);
-    Eigen::VectorXd z(m + 1), residual(d);
+    const auto d = static_cast<Eigen::Index>(clusters.dimension), m = Eigen::Index{clusters.components[k]},
+               known = 1 + static_cast<Eigen::Index>(clusters.guides), n = known + m;
+    NormalEquations equations{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, d)};
+    std::vector<float> point(points.width());
+    Eigen::VectorXd z(n), residual(d);
     z[0] = 1;
     for (const std::uint32_t p : members) {
         if (!(significance[p] > 0))
             continue;
         points.copy_point(p, point.data());
         const std::span<const float> w = codes.of(p);
-        for (Eigen::Index i = 0; i < d; ++i)
-            residual[i] = static_cast<double>(point[static_cast<std::size_t>(i)]) -
-                          static_cast<double>(clusters.mean(k)[i]);
+        subtract_known(clusters, k, point.data());
+        residual = Eigen::Map<const Eigen::VectorXf>(point.data(), d).cast<double>();
+        for (std::size_t g = 0; g < clusters.guides; ++g)
+            z[1 + static_cast<Eigen::Index>(g)] =
+                static_cast<double>(point[clusters.dimension + g] - clusters.center(k)[g]);
         for (Eigen::Index j = 0; j < m; ++j) {
             const auto at = static_cast<std::size_t>(j);
-            z[1 + j] = static_cast<double>(w[at]);
-            residual -= z[1 + j] * Eigen::Map<const Eigen::VectorXf>(clusters.row(k, at), d).cast<double>();
+            z[known + j] = static_cast<double>(w[at]);
+            residual -=
+                z[known + j] * Eigen::Map<const Eigen::VectorXf>(clusters.row(k, at), d).cast<double>();
         }
         equations.left.selfadjointView<Eigen::Lower>().rankUpdate(z, static_cast<double>(significance[p]));
         equations.right += static_cast<double>(significance[p]) * z * residual.transpose();
@@ -55,11 +60,16 @@ void refit(const PointBlocks& points, std::span<const float> significance, const
             // What the points do not determine stays as it is.
             left.diagonal().array() += 1e-9 * left(0, 0);
             const Eigen::MatrixXd change = left.selfadjointView<Eigen::Lower>().ldlt().solve(right);
-            for (Eigen::Index i = 0; i < change.cols(); ++i) {
-                clusters.mean(k)[i] += static_cast<float>(change(0, i));
-                for (Eigen::Index j = 1; j < change.rows(); ++j)
-                    clusters.row(k, static_cast<std::size_t>(j - 1))[i] += static_cast<float>(change(j, i));
-            }
+            const auto add = [&](Eigen::Index from, float* to) {
+                for (Eigen::Index i = 0; i < change.cols(); ++i)
+                    to[i] += static_cast<float>(change(from, i));
+            };
+            Eigen::Index from = 0;
+            add(from++, clusters.mean(k));
+            for (std::size_t g = 0; g < clusters.guides; ++g)
+                add(from++, clusters.slope(k, g));
+            for (std::size_t j = 0; j < clusters.components_of(k); ++j)
+                add(from++, clusters.row(k, j));
         }
     });
 }

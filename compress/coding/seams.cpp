@@ -65,10 +65,17 @@ private:
     }
     /// The significance of an edge.
     double edge(std::size_t p, std::size_t q) const { return edge_shares_[p] + edge_shares_[q]; }
+    /// What cluster k's mean and guides leave of receiver p.
+    PointVector left_of(std::size_t p, std::uint32_t k) const {
+        PointVector point(static_cast<Eigen::Index>(points_.width()));
+        points_.copy_point(p, point.data());
+        subtract_known(clusters_, k, point.data());
+        point.conservativeResize(dimension_);
+        return point;
+    }
     /// Code minus point.
     void error_of(std::size_t p, PointVector& error) const {
-        points_.copy_point(p, error.data());
-        error = Eigen::Map<const PointVector>(clusters_.mean(codes_.clusters[p]), dimension_) - error;
+        error = -left_of(p, codes_.clusters[p]);
         add_combination(p, codes_.of(p), error);
     }
 
@@ -81,8 +88,8 @@ private:
     void pull_at(std::size_t p, Pull& pull) const;
     /// Of an error `e` at p with a code in cluster k, in eq. 28.
     double cost_at(std::size_t p, const Pull& pull, std::uint32_t k, const PointVector& e) const;
-    /// The code nearest to `target` in cluster k; returns its error vector.
-    PointVector code_in(std::uint32_t k, const PointVector& target, std::span<float> code) const;
+    /// The code in cluster k whose rows come nearest to `left`; returns its error vector.
+    PointVector code_in(std::uint32_t k, PointVector left, std::span<float> code) const;
     /// A code that is cheaper than p's while the neighbours stay, with at most `spare` more components.
     bool find_better(std::size_t p, const Pull& pull, std::ptrdiff_t spare, BetterCode& better) const;
     /// How many components more receivers may have in all.
@@ -154,8 +161,7 @@ void SeamSmoother::solve_weights() {
         }
 }
 
-PointVector SeamSmoother::code_in(std::uint32_t k, const PointVector& target, std::span<float> code) const {
-    PointVector left = target - Eigen::Map<const PointVector>(clusters_.mean(k), dimension_);
+PointVector SeamSmoother::code_in(std::uint32_t k, PointVector left, std::span<float> code) const {
     for (std::size_t j = 0; j < clusters_.components_of(k); ++j) {
         const auto direction = row(k, j);
         const float norm = direction.squaredNorm();
@@ -202,15 +208,14 @@ double SeamSmoother::cost_at(std::size_t p, const Pull& pull, std::uint32_t k, c
 bool SeamSmoother::find_better(std::size_t p, const Pull& pull, std::ptrdiff_t spare,
                                BetterCode& better) const {
     std::vector<float> code(clusters_.max_components);
-    PointVector point(dimension_), error(dimension_);
-    points_.copy_point(p, point.data());
+    PointVector error(dimension_);
     error_of(p, error);
     double least = cost_at(p, pull, codes_.clusters[p], error);
     bool found = false;
     for (const std::uint32_t k : pull.candidates) {
         if (clusters_.components[k] - clusters_.components[codes_.clusters[p]] > spare)
             continue;
-        const PointVector e = code_in(k, point + pull.vector, code) + pull.vector;
+        const PointVector e = code_in(k, left_of(p, k) + pull.vector, code) + pull.vector;
         const double cost = cost_at(p, pull, k, e);
         if (cost < least * (1 - tuning::kLeastSeamGain)) {
             least = cost;

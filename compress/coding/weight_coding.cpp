@@ -11,10 +11,12 @@ namespace {
 /// A cluster as the kernel reads it.
 struct KernelCluster {
     const float* mean;
+    const float* center;
+    const float* slopes;
     const float* rows;
     const WeightGrid* grids;
     const RowReach* reaches;
-    std::size_t components;
+    std::size_t components, guides;
 };
 
 /// Adding and taking away 1.5 · 2^23 rounds to the nearest integer what is far smaller.
@@ -28,8 +30,7 @@ struct KernelCluster {
 [[gnu::always_inline]] inline Lanes code_block(const float* block, std::size_t dimension,
                                                const KernelCluster& k, float* weights) {
     Lanes d[kMostDimensions];
-    for (std::size_t i = 0; i < dimension; ++i)
-        d[i] = lanes_at(block + i * kLanes) - k.mean[i];
+    known_subtracted(block, dimension, k.mean, k.center, k.slopes, k.guides, d);
     for (std::size_t j = 0; j < k.components; ++j) {
         const float* row = k.rows + j * dimension;
         Lanes dot = {};
@@ -95,8 +96,9 @@ struct Kernel {
     explicit Kernel(const QuantisedClusters& of) : reaches(reaches_of_codes(of)) {
         for (std::size_t k = 0; k < of.clusters(); ++k) {
             const std::size_t first = k * of.max_components;
-            clusters.push_back({of.mean(k), of.row(k, 0), of.grids.data() + first, reaches.data() + first,
-                                of.components_of(k)});
+            clusters.push_back({of.mean(k), of.center(k), of.slope(k, 0), of.row(k, 0),
+                                of.grids.data() + first, reaches.data() + first, of.components_of(k),
+                                of.guides});
         }
     }
 };
@@ -166,19 +168,18 @@ ClusterLists neighbours_of_codes(const QuantisedClusters& clusters, std::size_t 
 void keep_better(const PointBlocks& points, const QuantisedClusters& clusters, const Codes& before,
                  Codes& codes, int threads) {
     parallel_for(points.count, 1024, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<float> rest(clusters.dimension);
+        std::vector<float> rest(points.width());
         for (std::size_t p = begin; p < end; ++p) {
             const std::size_t k = before.clusters[p];
             const std::span<const float> w = before.of(p);
             points.copy_point(p, rest.data());
-            for (std::size_t i = 0; i < clusters.dimension; ++i)
-                rest[i] -= clusters.mean(k)[i];
+            subtract_known(clusters, k, rest.data());
             for (std::size_t j = 0; j < clusters.components_of(k); ++j)
                 for (std::size_t i = 0; i < clusters.dimension; ++i)
                     rest[i] -= w[j] * clusters.row(k, j)[i];
             float error = 0;
-            for (const float r : rest)
-                error += r * r;
+            for (std::size_t i = 0; i < clusters.dimension; ++i)
+                error += rest[i] * rest[i];
             if (!(error < codes.errors[p]))
                 continue;
             codes.clusters[p] = before.clusters[p];

@@ -134,9 +134,9 @@ BaselineResult classic_cpca(const Transfer& transfer, std::span<const float> are
                                 .schedule = classic_schedule(options.iterate),
                                 .trace = {},
                                 .threads = options.threads};
-    const ClassicCode code = classic_code(
-        transfer, frame,
-        cluster_points(PointBlocks(transfer, frame, options.threads), significance, how, random, progress));
+    const ClassicCode code = classic_code(transfer, frame,
+                                          cluster_points(PointBlocks(transfer, frame, {}, options.threads),
+                                                         significance, how, random, progress));
     BaselineResult result;
     result.decoded = zero_transfer(transfer.layout, transfer.receivers());
     for (std::size_t p = 0; p < transfer.receivers(); ++p) {

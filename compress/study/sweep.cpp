@@ -26,10 +26,9 @@ std::string short_number(double value) {
 
 class Sweeper {
 public:
-    Sweeper(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-            std::span<const Light> lights, const CompressOptions& options, const Progress& progress)
-        : transfer_(transfer), areas_(areas), edges_(edges), lights_(lights), options_(options),
-          progress_(progress) {
+    Sweeper(const Transfer& transfer, const ReceiverSurface& surface, std::span<const Light> lights,
+            const CompressOptions& options, const Progress& progress)
+        : transfer_(transfer), surface_(surface), lights_(lights), options_(options), progress_(progress) {
         for (const Light& light : lights)
             references_.push_back(exit_radiance(transfer, light, options.threads));
     }
@@ -58,11 +57,11 @@ private:
         double sum = 0;
         for (std::size_t l = 0; l < lights_.size(); ++l) {
             const auto lit = exit_radiance(decoded, lights_[l], options_.threads);
-            const double rms = lit_rms(references_[l], lit, areas_);
+            const double rms = lit_rms(references_[l], lit, surface_.areas);
             sum += rms * rms;
         }
         point.lit_rms = lights_.empty() ? 0 : std::sqrt(sum / static_cast<double>(lights_.size()));
-        point.relative_l2 = relative_l2(transfer_, decoded, areas_);
+        point.relative_l2 = relative_l2(transfer_, decoded, surface_.areas);
         return point;
     }
 
@@ -98,7 +97,7 @@ private:
     SweepPoint classic(const std::string& method, int clusters, int components, bool iterate,
                        const Progress& progress) const {
         const Stopwatch stopwatch;
-        const BaselineResult r = classic_cpca(transfer_, areas_,
+        const BaselineResult r = classic_cpca(transfer_, surface_.areas,
                                               {.clusters = clusters,
                                                .components = components,
                                                .iterate = iterate,
@@ -202,7 +201,7 @@ private:
         SearchOptions o;
         o.compress = options_;
         o.budget = budget;
-        const SearchResult found = compress_within(transfer_, areas_, edges_, o, progress);
+        const SearchResult found = compress_within(transfer_, surface_, o, progress);
         const CompressStatistics& s = found.result.statistics;
         if (found.kept)
             points.push_back(measured(std::to_string(s.clusters) + " clusters", found.result));
@@ -213,8 +212,7 @@ private:
     }
 
     const Transfer& transfer_;
-    std::span<const float> areas_;
-    std::span<const Edge> edges_;
+    ReceiverSurface surface_;
     std::span<const Light> lights_;
     const CompressOptions& options_;
     const Progress& progress_;
@@ -234,10 +232,10 @@ const SweepPoint* best(const std::vector<SweepPoint>& points, const std::string&
 
 } // namespace
 
-Sweep sweep(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-            std::span<const Light> lights, const CompressOptions& options,
-            std::span<const SweepCandidate> others, const Progress& progress) {
-    return Sweeper(transfer, areas, edges, lights, options, progress).run(others);
+Sweep sweep(const Transfer& transfer, const ReceiverSurface& surface, std::span<const Light> lights,
+            const CompressOptions& options, std::span<const SweepCandidate> others,
+            const Progress& progress) {
+    return Sweeper(transfer, surface, lights, options, progress).run(others);
 }
 
 const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, double bytes) {

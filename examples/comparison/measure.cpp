@@ -190,7 +190,8 @@ private:
             say_(fmt::format("compressing to {:g} bytes", bytes));
             prt::SearchOptions search;
             search.budget.bytes_per_vertex = bytes;
-            const prt::SearchResult found = prt::compress_within(raw, model_->areas, model_->edges, search);
+            const prt::SearchResult found =
+                prt::compress_within(raw, prt::SceneSurface(model_->scene).view(), search);
             gpu_.set_compressed(found.result.transfer);
             add_row(fmt::format("PRT, order 6, {:g} bytes", bytes), PictureKind::prt_compressed,
                     found.result.statistics.bytes_with_bases(result_.vertices));
@@ -238,7 +239,8 @@ private:
                     Shadows::rays);
         prt::SearchOptions search;
         search.budget.bytes_per_vertex = 8;
-        const prt::SearchResult found = prt::compress_within(split, model_->areas, model_->edges, search);
+        const prt::SearchResult found =
+            prt::compress_within(split, prt::SceneSurface(model_->scene).view(), search);
         const double bytes = found.result.statistics.bytes_with_bases(result_.vertices);
         add_sun_row("PRT, 8 bytes, sun by rays", bytes, found.result.transfer, Shadows::rays);
         add_sun_row("PRT, 8 bytes, sun by shadow map", bytes, found.result.transfer, Shadows::map);

@@ -1,8 +1,8 @@
 // Integers in rows of few bits (docs/format.md).
 #include "prt/coded_rows.h"
 
-#include "prt/support/bits.h"
 #include "prt/support/error.h"
+#include "transfer/range_coder.h"
 
 #include <algorithm>
 #include <array>
@@ -116,27 +116,63 @@ std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) 
     return drops;
 }
 
+/// What is learnt of the values that have room for `width` bits.
+struct ValueModels {
+    BitModel zero;
+    std::array<BitModel, kMostRowBits> longer; ///< whether the magnitude has more bits than so many and one
+    std::array<BitModel, kMostRowBits> second; ///< the bit below the highest, by the bits below that
+};
+
+using Models = std::array<ValueModels, kMostRowBits + 1>; ///< by the width
+
+void write_value(std::int32_t value, int width, ValueModels& models, RangeEncoder& encoder) {
+    encoder.write(value == 0, models.zero);
+    if (value == 0)
+        return;
+    encoder.write_plain(value < 0 ? 1 : 0, 1);
+    const auto magnitude = static_cast<std::uint32_t>(value < 0 ? -value : value);
+    const int below = static_cast<int>(std::bit_width(magnitude)) - 1;
+    for (int i = 0; i < std::min(below + 1, width - 1); ++i)
+        encoder.write(i < below, models.longer[static_cast<std::size_t>(i)]);
+    if (below == 0)
+        return;
+    encoder.write(magnitude >> (below - 1) & 1, models.second[static_cast<std::size_t>(below)]);
+    encoder.write_plain(magnitude, below - 1);
+}
+
+std::int32_t read_value(int width, ValueModels& models, RangeDecoder& decoder) {
+    if (decoder.read(models.zero))
+        return 0;
+    const bool negative = decoder.read_plain(1) != 0;
+    int below = 0;
+    while (below < width - 1 && decoder.read(models.longer[static_cast<std::size_t>(below)]))
+        ++below;
+    std::uint32_t magnitude = 1;
+    if (below > 0) {
+        magnitude = 2 + (decoder.read(models.second[static_cast<std::size_t>(below)]) ? 1u : 0u);
+        magnitude = magnitude << (below - 1) | decoder.read_plain(below - 1);
+    }
+    return negative ? -static_cast<std::int32_t>(magnitude) : static_cast<std::int32_t>(magnitude);
+}
+
 } // namespace
 
 RowCode encode_rows(std::span<const std::int32_t> values, std::size_t columns) {
     const Widths widths(values, columns);
     RowCode code{best_drops(widths, columns), {}};
-    BitWriter writer;
+    RangeEncoder encoder;
+    Models models;
     for (std::size_t r = 0; r < widths.rows(); ++r) {
         const int level = level_of(widths.row(r), code.drops);
         assert(level <= kMostRowBits);
-        writer.write(static_cast<std::uint32_t>(level), kLevelBits);
+        encoder.write_plain(static_cast<std::uint32_t>(level), kLevelBits);
         for (std::size_t i = 0; i < columns; ++i)
-            writer.write(static_cast<std::uint32_t>(values[r * columns + i]),
-                         std::max(0, level - code.drops[i]));
+            if (const int width = level - code.drops[i]; width > 0)
+                write_value(values[r * columns + i], width, models[static_cast<std::size_t>(width)], encoder);
     }
-    code.bits = writer.take();
+    if (widths.rows() > 0)
+        code.bits = encoder.finish();
     return code;
-}
-
-std::size_t coded_bits(std::span<const std::int32_t> values, std::size_t columns) {
-    const Widths widths(values, columns);
-    return widths.total(best_drops(widths, columns));
 }
 
 std::vector<std::int32_t> decode_rows(const RowCode& code, std::size_t rows) {
@@ -146,20 +182,17 @@ std::vector<std::int32_t> decode_rows(const RowCode& code, std::size_t rows) {
     if (rows / 2 > code.bits.size()) // each has four bits at least: none are made of nothing
         throw Error("the coded rows end too early");
     values.reserve(rows * code.drops.size());
-    BitReader reader(code.bits);
-    const auto need = [&](int width) {
-        if (!reader.has(width))
-            throw Error("the coded rows end too early");
-        return reader.read(width);
-    };
+    RangeDecoder decoder(code.bits);
+    Models models;
     for (std::size_t r = 0; r < rows; ++r) {
-        const int level = static_cast<int>(need(kLevelBits));
+        const int level = static_cast<int>(decoder.read_plain(kLevelBits));
         for (const std::uint8_t drop : code.drops) {
-            const int width = std::max(0, level - drop);
-            const std::uint32_t raw = need(width);
-            const bool negative = width > 0 && (raw >> (width - 1) & 1u);
-            values.push_back(static_cast<std::int32_t>(negative ? raw | ~0u << width : raw));
+            const int width = level - drop;
+            values.push_back(width > 0 ? read_value(width, models[static_cast<std::size_t>(width)], decoder)
+                                       : 0);
         }
+        if (decoder.beyond_end())
+            throw Error("the coded rows end too early");
     }
     return values;
 }

@@ -52,7 +52,7 @@ CompressResult run(const Transfer& t, int clusters, int components,
     options.coding.format = format;
     options.threads = threads;
     options.metric = plain_metric(t.layout);
-    return compress(t, std::vector<float>(t.receivers(), 1.0f), {}, options);
+    return compress(t, {std::vector<float>(t.receivers(), 1.0f)}, options);
 }
 
 double error_of(const Transfer& t, const CompressResult& result) {
@@ -103,7 +103,7 @@ TEST(Compress, DirectionsAreOrthogonalInTheMetric) {
     options.clusters = 4;
     options.coding.components = 6;
     options.coding.format = WeightFormat::float32;
-    const CompressResult result = compress(t, std::vector<float>(400, 1.0f), {}, options);
+    const CompressResult result = compress(t, {std::vector<float>(400, 1.0f)}, options);
     const ClusteredBases& b = result.transfer.bases;
     const LightMetric metric = natural_metric(layout_of_one(4, 3));
     const auto product = [&](std::size_t row, std::size_t other) {
@@ -151,7 +151,7 @@ TEST(Compress, QuantisationErrorIsHalfAStepAtMost) {
     options.coding.format = WeightFormat::snorm8;
     options.basis_share = 0;
     options.metric = plain_metric(layout_of_one(4, 1));
-    const CompressResult result = compress(t, std::vector<float>(500, 1.0f), {}, options);
+    const CompressResult result = compress(t, {std::vector<float>(500, 1.0f)}, options);
     const Transfer decoded = decode(result.transfer);
     const ClusteredBases& b = result.transfer.bases;
     double largest = 0; // a row is a weight of 1
@@ -185,7 +185,7 @@ TEST(Compress, EveryFormatIsTheSameForAnyNumberOfThreads) {
             options.coding.format = format;
             options.seam_price = 1;
             options.threads = threads;
-            results.push_back(compress(t, std::vector<float>(700, 1.0f), edges, options).transfer);
+            results.push_back(compress(t, {std::vector<float>(700, 1.0f), edges}, options).transfer);
             EXPECT_EQ(results.back().bases.rows, results.front().bases.rows);
             EXPECT_EQ(results.back().bases.coded.values.bits, results.front().bases.coded.values.bits);
             EXPECT_EQ(results.back().receivers.weights, results.front().receivers.weights);
@@ -264,7 +264,7 @@ TEST(HardCase, AxesThatVanishBesideOthersAreLeftOut) {
     CompressOptions options;
     options.seam_price = 1;
     const std::vector<Edge> edges = {{0, 1}, {1, 2}};
-    const CompressResult result = compress(t, std::vector<float>(3, 1.0f), edges, options);
+    const CompressResult result = compress(t, {std::vector<float>(3, 1.0f), edges}, options);
     EXPECT_LT(error_of(t, result), 1e-3);
     EXPECT_LE(result.transfer.bases.coded.scales.size(), 2u);
 }
@@ -292,11 +292,11 @@ TEST(HardCase, ReceiversWithoutAreaDoNotCountButAreCoded) {
     options.clusters = 2;
     options.coding.components = 2;
     options.coding.format = WeightFormat::float32;
-    const CompressResult result = compress(t, areas, {}, options);
+    const CompressResult result = compress(t, {areas}, options);
     EXPECT_LT(relative_l2(t, decode(result.transfer), areas), 1e-6);
     EXPECT_EQ(result.transfer.receivers.size(), 200u);
     const CompressResult nobody =
-        compress(t, std::vector<float>(200, 0.0f), {}, options); // then all count alike
+        compress(t, {std::vector<float>(200, 0.0f)}, options); // then all count alike
     EXPECT_EQ(nobody.transfer.receivers.size(), 200u);
 }
 
@@ -317,7 +317,7 @@ TEST(Compress, TakesAllNumbersOfColoredPartsOfOrderTenAndAllLamps) {
     options.coding.format = WeightFormat::packed;
     options.coding.bits = 5;
     options.metric = plain_metric(t.layout);
-    const CompressResult result = compress(t, std::vector<float>(840, 1.0f), {}, options);
+    const CompressResult result = compress(t, {std::vector<float>(840, 1.0f)}, options);
     // Noise is hardly compressed, and nothing of it is lost twice.
     EXPECT_GT(result.statistics.lit_rms, 0.9);
     EXPECT_LT(result.statistics.lit_rms, 1.01);
@@ -336,7 +336,7 @@ TEST(Compress, RefusesWhatItCannotDo) {
     const auto refused = [&](auto&& change) {
         CompressOptions options;
         change(options);
-        EXPECT_THROW(compress(fine, areas, {}, options), Error);
+        EXPECT_THROW(compress(fine, {areas}, options), Error);
     };
     refused([](CompressOptions& o) { o.coding.bits = 241; });
     refused([](CompressOptions& o) { o.coding.bits = -1; });
@@ -352,7 +352,7 @@ TEST(Compress, RefusesWhatItCannotDo) {
     refused([](CompressOptions& o) { o.border_price = std::nan(""); });
     refused([](CompressOptions& o) { o.mean_components = std::numeric_limits<double>::infinity(); });
     const CompressOptions options;
-    EXPECT_THROW(compress(fine, std::vector<float>(9, 1.0f), {}, options), Error);
+    EXPECT_THROW(compress(fine, {std::vector<float>(9, 1.0f)}, options), Error);
 }
 
 TEST(Compress, RefusesAreasTransferAndEdgesThatCannotBe) {
@@ -361,15 +361,15 @@ TEST(Compress, RefusesAreasTransferAndEdgesThatCannotBe) {
     for (const float area : {std::nanf(""), INFINITY}) { // as of triangles whose corners floats do not hold
         std::vector<float> areas = ones;
         areas[4] = area;
-        EXPECT_THROW(compress(fine, areas, {}, {}), Error) << area;
+        EXPECT_THROW(compress(fine, {areas}, {}), Error) << area;
     }
     for (const float value : {INFINITY, -3e38f}) {
         Transfer t = fine;
         t.vectors[7] = value;
-        EXPECT_THROW(compress(t, ones, {}, {}), Error) << value;
+        EXPECT_THROW(compress(t, {ones}, {}), Error) << value;
     }
     for (const Edge edge : {Edge{0, 10}, Edge{4000000000u, 1}})
-        EXPECT_THROW(compress(fine, ones, std::vector{edge}, {}), Error) << edge.first;
+        EXPECT_THROW(compress(fine, {ones, std::vector{edge}}, {}), Error) << edge.first;
 }
 
 TEST(Compress, OfTheLargestTransferAndAreasIsFinite) {
@@ -392,7 +392,7 @@ TEST(Compress, StopsWhenAsked) {
     stop.request_stop();
     CompressOptions options;
     const Transfer t = random_transfer(100, 3, 1, 1);
-    EXPECT_THROW(compress(t, std::vector<float>(100, 1.0f), {}, options, {{}, stop.get_token()}), Cancelled);
+    EXPECT_THROW(compress(t, {std::vector<float>(100, 1.0f)}, options, {{}, stop.get_token()}), Cancelled);
 }
 
 } // namespace

@@ -95,7 +95,7 @@ struct Tried {
         SearchOptions options;
         options.budget = budget;
         options.compress.coding.format = format;
-        return compress_within(transfer, areas, {}, options);
+        return compress_within(transfer, {areas}, options);
     }
     double lit_rms(const CompressResult& result) const {
         return expected_lit_rms(transfer, decode(result.transfer), areas, natural_metric(transfer.layout));
@@ -203,7 +203,7 @@ TEST(Search, FindsOnSmallMeshesWhatAGridByHandFinds) {
             CompressOptions o;
             o.clusters = clusters;
             o.coding.bits = bits;
-            const CompressResult r = compress(prop.transfer, prop.areas, {}, o);
+            const CompressResult r = compress(prop.transfer, {prop.areas}, o);
             grid.push_back({bound_bytes(r), r.statistics.lit_rms});
         }
     for (const double bytes : {12.0, 16.0, 24.0}) {
@@ -233,7 +233,7 @@ TEST(Search, OperationsAloneAreSpentAsWellAsByHand) {
     by_hand.clusters = 416; // a dozen receivers each
     by_hand.coding.components = 2;
     by_hand.coding.bits = 22;
-    const CompressResult hand = compress(scene.transfer, scene.areas, {}, by_hand);
+    const CompressResult hand = compress(scene.transfer, {scene.areas}, by_hand);
     EXPECT_LT(alone.result.statistics.lit_rms, 1.05 * hand.statistics.lit_rms);
 }
 
@@ -250,7 +250,7 @@ TEST(Presets, FillTheirWords) {
 TEST(Search, PresetsFitSmallMeshes) {
     const Tried prop(prop_transfer());
     for (const auto& [preset, words] : {std::pair(preset_u32(), 1), std::pair(preset_u64(), 2)}) {
-        const SearchResult found = compress_preset(prop.transfer, prop.areas, {}, {.coding = preset});
+        const SearchResult found = compress_preset(prop.transfer, {prop.areas}, {.coding = preset});
         EXPECT_TRUE(found.kept);
         EXPECT_EQ(found.result.transfer.receivers.words, words);
         EXPECT_LE(basis_bytes(found.result.transfer.bases), 4096u);
@@ -259,7 +259,7 @@ TEST(Search, PresetsFitSmallMeshes) {
     }
     // Where there is room for the bases, the preset is what it says.
     const Tried large(3000, 1, 8);
-    const SearchResult whole = compress_preset(large.transfer, large.areas, {}, {.coding = preset_u32()});
+    const SearchResult whole = compress_preset(large.transfer, {large.areas}, {.coding = preset_u32()});
     EXPECT_TRUE(whole.trials.empty());
     EXPECT_EQ(whole.result.transfer.receivers.cluster_bits, 8);
 }
@@ -286,7 +286,7 @@ TEST(Search, WeightsThatAreNotPackedFitSmallMeshesToo) {
     CompressOptions bytes;
     bytes.coding.format = WeightFormat::snorm8;
     bytes.coding.components = 8;
-    const SearchResult found = compress_preset(prop.transfer, prop.areas, {}, bytes);
+    const SearchResult found = compress_preset(prop.transfer, {prop.areas}, bytes);
     EXPECT_TRUE(found.kept);
     EXPECT_LE(basis_bytes(found.result.transfer.bases), 12u * 2 * 232); // twice cluster and weights
     EXPECT_GT(found.result.statistics.mean_components, 1);

@@ -38,10 +38,10 @@ TEST(Trace, TellsHowTheResultCameAbout) {
     const Transfer t = curved_sheets(1200);
     const std::vector<float> areas(t.receivers(), 1.0f);
     CompressOptions options{.clusters = 24, .coding = {.components = 3}};
-    const CompressResult without = compress(t, areas, {}, options);
+    const CompressResult without = compress(t, {areas}, options);
     std::vector<CompressEvent> events;
     options.trace = [&](const CompressEvent& event) { events.push_back(event); };
-    const CompressResult with = compress(t, areas, {}, options);
+    const CompressResult with = compress(t, {areas}, options);
 
     EXPECT_EQ(with.transfer.bases.rows, without.transfer.bases.rows);
     EXPECT_EQ(with.transfer.receivers.weights, without.transfer.receivers.weights);
@@ -100,7 +100,7 @@ TEST(Trace, NoClusterMovesTwiceInASweep) {
                 touched.clear();
             }
         };
-        compress(t, areas, {}, options);
+        compress(t, {areas}, options);
     }
 }
 
@@ -129,7 +129,7 @@ TEST(Trace, NoBarRunsBackwards) {
                             {}};
     // A preset whose bases are too large for so few receivers: the search follows in the same bar.
     const CompressOptions options{.clusters = 256, .coding = preset_u32()};
-    EXPECT_FALSE(compress_preset(sheets, areas, {}, options, progress).trials.empty());
+    EXPECT_FALSE(compress_preset(sheets, {areas}, options, progress).trials.empty());
     EXPECT_EQ(shown, 1);
     shown = 0;
     SearchOptions search;

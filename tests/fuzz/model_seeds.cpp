@@ -128,7 +128,8 @@ void write_shipped(const Path& folder, const std::string& name, const CompressOp
     const Scene scene = extract_scene(document);
     const BakedTransfer baked =
         bake_of(scene, {3, {{PartKind::direct, 1}, {PartKind::indirect, 1}, {PartKind::lamp, 3, "lamp"}}});
-    const CompressResult result = compress(baked.transfer, receiver_areas(scene), mesh_edges(scene), options);
+    const CompressResult result =
+        compress(baked.transfer, {receiver_areas(scene), mesh_edges(scene)}, options);
     write_clustered(document, scene, {result.transfer, baked.record});
     save_glb(document, folder / (name + ".glb"));
     save_glb(document, folder / (name + ".meshopt.glb"), BufferCompression::meshopt);

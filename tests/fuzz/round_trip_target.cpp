@@ -79,7 +79,7 @@ void round_trip(std::span<const std::uint8_t> input, const InputFile& file) {
     static const std::vector<Edge> edges = mesh_edges(model.scene);
     const auto head = input.first(kHead);
     const Transfer transfer = transfer_of(head, input.subspan(kHead), model.scene.receivers());
-    CompressedTransfer compressed{compress(transfer, areas, edges, options_of(head)).transfer,
+    CompressedTransfer compressed{compress(transfer, {areas, edges}, options_of(head)).transfer,
                                   {.receivers = receivers_id(model.scene)}};
     write_clustered(model.document, model.scene, compressed);
     save_glb(model.document, file.path(),

@@ -17,7 +17,7 @@ int main() {
     transfer.vectors.assign(lobe.begin(), lobe.end());
     prt::CompressOptions options;
     options.clusters = 1;
-    const auto compressed = prt::compress(transfer, std::vector<float>{1.0f}, {}, options);
+    const auto compressed = prt::compress(transfer, {std::vector<float>{1.0f}}, options);
     const auto radiance = prt::exit_radiance(compressed.transfer, prt::constant_light(4, glm::vec3(1)));
     const auto context = prt::GlContext::create(prt::GlDevice::any);
     std::printf("%g, %s\n", static_cast<double>(radiance[0].r),

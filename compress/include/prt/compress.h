@@ -4,14 +4,14 @@
 // Components for Precomputed Radiance Transfer"), for the least error of exit radiance rather than of
 // coefficients; docs/math.md, section 4.
 //
-//     CompressResult r = compress(transfer, areas, edges, {.coding = preset_u32()});
+//     CompressResult r = compress(transfer, SceneSurface(scene).view(), {.coding = preset_u32()});
 //
 // `prt/search.h` chooses options for a budget; docs/terminology.md says what the words mean.
 
 #include "prt/clustered_transfer.h"
 #include "prt/compress_trace.h"
 #include "prt/light_metric.h"
-#include "prt/mesh_edges.h"
+#include "prt/receiver_surface.h"
 #include "prt/support/progress.h"
 
 #include <cstdint>
@@ -55,12 +55,17 @@ WeightCoding preset_u32();
 /// Two of them: 8 bits of cluster, nine weights of 9, 8, 7, 7, 6, 6, 5, 4 and 4 bits.
 WeightCoding preset_u64();
 
+/// Guides (prt/clustered_bases.h): those by which a renderer has what the surface gives. They take three
+/// multiply-adds each of the vertex shader, and three rows of every cluster.
+enum class GuideChoice { none, normal, normal_and_position };
+
 struct CompressOptions {
     int clusters = 256;
     WeightCoding coding = {};
     /// Components per receiver on average, where clusters may differ: what the vertex shader pays. 0: no
     /// limit.
     double mean_components = 0;
+    GuideChoice guides = GuideChoice::normal_and_position;
     /// Squared error that rounding the bases may add, as a share of what there is; 0: bases are float32.
     /// Unset: 0.1 for packed weights, 0.05 for 8 bits, 0.0001 for 16, 0 for floats.
     std::optional<double> basis_share = {};
@@ -86,11 +91,14 @@ struct CompressStatistics {
     double lit_rms = 0;         ///< expected under the metric, of what is returned
     int clusters = 0;           ///< that hold receivers; empty ones are dropped
     double mean_components = 0; ///< of all receivers
+    int guide_rows = 0;         ///< of every cluster
     double seconds = 0;
     std::size_t bytes_per_receiver = 0; ///< what a game binds: cluster and weights
     std::size_t bits_per_receiver = 0;  ///< of them in use
     std::size_t basis_bytes = 0;        ///< all bases, and the layout of packed weights
 
+    /// What the vertex shader adds to a mean, on average.
+    double operations() const { return mean_components + guide_rows; }
     double bytes_with_bases(std::size_t receivers) const {
         return static_cast<double>(bytes_per_receiver) +
                static_cast<double>(basis_bytes) / static_cast<double>(receivers);
@@ -102,12 +110,11 @@ struct CompressResult {
     CompressStatistics statistics;
 };
 
-/// Compresses `transfer`; an error counts by `areas` [receivers]. Receivers of area 0 are coded but do not
-/// count. `edges` are needed where seams have a weight. Deterministic from the seed, whatever the number of
-/// threads. Thread-safe. Throws `Error` for options outside their range, transfer beyond `kMostTransfer`,
-/// areas that are not finite and edges of receivers that are not there, and `Cancelled`. Memory: about twice
-/// the input; time: proportional to receivers × clusters × components.
-CompressResult compress(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
+/// Compresses `transfer` on `surface`. Deterministic from the seed, whatever the number of threads.
+/// Thread-safe. Throws `Error` for options outside their range, transfer beyond `kMostTransfer`, areas,
+/// normals and positions that are not finite and edges of receivers that are not there, and `Cancelled`.
+/// Memory: about twice the input; time: proportional to receivers × clusters × components.
+CompressResult compress(const Transfer& transfer, const ReceiverSurface& surface,
                         const CompressOptions& options, const Progress& progress = {});
 
 } // namespace prt

@@ -38,16 +38,14 @@ struct SearchResult {
 /// or best in error under `bytes_per_vertex`, or, under `mean_components` alone, in as many bytes as a preset
 /// may take. Takes five to twenty times as long as `compress`. Throws as `compress` does, and for budgets
 /// that are not positive.
-SearchResult compress_within(const Transfer& transfer, std::span<const float> areas,
-                             std::span<const Edge> edges, const SearchOptions& options,
-                             const Progress& progress = {});
+SearchResult compress_within(const Transfer& transfer, const ReceiverSurface& surface,
+                             const SearchOptions& options, const Progress& progress = {});
 
 /// A coding (`preset_u32`, `preset_u64`, or weights that are not packed) that fits small meshes, too: as it
 /// is where its bases take at most twice the bytes of the weights, or 4 KB; else the clusters and bits that
 /// lose least in as many words and no more bytes of bases than that. `kept` is false where nothing is as
 /// small.
-SearchResult compress_preset(const Transfer& transfer, std::span<const float> areas,
-                             std::span<const Edge> edges, const CompressOptions& options,
-                             const Progress& progress = {});
+SearchResult compress_preset(const Transfer& transfer, const ReceiverSurface& surface,
+                             const CompressOptions& options, const Progress& progress = {});
 
 } // namespace prt

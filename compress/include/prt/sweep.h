@@ -45,9 +45,9 @@ struct SweepCandidate {
 
 /// Measures all methods and `others` under `lights`, which should be others than those that `options`
 /// compresses for. Minutes.
-Sweep sweep(const Transfer& transfer, std::span<const float> areas, std::span<const Edge> edges,
-            std::span<const Light> lights, const CompressOptions& options,
-            std::span<const SweepCandidate> others = {}, const Progress& progress = {});
+Sweep sweep(const Transfer& transfer, const ReceiverSurface& surface, std::span<const Light> lights,
+            const CompressOptions& options, std::span<const SweepCandidate> others = {},
+            const Progress& progress = {});
 
 /// The best point of `method` with at most `bytes` per receiver; nothing where it has none.
 const SweepPoint* best_by_bytes(const Sweep& sweep, const std::string& method, double bytes);

@@ -19,12 +19,14 @@ constexpr int kBakeRays[] = {16, 128, 1024};
 prt::CompressResult compressed_as(const CompressionSettings& how, const prt::Transfer& transfer,
                                   const Model& model, const prt::Progress& progress) {
     prt::CompressOptions options{.coding = prt::preset_u32()};
+    const prt::SceneSurface owner(model.scene);
+    const prt::ReceiverSurface surface = owner.view();
     if (how.clusters == options.clusters && how.components == options.coding.components)
-        return prt::compress_preset(transfer, model.areas, model.edges, options, progress).result;
+        return prt::compress_preset(transfer, surface, options, progress).result;
     options.clusters = how.clusters;
     // As many bits for each component as the preset has.
     options.coding = {.components = how.components, .bits = 6 * how.components};
-    return prt::compress(transfer, model.areas, model.edges, options, progress);
+    return prt::compress(transfer, surface, options, progress);
 }
 
 /// Takes over from `other` the transfer that `loaded` lacks; false where there is none, or the scenes differ.

@@ -10,21 +10,18 @@
 
 namespace prt {
 
-/// Integers in rows of a few widths. Row r stores its level t in four bits, then value i in max(0, t -
-/// drop[i]) bits, two's complement; no bits: 0. Columns that are small everywhere so cost little in every
-/// row.
+/// Integers in rows of a few widths, arithmetically coded. Row r stores its level t; value i then fits max(0,
+/// t - drop[i]) bits of two's complement, which is what the models of its bits go by; no bits: 0. Columns
+/// that are small everywhere so cost little in every row.
 struct RowCode {
     std::vector<std::uint8_t> drops; ///< [columns]
-    std::vector<std::byte> bits;     ///< all rows one after the other, lowest bit first, filled up with zeros
+    std::vector<std::byte> bits;     ///< all rows one after the other
 };
 
 inline constexpr int kMostRowBits = 15; ///< widest value: -16384..16383
 
 /// The shortest code of `values` [rows][columns], each in -16384..16383.
 RowCode encode_rows(std::span<const std::int32_t> values, std::size_t columns);
-
-/// Size of what encode_rows would make, in bits, without making it.
-std::size_t coded_bits(std::span<const std::int32_t> values, std::size_t columns);
 
 /// The values of `rows` rows. Throws `Error` where the bits end too early.
 std::vector<std::int32_t> decode_rows(const RowCode& code, std::size_t rows);

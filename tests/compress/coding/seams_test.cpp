@@ -46,7 +46,7 @@ struct Grid {
         options.coding.format = format;
         options.seam_price = seam_price;
         options.border_price = border_price;
-        const CompressResult result = compress(transfer, areas, edges, options);
+        const CompressResult result = compress(transfer, {areas, edges}, options);
         const Transfer decoded = decode(result.transfer);
         Jumps jumps;
         for (const Edge& e : edges) {

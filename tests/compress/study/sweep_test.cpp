@@ -41,7 +41,7 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
                                 shown = share;
                             },
                             {}};
-    const Sweep result = sweep(transfer, areas, {}, lights, {}, others, progress);
+    const Sweep result = sweep(transfer, {areas}, lights, {}, others, progress);
     EXPECT_GT(shown, 0.75);
 
     const SweepPoint* half = best_by_bytes(result, "half", 3);
@@ -74,7 +74,7 @@ TEST(Sweep, SaysWhyOursIsMissing) {
     Transfer few = zero_transfer(2, 1, 40);
     std::copy_n(strip().vectors.begin(), few.vectors.size(), few.vectors.begin());
     const std::vector<Light> lights = {constant_light(2, {1, 1, 1})};
-    const Sweep result = sweep(few, std::vector<float>(40, 1.0f), {}, lights, {});
+    const Sweep result = sweep(few, {std::vector<float>(40, 1.0f)}, lights, {});
     std::size_t ours = 0, asked = std::size(kSweepBytes);
     for (const auto* points : {&result.by_bytes, &result.by_components})
         for (const SweepPoint& point : *points) {

@@ -110,9 +110,9 @@ protected:
         const prt::BakeOptions options = bake_options(64);
         transfer = prt::bake(model->scene, options).baked.transfer;
         gpu->set_raw(transfer);
-        gpu->set_compressed(
-            prt::compress(transfer, model->areas, model->edges, {.clusters = 8, .coding = prt::preset_u64()})
-                .transfer);
+        gpu->set_compressed(prt::compress(transfer, {model->areas, model->edges},
+                                          {.clusters = 8, .coding = prt::preset_u64()})
+                                .transfer);
     }
     prt::Image drawn(PictureKind kind, const LampSettings& lamps) {
         gpu->set_lighting({sky}, {}, lamps);

@@ -137,7 +137,7 @@ protected:
     }
     prt::ClusteredTransfer compressed(const prt::Transfer& transfer) {
         const prt::CompressOptions options{.clusters = 24, .coding = prt::preset_u32()};
-        return prt::compress(transfer, model->areas, model->edges, options).transfer;
+        return prt::compress(transfer, {model->areas, model->edges}, options).transfer;
     }
 
     std::unique_ptr<prt::GlContext> context;

@@ -42,7 +42,7 @@ protected:
         options.coding.components = 2;
         prt::write_clustered(
             document, scene,
-            {prt::compress(baked.transfer, prt::receiver_areas(scene), {}, options).transfer, baked.record});
+            {prt::compress(baked.transfer, {prt::receiver_areas(scene)}, options).transfer, baked.record});
         prt::save_glb(document, folder / "shipped.glb");
         return {folder / "baked.glb", folder / "shipped.glb"};
     }

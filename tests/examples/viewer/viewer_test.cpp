@@ -69,7 +69,7 @@ protected:
         const auto transfer = prt::read_transfer(document, scene);
         const prt::CompressOptions options{.clusters = 16, .coding = prt::preset_u32()};
         prt::CompressedTransfer compressed{
-            prt::compress(transfer->transfer, prt::receiver_areas(scene), prt::mesh_edges(scene), options)
+            prt::compress(transfer->transfer, {prt::receiver_areas(scene), prt::mesh_edges(scene)}, options)
                 .transfer,
             transfer->record};
         if (reordered) {

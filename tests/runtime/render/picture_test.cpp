@@ -132,7 +132,7 @@ TEST_F(Pictures, OfCompressedTransferAgree) {
     options.clusters = 8;
     options.coding.components = 6;
     const ClusteredTransfer compressed =
-        compress(transfer, receiver_areas(objects.scene), {}, options).transfer;
+        compress(transfer, {receiver_areas(objects.scene)}, options).transfer;
     const Light light = overcast_sky(6, glm::vec3(1, 0.9f, 0.8f));
     const auto radiance = exit_radiance(compressed, light);
     picture.radiance = radiance;

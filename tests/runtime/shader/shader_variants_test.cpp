@@ -216,7 +216,7 @@ ClusteredTransfer compressed(WeightFormat format) {
     options.coding.components = 6;
     options.coding.bits = 150; // five words: weights lie across words and attributes
     options.coding.format = format;
-    return compress(transfer, std::vector<float>(600, 1.0f), {}, options).transfer;
+    return compress(transfer, {std::vector<float>(600, 1.0f)}, options).transfer;
 }
 
 Light random_light() {

@@ -47,7 +47,7 @@ TEST_P(VertexShader, AgreesWithCppPerVertex) {
     options.coding.format = kind.format;
     options.coding.bits = kind.bits;
     const ClusteredTransfer compressed =
-        compress(transfer, std::vector<float>(transfer.receivers(), 1.0f), {}, options).transfer;
+        compress(transfer, {std::vector<float>(transfer.receivers(), 1.0f)}, options).transfer;
     Light light = constant_light(kind.order, glm::vec3(1));
     for (glm::vec3& c : light.coefficients)
         c += 0.3f * glm::vec3(normal(random), normal(random), normal(random));

@@ -1,0 +1,50 @@
+// What guides a cluster: normals as they are, positions in units of the scene's extent.
+
+#include "clusters/guide_coordinates.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+/// The root mean square distance of all from their mean.
+double extent(std::span<const glm::vec3> values) {
+    glm::dvec3 sum(0);
+    for (const glm::vec3& v : values)
+        sum += glm::dvec3(v);
+    const glm::dvec3 mean = sum / static_cast<double>(std::max<std::size_t>(values.size(), 1));
+    double squares = 0;
+    for (const glm::vec3& v : values)
+        squares += glm::dot(glm::dvec3(v) - mean, glm::dvec3(v) - mean);
+    return std::sqrt(squares / static_cast<double>(std::max<std::size_t>(values.size(), 1)));
+}
+
+} // namespace
+
+GuideCoordinates guide_coordinates(const ReceiverSurface& surface, GuideChoice choice) {
+    GuideCoordinates result;
+    std::vector<std::span<const glm::vec3>> attributes;
+    const auto add = [&](GuideKind kind, std::span<const glm::vec3> values) {
+        const double size = extent(values);
+        const auto scale = static_cast<float>(1 / size);
+        if (!(size > 0) || !std::isfinite(scale))
+            return;
+        result.guides.push_back({kind, glm::vec3(0), glm::vec3(scale)});
+        attributes.push_back(values);
+    };
+    if (choice != GuideChoice::none)
+        add(GuideKind::normal, surface.normals);
+    if (choice == GuideChoice::normal_and_position)
+        add(GuideKind::position, surface.positions);
+    for (std::size_t p = 0; p < surface.areas.size() && !attributes.empty(); ++p)
+        for (const std::span<const glm::vec3> values : attributes)
+            for (int i = 0; i < 3; ++i)
+                result.values.push_back(values[p][i]);
+    return result;
+}
+
+} // namespace prt

@@ -1,0 +1,12 @@
+#include "prt/receiver_surface.h"
+
+namespace prt {
+
+SceneSurface::SceneSurface(const Scene& scene) : areas(receiver_areas(scene)), edges(mesh_edges(scene)) {
+    for (const VertexArray& vertices : scene.vertex_arrays) {
+        normals.insert(normals.end(), vertices.normals.begin(), vertices.normals.end());
+        positions.insert(positions.end(), vertices.positions.begin(), vertices.positions.end());
+    }
+}
+
+} // namespace prt
