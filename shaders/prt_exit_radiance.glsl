@@ -4,6 +4,9 @@
 // Define before including (prt::relight_defines writes the lines for a model)
 //     PRT_PACKED_WORDS n     packed weights: n 32-bit words per vertex, 1..8, and PRT_CLUSTER_BITS b, or
 //     PRT_WEIGHT_VECTORS n   others: the number of VEC4 weight attributes, 0..12 (0: clusters only),
+// what clusters know of a vertex beside its weights, its guides:
+//     PRT_GUIDE_NORMAL       its normal,
+//     PRT_GUIDE_POSITION     its position seen from PRT_GUIDE_ORIGIN, a vec3: numbers, or the name of a uniform,
 // and where the constants are:
 //     PRT_CONSTANTS_BUFFER   storage buffers (the default; OpenGL 4.3, Vulkan, Direct3D 11),
 //     PRT_CONSTANTS_BLOCK    uniform blocks, with PRT_MOST_ROWS and PRT_MOST_CLUSTERS, or
@@ -58,6 +61,37 @@ uvec4 prt_layout_of(uint cluster) {
 #endif
 }
 
+// Rows of a cluster, counted from its first: of the guide of positions, and of its first direction.
+#ifdef PRT_GUIDE_NORMAL
+#define PRT_POSITION_ROW 4u
+#else
+#define PRT_POSITION_ROW 1u
+#endif
+#ifdef PRT_GUIDE_POSITION
+#define PRT_DIRECTION_ROW (PRT_POSITION_ROW + 3u)
+#else
+#define PRT_DIRECTION_ROW PRT_POSITION_ROW
+#endif
+
+// The mean of the cluster whose rows begin at `first`, and what the guides add to it.
+vec3 prt_guided(uint first, vec3 position, vec3 normal) {
+    vec3 radiance = prt_constant(first);
+#ifdef PRT_GUIDE_NORMAL
+    radiance += normal.x * prt_constant(first + 1u) + normal.y * prt_constant(first + 2u) +
+                normal.z * prt_constant(first + 3u);
+#endif
+#ifdef PRT_GUIDE_POSITION
+    vec3 place = position - PRT_GUIDE_ORIGIN;
+    radiance += place.x * prt_constant(first + PRT_POSITION_ROW) +
+                place.y * prt_constant(first + PRT_POSITION_ROW + 1u) +
+                place.z * prt_constant(first + PRT_POSITION_ROW + 2u);
+#endif
+    return radiance;
+}
+
+// vec3 prt_exit_radiance(vec3 position, vec3 normal): both as they were when the model was baked, in its frame; the
+// normal is unit, or zero where the mesh has none. What is no guide counts nothing.
+
 #ifdef PRT_PACKED_WORDS
 layout(location = PRT_LOCATION_WEIGHTS) in uvec4 prt_words_0;
 #if PRT_PACKED_WORDS > 4
@@ -85,16 +119,16 @@ uint prt_bits(uint position, uint width) {
     return bits & ((1u << width) - 1u);
 }
 
-vec3 prt_exit_radiance() {
+vec3 prt_exit_radiance(vec3 position, vec3 normal) {
     uvec4 cluster = prt_layout_of(prt_bits(0u, uint(PRT_CLUSTER_BITS)));
     uint first = cluster[PRT_CLUSTER_FIRST_ROW];
-    vec3 radiance = prt_constant(first);
-    uint position = uint(PRT_CLUSTER_BITS);
+    vec3 radiance = prt_guided(first, position, normal);
+    uint bit = uint(PRT_CLUSTER_BITS);
     for (uint j = 0u; j < cluster[PRT_CLUSTER_COMPONENTS]; ++j) {
         uint width =
             1u + ((j < 8u ? cluster[PRT_CLUSTER_WIDTHS] : cluster[PRT_CLUSTER_WIDTHS + 1]) >> (4u * (j & 7u)) & 15u);
-        radiance += float(prt_bits(position, width)) * prt_constant(first + 1u + j);
-        position += width;
+        radiance += float(prt_bits(bit, width)) * prt_constant(first + PRT_DIRECTION_ROW + j);
+        bit += width;
     }
     return radiance;
 }
@@ -139,13 +173,13 @@ layout(location = PRT_LOCATION_WEIGHTS_11) in vec4 prt_weights_11;
 
 // On one line: GLSL 3.3 knows no others.
 // clang-format off
-#define PRT_ADD_FOUR(w) for (uint i = 0u; i < 4u && j < components; ++i, ++j) radiance += w[i] * prt_constant(first + 1u + j);
+#define PRT_ADD_FOUR(w) for (uint i = 0u; i < 4u && j < components; ++i, ++j) radiance += w[i] * prt_constant(first + PRT_DIRECTION_ROW + j);
 // clang-format on
 
-vec3 prt_exit_radiance() {
+vec3 prt_exit_radiance(vec3 position, vec3 normal) {
     uvec4 cluster = prt_layout_of(prt_cluster);
     uint first = cluster[PRT_CLUSTER_FIRST_ROW], components = cluster[PRT_CLUSTER_COMPONENTS];
-    vec3 radiance = prt_constant(first);
+    vec3 radiance = prt_guided(first, position, normal);
     uint j = 0u;
 #if PRT_WEIGHT_VECTORS > 0
     PRT_ADD_FOUR(prt_weights_0)

@@ -3,6 +3,11 @@
 #include "prt_exit_radiance.glsl"
 
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
+#ifdef PRT_GUIDE_NORMAL
+layout(location = PRT_LOCATION_NORMAL) in vec3 normal;
+#else
+const vec3 normal = vec3(0.0);
+#endif
 
 #ifdef VULKAN
 layout(push_constant) uniform Camera {
@@ -15,6 +20,6 @@ out vec3 radiance;
 #endif
 
 void main() {
-    radiance = prt_exit_radiance(); // times the albedo of the surface, in the fragment shader
+    radiance = prt_exit_radiance(position, normal); // times the albedo of the surface, in the fragment shader
     gl_Position = view_projection * vec4(position, 1.0);
 }

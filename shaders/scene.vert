@@ -16,6 +16,11 @@ layout(location = PRT_LOCATION_RADIANCE) in vec3 vertex_radiance;
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
 layout(location = PRT_LOCATION_TEXCOORD) in vec2 texcoord;
 layout(location = PRT_LOCATION_COLOR) in vec4 color;
+#ifdef PRT_GUIDE_NORMAL
+layout(location = PRT_LOCATION_NORMAL) in vec3 normal;
+#else
+const vec3 normal = vec3(0.0);
+#endif
 
 uniform mat4 view_projection;
 
@@ -25,7 +30,7 @@ out vec4 surface_color;
 
 void main() {
 #ifdef PRT_COMPRESSED
-    radiance = prt_exit_radiance();
+    radiance = prt_exit_radiance(position, normal);
 #else
     radiance = vertex_radiance;
 #endif

@@ -14,6 +14,11 @@ layout(location = PRT_LOCATION_COLOR) in vec4 color;
 #endif
 #if defined(PRT_COMPRESSED)
 #include "prt_exit_radiance.glsl"
+#ifdef PRT_GUIDE_NORMAL
+layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;
+#else
+const vec3 vertex_normal = vec3(0.0);
+#endif
 out vec3 radiance;
 #elif defined(PRT_VERTEX_RADIANCE)
 layout(location = PRT_LOCATION_RADIANCE) in vec3 vertex_radiance;
@@ -32,7 +37,7 @@ out vec4 surface_color;
 
 void main() {
 #if defined(PRT_COMPRESSED)
-    radiance = prt_exit_radiance();
+    radiance = prt_exit_radiance(position, vertex_normal);
 #elif defined(PRT_VERTEX_RADIANCE)
     radiance = vertex_radiance;
 #else

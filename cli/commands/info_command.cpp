@@ -3,7 +3,7 @@
 #include "options.h"
 #include "outputs.h"
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -70,6 +70,23 @@ void add_baked(const BakedTransfer& baked, Report& report) {
     report.sentences.push_back(record_sentence("transfer/bake", baked.record));
 }
 
+std::vector<std::string> guide_names(const ClusteredBases& bases) {
+    std::vector<std::string> names;
+    for (const Guide& guide : bases.guides)
+        names.emplace_back(to_string(guide.kind));
+    return names;
+}
+
+/// What clusters know of vertices without a byte of theirs, and what that costs.
+void add_guides(const ClusteredBases& bases, const std::string& own, Report& report) {
+    if (bases.guides.empty())
+        return;
+    report.sentences.push_back(
+        fmt::format("guides: {0}: {{{1}guide_rows}} rows in each cluster and no byte of a vertex; the shader adds "
+                    "{{{1}guide_rows}} multiply-adds of a color",
+                    fmt::join(guide_names(bases), " and "), own));
+}
+
 void add_compressed(const CompressedTransfer& compressed, Report& report) {
     const ClusteredTransfer& t = compressed.transfer;
     const auto [least, most] = std::minmax_element(t.bases.components.begin(), t.bases.components.end());
@@ -85,6 +102,8 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
                    {"weights", packed ? "packed" : std::to_string(8 * bytes_per_weight(t.receivers.format))},
                    {"bytes_bound_per_vertex", bytes_per_receiver(t)},
                    {"bits_used_per_vertex", bits_per_receiver(t)},
+                   {"guides", guide_names(t.bases)},
+                   {"guide_rows", t.bases.guide_rows()},
                    {"bytes_bases", basis_bytes(t.bases)},
                    {"bake", bake_record_json(compressed.record)}}}});
     const std::string own = "clustered_pca/";
@@ -96,6 +115,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     report.sentences.push_back(fmt::format(
         "{{{0}bytes_bound_per_vertex}} bytes per vertex to bind ({{{0}bits_used_per_vertex}} bits in use)",
         own));
+    add_guides(t.bases, own, report);
     report.sentences.push_back(fmt::format("{{{}bytes_bases}} bytes of bases, {} shader constants per frame",
                                            own, constant_rows(t.bases)));
     report.sentences.push_back(record_sentence(own + "bake", compressed.record));

@@ -59,7 +59,8 @@ void run(ShaderArguments a, Session& session) {
     const ClusteredTransfer& transfer = model.compressed->transfer;
     const ConstantSource constants = a.constants.value_or(constants_for(a.language));
     const std::string source =
-        a.compute ? constants_shader(transfer, a.language) : relight_shader(transfer, constants, a.language);
+        a.compute ? constants_shader(transfer, a.language)
+                  : relight_shader(transfer, constants, a.language, model.scene.origin);
     if (!a.compute && constants == ConstantSource::block)
         warn_of_large_blocks(a.model, transfer);
     session.write(a.output, source);

@@ -6,7 +6,7 @@ uniform mat4 view_projection, sun_map; // from the world, the second to [0, 1]³
 out vec3 radiance, normal, sun_place;
 
 void main() {
-    radiance = prt_exit_radiance(); // for albedo 1, without the sun's direct light
+    radiance = prt_exit_radiance(position, vertex_normal); // for albedo 1, without the sun's direct light
     normal = vertex_normal;
     sun_place = (sun_map * vec4(position, 1.0)).xyz;
     gl_Position = view_projection * vec4(position, 1.0);

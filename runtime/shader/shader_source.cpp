@@ -6,6 +6,9 @@
 #include "prt/support/error.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <limits>
+#include <locale>
 #include <set>
 #include <sstream>
 
@@ -48,6 +51,49 @@ std::string define(const char* name, std::size_t value) {
     return std::string("#define ") + name + " " + std::to_string(value) + "\n";
 }
 
+/// `value` as GLSL, with all digits that a float has.
+std::string glsl_number(double value) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic()); // programs may have set one that writes commas
+    text << std::scientific << std::setprecision(std::numeric_limits<float>::max_digits10 - 1)
+         << static_cast<float>(value);
+    return text.str();
+}
+
+std::string guide_defines(const ClusteredBases& bases, const glm::dvec3& seen_from) {
+    std::string text;
+    for (const Guide& guide : bases.guides) {
+        if (guide.kind == GuideKind::normal) {
+            text += "#define PRT_GUIDE_NORMAL\n";
+            continue;
+        }
+        const glm::dvec3 origin = seen_from + glm::dvec3(guide.origin);
+        text += "#define PRT_GUIDE_POSITION\n#define PRT_GUIDE_ORIGIN vec3(" + glsl_number(origin.x) + ", " +
+                glsl_number(origin.y) + ", " + glsl_number(origin.z) + ")\n";
+    }
+    return text;
+}
+
+/// How the weights of a receiver lie in vertex attributes.
+std::string weight_defines(const ClusteredTransfer& transfer) {
+    const ClusteredReceivers& receivers = transfer.receivers;
+    if (receivers.format == WeightFormat::packed) {
+        if (receivers.words > kMostWords)
+            throw Error(std::to_string(receivers.words) + " words of packed weights do not fit the " +
+                        std::to_string(kMostWords) + " of the vertex attributes");
+        return define("PRT_PACKED_WORDS", static_cast<std::size_t>(receivers.words)) +
+               define("PRT_CLUSTER_BITS", static_cast<std::size_t>(receivers.cluster_bits));
+    }
+    const bool guided = !transfer.bases.guides.empty();
+    const int most = 4 * (guided ? kMostWeightVectors - 1 : kMostWeightVectors),
+              components = std::max(receivers.components, transfer.bases.max_components());
+    if (components > most)
+        throw Error(std::to_string(components) + " components do not fit the " + std::to_string(most) +
+                    (guided ? " of the vertex attributes beside the normal of guides"
+                            : " of the vertex attributes"));
+    return define("PRT_WEIGHT_VECTORS", static_cast<std::size_t>(receivers.components / 4));
+}
+
 } // namespace
 
 std::string shader_source(std::string_view name, std::string_view defines, ShaderLanguage language) {
@@ -59,22 +105,8 @@ std::string shader_source(std::string_view name, std::string_view defines, Shade
 }
 
 std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource constants,
-                            ShaderLanguage language) {
-    const ClusteredReceivers& receivers = transfer.receivers;
-    std::string text;
-    if (receivers.format == WeightFormat::packed) {
-        if (receivers.words > kMostWords)
-            throw Error(std::to_string(receivers.words) + " words of packed weights do not fit the " +
-                        std::to_string(kMostWords) + " of the vertex attributes");
-        text += define("PRT_PACKED_WORDS", static_cast<std::size_t>(receivers.words)) +
-                define("PRT_CLUSTER_BITS", static_cast<std::size_t>(receivers.cluster_bits));
-    } else {
-        const int components = std::max(receivers.components, transfer.bases.max_components());
-        if (components > 4 * kMostWeightVectors)
-            throw Error(std::to_string(components) + " components do not fit the " +
-                        std::to_string(4 * kMostWeightVectors) + " of the vertex attributes");
-        text += define("PRT_WEIGHT_VECTORS", static_cast<std::size_t>(receivers.components / 4));
-    }
+                            ShaderLanguage language, const glm::dvec3& seen_from) {
+    const std::string text = weight_defines(transfer) + guide_defines(transfer.bases, seen_from);
     switch (constants) {
     case ConstantSource::buffer:
         if (language == ShaderLanguage::glsl330 || language == ShaderLanguage::essl300)
@@ -93,8 +125,9 @@ std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource co
 }
 
 std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource constants,
-                           ShaderLanguage language) {
-    return shader_source("prt_relight.vert", relight_defines(transfer, constants, language), language);
+                           ShaderLanguage language, const glm::dvec3& seen_from) {
+    return shader_source("prt_relight.vert", relight_defines(transfer, constants, language, seen_from),
+                         language);
 }
 
 std::string part_defines(const TransferLayout& layout) {

@@ -19,14 +19,21 @@ glm::vec3 position_of(const prt::Scene& scene, std::uint32_t receiver) {
     return glm::vec3(0);
 }
 
-/// mean + sum_j w_j direction_j.
-std::vector<float> decoded(const prt::ClusteredBases& bases, std::size_t cluster,
+/// The transfer vector of one receiver.
+std::vector<float> decoded(const prt::ClusteredTransfer& transfer, std::size_t receiver,
                            const std::vector<float>& weights) {
+    const prt::ClusteredBases& bases = transfer.bases;
+    const std::size_t cluster = transfer.receivers.clusters[receiver], guides = bases.guide_rows();
+    std::vector<float> factors;
+    for (std::size_t g = 0; g < guides; ++g)
+        factors.push_back(bases.guide_scale(g) * transfer.receivers.guides[receiver * guides + g] -
+                          static_cast<float>(bases.centers[cluster * guides + g]));
+    factors.insert(factors.end(), weights.begin(), weights.end());
     const float* row = &bases.rows[bases.first_rows()[cluster] * bases.dimension()];
     std::vector<float> vector(row, row + bases.dimension());
-    for (std::size_t j = 0; j < weights.size(); ++j)
+    for (std::size_t j = 0; j < factors.size(); ++j)
         for (std::size_t i = 0; i < vector.size(); ++i)
-            vector[i] += weights[j] * row[(1 + j) * bases.dimension() + i];
+            vector[i] += factors[j] * row[(1 + j) * bases.dimension() + i];
     return vector;
 }
 
@@ -55,8 +62,7 @@ std::optional<Hovered> find_hovered(const Model& model, const prt::Transfer* raw
         prt::decode_weights(*compressed, layouts, *receiver, found.weights);
         found.order = compressed->bases.layout.order;
         found.vector =
-            first_channel(decoded(compressed->bases, static_cast<std::size_t>(found.cluster), found.weights),
-                          compressed->bases.layout);
+            first_channel(decoded(*compressed, *receiver, found.weights), compressed->bases.layout);
     }
     if (raw && (!compressed || prefer_raw)) {
         found.order = raw->layout.order;

@@ -35,6 +35,7 @@ import {
   UnsignedIntType,
   Vector3,
 } from "three";
+import { bakedFrame } from "./bakedFrame.js";
 import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "./clusteredPca.js";
 import { strengthsOfSuns } from "./lightSet.js";
 import { relitMaterial, sunTraits } from "./relitMaterial.js";
@@ -212,14 +213,15 @@ export class PrtkitPlugin {
     const { json, associations } = this.parser;
     const extension = json.extensions?.[EXTENSION];
     if (!extension) return;
-    const wanted = [extension.packing?.bufferView, extension.bases.bufferView];
+    const wanted = [extension.packing?.bufferView, extension.centers?.bufferView, extension.bases.bufferView];
     for (const part of ["origin", "units", "scales", "axes", "values"]) wanted.push(extension.bases[part]?.bufferView);
     const views = new Map();
     for (const i of wanted)
       if (i !== undefined) views.set(i, new Uint8Array(await this.parser.getDependency("bufferView", i)));
     const model = new PrtkitModel(extension, (i) => views.get(i));
     const defines = new Map(); // by geometry: nodes may share one
-    for (const scene of gltf.scenes)
+    for (const scene of gltf.scenes) {
+      scene.updateMatrixWorld(true); // as in the file
       scene.traverse((object) => {
         const from = associations.get(object);
         if (!object.isMesh || from?.meshes === undefined) return;
@@ -232,15 +234,18 @@ export class PrtkitPlugin {
         const number = primitive?.material;
         const gltfMaterial = json.materials?.[number];
         const traits = model.directApart ? sunTraits(gltfMaterial) : null;
+        const frame = bakedFrame(object, model.clusters.guides);
+        const strength = model.strengthOf(gltfMaterial?.name || `material ${number}`);
         object.material = relitMaterial(object.material, {
-          uniforms: { ...model.uniforms, prtStrength: model.strengthOf(gltfMaterial?.name || `material ${number}`) },
-          defines: defines.get(object.geometry),
+          uniforms: { ...model.uniforms, ...frame.uniforms, prtStrength: strength },
+          defines: { ...defines.get(object.geometry), ...frame.defines },
           traits,
         });
         if (!traits) return;
         object.castShadow = traits.casts;
         object.receiveShadow = true;
       });
+    }
     gltf.userData.prtkit = model;
   }
 }

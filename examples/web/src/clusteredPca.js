@@ -56,6 +56,22 @@ function areParts(parts) {
   );
 }
 
+const KINDS = ["normal", "position"];
+
+const areThree = (v) => Array.isArray(v) && v.length === 3 && v.every(Number.isFinite);
+
+/** Whether guides are none, or each kind once at most, normals first. */
+function areGuides(guides) {
+  if (!Array.isArray(guides)) return false;
+  const kinds = guides.map((guide) => KINDS.indexOf(guide?.kind));
+  return (
+    kinds.every((kind, i) => kind >= 0 && (i === 0 || kind > kinds[i - 1])) &&
+    guides.every(
+      ({ kind, scale, origin }) => areThree(scale) && scale.every((s) => s !== 0) && (kind === "normal" || areThree(origin)),
+    )
+  );
+}
+
 /** Colours that light a part: the coefficients of a sky, or the one strength of a lamp. */
 const columnsOf = (order, { kind }) => (kind === "lamp" ? 1 : order * order);
 
@@ -70,17 +86,25 @@ const dimensionOf = ({ order, parts }) =>
  * what is wrong with a file that is damaged or of another version.
  */
 export function decodeClusters(extension, view) {
-  if (extension.version !== 5)
-    throw new Error(`PRTKIT_clustered_pca: version ${extension.version} is not known, only 5; compress the model again`);
-  const { order, parts, components, bases, packing } = extension;
+  if (extension.version !== 6)
+    throw new Error(`PRTKIT_clustered_pca: version ${extension.version} is not known, only 6; compress the model again`);
+  const { order, parts, components, guides = [], bases, packing } = extension;
   if (!(order >= 1 && order <= 10) || !areParts(parts) || !Array.isArray(components))
     throw new Error("PRTKIT_clustered_pca: order, parts or components are wrong");
+  if (!areGuides(guides)) throw new Error("PRTKIT_clustered_pca: the guides are wrong");
+  const guideRows = 3 * guides.length;
+  let centers = new Int16Array(0);
+  if (guideRows > 0) {
+    const { bufferView, drops } = extension.centers;
+    if (drops.length !== guideRows) throw new Error("PRTKIT_clustered_pca: the centers are not those of the guides");
+    centers = codedRows(view(bufferView), drops, components.length);
+  }
   const dimension = dimensionOf({ order, parts });
   const firstRows = [];
   let rowCount = 0;
   for (const m of components) {
     firstRows.push(rowCount);
-    rowCount += 1 + m;
+    rowCount += 1 + guideRows + m;
   }
   let rows;
   if (bases.values) {
@@ -95,13 +119,14 @@ export function decodeClusters(extension, view) {
     rows = new Float32Array(rowCount * dimension);
     const row = new Float64Array(dimension);
     components.forEach((m, k) => {
-      for (let r = firstRows[k]; r <= firstRows[k] + m; ++r) {
+      for (let r = firstRows[k]; r <= firstRows[k] + guideRows + m; ++r) {
         const isMean = r === firstRows[k];
+        const isDirection = r > firstRows[k] + guideRows;
         for (let a = 0; a < dimension; ++a) row[a] = isMean ? origin[a] : 0;
         for (let i = 0; i < axisCount; ++i) {
           const value = values[r * axisCount + i];
           if (value === 0) continue;
-          const factor = (isMean ? 1 : 2) * bases.step * scales[i] * value;
+          const factor = (isDirection ? 2 : 1) * bases.step * scales[i] * value;
           for (let a = 0; a < dimension; ++a) row[a] += factor * axes[i * dimension + a] * units[a];
         }
         rows.set(row, r * dimension);
@@ -120,6 +145,8 @@ export function decodeClusters(extension, view) {
     order,
     parts,
     components,
+    guides,
+    centers,
     firstRows,
     rowCount,
     rows,
@@ -129,24 +156,29 @@ export function decodeClusters(extension, view) {
 }
 
 /**
- * Rows that the vertex shader multiplies with what it reads: for packed weights w = (2 q - M) / M the factor 2 / M goes
- * into the directions, and their sum out of the mean, so that the shader multiplies the integers q themselves.
+ * Rows that the vertex shader multiplies with what it reads. A guide counts scale x - center: the scale goes into its row,
+ * the center times the row out of the mean, so that the shader multiplies x. For packed weights w = (2 q - M) / M the
+ * factor 2 / M goes into the directions, and their sum out of the mean, so that it multiplies the integers q themselves.
  */
 export function shaderRows(clusters) {
-  const { widths, components, firstRows, rows } = clusters;
-  if (!widths) return rows;
+  const { guides, centers, widths, components, firstRows, rows } = clusters;
+  const scales = guides.flatMap(({ scale }) => scale);
+  if (!widths && scales.length === 0) return rows;
   const dimension = dimensionOf(clusters);
   const result = new Float32Array(rows);
   components.forEach((m, k) => {
     const mean = firstRows[k] * dimension;
-    for (let j = 0; j < m; ++j) {
-      const direction = mean + (1 + j) * dimension;
-      const factor = 2 / (2 ** widths[k][j] - 1);
+    const sum = Float64Array.from(rows.subarray(mean, mean + dimension));
+    const fold = (j, offset, factor) => {
+      const row = mean + (1 + j) * dimension;
       for (let a = 0; a < dimension; ++a) {
-        result[mean + a] -= rows[direction + a];
-        result[direction + a] = factor * rows[direction + a];
+        sum[a] -= offset * rows[row + a];
+        result[row + a] = factor * rows[row + a];
       }
-    }
+    };
+    scales.forEach((scale, g) => fold(g, centers[k * scales.length + g], scale));
+    if (widths) widths[k].forEach((width, j) => fold(scales.length + j, 1, 2 / (2 ** width - 1)));
+    result.set(sum, mean);
   });
   return result;
 }

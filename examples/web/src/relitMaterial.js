@@ -53,7 +53,7 @@ export function relitMaterial(source, { uniforms, defines, traits }) {
     Object.assign(shader.uniforms, uniforms);
     if (traits) shader.uniforms.prtTransmission = { value: traits.transmission };
     shader.vertexShader = shader.vertexShader
-      .replace("#include <common>", `#include <common>\n${exitRadiance}\nout vec3 prtRadiance;\ncentroid out vec3 prtPlace;`)
+      .replace("#include <common>", `#include <common>\n${exitRadiance}\n${FRAME}\nout vec3 prtRadiance;\ncentroid out vec3 prtPlace;`)
       .replace("#include <begin_vertex>", `#include <begin_vertex>${LIT_VERTEX}`)
       // Places in shadow maps are found for each pixel.
       .replace("#include <shadowmap_vertex>", "");
@@ -76,8 +76,29 @@ export function relitMaterial(source, { uniforms, defines, traits }) {
   return material;
 }
 
+// From the attributes of a mesh to the frame of the bake, in which guides are; the place is seen from their origin.
+const FRAME = `
+#if ! defined( PRT_GUIDE_NORMAL ) && ! defined( PRT_GUIDE_POSITION )
+vec3 prtBakedPlace() { return vec3( 0.0 ); }
+vec3 prtBakedNormal() { return vec3( 0.0 ); }
+#elif defined( PRT_BAKED_ATTRIBUTES )
+in vec3 prt_place, prt_normal;
+vec3 prtBakedPlace() { return prt_place; }
+vec3 prtBakedNormal() { return prt_normal; }
+#else
+uniform mat4 prtToBake;
+uniform mat3 prtNormalToBake;
+vec3 prtBakedPlace() { return ( prtToBake * vec4( position, 1.0 ) ).xyz; }
+vec3 prtBakedNormal() {
+  vec3 turned = prtNormalToBake * normal;
+  float squared = dot( turned, turned );
+  return squared > 0.0 ? turned * inversesqrt( squared ) : vec3( 0.0 );
+}
+#endif
+`;
+
 const LIT_VERTEX = `
-  prtRadiance = prt_exit_radiance();
+  prtRadiance = prt_exit_radiance( prtBakedPlace(), prtBakedNormal() );
   prtPlace = ( modelMatrix * vec4( transformed, 1.0 ) ).xyz;`;
 
 const LIT = `

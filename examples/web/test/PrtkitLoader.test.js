@@ -43,7 +43,7 @@ function scene(attributes, extension, material = {}) {
 }
 
 const packed = {
-  version: 5,
+  version: 6,
   order: 1,
   parts: [{ kind: "whole", channels: 1 }],
   components: [1],
@@ -149,8 +149,8 @@ test("the shader is that of the runtime", async () => {
   const { gltf, parser, mesh } = scene({ _prt_weights_0: bytes }, packed);
   await new PrtkitPlugin(parser).afterRoot(gltf);
   const shader = compiled(mesh.material);
-  assert.match(shader.vertexShader, /vec3 prt_exit_radiance\(\)/);
-  assert.match(shader.vertexShader, /prtRadiance = prt_exit_radiance\(\);/);
+  assert.match(shader.vertexShader, /vec3 prt_exit_radiance\(vec3 position, vec3 normal\)/);
+  assert.match(shader.vertexShader, /prtRadiance = prt_exit_radiance\( prtBakedPlace\(\), prtBakedNormal\(\) \);/);
   assert.doesNotMatch(shader.vertexShader, /#include "/);
   assert.match(shader.fragmentShader, /max\( prtRadiance, vec3\( 0.0 \) \) \* diffuseColor.rgb/);
   // No light of three's but what suns add: it has ambient lights and probes in these.
@@ -184,7 +184,7 @@ test("suns of three's light what keeps direct light apart, while they are apart"
 });
 
 const WITH_LAMPS = {
-  version: 5,
+  version: 6,
   order: 1,
   parts: [{ kind: "direct", channels: 1 }, { kind: "lamp", channels: 1, name: "Lantern" }, { kind: "lamp", channels: 3, name: "Sign" }],
   components: [0],

@@ -17,7 +17,7 @@ const bytesOf = (...values) => new Uint8Array(new Float32Array(values).buffer);
 
 /** Two clusters of order 1: mean 2 with directions 0.5 and 0.25, mean 3 with none. Widths 3 and 5. */
 const plain = {
-  version: 5,
+  version: 6,
   order: 1,
   parts: [{ kind: "whole", channels: 1 }],
   components: [2, 0],
@@ -51,7 +51,7 @@ test("the shader's rows times integers are the rows times weights", () => {
 test("coded bases are sums over axes", () => {
   // One axis (3, -1) of three channels and order 1 would be dimension 3; here dimension 3, two axes.
   const extension = {
-    version: 5,
+    version: 6,
     order: 1,
     parts: [{ kind: "direct", channels: 3 }],
     components: [1],
@@ -125,7 +125,7 @@ test("files that are damaged or of another version are refused with a reason", (
 
 test("a row has a value for each coefficient of each channel", () => {
   const extension = {
-    version: 5,
+    version: 6,
     order: 2,
     parts: [{ kind: "whole", channels: 3 }],
     components: [0],

@@ -6,6 +6,7 @@
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/vec4.hpp>
 
 #include <algorithm>
@@ -90,6 +91,34 @@ void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {
     }
 }
 
+namespace {
+
+/// Points `location` of `vertex_array` at vectors of three floats.
+void attach_vectors(GLuint vertex_array, GLuint location, const GlObject& buffer) {
+    glVertexArrayVertexBuffer(vertex_array, location, buffer.name(), 0, sizeof(glm::vec3));
+    glEnableVertexArrayAttrib(vertex_array, location);
+    glVertexArrayAttribFormat(vertex_array, location, 3, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(vertex_array, location, location);
+}
+
+/// The attributes that guides want of a mesh, from the coordinates of all receivers.
+std::vector<GlObject> attach_guides(GLuint vertex_array, const ClusteredTransfer& transfer) {
+    std::vector<GlObject> buffers;
+    const ClusteredBases& bases = transfer.bases;
+    for (std::size_t g = 0; g < bases.guides.size(); ++g) {
+        std::vector<glm::vec3> vectors;
+        for (std::size_t p = 0; p < transfer.receivers.size(); ++p)
+            vectors.push_back(glm::make_vec3(&transfer.receivers.guides[p * bases.guide_rows() + 3 * g]) +
+                              bases.guides[g].origin);
+        const bool normal = bases.guides[g].kind == GuideKind::normal;
+        attach_vectors(vertex_array, normal ? PRT_LOCATION_NORMAL : PRT_LOCATION_POSITION,
+                       buffers.emplace_back(make_buffer(std::span<const glm::vec3>(vectors))));
+    }
+    return buffers;
+}
+
+} // namespace
+
 void GlTransfer::use() const {
     bind_storage(PRT_BINDING_CONSTANTS, constants_);
     bind_storage(PRT_BINDING_CLUSTERS, layouts_);
@@ -102,6 +131,7 @@ std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const
     const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");
     const GlObject vertex_array = make_vertex_array();
     on_gpu.attach(vertex_array.name(), 0);
+    const std::vector<GlObject> guides = attach_guides(vertex_array.name(), transfer);
     std::vector<glm::vec3> radiance(transfer.receivers.size());
     const GlObject output = make_buffer(std::span<const glm::vec3>(radiance));
     // Nothing is drawn, but without a window there is no framebuffer unless we make one.

@@ -4,6 +4,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
+#include "gltf/guides_json.h"
 #include "gltf/own_attributes.h"
 #include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
@@ -19,7 +20,7 @@
 namespace prt {
 namespace {
 
-constexpr int kClusteredVersion = 5;
+constexpr int kClusteredVersion = 6;
 
 int weight_component_type(WeightFormat format) {
     switch (format) {
@@ -135,18 +136,6 @@ void unpack_clusters(std::size_t first, std::size_t count, std::size_t clusters,
     }
 }
 
-Json write_row_code(GltfContents& contents, const RowCode& code) {
-    return {{"bufferView", contents.add_buffer_view(code.bits)}, {"drops", code.drops}};
-}
-
-RowCode read_row_code(const GltfContents& contents, const Json& json) {
-    const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>()));
-    RowCode code{{}, {bytes.begin(), bytes.end()}};
-    for (const Json& drop : json.at("drops"))
-        code.drops.push_back(static_cast<std::uint8_t>(whole_number(drop, "a drop", 0, kMostRowBits)));
-    return code;
-}
-
 Json write_bases(GltfContents& contents, const ClusteredBases& bases) {
     if (!bases.is_coded())
         return write_float_view(contents, bases.rows);
@@ -189,7 +178,7 @@ void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& 
     if (!(coded.step >= 0) || !std::isfinite(coded.step))
         throw Error("the step of the bases is " + step.dump() + ", no number from 0 on");
     check_rows(contents, rows, axes, dimension);
-    bases.rows = decode_bases(coded, bases.components);
+    bases.rows = decode_bases(coded, bases.components, bases.guide_rows());
     check_magnitudes(bases.rows, kLargestTransfer, "the decoded bases");
 }
 
@@ -210,7 +199,7 @@ void read_packing(const GltfContents& contents, const Json& json, ClusteredTrans
         throw Error(std::to_string(bases.clusters()) + " clusters do not fit " +
                     std::to_string(receivers.cluster_bits) + " bits");
     BitReader reader(std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>())));
-    const std::size_t directions = bases.first_rows().back() - bases.clusters();
+    const std::size_t directions = bases.first_rows().back() - bases.clusters() * bases.fixed_rows();
     std::size_t most = 0;
     for (const int components : bases.components) {
         if (components > kMostPackedComponents)
@@ -263,6 +252,7 @@ void write_into(GltfContents& contents, const Scene& scene, const CompressedTran
                                                              {"order", bases.layout.order},
                                                              {"parts", parts_json(bases.layout)},
                                                              {"components", bases.components}};
+    write_guides(contents, scene, bases, extension);
     extension["bases"] = write_bases(contents, bases);
     if (receivers.format == WeightFormat::packed)
         extension["packing"] = write_packing(contents, compressed.transfer);
@@ -325,6 +315,7 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
         ClusteredReceivers& receivers = compressed.transfer.receivers;
         bases = read_clusters_of(*extension);
         compressed.record = read_record(extension->value("bake", Json::object()));
+        read_guides(contents, scene, *extension, bases);
         read_bases(contents, extension->at("bases"), bases);
         const bool packed = extension->contains("packing");
         if (packed)
@@ -332,6 +323,7 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
         else
             receivers.components = (bases.max_components() + 3) / 4 * 4;
         receivers.clusters.resize(scene.receivers());
+        receivers.guides = read_coordinates(contents, scene, bases);
         TransferOfVertices read;
         for (const Primitive& primitive : scene.primitives) {
             const Json& attributes = primitive_json(contents, primitive).at("attributes");

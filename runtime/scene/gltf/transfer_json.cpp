@@ -223,4 +223,16 @@ Json write_half_view(GltfContents& contents, std::span<const float> values) {
             {"componentType", kHalfComponentType}};
 }
 
+Json write_row_code(GltfContents& contents, const RowCode& code) {
+    return {{"bufferView", contents.add_buffer_view(code.bits)}, {"drops", code.drops}};
+}
+
+RowCode read_row_code(const GltfContents& contents, const Json& json) {
+    const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>()));
+    RowCode code{{}, {bytes.begin(), bytes.end()}};
+    for (const Json& drop : json.at("drops"))
+        code.drops.push_back(static_cast<std::uint8_t>(whole_number(drop, "a drop", 0, kMostRowBits)));
+    return code;
+}
+
 } // namespace prt

@@ -3,6 +3,7 @@
 // What the two extensions of prtkit have in common.
 
 #include "gltf/contents.h"
+#include "prt/coded_rows.h"
 #include "prt/gltf.h"
 #include "prt/support/error.h"
 
@@ -63,6 +64,11 @@ std::vector<float> read_float_view(const GltfContents& contents, const Json& obj
                                    float largest, const std::string& what);
 Json write_float_view(GltfContents& contents, std::span<const float> values);
 Json write_half_view(GltfContents& contents, std::span<const float> values);
+
+/// {"bufferView": ..., "drops": [...]}
+Json write_row_code(GltfContents& contents, const RowCode& code);
+/// Throws `Error` for drops that no code has.
+RowCode read_row_code(const GltfContents& contents, const Json& json);
 
 /// What `work` makes of the contents; errors get the name of the file.
 template <class Document, class Work>

@@ -102,7 +102,7 @@ typedef struct prt_model_info {
     int order, channels;
     size_t receivers; /* vertices of all meshes */
     size_t clusters;
-    size_t rows; /* of constants, 4 floats each */
+    size_t rows; /* of constants, 4 floats each: per cluster its mean, 3 for each guide, its directions */
     prt_weight_format format;
     size_t stride;                 /* bytes of weights of a receiver */
     const void* weights;           /* [receivers][stride], for the attributes prt_weights_* or prt_words_* */
@@ -110,6 +110,8 @@ typedef struct prt_model_info {
     const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
     size_t meshes;
     int direct_apart; /* 1 where suns can be lit apart from the sky, else 0 */
+    int wants_normals; /* 1 where the vertex shader takes the normals of meshes, else 0 */
+    double origin[3];  /* metres, in the file's world: where the positions of meshes are seen from */
 } prt_model_info;
 /* Pointers live as long as the model. */
 PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message);
@@ -130,8 +132,8 @@ PRT_API prt_status prt_model_add_sun(const prt_model* model, const float towards
 typedef struct prt_mesh {
     size_t vertices;
     size_t first_receiver;  /* of the first vertex */
-    const float* positions; /* [vertices][3], metres, world */
-    const float* normals;   /* [vertices][3] */
+    const float* positions; /* [vertices][3], metres, axes of the world, seen from info.origin */
+    const float* normals;   /* [vertices][3], unit; zero where neither file nor triangles give one */
     const float* texcoords; /* [vertices][2], or null */
     size_t indices;
     const uint32_t* index; /* triangles, counter-clockwise */
@@ -164,7 +166,9 @@ typedef enum prt_constants {
     PRT_CONSTANTS_IN_TEXTURE = 2
 } prt_constants;
 /* The vertex shader of the model: a prt_language, a prt_constants. *size: of `source` in, with the final 0;
- * what it takes out. */
+ * what it takes out. Its inputs: `position` at location 0, prt_mesh.positions as they are, whatever moves the
+ * model (view_projection does that); `normal` at location 15, prt_mesh.normals, where info.wants_normals;
+ * from 4 on the weights, prt_words_* where they are packed, else prt_weights_*, and prt_cluster at 3. */
 PRT_API prt_status prt_model_shader(const prt_model* model, int language, int constants, char* source,
                                     size_t* size, prt_message* message);
 

@@ -4,6 +4,8 @@
 
 #include "prt/clustered_transfer.h"
 
+#include <glm/vec3.hpp>
+
 #include <string>
 #include <string_view>
 
@@ -30,15 +32,19 @@ inline constexpr int kConstantTextureWidth = 256;
 std::string shader_source(std::string_view name, std::string_view defines,
                           ShaderLanguage language = ShaderLanguage::glsl450);
 
-/// The lines that `prt_exit_radiance.glsl` wants for a model. Throws `Error` where its weights do not fit
-/// twelve vertex attributes, and for storage buffers in a language that has none.
+/// The lines that `prt_exit_radiance.glsl` wants for a model. The shader is given positions as the Scene has
+/// them where `seen_from` is 0, and in the file's world where it is Scene::origin: floats of a world whose
+/// origin is far away are coarse. Throws `Error` where the weights do not fit twelve vertex attributes, or
+/// eleven beside the normals of guides, and for storage buffers in a language that has none.
 std::string relight_defines(const ClusteredTransfer& transfer,
                             ConstantSource constants = ConstantSource::buffer,
-                            ShaderLanguage language = ShaderLanguage::glsl450);
+                            ShaderLanguage language = ShaderLanguage::glsl450,
+                            const glm::dvec3& seen_from = glm::dvec3(0));
 
-/// A complete vertex shader for a model (shaders/prt_relight.vert).
+/// A complete vertex shader for a model (shaders/prt_relight.vert): it takes positions at
+/// PRT_LOCATION_POSITION, and where guides want them normals at PRT_LOCATION_NORMAL.
 std::string relight_shader(const ClusteredTransfer& transfer, ConstantSource constants,
-                           ShaderLanguage language);
+                           ShaderLanguage language, const glm::dvec3& seen_from = glm::dvec3(0));
 
 /// The lines that prt_parts.glsl wants for a layout. Throws `Error` where it is none.
 std::string part_defines(const TransferLayout& layout);

@@ -18,7 +18,7 @@ public:
     /// Uploads clusters and weights. Throws `Error` where they do not fit the attributes of a vertex.
     explicit GlTransfer(const ClusteredTransfer& transfer);
 
-    /// Defines for shaders that include prt_exit_radiance.glsl.
+    /// Defines for shaders that include prt_exit_radiance.glsl; they give it positions as the Scene has them.
     const std::string& defines() const { return defines_; }
     /// Forms the constants for `lighting` and uploads them.
     void set_light(const Lighting& lighting);

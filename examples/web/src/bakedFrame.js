@@ -1,0 +1,107 @@
+// From the attributes of a mesh, as GLTFLoader leaves them, to the frame of the bake, in which the guides of clusters are:
+// the world of the file, whatever the program does with the model later.
+
+import { BufferAttribute, Matrix3, Matrix4, Vector3 } from "three";
+
+/** The cofactors of a matrix, by which normals turn, as large as floats like them; also where there is no inverse. */
+export function normalMatrix(matrix) {
+  const [x, y, z] = [0, 1, 2].map((column) => new Vector3().setFromMatrixColumn(matrix, column));
+  const side = matrix.determinant() < 0 ? -1 : 1;
+  const cofactors = [y.clone().cross(z), z.clone().cross(x), x.clone().cross(y)].flatMap((v) => v.toArray());
+  const largest = Math.max(...cofactors.map(Math.abs));
+  return new Matrix3().fromArray(cofactors.map((value) => (largest > 0 ? (side * value) / largest : 0)));
+}
+
+/** The matrix of vertex `v` of a skinned mesh in the pose that its bones have. */
+function skinMatrix({ geometry, skeleton }, v) {
+  const { skinIndex, skinWeight } = geometry.attributes;
+  const sum = new Matrix4().multiplyScalar(0);
+  const bone = new Matrix4();
+  for (let i = 0; i < 4; ++i) {
+    const weight = skinWeight.getComponent(v, i);
+    if (weight === 0) continue;
+    const joint = skinIndex.getComponent(v, i);
+    bone.multiplyMatrices(skeleton.bones[joint].matrixWorld, skeleton.boneInverses[joint]);
+    bone.elements.forEach((value, e) => (sum.elements[e] += weight * value));
+  }
+  return sum;
+}
+
+/** A vector of an attribute with what its morph targets add. */
+function morphed({ geometry, morphTargetInfluences }, name, v) {
+  const vector = new Vector3();
+  if (!geometry.hasAttribute(name)) return vector;
+  vector.fromBufferAttribute(geometry.getAttribute(name), v);
+  (geometry.morphAttributes[name] ?? []).forEach((deltas, t) => {
+    const influence = morphTargetInfluences?.[t] ?? 0;
+    if (influence !== 0) vector.addScaledVector(new Vector3().fromBufferAttribute(deltas, v), influence);
+  });
+  return vector;
+}
+
+/** Sums of the triangles' normals at each vertex: what a vertex takes that has none of its own. */
+function normalsOfTriangles({ index }, places) {
+  const sums = places.map(() => new Vector3());
+  const corner = (i) => (index ? index.getX(i) : i);
+  const count = index ? index.count : places.length;
+  for (let t = 0; t + 2 < count; t += 3) {
+    const [a, b, c] = [corner(t), corner(t + 1), corner(t + 2)];
+    const normal = places[b].clone().sub(places[a]).cross(places[c].clone().sub(places[a]));
+    for (const v of [a, b, c]) sums[v].add(normal);
+  }
+  return sums;
+}
+
+const lacksNormals = ({ attributes: { normal } }) =>
+  !normal || Array.from({ length: normal.count }, (_, v) => v).some((v) => !normal.getX(v) && !normal.getY(v) && !normal.getZ(v));
+
+/** Places seen from `origin` and normals of all vertices as attributes, for meshes that no one matrix moves there. */
+function bakedAttributes(mesh, origin) {
+  const { geometry } = mesh;
+  const vertices = Array.from({ length: geometry.getAttribute("position").count }, (_, v) => v);
+  const matrices = vertices.map((v) => (mesh.isSkinnedMesh ? skinMatrix(mesh, v) : mesh.matrixWorld));
+  const places = vertices.map((v) => morphed(mesh, "position", v).applyMatrix4(matrices[v]).sub(origin));
+  const normals = vertices.map((v) => morphed(mesh, "normal", v).applyMatrix3(normalMatrix(matrices[v])).normalize());
+  if (normals.some((normal) => normal.lengthSq() === 0)) {
+    // A mirroring node turns triangles round.
+    const side = !mesh.isSkinnedMesh && mesh.matrixWorld.determinant() < 0 ? -1 : 1;
+    const sums = normalsOfTriangles(geometry, places);
+    normals.forEach((normal, v) => normal.lengthSq() === 0 && normal.copy(sums[v]).multiplyScalar(side).normalize());
+  }
+  const attribute = (vectors) => new BufferAttribute(Float32Array.from(vectors.flatMap((vector) => vector.toArray())), 3);
+  geometry.setAttribute("prt_place", attribute(places));
+  geometry.setAttribute("prt_normal", attribute(normals));
+}
+
+/** Whether floats would lose digits of places: the matrix moves the mesh by far more than its size. */
+function isFar({ geometry }, toBake) {
+  if (!geometry.boundingBox) geometry.computeBoundingBox();
+  const size = geometry.boundingBox.clone().applyMatrix4(toBake).getSize(new Vector3()).length();
+  return new Vector3().setFromMatrixPosition(toBake).length() > 100 * size;
+}
+
+/**
+ * What the shader of `mesh` needs for `guides`: { defines, uniforms }. The world matrices of its scene are those of the
+ * file. Skinned and morphed meshes, those that lack normals and those of small triangles far from their own origin get
+ * attributes of their own, in the pose of the file.
+ */
+export function bakedFrame(mesh, guides) {
+  if (guides.length === 0) return { defines: {}, uniforms: {} };
+  const hasNormals = guides[0].kind === "normal";
+  const position = guides.find(({ kind }) => kind === "position");
+  const origin = new Vector3(...(position?.origin ?? [0, 0, 0]));
+  const defines = {};
+  if (hasNormals) defines.PRT_GUIDE_NORMAL = 1;
+  // The matrix, or the attribute, has taken it off already, in doubles.
+  if (position) Object.assign(defines, { PRT_GUIDE_POSITION: 1, PRT_GUIDE_ORIGIN: "vec3(0.0)" });
+  const toBake = new Matrix4().makeTranslation(origin.clone().negate()).multiply(mesh.matrixWorld);
+  const moves = mesh.isSkinnedMesh || mesh.morphTargetInfluences?.some((influence) => influence !== 0);
+  if (moves || (hasNormals && lacksNormals(mesh.geometry)) || (position && isFar(mesh, toBake))) {
+    bakedAttributes(mesh, origin);
+    defines.PRT_BAKED_ATTRIBUTES = 1;
+  }
+  return {
+    defines,
+    uniforms: { prtToBake: { value: toBake }, prtNormalToBake: { value: normalMatrix(mesh.matrixWorld) } },
+  };
+}
