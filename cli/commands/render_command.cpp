@@ -9,6 +9,7 @@
 #include "prt/ray_renderer.h"
 #include "prt/receiver_colors.h"
 #include "prt/receivers.h"
+#include "prt/shader_source.h"
 #include "prt/sun_shadows.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
@@ -262,14 +263,15 @@ void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lig
                      Picture& picture) {
     if (a.look.show != Show::lit || !model.compressed)
         return;
-    if (model.compressed->transfer.bases.max_components() <= kMostVertexComponents) {
+    const ClusteredBases& bases = model.compressed->transfer.bases;
+    if (bases.max_components() <= most_vertex_components(bases)) {
         picture.in_shader = {&model.compressed->transfer, &lighting};
     } else {
         print_notices(
             a.model.string(),
             {fmt::format("has more than {} components, which do not fit the vertex attributes; exit "
                          "radiance is formed on the CPU",
-                         kMostVertexComponents)});
+                         most_vertex_components(bases))});
     }
 }
 

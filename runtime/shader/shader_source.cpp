@@ -84,13 +84,11 @@ std::string weight_defines(const ClusteredTransfer& transfer) {
         return define("PRT_PACKED_WORDS", static_cast<std::size_t>(receivers.words)) +
                define("PRT_CLUSTER_BITS", static_cast<std::size_t>(receivers.cluster_bits));
     }
-    const bool guided = !transfer.bases.guides.empty();
-    const int most = 4 * (guided ? kMostWeightVectors - 1 : kMostWeightVectors),
+    const int most = most_vertex_components(transfer.bases),
               components = std::max(receivers.components, transfer.bases.max_components());
     if (components > most)
         throw Error(std::to_string(components) + " components do not fit the " + std::to_string(most) +
-                    (guided ? " of the vertex attributes beside the normal of guides"
-                            : " of the vertex attributes"));
+                    " of the vertex attributes");
     return define("PRT_WEIGHT_VECTORS", static_cast<std::size_t>(receivers.components / 4));
 }
 
@@ -102,6 +100,10 @@ std::string shader_source(std::string_view name, std::string_view defines, Shade
     std::set<std::string> included;
     append_file(std::string(name), included, source);
     return source;
+}
+
+int most_vertex_components(const ClusteredBases& bases) {
+    return 4 * (bases.guides.empty() ? kMostWeightVectors : kMostWeightVectors - 1); // normals take the last
 }
 
 std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource constants,

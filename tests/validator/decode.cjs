@@ -99,10 +99,11 @@ function codedRows(glb, code, rows) {
   });
 }
 
-/// Per cluster its mean and its directions.
+/// Per cluster its mean, the rows of its guides and its directions.
 function clusterRows(glb, extension) {
   const dimension = dimensionOf(extension);
-  const count = extension.components.reduce((sum, m) => sum + 1 + m, 0);
+  const guided = 3 * (extension.guides ?? []).length;
+  const count = extension.components.reduce((sum, m) => sum + 1 + guided + m, 0);
   let rows;
   if ("values" in extension.bases) {
     const { origin, scales, step, axes, values, units } = extension.bases;
@@ -110,11 +111,12 @@ function clusterRows(glb, extension) {
     const start = glb.floats(origin);
     const scale = glb.floats(scales);
     const axis = codedRows(glb, axes, scale.length);
-    const isMean = extension.components.flatMap((m) => [true, ...Array(m).fill(false)]);
+    const isMean = extension.components.flatMap((m) => [true, ...Array(guided + m).fill(false)]);
+    const factor = extension.components.flatMap((m) => [...Array(1 + guided).fill(1), ...Array(m).fill(2)]);
     rows = codedRows(glb, values, count).map((value, r) => {
       const row = isMean[r] ? [...start] : Array(dimension).fill(0);
       value.forEach((v, i) => {
-        for (let a = 0; a < dimension; ++a) row[a] += (isMean[r] ? 1 : 2) * step * scale[i] * v * axis[i][a] * unit[a];
+        for (let a = 0; a < dimension; ++a) row[a] += factor[r] * step * scale[i] * v * axis[i][a] * unit[a];
       });
       return row;
     });
@@ -123,7 +125,20 @@ function clusterRows(glb, extension) {
     rows = Array.from({ length: count }, (_, r) => floats.slice(r * dimension, (r + 1) * dimension));
   }
   let next = 0;
-  return extension.components.map((m) => rows.slice(next, (next += 1 + m)));
+  return extension.components.map((m) => rows.slice(next, (next += 1 + guided + m)));
+}
+
+/// Coordinates of every vertex of a primitive in the guides. The scene's nodes must not move their meshes.
+function guideCoordinates(glb, extension, primitive) {
+  const guides = extension.guides ?? [];
+  const normals = glb.accessor(primitive.attributes.NORMAL);
+  return glb.accessor(primitive.attributes.POSITION).map((position, p) =>
+    guides.flatMap(({ kind, origin }) => {
+      if (kind === "position") return position.map((value, i) => value - origin[i]);
+      const length = Math.hypot(...normals[p]);
+      return normals[p].map((value) => (length > 0 ? value / length : 0));
+    }),
+  );
 }
 
 /// Cluster and weights of every vertex of a primitive.
@@ -160,9 +175,13 @@ function vertexCodes(glb, extension, primitive) {
 function decodedVectors(glb, primitive) {
   const extension = glb.json.extensions.PRTKIT_clustered_pca;
   const rows = clusterRows(glb, extension);
-  return vertexCodes(glb, extension, primitive).map(({ cluster, weights }) => {
+  const coordinates = guideCoordinates(glb, extension, primitive);
+  const scales = (extension.guides ?? []).flatMap(({ scale }) => scale);
+  const centers = extension.centers ? codedRows(glb, extension.centers, rows.length) : rows.map(() => []);
+  return vertexCodes(glb, extension, primitive).map(({ cluster, weights }, p) => {
     const vector = [...rows[cluster][0]];
-    weights.forEach((w, j) => rows[cluster][1 + j].forEach((b, i) => (vector[i] += w * b)));
+    const guided = scales.map((scale, i) => scale * coordinates[p][i] - centers[cluster][i]);
+    [...guided, ...weights].forEach((w, j) => rows[cluster][1 + j].forEach((b, i) => (vector[i] += w * b)));
     return vector;
   });
 }

@@ -1,5 +1,6 @@
 #include "core/viewer.h"
 
+#include "prt/shader_source.h"
 #include "prt/support/error.h"
 
 #include <fmt/core.h>
@@ -146,9 +147,10 @@ void Viewer::upload_model() {
     gpu_->model = std::make_unique<GpuModel>(document_.loaded.model);
     if (document_.raw())
         gpu_->model->set_raw(*document_.raw());
-    if (document_.compressed() && document_.most_components() <= prt::kMostVertexComponents)
-        gpu_->model->set_compressed(*document_.compressed());
-    else if (document_.compressed())
+    const prt::ClusteredTransfer* compressed = document_.compressed();
+    if (compressed && document_.most_components() <= prt::most_vertex_components(compressed->bases))
+        gpu_->model->set_compressed(*compressed);
+    else if (compressed)
         message("the compressed transfer has more components than a vertex has attributes");
     if (document_.occlusion)
         gpu_->model->set_occlusion(*document_.occlusion);

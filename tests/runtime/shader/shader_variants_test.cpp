@@ -7,6 +7,7 @@
 #include "prt/gl_objects.h"
 #include "prt/shader_source.h"
 #include "shared_layout.h"
+#include "support/guided.h"
 
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -147,6 +148,29 @@ void bind_receivers(const ClusteredReceivers& receivers) {
     glVertexAttribIPointer(PRT_LOCATION_CLUSTER, 1, GL_UNSIGNED_SHORT, 2, nullptr);
 }
 
+/// The attributes of a mesh that guides want: normals, and positions in the file's world.
+void bind_guides(const ClusteredTransfer& transfer, const glm::vec3& scene_origin) {
+    const std::size_t rows = transfer.bases.guide_rows();
+    for (std::size_t g = 0; g < transfer.bases.guides.size(); ++g) {
+        const Guide& guide = transfer.bases.guides[g];
+        const bool is_normal = guide.kind == GuideKind::normal;
+        std::vector<glm::vec3> vectors;
+        for (std::size_t p = 0; p < transfer.receivers.size(); ++p) {
+            const float* x = &transfer.receivers.guides[p * rows + 3 * g];
+            vectors.push_back(glm::vec3(x[0], x[1], x[2]) +
+                              (is_normal ? glm::vec3(0) : guide.origin + scene_origin));
+        }
+        GLuint buffer = 0;
+        glGenBuffers(1, &buffer);
+        glBindBuffer(GL_ARRAY_BUFFER, buffer);
+        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vectors.size() * sizeof(glm::vec3)),
+                     vectors.data(), GL_STATIC_DRAW);
+        const GLuint location = is_normal ? PRT_LOCATION_NORMAL : PRT_LOCATION_POSITION;
+        glEnableVertexAttribArray(location);
+        glVertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
+    }
+}
+
 /// Nothing is drawn, but without a window there is no framebuffer unless we make one.
 void bind_small_framebuffer() {
     GLuint framebuffer = 0, color = 0;
@@ -161,7 +185,9 @@ void bind_small_framebuffer() {
 std::vector<glm::vec3> radiance_of(const ClusteredTransfer& transfer, const Light& light,
                                    ShaderLanguage language, ConstantSource source) {
     const GLuint program = glCreateProgram();
-    glAttachShader(program, compiled(GL_VERTEX_SHADER, relight_shader(transfer, source, language)));
+    const glm::vec3 scene_origin(3, -1, 2);
+    glAttachShader(program,
+                   compiled(GL_VERTEX_SHADER, relight_shader(transfer, source, language, scene_origin)));
     const std::string header = language == ShaderLanguage::essl300
                                    ? "#version 300 es\nprecision highp float;\n"
                                : language == ShaderLanguage::glsl330 ? "#version 330 core\n"
@@ -186,6 +212,7 @@ std::vector<glm::vec3> radiance_of(const ClusteredTransfer& transfer, const Ligh
     glGenVertexArrays(1, &vertex_array);
     glBindVertexArray(vertex_array);
     bind_receivers(transfer.receivers);
+    bind_guides(transfer, scene_origin);
     bind_constants(program, source, constants, cluster_layouts(transfer.bases));
     bind_small_framebuffer();
     const std::size_t count = transfer.receivers.size(), bytes = count * sizeof(glm::vec3);
@@ -256,14 +283,19 @@ TEST_P(ShaderVariants, ComputeWhatCppComputes) {
     const Light light = random_light();
     for (const WeightFormat format :
          {WeightFormat::packed, WeightFormat::snorm8, WeightFormat::snorm16, WeightFormat::float32}) {
-        const ClusteredTransfer transfer = compressed(format);
-        const auto expected = exit_radiance(transfer, light),
-                   measured = radiance_of(transfer, light, language, constants);
-        float largest = 0;
-        for (std::size_t p = 0; p < expected.size(); ++p)
-            largest = std::max(largest, glm::distance(expected[p], measured[p]) /
-                                            std::max(1.0f, glm::length(expected[p])));
-        EXPECT_LT(largest, 1e-5f) << static_cast<int>(format);
+        const ClusteredTransfer plain = compressed(format);
+        for (const std::vector<GuideKind>& guides : test::sets_of_guides()) {
+            ClusteredTransfer transfer = plain;
+            std::mt19937 random(2);
+            test::add_guides(transfer, guides, random);
+            const auto expected = exit_radiance(transfer, light),
+                       measured = radiance_of(transfer, light, language, constants);
+            float largest = 0;
+            for (std::size_t p = 0; p < expected.size(); ++p)
+                largest = std::max(largest, glm::distance(expected[p], measured[p]) /
+                                                std::max(1.0f, glm::length(expected[p])));
+            EXPECT_LT(largest, 1e-5f) << static_cast<int>(format) << " " << guides.size();
+        }
     }
 }
 

@@ -2,6 +2,9 @@
 
 #include "prt/compress.h"
 #include "prt/gl_renderer.h"
+#include "prt/shader_source.h"
+
+#include "support/guided.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -30,12 +33,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Kind{4, 3, 300, 16, WeightFormat::packed, 200}, Kind{3, 1, 1, 4, WeightFormat::packed, 9},
                     Kind{3, 1, 7, 4, WeightFormat::packed, 0}));
 
-TEST_P(VertexShader, AgreesWithCppPerVertex) {
-    const Kind kind = GetParam();
-    std::string why;
-    const auto context = GlContext::create(GlDevice::any, &why);
-    ASSERT_TRUE(context) << why;
-    std::mt19937 random(9);
+/// Random transfer, compressed.
+ClusteredTransfer compressed_of(const Kind& kind, std::mt19937& random) {
     std::normal_distribution<float> normal;
     Transfer transfer{layout_of_one(kind.order, kind.channels), {}};
     transfer.vectors.resize(2000 * transfer.dimension());
@@ -46,21 +45,46 @@ TEST_P(VertexShader, AgreesWithCppPerVertex) {
     options.coding.components = kind.components;
     options.coding.format = kind.format;
     options.coding.bits = kind.bits;
-    const ClusteredTransfer compressed =
-        compress(transfer, {std::vector<float>(transfer.receivers(), 1.0f)}, options).transfer;
-    Light light = constant_light(kind.order, glm::vec3(1));
+    return compress(transfer, {std::vector<float>(transfer.receivers(), 1.0f)}, options).transfer;
+}
+
+Light random_light(int order, std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    Light light = constant_light(order, glm::vec3(1));
     for (glm::vec3& c : light.coefficients)
         c += 0.3f * glm::vec3(normal(random), normal(random), normal(random));
+    return light;
+}
 
+float largest_relative_difference(const ClusteredTransfer& compressed, const Light& light,
+                                  const GlContext& context) {
     const auto expected = exit_radiance(compressed, light);
-    const auto measured = exit_radiance_gl(compressed, {light}, *context);
-    ASSERT_EQ(measured.size(), expected.size());
+    const auto measured = exit_radiance_gl(compressed, {light}, context);
+    EXPECT_EQ(measured.size(), expected.size());
     float largest = 0;
     for (std::size_t p = 0; p < expected.size(); ++p)
         largest = std::max(largest, glm::distance(expected[p], measured[p]) /
                                         std::max(1.0f, glm::length(expected[p])));
-    RecordProperty("largest_relative_difference_1e9", std::to_string(1e9f * largest));
-    EXPECT_LT(largest, 1e-5f);
+    return largest;
+}
+
+TEST_P(VertexShader, AgreesWithCppPerVertex) {
+    const Kind kind = GetParam();
+    std::string why;
+    const auto context = GlContext::create(GlDevice::any, &why);
+    ASSERT_TRUE(context) << why;
+    std::mt19937 random(9);
+    const ClusteredTransfer plain = compressed_of(kind, random);
+    const Light light = random_light(kind.order, random);
+    for (const std::vector<GuideKind>& guides : test::sets_of_guides()) {
+        ClusteredTransfer compressed = plain;
+        test::add_guides(compressed, guides, random);
+        if (compressed.bases.max_components() > most_vertex_components(compressed.bases))
+            continue;
+        const float largest = largest_relative_difference(compressed, light, *context);
+        RecordProperty("largest_relative_difference_1e9", std::to_string(1e9f * largest));
+        EXPECT_LT(largest, 1e-5f) << guides.size();
+    }
 }
 
 TEST(GlTransfer, TooManyComponentsAreRefused) {

@@ -1,6 +1,7 @@
 #include "prt/clustered_transfer.h"
 
 #include "prt/support/error.h"
+#include "support/guided.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -81,17 +82,57 @@ INSTANTIATE_TEST_SUITE_P(
                     Shape{3, 3, WeightFormat::packed}));
 
 TEST_P(Clustered, RadianceThroughConstantsEqualsDecodedTransferTimesLight) {
-    std::mt19937 random(5);
-    const ClusteredTransfer transfer = random_transfer(GetParam(), random);
-    Light light{GetParam().order, {}};
-    std::normal_distribution<float> normal;
-    for (int i = 0; i < coefficient_count(light.order); ++i)
-        light.coefficients.emplace_back(normal(random), normal(random), normal(random));
-    const std::vector<glm::vec3> radiance = exit_radiance(transfer, light);
-    const std::vector<glm::vec3> expected = exit_radiance(decode(transfer), light);
-    ASSERT_EQ(radiance.size(), expected.size());
-    for (std::size_t p = 0; p < radiance.size(); ++p)
-        EXPECT_LT(glm::distance(radiance[p], expected[p]), 1e-5f * (50 + glm::length(expected[p]))) << p;
+    for (const std::vector<GuideKind>& guides : test::sets_of_guides()) {
+        std::mt19937 random(5);
+        ClusteredTransfer transfer = random_transfer(GetParam(), random);
+        test::add_guides(transfer, guides, random);
+        Light light{GetParam().order, {}};
+        std::normal_distribution<float> normal;
+        for (int i = 0; i < coefficient_count(light.order); ++i)
+            light.coefficients.emplace_back(normal(random), normal(random), normal(random));
+        const std::vector<glm::vec3> radiance = exit_radiance(transfer, light);
+        const std::vector<glm::vec3> expected = exit_radiance(decode(transfer), light);
+        ASSERT_EQ(radiance.size(), expected.size());
+        for (std::size_t p = 0; p < radiance.size(); ++p)
+            EXPECT_LT(glm::distance(radiance[p], expected[p]), 1e-5f * (50 + glm::length(expected[p]))) << p;
+    }
+}
+
+TEST_P(Clustered, TransferIsDecodedAsTheFormulaSays) {
+    for (const std::vector<GuideKind>& guides : test::sets_of_guides()) {
+        std::mt19937 random(8);
+        ClusteredTransfer transfer = random_transfer(GetParam(), random);
+        test::add_guides(transfer, guides, random);
+        const Transfer decoded = decode(transfer);
+        for (std::size_t p = 0; p < decoded.receivers(); ++p) {
+            const std::vector<double> expected = test::decoded_by_hand(transfer, p);
+            for (std::size_t i = 0; i < expected.size(); ++i)
+                EXPECT_NEAR(static_cast<double>(decoded.vector(p)[i]), expected[i], 2e-5) << p;
+        }
+    }
+}
+
+TEST(Guides, AddScaledCoordinatesLessTheCenterOfTheCluster) {
+    ClusteredTransfer t;
+    t.bases.layout = layout_of_one(1, 1);
+    t.bases.components = {0, 1};
+    t.bases.guides = {{GuideKind::normal, glm::vec3(0), {2, 4, 8}},
+                      {GuideKind::position, {10, 20, 30}, {1, 0.5f, 0.25f}}};
+    t.bases.centers = {0, 0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6};
+    // A mean, six rows of guides and no direction; a mean, six and one.
+    t.bases.rows = {100, 1, 1, 1, 1, 1, 1, 7, 1, 10, 100, 1000, 10000, 100000, 0.5f};
+    t.receivers.components = 4;
+    t.receivers.clusters = {0, 1};
+    const std::vector<float> weights = {0, 0, 0, 0, 3, 0, 0, 0};
+    t.receivers.weights.resize(weights.size() * sizeof(float));
+    std::memcpy(t.receivers.weights.data(), weights.data(), t.receivers.weights.size());
+    t.receivers.guides = {0, 0, 1, 3, 4, 8, 1, 0, 0, 4, 8, 20};
+    EXPECT_EQ(
+        decode(t).vectors,
+        (std::vector<float>{100 + 8 + 3 + 2 + 2, 7 + (2 - 1) + 10 * (0 - 2) + 100 * (0 - 3) + 1000 * (4 - 4) +
+                                                     10000 * (4 - 5) + 100000 * (5 - 6) + 0.5f * 3}));
+    EXPECT_EQ(constant_rows(t.bases), 15u);
+    EXPECT_EQ(bytes_per_receiver(t), 20u); // of guides none
 }
 
 TEST(ClusteredTransfer, IntegersDecodeAsInOpenGl) {
@@ -169,6 +210,8 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
     std::mt19937 random(11);
     std::normal_distribution<float> normal;
     for (const int components : {0, 1, 5, 8, 12}) {
+        const std::vector<GuideKind>& guides =
+            test::sets_of_guides()[static_cast<std::size_t>(components) % 4];
         ClusteredTransfer t;
         t.bases.layout = layout_of_one(1, 1);
         t.bases.components = {components, components > 2 ? components - 2 : 0};
@@ -183,6 +226,7 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
             b = static_cast<std::byte>(random());
         if (!t.receivers.weights.empty())
             t.receivers.weights[0] = std::byte{0x80}; // -128 stands for -1 as -127 does
+        test::add_guides(t, guides, random);
         std::vector<glm::vec4> constants(constant_rows(t.bases));
         for (glm::vec4& c : constants)
             c = {normal(random), normal(random), normal(random), 0};
@@ -194,8 +238,12 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
             decode_weights(t, layouts, p, weights);
             const ClusterLayout& layout = layouts[t.receivers.clusters[p]];
             glm::vec3 expected(constants[layout.first_row]);
+            const std::size_t known = t.bases.guide_rows();
+            for (std::size_t g = 0; g < known; ++g)
+                expected +=
+                    t.receivers.guides[p * known + g] * glm::vec3(constants[layout.first_row + 1 + g]);
             for (std::size_t j = 0; j < layout.components; ++j)
-                expected += weights[j] * glm::vec3(constants[layout.first_row + 1 + j]);
+                expected += weights[j] * glm::vec3(constants[layout.first_row + 1 + known + j]);
             EXPECT_LT(glm::distance(radiance[p], expected), 1e-5f) << components << " " << p;
         }
     }

@@ -158,5 +158,12 @@ TEST(CodedBases, AreTheOriginInMeansAndScaledSumsOfTheAxes) {
     EXPECT_THROW(decode_bases(other, components), Error);
 }
 
+TEST(CodedBases, RowsOfGuidesHaveTheStepOfMeansAndNoOrigin) {
+    const std::vector<std::int32_t> values = {5, 6, 7, 8, 9, -5, -6, -7, -8}; // a direction, then none
+    const CodedBases coded{
+        {100}, {1}, 0.5f, encode_rows(std::vector<std::int32_t>{2}, 1), encode_rows(values, 1)};
+    EXPECT_EQ(decode_bases(coded, {1, 0}, 3), (std::vector<float>{105, 6, 7, 8, 18, 95, -6, -7, -8}));
+}
+
 } // namespace
 } // namespace prt

@@ -1,6 +1,7 @@
 #include "prt/constant_former.h"
 
 #include "prt/support/error.h"
+#include "support/guided.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -79,6 +80,33 @@ TEST_P(Constants, AreDotProductsOfRowsAndLight) {
         }
         EXPECT_LT(glm::distance(glm::vec3(constants[first]), mean), 2e-4f); // ten sums of 300 products
         EXPECT_EQ(constants[first].w, 0);
+    }
+}
+
+TEST_P(Constants, HoldScalesAndCentersOfGuides) {
+    const auto [order, channels, format] = GetParam();
+    ClusteredTransfer t = random_transfer(order, channels, format);
+    const ClusteredTransfer plain = t;
+    std::mt19937 random(9);
+    test::add_guides(t.bases, {GuideKind::normal, GuideKind::position}, random);
+    const Light light = random_light(order);
+    const ConstantFormer former(t), without(plain);
+    std::vector<glm::vec4> constants(former.rows()), of_plain(without.rows());
+    former.form(light.coefficients, constants);
+    without.form(light.coefficients, of_plain);
+    const std::vector<std::size_t> first = t.bases.first_rows(), first_plain = plain.bases.first_rows();
+    for (std::size_t k = 0; k < t.bases.clusters(); ++k) {
+        glm::vec3 mean(of_plain[first_plain[k]]);
+        for (std::size_t g = 0; g < 6; ++g) {
+            const std::size_t r = first[k] + 1 + g;
+            const glm::vec3 row = exit_radiance({&t.bases.rows[r * t.bases.dimension()], t.bases.dimension()},
+                                                t.bases.layout, light.coefficients);
+            EXPECT_LT(glm::distance(glm::vec3(constants[r]), t.bases.guide_scale(g) * row), 5e-5f);
+            mean -= static_cast<float>(t.bases.centers[6 * k + g]) * row;
+        }
+        EXPECT_LT(glm::distance(glm::vec3(constants[first[k]]), mean), 2e-4f);
+        for (std::size_t j = 0; j < static_cast<std::size_t>(t.bases.components[k]); ++j)
+            EXPECT_EQ(constants[first[k] + 7 + j], of_plain[first_plain[k] + 1 + j]);
     }
 }
 

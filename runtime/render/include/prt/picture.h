@@ -50,9 +50,6 @@ struct Picture {
     int samples = 2; ///< per pixel along each axis
 };
 
-/// Components that fit into the vertex attributes of OpenGL.
-inline constexpr int kMostVertexComponents = 48;
-
 /// The strength of each material's emission, [materials]: that of the lamp that it is a member of, of `lamps`
 /// [layout.lamps()] or 1 where those are empty; 1 where the transfer knows nothing of it.
 std::vector<glm::vec3> emission_strengths(const Scene& scene, const TransferLayout& layout,

@@ -32,10 +32,13 @@ inline constexpr int kConstantTextureWidth = 256;
 std::string shader_source(std::string_view name, std::string_view defines,
                           ShaderLanguage language = ShaderLanguage::glsl450);
 
+/// Components that fit the attributes of a vertex where weights are not packed: 48, or 44 beside guides.
+int most_vertex_components(const ClusteredBases& bases);
+
 /// The lines that `prt_exit_radiance.glsl` wants for a model. The shader is given positions as the Scene has
 /// them where `seen_from` is 0, and in the file's world where it is Scene::origin: floats of a world whose
-/// origin is far away are coarse. Throws `Error` where the weights do not fit twelve vertex attributes, or
-/// eleven beside the normals of guides, and for storage buffers in a language that has none.
+/// origin is far away are coarse. Throws `Error` where the weights do not fit the vertex attributes, and for
+/// storage buffers in a language that has none.
 std::string relight_defines(const ClusteredTransfer& transfer,
                             ConstantSource constants = ConstantSource::buffer,
                             ShaderLanguage language = ShaderLanguage::glsl450,

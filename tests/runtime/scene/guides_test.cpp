@@ -1,0 +1,319 @@
+// Guides in files: what the reader sees of them is what the writer had.
+
+#include "prt/gltf.h"
+#include "prt/guides.h"
+#include "prt/reorder.h"
+#include "prt/support/error.h"
+#include "support/glb_file.h"
+#include "support/guided.h"
+#include "support/temporary_folder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <utility>
+
+namespace prt {
+namespace {
+
+using test::GlbFile;
+
+const std::vector<GuideKind> kBoth = {GuideKind::normal, GuideKind::position};
+
+/// Quantised normals, a primitive without normals that folds, and nodes that mirror, scale and turn it all.
+GlbFile hard_file(const glm::dvec3& place) {
+    GlbFile file = test::triangle_file();
+    file.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+    file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    const std::vector<std::int8_t> normals = {12, 45, 117, 99, -73, 30, 99, 99, 0, 0, 0, 99};
+    auto& primitives = file.json["meshes"][0]["primitives"];
+    primitives[0]["attributes"]["NORMAL"] =
+        file.accessor(std::as_bytes(std::span(normals)), 3, test::kByte, "VEC3", true, 4);
+    const auto position =
+        file.accessor(std::vector<float>{0, 0, 0, 1, 0, 0.1f, 1, 1, 0, 0, 0.2f, 1}, test::kFloat, "VEC3", 3);
+    file.json["accessors"][position]["min"] = {0, 0, 0};
+    file.json["accessors"][position]["max"] = {1, 1, 1};
+    const auto indices =
+        file.accessor(std::vector<std::uint8_t>{0, 1, 2, 0, 2, 3}, test::kUnsignedByte, "SCALAR", 1);
+    primitives.push_back({{"attributes", {{"POSITION", position}}}, {"indices", indices}});
+    file.json["nodes"] = {
+        {{"children", {1, 2, 3}}, {"translation", {place.x, place.y, place.z}}},
+        {{"mesh", 0}},
+        {{"mesh", 0}, {"scale", {-1, 1, 1}}},
+        {{"mesh", 0}, {"scale", {3, 0.5, 1.25}}, {"rotation", {0, 0.6, 0, 0.8}}, {"translation", {4, 1, 2}}}};
+    return file;
+}
+
+/// Compressed transfer of random numbers for a scene.
+CompressedTransfer guided_transfer(const Scene& scene, const std::vector<GuideKind>& kinds,
+                                   WeightFormat format) {
+    CompressedTransfer c;
+    ClusteredTransfer& t = c.transfer;
+    t.bases.layout = layout_of_one(2, 3);
+    t.bases.components = {2, 0, 3};
+    std::mt19937 random(7);
+    std::normal_distribution<float> normal;
+    for (std::size_t i = 0; i < 8 * t.bases.dimension(); ++i)
+        t.bases.rows.push_back(normal(random));
+    test::add_guides(t.bases, kinds, random);
+    ClusteredReceivers& r = t.receivers;
+    r.format = format;
+    const bool packed = format == WeightFormat::packed;
+    r.components = packed ? 0 : 4;
+    r.words = packed ? 1 : 0;
+    r.cluster_bits = packed ? 2 : 0;
+    if (packed)
+        t.bases.bits = {9, 16, 11, 8, 7};
+    for (std::size_t p = 0; p < scene.receivers(); ++p)
+        r.clusters.push_back(static_cast<std::uint16_t>(random() % 3));
+    r.weights.resize(scene.receivers() * r.stride());
+    const std::vector<ClusterLayout> layouts = cluster_layouts(t.bases);
+    for (std::size_t p = 0; p < scene.receivers(); ++p) {
+        std::vector<std::uint32_t> words(1), values = {100, 101, 17};
+        if (packed) {
+            pack_words(r.clusters[p], 2, layouts[r.clusters[p]], values, words);
+            std::memcpy(&r.weights[4 * p], words.data(), 4);
+        } else if (format == WeightFormat::float32) {
+            const float weights[4] = {normal(random), normal(random), normal(random), 0};
+            std::memcpy(&r.weights[16 * p], weights, sizeof weights);
+        }
+    }
+    r.guides = guide_coordinates(scene, t.bases.guides);
+    return c;
+}
+
+struct Model {
+    GltfDocument document;
+    Scene scene;
+};
+
+Model read(const std::filesystem::path& path) {
+    GltfDocument document = load_gltf(path);
+    Scene scene = extract_scene(document);
+    return {std::move(document), std::move(scene)};
+}
+
+TEST(GuideCoordinates, AreNormalsAndPositionsSeenFromTheOrigin) {
+    const test::TemporaryFolder folder;
+    test::triangle_file().write(folder / "t.glb");
+    const Scene scene = read(folder / "t.glb").scene; // seen from the middle of the box
+    const std::vector<Guide> guides = {{GuideKind::normal}, {GuideKind::position, {0.5f, 0, -1}}};
+    EXPECT_EQ(guide_coordinates(scene, guides),
+              (std::vector<float>{0, 0, 1, -1, -0.5f, 1, 0, 0, 1, 0, -0.5f, 1, 0, 0, 1, -1, 0.5f, 1}));
+    EXPECT_EQ(guide_coordinates(scene, std::vector<Guide>(1, guides[1])),
+              (std::vector<float>{-1, -0.5f, 1, 0, -0.5f, 1, -1, 0.5f, 1}));
+    EXPECT_TRUE(guide_coordinates(scene, {}).empty());
+}
+
+class GuidesInFiles : public testing::TestWithParam<WeightFormat> {};
+INSTANTIATE_TEST_SUITE_P(Formats, GuidesInFiles,
+                         testing::Values(WeightFormat::float32, WeightFormat::snorm16, WeightFormat::snorm8,
+                                         WeightFormat::packed));
+
+TEST_P(GuidesInFiles, ComeBackAsTheyAre) {
+    for (const glm::dvec3 place : {glm::dvec3(0), glm::dvec3(1e6, -2e6, 123456.75)})
+        for (const std::vector<GuideKind>& kinds : test::sets_of_guides()) {
+            const test::TemporaryFolder folder;
+            hard_file(place).write(folder / "hard.glb");
+            Model model = read(folder / "hard.glb");
+            const CompressedTransfer c = guided_transfer(model.scene, kinds, GetParam());
+            write_clustered(model.document, model.scene, c);
+            save_glb(model.document, folder / "written.glb", BufferCompression::meshopt);
+            const Model again = read(folder / "written.glb");
+            const auto read_back = read_clustered(again.document, again.scene);
+            ASSERT_TRUE(read_back);
+            const ClusteredTransfer& t = read_back->transfer;
+            EXPECT_EQ(t.bases.guides, c.transfer.bases.guides);
+            EXPECT_EQ(t.bases.centers, c.transfer.bases.centers);
+            EXPECT_EQ(t.bases.rows, c.transfer.bases.rows);
+            EXPECT_EQ(t.bases.bits, c.transfer.bases.bits);
+            EXPECT_EQ(t.receivers.weights, c.transfer.receivers.weights);
+            // Those of flat normals are rounded once more.
+            ASSERT_EQ(t.receivers.guides.size(), c.transfer.receivers.guides.size());
+            for (std::size_t i = 0; i < t.receivers.guides.size(); ++i)
+                EXPECT_NEAR(t.receivers.guides[i], c.transfer.receivers.guides[i], 1e-6f) << i;
+            const Transfer before = decode(c.transfer), after = decode(t);
+            for (std::size_t i = 0; i < before.vectors.size(); ++i)
+                EXPECT_NEAR(before.vectors[i], after.vectors[i], 1e-5f);
+        }
+}
+
+TEST(GuidesInFile, OriginsArePlacesInItsWorld) {
+    const test::TemporaryFolder folder;
+    hard_file(glm::dvec3(1e6, 0, -3)).write(folder / "hard.glb");
+    Model model = read(folder / "hard.glb");
+    const CompressedTransfer c = guided_transfer(model.scene, kBoth, WeightFormat::packed);
+    write_clustered(model.document, model.scene, c);
+    save_glb(model.document, folder / "written.glb");
+    std::ifstream file(folder / "written.glb", std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, 4);
+    const auto json =
+        nlohmann::ordered_json::parse(bytes.substr(20, length))["extensions"]["PRTKIT_clustered_pca"];
+    EXPECT_EQ(json["version"], 6);
+    EXPECT_FALSE(json["guides"][0].contains("origin"));
+    for (std::size_t i = 0; i < 3; ++i) {
+        const int axis = static_cast<int>(i);
+        EXPECT_EQ(json["guides"][1]["origin"][i].get<double>(),
+                  model.scene.origin[axis] + static_cast<double>(c.transfer.bases.guides[1].origin[axis]));
+        EXPECT_EQ(json["guides"][0]["scale"][i].get<float>(), c.transfer.bases.guides[0].scale[axis]);
+    }
+}
+
+TEST(GuidesInFile, FollowVerticesThatMove) {
+    const test::TemporaryFolder folder;
+    test::triangle_file().write(folder / "t.glb");
+    Model model = read(folder / "t.glb");
+    CompressedTransfer c = guided_transfer(model.scene, kBoth, WeightFormat::float32);
+    const std::vector<std::uint32_t> order = {2, 0, 1};
+    const Transfer before = decode(c.transfer);
+    c.transfer.receivers = reordered(c.transfer.receivers, order);
+    reorder_vertices(model.document, model.scene, order);
+    save_glb(model.document, folder / "moved.glb");
+    Model moved = read(folder / "moved.glb");
+    EXPECT_EQ(c.transfer.receivers.guides, guide_coordinates(moved.scene, c.transfer.bases.guides));
+    write_clustered(moved.document, moved.scene, c);
+    save_glb(moved.document, folder / "written.glb");
+    const Model again = read(folder / "written.glb");
+    const Transfer after = decode(read_clustered(again.document, again.scene)->transfer);
+    for (std::size_t p = 0; p < 3; ++p)
+        for (std::size_t i = 0; i < before.dimension(); ++i)
+            EXPECT_EQ(after.vector(p)[i], before.vector(order[p])[i]);
+}
+
+TEST(GuidesInFile, LeaveNothingBehind) {
+    const test::TemporaryFolder folder;
+    test::triangle_file().write(folder / "t.glb");
+    Model model = read(folder / "t.glb");
+    discard_transfer(model.document);
+    save_glb(model.document, folder / "before.glb");
+    write_clustered(model.document, model.scene, guided_transfer(model.scene, kBoth, WeightFormat::packed));
+    save_glb(model.document, folder / "written.glb");
+    Model again = read(folder / "written.glb");
+    discard_transfer(again.document);
+    save_glb(again.document, folder / "after.glb");
+    EXPECT_EQ(std::filesystem::file_size(folder / "before.glb"),
+              std::filesystem::file_size(folder / "after.glb"));
+}
+
+/// What a file with guides is refused with after `change` of its extension.
+class GuidedFile {
+public:
+    explicit GuidedFile(WeightFormat format) {
+        test::triangle_file().write(folder_ / "t.glb");
+        Model model = read(folder_ / "t.glb");
+        write_clustered(model.document, model.scene, guided_transfer(model.scene, kBoth, format));
+        save_glb(model.document, folder_ / "good.glb");
+        std::ifstream file(folder_ / "good.glb", std::ios::binary);
+        const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+        std::uint32_t length = 0;
+        std::memcpy(&length, bytes.data() + 12, 4);
+        good_.json = nlohmann::ordered_json::parse(bytes.substr(20, length));
+        const auto* data = reinterpret_cast<const std::byte*>(bytes.data());
+        good_.binary.assign(data + 28 + length, data + bytes.size());
+        good_.json.erase("buffers");
+    }
+    std::string refusal(const std::function<void(nlohmann::ordered_json&, GlbFile&)>& change) const {
+        GlbFile changed = good_;
+        change(changed.json["extensions"]["PRTKIT_clustered_pca"], changed);
+        changed.write(folder_ / "changed.glb");
+        try {
+            const Model model = read(folder_ / "changed.glb");
+            read_clustered(model.document, model.scene);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "was read";
+    }
+
+private:
+    test::TemporaryFolder folder_;
+    GlbFile good_;
+};
+
+TEST(GuidesInFile, ThatMakeNoSenseAreRefusedInALine) {
+    using Json = nlohmann::ordered_json;
+    const GuidedFile guided_file(WeightFormat::packed);
+    EXPECT_EQ(guided_file.refusal([](Json&, GlbFile&) {}), "was read");
+    const std::pair<const char*, std::function<void(Json&)>> changes[] = {
+        {"guides are no list", [](Json& e) { e["guides"] = "normal"; }},
+        {"guides are no list", [](Json& e) { e["guides"] = Json::array(); }},
+        {"guides are no list", [](Json& e) { e["guides"].push_back(e["guides"][0]); }},
+        {"of a kind that this program", [](Json& e) { e["guides"][0]["kind"] = "tangent"; }},
+        {"of a kind that this program", [](Json& e) { e["guides"][0]["kind"] = 1; }},
+        {"a normal and then a position", [](Json& e) { e["guides"][1] = e["guides"][0]; }},
+        {"a normal and then a position", [](Json& e) { e["guides"][0] = e["guides"][1]; }},
+        {"a normal and then a position", [](Json& e) { std::swap(e["guides"][0], e["guides"][1]); }},
+        {"is damaged glTF", [](Json& e) { e["guides"][0].erase("kind"); }},
+        {"is damaged glTF", [](Json& e) { e["guides"][0].erase("scale"); }},
+        {"is damaged glTF", [](Json& e) { e["guides"][1].erase("origin"); }},
+        {"is damaged glTF", [](Json& e) { e.erase("centers"); }},
+        {"scale of a guide is not three", [](Json& e) { e["guides"][0]["scale"] = 2; }},
+        {"scale of a guide is not three",
+         [](Json& e) {
+             e["guides"][0]["scale"] = {1, 2};
+         }},
+        {"scale of a guide is not three",
+         [](Json& e) {
+             e["guides"][0]["scale"] = {1, 2, 3, 4};
+         }},
+        {"scale of a guide is not three", [](Json& e) { e["guides"][0]["scale"][1] = "2"; }},
+        {"scale of a guide is not three", [](Json& e) { e["guides"][0]["scale"][1] = nullptr; }},
+        {"scale of a guide is not three", [](Json& e) { e["guides"][0]["scale"][1] = 1e300; }},
+        {"scale of a guide is zero", [](Json& e) { e["guides"][0]["scale"][2] = 0; }},
+        {"scale of a guide is zero", [](Json& e) { e["guides"][1]["scale"][2] = 1e-60; }},
+        {"origin of a guide is not three", [](Json& e) { e["guides"][1]["origin"][0] = 1e12; }},
+        {"origin of a guide is not three", [](Json& e) { e["guides"][1]["origin"].erase(0); }},
+        {"farther from the origin",
+         [](Json& e) {
+             e["guides"][1]["origin"][0] = 1e9;
+             e["guides"][1]["scale"][0] = 1e3;
+         }},
+        {"centers have 5 columns for 6", [](Json& e) { e["centers"]["drops"].erase(0); }},
+        {"a drop is 16", [](Json& e) { e["centers"]["drops"][0] = 16; }},
+        {"buffer view 999 is not there", [](Json& e) { e["centers"]["bufferView"] = 999; }},
+    };
+    for (std::size_t i = 0; i < std::size(changes); ++i) {
+        const std::string said = guided_file.refusal([&](Json& e, GlbFile&) { changes[i].second(e); });
+        EXPECT_NE(said.find(changes[i].first), std::string::npos) << i << ": " << said;
+        EXPECT_EQ(said.find('\n'), std::string::npos);
+    }
+    const auto ends_early = [](Json& e, GlbFile& file) {
+        e["centers"]["bufferView"] = file.view(std::vector<std::byte>(1, std::byte{0xff}));
+    };
+    EXPECT_NE(guided_file.refusal(ends_early).find("the centers: "), std::string::npos);
+    // The bases have rows for guides, and the widths of weights none.
+    EXPECT_NE(guided_file.refusal([](Json& e, GlbFile&) {
+        e["guides"].erase(1);
+        e["centers"]["drops"] = {0, 0, 0};
+    }),
+              "was read");
+    EXPECT_NE(guided_file.refusal([](Json& e, GlbFile&) { e.erase("guides"); }), "was read");
+}
+
+TEST(GuidesInFile, RowsOfZerosAreNotAllocatedForNothing) {
+    const GuidedFile guided_file(WeightFormat::float32);
+    const auto many = [](nlohmann::ordered_json& e, GlbFile& file) {
+        constexpr std::size_t kClusters = 65536, kDimension = 12, kAxes = 200;
+        e["components"] = std::vector<int>(kClusters, 0);
+        e["centers"]["bufferView"] = file.view(std::vector<std::byte>(kClusters / 2));
+        const auto zeros = [&](std::size_t bytes) {
+            return nlohmann::ordered_json{{"bufferView", file.view(std::vector<std::byte>(bytes))}};
+        };
+        e["bases"] = {{"origin", zeros(4 * kDimension)}, {"scales", zeros(4 * kAxes)}, {"step", 1}};
+        e["bases"]["axes"] = zeros(kAxes / 2);
+        e["bases"]["axes"]["drops"] = std::vector<int>(kDimension, 0);
+        e["bases"]["values"] = zeros(7 * kClusters / 2);
+        e["bases"]["values"]["drops"] = std::vector<int>(kAxes, 0);
+    };
+    // Seven rows a cluster take 433 MB of 0.3 + 0.02 MB of file, one row took 62.
+    EXPECT_NE(guided_file.refusal(many).find("its bases would take"), std::string::npos) << guided_file.refusal(many);
+}
+
+} // namespace
+} // namespace prt

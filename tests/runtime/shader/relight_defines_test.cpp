@@ -1,0 +1,76 @@
+// What the vertex shader is told of a model.
+
+#include "prt/shader_source.h"
+
+#include "prt/support/error.h"
+#include "support/guided.h"
+
+#include <glm/gtc/constants.hpp>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+namespace prt {
+namespace {
+
+ClusteredTransfer transfer_of(int components, const std::vector<GuideKind>& guides) {
+    ClusteredTransfer t;
+    t.bases.layout = layout_of_one(1, 1);
+    t.bases.components = {components};
+    t.bases.rows.resize(1 + static_cast<std::size_t>(components));
+    t.receivers.components = (components + 3) / 4 * 4;
+    std::mt19937 random(1);
+    test::add_guides(t, guides, random);
+    return t;
+}
+
+/// The three numbers of PRT_GUIDE_ORIGIN.
+glm::vec3 origin_in(const std::string& defines) {
+    const std::string begin = "#define PRT_GUIDE_ORIGIN vec3(";
+    const char* at = defines.c_str() + defines.find(begin) + begin.size();
+    glm::vec3 origin(0);
+    for (int i = 0; i < 3; ++i) {
+        char* end = nullptr;
+        origin[i] = std::strtof(at, &end);
+        at = end + 2;
+    }
+    return origin;
+}
+
+TEST(RelightDefines, NameTheGuidesOfAModel) {
+    const auto defines = [](const std::vector<GuideKind>& guides) {
+        return relight_defines(transfer_of(4, guides));
+    };
+    EXPECT_EQ(defines({}).find("GUIDE"), std::string::npos);
+    EXPECT_NE(defines({GuideKind::normal}).find("#define PRT_GUIDE_NORMAL\n"), std::string::npos);
+    EXPECT_EQ(defines({GuideKind::normal}).find("POSITION"), std::string::npos);
+    EXPECT_NE(defines({GuideKind::position}).find("#define PRT_GUIDE_POSITION\n"), std::string::npos);
+    EXPECT_EQ(defines({GuideKind::position}).find("NORMAL"), std::string::npos);
+}
+
+TEST(RelightDefines, SayTheOriginWithAllDigitsOfAFloat) {
+    ClusteredTransfer t = transfer_of(4, {GuideKind::position});
+    for (const glm::vec3 origin : {glm::vec3(0), glm::vec3(1.0f / 3, -glm::pi<float>(), 1e-20f),
+                                   glm::vec3(16777217, 0.1f, -123456.789f)}) {
+        t.bases.guides[0].origin = origin;
+        EXPECT_EQ(origin_in(relight_defines(t)), origin);
+        const glm::dvec3 from(1e6 + 0.25, -3, 1e-3);
+        EXPECT_EQ(origin_in(relight_defines(t, ConstantSource::buffer, ShaderLanguage::glsl450, from)),
+                  glm::vec3(from + glm::dvec3(origin)));
+        // GLSL has no implicit floats in ES: every number has a point.
+        const std::string text = relight_shader(t, ConstantSource::texture, ShaderLanguage::essl300, from);
+        EXPECT_EQ(origin_in(text), glm::vec3(from + glm::dvec3(origin)));
+    }
+}
+
+TEST(RelightDefines, LeaveTheLastAttributeToTheNormal) {
+    EXPECT_EQ(most_vertex_components(transfer_of(48, {}).bases), 48);
+    EXPECT_NO_THROW(relight_defines(transfer_of(48, {})));
+    EXPECT_NO_THROW(relight_defines(transfer_of(44, {GuideKind::normal})));
+    EXPECT_THROW(relight_defines(transfer_of(45, {GuideKind::normal})), Error);
+    EXPECT_THROW(relight_defines(transfer_of(49, {})), Error);
+}
+
+} // namespace
+} // namespace prt
