@@ -379,8 +379,8 @@ TEST(Compress, OfTheLargestTransferAndAreasIsFinite) {
         for (const float v : decode(result.transfer).vectors)
             EXPECT_TRUE(std::isfinite(v));
     };
-    expect_finite(compress(t, std::vector<float>(40, 3e38f), {}, {}));
-    expect_finite(compress(t, std::vector<float>(40, 1e-45f), {}, {}));
+    expect_finite(compress(t, {std::vector<float>(40, 3e38f)}, {}));
+    expect_finite(compress(t, {std::vector<float>(40, 1e-45f)}, {}));
     expect_finite(compress(t, std::vector<float>(40, 0.0f), std::vector{Edge{0, 1}}, {}));
     t.vectors[7] = kMostTransfer;
     t.vectors[50] = -kMostTransfer;

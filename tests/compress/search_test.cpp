@@ -271,7 +271,7 @@ TEST(Search, KeepsBudgetsThatOnlyFewerDirectionsKeep) {
             CompressOptions by_hand;
             by_hand.clusters = 1;
             by_hand.coding.components = components;
-            const CompressResult hand = compress(scene->transfer, scene->areas, {}, by_hand);
+            const CompressResult hand = compress(scene->transfer, {scene->areas}, by_hand);
             const double bytes = 1.02 * bound_bytes(hand);
             const SearchResult found = scene->within({{}, bytes, {}});
             EXPECT_TRUE(found.kept) << components;

@@ -158,6 +158,28 @@ test("the shader is that of the runtime", async () => {
   assert.match(shader.fragmentShader, /prtSunRadiance\(/);
 });
 
+test("guides are given the frame of the bake, by each mesh's node", async () => {
+  const guides = [{ kind: "normal", scale: [1, 2, 3] }, { kind: "position", origin: [1, 2, 3], scale: [1, 1, 1] }];
+  const extension = { ...packed, guides, centers: { bufferView: 2, drops: [0, 0, 0, 0, 0, 0] } };
+  const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, extension);
+  mesh.geometry.setAttribute("normal", new BufferAttribute(new Float32Array([0, 0, 1, 0, 1, 0]), 3));
+  mesh.geometry.getAttribute("position").setXYZ(1, 1, 1, 1);
+  mesh.position.set(5, 6, 7);
+  const views = [bytesOf(2, 1, 1, 1, 1, 1, 1, 0.5), new Uint8Array([7]).buffer, new Uint8Array([0]).buffer];
+  parser.getDependency = async (kind, i) => views[i];
+  await new PrtkitPlugin(parser).afterRoot(gltf);
+  assert.equal(mesh.material.defines.PRT_GUIDE_NORMAL, 1);
+  assert.equal(mesh.material.defines.PRT_GUIDE_POSITION, 1);
+  const { uniforms } = compiled(mesh.material);
+  assert.deepEqual(uniforms.prtToBake.value.elements.slice(12, 15), [4, 4, 4]);
+  assert.deepEqual(uniforms.prtNormalToBake.value.elements, [1, 0, 0, 0, 1, 0, 0, 0, 1]);
+  const model = gltf.userData.prtkit;
+  model.setLight(white());
+  const l0 = Math.sqrt(4 * Math.PI);
+  const constants = model.constantsTexture.image.data;
+  [1.5, 1, 2, 3, 1, 1, 1, 1 / 255].forEach((row, r) => assert.ok(Math.abs(constants[4 * r] - row * l0) < 1e-5, `${r}`));
+});
+
 const apart = { ...packed, parts: [{ kind: "direct", channels: 1 }] };
 
 test("suns of three's light what keeps direct light apart, while they are apart", async () => {

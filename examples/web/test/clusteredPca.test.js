@@ -87,6 +87,95 @@ test("coded bases are sums over axes", () => {
   assert.throws(() => decodeClusters(scaled, (i) => [...views, bytesOf(1)][i]), /fit together/);
 });
 
+/** Two clusters of order 1 with guides: mean, six rows, one direction of two bits; mean and six rows. */
+const guided = {
+  version: 6,
+  order: 1,
+  parts: [{ kind: "whole", channels: 1 }],
+  components: [1, 0],
+  guides: [
+    { kind: "normal", scale: [2, 4, 8] },
+    { kind: "position", origin: [10, 20, 30], scale: [1, 0.5, 0.25] },
+  ],
+  centers: { bufferView: 2, drops: [0, 0, 0, 1, 0, 0] },
+  bases: { bufferView: 0, componentType: 5126 },
+  packing: { clusterBits: 1, bufferView: 1 },
+};
+const guidedRows = [2, 1, 10, 100, 1000, 10000, 100000, 0.5, 3, 6, 5, 4, 3, 2, 1];
+const guidedViews = [
+  bytesOf(...guidedRows),
+  bits([[1, 4]]),
+  // level 3: -1, 2, 0, 1 in two bits, 3, -4; level 0: zeros
+  bits([[3, 4], [7, 3], [2, 3], [0, 3], [1, 2], [3, 3], [4, 3], [0, 4]]),
+];
+
+test("guides have rows behind the mean, and centers", () => {
+  const clusters = decodeClusters(guided, (i) => guidedViews[i]);
+  assert.deepEqual([...clusters.rows], guidedRows);
+  assert.deepEqual(clusters.firstRows, [0, 8]);
+  assert.deepEqual([...clusters.centers], [-1, 2, 0, 1, 3, -4, 0, 0, 0, 0, 0, 0]);
+  assert.deepEqual([...clusterTable(clusters)], [0, 1, 1, 0, 8, 0, 0, 0]);
+});
+
+test("the shader's rows times coordinates are the rows times scaled ones less the center", () => {
+  const clusters = decodeClusters(guided, (i) => guidedViews[i]);
+  const constants = formConstants(clusters, shaderRows(clusters), [1, 2, 3], new Float32Array(4 * 15));
+  const x = [0, 0.6, 0.8, 1, -2, 0.5];
+  const scales = [2, 4, 8, 1, 0.5, 0.25];
+  [[0, 1], [8, 0]].forEach(([first, directions], k) => {
+    const factors = [1, ...x.map((value, i) => scales[i] * value - clusters.centers[6 * k + i])];
+    const stored = [1, ...x];
+    if (directions) {
+      factors.push((2 * 2 - 3) / 3);
+      stored.push(2);
+    }
+    const expected = factors.reduce((sum, factor, j) => sum + factor * guidedRows[first + j], 0);
+    [1, 2, 3].forEach((light, c) => {
+      const shader = stored.reduce((sum, value, j) => sum + value * constants[4 * (first + j) + c], 0);
+      assert.ok(Math.abs(shader - light * expected) < 1e-6 * 400000 * light, `${shader}, not ${light * expected}`);
+    });
+  });
+});
+
+test("rows of guides have the step of means in coded bases", () => {
+  const extension = {
+    ...guided,
+    components: [1],
+    guides: [guided.guides[0]],
+    centers: { bufferView: 4, drops: [0, 0, 0] },
+    bases: {
+      origin: { bufferView: 0, componentType: 5126 },
+      scales: { bufferView: 1, componentType: 5126 },
+      step: 0.5,
+      axes: { bufferView: 2, drops: [0] },
+      values: { bufferView: 3, drops: [0] },
+    },
+    packing: { clusterBits: 0, bufferView: 5 },
+  };
+  const views = [
+    bytesOf(100),
+    bytesOf(1),
+    bits([[3, 4], [2, 3]]),
+    bits([5, 6, 7, 8, 9].flatMap((value) => [[5, 4], [value, 5]])),
+    bits([[0, 4]]),
+    bits([[1, 4]]),
+  ];
+  assert.deepEqual([...decodeClusters(extension, (i) => views[i]).rows], [105, 6, 7, 8, 18]);
+});
+
+test("guides that make no sense are refused", () => {
+  const [normal, position] = guided.guides;
+  const wrong = [
+    "normal", [{ ...normal, kind: "tangent" }], [normal, normal], [position, normal], [position, position], [null],
+    [{ ...normal, scale: [1, 2] }], [{ ...normal, scale: [1, 0, 2] }], [{ ...normal, scale: [1, NaN, 2] }],
+    [{ kind: "position", scale: [1, 1, 1] }], [{ ...position, origin: [1, 2, "3"] }],
+  ];
+  for (const guides of wrong)
+    assert.throws(() => decodeClusters({ ...guided, guides }, (i) => guidedViews[i]), /guides/);
+  assert.throws(() => decodeClusters({ ...guided, guides: [normal] }, (i) => guidedViews[i]), /centers/);
+  assert.throws(() => decodeClusters(guided, (i) => (i === 2 ? new Uint8Array(0) : guidedViews[i])), /end too early/);
+});
+
 test("three channels meet three colours", () => {
   const clusters = { order: 1, parts: [{ kind: "whole", channels: 3 }], rowCount: 1 };
   assert.deepEqual([...formConstants(clusters, [1, 2, 3], [10, 20, 30], new Float32Array(4))], [10, 40, 90, 0]);

@@ -91,7 +91,7 @@ TEST_P(Seams, SmoothingKeepsTheMeanNumberOfComponents) {
     options.coding.bits = 48;
     options.coding.format = GetParam();
     options.seam_price = 4;
-    const CompressResult result = compress(grid.transfer, grid.areas, grid.edges, options);
+    const CompressResult result = compress(grid.transfer, {grid.areas, grid.edges}, options);
     EXPECT_LE(result.statistics.mean_components, 1.5);
     EXPECT_GT(result.statistics.mean_components, 1.2);
 }

@@ -30,6 +30,7 @@ compiles() {
 }
 
 packed=(PRT_COMPRESSED PRT_CONSTANTS_BUFFER "PRT_PACKED_WORDS 5" "PRT_CLUSTER_BITS 8")
+guides=(PRT_GUIDE_NORMAL PRT_GUIDE_POSITION "PRT_GUIDE_ORIGIN vec3(1.0, 2.0, 3.0)")
 for file in *.vert *.frag *.comp; do
     case $file in
         bake_trace.comp)
@@ -55,6 +56,7 @@ for file in *.vert *.frag *.comp; do
             ;;
         prt_relight.vert)
             compiles "$file" "${packed[@]}"
+            compiles "$file" "${packed[@]}" "${guides[@]}"
             ;;
         scene.vert | viewer_*)
             compiles "$file"
@@ -62,6 +64,8 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 8"
             compiles "$file" PRT_VERTEX_RADIANCE PRT_RADIANCE_GIVEN
             compiles "$file" "${packed[@]}" PRT_SUNS
+            compiles "$file" "${packed[@]}" "${guides[@]}" PRT_SUNS
+            compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 11" PRT_GUIDE_NORMAL
             ;;
         scene.frag | sun_caster.frag)
             compiles "$file"

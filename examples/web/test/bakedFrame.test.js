@@ -1,0 +1,131 @@
+// Places and normals that guides are given, against those of the world of the file.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Bone, BufferAttribute, BufferGeometry, Group, Matrix4, Mesh, Quaternion, Skeleton, SkinnedMesh, Vector3 } from "three";
+import { bakedFrame } from "../src/bakedFrame.js";
+
+const ORIGIN = [1, -2, 3];
+const GUIDES = [{ kind: "normal", scale: [1, 1, 1] }, { kind: "position", origin: ORIGIN, scale: [1, 1, 1] }];
+
+const POSITIONS = [[0, 0, 0], [1, 0, 0], [0, 1, 0.5]];
+const NORMALS = [[0, 0, 1], [0.6, 0, 0.8], [0, 0.8, -0.6]];
+
+function geometryOf(positions = POSITIONS, normals = NORMALS) {
+  const geometry = new BufferGeometry();
+  geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions.flat()), 3));
+  if (normals) geometry.setAttribute("normal", new BufferAttribute(new Float32Array(normals.flat()), 3));
+  return geometry;
+}
+
+/** What the shader computes of vertex `v`. */
+function inShader(mesh, { defines, uniforms }, v) {
+  const { attributes } = mesh.geometry;
+  if (defines.PRT_BAKED_ATTRIBUTES)
+    return [attributes.prt_place, attributes.prt_normal].map((a) => new Vector3().fromBufferAttribute(a, v));
+  const place = new Vector3().fromBufferAttribute(attributes.position, v).applyMatrix4(uniforms.prtToBake.value);
+  const normal = new Vector3().fromBufferAttribute(attributes.normal, v).applyMatrix3(uniforms.prtNormalToBake.value);
+  return [place, normal.normalize()];
+}
+
+const near = (vector, expected, most = 1e-6) =>
+  assert.ok(vector.distanceTo(expected) < most, `${vector.toArray()}, not ${expected.toArray()}`);
+
+/** A mesh in a node of its own in a scene that has moved. */
+function placed(mesh, matrix) {
+  const scene = new Group().add(mesh);
+  matrix.decompose(mesh.position, mesh.quaternion, mesh.scale);
+  scene.updateMatrixWorld(true);
+  return mesh;
+}
+
+const turn = new Quaternion().setFromAxisAngle(new Vector3(0.6, 0.8, 0), 1.2);
+
+test("without guides the shader is given nothing", () => {
+  assert.deepEqual(bakedFrame(new Mesh(geometryOf()), []), { defines: {}, uniforms: {} });
+});
+
+test("places and normals are those of the file's world, also of nodes that mirror and stretch", () => {
+  for (const scale of [[1, 1, 1], [2, 3, 0.5], [-1, 1, 1], [1e-6, 2e-6, 1e-6]]) {
+    const matrix = new Matrix4().compose(new Vector3(5, 6, 7), turn, new Vector3(...scale));
+    const mesh = placed(new Mesh(geometryOf()), matrix);
+    const frame = bakedFrame(mesh, GUIDES);
+    for (let v = 0; v < 3; ++v) {
+      const [place, normal] = inShader(mesh, frame, v);
+      near(place, new Vector3(...POSITIONS[v]).applyMatrix4(matrix).sub(new Vector3(...ORIGIN)));
+      // A normal stays at right angles to what turns with the surface, and on its side.
+      const along = new Vector3(...NORMALS[v]);
+      for (const tangent of [new Vector3(1, 0, 0).cross(along), new Vector3(0, 1, 0).cross(along)]) {
+        const turned = tangent.clone().transformDirection(matrix);
+        assert.ok(Math.abs(turned.dot(normal)) < 1e-6);
+      }
+      assert.ok(normal.dot(along.clone().transformDirection(matrix)) > 0);
+      assert.ok(Math.abs(normal.length() - 1) < 1e-6);
+    }
+  }
+});
+
+test("what the program does with the model later changes nothing", () => {
+  const mesh = placed(new Mesh(geometryOf()), new Matrix4().makeTranslation(1, 0, 0));
+  const frame = bakedFrame(mesh, GUIDES);
+  const [before] = inShader(mesh, frame, 1);
+  mesh.parent.position.set(100, 0, 0);
+  mesh.parent.updateMatrixWorld(true);
+  near(inShader(mesh, frame, 1)[0], before);
+});
+
+test("guides of one kind want no more than that", () => {
+  const defines = (guides) => bakedFrame(new Mesh(geometryOf()), guides).defines;
+  assert.deepEqual(defines([GUIDES[0]]), { PRT_GUIDE_NORMAL: 1 });
+  assert.deepEqual(defines([GUIDES[1]]), { PRT_GUIDE_POSITION: 1, PRT_GUIDE_ORIGIN: "vec3(0.0)" });
+});
+
+test("places far from the origin of their mesh keep their digits", () => {
+  const far = new Vector3(1e6, -2e6, 5e5);
+  const guides = [{ kind: "position", origin: far.toArray(), scale: [1, 1, 1] }];
+  // By the node: the matrix takes it off.
+  const byNode = placed(new Mesh(geometryOf()), new Matrix4().makeTranslation(far));
+  const frame = bakedFrame(byNode, guides);
+  assert.ok(!frame.defines.PRT_BAKED_ATTRIBUTES);
+  near(inShader(byNode, frame, 2)[0], new Vector3(...POSITIONS[2]));
+  // By the attributes: a matrix of floats could not.
+  const byAttributes = placed(new Mesh(geometryOf(POSITIONS.map((p) => p.map((x, i) => x + far.getComponent(i))))), new Matrix4());
+  const other = bakedFrame(byAttributes, guides);
+  assert.ok(other.defines.PRT_BAKED_ATTRIBUTES);
+  near(inShader(byAttributes, other, 2)[0], new Vector3(...POSITIONS[2]));
+});
+
+test("vertices without a normal take that of their triangles", () => {
+  for (const mirror of [1, -1])
+    for (const normals of [null, [[0, 0, 1], [0, 0, 0], [0, 0, 1]]]) {
+      const mesh = placed(new Mesh(geometryOf(POSITIONS, normals)), new Matrix4().makeScale(mirror, 1, 1));
+      const frame = bakedFrame(mesh, GUIDES);
+      near(inShader(mesh, frame, 1)[1], new Vector3(0, -0.5, 1).normalize());
+      if (normals) near(inShader(mesh, frame, 0)[1], new Vector3(0, 0, 1));
+    }
+  const collapsed = placed(new Mesh(geometryOf([[0, 0, 0], [1, 0, 0], [2, 0, 0]], null)), new Matrix4());
+  near(inShader(collapsed, bakedFrame(collapsed, GUIDES), 1)[1], new Vector3());
+});
+
+test("skinned meshes are taken in the pose of the file, morphed ones at its weights", () => {
+  const geometry = geometryOf();
+  geometry.setAttribute("skinIndex", new BufferAttribute(new Uint16Array([0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0]), 4));
+  geometry.setAttribute("skinWeight", new BufferAttribute(new Float32Array([1, 0, 0, 0, 1, 0, 0, 0, 0.5, 0.5, 0, 0]), 4));
+  geometry.morphAttributes.position = [new BufferAttribute(new Float32Array([0, 0, 0, 0, 4, 0, 0, 0, 0]), 3)];
+  geometry.morphTargetsRelative = true;
+  const mesh = new SkinnedMesh(geometry);
+  mesh.updateMorphTargets();
+  mesh.morphTargetInfluences = [0.5];
+  const bones = [new Bone(), new Bone()];
+  bones[0].position.set(0, 3, 0);
+  bones[1].quaternion.setFromAxisAngle(new Vector3(0, 0, 1), Math.PI / 2);
+  const scene = new Group().add(mesh, ...bones);
+  mesh.position.set(50, 0, 0); // does not move what is skinned
+  scene.updateMatrixWorld(true);
+  mesh.bind(new Skeleton(bones, [new Matrix4(), new Matrix4()]), new Matrix4());
+  const frame = bakedFrame(mesh, GUIDES);
+  const origin = new Vector3(...ORIGIN);
+  near(inShader(mesh, frame, 0)[0], new Vector3(0, 3, 0).sub(origin));
+  near(inShader(mesh, frame, 1)[0], new Vector3(-2, 1, 0).sub(origin)); // (1, 2, 0) turned
+  near(inShader(mesh, frame, 1)[1], new Vector3(0, 0.6, 0.8));
+  near(inShader(mesh, frame, 2)[0], new Vector3(-0.5, 2, 0.5).sub(origin)); // half (0, 4, 0.5), half (-1, 0, 0.5)
+});

@@ -1,0 +1,162 @@
+// Models with guides through the program, and by decoders in another language.
+
+#include "program.h"
+#include "prt/gltf.h"
+#include "prt/guides.h"
+#include "support/glb_file.h"
+#include "support/guided.h"
+#include "support/scene_builder.h"
+#include "support/temporary_folder.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+namespace prt::test {
+namespace {
+
+/// Coded bases of three clusters with rows for both guides.
+ClusteredBases coded_bases(std::mt19937& random) {
+    ClusteredBases bases;
+    bases.layout = {3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    bases.components = {2, 0, 3};
+    bases.bits = {9, 16, 11, 8, 7};
+    bases.rows.resize(8 * bases.dimension());
+    add_guides(bases, {GuideKind::normal, GuideKind::position}, random);
+    constexpr std::size_t kAxes = 5;
+    const auto integers = [&](std::size_t count) {
+        std::vector<std::int32_t> values(count);
+        for (std::int32_t& value : values)
+            value = static_cast<std::int32_t>(random() % 201) - 100;
+        return values;
+    };
+    bases.coded.origin.assign(bases.dimension(), 0.5f);
+    bases.coded.scales = {0.01f, 0.008f, 0.006f, 0.004f, 0.002f};
+    bases.coded.step = 0.02f;
+    bases.coded.axes = encode_rows(integers(kAxes * bases.dimension()), bases.dimension());
+    bases.coded.values = encode_rows(integers(bases.first_rows().back() * kAxes), kAxes);
+    bases.rows = decode_bases(bases.coded, bases.components, bases.guide_rows());
+    return bases;
+}
+
+ClusteredTransfer guided_transfer(const Scene& scene) {
+    std::mt19937 random(7);
+    ClusteredTransfer t{coded_bases(random), {}};
+    ClusteredReceivers& r = t.receivers;
+    r.format = WeightFormat::packed;
+    r.cluster_bits = 2;
+    r.words = 1;
+    r.weights.resize(4 * scene.receivers());
+    const std::vector<ClusterLayout> layouts = cluster_layouts(t.bases);
+    for (std::size_t p = 0; p < scene.receivers(); ++p) {
+        const auto k = static_cast<std::uint16_t>(random() % 3);
+        const std::vector<std::uint32_t> values = {static_cast<std::uint32_t>(random() % 256),
+                                                   static_cast<std::uint32_t>(random() % 256),
+                                                   static_cast<std::uint32_t>(random() % 128)};
+        std::vector<std::uint32_t> words(1);
+        pack_words(k, 2, layouts[k], values, words);
+        r.clusters.push_back(k);
+        std::memcpy(&r.weights[4 * p], words.data(), 4);
+    }
+    r.guides = guide_coordinates(scene, t.bases.guides);
+    return t;
+}
+
+/// b.glb holds the vectors that the clusters of c.glb stand for.
+class Guided : public testing::Test {
+protected:
+    void SetUp() override {
+        const Scene ball = SceneBuilder().sphere({2, -1, 0.5f}, 1.5f, 9).floor({3, 0, 0}, 4, 3).build();
+        scene_file(ball).write(folder / "t.glb");
+        GltfDocument document = load_gltf(folder / "t.glb");
+        const Scene scene = extract_scene(document);
+        const ClusteredTransfer transfer = guided_transfer(scene);
+        origin = scene.world(transfer.bases.guides[1].origin);
+        const BakeRecord record{.receivers = receivers_id(scene)};
+        write_transfer(document, scene, {decode(transfer), record});
+        save_glb(document, folder / "b.glb");
+        write_clustered(document, scene, {transfer, record});
+        save_glb(document, folder / "c.glb");
+    }
+    std::string at(const std::string& name) const { return (folder / name).string(); }
+    double first_number(const std::string& text) {
+        std::istringstream stream(text);
+        double number = 1e9;
+        stream >> number;
+        return number;
+    }
+
+    TemporaryFolder folder;
+    glm::dvec3 origin{0}; ///< of the guide of positions
+};
+
+TEST_F(Guided, ModelsAreDecodedFromTheFormatPage) {
+    if (std::string(PRT_NODE).empty())
+        GTEST_SKIP() << "node is not installed";
+    const Outcome decoder = run(PRT_NODE, {PRT_DECODE, at("b.glb"), at("c.glb")});
+    ASSERT_EQ(decoder.status, 0) << decoder.err;
+    EXPECT_LT(first_number(decoder.out), 1e-6);
+}
+
+TEST_F(Guided, ModelsAreLitByTheWebsDecoder) {
+    if (std::string(PRT_NODE).empty())
+        GTEST_SKIP() << "node is not installed";
+    const std::string script = (std::filesystem::path(PRT_DECODE).parent_path() / "decode_web.mjs").string();
+    const Outcome decoder = run(PRT_NODE, {script, at("b.glb"), at("c.glb")});
+    ASSERT_EQ(decoder.status, 0) << decoder.err;
+    EXPECT_LT(first_number(decoder.out), 1e-5);
+}
+
+TEST_F(Guided, ModelsSayWhatTheirGuidesCost) {
+    const Outcome info = prt({"info", at("c.glb"), "--json", at("i.json")});
+    ASSERT_EQ(info.status, 0) << info.err;
+    EXPECT_NE(info.out.find("guides: normal and position: 6 rows in each cluster"), std::string::npos)
+        << info.out;
+    const auto figures = nlohmann::json::parse(std::ifstream(folder / "i.json"))["clustered_pca"];
+    EXPECT_EQ(figures["guides"], (nlohmann::json{"normal", "position"}));
+    EXPECT_EQ(figures["guide_rows"], 6);
+    EXPECT_EQ(figures["bytes_bound_per_vertex"], 4);
+}
+
+TEST_F(Guided, ModelsAreTheirVectorsToEveryCommand) {
+    const Outcome evaluate = prt({"evaluate", at("b.glb"), at("c.glb"), "--json", at("e.json")});
+    ASSERT_EQ(evaluate.status, 0) << evaluate.err;
+    EXPECT_LT(nlohmann::json::parse(std::ifstream(folder / "e.json"))["relative_l2"], 1e-6);
+}
+
+TEST_F(Guided, ShadersOfModelsCompileInEveryLanguage) {
+    if (std::string(PRT_GLSLANG).empty() || std::string(PRT_SPIRV_CROSS).empty())
+        GTEST_SKIP() << "glslangValidator or spirv-cross is not installed";
+    for (const std::string language : {"glsl450", "glsl330", "essl300", "vulkan"}) {
+        ASSERT_EQ(prt({"shader", at("c.glb"), "-o", at("s.vert"), "--language", language}).status, 0);
+        std::ifstream file(folder / "s.vert");
+        const std::string text{std::istreambuf_iterator<char>(file), {}};
+        float x = 0, y = 0, z = 0; // in the file's world
+        const std::size_t place = text.find("#define PRT_GUIDE_ORIGIN");
+        ASSERT_NE(place, std::string::npos);
+        EXPECT_EQ(std::sscanf(&text[place], "#define PRT_GUIDE_ORIGIN vec3(%f, %f, %f)", &x, &y, &z), 3);
+        EXPECT_EQ(glm::vec3(x, y, z), glm::vec3(origin));
+        const bool vulkan = language == "vulkan";
+        std::vector<std::string> arguments = {"-S", "vert", at("s.vert")};
+        if (vulkan)
+            arguments.insert(arguments.end(), {"-V", "--target-env", "vulkan1.0", "-o", at("s.spv")});
+        const Outcome outcome = run(PRT_GLSLANG, arguments);
+        EXPECT_EQ(outcome.status, 0) << outcome.out;
+        if (!vulkan)
+            continue;
+        EXPECT_EQ(run(PRT_SPIRV_VAL, {"--target-env", "vulkan1.0", at("s.spv")}).status, 0);
+        EXPECT_EQ(
+            run(PRT_SPIRV_CROSS, {at("s.spv"), "--hlsl", "--shader-model", "50", "--output", at("s.hlsl")})
+                .status,
+            0);
+        EXPECT_EQ(run(PRT_GLSLANG, {"-D", "-V", "-S", "vert", "-e", "main", at("s.hlsl"), "-o", at("h.spv")})
+                      .status,
+                  0);
+    }
+}
+
+} // namespace
+} // namespace prt::test
