@@ -77,8 +77,8 @@ uvec4 prt_layout_of(uint cluster) {
 vec3 prt_guided(uint first, vec3 position, vec3 normal) {
     vec3 radiance = prt_constant(first);
 #ifdef PRT_GUIDE_NORMAL
-    radiance += normal.x * prt_constant(first + 1u) + normal.y * prt_constant(first + 2u) +
-                normal.z * prt_constant(first + 3u);
+    radiance +=
+        normal.x * prt_constant(first + 1u) + normal.y * prt_constant(first + 2u) + normal.z * prt_constant(first + 3u);
 #endif
 #ifdef PRT_GUIDE_POSITION
     vec3 place = position - PRT_GUIDE_ORIGIN;

@@ -81,10 +81,10 @@ std::vector<std::string> guide_names(const ClusteredBases& bases) {
 void add_guides(const ClusteredBases& bases, const std::string& own, Report& report) {
     if (bases.guides.empty())
         return;
-    report.sentences.push_back(
-        fmt::format("guides: {0}: {{{1}guide_rows}} rows in each cluster and no byte of a vertex; the shader adds "
-                    "{{{1}guide_rows}} multiply-adds of a color",
-                    fmt::join(guide_names(bases), " and "), own));
+    report.sentences.push_back(fmt::format(
+        "guides: {0}: {{{1}guide_rows}} rows in each cluster and no byte of a vertex; the shader adds "
+        "{{{1}guide_rows}} multiply-adds of a color",
+        fmt::join(guide_names(bases), " and "), own));
 }
 
 void add_compressed(const CompressedTransfer& compressed, Report& report) {

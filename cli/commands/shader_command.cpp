@@ -58,9 +58,9 @@ void run(ShaderArguments a, Session& session) {
         throw Error(a.model.string() + ": holds no compressed transfer; run prt compress first");
     const ClusteredTransfer& transfer = model.compressed->transfer;
     const ConstantSource constants = a.constants.value_or(constants_for(a.language));
-    const std::string source =
-        a.compute ? constants_shader(transfer, a.language)
-                  : relight_shader(transfer, constants, a.language, model.scene.origin);
+    const std::string source = a.compute
+                                   ? constants_shader(transfer, a.language)
+                                   : relight_shader(transfer, constants, a.language, model.scene.origin);
     if (!a.compute && constants == ConstantSource::block)
         warn_of_large_blocks(a.model, transfer);
     session.write(a.output, source);

@@ -70,7 +70,8 @@ World load(const char* model, const char* sky) {
             split.suns.empty() ? prt::SunDisc{} : split.suns[0]};
 }
 
-// ---- Once: the programs. prt_exit_radiance(position, normal) is prtkit's, written for the model; all else is the game's.
+// ---- Once: the programs. prt_exit_radiance(position, normal) is prtkit's, written for the model; all else
+// is the game's.
 
 std::string read(const std::string& file) {
     std::ifstream stream(GAME_FOLDER "/" + file);

@@ -389,8 +389,21 @@ prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_m
         out->cluster_of = receivers.clusters.data();
         out->cluster_table = reinterpret_cast<const std::uint32_t*>(model->layouts.data());
         out->meshes = model->scene.primitives.size();
-        const std::vector<prt::Guide>& guides = model->transfer.bases.guides; // normals are the first
-        out->wants_normals = !guides.empty() && guides[0].kind == prt::GuideKind::normal;
+    });
+}
+
+prt_status prt_model_get_vertex_inputs(const prt_model* model, prt_vertex_inputs* out, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, out);
+        *out = {};
+        for (const prt::Guide& guide : model->transfer.bases.guides) {
+            if (guide.kind == prt::GuideKind::normal) {
+                out->normals = 1;
+                continue;
+            }
+            out->positions = 1;
+            std::copy_n(glm::value_ptr(guide.origin), 3, out->guide_origin);
+        }
         std::copy_n(glm::value_ptr(model->scene.origin), 3, out->origin);
     });
 }

@@ -73,8 +73,9 @@ std::vector<ClusterLayout> cluster_layouts(const ClusteredBases& bases) {
             continue;
         assert(bases.components[k] <= kMostPackedComponents);
         for (std::size_t j = 0; j < layout.components; ++j)
-            layout.widths[j / 8] |= static_cast<std::uint32_t>(bases.bits[first[k] - k * bases.fixed_rows() + j] - 1)
-                                    << (4 * (j % 8));
+            layout.widths[j / 8] |=
+                static_cast<std::uint32_t>(bases.bits[first[k] - k * bases.fixed_rows() + j] - 1)
+                << (4 * (j % 8));
     }
     return layouts;
 }
@@ -86,7 +87,8 @@ std::size_t basis_bytes(const ClusteredBases& bases) {
                                    ? 0
                                    : bases.guides.size() * sizeof(Guide) +
                                          coded_bytes(encode_rows(bases.centers, bases.guide_rows()));
-    return layout + guides + (bases.is_coded() ? coded_bytes(bases.coded) : bases.rows.size() * sizeof(float));
+    return layout + guides +
+           (bases.is_coded() ? coded_bytes(bases.coded) : bases.rows.size() * sizeof(float));
 }
 
 } // namespace prt

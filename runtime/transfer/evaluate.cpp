@@ -181,9 +181,8 @@ template <WeightFormat Format>
                 p += kLaneCount - 1;
                 continue;
             }
-        const Color sum =
-            known_color(row, receivers.guides.data() + p * guides, guides) +
-            sum_of_weights<Format>(receivers, layout, weights + p * stride, row + 1 + guides);
+        const Color sum = known_color(row, receivers.guides.data() + p * guides, guides) +
+                          sum_of_weights<Format>(receivers, layout, weights + p * stride, row + 1 + guides);
         radiance[p] = {sum[0], sum[1], sum[2]};
     }
 }

@@ -36,6 +36,7 @@ protected:
         save_glb(document, folder / "g.glb");
         ASSERT_EQ(prt_model_load((folder / "g.glb").string().c_str(), &model, nullptr), PRT_OK);
         ASSERT_EQ(prt_model_get_info(model, &info, nullptr), PRT_OK);
+        ASSERT_EQ(prt_model_get_vertex_inputs(model, &inputs, nullptr), PRT_OK);
     }
     void TearDown() override { prt_model_destroy(model); }
 
@@ -44,12 +45,14 @@ protected:
     ClusteredTransfer transfer;
     prt_model* model = nullptr;
     prt_model_info info = {};
+    prt_vertex_inputs inputs = {};
 };
 
 TEST_F(CGuides, EvaluateAsInCpp) {
     make({GuideKind::normal, GuideKind::position});
     EXPECT_EQ(info.rows, 14u);
-    EXPECT_EQ(info.wants_normals, 1);
+    EXPECT_EQ(inputs.normals, 1);
+    EXPECT_EQ(inputs.positions, 1);
     const Light light = directional_light(2, {0.6f, 0.8f, 0}, {1, 2, 3});
     std::vector<float> constants(4 * info.rows), radiance(3 * info.receivers);
     ASSERT_EQ(prt_model_form_constants(model, 2, &light.coefficients[0].x, constants.data(), nullptr),
@@ -63,10 +66,13 @@ TEST_F(CGuides, EvaluateAsInCpp) {
 
 TEST_F(CGuides, ShadersTakeThePositionsOfMeshes) {
     make({GuideKind::position});
-    EXPECT_EQ(info.wants_normals, 0);
-    EXPECT_EQ(info.origin[0], 1e6 + 0.5);
-    EXPECT_EQ(info.origin[1], 20.5);
-    EXPECT_EQ(info.origin[2], 3);
+    EXPECT_EQ(inputs.normals, 0);
+    EXPECT_EQ(inputs.positions, 1);
+    EXPECT_EQ(inputs.guide_origin[1], -2);
+    EXPECT_EQ(prt_model_get_vertex_inputs(model, nullptr, nullptr), PRT_BAD_ARGUMENT);
+    EXPECT_EQ(inputs.origin[0], 1e6 + 0.5);
+    EXPECT_EQ(inputs.origin[1], 20.5);
+    EXPECT_EQ(inputs.origin[2], 3);
     prt_mesh mesh;
     ASSERT_EQ(prt_model_get_mesh(model, 0, &mesh, nullptr), PRT_OK);
     EXPECT_EQ(mesh.positions[0], -0.5f); // seen from the origin

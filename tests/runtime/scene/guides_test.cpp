@@ -312,7 +312,8 @@ TEST(GuidesInFile, RowsOfZerosAreNotAllocatedForNothing) {
         e["bases"]["values"]["drops"] = std::vector<int>(kAxes, 0);
     };
     // Seven rows a cluster take 433 MB of 0.3 + 0.02 MB of file, one row took 62.
-    EXPECT_NE(guided_file.refusal(many).find("its bases would take"), std::string::npos) << guided_file.refusal(many);
+    EXPECT_NE(guided_file.refusal(many).find("its bases would take"), std::string::npos)
+        << guided_file.refusal(many);
 }
 
 } // namespace

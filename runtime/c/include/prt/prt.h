@@ -110,11 +110,18 @@ typedef struct prt_model_info {
     const uint32_t* cluster_table; /* [clusters][4], for prt_clusters */
     size_t meshes;
     int direct_apart; /* 1 where suns can be lit apart from the sky, else 0 */
-    int wants_normals; /* 1 where the vertex shader takes the normals of meshes, else 0 */
-    double origin[3];  /* metres, in the file's world: where the positions of meshes are seen from */
 } prt_model_info;
 /* Pointers live as long as the model. */
 PRT_API prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message);
+
+/* What prt_exit_radiance(position, normal) of the vertex shader reads of a mesh. */
+typedef struct prt_vertex_inputs {
+    int normals, positions; /* 1 where it does, else 0 */
+    float guide_origin[3];  /* metres: PRT_GUIDE_ORIGIN for positions as prt_mesh has them */
+    double origin[3];       /* metres, in the file's world: where those are seen from */
+} prt_vertex_inputs;
+PRT_API prt_status prt_model_get_vertex_inputs(const prt_model* model, prt_vertex_inputs* out,
+                                               prt_message* message);
 
 /* How many lamps of the scene have strengths. */
 PRT_API prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, prt_message* message);
@@ -132,7 +139,7 @@ PRT_API prt_status prt_model_add_sun(const prt_model* model, const float towards
 typedef struct prt_mesh {
     size_t vertices;
     size_t first_receiver;  /* of the first vertex */
-    const float* positions; /* [vertices][3], metres, axes of the world, seen from info.origin */
+    const float* positions; /* [vertices][3], metres, axes of the world, seen from prt_vertex_inputs.origin */
     const float* normals;   /* [vertices][3], unit; zero where neither file nor triangles give one */
     const float* texcoords; /* [vertices][2], or null */
     size_t indices;
@@ -167,8 +174,9 @@ typedef enum prt_constants {
 } prt_constants;
 /* The vertex shader of the model: a prt_language, a prt_constants. *size: of `source` in, with the final 0;
  * what it takes out. Its inputs: `position` at location 0, prt_mesh.positions as they are, whatever moves the
- * model (view_projection does that); `normal` at location 15, prt_mesh.normals, where info.wants_normals;
- * from 4 on the weights, prt_words_* where they are packed, else prt_weights_*, and prt_cluster at 3. */
+ * model (view_projection does that); `normal` at location 15, prt_mesh.normals, where
+ * prt_vertex_inputs.normals; from 4 on the weights, prt_words_* where they are packed, else prt_weights_*,
+ * and prt_cluster at 3. */
 PRT_API prt_status prt_model_shader(const prt_model* model, int language, int constants, char* source,
                                     size_t* size, prt_message* message);
 

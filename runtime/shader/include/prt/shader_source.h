@@ -4,8 +4,6 @@
 
 #include "prt/clustered_transfer.h"
 
-#include <glm/vec3.hpp>
-
 #include <string>
 #include <string_view>
 
