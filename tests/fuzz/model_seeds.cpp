@@ -5,10 +5,12 @@
 #include "prt/gltf.h"
 #include "prt/image_file.h"
 #include "support/glb_file.h"
+#include "support/guided.h"
 #include "support/scene_builder.h"
 
 #include <array>
 #include <fstream>
+#include <random>
 #include <string>
 #include <utility>
 
@@ -135,6 +137,19 @@ void write_shipped(const Path& folder, const std::string& name, const CompressOp
     save_glb(document, folder / (name + ".meshopt.glb"), BufferCompression::meshopt);
 }
 
+void write_guided(const Path& folder) {
+    GltfDocument document = document_of(floor_file(2));
+    const Scene scene = extract_scene(document);
+    const BakedTransfer baked = bake_of(scene, layout_of_one(2, 1));
+    CompressedTransfer compressed{
+        compress(baked.transfer, receiver_areas(scene), mesh_edges(scene), {.clusters = 3}).transfer,
+        baked.record};
+    std::mt19937 random(1);
+    test::add_guides(compressed.transfer.bases, {GuideKind::normal, GuideKind::position}, random);
+    write_clustered(document, scene, compressed);
+    save_glb(document, folder / "guided.glb");
+}
+
 } // namespace
 
 void write_model_seeds(const Path& to) {
@@ -160,6 +175,7 @@ void write_model_seeds(const Path& to) {
         write_shipped(folder, name, {.clusters = 3, .coding = {.format = format, .components = 4}});
     write_shipped(folder, "plain", {.clusters = 2, .coding = {.components = 3}, .basis_share = 0});
     write_shipped(folder, "u64", {.clusters = 4, .coding = preset_u64()});
+    write_guided(folder);
 }
 
 } // namespace prt::fuzz

@@ -72,6 +72,7 @@ WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::pa
     if (compressed) {
         expect(compressed->transfer.receivers.size() == scene.receivers(), "weights for other vertices");
         expect_finite(std::span<const float>(compressed->transfer.bases.rows), "bases");
+        expect_finite(std::span<const float>(compressed->transfer.receivers.guides), "guides");
     }
     return {std::move(document), std::move(scene), std::move(baked), std::move(compressed)};
 }
