@@ -5,9 +5,8 @@
 // Each frame, or each time the lighting changes:
 //     former.form(light, constants);                       // M_k·L and B_kj·L: prt/constant_former.h
 // then per receiver, in a vertex shader (shaders/prt_exit_radiance.glsl) or here:
-//     R = constants[first_k] + sum_i x_i constants[first_k + 1 + i] + sum_j w_j constants[first_k + 1 + g +
-//     j]
-// docs/math.md, eq. 29, with x the g coordinates of the guides, seen from their origin.
+//     R = C[first_k] + sum_i x_i C[first_k + 1 + i] + sum_j w_j C[first_k + 1 + g + j]
+// docs/math.md, eq. 29, with C the constants and x the g coordinates of the guides, seen from their origin.
 // Stable.
 
 #include "prt/clustered_bases.h"
