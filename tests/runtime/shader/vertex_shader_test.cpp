@@ -29,7 +29,8 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Kind{6, 1, 16, 8, WeightFormat::float32}, Kind{6, 1, 16, 8, WeightFormat::snorm16},
                     Kind{6, 1, 16, 8, WeightFormat::snorm8}, Kind{4, 3, 8, 5, WeightFormat::snorm8},
                     Kind{3, 1, 4, 0, WeightFormat::snorm8}, Kind{10, 1, 2, 48, WeightFormat::float32},
-                    Kind{5, 1, 300, 2, WeightFormat::snorm8}, Kind{6, 1, 16, 16, WeightFormat::packed, 24},
+                    Kind{10, 1, 2, 44, WeightFormat::float32}, Kind{5, 1, 300, 2, WeightFormat::snorm8},
+                    Kind{6, 1, 16, 16, WeightFormat::packed, 24},
                     Kind{4, 3, 300, 16, WeightFormat::packed, 200}, Kind{3, 1, 1, 4, WeightFormat::packed, 9},
                     Kind{3, 1, 7, 4, WeightFormat::packed, 0}));
 
