@@ -49,6 +49,8 @@ test("places and normals are those of the file's world, also of nodes that mirro
     const matrix = new Matrix4().compose(new Vector3(5, 6, 7), turn, new Vector3(...scale));
     const mesh = placed(new Mesh(geometryOf()), matrix);
     const frame = bakedFrame(mesh, GUIDES);
+    // Of a size whose squares floats hold, however small the node is.
+    assert.ok(Math.abs(Math.max(...frame.uniforms.prtNormalToBake.value.elements.map(Math.abs)) - 1) < 1e-12);
     for (let v = 0; v < 3; ++v) {
       const [place, normal] = inShader(mesh, frame, v);
       near(place, new Vector3(...POSITIONS[v]).applyMatrix4(matrix).sub(new Vector3(...ORIGIN)));
