@@ -85,17 +85,48 @@ class Bits {
       value += ((this.bytes[this.position >> 3] >> (this.position & 7)) & 1) * 2 ** b;
     return value;
   }
-  signed(width) {
-    const value = this.read(width);
-    return width > 0 && value >= 2 ** (width - 1) ? value - 2 ** width : value;
-  }
 }
 
+/// Numbers of an arithmetically coded buffer view, row by row.
 function codedRows(glb, code, rows) {
-  const bits = new Bits(glb, code.bufferView);
+  const { byteOffset = 0, byteLength } = glb.json.bufferViews[code.bufferView];
+  const bytes = [...glb.bin.subarray(byteOffset, byteOffset + byteLength)];
+  const nextByte = () => {
+    if (bytes.length === 0) throw new Error("the coded rows end too early");
+    return bytes.shift();
+  };
+  if (code.drops.length === 0 || rows === 0) return Array.from({ length: rows }, () => []);
+  let range = 2 ** 32 - 1;
+  let value = 0;
+  for (let i = 0; i < 4; ++i) value = 256 * value + nextByte();
+  const bit = (bound) => {
+    const one = value < bound;
+    if (!one) value -= bound;
+    range = one ? bound : range - bound;
+    for (; range < 2 ** 24; range *= 256) value = 256 * value + nextByte();
+    return one ? 1 : 0;
+  };
+  const plain = (count) => Array.from({ length: count }, () => bit(Math.floor(range / 2))).reduce((v, b) => 2 * v + b, 0);
+  const models = {};
+  const modelled = (...name) => {
+    const model = (models[name] ??= { p: 32768, n: 0 });
+    const one = bit(Math.floor(range / 65536) * model.p);
+    model.p = Math.min(65472, Math.max(64, model.p + Math.trunc((65536 * one - model.p) / (model.n + 2))));
+    model.n = Math.min(model.n + 1, 62);
+    return one;
+  };
+  const number = (w) => {
+    if (w <= 0 || modelled("zero", w)) return 0;
+    const sign = plain(1) ? -1 : 1;
+    let b = 0;
+    while (b < w - 1 && modelled("longer", w, b)) ++b;
+    if (b === 0) return sign;
+    const highest = 2 + modelled("second", w, b);
+    return sign * (highest * 2 ** (b - 1) + plain(b - 1));
+  };
   return Array.from({ length: rows }, () => {
-    const level = bits.read(4);
-    return code.drops.map((drop) => bits.signed(Math.max(0, level - drop)));
+    const level = plain(4);
+    return code.drops.map((drop) => number(level - drop));
   });
 }
 

@@ -1,5 +1,7 @@
 // Decoding of PRTKIT_clustered_pca, as docs/format.md says. No three.js here.
 
+import { codedRows } from "./codedRows.js";
+
 /** Bits of a byte array, lowest first. */
 class BitReader {
   constructor(bytes) {
@@ -19,20 +21,6 @@ class BitReader {
     }
     return value;
   }
-  signed(width) {
-    const value = this.read(width);
-    return width > 0 && value >> (width - 1) ? value - (1 << width) : value;
-  }
-}
-
-function codedRows(bytes, drops, rows) {
-  const bits = new BitReader(bytes);
-  const values = new Int16Array(rows * drops.length);
-  for (let r = 0; r < rows; ++r) {
-    const level = bits.read(4);
-    for (let i = 0; i < drops.length; ++i) values[r * drops.length + i] = bits.signed(Math.max(0, level - drops[i]));
-  }
-  return values;
 }
 
 const floats = (bytes) => new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));

@@ -165,7 +165,7 @@ test("guides are given the frame of the bake, by each mesh's node", async () => 
   mesh.geometry.setAttribute("normal", new BufferAttribute(new Float32Array([0, 0, 1, 0, 1, 0]), 3));
   mesh.geometry.getAttribute("position").setXYZ(1, 1, 1, 1);
   mesh.position.set(5, 6, 7);
-  const views = [bytesOf(2, 1, 1, 1, 1, 1, 1, 0.5), new Uint8Array([7]).buffer, new Uint8Array([0]).buffer];
+  const views = [bytesOf(2, 1, 1, 1, 1, 1, 1, 0.5), new Uint8Array([7]).buffer, new Uint8Array(5).buffer];
   parser.getDependency = async (kind, i) => views[i];
   await new PrtkitPlugin(parser).afterRoot(gltf);
   assert.equal(mesh.material.defines.PRT_GUIDE_NORMAL, 1);

@@ -1,6 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "../src/clusteredPca.js";
+import { codedRows } from "../src/codedRows.js";
+import { encodedRows } from "./encodedRows.js";
 
 /** Numbers of given widths as bytes, lowest bit first. */
 function bits(values) {
@@ -66,10 +68,9 @@ test("coded bases are sums over axes", () => {
   const views = [
     bytesOf(1, 2, 3),
     bytesOf(2, 4),
-    // axis 0 in level 4: 3, -1, 2 (the last in three bits); axis 1 in level 3: -4, 0, -1
-    bits([[4, 4], [3, 4], [15, 4], [2, 3], [3, 4], [4, 3], [0, 3], [3, 2]]),
-    // the mean: level 5: -16, 3; the direction: level 2: 1, nothing left for the second
-    bits([[5, 4], [16, 5], [3, 3], [2, 4], [1, 2]]),
+    encodedRows([0, 0, 1], [[4, [3, -1, 2]], [3, [-4, 0, -1]]]),
+    // The mean, and the direction, where nothing is left for the second axis.
+    encodedRows([0, 2], [[5, [-16, 3]], [2, [1, 0]]]),
   ];
   const { rows } = decodeClusters(extension, (i) => views[i]);
   const axes = [[3, -1, 2], [-4, 0, -1]];
@@ -105,9 +106,17 @@ const guidedRows = [2, 1, 10, 100, 1000, 10000, 100000, 0.5, 3, 6, 5, 4, 3, 2, 1
 const guidedViews = [
   bytesOf(...guidedRows),
   bits([[1, 4]]),
-  // level 3: -1, 2, 0, 1 in two bits, 3, -4; level 0: zeros
-  bits([[3, 4], [7, 3], [2, 3], [0, 3], [1, 2], [3, 3], [4, 3], [0, 4]]),
+  encodedRows([0, 0, 0, 1, 0, 0], [[3, [-1, 2, 0, 1, 3, -4]], [0, [0, 0, 0, 0, 0, 0]]]),
 ];
+
+test("coded rows come back, whatever their size", () => {
+  const drops = [0, 3, 7];
+  const values = Array.from({ length: 500 }, (_, r) => [((r * 7919) % 20001) - 10000, ((r * 31) % 41) - 20, r % 3 - 1]);
+  const code = encodedRows(drops, values.map((row) => [15, row]));
+  assert.deepEqual([...codedRows(code, drops, values.length)], values.flat());
+  assert.throws(() => codedRows(code.subarray(0, code.length - 1), drops, values.length), /end too early/);
+  assert.equal(codedRows(new Uint8Array(0), [], 3).length, 0);
+});
 
 test("guides have rows behind the mean, and centers", () => {
   const clusters = decodeClusters(guided, (i) => guidedViews[i]);
@@ -155,9 +164,9 @@ test("rows of guides have the step of means in coded bases", () => {
   const views = [
     bytesOf(100),
     bytesOf(1),
-    bits([[3, 4], [2, 3]]),
-    bits([5, 6, 7, 8, 9].flatMap((value) => [[5, 4], [value, 5]])),
-    bits([[0, 4]]),
+    encodedRows([0], [[3, [2]]]),
+    encodedRows([0], [5, 6, 7, 8, 9].map((value) => [5, [value]])),
+    encodedRows([0, 0, 0], [[0, [0, 0, 0]]]),
     bits([[1, 4]]),
   ];
   assert.deepEqual([...decodeClusters(extension, (i) => views[i]).rows], [105, 6, 7, 8, 18]);
