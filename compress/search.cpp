@@ -23,7 +23,7 @@ constexpr double kNotKept = 1e6; ///< least cost of what does not keep the budge
 void check_budget(const SearchOptions& o) {
     for (const auto& [value, name] :
          {std::pair(o.budget.max_error, "error"), std::pair(o.budget.bytes_per_vertex, "bytes per vertex"),
-          std::pair(o.budget.mean_components, "shader operations")})
+          std::pair(o.budget.operations, "shader operations")})
         if (value && !(*value > 0 && std::isfinite(*value)))
             throw Error("a budget of " + std::to_string(*value) + " " + name + " makes no sense");
     if (!o.budget.any())
@@ -36,6 +36,7 @@ struct Line {
     int payload = 1; ///< packed: 32-bit words of a receiver; else groups of four weights
     bool bases_count = true;
     int most_components = std::numeric_limits<int>::max(); ///< fewer where bytes are so few
+    GuideChoice guides = GuideChoice::normal;
     friend auto operator<=>(const Line&, const Line&) = default;
 };
 
@@ -105,14 +106,22 @@ public:
     /// measured on a head. The other way is tried where components turn out not to be short, or where bases
     /// outweigh what they serve: the price of a row is measured on meshes where they do not.
     SearchResult run() {
-        const std::optional<double>& most = budget_.mean_components;
-        search_payloads({start(), !most});
-        const SearchTrial& best = best_->trial;
+        const std::optional<double>& most = budget_.operations;
+        Line line{.payload = start(), .bases_count = !most, .guides = task_.options.compress.guides};
+        if (task_.options.choose_guides && most && !(*most > rows_of(line.guides)))
+            line.guides = GuideChoice::none;
+        search_payloads(line);
+        const SearchTrial best = best_->trial;
         const bool other_way =
-            most ? best.mean_components < tuning::kComponentsShort * *most
+            most ? best.operations < tuning::kComponentsShort * *most
                  : task_.packed() && best.bytes_per_vertex > effort_.both_ways * best.payload_bytes;
-        if (other_way)
-            search_payloads({best_->payload, most.has_value()});
+        if (other_way) {
+            line.payload = best_->payload;
+            line.bases_count = !line.bases_count;
+            search_payloads(line);
+        }
+        if (task_.options.choose_guides)
+            search_guides();
         if (!result_.kept && budget_.bytes_per_vertex && task_.options.choose_components)
             search_fewer_components();
         result_.result.statistics.seconds = stopwatch_.seconds();
@@ -122,8 +131,17 @@ public:
 private:
     struct Best {
         SearchTrial trial;
-        int payload;
+        int payload = 0;
+        Line line;
     };
+
+    /// Operations that guides take, where the surface has them.
+    int rows_of(GuideChoice guides) const {
+        const bool normals = !task_.surface.normals.empty(), positions = !task_.surface.positions.empty();
+        return guides == GuideChoice::none     ? 0
+               : guides == GuideChoice::normal ? 3 * normals
+                                               : 3 * normals + 3 * positions;
+    }
 
     static int most_clusters(const SearchTask& task) {
         if (!task.options.choose_clusters)
@@ -152,7 +170,7 @@ private:
     bool keeps(const SearchTrial& t) const {
         return (!budget_.max_error || t.lit_rms <= *budget_.max_error) &&
                (!budget_.bytes_per_vertex || t.bytes_per_vertex <= *budget_.bytes_per_vertex) &&
-               (!budget_.mean_components || t.mean_components <= *budget_.mean_components);
+               (!budget_.operations || t.operations <= *budget_.operations);
     }
     /// What is made small once the budget is kept; while it is not, how far off it is.
     double cost(const SearchTrial& t) const {
@@ -161,7 +179,7 @@ private:
         double off = 1;
         for (const auto& [value, most] : {std::pair(t.lit_rms, budget_.max_error),
                                           std::pair(t.bytes_per_vertex, budget_.bytes_per_vertex),
-                                          std::pair(t.mean_components, budget_.mean_components)})
+                                          std::pair(t.operations, budget_.operations)})
             if (most)
                 off = std::max(off, value / *most);
         return kNotKept * off;
@@ -169,6 +187,7 @@ private:
 
     double search_payloads(const Line& start);
     void search_fewer_components();
+    void search_guides();
     /// The best number of clusters on a line: by bytes or by error. Returns its cost.
     double best_on(const Line& line);
     void fill_bytes(const Line& line);
@@ -194,7 +213,8 @@ CompressOptions Search::options_on(const Line& line, int clusters) const {
     CompressOptions o = task_.options.compress;
     WeightCoding& coding = o.coding;
     o.clusters = clusters;
-    o.mean_components = budget_.mean_components.value_or(0);
+    o.guides = line.guides;
+    o.mean_components = budget_.operations ? *budget_.operations - rows_of(line.guides) : 0;
     int most = 4 * line.payload;
     if (task_.packed()) {
         coding.cluster_bits = static_cast<int>(std::bit_width(static_cast<unsigned>(clusters - 1)));
@@ -222,7 +242,7 @@ SearchTrial Search::attempt(int clusters, const Line& line) {
                             .payload_bytes = static_cast<int>(s.bytes_per_receiver),
                             .lit_rms = s.lit_rms,
                             .bytes_per_vertex = s.bytes_with_bases(task_.transfer.receivers()),
-                            .mean_components = s.mean_components,
+                            .operations = s.operations(),
                             .seconds = s.seconds};
     bytes_per_cluster_ = std::max(tuning::kLeastBytesPerCluster,
                                   static_cast<double>(s.basis_bytes) / static_cast<double>(s.clusters));
@@ -238,7 +258,7 @@ SearchTrial Search::attempt(int clusters, const Line& line) {
 void Search::keep_if_better(CompressResult&& result, const SearchTrial& trial, const Line& line) {
     if (best_ && !(cost(trial) < cost(best_->trial)))
         return;
-    best_ = {trial, line.payload};
+    best_ = {trial, line.payload, line};
     result_.result = std::move(result);
     result_.kept = keeps(trial);
 }
@@ -314,11 +334,11 @@ int Search::most_payload() const {
     if (budget_.bytes_per_vertex)
         while (most > least_payload() && task_.payload_bytes(most) > *budget_.bytes_per_vertex)
             --most;
-    else if (task_.packed() && budget_.mean_components && !budget_.max_error)
+    else if (task_.packed() && budget_.operations && !budget_.max_error)
         most = std::min(
             most,
             static_cast<int>(std::ceil(
-                (tuning::kEnoughClusterBits + tuning::kEnoughWeightBits * *budget_.mean_components) / 32)));
+                (tuning::kEnoughClusterBits + tuning::kEnoughWeightBits * *budget_.operations) / 32)));
     return most;
 }
 
@@ -328,7 +348,7 @@ int Search::start() const {
     if (budget_.max_error)
         bytes += tuning::kBytesPerHalving * std::log2(tuning::kFirstBytesError / *budget_.max_error);
     if (budget_.bytes_per_vertex)
-        bytes = (budget_.mean_components ? tuning::kWeightsShareOfFewComponents : tuning::kWeightsShare) *
+        bytes = (budget_.operations ? tuning::kWeightsShareOfFewComponents : tuning::kWeightsShare) *
                 *budget_.bytes_per_vertex;
     const double payload = bytes / task_.payload_bytes(1);
     return std::clamp(static_cast<int>(std::lround(payload)), least_payload(), most_payload());
@@ -352,6 +372,21 @@ double Search::search_payloads(const Line& start) {
     return least;
 }
 
+/// Guides pay where their rows are cheap beside the weights of all receivers; operations may be better spent
+/// on components. The other ways are tried where the best was found.
+void Search::search_guides() {
+    const Line found = best_->line;
+    for (const GuideChoice guides :
+         {GuideChoice::none, GuideChoice::normal, GuideChoice::normal_and_position}) {
+        const bool affordable = !budget_.operations || rows_of(guides) < *budget_.operations;
+        if (guides == found.guides || !affordable)
+            continue;
+        Line line = found;
+        line.guides = guides;
+        best_on(line);
+    }
+}
+
 /// Where even one cluster with all its directions takes too many bytes: from none of them on, as long as the
 /// budget is kept or comes nearer. A mean alone, of one cluster, is the least that there is.
 void Search::search_fewer_components() {
@@ -359,7 +394,9 @@ void Search::search_fewer_components() {
     double best = std::numeric_limits<double>::infinity();
     int worse = 0;
     for (int components = 0; components < std::max(all, 1) && worse < tuning::kPatience; ++components) {
-        const double found = search_payloads({.payload = least_payload(), .most_components = components});
+        const double found = search_payloads({.payload = least_payload(),
+                                              .most_components = components,
+                                              .guides = GuideChoice::none});
         worse = found < kNotKept || found < best ? 0 : worse + 1;
         best = std::min(best, found);
     }

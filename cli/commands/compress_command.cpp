@@ -40,6 +40,9 @@ const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::p
                                                       {"float", WeightFormat::float32},
                                                       {"16", WeightFormat::snorm16},
                                                       {"8", WeightFormat::snorm8}};
+const std::map<std::string, GuideChoice> kGuides = {{"none", GuideChoice::none},
+                                                    {"normal", GuideChoice::normal},
+                                                    {"position", GuideChoice::normal_and_position}};
 const std::map<std::string, MetricChoice> kMetrics = {{"natural", MetricChoice::natural},
                                                       {"plain", MetricChoice::plain}};
 
@@ -89,6 +92,10 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
         ->check(CLI::Range(0, kMostPackedBits));
     choice(command, "--weights", o.compress.coding.format, kWeights,
            "packed: bits by variance; or 8 or 16 bits each, or float", "packed");
+    choice(command, "--guides", o.compress.guides, kGuides,
+           "what the vertex shader tells clusters: its normal, also its position, or nothing; each costs three "
+           "operations and three rows of every cluster",
+           "normal, with a budget whatever serves it best");
     command
         ->add_option("--max-error", o.budget.max_error,
                      "the cheapest whose expected lit_rms under the metric is at most this")
@@ -98,8 +105,8 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
                      "the best of at most this size: whole 32-bit words, as a game binds them, and bases")
         ->check(above_zero());
     command
-        ->add_option("--shader-ops", o.budget.mean_components,
-                     "components that the vertex shader adds, on average over the vertices, at most")
+        ->add_option("--shader-ops", o.budget.operations,
+                     "rows that the vertex shader adds, components and those of guides, on average at most")
         ->check(above_zero());
 }
 
@@ -114,6 +121,7 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     a.components_given = given("--components");
     a.preset = preset || (!o.budget.any() && !sizes && !given("--preset"));
     if (o.budget.any()) {
+        o.choose_guides = !given("--guides");
         if (given("--bits"))
             throw CLI::ValidationError("--bits", "is what a budget chooses");
         o.choose_clusters = o.choose_clusters || !given("--clusters");
@@ -163,7 +171,7 @@ LightMetric chosen_metric(const CompressArguments& a, const Transfer& transfer,
 /// "error 0.012, 5.1 bytes per vertex, 6.2 shader operations"
 std::string in_words(const CompressStatistics& s, std::size_t receivers) {
     return fmt::format("lit_rms {:.4g}, {:.2f} bytes per vertex, {:.2f} shader operations", s.lit_rms,
-                       s.bytes_with_bases(receivers), s.mean_components);
+                       s.bytes_with_bases(receivers), s.operations());
 }
 
 struct Outcome {
@@ -219,8 +227,16 @@ Json trials_json(const std::vector<SearchTrial>& trials) {
                         {"bytes_bound_per_vertex", t.payload_bytes},
                         {"lit_rms", t.lit_rms},
                         {"bytes_bound_per_vertex_with_bases", t.bytes_per_vertex},
-                        {"shader_operations", t.mean_components}});
+                        {"shader_operations", t.operations}});
     return list;
+}
+
+/// "normal", "normal, position" or "none"
+std::string guides_figures(const ClusteredBases& bases) {
+    std::string names;
+    for (const Guide& guide : bases.guides)
+        names += (names.empty() ? "" : ", ") + std::string(to_string(guide.kind));
+    return names.empty() ? "none" : names;
 }
 
 /// The errors are those of `coded`, which is what the file holds, against `transfer` in its order.
@@ -238,6 +254,8 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
             {"clusters", s.clusters},
             {"components_most", coded.bases.max_components()},
             {"components_mean", s.mean_components},
+            {"guides", guides_figures(coded.bases)},
+            {"shader_operations", s.operations()},
             {"lit_rms", expected_lit_rms(transfer, decoded, areas, *options.metric, options.threads)},
             {"relative_l2", relative_l2(transfer, decoded, areas)},
             {"lit_rms_by_iteration", s.lit_rms_by_iteration},
@@ -259,7 +277,7 @@ Json reuse_json(const VertexReuse& before, const VertexReuse& after) {
 }
 
 std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
-    std::vector<std::string> list = {"{output}: {clusters} clusters x {components_mean:.2f} components"};
+    std::vector<std::string> list = {"{output}: {clusters} clusters x {components_mean:.2f} components, guides: {guides}"};
     if (fitted)
         list.push_back(
             fmt::format("the mesh is small: {} fitted to it, so that bases do not outweigh weights",

@@ -37,7 +37,7 @@ Json as_json(const SearchTrial& e) {
             {"bytes_bound_per_vertex", e.payload_bytes},
             {"lit_rms", e.lit_rms},
             {"bytes_bound_per_vertex_with_bases", e.bytes_per_vertex},
-            {"shader_operations", e.mean_components}};
+            {"shader_operations", e.operations}};
 }
 
 } // namespace

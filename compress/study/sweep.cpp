@@ -80,7 +80,7 @@ private:
         point.payload_bytes = static_cast<double>(r.statistics.bytes_per_receiver);
         point.table_bytes =
             static_cast<double>(r.statistics.basis_bytes) / static_cast<double>(transfer_.receivers());
-        point.mean_components = r.statistics.mean_components;
+        point.mean_components = r.statistics.operations();
         point.seconds = r.statistics.seconds;
         return point;
     }
@@ -186,7 +186,7 @@ private:
             }
             Budget budget;
             budget.bytes_per_vertex = reference.bytes();
-            budget.mean_components = reference.mean_components;
+            budget.operations = reference.mean_components;
             within(budget,
                    short_number(reference.mean_components) + " operations and " +
                        short_number(reference.bytes()) + " bytes",
@@ -208,7 +208,7 @@ private:
         else
             sweep_.left_out.push_back("nothing keeps " + words + ", the nearest has " +
                                       short_number(s.bytes_with_bases(transfer_.receivers())) +
-                                      " bytes and " + short_number(s.mean_components) + " operations");
+                                      " bytes and " + short_number(s.operations()) + " operations");
     }
 
     const Transfer& transfer_;

@@ -381,10 +381,10 @@ TEST(Compress, OfTheLargestTransferAndAreasIsFinite) {
     };
     expect_finite(compress(t, {std::vector<float>(40, 3e38f)}, {}));
     expect_finite(compress(t, {std::vector<float>(40, 1e-45f)}, {}));
-    expect_finite(compress(t, std::vector<float>(40, 0.0f), std::vector{Edge{0, 1}}, {}));
+    expect_finite(compress(t, {std::vector<float>(40, 0.0f), std::vector{Edge{0, 1}}}, {}));
     t.vectors[7] = kMostTransfer;
     t.vectors[50] = -kMostTransfer;
-    expect_finite(compress(t, std::vector<float>(40, 1.0f), std::vector{Edge{0, 1}}, {}));
+    expect_finite(compress(t, {std::vector<float>(40, 1.0f), std::vector{Edge{0, 1}}}, {}));
 }
 
 TEST(Compress, StopsWhenAsked) {

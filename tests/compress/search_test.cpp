@@ -128,8 +128,8 @@ TEST(Search, KeepsTheOperationsThatWereAskedFor) {
     for (const double ops : {0.5, 3.0}) {
         const SearchResult found = scene.within({{}, {}, ops});
         EXPECT_TRUE(found.kept);
-        EXPECT_LE(found.result.statistics.mean_components, ops);
-        EXPECT_GT(found.result.statistics.mean_components, 0.6 * ops);
+        EXPECT_LE(found.result.statistics.operations(), ops);
+        EXPECT_GT(found.result.statistics.operations(), 0.6 * ops);
     }
 }
 
@@ -139,7 +139,7 @@ TEST(Search, KeepsThreePromisesAtOnceOrSaysThatItCannot) {
     EXPECT_TRUE(loose.kept);
     EXPECT_LE(loose.result.statistics.lit_rms, 0.05);
     EXPECT_LE(loose.result.statistics.bytes_with_bases(600), 12);
-    EXPECT_LE(loose.result.statistics.mean_components, 8);
+    EXPECT_LE(loose.result.statistics.operations(), 8);
     const SearchResult tight = scene.within({1e-4, 1.5, {}});
     EXPECT_FALSE(tight.kept);
     EXPECT_GT(tight.result.transfer.receivers.size(), 0u); // the nearest there is
@@ -227,7 +227,7 @@ TEST(Search, FindsOnSmallMeshesWhatAGridByHandFinds) {
 TEST(Search, OperationsAloneAreSpentAsWellAsByHand) {
     const Tried scene(5000, 1, 7);
     const SearchResult alone = scene.within({{}, {}, 2.0});
-    EXPECT_LE(alone.result.statistics.mean_components, 2);
+    EXPECT_LE(alone.result.statistics.operations(), 2);
     EXPECT_LT(bound_bytes(alone.result), 24.01); // three times two words at most
     CompressOptions by_hand;
     by_hand.clusters = 416; // a dozen receivers each
@@ -255,7 +255,7 @@ TEST(Search, PresetsFitSmallMeshes) {
         EXPECT_EQ(found.result.transfer.receivers.words, words);
         EXPECT_LE(basis_bytes(found.result.transfer.bases), 4096u);
         EXPECT_LT(found.result.statistics.lit_rms, 0.03);
-        EXPECT_GT(found.result.statistics.mean_components, 1); // clusters, not a copy of the mesh
+        EXPECT_GT(found.result.statistics.operations(), 1); // clusters, not a copy of the mesh
     }
     // Where there is room for the bases, the preset is what it says.
     const Tried large(3000, 1, 8);
@@ -289,7 +289,7 @@ TEST(Search, WeightsThatAreNotPackedFitSmallMeshesToo) {
     const SearchResult found = compress_preset(prop.transfer, {prop.areas}, bytes);
     EXPECT_TRUE(found.kept);
     EXPECT_LE(basis_bytes(found.result.transfer.bases), 12u * 2 * 232); // twice cluster and weights
-    EXPECT_GT(found.result.statistics.mean_components, 1);
+    EXPECT_GT(found.result.statistics.operations(), 1);
     EXPECT_LT(found.result.statistics.lit_rms, 0.03);
 }
 

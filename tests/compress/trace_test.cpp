@@ -110,7 +110,7 @@ TEST(Trace, TellsOfEveryTrialOfASearch) {
     SearchOptions options;
     options.budget.bytes_per_vertex = 10;
     options.compress.trace = [&](const CompressEvent& event) { events.push_back(event); };
-    const SearchResult found = compress_within(t, std::vector<float>(300, 1.0f), {}, options);
+    const SearchResult found = compress_within(t, {std::vector<float>(300, 1.0f)}, options);
     const std::vector<SearchTrial> trials = those_of<SearchTrial>(events);
     ASSERT_EQ(trials.size(), found.trials.size());
     for (std::size_t i = 0; i < trials.size(); ++i)
@@ -134,7 +134,7 @@ TEST(Trace, NoBarRunsBackwards) {
     shown = 0;
     SearchOptions search;
     search.budget.bytes_per_vertex = 10;
-    EXPECT_GT(compress_within(few, std::span(areas).first(80), {}, search, progress).trials.size(), 1u);
+    EXPECT_GT(compress_within(few, {std::span(areas).first(80)}, search, progress).trials.size(), 1u);
 }
 
 } // namespace

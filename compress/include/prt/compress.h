@@ -62,10 +62,10 @@ enum class GuideChoice { none, normal, normal_and_position };
 struct CompressOptions {
     int clusters = 256;
     WeightCoding coding = {};
-    /// Components per receiver on average, where clusters may differ: what the vertex shader pays. 0: no
-    /// limit.
+    /// Components per receiver on average, where clusters may differ: what the vertex shader pays beside
+    /// guides. 0: no limit.
     double mean_components = 0;
-    GuideChoice guides = GuideChoice::normal_and_position;
+    GuideChoice guides = GuideChoice::normal;
     /// Squared error that rounding the bases may add, as a share of what there is; 0: bases are float32.
     /// Unset: 0.1 for packed weights, 0.05 for 8 bits, 0.0001 for 16, 0 for floats.
     std::optional<double> basis_share = {};

@@ -13,15 +13,16 @@ namespace prt {
 struct Budget {
     std::optional<double> max_error;        ///< expected lit_rms under the metric
     std::optional<double> bytes_per_vertex; ///< what a game binds (`bytes_per_receiver`), and bases
-    std::optional<double> mean_components;  ///< of all receivers: what the vertex shader pays
+    std::optional<double> operations;       ///< of all receivers, guides with them: what the shader pays
 
-    bool any() const { return max_error || bytes_per_vertex || mean_components; }
+    bool any() const { return max_error || bytes_per_vertex || operations; }
 };
 
 struct SearchOptions {
     CompressOptions compress;      ///< what the search does not choose: metric, seams, seed, threads, format
     bool choose_clusters = true;   ///< else compress.clusters holds
     bool choose_components = true; ///< else compress.coding.components holds as the most, packed or not
+    bool choose_guides = true;     ///< else compress.guides holds
     /// 32-bit words of a receiver, or groups of four weights that are not packed; 0: the search chooses.
     int payload = 0;
     Budget budget;
@@ -35,7 +36,7 @@ struct SearchResult {
 };
 
 /// Compresses with the numbers of clusters, components and bits that are cheapest in bytes under `max_error`,
-/// or best in error under `bytes_per_vertex`, or, under `mean_components` alone, in as many bytes as a preset
+/// or best in error under `bytes_per_vertex`, or, under `operations` alone, in as many bytes as a preset
 /// may take. Takes five to twenty times as long as `compress`. Throws as `compress` does, and for budgets
 /// that are not positive.
 SearchResult compress_within(const Transfer& transfer, const ReceiverSurface& surface,

@@ -29,7 +29,7 @@ TEST(Alternation, NeverLosesWhatARoundHasFound) {
     for (const unsigned seed : {1u, 2u, 3u, 4u}) {
         const Transfer transfer = falling_spectrum(kReceivers, seed);
         const Frame frame = fit_frame(transfer, significance, plain_metric(layout_of_one(4, 1)), 0, 1);
-        const PointBlocks points(transfer, frame, 1);
+        const PointBlocks points(transfer, frame, {}, 1);
         ClusteringOptions how;
         how.clusters = kReceivers / 9; // as many members as least squares has unknowns, or fewer
         how.spending.most_components = 16;

@@ -36,7 +36,7 @@ Transfer crossing_subspaces(std::size_t subspaces, unsigned seed) {
 bool finds_subspaces(unsigned seed, const ClusteringSchedule& schedule) {
     const Transfer t = crossing_subspaces(3, seed);
     const std::vector<float> significance(t.receivers(), 1.0f / static_cast<float>(t.receivers()));
-    const PointBlocks points(t, fit_frame(t, significance, plain_metric(t.layout), 0, 1), 1);
+    const PointBlocks points(t, fit_frame(t, significance, plain_metric(t.layout), 0, 1), {}, 1);
     const ClusteringOptions options{
         .clusters = 3, .spending = {.most_components = 5}, .schedule = schedule, .trace = {}, .threads = 1};
     std::mt19937_64 random(seed);

@@ -1,0 +1,197 @@
+// What normals and positions tell of transfer: closed forms that clusters must find, and cases in which
+// guides tell nothing.
+
+#include "prt/compress.h"
+
+#include "prt/error_measures.h"
+#include "prt/search.h"
+#include "prt/sh.h"
+#include "prt/support/error.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace prt {
+namespace {
+
+struct Guided {
+    Transfer transfer;
+    std::vector<float> areas;
+    std::vector<glm::vec3> normals, positions;
+
+    ReceiverSurface surface() const { return {areas, {}, normals, positions}; }
+};
+
+glm::vec3 random_direction(std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    return glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+}
+
+/// Receivers anywhere with normals anywhere, and no transfer yet.
+Guided scattered(std::size_t receivers, int order, unsigned seed) {
+    Guided scene{zero_transfer(order, 1, receivers), std::vector<float>(receivers, 1.0f), {}, {}};
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(-1, 1);
+    for (std::size_t p = 0; p < receivers; ++p) {
+        scene.normals.push_back(random_direction(random));
+        scene.positions.emplace_back(unit(random), 2 * unit(random), 0.5f * unit(random));
+    }
+    return scene;
+}
+
+/// Receivers on a sphere in the open: transfer is the clamped cosine of the normal (docs/math.md, eq. 6).
+Guided open_sphere(std::size_t receivers) {
+    Guided scene = scattered(receivers, 6, 3);
+    for (std::size_t p = 0; p < receivers; ++p) {
+        const Light lobe = directional_light(6, scene.normals[p], glm::vec3(1));
+        const double factor[] = {1, 2.0 / 3, 0.25, 0, -1.0 / 24, 0};
+        for (int l = 0; l < 6; ++l)
+            for (int i = l * l; i < (l + 1) * (l + 1); ++i)
+                scene.transfer.vector(p)[static_cast<std::size_t>(i)] = static_cast<float>(
+                    factor[l] * static_cast<double>(lobe.coefficients[static_cast<std::size_t>(i)].x));
+    }
+    return scene;
+}
+
+double error_of(const Guided& scene, const CompressResult& result) {
+    return relative_l2(scene.transfer, decode(result.transfer), scene.areas);
+}
+
+CompressOptions with(GuideChoice guides, int clusters, const WeightCoding& coding) {
+    CompressOptions options{.clusters = clusters, .coding = coding};
+    options.guides = guides;
+    options.metric = plain_metric(layout_of_one(coding.bits == 0 ? 4 : 6, 1));
+    return options;
+}
+
+TEST(CompressGuides, TransferThatIsLinearInThemNeedsNoComponents) {
+    Guided scene = scattered(600, 4, 1);
+    std::mt19937 random(2);
+    std::normal_distribution<float> normal;
+    std::vector<float> slopes(7 * 16);
+    for (float& v : slopes)
+        v = normal(random);
+    for (std::size_t p = 0; p < 600; ++p) {
+        const glm::vec3 n = scene.normals[p], x = scene.positions[p];
+        const float guides[] = {1, n.x, n.y, n.z, x.x, x.y, x.z};
+        for (std::size_t i = 0; i < 16; ++i)
+            for (std::size_t g = 0; g < 7; ++g)
+                scene.transfer.vector(p)[i] += guides[g] * slopes[g * 16 + i];
+    }
+    for (const WeightFormat format : {WeightFormat::float32, WeightFormat::packed}) {
+        const auto error = [&](GuideChoice guides) {
+            WeightCoding coding{.format = format, .components = 0, .bits = 0};
+            CompressOptions options = with(guides, 1, coding);
+            options.basis_share = 0;
+            return error_of(scene, compress(scene.transfer, scene.surface(), options));
+        };
+        EXPECT_LT(error(GuideChoice::normal_and_position), 1e-5);
+        EXPECT_GT(error(GuideChoice::normal), 0.1);
+        EXPECT_GT(error(GuideChoice::none), 0.3);
+    }
+}
+
+TEST(CompressGuides, HalveTheErrorOfReceiversInTheOpen) {
+    const Guided scene = open_sphere(4000);
+    const auto error = [&](GuideChoice guides) {
+        return error_of(scene,
+                        compress(scene.transfer, scene.surface(), with(guides, 64, {.bits = 18})));
+    };
+    EXPECT_LT(error(GuideChoice::normal), 0.5 * error(GuideChoice::none));
+}
+
+TEST(CompressGuides, CodesAreTheNearestThatTheirClustersHave) {
+    // Each point's code in its own cluster is as good as coding again what guides leave can make it, and what
+    // is reported is what decodes.
+    const Guided scene = open_sphere(700);
+    const CompressResult result =
+        compress(scene.transfer, scene.surface(), with(GuideChoice::normal, 12, {.bits = 12}));
+    const ClusteredTransfer& t = result.transfer;
+    ASSERT_EQ(t.bases.guides.size(), 1u);
+    EXPECT_EQ(t.bases.guides[0].kind, GuideKind::normal);
+    EXPECT_EQ(t.receivers.guides.size(), 3 * 700u);
+    EXPECT_EQ(result.statistics.guide_rows, 3);
+    EXPECT_NEAR(result.statistics.operations(), 3 + result.statistics.mean_components, 1e-12);
+    EXPECT_NEAR(result.statistics.lit_rms, error_of(scene, result), 1e-4 * result.statistics.lit_rms);
+}
+
+TEST(CompressGuides, AreTheSameForAnyNumberOfThreads) {
+    const Guided scene = open_sphere(900);
+    std::vector<ClusteredTransfer> results;
+    for (const int threads : {1, 3}) {
+        CompressOptions options = with(GuideChoice::normal_and_position, 16, {});
+        options.threads = threads;
+        results.push_back(compress(scene.transfer, scene.surface(), options).transfer);
+    }
+    EXPECT_EQ(results[0].bases.rows, results[1].bases.rows);
+    EXPECT_EQ(results[0].bases.centers, results[1].bases.centers);
+    EXPECT_EQ(results[0].receivers.weights, results[1].receivers.weights);
+}
+
+TEST(CompressGuides, ThatTellNothingAreHarmless) {
+    Guided scene = open_sphere(500);
+    const double without =
+        error_of(scene, compress(scene.transfer, scene.surface(), with(GuideChoice::none, 16, {})));
+    // Normals that are all alike, or all zero, guide nowhere and are left out.
+    for (const glm::vec3 same : {glm::vec3(0, 1, 0), glm::vec3(0)}) {
+        Guided flat = scene;
+        std::fill(flat.normals.begin(), flat.normals.end(), same);
+        const CompressResult r =
+            compress(flat.transfer, flat.surface(), with(GuideChoice::normal, 16, {}));
+        EXPECT_TRUE(r.transfer.bases.guides.empty());
+        EXPECT_EQ(error_of(flat, r), without);
+    }
+    // Chance tells nothing but to clusters of hardly any receivers.
+    Guided chance = scene;
+    std::mt19937 random(8);
+    for (glm::vec3& n : chance.normals)
+        n = random_direction(random);
+    const CompressResult r = compress(chance.transfer, chance.surface(), with(GuideChoice::normal, 16, {}));
+    EXPECT_LT(error_of(chance, r), 1.05 * without);
+    // A renderer that has no normals.
+    Guided bare = scene;
+    bare.normals.clear();
+    const CompressResult plain = compress(bare.transfer, bare.surface(), with(GuideChoice::normal, 16, {}));
+    EXPECT_TRUE(plain.transfer.bases.guides.empty());
+    EXPECT_EQ(error_of(bare, plain), without);
+}
+
+TEST(CompressGuides, PositionsFarFromTheMiddleLoseLittle) {
+    Guided scene = open_sphere(800);
+    const auto error = [&](const Guided& of) {
+        return error_of(of, compress(of.transfer, of.surface(),
+                                     with(GuideChoice::normal_and_position, 16, {.bits = 18})));
+    };
+    Guided far = scene;
+    for (glm::vec3& x : far.positions)
+        x += glm::vec3(100, -300, 50);
+    EXPECT_NEAR(error(far), error(scene), 0.1 * error(scene));
+}
+
+TEST(CompressGuides, ShaderOperationsAreCountedWithThem) {
+    const Guided scene = open_sphere(1500);
+    for (const double most : {2.0, 5.0}) {
+        SearchOptions options;
+        options.compress.metric = plain_metric(scene.transfer.layout);
+        options.budget.operations = most;
+        const SearchResult found = compress_within(scene.transfer, scene.surface(), options);
+        EXPECT_TRUE(found.kept);
+        EXPECT_LE(found.result.statistics.operations(), most);
+    }
+}
+
+TEST(CompressGuides, OfAnotherNumberOrNotFiniteAreRefused) {
+    Guided scene = open_sphere(20);
+    scene.normals.pop_back();
+    EXPECT_THROW(compress(scene.transfer, scene.surface(), {}), Error);
+    scene.normals.emplace_back(0, std::numeric_limits<float>::quiet_NaN(), 1);
+    EXPECT_THROW(compress(scene.transfer, scene.surface(), {}), Error);
+    scene.normals.back() = {0, 0, 1};
+    scene.positions[3].x = std::numeric_limits<float>::infinity();
+    EXPECT_THROW(compress(scene.transfer, scene.surface(), {}), Error);
+}
+
+} // namespace
+} // namespace prt
