@@ -1,0 +1,196 @@
+// Errors under any lighting from second moments of transfer, and the worst of all turns about +Y.
+
+#include "prt/error_moments.h"
+
+#include "metric/color_blocks.h"
+#include "prt/support/error.h"
+#include "prt/support/parallel.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace prt {
+namespace {
+
+using Matrix = Eigen::MatrixXd;
+using std::numbers::pi;
+
+/// Receivers are summed in so many stretches side by side, whatever the number of threads, and each in blocks.
+constexpr std::size_t kStretches = 8, kBlock = 512;
+
+struct Sums {
+    Matrix errors, references;
+};
+
+double ratio(double error, double reference) {
+    if (reference > 0)
+        return std::sqrt(std::max(error, 0.0) / reference);
+    return error > 0 ? std::numeric_limits<double>::infinity() : 0;
+}
+
+void add_block(const Transfer& reference, const Transfer& approximation, std::span<const float> areas,
+               std::size_t begin, std::size_t end, Sums& sums) {
+    using Vectors = Eigen::Map<const Eigen::MatrixXf>;
+    const auto rows = static_cast<Eigen::Index>(reference.dimension());
+    const auto count = static_cast<Eigen::Index>(end - begin);
+    const Eigen::VectorXd roots = Eigen::Map<const Eigen::VectorXf>(areas.data() + begin, count).cast<double>().cwiseSqrt();
+    const Matrix wanted = Vectors(reference.vector(begin).data(), rows, count).cast<double>() * roots.asDiagonal();
+    const Matrix found = Vectors(approximation.vector(begin).data(), rows, count).cast<double>() * roots.asDiagonal();
+    sums.references.selfadjointView<Eigen::Lower>().rankUpdate(wanted);
+    sums.errors.selfadjointView<Eigen::Lower>().rankUpdate(wanted - found);
+}
+
+std::vector<double> whole(const Matrix& lower) {
+    const Matrix all = lower.selfadjointView<Eigen::Lower>();
+    return {all.data(), all.data() + all.size()};
+}
+
+/// Squared error and square of exit radiance, summed over receivers and colors.
+struct Squares {
+    double error = 0, reference = 0;
+};
+
+Squares squares_under(const ErrorMoments& moments, const LightingView& lighting) {
+    const auto n = static_cast<Eigen::Index>(moments.layout.dimension());
+    const Eigen::Map<const Matrix> errors(moments.errors.data(), n, n), references(moments.references.data(), n, n);
+    const std::vector<glm::vec3> columns = light_columns(moments.layout, lighting);
+    Squares sums;
+    for (int c = 0; c < 3; ++c) {
+        const std::vector<std::size_t> numbers = numbers_of_color(moments.layout, c);
+        Eigen::VectorXd light = Eigen::VectorXd::Zero(n);
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            light[static_cast<Eigen::Index>(numbers[k])] = static_cast<double>(columns[k][c]);
+        sums.error += light.dot(errors * light);
+        sums.reference += light.dot(references * light);
+    }
+    return sums;
+}
+
+Lighting turned(const Lighting& lighting, int order, double angle) {
+    Lighting result{rotated_about_y(truncated(lighting.sky, order), angle), {}, lighting.lamps};
+    if (lighting.suns)
+        result.suns = rotated_about_y(truncated(*lighting.suns, order), angle);
+    return result;
+}
+
+/// A trigonometric polynomial from its values at equally spaced angles, an odd number of them.
+class TrigonometricPolynomial {
+public:
+    explicit TrigonometricPolynomial(const Eigen::VectorXd& values)
+        : cosines_(values.size() / 2 + 1), sines_(values.size() / 2 + 1) {
+        for (Eigen::Index m = 0; m < cosines_.size(); ++m) {
+            const double scale = (m == 0 ? 1.0 : 2.0) / static_cast<double>(values.size());
+            double cosine = 0, sine = 0;
+            for (Eigen::Index k = 0; k < values.size(); ++k) {
+                const double angle = 2 * pi * static_cast<double>(m * k) / static_cast<double>(values.size());
+                cosine += values[k] * std::cos(angle);
+                sine += values[k] * std::sin(angle);
+            }
+            cosines_[m] = scale * cosine;
+            sines_[m] = scale * sine;
+        }
+    }
+    double mean() const { return cosines_[0]; }
+    double operator()(double angle) const {
+        double sum = 0;
+        for (Eigen::Index m = 0; m < cosines_.size(); ++m)
+            sum += cosines_[m] * std::cos(static_cast<double>(m) * angle) +
+                   sines_[m] * std::sin(static_cast<double>(m) * angle);
+        return sum;
+    }
+
+private:
+    Eigen::VectorXd cosines_, sines_;
+};
+
+/// The place of the maximum of `f` in [low, high], by golden sections: it has one there, or ends at another.
+double place_of_maximum(auto&& f, double low, double high) {
+    constexpr double kGolden = 0.6180339887498949;
+    double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
+    double at_a = f(a), at_b = f(b);
+    constexpr int kSteps = 40; // to 1e-8 of the interval: at a maximum that is rounding
+    for (int step = 0; step < kSteps; ++step) {
+        if (at_a > at_b) {
+            high = b;
+            b = a;
+            at_b = at_a;
+            a = high - kGolden * (high - low);
+            at_a = f(a);
+        } else {
+            low = a;
+            a = b;
+            at_a = at_b;
+            b = low + kGolden * (high - low);
+            at_b = f(b);
+        }
+    }
+    return at_a > at_b ? a : b;
+}
+
+} // namespace
+
+ErrorMoments error_moments(const Transfer& reference, const Transfer& approximation,
+                           std::span<const float> areas, int threads) {
+    if (reference.layout != approximation.layout || reference.receivers() != approximation.receivers())
+        throw Error("the transfers have different orders, parts or numbers of receivers");
+    const std::size_t receivers = reference.receivers();
+    const auto n = static_cast<Eigen::Index>(reference.dimension());
+    std::array<Sums, kStretches> stretches;
+    const auto first_of = [&](std::size_t stretch) { return receivers * stretch / kStretches; };
+    parallel_for(kStretches, 1, threads, [&](std::size_t stretch, std::size_t) {
+        Sums sums{Matrix::Zero(n, n), Matrix::Zero(n, n)};
+        const std::size_t end = first_of(stretch + 1);
+        for (std::size_t begin = first_of(stretch); begin < end; begin += kBlock)
+            add_block(reference, approximation, areas, begin, std::min(begin + kBlock, end), sums);
+        stretches[stretch] = std::move(sums);
+    });
+    for (std::size_t stretch = 1; stretch < kStretches; ++stretch) {
+        stretches[0].errors += stretches[stretch].errors;
+        stretches[0].references += stretches[stretch].references;
+    }
+    return {reference.layout, whole(stretches[0].errors), whole(stretches[0].references)};
+}
+
+double lit_rms(const ErrorMoments& moments, const LightingView& lighting) {
+    const Squares squares = squares_under(moments, lighting);
+    return ratio(squares.error, squares.reference);
+}
+
+double expected_lit_rms(const ErrorMoments& moments, const LightMetric& metric) {
+    if (metric.layout != moments.layout)
+        throw Error("the metric is of another layout than the transfer");
+    const auto sum_with = [&](const std::vector<double>& of_transfer) {
+        return Eigen::Map<const Eigen::VectorXd>(metric.moments.data(), static_cast<Eigen::Index>(metric.moments.size()))
+            .dot(Eigen::Map<const Eigen::VectorXd>(of_transfer.data(), static_cast<Eigen::Index>(of_transfer.size())));
+    };
+    return ratio(sum_with(moments.errors), sum_with(moments.references));
+}
+
+LitRmsOverTurns lit_rms_over_turns(const ErrorMoments& moments, const Lighting& lighting) {
+    const int order = moments.layout.order, turns = 4 * order - 3;
+    Eigen::VectorXd errors(turns), references(turns);
+    for (int k = 0; k < turns; ++k) {
+        const Squares squares = squares_under(moments, turned(lighting, order, 2 * pi * k / turns));
+        errors[k] = squares.error;
+        references[k] = squares.reference;
+    }
+    const TrigonometricPolynomial error(errors), reference(references);
+    const auto at = [&](double angle) { return ratio(error(angle), reference(angle)); };
+    LitRmsOverTurns result{ratio(error.mean(), reference.mean())};
+    // A polynomial of degree d has at most 2d maxima, so that neighbours on a grid of 16 d enclose one.
+    const double step = 2 * pi / (32 * order);
+    int best = 0;
+    for (int k = 1; k < 32 * order; ++k)
+        if (at(k * step) > at(best * step))
+            best = k;
+    result.worst_angle = place_of_maximum(at, (best - 1) * step, (best + 1) * step);
+    result.worst = at(result.worst_angle);
+    return result;
+}
+
+} // namespace prt
