@@ -19,9 +19,23 @@ namespace prt::tuning {
 
 // metric/
 
-/// Power of a coefficient of band l >= 1 of a sky without suns, over that of band 0, times l²; and of one of
-/// any band of its suns.
-inline constexpr double kSkyPower = 0.25, kSunPower = 0.1;
+/// Natural light: power of a coefficient of band l >= 1 over that of band 0, p / l^f, of whole light and of
+/// skies without suns; and of one of any band of suns. Fitted to means over 15 photographs: docs/math.md,
+/// section 4. `prt project --suns auto`
+inline constexpr double kWholePower = 0.28, kWholeFall = 0.6, kSkyPower = 0.24, kSkyFall = 0.85,
+                        kSunPower = 0.1;
+/// Daylight: a sun's irradiance over all light of sky and ground, times the turbidity, before the air takes
+/// what it does: exp(-extinction / sine of the elevation). Of the photographs' suns. `prt project --suns
+/// auto`
+inline constexpr double kSunOverSky = 3.1, kAirExtinction = 0.08;
+/// Of grass, soil and concrete: 0.1 to 0.3.
+inline constexpr double kGroundAlbedo = 0.2;
+/// What skies have beside the analytic ones, p / l^f as above. Of the photographs. `prt project`
+inline constexpr double kTextureOutdoors = 0.1, kTextureFallOutdoors = 1.5;
+/// Rooms: band 1 along +Y over band 0, the light of a lamp or window over that of the rest, and what else
+/// there is, p / l^f. [preset] with --metric indoor, under the photographs' rooms
+inline constexpr double kRoomFromAbove = 0.5, kLampOverRoom = 0.4, kTextureIndoors = 0.1,
+                        kTextureFallIndoors = 1;
 /// Share of the power that natural lighting has in the metric of given lights, so that no error is free. By
 /// hand. [preset] with --lights
 inline constexpr double kNaturalShare = 0.01;

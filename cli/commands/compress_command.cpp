@@ -9,14 +9,18 @@
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "report/trace_lines.h"
+#include "sky_errors.h"
 #include "split_light.h"
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace prt::cli {
 namespace {
 
-enum class MetricChoice { natural, plain };
+enum class MetricChoice { outdoor, indoor, day, natural, plain };
 
 struct CompressArguments {
     Path baked, output;
@@ -24,7 +28,7 @@ struct CompressArguments {
         Path json, trace;
     } reports;
     SearchOptions options; ///< without a budget `options.compress` says it all
-    MetricChoice metric = MetricChoice::natural;
+    MetricChoice metric = MetricChoice::outdoor;
     std::vector<Path> lights; ///< to compress for, instead of `metric`
     LightOptions light_options;
     bool components_given = false;
@@ -43,7 +47,10 @@ const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::p
 const std::map<std::string, GuideChoice> kGuides = {{"none", GuideChoice::none},
                                                     {"normal", GuideChoice::normal},
                                                     {"position", GuideChoice::normal_and_position}};
-const std::map<std::string, MetricChoice> kMetrics = {{"natural", MetricChoice::natural},
+const std::map<std::string, MetricChoice> kMetrics = {{"outdoor", MetricChoice::outdoor},
+                                                      {"indoor", MetricChoice::indoor},
+                                                      {"day", MetricChoice::day},
+                                                      {"natural", MetricChoice::natural},
                                                       {"plain", MetricChoice::plain}};
 
 struct CountRange {
@@ -141,31 +148,43 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     a.preset = !given("--clusters"); // as many as suit the mesh
 }
 
-/// With all light in the sky; and with its suns apart, where transfer knows the difference.
-void add_lighting(const CompressArguments& a, const Path& path, const TransferLayout& layout,
-                  std::vector<Lighting>& lights) {
+/// Its suns apart, where transfer knows the difference.
+NamedLighting given_light(const CompressArguments& a, const Path& path, const TransferLayout& layout) {
     const int threads = a.options.compress.threads;
-    if (layout.distant_parts().size() < 2) {
-        lights.push_back({load_light(path, layout.order, a.light_options, threads).light});
-        return;
-    }
-    const SplitLight light = load_split_light(path, layout.order, {std::nullopt}, a.light_options, threads);
-    const Light suns = light_of_suns(light);
-    lights.push_back({sum(light.sky.light, suns)});
-    if (!light.split.suns.empty())
-        lights.push_back({light.sky.light, suns});
+    const std::string name = path.filename().string();
+    if (layout.distant_parts().size() < 2)
+        return {name, {load_light(path, layout.order, a.light_options, threads).light}};
+    return {name,
+            lighting_of(load_split_light(path, layout.order, {std::nullopt}, a.light_options, threads))};
 }
 
-LightMetric chosen_metric(const CompressArguments& a, const Transfer& transfer,
-                          std::span<const float> areas) {
-    if (a.lights.empty() && a.metric == MetricChoice::plain)
-        return plain_metric(transfer.layout);
+LightMetric metric_of(MetricChoice choice, const TransferLayout& layout) {
+    switch (choice) {
+    case MetricChoice::outdoor:
+        return metric_of_family(LightFamily::outdoor, layout);
+    case MetricChoice::indoor:
+        return metric_of_family(LightFamily::indoor, layout);
+    case MetricChoice::day:
+        return metric_of_family(LightFamily::day, layout);
+    case MetricChoice::natural:
+        break;
+    case MetricChoice::plain:
+        return plain_metric(layout);
+    }
+    return metric_of_family(LightFamily::natural, layout);
+}
+
+LightMetric chosen_metric(const CompressArguments& a, const std::vector<NamedLighting>& given,
+                          const Transfer& transfer, std::span<const float> areas) {
+    const TransferLayout& layout = transfer.layout;
+    if (given.empty() && a.metric == MetricChoice::plain)
+        return plain_metric(layout);
     std::vector<Lighting> lights;
-    for (const Path& path : a.lights)
-        add_lighting(a, path, transfer.layout, lights);
-    return balanced(lights.empty() ? natural_metric(transfer.layout)
-                                   : metric_of_lights(lights, transfer.layout),
-                    transfer, areas, a.options.compress.threads);
+    for (const NamedLighting& light : given)
+        for (const LightingUse& use : uses_of(light.lighting, layout))
+            lights.push_back(use.lighting);
+    return balanced(lights.empty() ? metric_of(a.metric, layout) : metric_of_lights(lights, layout), transfer,
+                    areas, a.options.compress.threads);
 }
 
 /// "error 0.012, 5.1 bytes per vertex, 6.2 shader operations"
@@ -239,25 +258,29 @@ std::string guides_figures(const ClusteredBases& bases) {
     return names.empty() ? "none" : names;
 }
 
-/// The errors are those of `coded`, which is what the file holds, against `transfer` in its order.
+/// What the file holds.
+Transfer decoded(const SceneFile& written, int threads) {
+    return decode(written.compressed->transfer, threads);
+}
+
+/// The errors are those of `coded`, against `transfer` in its order.
 Json result_json(const CompressStatistics& s, const CompressOptions& options, const Transfer& transfer,
-                 const SceneFile& written) {
-    const ClusteredTransfer& coded = written.compressed->transfer;
-    const Transfer decoded = decode(coded, options.threads);
+                 const Transfer& coded, const ErrorMoments& moments, const SceneFile& written) {
     const std::vector<float> areas = receiver_areas(written.scene);
     const std::size_t receivers = transfer.receivers();
     const std::size_t uncompressed = transfer.dimension() * sizeof(float);
+    const ClusteredBases& bases = written.compressed->transfer.bases;
     return {{"order", transfer.layout.order},
             {"channels", transfer.layout.channels()},
             {"parts", parts_figures(transfer.layout)},
             {"receivers", receivers},
             {"clusters", s.clusters},
-            {"components_most", coded.bases.max_components()},
+            {"components_most", bases.max_components()},
             {"components_mean", s.mean_components},
-            {"guides", guides_figures(coded.bases)},
+            {"guides", guides_figures(bases)},
             {"shader_operations", s.operations()},
-            {"lit_rms", expected_lit_rms(transfer, decoded, areas, *options.metric, options.threads)},
-            {"relative_l2", relative_l2(transfer, decoded, areas)},
+            {"lit_rms", expected_lit_rms(moments, *options.metric)},
+            {"relative_l2", relative_l2(transfer, coded, areas)},
             {"lit_rms_by_iteration", s.lit_rms_by_iteration},
             {"bytes_bound_per_vertex", s.bytes_per_receiver},
             {"bytes_bound_per_vertex_with_bases", s.bytes_with_bases(receivers)},
@@ -265,7 +288,7 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
             {"bytes_uncompressed_per_vertex", uncompressed},
             {"bytes_attributes", s.bytes_per_receiver * receivers},
             {"bytes_bases", s.basis_bytes},
-            {"bytes_constants", constant_rows(coded.bases) * sizeof(glm::vec4)},
+            {"bytes_constants", constant_rows(bases) * sizeof(glm::vec4)},
             {"bytes_uncompressed", uncompressed * receivers}};
 }
 
@@ -322,7 +345,10 @@ void run(CompressArguments a, Session& session) {
         model.baked->transfer = as_whole(model.baked->transfer, a.options.compress.threads);
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
-    options.compress.metric = chosen_metric(a, transfer, receiver_areas(model.scene));
+    std::vector<NamedLighting> skies;
+    for (const Path& path : a.lights)
+        skies.push_back(given_light(a, path, transfer.layout));
+    options.compress.metric = chosen_metric(a, skies, transfer, receiver_areas(model.scene));
     if (a.components_given && options.compress.coding.components > static_cast<int>(transfer.dimension()))
         throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
                                 transfer.dimension(), options.compress.coding.components));
@@ -340,12 +366,17 @@ void run(CompressArguments a, Session& session) {
     const CompressStatistics& s = outcome.result.statistics;
     Report report;
     add_figures(report, {{"output", a.output.string()}});
-    add_figures(report, result_json(s, options.compress, transfer, written));
+    const Transfer coded = decoded(written, options.compress.threads);
+    const ErrorMoments moments =
+        error_moments(transfer, coded, receiver_areas(written.scene), options.compress.threads);
+    add_figures(report, result_json(s, options.compress, transfer, coded, moments, written));
     add_figures(report, reuse_json(reuse_before, vertex_reuse(written.scene)));
     add_figures(report, {{"bytes_file", session.write(a.output, file)},
                          {"trials", trials_json(outcome.trials)},
                          {"seconds", s.seconds}});
     report.sentences = sentences(a, a.preset && !outcome.trials.empty());
+    std::ranges::move(standard_skies(transfer.layout.order), std::back_inserter(skies));
+    add_sky_errors(moments, skies, report);
     publish(report, a.reports.json, session);
 }
 
@@ -363,7 +394,9 @@ void add_compress(CLI::App& app, Session& session) {
     command->add_flag("--best-effort", a.best_effort, "write the nearest where nothing keeps the budget");
     CLI::Option* metric =
         choice(command, "--metric", a.metric, kMetrics,
-               "what an error costs: natural lighting from any side, or all coefficients alike", "natural");
+               "what an error costs, on average over: skies with ground and sun; rooms; clear skies "
+               "of a day; any lighting, any way up; or all coefficients alike",
+               "outdoor");
     command
         ->add_option(
             "--lights", a.lights,

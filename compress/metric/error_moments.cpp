@@ -20,7 +20,8 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using std::numbers::pi;
 
-/// Receivers are summed in so many stretches side by side, whatever the number of threads, and each in blocks.
+/// Receivers are summed in so many stretches side by side, whatever the number of threads, and each in
+/// blocks.
 constexpr std::size_t kStretches = 8, kBlock = 512;
 
 struct Sums {
@@ -38,9 +39,12 @@ void add_block(const Transfer& reference, const Transfer& approximation, std::sp
     using Vectors = Eigen::Map<const Eigen::MatrixXf>;
     const auto rows = static_cast<Eigen::Index>(reference.dimension());
     const auto count = static_cast<Eigen::Index>(end - begin);
-    const Eigen::VectorXd roots = Eigen::Map<const Eigen::VectorXf>(areas.data() + begin, count).cast<double>().cwiseSqrt();
-    const Matrix wanted = Vectors(reference.vector(begin).data(), rows, count).cast<double>() * roots.asDiagonal();
-    const Matrix found = Vectors(approximation.vector(begin).data(), rows, count).cast<double>() * roots.asDiagonal();
+    const Eigen::VectorXd roots =
+        Eigen::Map<const Eigen::VectorXf>(areas.data() + begin, count).cast<double>().cwiseSqrt();
+    const Matrix wanted =
+        Vectors(reference.vector(begin).data(), rows, count).cast<double>() * roots.asDiagonal();
+    const Matrix found =
+        Vectors(approximation.vector(begin).data(), rows, count).cast<double>() * roots.asDiagonal();
     sums.references.selfadjointView<Eigen::Lower>().rankUpdate(wanted);
     sums.errors.selfadjointView<Eigen::Lower>().rankUpdate(wanted - found);
 }
@@ -57,7 +61,8 @@ struct Squares {
 
 Squares squares_under(const ErrorMoments& moments, const LightingView& lighting) {
     const auto n = static_cast<Eigen::Index>(moments.layout.dimension());
-    const Eigen::Map<const Matrix> errors(moments.errors.data(), n, n), references(moments.references.data(), n, n);
+    const Eigen::Map<const Matrix> errors(moments.errors.data(), n, n),
+        references(moments.references.data(), n, n);
     const std::vector<glm::vec3> columns = light_columns(moments.layout, lighting);
     Squares sums;
     for (int c = 0; c < 3; ++c) {
@@ -165,8 +170,10 @@ double expected_lit_rms(const ErrorMoments& moments, const LightMetric& metric) 
     if (metric.layout != moments.layout)
         throw Error("the metric is of another layout than the transfer");
     const auto sum_with = [&](const std::vector<double>& of_transfer) {
-        return Eigen::Map<const Eigen::VectorXd>(metric.moments.data(), static_cast<Eigen::Index>(metric.moments.size()))
-            .dot(Eigen::Map<const Eigen::VectorXd>(of_transfer.data(), static_cast<Eigen::Index>(of_transfer.size())));
+        return Eigen::Map<const Eigen::VectorXd>(metric.moments.data(),
+                                                 static_cast<Eigen::Index>(metric.moments.size()))
+            .dot(Eigen::Map<const Eigen::VectorXd>(of_transfer.data(),
+                                                   static_cast<Eigen::Index>(of_transfer.size())));
     };
     return ratio(sum_with(moments.errors), sum_with(moments.references));
 }

@@ -3,6 +3,8 @@
 
 #include "prt/light_metric.h"
 
+#include "metric/color_blocks.h"
+#include "metric/natural_share.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 #include "tuning.h"
@@ -51,12 +53,12 @@ double color_share(const TransferLayout& layout) {
 
 /// Where each part has what serves color `c`: [parts].
 std::vector<Eigen::Index> blocks_of_color(const TransferLayout& layout, int c) {
+    const std::vector<std::size_t> numbers = numbers_of_color(layout, c);
     std::vector<Eigen::Index> begins;
-    Eigen::Index begin = 0;
+    std::size_t column = 0;
     for (const TransferPart& part : layout.parts) {
-        const auto count = static_cast<Eigen::Index>(layout.columns_of(part));
-        begins.push_back(begin + std::min(c, part.channels - 1) * count);
-        begin += part.channels * count;
+        begins.push_back(static_cast<Eigen::Index>(numbers[column]));
+        column += layout.columns_of(part);
     }
     return begins;
 }
@@ -101,15 +103,6 @@ void add_outer_product(const Lighting& lighting, double scale, LightMetric& metr
                 light[begins[part] + static_cast<Eigen::Index>(i)] = static_cast<double>((*color++)[c]);
         matrix_of(metric) += color_share(layout) * scale * light * light.transpose();
     }
-}
-
-/// Adds a share of natural light to distant light that costs `given`, and lamps as they stand beside that.
-void add_natural(double given, LightMetric& metric) {
-    LightMetric natural = natural_metric(metric.layout);
-    const Eigen::Index sky = of_sky_in(metric.layout);
-    const double scale = given / matrix_of(natural).diagonal().head(sky).sum();
-    matrix_of(natural).topLeftCorner(sky, sky) *= tuning::kNaturalShare;
-    matrix_of(metric) += scale * matrix_of(natural);
 }
 
 double energy(const Lighting& lighting) {
@@ -179,15 +172,26 @@ LightMetric plain_metric(const TransferLayout& layout) {
 }
 
 LightMetric natural_metric(const TransferLayout& layout) {
-    const auto whole = [](int l) { return l == 0 ? 1.0 : 0.25 / l; };
+    const auto falling = [](double power, double fall, int l) {
+        return l == 0 ? 1.0 : power * std::pow(l, -fall);
+    };
     if (layout.distant_parts().size() == 1)
-        return banded_metric(layout, [&](int l, PartKind, PartKind) { return whole(l); });
-    // All parts see the sky, those behind the first the suns as well.
+        return banded_metric(layout, [&](int l, PartKind, PartKind) {
+            return falling(tuning::kWholePower, tuning::kWholeFall, l);
+        });
+    // Other parts than the first see sky and suns; the first sees the sky, and the suns of half the users.
     return banded_metric(layout, [&](int l, PartKind a, PartKind b) {
-        const double suns = tuning::kSunPower;
-        const double sky = l == 0 ? whole(0) : tuning::kSkyPower / (l * l);
-        return a == PartKind::direct || b == PartKind::direct ? sky : sky + suns;
+        const bool direct = a == PartKind::direct || b == PartKind::direct;
+        return falling(tuning::kSkyPower, tuning::kSkyFall, l) + tuning::kSunPower * (direct ? 0.5 : 1);
     });
+}
+
+void add_natural_share(LightMetric& metric) {
+    LightMetric natural = natural_metric(metric.layout);
+    const Eigen::Index sky = of_sky_in(metric.layout);
+    const double scale = matrix_of(metric).trace() / matrix_of(natural).diagonal().head(sky).sum();
+    matrix_of(natural).topLeftCorner(sky, sky) *= tuning::kNaturalShare;
+    matrix_of(metric) += scale * matrix_of(natural);
 }
 
 LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLayout& layout) {
@@ -203,10 +207,9 @@ LightMetric metric_of_lights(std::span<const Lighting> lights, const TransferLay
                 changed(light, [&](const Light& l) { return rotated_about_y(l, 2 * M_PI * r / rotations); }),
                 1 / (light_energy * rotations), metric);
     }
-    const double given = matrix_of(metric).trace();
-    if (!(given > 0))
+    if (!(matrix_of(metric).trace() > 0))
         throw Error("the lights to compress for are all black");
-    add_natural(given, metric);
+    add_natural_share(metric);
     return metric;
 }
 

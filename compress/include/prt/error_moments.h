@@ -1,7 +1,7 @@
 #pragma once
 
-// The error of exit radiance under any lighting at once: second moments of transfer and of its errors, from which
-// `lit_rms` under a lighting takes microseconds, whatever the number of receivers. Experimental.
+// The error of exit radiance under any lighting at once: second moments of transfer and of its errors, from
+// which `lit_rms` under a lighting takes microseconds, whatever the number of receivers. Experimental.
 
 #include "prt/light_metric.h"
 #include "prt/transfer.h"
@@ -11,21 +11,22 @@
 
 namespace prt {
 
-/// Sums over receivers p of area a_p: exit radiance under L has the squared error L^T (sum a_p d_p d_p^T) L and the
-/// square L^T (sum a_p T_p T_p^T) L, d_p = T_p - T'_p, color by color (docs/math.md, section 4).
+/// Sums over receivers p of area a_p: exit radiance under L has the squared error L^T (sum a_p d_p d_p^T) L
+/// and the square L^T (sum a_p T_p T_p^T) L, d_p = T_p - T'_p, color by color (docs/math.md, section 4).
 struct ErrorMoments {
     TransferLayout layout;
     std::vector<double> errors, references; ///< [dimension][dimension] each, symmetric
 };
 
-/// Two passes of a symmetric rank-k update: dimension² operations a receiver, and memory that does not grow with
-/// the receivers. The result does not depend on `threads`. Throws `Error` when layouts or numbers of receivers
-/// differ.
+/// Two passes of a symmetric rank-k update: dimension² operations a receiver, and memory that does not grow
+/// with the receivers. The result does not depend on `threads`. Throws `Error` when layouts or numbers of
+/// receivers differ.
 ErrorMoments error_moments(const Transfer& reference, const Transfer& approximation,
                            std::span<const float> areas, int threads = 0);
 
 /// `lit_rms` of prt/error_measures.h between the two transfers under `lighting`, to rounding. 0 where neither
-/// radiates, infinite where only errors do. Throws `Error` where the lighting has fewer bands than the layout.
+/// radiates, infinite where only errors do. Throws `Error` where the lighting has fewer bands than the
+/// layout.
 double lit_rms(const ErrorMoments& moments, const LightingView& lighting);
 
 /// `expected_lit_rms` of prt/light_metric.h. Throws `Error` for a metric of another layout.

@@ -21,10 +21,24 @@ struct LightMetric {
 /// Every coefficient alike: relative error is then the `relative_l2` of the transfer vectors themselves.
 LightMetric plain_metric(const TransferLayout& layout);
 
-/// Lighting as it is on average, turned any way with equal probability: a coefficient of band l has the power
-/// 1/(4 l) of that of band 0 (docs/math.md, section 4, says where that is from). Where direct light is a part
-/// of its own, it is lit by the sky without suns, the rest by sky and suns.
+/// Lighting as it is on average, indoors and outdoors, turned any way with equal probability: the band powers
+/// of docs/math.md, section 4. Where direct light is a part of its own, half of it is lit by the sky without
+/// suns.
 LightMetric natural_metric(const TransferLayout& layout);
+
+/// Lightings that belong together. All but `natural` are upright about +Y, and as likely turned about it by
+/// one angle as by another.
+enum class LightFamily {
+    natural, ///< any, any way up
+    outdoor, ///< clear, hazy and overcast skies over ground, the sun anywhere between 6 and 85 degrees high
+    indoor,  ///< rooms, brighter above than below, each with a lamp or window
+    day,     ///< clear skies from hour to hour
+};
+
+/// The mean over a family, each lighting scaled to the same mean square of open receivers, its suns apart and
+/// in its sky half of the time each; a hundredth of the power is `natural_metric`'s. 0.1 to 0.3 s: analytic
+/// skies are integrated.
+LightMetric metric_of_family(LightFamily family, const TransferLayout& layout);
 
 /// The mean over `lights`, each scaled to the same energy and turned about +Y by every angle. A hundredth of
 /// the power is `natural_metric`'s, so that no error is free. Throws `Error` when a light has fewer bands

@@ -1,0 +1,46 @@
+#include "sky_errors.h"
+
+#include <fmt/core.h>
+#include <glm/trigonometric.hpp>
+
+namespace prt::cli {
+
+std::vector<LightingUse> uses_of(const Lighting& lighting, const TransferLayout& layout) {
+    if (!lighting.suns)
+        return {{lighting}};
+    std::vector<LightingUse> uses = {{{sum(lighting.sky, *lighting.suns), {}, lighting.lamps}}};
+    if (layout.distant_parts().size() > 1)
+        uses.push_back({lighting, true});
+    return uses;
+}
+
+void add_sky_errors(const ErrorMoments& moments, const std::vector<NamedLighting>& skies, Report& report) {
+    if (moments.layout.distant_parts().empty())
+        return;
+    Table table{"skies",
+                "Errors under skies, turned about +Y",
+                "",
+                {{"name", "sky"},
+                 {"suns_apart", "suns apart"},
+                 {"lit_rms_mean", "mean of all turns", Unit::percent},
+                 {"lit_rms_worst", "worst turn", Unit::percent},
+                 {"worst_turn_degrees", "its angle"}},
+                {}};
+    const std::vector<glm::vec3> dark(moments.layout.lamps(), glm::vec3(0));
+    for (const NamedLighting& sky : skies) {
+        std::string sentence = fmt::format("under {{skies/{}/name}}: ", table.rows.size());
+        for (LightingUse& use : uses_of(sky.lighting, moments.layout)) {
+            use.lighting.lamps = dark;
+            const LitRmsOverTurns error = lit_rms_over_turns(moments, use.lighting);
+            sentence += fmt::format("{1}{{skies/{0}/lit_rms_mean:.3f%}}, at the worst turn "
+                                    "{{skies/{0}/lit_rms_worst:.3f%}}",
+                                    table.rows.size(), use.suns_apart ? "; its sun apart " : "");
+            table.rows.push_back(
+                {sky.name, use.suns_apart, error.mean, error.worst, glm::degrees(error.worst_angle)});
+        }
+        report.sentences.push_back(sentence);
+    }
+    report.tables.push_back(std::move(table));
+}
+
+} // namespace prt::cli

@@ -1,0 +1,108 @@
+// Daylight by the sky of Preetham, Shirley and Smits (1999), overcast by the CIE's, both over grey ground.
+
+#include "prt/standard_skies.h"
+
+#include "prt/sh.h"
+#include "prt/sky.h"
+#include "prt/sun_disc.h"
+#include "tuning.h"
+
+#include <glm/trigonometric.hpp>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+namespace prt {
+namespace {
+
+using std::numbers::pi;
+
+const glm::vec3 kUp(0, 1, 0);
+
+/// Its luminance, in all three channels.
+Light grey(Light light) {
+    for (glm::vec3& c : light.coefficients)
+        c = glm::vec3(0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z);
+    return light;
+}
+
+/// Irradiance of level ground, by all bands that there are.
+double irradiance_from_above(const Light& light) {
+    std::array<double, kMaxOrder * kMaxOrder> lobe{};
+    clamped_cosine_lobe(light.order, glm::dvec3(kUp), std::span<double>(lobe));
+    double sum = 0;
+    for (std::size_t i = 0; i < light.coefficients.size(); ++i)
+        sum += lobe[i] * static_cast<double>(light.coefficients[i].x);
+    return pi * sum;
+}
+
+/// Radiance integrated over all directions.
+double all_light(const Light& light) {
+    return static_cast<double>(light.coefficients[0].x) * std::sqrt(4 * pi);
+}
+
+Light scaled(Light light, double factor) {
+    for (glm::vec3& c : light.coefficients)
+        c *= static_cast<float>(factor);
+    return light;
+}
+
+/// Over ground that reflects what `sky` and a sun in direction `towards` cast on it. `sun_over_sky`: the
+/// sun's irradiance over all light of sky and ground; with f for it, a for the albedo and s for the sine of
+/// the sun's elevation, E = f (sky + 2 a (E_sky + E s)).
+Lighting over_ground(const Light& sky, const glm::vec3& towards, double sun_over_sky, int order) {
+    const double albedo = tuning::kGroundAlbedo, sine = static_cast<double>(towards.y);
+    const double of_sky = irradiance_from_above(sky);
+    const double sun =
+        sun_over_sky * (all_light(sky) + 2 * albedo * of_sky) / (1 - 2 * albedo * sun_over_sky * sine);
+    const double ground = albedo * (of_sky + sun * sine) / pi;
+    const Light below = cone_light(order, -kUp, pi / 2, glm::vec3(static_cast<float>(ground)));
+    const double scale = 4 * pi / (all_light(sky) + 2 * pi * ground);
+    Lighting result{scaled(sum(truncated(sky, order), below), scale)};
+    if (sun_over_sky > 0)
+        result.suns = directional_light(order, towards, glm::vec3(static_cast<float>(scale * sun)));
+    return result;
+}
+
+} // namespace
+
+Lighting daylight(int order, const Daylight& day) {
+    const double sine = std::sin(day.sun_elevation);
+    const glm::dvec3 towards(std::cos(day.sun_elevation), sine, 0);
+    // Bouguer's law over the length of the way through the air, 1 / sine.
+    const double sun_over_sky =
+        tuning::kSunOverSky / day.turbidity * std::exp(-tuning::kAirExtinction / sine);
+    // All bands, so that the ground's light does not depend on `order`.
+    return over_ground(grey(sky_light(kMaxOrder, PreethamSky(day.turbidity, towards))), glm::vec3(towards),
+                       sun_over_sky, order);
+}
+
+Lighting overcast_day(int order) {
+    return over_ground(overcast_sky(kMaxOrder, glm::vec3(1)), kUp, 0, order);
+}
+
+Lighting room_light(int order, double lamp_elevation) {
+    // Of a + b y, the mean is a, and band 1 along +Y is b / sqrt(3) of band 0.
+    const auto b = static_cast<float>(std::sqrt(3.0) * tuning::kRoomFromAbove);
+    const glm::vec3 towards(glm::dvec3(std::cos(lamp_elevation), std::sin(lamp_elevation), 0));
+    const double half_angle = glm::radians(8.0), solid_angle = 2 * pi * (1 - std::cos(half_angle));
+    const auto lamp = static_cast<float>(tuning::kLampOverRoom * 4 * pi / solid_angle);
+    return {hemisphere_light(order, kUp, glm::vec3(1 + b), glm::vec3(1 - b)),
+            cone_light(order, towards, half_angle, glm::vec3(lamp))};
+}
+
+std::vector<NamedLighting> standard_skies(int order) {
+    const auto degrees = [](double d) { return glm::radians(d); };
+    // A window of 2 m by 2 m some 3 m away, and a lamp of 40 cm 2 m above: half of all light, and a quarter.
+    Light room = sum(constant_light(order, glm::vec3(1)),
+                     cone_light(order, glm::vec3(1, 0, 0), degrees(20), glm::vec3(66)));
+    room = sum(room, cone_light(order, kUp, degrees(6), glm::vec3(365)));
+    return {{"clear noon", daylight(order, {.sun_elevation = degrees(55), .turbidity = 3})},
+            {"low sun", daylight(order, {.sun_elevation = degrees(10), .turbidity = 4})},
+            {"overcast", overcast_day(order)},
+            {"window and lamp", {room}}};
+}
+
+} // namespace prt

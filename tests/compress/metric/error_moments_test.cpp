@@ -1,0 +1,155 @@
+#include "prt/error_moments.h"
+
+#include "prt/error_measures.h"
+#include "prt/support/error.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+namespace prt {
+namespace {
+
+constexpr std::size_t kReceivers = 4300; // more than one block of each stretch
+
+TransferLayout with_lamps() {
+    return {3, {{PartKind::whole, 1}, {PartKind::lamp, 1, "white"}, {PartKind::lamp, 3, "red"}}};
+}
+
+const TransferLayout kLayouts[] = {
+    layout_of_one(5, 1),
+    layout_of_one(3, 3),
+    {4, {{PartKind::direct, 1}, {PartKind::indirect, 3}}},
+    {2, {{PartKind::direct, 3}, {PartKind::indirect, 1}}},
+    with_lamps(),
+};
+
+struct Case {
+    Transfer reference, approximation;
+    std::vector<float> areas;
+    std::mt19937 random;
+    std::normal_distribution<float> normal;
+
+    explicit Case(const TransferLayout& layout)
+        : reference(zero_transfer(layout, kReceivers)), approximation(reference), random(3) {
+        for (float& v : reference.vectors)
+            v = normal(random);
+        for (std::size_t i = 0; i < reference.vectors.size(); ++i)
+            approximation.vectors[i] = reference.vectors[i] + 0.1f * normal(random);
+        for (std::size_t p = 0; p < kReceivers; ++p)
+            areas.push_back(static_cast<float>(p % 5));
+    }
+    Light light(int order) {
+        Light result{order, {}};
+        for (int i = 0; i < order * order; ++i)
+            result.coefficients.emplace_back(normal(random), normal(random), normal(random));
+        return result;
+    }
+    Lighting lighting() {
+        const TransferLayout& layout = reference.layout;
+        Lighting result{light(layout.order)};
+        if (layout.has(PartKind::direct))
+            result.suns = light(layout.order + 1);
+        for (std::size_t k = 0; k < layout.lamps(); ++k)
+            result.lamps.emplace_back(normal(random), normal(random), normal(random));
+        return result;
+    }
+    double measured(const Lighting& lighting) const {
+        return lit_rms(exit_radiance(reference, lighting), exit_radiance(approximation, lighting), areas);
+    }
+    ErrorMoments moments(int threads = 0) const {
+        return error_moments(reference, approximation, areas, threads);
+    }
+};
+
+class OfLayouts : public testing::TestWithParam<TransferLayout> {};
+INSTANTIATE_TEST_SUITE_P(Layouts, OfLayouts, testing::ValuesIn(kLayouts));
+
+TEST_P(OfLayouts, MomentsGiveTheErrorThatExitRadianceHas) {
+    Case c(GetParam());
+    const ErrorMoments moments = c.moments();
+    for (int i = 0; i < 5; ++i) {
+        const Lighting lighting = c.lighting();
+        EXPECT_NEAR(lit_rms(moments, lighting), c.measured(lighting), 1e-5 * c.measured(lighting));
+    }
+}
+
+TEST_P(OfLayouts, MomentsGiveTheErrorThatAMetricExpects) {
+    const Case c(GetParam());
+    for (const LightMetric& metric : {natural_metric(GetParam()), plain_metric(GetParam())}) {
+        const double expected = expected_lit_rms(c.reference, c.approximation, c.areas, metric);
+        EXPECT_NEAR(expected_lit_rms(c.moments(), metric), expected, 1e-9 * expected);
+    }
+}
+
+TEST_P(OfLayouts, MomentsDoNotDependOnThreads) {
+    const Case c(GetParam());
+    const ErrorMoments one = c.moments(1), three = c.moments(3);
+    EXPECT_EQ(one.errors, three.errors);
+    EXPECT_EQ(one.references, three.references);
+}
+
+/// Lamps stay where they are while the sky turns.
+TEST_P(OfLayouts, NoTurnIsWorseThanTheWorstAndItIsFound) {
+    Case c(GetParam());
+    const Lighting lighting = c.lighting();
+    const ErrorMoments moments = c.moments();
+    const LitRmsOverTurns found = lit_rms_over_turns(moments, lighting);
+    const auto at = [&](double angle) {
+        Lighting turned{rotated_about_y(lighting.sky, angle), {}, lighting.lamps};
+        if (lighting.suns)
+            turned.suns = rotated_about_y(*lighting.suns, angle);
+        return turned;
+    };
+    double worst = 0;
+    for (int degree = 0; degree < 720; ++degree)
+        worst = std::max(worst, lit_rms(moments, at(degree * M_PI / 360)));
+    EXPECT_GT(found.worst, worst * (1 - 1e-6));
+    EXPECT_LT(found.worst, worst * (1 + 1e-4)); // half a degree away from the top at most
+    EXPECT_NEAR(c.measured(at(found.worst_angle)), found.worst, 1e-5 * found.worst);
+}
+
+TEST(ErrorMomentsOverTurns, HaveTheMeanThatTheMetricOfThatLightExpects) {
+    Case c(kLayouts[2]);
+    const Lighting lighting = c.lighting();
+    const ErrorMoments moments = c.moments();
+    double error = 0, square = 0;
+    for (int turn = 0; turn < 360; ++turn) {
+        const Lighting turned{rotated_about_y(lighting.sky, turn * M_PI / 180),
+                              rotated_about_y(*lighting.suns, turn * M_PI / 180)};
+        const auto wanted = exit_radiance(c.reference, turned),
+                   found = exit_radiance(c.approximation, turned);
+        const double of_turn = lit_scale(wanted, c.areas).mean_square;
+        error += std::pow(lit_rms(wanted, found, c.areas), 2) * of_turn;
+        square += of_turn;
+    }
+    const double mean = std::sqrt(error / square);
+    EXPECT_NEAR(lit_rms_over_turns(moments, lighting).mean, mean, 1e-5 * mean);
+}
+
+TEST(ErrorMoments, AreInfiniteWhereOnlyErrorsShineAndZeroInTheDark) {
+    const TransferLayout layout = layout_of_one(2, 1);
+    Transfer dark = zero_transfer(layout, 3), lit = dark;
+    std::ranges::fill(lit.vectors, 1.0f);
+    const std::vector<float> areas(3, 1.0f);
+    const Light light = constant_light(2, glm::vec3(1));
+    EXPECT_EQ(lit_rms(error_moments(dark, lit, areas), light), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(lit_rms(error_moments(dark, dark, areas), light), 0);
+}
+
+TEST(ErrorMoments, RefuseWhatDoesNotBelongTogether) {
+    const std::vector<float> areas(3, 1.0f);
+    const Transfer a = zero_transfer(2, 1, 3);
+    EXPECT_THROW(error_moments(a, zero_transfer(2, 3, 3), areas), Error);
+    EXPECT_THROW(error_moments(a, zero_transfer(2, 1, 2), areas), Error);
+    const ErrorMoments moments = error_moments(a, a, areas);
+    EXPECT_THROW(lit_rms(moments, constant_light(1, glm::vec3(1))), Error);
+    EXPECT_THROW(expected_lit_rms(moments, natural_metric(layout_of_one(2, 3))), Error);
+}
+
+} // namespace
+} // namespace prt
