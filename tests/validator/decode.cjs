@@ -239,9 +239,9 @@ const channels = Math.max(...parts.map((part) => part.channels));
 
 /// E[ a·b ] of the light in band l on two parts under natural light: docs/math.md, section 4.
 function power(l, kindA, kindB) {
-  if (parts.filter(({ kind }) => kind !== "lamp").length === 1) return l === 0 ? 1 : 1 / (4 * l);
-  const sky = l === 0 ? 1 : 1 / (4 * l * l);
-  return kindA === "direct" || kindB === "direct" ? sky : sky + 0.1;
+  const falling = (p, fall) => (l === 0 ? 1 : p * l ** -fall);
+  if (parts.filter(({ kind }) => kind !== "lamp").length === 1) return falling(0.28, 0.6);
+  return falling(0.24, 0.85) + (kindA === "direct" || kindB === "direct" ? 0.05 : 0.1);
 }
 
 /// A vector by colour and part: [colours][parts][columns].
