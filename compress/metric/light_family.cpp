@@ -91,20 +91,28 @@ private:
     Matrix sums_;
 };
 
-void add_member(const FamilyMember& member, const std::vector<double>& texture, PairMoments& moments) {
+/// Draws of one way to use a member: what lights direct transfer, and what open receivers show.
+void add_draws(const Light& direct, const Light& all, double weight, const std::vector<double>& texture,
+               PairMoments& moments) {
+    const double scale = weight / open_square(direct, texture);
+    moments.add_turns(direct, all, scale);
+    moments.add_texture(texture, scale);
+}
+
+/// `apart`: half of the draws have their suns apart from direct light.
+void add_member(const FamilyMember& member, const std::vector<double>& texture, bool apart,
+                PairMoments& moments) {
     const Light& sky = member.lighting.sky;
     const auto of_band_0 = static_cast<double>(sky.coefficients[0].x);
     std::vector<double> powers = texture;
     for (double& power : powers)
         power *= of_band_0 * of_band_0;
-    const Light all = member.lighting.suns ? sum(sky, *member.lighting.suns) : sky;
-    const double scale = member.weight / open_square(all, powers);
-    if (member.lighting.suns) {
-        moments.add_turns(sky, all, scale / 2);
-        moments.add_turns(all, all, scale / 2);
-    } else
-        moments.add_turns(all, all, scale);
-    moments.add_texture(powers, scale);
+    if (!member.lighting.suns)
+        return add_draws(sky, sky, member.weight, powers, moments);
+    const Light all = sum(sky, *member.lighting.suns);
+    if (apart)
+        add_draws(sky, all, member.weight / 2, powers, moments);
+    add_draws(all, all, apart ? member.weight / 2 : member.weight, powers, moments);
 }
 
 /// The same moments for each color of distant light.
@@ -178,7 +186,7 @@ LightMetric metric_of_family(LightFamily family, const TransferLayout& layout) {
     PairMoments moments(layout.order);
     double weights = 0;
     for (const FamilyMember& member : model.members) {
-        add_member(member, model.texture, moments);
+        add_member(member, model.texture, layout.has(PartKind::direct), moments);
         weights += member.weight;
     }
     spread(moments, metric);

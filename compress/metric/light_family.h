@@ -10,14 +10,13 @@ namespace prt {
 
 struct FamilyMember {
     Lighting lighting; ///< its suns apart
-    /// Of the draws: half of them light direct transfer by the sky alone, half by sky and suns, where there
-    /// are suns.
+    /// Of the draws: where direct transfer is a part of its own, half of them light it by the sky alone.
     double weight = 1;
 };
 
-/// Texture stands for clouds, trees and walls: it is random, any way up, in the sky. A draw, texture
-/// included, is scaled so that open receivers that face any way have a mean squared exit radiance of 1 under
-/// all of it.
+/// Texture stands for clouds, trees and walls: it is random, any way up, in the sky. A draw is scaled so that
+/// open receivers that face any way have a mean squared exit radiance of 1 in what lights direct transfer of
+/// it, texture included: an error counts as a share of what is seen.
 struct FamilyModel {
     std::vector<FamilyMember> members; ///< grey
     std::vector<double> texture; ///< [order] power of a coefficient of band l over band 0 of the member's sky

@@ -35,9 +35,9 @@ enum class LightFamily {
     day,     ///< clear skies from hour to hour
 };
 
-/// The mean over a family, each lighting scaled to the same mean square of open receivers, its suns apart and
-/// in its sky half of the time each; a hundredth of the power is `natural_metric`'s. 0.1 to 0.3 s: analytic
-/// skies are integrated.
+/// The mean over a family, each lighting scaled to the same mean square of open receivers. Where direct light
+/// is a part of its own, suns are apart half of the time. A hundredth of the power is `natural_metric`'s. 0.1
+/// to 0.3 s: analytic skies are integrated.
 LightMetric metric_of_family(LightFamily family, const TransferLayout& layout);
 
 /// The mean over `lights`, each scaled to the same energy and turned about +Y by every angle. A hundredth of
