@@ -122,6 +122,20 @@ TEST_P(UprightFamily, HasAMeanSquareOfOneOnOpenReceiversInDirectLight) {
     EXPECT_GT(moments.bottomRightCorner(36, 36).trace(), 1.2 * moments.topLeftCorner(36, 36).trace());
 }
 
+/// What other parts see beyond direct transfer is suns alone, and a sun has one power in every band.
+TEST(OutdoorFamily, DiffersBetweenPartsByItsSuns) {
+    const int order = 5;
+    const Eigen::Index size = coefficient_count(order);
+    const Eigen::MatrixXd c = matrix_of(
+        metric_of_family(LightFamily::outdoor, {order, {{PartKind::direct, 1}, {PartKind::indirect, 1}}}));
+    const Eigen::VectorXd suns =
+        (c.topLeftCorner(size, size) + c.bottomRightCorner(size, size) - 2 * c.topRightCorner(size, size))
+            .diagonal();
+    EXPECT_GT(suns[0], 0);
+    for (int l = 1; l < order; ++l)
+        EXPECT_NEAR(suns.segment(l * l, 2 * l + 1).mean(), suns[0], 1e-4 * suns[0]); // lights are floats
+}
+
 /// Lightings drawn as the model says: a member, a turn, a texture, suns apart or not.
 class Draws {
 public:
