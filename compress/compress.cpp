@@ -154,9 +154,9 @@ CompressResult compress(const Transfer& transfer, const ReceiverSurface& surface
     const std::span<const float> areas = surface.areas;
     const Stopwatch stopwatch;
     const Task task{transfer, options, significance_of(areas),
-                    options.metric
-                        ? *options.metric
-                        : balanced(natural_metric(transfer.layout), transfer, areas, options.threads),
+                    options.metric ? *options.metric
+                                   : balanced(metric_of_family(LightFamily::outdoor, transfer.layout),
+                                              transfer, areas, options.threads),
                     guide_coordinates(surface, options.guides)};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;

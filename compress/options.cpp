@@ -68,10 +68,18 @@ void check_finite(const Transfer& transfer, std::span<const float> areas) {
 } // namespace
 
 WeightCoding preset_u32() {
-    return {.components = 4, .fixed_bits = {7, 6, 6, 5}, .cluster_bits = 8};
+    return {.bits = 24, .cluster_bits = 8};
 }
 
 WeightCoding preset_u64() {
+    return {.bits = 56, .cluster_bits = 8};
+}
+
+WeightCoding preset_u32x4() {
+    return {.components = 4, .fixed_bits = {7, 6, 6, 5}, .cluster_bits = 8};
+}
+
+WeightCoding preset_u64x9() {
     return {.components = 9, .fixed_bits = {9, 8, 7, 7, 6, 6, 5, 4, 4}, .cluster_bits = 8};
 }
 

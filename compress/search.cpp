@@ -55,8 +55,10 @@ double payload_bytes(WeightFormat format, int payload) {
 int payload_of(const WeightCoding& preset, std::size_t dimension) {
     if (preset.format != WeightFormat::packed)
         return (std::min(preset.components, static_cast<int>(dimension)) + 3) / 4;
-    const int bits = std::accumulate(preset.fixed_bits.begin(), preset.fixed_bits.end(), preset.cluster_bits);
-    return (bits + 31) / 32;
+    const int bits = preset.fixed_bits.empty()
+                         ? preset.bits
+                         : std::accumulate(preset.fixed_bits.begin(), preset.fixed_bits.end(), 0);
+    return (preset.cluster_bits + bits + 31) / 32;
 }
 
 /// How hard a search tries (tuning.h).
@@ -336,9 +338,8 @@ int Search::most_payload() const {
             --most;
     else if (task_.packed() && budget_.operations && !budget_.max_error)
         most = std::min(
-            most,
-            static_cast<int>(std::ceil(
-                (tuning::kEnoughClusterBits + tuning::kEnoughWeightBits * *budget_.operations) / 32)));
+            most, static_cast<int>(std::ceil(
+                      (tuning::kEnoughClusterBits + tuning::kEnoughWeightBits * *budget_.operations) / 32)));
     return most;
 }
 
@@ -363,7 +364,9 @@ double Search::search_payloads(const Line& start) {
         for (int payload = start.payload + direction;
              payload >= least_payload() && payload <= most_payload() && worse < tuning::kPatience;
              payload += direction) {
-            const double found = best_on({payload, start.bases_count, start.most_components});
+            Line line = start;
+            line.payload = payload;
+            const double found = best_on(line);
             worse = found < best ? 0 : worse + 1;
             best = std::min(best, found);
         }
@@ -394,9 +397,8 @@ void Search::search_fewer_components() {
     double best = std::numeric_limits<double>::infinity();
     int worse = 0;
     for (int components = 0; components < std::max(all, 1) && worse < tuning::kPatience; ++components) {
-        const double found = search_payloads({.payload = least_payload(),
-                                              .most_components = components,
-                                              .guides = GuideChoice::none});
+        const double found = search_payloads(
+            {.payload = least_payload(), .most_components = components, .guides = GuideChoice::none});
         worse = found < kNotKept || found < best ? 0 : worse + 1;
         best = std::min(best, found);
     }
@@ -416,7 +418,9 @@ SearchResult compress_preset(const Transfer& transfer, const ReceiverSurface& su
     const Stopwatch stopwatch;
     SearchResult found;
     // The search that may follow is one of small meshes: it takes no time to speak of.
-    found.result = compress(transfer, surface, options, progress.part(0, 0.9));
+    CompressOptions whole = options;
+    whole.bases_count = options.coding.fixed_bits.empty();
+    found.result = compress(transfer, surface, whole, progress.part(0, 0.9));
     const CompressStatistics& s = found.result.statistics;
     const auto receivers = static_cast<double>(transfer.receivers());
     const int payload = payload_of(options.coding, transfer.dimension());

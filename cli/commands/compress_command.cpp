@@ -44,6 +44,8 @@ const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::p
                                                       {"float", WeightFormat::float32},
                                                       {"16", WeightFormat::snorm16},
                                                       {"8", WeightFormat::snorm8}};
+const std::map<std::string, WeightCoding (*)()> kPresets = {
+    {"u32", preset_u32}, {"u64", preset_u64}, {"u32x4", preset_u32x4}, {"u64x9", preset_u64x9}};
 const std::map<std::string, GuideChoice> kGuides = {{"none", GuideChoice::none},
                                                     {"normal", GuideChoice::normal},
                                                     {"position", GuideChoice::normal_and_position}};
@@ -82,12 +84,13 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
             "--preset",
             [&o](const std::string& name) {
                 if (name != "custom")
-                    o.compress.coding = name == "u32" ? preset_u32() : preset_u64();
+                    o.compress.coding = kPresets.at(name)();
             },
             "u32: all of a vertex in one 32-bit word; u64: in two; both with 256 clusters, or as many as "
-            "bases of twice those bytes (or 4 KB) hold; custom: as the following options say")
-        ->check(CLI::IsMember({"u32", "u64", "custom"}))
-        ->type_name("u32|u64|custom")
+            "bases of twice those bytes (or 4 KB) hold; u32x4, u64x9: with four or nine components in all "
+            "clusters, for shaders without a loop; custom: as the following options say")
+        ->check(CLI::IsMember({"u32", "u64", "u32x4", "u64x9", "custom"}))
+        ->type_name("u32|u64|u32x4|u64x9|custom")
         ->default_str("u32, custom with other sizes");
     count_or_auto(command, "--clusters", {1, 65536}, o.compress.clusters, o.choose_clusters,
                   "number of clusters, 1..65536");
@@ -99,10 +102,11 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
         ->check(CLI::Range(0, kMostPackedBits));
     choice(command, "--weights", o.compress.coding.format, kWeights,
            "packed: bits by variance; or 8 or 16 bits each, or float", "packed");
-    choice(command, "--guides", o.compress.guides, kGuides,
-           "what the vertex shader tells clusters: its normal, also its position, or nothing; each costs three "
-           "operations and three rows of every cluster",
-           "normal, with a budget whatever serves it best");
+    choice(
+        command, "--guides", o.compress.guides, kGuides,
+        "what the vertex shader tells clusters: its normal, also its position, or nothing; each costs three "
+        "operations and three rows of every cluster",
+        "normal, with a budget whatever serves it best");
     command
         ->add_option("--max-error", o.budget.max_error,
                      "the cheapest whose expected lit_rms under the metric is at most this")
@@ -124,7 +128,7 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     const bool sizes = given("--clusters") || given("--components") || given("--bits") || given("--weights");
     const bool preset = given("--preset") && command.get_option("--preset")->as<std::string>() != "custom";
     if (preset && (sizes || o.budget.any()))
-        throw CLI::ValidationError("--preset", "u32 and u64 fix what other sizes and budgets would choose");
+        throw CLI::ValidationError("--preset", "presets fix what other sizes and budgets would choose");
     a.components_given = given("--components");
     a.preset = preset || (!o.budget.any() && !sizes && !given("--preset"));
     if (o.budget.any()) {
@@ -300,7 +304,8 @@ Json reuse_json(const VertexReuse& before, const VertexReuse& after) {
 }
 
 std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
-    std::vector<std::string> list = {"{output}: {clusters} clusters x {components_mean:.2f} components, guides: {guides}"};
+    std::vector<std::string> list = {
+        "{output}: {clusters} clusters x {components_mean:.2f} components, guides: {guides}"};
     if (fitted)
         list.push_back(
             fmt::format("the mesh is small: {} fitted to it, so that bases do not outweigh weights",

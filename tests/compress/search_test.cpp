@@ -98,7 +98,8 @@ struct Tried {
         return compress_within(transfer, {areas}, options);
     }
     double lit_rms(const CompressResult& result) const {
-        return expected_lit_rms(transfer, decode(result.transfer), areas, natural_metric(transfer.layout));
+        return expected_lit_rms(transfer, decode(result.transfer), areas,
+                                metric_of_family(LightFamily::outdoor, transfer.layout));
     }
 };
 
@@ -179,7 +180,7 @@ TEST(Search, IsNeverWorseThanTheMethodsItComesFromAtTheirSize) {
     for (const unsigned seed : {11u, 13u}) {
         const int channels = seed == 13 ? 3 : 1;
         const Tried scene(600, channels, seed);
-        const LightMetric metric = natural_metric(layout_of_one(4, channels));
+        const LightMetric metric = metric_of_family(LightFamily::outdoor, layout_of_one(4, channels));
         for (const auto& [clusters, components] : {std::pair(1, 6), std::pair(64, 0), std::pair(16, 2)}) {
             const BaselineResult other =
                 classic_cpca(scene.transfer, scene.areas, {.clusters = clusters, .components = components});
@@ -239,12 +240,14 @@ TEST(Search, OperationsAloneAreSpentAsWellAsByHand) {
 
 TEST(Presets, FillTheirWords) {
     for (const auto& [preset, bits, components] :
-         {std::tuple(preset_u32(), 32, 4), std::tuple(preset_u64(), 64, 9)}) {
+         {std::tuple(preset_u32x4(), 32, 4), std::tuple(preset_u64x9(), 64, 9)}) {
         EXPECT_EQ(preset.components, components);
         EXPECT_EQ(preset.fixed_bits.size(), static_cast<std::size_t>(components));
         EXPECT_EQ(std::accumulate(preset.fixed_bits.begin(), preset.fixed_bits.end(), preset.cluster_bits),
                   bits);
     }
+    EXPECT_EQ(preset_u32().bits + preset_u32().cluster_bits, 32);
+    EXPECT_EQ(preset_u64().bits + preset_u64().cluster_bits, 64);
 }
 
 TEST(Search, PresetsFitSmallMeshes) {

@@ -50,10 +50,14 @@ struct WeightCoding {
     int cluster_bits = 0;
 };
 
-/// One 32-bit word per vertex: 8 bits of cluster, four weights of 7, 6, 6 and 5 bits.
+/// One 32-bit word per vertex: 8 bits of cluster, 24 of weights, which every cluster divides as it likes.
 WeightCoding preset_u32();
-/// Two of them: 8 bits of cluster, nine weights of 9, 8, 7, 7, 6, 6, 5, 4 and 4 bits.
+/// Two of them: 8 bits of cluster, 56 of weights.
 WeightCoding preset_u64();
+/// The same words, divided alike in all clusters, for shaders without a loop: four weights of 7, 6, 6 and 5
+/// bits; nine of 9, 8, 7, 7, 6, 6, 5, 4 and 4.
+WeightCoding preset_u32x4();
+WeightCoding preset_u64x9();
 
 /// Guides (prt/clustered_bases.h): those by which a renderer has what the surface gives. They take three
 /// multiply-adds each of the vertex shader, and three rows of every cluster.
@@ -72,7 +76,7 @@ struct CompressOptions {
     /// Packed weights: bases count in the size, so that clusters leave out directions which take more than
     /// they give.
     bool bases_count = false;
-    /// What an error costs; nothing: `natural_metric`, `balanced`.
+    /// What an error costs; nothing: the outdoor family, `balanced`.
     std::optional<LightMetric> metric = {};
     /// mu of docs/math.md, eq. 28: what a jump of the error along a mesh edge costs, in units of the error
     /// itself.

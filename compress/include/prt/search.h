@@ -42,7 +42,7 @@ struct SearchResult {
 SearchResult compress_within(const Transfer& transfer, const ReceiverSurface& surface,
                              const SearchOptions& options, const Progress& progress = {});
 
-/// A coding (`preset_u32`, `preset_u64`, or weights that are not packed) that fits small meshes, too: as it
+/// A coding (`preset_u32` and its like, or weights that are not packed) that fits small meshes, too: as it
 /// is where its bases take at most twice the bytes of the weights, or 4 KB; else the clusters and bits that
 /// lose least in as many words and no more bytes of bases than that. `kept` is false where nothing is as
 /// small.

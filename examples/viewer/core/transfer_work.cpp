@@ -18,7 +18,7 @@ constexpr int kBakeRays[] = {16, 128, 1024};
 /// asked.
 prt::CompressResult compressed_as(const CompressionSettings& how, const prt::Transfer& transfer,
                                   const Model& model, const prt::Progress& progress) {
-    prt::CompressOptions options{.coding = prt::preset_u32()};
+    prt::CompressOptions options{.coding = prt::preset_u32x4()};
     const prt::SceneSurface owner(model.scene);
     const prt::ReceiverSurface surface = owner.view();
     if (how.clusters == options.clusters && how.components == options.coding.components)
