@@ -25,6 +25,7 @@ struct Task {
 /// Points in a frame, and the clusters found there.
 struct FoundClusters {
     Frame frame;
+    GuideCoordinates guides;
     PointBlocks points;
     Clustering clustering;
 };
@@ -41,7 +42,9 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
         const double to = 1 - 0.1 * (1 - from);
         FoundClusters found;
         found.frame = fit_frame(task.transfer, task.significance, task.metric, most_dropped, options.threads);
-        found.points = PointBlocks(task.transfer, found.frame, task.guides, options.threads);
+        if (found.frame.dimension > 0) // else there is nothing to tell
+            found.guides = task.guides;
+        found.points = PointBlocks(task.transfer, found.frame, found.guides, options.threads);
         std::mt19937_64 random(options.seed);
         found.clustering =
             cluster_points(found.points, task.significance, how, random, progress.part(from, to));
@@ -65,7 +68,7 @@ struct Coding {
 
 /// Codes in the clusters that were found, in the same frame.
 Coding first_codes(const Task& task, const AlternationOptions& how, FoundClusters&& found) {
-    Coding coding{std::move(found.frame), {}, task.guides, std::move(found.points), {}};
+    Coding coding{std::move(found.frame), {}, std::move(found.guides), std::move(found.points), {}};
     coding.coded.clusters = quantised_clusters(coding.points, task.significance, found.clustering,
                                                grid_of(task.options.coding.format), task.options.threads);
     const std::vector<float> scales = scale_guides(found.clustering, coding.coded.clusters);

@@ -15,7 +15,7 @@ PointBlocks::PointBlocks(const Transfer& transfer, const Frame& frame, const Gui
                          int threads)
     : count(transfer.receivers()), dimension(frame.dimension), guides(coordinates.count()) {
     assert(dimension <= kMostDimensions); // arrays of the kernels have so many
-    if (dimension == 0)                   // all receivers alike
+    if (width() == 0)                     // all receivers alike
         return;
     values.resize(blocks() * width() * kLanes);
     parallel_for(blocks(), 64, threads, [&](std::size_t begin, std::size_t end) {

@@ -103,9 +103,10 @@ TEST(Compress, DirectionsAreOrthogonalInTheMetric) {
     options.clusters = 4;
     options.coding.components = 6;
     options.coding.format = WeightFormat::float32;
+    const LightMetric metric = natural_metric(layout_of_one(4, 3));
+    options.metric = metric;
     const CompressResult result = compress(t, {std::vector<float>(400, 1.0f)}, options);
     const ClusteredBases& b = result.transfer.bases;
-    const LightMetric metric = natural_metric(layout_of_one(4, 3));
     const auto product = [&](std::size_t row, std::size_t other) {
         double sum = 0;
         for (std::size_t c = 0; c < 3; ++c)

@@ -45,6 +45,7 @@ struct Grid {
         options.coding.bits = 12;
         options.coding.format = format;
         options.seam_price = seam_price;
+        options.metric = natural_metric(transfer.layout); // which jumps are measured in
         options.border_price = border_price;
         const CompressResult result = compress(transfer, {areas, edges}, options);
         const Transfer decoded = decode(result.transfer);

@@ -1,5 +1,6 @@
 // Guides in files: what the reader sees of them is what the writer had.
 
+#include "prt/coded_rows.h"
 #include "prt/gltf.h"
 #include "prt/guides.h"
 #include "prt/reorder.h"
@@ -301,15 +302,17 @@ TEST(GuidesInFile, RowsOfZerosAreNotAllocatedForNothing) {
     const auto many = [](nlohmann::ordered_json& e, GlbFile& file) {
         constexpr std::size_t kClusters = 65536, kDimension = 12, kAxes = 200;
         e["components"] = std::vector<int>(kClusters, 0);
-        e["centers"]["bufferView"] = file.view(std::vector<std::byte>(kClusters / 2));
+        const auto zero_rows = [&](std::size_t rows, std::size_t columns) {
+            const RowCode code = encode_rows(std::vector<std::int32_t>(rows * columns, 0), columns);
+            return nlohmann::ordered_json{{"bufferView", file.view(code.bits)}, {"drops", code.drops}};
+        };
         const auto zeros = [&](std::size_t bytes) {
             return nlohmann::ordered_json{{"bufferView", file.view(std::vector<std::byte>(bytes))}};
         };
+        e["centers"] = zero_rows(kClusters, 6);
         e["bases"] = {{"origin", zeros(4 * kDimension)}, {"scales", zeros(4 * kAxes)}, {"step", 1}};
-        e["bases"]["axes"] = zeros(kAxes / 2);
-        e["bases"]["axes"]["drops"] = std::vector<int>(kDimension, 0);
-        e["bases"]["values"] = zeros(7 * kClusters / 2);
-        e["bases"]["values"]["drops"] = std::vector<int>(kAxes, 0);
+        e["bases"]["axes"] = zero_rows(kAxes, kDimension);
+        e["bases"]["values"] = zero_rows(7 * kClusters, kAxes);
     };
     // Seven rows a cluster take 433 MB of 0.3 + 0.02 MB of file, one row took 62.
     EXPECT_NE(guided_file.refusal(many).find("its bases would take"), std::string::npos)
