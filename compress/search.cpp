@@ -3,6 +3,7 @@
 
 #include "prt/search.h"
 
+#include "options.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "tuning.h"
@@ -37,6 +38,7 @@ struct Line {
     bool bases_count = true;
     int most_components = std::numeric_limits<int>::max(); ///< fewer where bytes are so few
     GuideChoice guides = GuideChoice::normal;
+    double basis_share = -1; ///< CompressOptions::basis_share; below 0: as the format has it
     friend auto operator<=>(const Line&, const Line&) = default;
 };
 
@@ -124,6 +126,8 @@ public:
         }
         if (task_.options.choose_guides)
             search_guides();
+        if (budget_.max_error && bases_are_coded(task_.options.compress))
+            spend_error();
         if (!result_.kept && budget_.bytes_per_vertex && task_.options.choose_components)
             search_fewer_components();
         result_.result.statistics.seconds = stopwatch_.seconds();
@@ -190,6 +194,7 @@ private:
     double search_payloads(const Line& start);
     void search_fewer_components();
     void search_guides();
+    void spend_error();
     /// The best number of clusters on a line: by bytes or by error. Returns its cost.
     double best_on(const Line& line);
     void fill_bytes(const Line& line);
@@ -216,6 +221,8 @@ CompressOptions Search::options_on(const Line& line, int clusters) const {
     WeightCoding& coding = o.coding;
     o.clusters = clusters;
     o.guides = line.guides;
+    if (line.basis_share >= 0)
+        o.basis_share = line.basis_share;
     o.mean_components = budget_.operations ? *budget_.operations - rows_of(line.guides) : 0;
     int most = 4 * line.payload;
     if (task_.packed()) {
@@ -387,6 +394,22 @@ void Search::search_guides() {
         Line line = found;
         line.guides = guides;
         best_on(line);
+    }
+}
+
+/// What is left of an allowed error between one number of clusters and the next is spent on coarser bases.
+void Search::spend_error() {
+    double spent = tuning::kErrorSpent;
+    for (int i = 0; i < tuning::kSpendingTries && result_.kept; ++i) {
+        const Best found = *best_;
+        const double left = *budget_.max_error / found.trial.lit_rms;
+        Line line = found.line;
+        line.basis_share =
+            std::min((line.basis_share < 0 ? basis_share(task_.options.compress) : line.basis_share) +
+                         spent * (left * left - 1),
+                     0.9);
+        if (!keeps(attempt(found.trial.clusters, line)))
+            spent /= 3;
     }
 }
 

@@ -138,6 +138,10 @@ inline constexpr double kLeastFilled = 0.975, kLeastFilledOfPreset = 0.9;
 inline constexpr double kBothWays = 2, kBothWaysOfPreset = 1.02 * (1 + kBasesOverWeights);
 /// Bytes of the bases of a cluster before the first try, and the least after one. [budget]
 inline constexpr double kBytesPerCluster = 120, kLeastBytesPerCluster = 4;
+/// Tries that spend what is left of an allowed error on coarser bases, and the share of it that each spends;
+/// a third after one that is too much. By hand. [budget]
+inline constexpr int kSpendingTries = 4;
+inline constexpr double kErrorSpent = 0.7;
 /// Clusters of the first try for an error. [budget]
 inline constexpr double kFirstClusters = 64;
 /// Shares of an allowed error: what is aimed at, and what ends a line. By hand. [budget]

@@ -303,8 +303,10 @@ TEST(GuidesInFile, RowsOfZerosAreNotAllocatedForNothing) {
         constexpr std::size_t kClusters = 65536, kDimension = 12, kAxes = 200;
         e["components"] = std::vector<int>(kClusters, 0);
         const auto zero_rows = [&](std::size_t rows, std::size_t columns) {
-            const RowCode code = encode_rows(std::vector<std::int32_t>(rows * columns, 0), columns);
-            return nlohmann::ordered_json{{"bufferView", file.view(code.bits)}, {"drops", code.drops}};
+            // Rows of zeros are their levels, however many columns they have.
+            const RowCode code = encode_rows(std::vector<std::int32_t>(rows, 0), 1);
+            return nlohmann::ordered_json{{"bufferView", file.view(code.bits)},
+                                          {"drops", std::vector<int>(columns, 0)}};
         };
         const auto zeros = [&](std::size_t bytes) {
             return nlohmann::ordered_json{{"bufferView", file.view(std::vector<std::byte>(bytes))}};
