@@ -96,8 +96,7 @@ TEST(CompressGuides, TransferThatIsLinearInThemNeedsNoComponents) {
 TEST(CompressGuides, HalveTheErrorOfReceiversInTheOpen) {
     const Guided scene = open_sphere(4000);
     const auto error = [&](GuideChoice guides) {
-        return error_of(scene,
-                        compress(scene.transfer, scene.surface(), with(guides, 64, {.bits = 18})));
+        return error_of(scene, compress(scene.transfer, scene.surface(), with(guides, 64, {.bits = 18})));
     };
     EXPECT_LT(error(GuideChoice::normal), 0.5 * error(GuideChoice::none));
 }
@@ -138,8 +137,7 @@ TEST(CompressGuides, ThatTellNothingAreHarmless) {
     for (const glm::vec3 same : {glm::vec3(0, 1, 0), glm::vec3(0)}) {
         Guided flat = scene;
         std::fill(flat.normals.begin(), flat.normals.end(), same);
-        const CompressResult r =
-            compress(flat.transfer, flat.surface(), with(GuideChoice::normal, 16, {}));
+        const CompressResult r = compress(flat.transfer, flat.surface(), with(GuideChoice::normal, 16, {}));
         EXPECT_TRUE(r.transfer.bases.guides.empty());
         EXPECT_EQ(error_of(flat, r), without);
     }

@@ -50,7 +50,7 @@ struct SearchTrial {
     int clusters = 0, payload_bytes = 0; ///< `bytes_per_receiver`
     double lit_rms = 0;
     double bytes_per_vertex = 0; ///< payload and bases
-    double operations = 0; ///< `CompressStatistics::operations`
+    double operations = 0;       ///< `CompressStatistics::operations`
     double seconds = 0;
 };
 
