@@ -142,7 +142,7 @@ void write_guided(const Path& folder) {
     const Scene scene = extract_scene(document);
     const BakedTransfer baked = bake_of(scene, layout_of_one(2, 1));
     CompressedTransfer compressed{
-        compress(baked.transfer, receiver_areas(scene), mesh_edges(scene), {.clusters = 3}).transfer,
+        compress(baked.transfer, {receiver_areas(scene), mesh_edges(scene)}, {.clusters = 3}).transfer,
         baked.record};
     std::mt19937 random(1);
     test::add_guides(compressed.transfer.bases, {GuideKind::normal, GuideKind::position}, random);
