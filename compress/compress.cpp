@@ -111,7 +111,7 @@ void drop_empty(QuantisedClusters& clusters, Codes& codes) {
         clusters.components[kept] = clusters.components[k];
         new_index[k] = kept++;
     }
-    clusters.components.resize(kept); // of the others encode takes so many
+    clusters.components.resize(kept);
     for (std::uint32_t& k : codes.clusters)
         k = new_index[k];
 }

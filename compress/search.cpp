@@ -120,7 +120,7 @@ public:
             most ? best.operations < tuning::kComponentsShort * *most
                  : task_.packed() && best.bytes_per_vertex > effort_.both_ways * best.payload_bytes;
         if (other_way) {
-            line.payload = best_->payload;
+            line.payload = best_->line.payload;
             line.bases_count = !line.bases_count;
             search_payloads(line);
         }
@@ -137,7 +137,6 @@ public:
 private:
     struct Best {
         SearchTrial trial;
-        int payload = 0;
         Line line;
     };
 
@@ -267,7 +266,7 @@ SearchTrial Search::attempt(int clusters, const Line& line) {
 void Search::keep_if_better(CompressResult&& result, const SearchTrial& trial, const Line& line) {
     if (best_ && !(cost(trial) < cost(best_->trial)))
         return;
-    best_ = {trial, line.payload, line};
+    best_ = {trial, line};
     result_.result = std::move(result);
     result_.kept = keeps(trial);
 }

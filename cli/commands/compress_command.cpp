@@ -12,7 +12,7 @@
 #include "sky_errors.h"
 #include "split_light.h"
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -255,11 +255,8 @@ Json trials_json(const std::vector<SearchTrial>& trials) {
 }
 
 /// "normal", "normal, position" or "none"
-std::string guides_figures(const ClusteredBases& bases) {
-    std::string names;
-    for (const Guide& guide : bases.guides)
-        names += (names.empty() ? "" : ", ") + std::string(to_string(guide.kind));
-    return names.empty() ? "none" : names;
+std::string guides_in_words(const ClusteredBases& bases) {
+    return bases.guides.empty() ? "none" : fmt::format("{}", fmt::join(guide_names(bases), ", "));
 }
 
 /// What the file holds.
@@ -281,7 +278,7 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
             {"clusters", s.clusters},
             {"components_most", bases.max_components()},
             {"components_mean", s.mean_components},
-            {"guides", guides_figures(bases)},
+            {"guides", guides_in_words(bases)},
             {"shader_operations", s.operations()},
             {"lit_rms", expected_lit_rms(moments, *options.metric)},
             {"relative_l2", relative_l2(transfer, coded, areas)},

@@ -70,13 +70,6 @@ void add_baked(const BakedTransfer& baked, Report& report) {
     report.sentences.push_back(record_sentence("transfer/bake", baked.record));
 }
 
-std::vector<std::string> guide_names(const ClusteredBases& bases) {
-    std::vector<std::string> names;
-    for (const Guide& guide : bases.guides)
-        names.emplace_back(to_string(guide.kind));
-    return names;
-}
-
 /// What clusters know of vertices without a byte of theirs, and what that costs.
 void add_guides(const ClusteredBases& bases, const std::string& own, Report& report) {
     if (bases.guides.empty())

@@ -30,6 +30,13 @@ void publish(const Report& report, const ReportFiles& files, Session& session) {
     session.write(files.html, report_html(dated));
 }
 
+std::vector<std::string> guide_names(const ClusteredBases& bases) {
+    std::vector<std::string> names;
+    for (const Guide& guide : bases.guides)
+        names.emplace_back(to_string(guide.kind));
+    return names;
+}
+
 Json parts_figures(const TransferLayout& layout) {
     Json parts = Json::array();
     for (const TransferPart& part : layout.parts) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prt/clustered_bases.h"
 #include "prt/gltf.h"
 #include "report/report.h"
 #include "session.h"
@@ -21,6 +22,9 @@ void publish(const Report& report, const ReportFiles& files, Session& session);
 /// 3 of indirect".
 Json parts_figures(const TransferLayout& layout);
 std::string parts_in_words(const TransferLayout& layout);
+
+/// What the guides of clusters are called.
+std::vector<std::string> guide_names(const ClusteredBases& bases);
 
 /// How a bake was made.
 Json bake_record_json(const BakeRecord& record);
