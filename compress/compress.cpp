@@ -6,8 +6,9 @@
 #include "coding/alternation.h"
 #include "coding/encode.h"
 #include "coding/seams.h"
+#include "compress_from.h"
+#include "compress_options.h"
 #include "metric/significance.h"
-#include "options.h"
 #include "prt/support/stopwatch.h"
 
 namespace prt {
@@ -20,6 +21,7 @@ struct Task {
     std::vector<float> significance;
     LightMetric metric;
     GuideCoordinates guides;
+    const Course& course;
 };
 
 /// Points in a frame, and the clusters found there.
@@ -34,7 +36,10 @@ struct FoundClusters {
 /// afterwards: a frame that turns out too coarse is made anew.
 FoundClusters find_clusters(const Task& task, const Progress& progress) {
     const CompressOptions& options = task.options;
-    const ClusteringOptions how = clustering_options(options, task.transfer.dimension());
+    ClusteringOptions how = clustering_options(options, task.transfer.dimension());
+    how.start.assign(task.course.start.begin(), task.course.start.end());
+    if (task.course.draft)
+        how.schedule = draft_schedule();
     double most_dropped = !bases_are_coded(options)                ? 0
                           : options.coding.bits > tuning::kFewBits ? tuning::kDroppedOfManyBits
                                                                    : tuning::kDroppedOfFewBits;
@@ -116,12 +121,27 @@ void drop_empty(QuantisedClusters& clusters, Codes& codes) {
         k = new_index[k];
 }
 
+/// Where bits are divided alike in all clusters, those that need fewer rows get empty ones: then no cluster
+/// is an exception, and the shader has no loop.
+void fill_up(std::span<const int> fixed_bits, QuantisedClusters& clusters) {
+    for (std::size_t k = 0; k < clusters.clusters(); ++k)
+        for (std::size_t j = clusters.components_of(k);
+             j < std::min(clusters.max_components, fixed_bits.size()); ++j) {
+            std::fill_n(clusters.row(k, j), clusters.dimension, 0.0f);
+            clusters.grids[k * clusters.max_components + j] = WeightGrid::of_bits(fixed_bits[j]);
+            clusters.components[k] = static_cast<int>(j) + 1;
+        }
+}
+
 /// Everything from points to what a file holds.
 ClusteredTransfer code(const Task& task, std::span<const Edge> edges, FoundClusters&& found,
                        const Progress& progress) {
     const CompressOptions& options = task.options;
+    const bool draft = task.course.draft;
     const AlternationOptions how{.stay = options.mean_components > 0,
                                  .basis_share = bases_are_coded(options) ? basis_share(options) : 0,
+                                 .rounds = draft ? 1 : tuning::kCodingRounds,
+                                 .rounded_from = draft ? 0 : tuning::kRoundedFrom,
                                  .trace = options.trace,
                                  .threads = options.threads};
     Coding coding = first_codes(task, how, std::move(found));
@@ -131,12 +151,13 @@ ClusteredTransfer code(const Task& task, std::span<const Edge> edges, FoundClust
     if (options.coding.format != WeightFormat::float32)
         alternate(coding.points, task.significance, how, progress.part(0, 0.7), coded);
     progress.update(0.7);
-    if ((options.seam_price > 0 || options.border_price > 0) && !edges.empty())
+    if ((options.seam_price > 0 || options.border_price > 0) && !edges.empty() && !draft)
         smooth_seams(coding.points, task.significance, edges, coded.clusters,
                      {options.seam_price, options.border_price, options.mean_components, options.threads},
                      coded.codes);
     coding.points = {};
     drop_empty(coded.clusters, coded.codes);
+    fill_up(options.coding.fixed_bits, coded.clusters);
     progress.update(0.9);
     return encode(coding.frame, coding.coded_frame, coded.clusters, coded.codes, coding.guides,
                   {options.coding.format, options.coding.cluster_bits, coded.step});
@@ -153,14 +174,20 @@ double mean_components_of(const ClusteredTransfer& transfer) {
 
 CompressResult compress(const Transfer& transfer, const ReceiverSurface& surface,
                         const CompressOptions& options, const Progress& progress) {
+    return compress_from({}, transfer, surface, options, progress);
+}
+
+CompressResult compress_from(const Course& course, const Transfer& transfer, const ReceiverSurface& surface,
+                             const CompressOptions& options, const Progress& progress) {
     check_input(transfer, surface, options);
     const std::span<const float> areas = surface.areas;
     const Stopwatch stopwatch;
-    const Task task{transfer, options, significance_of(areas),
-                    options.metric ? *options.metric
-                                   : balanced(metric_of_family(LightFamily::outdoor, transfer.layout),
-                                              transfer, areas, options.threads),
-                    guide_coordinates(surface, options.guides)};
+    const Task task{transfer,
+                    options,
+                    significance_of(areas),
+                    metric_of(options, transfer, areas),
+                    guide_coordinates(surface, options.guides),
+                    course};
     CompressResult result;
     CompressStatistics& statistics = result.statistics;
     FoundClusters found = find_clusters(task, progress.part(0, 0.7));

@@ -4,6 +4,9 @@
 // Define before including (prt::relight_defines writes the lines for a model)
 //     PRT_PACKED_WORDS n     packed weights: n 32-bit words per vertex, 1..8, and PRT_CLUSTER_BITS b, or
 //     PRT_WEIGHT_VECTORS n   others: the number of VEC4 weight attributes, 0..12 (0: clusters only),
+// where all clusters are divided alike, which makes a loop and the table of clusters needless:
+//     PRT_CLUSTER_ROWS n     the rows of a cluster, and
+//     PRT_SAME_WEIGHTS       PRT_ADD(j, weight) for every weight j, which is PRT_BITS(position, width) where packed,
 // what clusters know of a vertex beside its weights, its guides:
 //     PRT_GUIDE_NORMAL       its normal,
 //     PRT_GUIDE_POSITION     its position seen from PRT_GUIDE_ORIGIN, a vec3: numbers, or the name of a uniform,
@@ -28,18 +31,11 @@
 layout(std140 PRT_BINDING(PRT_BINDING_CONSTANTS)) uniform PrtConstants {
     vec4 prt_constants[PRT_MOST_ROWS];
 };
-layout(std140 PRT_BINDING(PRT_BINDING_CLUSTERS)) uniform PrtClusters {
-    uvec4 prt_clusters[PRT_MOST_CLUSTERS];
-};
 #elif defined(PRT_CONSTANTS_TEXTURE)
 PRT_SAMPLER(PRT_BINDING_CONSTANTS) sampler2D prt_constants;
-PRT_SAMPLER(PRT_BINDING_CLUSTERS) usampler2D prt_clusters;
 #else
 layout(std430 PRT_BINDING(PRT_BINDING_CONSTANTS)) readonly buffer PrtConstants {
     vec4 prt_constants[];
-};
-layout(std430 PRT_BINDING(PRT_BINDING_CLUSTERS)) readonly buffer PrtClusters {
-    uvec4 prt_clusters[];
 };
 #endif
 
@@ -52,6 +48,20 @@ vec3 prt_constant(uint row) {
 #endif
 }
 
+// The table of clusters.
+#ifndef PRT_CLUSTER_ROWS
+#if defined(PRT_CONSTANTS_BLOCK)
+layout(std140 PRT_BINDING(PRT_BINDING_CLUSTERS)) uniform PrtClusters {
+    uvec4 prt_clusters[PRT_MOST_CLUSTERS];
+};
+#elif defined(PRT_CONSTANTS_TEXTURE)
+PRT_SAMPLER(PRT_BINDING_CLUSTERS) usampler2D prt_clusters;
+#else
+layout(std430 PRT_BINDING(PRT_BINDING_CLUSTERS)) readonly buffer PrtClusters {
+    uvec4 prt_clusters[];
+};
+#endif
+
 // By PRT_CLUSTER_*: first row, components, widths of weights 0 to 7, 8 to 15.
 uvec4 prt_layout_of(uint cluster) {
 #ifdef PRT_CONSTANTS_TEXTURE
@@ -60,6 +70,7 @@ uvec4 prt_layout_of(uint cluster) {
     return prt_clusters[cluster];
 #endif
 }
+#endif
 
 // Rows of a cluster, counted from its first: of the guide of positions, and of its first direction.
 #ifdef PRT_GUIDE_NORMAL
@@ -89,8 +100,7 @@ vec3 prt_guided(uint first, vec3 position, vec3 normal) {
     return radiance;
 }
 
-// vec3 prt_exit_radiance(vec3 position, vec3 normal): both as they were when the model was baked, in its frame; the
-// normal is unit, or zero where the mesh has none. What is no guide counts nothing.
+// What a vertex has: its cluster, and its weights.
 
 #ifdef PRT_PACKED_WORDS
 layout(location = PRT_LOCATION_WEIGHTS) in uvec4 prt_words_0;
@@ -119,18 +129,8 @@ uint prt_bits(uint position, uint width) {
     return bits & ((1u << width) - 1u);
 }
 
-vec3 prt_exit_radiance(vec3 position, vec3 normal) {
-    uvec4 cluster = prt_layout_of(prt_bits(0u, uint(PRT_CLUSTER_BITS)));
-    uint first = cluster[PRT_CLUSTER_FIRST_ROW];
-    vec3 radiance = prt_guided(first, position, normal);
-    uint bit = uint(PRT_CLUSTER_BITS);
-    for (uint j = 0u; j < cluster[PRT_CLUSTER_COMPONENTS]; ++j) {
-        uint width =
-            1u + ((j < 8u ? cluster[PRT_CLUSTER_WIDTHS] : cluster[PRT_CLUSTER_WIDTHS + 1]) >> (4u * (j & 7u)) & 15u);
-        radiance += float(prt_bits(bit, width)) * prt_constant(first + PRT_DIRECTION_ROW + j);
-        bit += width;
-    }
-    return radiance;
+uint prt_cluster_of_vertex() {
+    return prt_bits(0u, uint(PRT_CLUSTER_BITS));
 }
 #else
 layout(location = PRT_LOCATION_CLUSTER) in uint prt_cluster;
@@ -171,13 +171,47 @@ layout(location = PRT_LOCATION_WEIGHTS_10) in vec4 prt_weights_10;
 layout(location = PRT_LOCATION_WEIGHTS_11) in vec4 prt_weights_11;
 #endif
 
+uint prt_cluster_of_vertex() {
+    return prt_cluster;
+}
+#endif
+
+// vec3 prt_exit_radiance(vec3 position, vec3 normal): both as they were when the model was baked, in its frame; the
+// normal is unit, or zero where the mesh has none. What is no guide counts nothing.
+
+#if defined(PRT_CLUSTER_ROWS)
+// On one line: GLSL 3.3 knows no others.
+#define PRT_BITS(at, width) float(prt_bits(at, width))
+#define PRT_ADD(j, weight) radiance += weight * prt_constant(first + PRT_DIRECTION_ROW + j);
+
+vec3 prt_exit_radiance(vec3 position, vec3 normal) {
+    uint first = prt_cluster_of_vertex() * uint(PRT_CLUSTER_ROWS);
+    vec3 radiance = prt_guided(first, position, normal);
+    PRT_SAME_WEIGHTS
+    return radiance;
+}
+#elif defined(PRT_PACKED_WORDS)
+vec3 prt_exit_radiance(vec3 position, vec3 normal) {
+    uvec4 cluster = prt_layout_of(prt_cluster_of_vertex());
+    uint first = cluster[PRT_CLUSTER_FIRST_ROW];
+    vec3 radiance = prt_guided(first, position, normal);
+    uint bit = uint(PRT_CLUSTER_BITS);
+    for (uint j = 0u; j < cluster[PRT_CLUSTER_COMPONENTS]; ++j) {
+        uint width =
+            1u + ((j < 8u ? cluster[PRT_CLUSTER_WIDTHS] : cluster[PRT_CLUSTER_WIDTHS + 1]) >> (4u * (j & 7u)) & 15u);
+        radiance += float(prt_bits(bit, width)) * prt_constant(first + PRT_DIRECTION_ROW + j);
+        bit += width;
+    }
+    return radiance;
+}
+#else
 // On one line: GLSL 3.3 knows no others.
 // clang-format off
 #define PRT_ADD_FOUR(w) for (uint i = 0u; i < 4u && j < components; ++i, ++j) radiance += w[i] * prt_constant(first + PRT_DIRECTION_ROW + j);
 // clang-format on
 
 vec3 prt_exit_radiance(vec3 position, vec3 normal) {
-    uvec4 cluster = prt_layout_of(prt_cluster);
+    uvec4 cluster = prt_layout_of(prt_cluster_of_vertex());
     uint first = cluster[PRT_CLUSTER_FIRST_ROW], components = cluster[PRT_CLUSTER_COMPONENTS];
     vec3 radiance = prt_guided(first, position, normal);
     uint j = 0u;

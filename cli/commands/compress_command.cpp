@@ -1,16 +1,17 @@
 #include "commands/commands.h"
 
+#include "compress_metric.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
 #include "prt/error_measures.h"
+#include "prt/jumps.h"
 #include "prt/reorder.h"
 #include "prt/search.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "report/trace_lines.h"
 #include "sky_errors.h"
-#include "split_light.h"
 
 #include <fmt/ranges.h>
 
@@ -20,17 +21,13 @@
 namespace prt::cli {
 namespace {
 
-enum class MetricChoice { outdoor, indoor, day, natural, plain };
-
 struct CompressArguments {
     Path baked, output;
     struct Reports {
         Path json, trace;
     } reports;
     SearchOptions options; ///< without a budget `options.compress` says it all
-    MetricChoice metric = MetricChoice::outdoor;
-    std::vector<Path> lights; ///< to compress for, instead of `metric`
-    LightOptions light_options;
+    MetricArguments metric;
     bool components_given = false;
     bool preset = false; ///< `options.compress` is one, to be fitted to the mesh
     bool best_effort = false;
@@ -49,11 +46,6 @@ const std::map<std::string, WeightCoding (*)()> kPresets = {
 const std::map<std::string, GuideChoice> kGuides = {{"none", GuideChoice::none},
                                                     {"normal", GuideChoice::normal},
                                                     {"position", GuideChoice::normal_and_position}};
-const std::map<std::string, MetricChoice> kMetrics = {{"outdoor", MetricChoice::outdoor},
-                                                      {"indoor", MetricChoice::indoor},
-                                                      {"day", MetricChoice::day},
-                                                      {"natural", MetricChoice::natural},
-                                                      {"plain", MetricChoice::plain}};
 
 struct CountRange {
     int low, high;
@@ -109,8 +101,23 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
         "normal, with a budget whatever serves it best");
     command
         ->add_option("--max-error", o.budget.max_error,
-                     "the cheapest whose expected lit_rms under the metric is at most this")
+                     "the cheapest whose lit_rms is at most this: as expected under the metric, and at every "
+                     "turn of each --lights, or, without, of each sky of the metric's family")
         ->check(above_zero());
+    command
+        ->add_option_function<std::string>(
+            "--max-jump",
+            [&o](const std::string& value) {
+                if (value == "none")
+                    return;
+                if (const std::string wrong = above_zero()(value); !wrong.empty())
+                    throw CLI::ValidationError("--max-jump", wrong + ", nor none");
+                o.budget.max_jump = real_number(value);
+            },
+            "errors that jump by at most this share of the mean radiance across 99 % of the borders "
+            "between clusters, beside another budget")
+        ->type_name("FLOAT|none")
+        ->default_str(fmt::format("{} with --max-error alone", kUnseenJump));
     command
         ->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
                      "the best of at most this size: whole 32-bit words, as a game binds them, and bases")
@@ -131,6 +138,8 @@ void resolve(const CLI::App& command, CompressArguments& a) {
         throw CLI::ValidationError("--preset", "presets fix what other sizes and budgets would choose");
     a.components_given = given("--components");
     a.preset = preset || (!o.budget.any() && !sizes && !given("--preset"));
+    if (o.budget.max_error && !given("--max-jump") && !o.budget.bytes_per_vertex && !o.budget.operations)
+        o.budget.max_jump = kUnseenJump;
     if (o.budget.any()) {
         o.choose_guides = !given("--guides");
         if (given("--bits"))
@@ -152,54 +161,27 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     a.preset = !given("--clusters"); // as many as suit the mesh
 }
 
-/// Its suns apart, where transfer knows the difference.
-NamedLighting given_light(const CompressArguments& a, const Path& path, const TransferLayout& layout) {
-    const int threads = a.options.compress.threads;
-    const std::string name = path.filename().string();
-    if (layout.distant_parts().size() < 2)
-        return {name, {load_light(path, layout.order, a.light_options, threads).light}};
-    return {name,
-            lighting_of(load_split_light(path, layout.order, {std::nullopt}, a.light_options, threads))};
-}
-
-LightMetric metric_of(MetricChoice choice, const TransferLayout& layout) {
-    switch (choice) {
-    case MetricChoice::outdoor:
-        return metric_of_family(LightFamily::outdoor, layout);
-    case MetricChoice::indoor:
-        return metric_of_family(LightFamily::indoor, layout);
-    case MetricChoice::day:
-        return metric_of_family(LightFamily::day, layout);
-    case MetricChoice::natural:
-        break;
-    case MetricChoice::plain:
-        return plain_metric(layout);
-    }
-    return metric_of_family(LightFamily::natural, layout);
-}
-
-LightMetric chosen_metric(const CompressArguments& a, const std::vector<NamedLighting>& given,
-                          const Transfer& transfer, std::span<const float> areas) {
-    const TransferLayout& layout = transfer.layout;
-    if (given.empty() && a.metric == MetricChoice::plain)
-        return plain_metric(layout);
-    std::vector<Lighting> lights;
-    for (const NamedLighting& light : given)
-        for (const LightingUse& use : uses_of(light.lighting, layout))
-            lights.push_back(use.lighting);
-    return balanced(lights.empty() ? metric_of(a.metric, layout) : metric_of_lights(lights, layout), transfer,
-                    areas, a.options.compress.threads);
-}
-
 /// "error 0.012, 5.1 bytes per vertex, 6.2 shader operations"
 std::string in_words(const CompressStatistics& s, std::size_t receivers) {
     return fmt::format("lit_rms {:.4g}, {:.2f} bytes per vertex, {:.2f} shader operations", s.lit_rms,
                        s.bytes_with_bases(receivers), s.operations());
 }
 
+/// "at the worst turn of the skies promised 0.017, across clusters it jumps by 0.03"
+std::string promises_in_words(const Budget& budget, const SearchTrial& best) {
+    std::vector<std::string> words;
+    if (!budget.skies.empty())
+        words.push_back(fmt::format("under the worst of the skies promised, at its worst turn, {:.4g}",
+                                    best.worst_lit_rms));
+    if (budget.max_jump)
+        words.push_back(fmt::format("across clusters it jumps by {:.4g}", best.jump));
+    return fmt::format("{}", fmt::join(words, "; "));
+}
+
 struct Outcome {
     CompressResult result;
     std::vector<SearchTrial> trials;
+    std::optional<SearchTrial> best; ///< of a search
 };
 
 Outcome run_compressor(const CompressArguments& a, const SceneFile& model, const SearchOptions& options,
@@ -211,15 +193,18 @@ Outcome run_compressor(const CompressArguments& a, const SceneFile& model, const
     ProgressBar bar = session.progress_bar("compressing");
     if (a.preset) {
         SearchResult found = compress_preset(transfer, surface, o, bar.progress());
-        return {std::move(found.result), std::move(found.trials)};
+        return {std::move(found.result), std::move(found.trials), {}};
     }
     if (!options.budget.any())
-        return {compress(transfer, surface, o, bar.progress()), {}};
+        return {compress(transfer, surface, o, bar.progress()), {}, {}};
     SearchResult found = compress_within(transfer, surface, options, bar.progress());
-    if (!found.kept && !a.best_effort)
+    if (!found.kept && !a.best_effort) {
+        const std::string promises = promises_in_words(options.budget, found.best);
         throw Error(a.baked.string() + ": nothing keeps the budget; the nearest has " +
-                    in_words(found.result.statistics, transfer.receivers()) + " (--best-effort writes it)");
-    return {std::move(found.result), std::move(found.trials)};
+                    in_words(found.result.statistics, transfer.receivers()) +
+                    (promises.empty() ? "" : "; " + promises) + " (--best-effort writes it)");
+    }
+    return {std::move(found.result), std::move(found.trials), found.best};
 }
 
 /// The scene's file with the result, in the order that is asked for.
@@ -249,6 +234,8 @@ Json trials_json(const std::vector<SearchTrial>& trials) {
         list.push_back({{"clusters", t.clusters},
                         {"bytes_bound_per_vertex", t.payload_bytes},
                         {"lit_rms", t.lit_rms},
+                        {"worst_lit_rms", t.worst_lit_rms},
+                        {"jump", t.jump},
                         {"bytes_bound_per_vertex_with_bases", t.bytes_per_vertex},
                         {"shader_operations", t.operations}});
     return list;
@@ -267,7 +254,7 @@ Transfer decoded(const SceneFile& written, int threads) {
 /// The errors are those of `coded`, against `transfer` in its order.
 Json result_json(const CompressStatistics& s, const CompressOptions& options, const Transfer& transfer,
                  const Transfer& coded, const ErrorMoments& moments, const SceneFile& written) {
-    const std::vector<float> areas = receiver_areas(written.scene);
+    const SceneSurface surface(written.scene);
     const std::size_t receivers = transfer.receivers();
     const std::size_t uncompressed = transfer.dimension() * sizeof(float);
     const ClusteredBases& bases = written.compressed->transfer.bases;
@@ -281,7 +268,10 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
             {"guides", guides_in_words(bases)},
             {"shader_operations", s.operations()},
             {"lit_rms", expected_lit_rms(moments, *options.metric)},
-            {"relative_l2", relative_l2(transfer, coded, areas)},
+            {"jump_across_clusters",
+             jump_across_clusters(transfer, coded, written.compressed->transfer.receivers.clusters,
+                                  surface.view(), *options.metric, options.threads)},
+            {"relative_l2", relative_l2(transfer, coded, surface.areas)},
             {"lit_rms_by_iteration", s.lit_rms_by_iteration},
             {"bytes_bound_per_vertex", s.bytes_per_receiver},
             {"bytes_bound_per_vertex_with_bases", s.bytes_with_bases(receivers)},
@@ -300,6 +290,15 @@ Json reuse_json(const VertexReuse& before, const VertexReuse& after) {
             {"vertex_overfetch_before", before.overfetch}};
 }
 
+/// What was asked for may be more than what the skies show that are printed.
+void add_promises(const Budget& budget, const SearchTrial& best, Report& report) {
+    if (!budget.skies.empty()) {
+        add_figures(report, {{"worst_lit_rms_promised", best.worst_lit_rms}});
+        report.sentences.emplace_back("at the worst turn of the worst of the skies promised "
+                                      "{worst_lit_rms_promised:.3f%}");
+    }
+}
+
 std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
     std::vector<std::string> list = {
         "{output}: {clusters} clusters x {components_mean:.2f} components, guides: {guides}"};
@@ -309,7 +308,8 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
                         a.options.compress.coding.format == WeightFormat::packed ? "clusters and bits are"
                                                                                  : "clusters are"));
     list.emplace_back("expected error of the lit surface (lit_rms) {lit_rms:.3f%}, of the transfer (relative "
-                      "L2) {relative_l2:.3f%}");
+                      "L2) {relative_l2:.3f%}; across borders of clusters it jumps by at most "
+                      "{jump_across_clusters:.2f%} of the mean radiance in 99 % of places");
     list.emplace_back(
         "{bytes_bound_per_vertex} bytes per vertex to bind ({bits_used_per_vertex} bits in use), "
         "{bytes_bound_per_vertex_with_bases:.2f} with the bases; uncompressed "
@@ -336,7 +336,7 @@ SceneFile load_bake(const Path& path, const GltfOptions& reading) {
 }
 
 void run(CompressArguments a, Session& session) {
-    std::vector<Path> inputs = a.lights;
+    std::vector<Path> inputs = a.metric.lights;
     inputs.push_back(a.baked);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}},
                                        {a.reports.json, "--json", {".json"}},
@@ -347,10 +347,12 @@ void run(CompressArguments a, Session& session) {
         model.baked->transfer = as_whole(model.baked->transfer, a.options.compress.threads);
     const Transfer& transfer = model.baked->transfer;
     SearchOptions options = a.options;
-    std::vector<NamedLighting> skies;
-    for (const Path& path : a.lights)
-        skies.push_back(given_light(a, path, transfer.layout));
-    options.compress.metric = chosen_metric(a, skies, transfer, receiver_areas(model.scene));
+    std::vector<NamedLighting> skies = given_lights(a.metric, transfer.layout, options.compress.threads);
+    ErrorTerms terms =
+        error_terms(a.metric, skies, transfer, receiver_areas(model.scene), options.compress.threads);
+    options.compress.metric = std::move(terms.metric);
+    if (options.budget.max_error)
+        options.budget.skies = std::move(terms.promised);
     if (a.components_given && options.compress.coding.components > static_cast<int>(transfer.dimension()))
         throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
                                 transfer.dimension(), options.compress.coding.components));
@@ -377,6 +379,8 @@ void run(CompressArguments a, Session& session) {
                          {"trials", trials_json(outcome.trials)},
                          {"seconds", s.seconds}});
     report.sentences = sentences(a, a.preset && !outcome.trials.empty());
+    if (outcome.best)
+        add_promises(options.budget, *outcome.best, report);
     std::ranges::move(standard_skies(transfer.layout.order), std::back_inserter(skies));
     add_sky_errors(moments, skies, report);
     publish(report, a.reports.json, session);
@@ -394,21 +398,7 @@ void add_compress(CLI::App& app, Session& session) {
     add_output(command, a.output, "compressed .glb to write");
     add_sizes(command, a.options);
     command->add_flag("--best-effort", a.best_effort, "write the nearest where nothing keeps the budget");
-    CLI::Option* metric =
-        choice(command, "--metric", a.metric, kMetrics,
-               "what an error costs, on average over: skies with ground and sun; rooms; clear skies "
-               "of a day; any lighting, any way up; or all coefficients alike",
-               "outdoor");
-    command
-        ->add_option(
-            "--lights", a.lights,
-            "compress for this environment (.exr, .hdr, .png, .jpg) or light (.json), turned about +Y; "
-            "repeat it for each of several")
-        ->allow_extra_args(false) // one each time, so that the bake may follow
-        ->excludes(metric)
-        ->check(named)
-        ->type_name("FILE");
-    add_light_options(command, a.light_options);
+    add_metric(command, a.metric);
     command
         ->add_option("--seam-weight", a.options.compress.seam_price,
                      "what jumps of the error along mesh edges cost, 0: nothing")

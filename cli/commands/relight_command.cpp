@@ -41,21 +41,24 @@ std::vector<glm::vec3> base_colors(const Surfaces& surfaces) {
     return colors;
 }
 
-/// Exit radiance for albedo 1: the sky by transfer, suns by rays, and what they give after a bounce.
-std::vector<glm::vec3> radiance_of(const RelightArguments& a, const SceneFile& model, const TraceScene& scene,
-                                   const SplitLight& light, std::vector<glm::vec3> strengths,
-                                   const Progress& progress) {
-    const Lighting lighting{light.sky.light, light_of_suns(light), std::move(strengths)};
+/// Exit radiance for albedo 1 by transfer: the sky, and what suns give after a bounce. Transfer goes, here
+/// and in the document: it takes more memory than all that follows.
+std::vector<glm::vec3> lit_by_transfer(const Lighting& lighting, int threads, SceneFile& model) {
     std::vector<glm::vec3> radiance = model.compressed
-                                          ? exit_radiance(model.compressed->transfer, lighting, a.threads)
-                                          : exit_radiance(model.baked->transfer, lighting, a.threads);
-    if (light.split.suns.empty() || !layout_of(model).has(PartKind::direct))
-        return radiance;
-    const std::vector<glm::vec3> direct =
-        sun_radiance(scene, light.split.suns, {.rays = a.rays, .threads = a.threads}, progress);
+                                          ? exit_radiance(model.compressed->transfer, lighting, threads)
+                                          : exit_radiance(model.baked->transfer, lighting, threads);
+    model.baked.reset();
+    model.compressed.reset();
+    discard_transfer(model.document);
+    return radiance;
+}
+
+/// Direct light of suns, by rays.
+void add_suns(const TraceScene& scene, std::span<const SunDisc> suns, const SunRays& rays,
+              const Progress& progress, std::vector<glm::vec3>& radiance) {
+    const std::vector<glm::vec3> direct = sun_radiance(scene, suns, rays, progress);
     for (std::size_t p = 0; p < radiance.size(); ++p)
         radiance[p] += direct[p];
-    return radiance;
 }
 
 /// Whether suns can only be lit with the sky.
@@ -108,20 +111,23 @@ void run(RelightArguments a, Session& session) {
     SplitLight light = a.environment.empty()
                            ? dark_sky(model.order())
                            : load_split_light(a.environment, model.order(), suns, a.light_options, a.threads);
-    const TraceScene scene(model.scene, load_textures(model.scene, BadTextures::error),
-                           {.solid = solid_materials(model), .threads = a.threads});
+    std::vector<Texture> textures = load_textures(model.scene, BadTextures::error);
+    const std::vector<bool> solid = solid_materials(model);
     ProgressBar bar = session.progress_bar("relighting");
-    const std::size_t suns_apart = light.split.suns.size();
+    const std::size_t suns_given = light.split.suns.size();
     std::vector<glm::vec3> strengths = strengths_under(a.model, layout_of(model), a.lamps, a.shadows, light);
-    std::vector<glm::vec3> radiance =
-        radiance_of(a, model, scene, light, std::move(strengths), bar.progress());
+    const bool suns_are_apart = !light.split.suns.empty() && layout_of(model).has(PartKind::direct);
+    const Lighting lighting{light.sky.light, light_of_suns(light), std::move(strengths)};
+    std::vector<glm::vec3> radiance = lit_by_transfer(lighting, a.threads, model);
+    const TraceScene scene(model.scene, std::move(textures), {.solid = solid, .threads = a.threads});
+    if (suns_are_apart)
+        add_suns(scene, light.split.suns, {.rays = a.rays, .threads = a.threads}, bar.progress(), radiance);
     if (a.albedo) {
         const std::vector<glm::vec3> colors = base_colors(scene.surfaces());
         for (std::size_t p = 0; p < radiance.size(); ++p)
             radiance[p] *= colors[p];
     }
-    Report report = report_of(a, suns_apart, radiance, receiver_areas(model.scene));
-    discard_transfer(model.document);
+    Report report = report_of(a, suns_given, radiance, receiver_areas(model.scene));
     write_vertex_colors(model.document, model.scene, radiance);
     const std::vector<std::byte> file = about(a.model, [&] { return encode_glb(model.document); });
     add_figures(report, {{"bytes_file", session.write(a.output, file)}, {"seconds", stopwatch.seconds()}});

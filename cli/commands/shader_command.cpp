@@ -64,9 +64,11 @@ void run(ShaderArguments a, Session& session) {
     if (!a.compute && constants == ConstantSource::block)
         warn_of_large_blocks(a.model, transfer);
     session.write(a.output, source);
-    print(fmt::format("{}: {} clusters, {} rows of constants, attributes from prt_exit_radiance.glsl\n",
-                      printable(a.output.string()), transfer.bases.clusters(),
-                      constant_rows(transfer.bases)));
+    print(fmt::format("{}: {} clusters, {} rows of constants, attributes from prt_exit_radiance.glsl{}\n",
+                      printable(a.output.string()), transfer.bases.clusters(), constant_rows(transfer.bases),
+                      clusters_are_alike(transfer.bases) && !a.compute
+                          ? "; all clusters are divided alike: no loop, no table of clusters"
+                          : ""));
 }
 
 } // namespace

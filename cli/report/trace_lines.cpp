@@ -36,6 +36,8 @@ Json as_json(const SearchTrial& e) {
             {"clusters", e.clusters},
             {"bytes_bound_per_vertex", e.payload_bytes},
             {"lit_rms", e.lit_rms},
+            {"worst_lit_rms", e.worst_lit_rms},
+            {"jump", e.jump},
             {"bytes_bound_per_vertex_with_bases", e.bytes_per_vertex},
             {"shader_operations", e.operations}};
 }

@@ -67,37 +67,28 @@ void distances_of_block(const float* block, std::size_t dimension, const float* 
 Assignment assign(const PointBlocks& points, const PenalisedClusters& clusters, int threads) {
     std::vector<std::uint32_t> all(clusters.clusters());
     std::iota(all.begin(), all.end(), 0u);
-    return assign_blocks(
-        points, threads,
-        [&](std::size_t, std::vector<std::uint32_t>& to) {
-            if (to.empty())
-                to = all;
-        },
-        [&](const float* block, std::span<const std::uint32_t> candidates, std::uint32_t* nearest,
-            float* errors) { nearest_of_block(block, clusters, candidates, nearest, errors); });
+    Assignment result{std::vector<std::uint32_t>(points.count), std::vector<float>(points.count)};
+    parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
+        alignas(64) std::array<std::uint32_t, kLanes> nearest{};
+        alignas(64) std::array<float, kLanes> errors{};
+        for (std::size_t b = begin; b < end; ++b) {
+            nearest_of_block(points.block(b), clusters, all, nearest.data(), errors.data());
+            const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
+            std::copy_n(nearest.begin(), n, &result.clusters[first]);
+            std::transform(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(n),
+                           &result.errors[first], [](float e) { return std::max(e, 0.0f); });
+        }
+    });
+    return result;
 }
 
-Assignment assign(const PointBlocks& points, const PenalisedClusters& clusters,
-                  const ClusterLists& candidates, std::span<const std::uint32_t> now, int threads) {
-    return assign_blocks(
-        points, threads,
-        [&](std::size_t b, std::vector<std::uint32_t>& to) { candidates_of_block(candidates, now, b, to); },
-        [&](const float* block, std::span<const std::uint32_t> near, std::uint32_t* nearest, float* errors) {
-            nearest_of_block(block, clusters, near, nearest, errors);
-        });
-}
-
-void candidates_of_block(const ClusterLists& candidates, std::span<const std::uint32_t> now, std::size_t b,
-                         std::vector<std::uint32_t>& to) {
-    to.clear();
-    for (std::size_t p = b * kLanes; p < std::min((b + 1) * kLanes, now.size()); ++p) {
-        if (p > b * kLanes && now[p] == now[p - 1])
-            continue;
-        const auto& near = candidates[now[p]];
-        to.insert(to.end(), near.begin(), near.end());
-    }
-    std::sort(to.begin(), to.end());
-    to.erase(std::unique(to.begin(), to.end()), to.end());
+std::vector<std::uint32_t> reassign(const PointBlocks& points, const PenalisedClusters& clusters,
+                                    const ClusterLists& candidates, std::span<const std::uint32_t> now,
+                                    int threads) {
+    return reassign_members(points, candidates, now, threads,
+                            [&](const float* block, std::span<const std::uint32_t> near,
+                                std::uint32_t* nearest,
+                                float* errors) { nearest_of_block(block, clusters, near, nearest, errors); });
 }
 
 void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads) {

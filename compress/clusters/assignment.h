@@ -1,8 +1,7 @@
 #pragma once
 
 #include "clusters/affine_clusters.h"
-#include "clusters/points.h"
-#include "prt/support/parallel.h"
+#include "clusters/member_blocks.h"
 
 #include <algorithm>
 #include <array>
@@ -43,17 +42,13 @@ using ClusterLists = std::vector<std::vector<std::uint32_t>>; ///< [clusters][..
 /// Gives each point the cluster whose subspace is nearest, penalties added; of equals the first.
 Assignment assign(const PointBlocks& points, const PenalisedClusters& clusters, int threads);
 
-/// The same among the `candidates` of the cluster that a point has now, and of those of the points beside it
-/// in memory.
-Assignment assign(const PointBlocks& points, const PenalisedClusters& clusters,
-                  const ClusterLists& candidates, std::span<const std::uint32_t> now, int threads);
+/// The same among the `candidates` of the cluster that a point has now: [points] of clusters.
+std::vector<std::uint32_t> reassign(const PointBlocks& points, const PenalisedClusters& clusters,
+                                    const ClusterLists& candidates, std::span<const std::uint32_t> now,
+                                    int threads);
 
 /// Lowers `errors` [points] to the squared distance to `center` [dimension] where that is less.
 void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads);
-
-/// All candidates of the points of block `b`, each once, ascending.
-void candidates_of_block(const ClusterLists& candidates, std::span<const std::uint32_t> now, std::size_t b,
-                         std::vector<std::uint32_t>& to);
 
 /// Leaves in `clusters` and `errors` [kLanes] the candidate with the least `distance(k)` of each point of a
 /// block; of equals the first. What is a distance differs: rows that are orthonormal are projected on, rows
@@ -73,24 +68,19 @@ template <class Distance>
     }
 }
 
-/// Assigns all points block by block: `candidates_of(b, list)` says which clusters the points of a block may
-/// have, `nearest_of(block, list, clusters, errors)` chooses.
-template <class CandidatesOf, class NearestOf>
-Assignment assign_blocks(const PointBlocks& points, int threads, CandidatesOf&& candidates_of,
-                         NearestOf&& nearest_of) {
-    Assignment result{std::vector<std::uint32_t>(points.count), std::vector<float>(points.count)};
-    parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
+/// For points that have clusters `now`: `nearest_of(block, candidates, clusters, errors)` chooses among those
+/// of their own one, kLanes points at a time.
+template <class NearestOf>
+std::vector<std::uint32_t> reassign_members(const PointBlocks& points, const ClusterLists& candidates,
+                                            std::span<const std::uint32_t> now, int threads,
+                                            NearestOf&& nearest_of) {
+    std::vector<std::uint32_t> result(points.count);
+    for_member_blocks(points, now, threads, [&](const MemberBlock& members, const float* block) {
         alignas(64) std::array<std::uint32_t, kLanes> clusters{};
         alignas(64) std::array<float, kLanes> errors{};
-        std::vector<std::uint32_t> candidates;
-        for (std::size_t b = begin; b < end; ++b) {
-            candidates_of(b, candidates);
-            nearest_of(points.block(b), candidates, clusters.data(), errors.data());
-            const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
-            std::copy_n(clusters.begin(), n, &result.clusters[first]);
-            std::transform(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(n),
-                           &result.errors[first], [](float e) { return std::max(e, 0.0f); });
-        }
+        nearest_of(block, candidates[members.cluster], clusters.data(), errors.data());
+        for (std::size_t lane = 0; lane < members.points.size(); ++lane)
+            result[members.points[lane]] = clusters[lane];
     });
     return result;
 }

@@ -102,7 +102,8 @@ struct Regression {
     Eigen::MatrixXd residual; ///< covariance, lower triangle
 };
 
-/// Least squares with a ridge: a cluster whose guides hardly differ learns nothing from them.
+/// Least squares, by V (V² + ridge²)^-1 for V^-1: a cluster whose guides hardly differ learns nothing from
+/// them, and one whose guides do loses nothing.
 Regression regression_of(const Covariance& joint, const ClusterMoments::View& moments) {
     const auto d = static_cast<Eigen::Index>(moments.dimension),
                g = static_cast<Eigen::Index>(moments.guides);
@@ -110,8 +111,9 @@ Regression regression_of(const Covariance& joint, const ClusterMoments::View& mo
         return {Eigen::MatrixXd(0, d), joint.matrix};
     const Eigen::MatrixXd across = joint.matrix.bottomLeftCorner(g, d),
                           own = joint.matrix.bottomRightCorner(g, g).selfadjointView<Eigen::Lower>();
-    const Eigen::MatrixXd ridged = own + tuning::kGuideRidge * Eigen::MatrixXd::Identity(g, g);
-    Regression result{ridged.ldlt().solve(across), joint.matrix.topLeftCorner(d, d)};
+    const Eigen::MatrixXd ridged =
+        own * own + tuning::kGuideRidge * tuning::kGuideRidge * Eigen::MatrixXd::Identity(g, g);
+    Regression result{ridged.ldlt().solve(own * across), joint.matrix.topLeftCorner(d, d)};
     const Eigen::MatrixXd told = result.slopes.transpose() * (2 * across - own * result.slopes);
     result.residual.triangularView<Eigen::Lower>() -= told;
     return result;

@@ -47,10 +47,12 @@ PenalisedClusters penalised_clusters(const std::vector<ClusterFit>& fits, std::s
 }
 
 ClusterState ClusterRounds::start(const PenalisedClusters& centers) const {
-    const std::size_t count = centers.clusters();
-    ClusterState state{assign(points, centers, threads).clusters,
-                       ClusterMoments(count, points.dimension, points.guides), std::vector<ClusterFit>(count),
-                       0};
+    return start(assign(points, centers, threads).clusters, centers.clusters());
+}
+
+ClusterState ClusterRounds::start(std::vector<std::uint32_t> clusters, std::size_t count) const {
+    ClusterState state{std::move(clusters), ClusterMoments(count, points.dimension, points.guides),
+                       std::vector<ClusterFit>(count), 0};
     state.moments.build(points, significance, state.clusters, threads);
     return state;
 }
@@ -67,15 +69,15 @@ void ClusterRounds::refit(ClusterState& state, const Spending& spending) const {
 
 void ClusterRounds::reassign(ClusterState& state) const {
     const PenalisedClusters clusters = penalised_clusters(state.fits, points.dimension);
-    Assignment next =
+    std::vector<std::uint32_t> next =
         state.fits.size() <= 2 * tuning::kNeighbours
-            ? assign(points, clusters, threads)
-            : assign(points, clusters,
-                     neighbour_clusters(clusters, reaches_of(state.fits, clusters.max_components),
-                                        tuning::kNeighbours, threads),
-                     state.clusters, threads);
-    state.moments.update(points, significance, state.clusters, next.clusters, threads);
-    state.clusters = std::move(next.clusters);
+            ? assign(points, clusters, threads).clusters
+            : prt::reassign(points, clusters,
+                            neighbour_clusters(clusters, reaches_of(state.fits, clusters.max_components),
+                                               tuning::kNeighbours, threads),
+                            state.clusters, threads);
+    state.moments.update(points, significance, state.clusters, next, threads);
+    state.clusters = std::move(next);
 }
 
 } // namespace prt

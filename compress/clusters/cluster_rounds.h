@@ -23,6 +23,8 @@ struct ClusterRounds {
 
     /// Every point in the cluster that is nearest; nothing is fitted yet.
     ClusterState start(const PenalisedClusters& centers) const;
+    /// Points in clusters that are known, numbered below `count`; nothing is fitted yet.
+    ClusterState start(std::vector<std::uint32_t> clusters, std::size_t count) const;
     /// Local PCA of every cluster, with as many components as pay. Empty clusters stay empty.
     void refit(ClusterState& state, const Spending& spending) const;
     /// Gives every point the best cluster.

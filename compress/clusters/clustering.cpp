@@ -6,6 +6,7 @@
 #include "clusters/moves.h"
 #include "clusters/prices.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace prt {
@@ -20,15 +21,24 @@ double squared_error(const ClusterState& state) {
     return error;
 }
 
+bool any_has(const ClusterState& state, int components) {
+    return std::any_of(state.fits.begin(), state.fits.end(), [&](const ClusterFit& fit) {
+        return static_cast<int>(fit.plan.bits.size()) >= components;
+    });
+}
+
 /// Components come one at a time, some rounds each.
 void grow_components(const ClusterRounds& rounds, Spending spending, const Progress& progress,
                      ClusterState& state) {
     const int full = spending.most_components;
-    for (spending.most_components = 1; spending.most_components < full; ++spending.most_components)
+    for (spending.most_components = 1; spending.most_components < full; ++spending.most_components) {
         for (int r = 0; r < tuning::kRoundsPerComponent; ++r) {
             progress.update(static_cast<double>(spending.most_components) / full);
             rounds.round(state, spending);
         }
+        if (!any_has(state, spending.most_components))
+            break; // nor would any have more
+    }
 }
 
 /// Rounds until nothing more is gained.
@@ -65,14 +75,20 @@ void improve(const ClusterRounds& rounds, const ClusteringSchedule& schedule, co
     converge(rounds, schedule, spending, progress.part(0.7, 1), state, nullptr);
 }
 
+std::size_t clusters_in(std::span<const std::uint32_t> numbers) {
+    return 1 + *std::max_element(numbers.begin(), numbers.end());
+}
+
 } // namespace
 
 Clustering cluster_points(const PointBlocks& points, std::span<const float> significance,
                           const ClusteringOptions& options, std::mt19937_64& random,
                           const Progress& progress) {
     const ClusterRounds rounds{points, significance, options.trace, options.threads};
-    ClusterState state = rounds.start(vector_quantise(points, significance, options.clusters, random,
-                                                      options.threads, progress.part(0, 0.1)));
+    ClusterState state = options.start.empty()
+                             ? rounds.start(vector_quantise(points, significance, options.clusters, random,
+                                                            options.threads, progress.part(0, 0.1)))
+                             : rounds.start(options.start, clusters_in(options.start));
     rounds.tell(ClustersSeeded{state.fits.size(), points.dimension});
     Spending spending = options.spending;
     // Where the mean is limited clusters differ only at the end: earlier those with many components would
@@ -81,7 +97,9 @@ Clustering cluster_points(const PointBlocks& points, std::span<const float> sign
     if (limited)
         spending.most_components =
             std::min(spending.most_components, std::max(1, static_cast<int>(options.mean_components)));
-    if (options.schedule.grow)
+    if (!options.start.empty())
+        resize(rounds, spending, options.clusters, state);
+    else if (options.schedule.grow)
         grow_components(rounds, spending, progress.part(0.1, 0.5), state);
     rounds.refit(state, spending);
     if (options.rows_cost)

@@ -24,8 +24,15 @@ struct ClusteringSchedule {
     int most_move_sweeps = tuning::kMostMoveSweeps;
 };
 
+/// For an error that is to be known to a few hundredths.
+inline ClusteringSchedule draft_schedule() {
+    return {.tolerance = tuning::kDraftTolerance, .most_move_sweeps = tuning::kDraftMoveSweeps};
+}
+
 struct ClusteringOptions {
     std::size_t clusters = 64;
+    /// [points] where to start from, numbered without gaps; empty: vector quantisation.
+    std::vector<std::uint32_t> start = {};
     Spending spending;
     double mean_components = 0; ///< finds the component price that keeps to it; 0: as `spending` says
     bool rows_cost = false;     ///< finds the row price of a file whose bases count

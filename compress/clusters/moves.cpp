@@ -27,13 +27,17 @@ public:
         : rounds_(rounds), points_(rounds.points), spending_(spending), state_(state),
           clusters_(penalised_clusters(state.fits, rounds.points.dimension)) {}
 
-    /// [clusters]; the gain is 0 where a cluster is not worth a look.
-    std::vector<PossibleSplit> splits() const;
+    /// [clusters]; the gain is 0 where a cluster is not worth a look: its cost is below `least`.
+    std::vector<PossibleSplit> splits(double least) const;
     /// Of every cluster and the nearest others, the least loss first.
     std::vector<PossibleMerge> merges() const;
     /// Moves points in `next` as long as pairs of a split and a merge pay; whether any did.
     bool apply(const std::vector<PossibleSplit>& splits, const std::vector<PossibleMerge>& merges,
                std::vector<std::uint32_t>& next) const;
+    /// Splits clusters, those first that gain most, until there are `wanted`; returns how many there are.
+    std::size_t split_most(std::size_t wanted, std::vector<std::uint32_t>& next) const;
+    /// Merges pairs, those first that lose least, until `wanted` are left; returns how many there are.
+    std::size_t merge_least(std::size_t wanted, std::vector<std::uint32_t>& next) const;
 
 private:
     double cost(std::size_t k) const { return state_.fits[k].cost(spending_); }
@@ -70,17 +74,15 @@ PossibleSplit Moves::split(std::size_t k, std::span<const std::uint32_t> members
     return result;
 }
 
-std::vector<PossibleSplit> Moves::splits() const {
+std::vector<PossibleSplit> Moves::splits(double least) const {
     std::vector<std::vector<std::uint32_t>> members(state_.fits.size());
     for (std::uint32_t p = 0; p < points_.count; ++p)
         if (rounds_.significance[p] > 0)
             members[state_.clusters[p]].push_back(p);
-    // Only clusters whose cost is above the mean are worth a look.
-    const double mean = state_.cost / static_cast<double>(state_.fits.size());
     std::vector<PossibleSplit> found(state_.fits.size());
     parallel_for(found.size(), 1, rounds_.threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k)
-            if (!state_.fits[k].directions.empty() && members[k].size() >= 2 && !(cost(k) < mean))
+            if (!state_.fits[k].directions.empty() && members[k].size() >= 2 && !(cost(k) < least))
                 found[k] = split(k, members[k]);
     });
     return found;
@@ -121,12 +123,17 @@ std::vector<PossibleMerge> Moves::merges() const {
     return all;
 }
 
-bool Moves::apply(const std::vector<PossibleSplit>& splits, const std::vector<PossibleMerge>& merges,
-                  std::vector<std::uint32_t>& next) const {
+std::vector<std::size_t> by_gain(const std::vector<PossibleSplit>& splits) {
     std::vector<std::size_t> order(splits.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(),
                      [&](std::size_t a, std::size_t b) { return splits[a].gain > splits[b].gain; });
+    return order;
+}
+
+bool Moves::apply(const std::vector<PossibleSplit>& splits, const std::vector<PossibleMerge>& merges,
+                  std::vector<std::uint32_t>& next) const {
+    const std::vector<std::size_t> order = by_gain(splits);
     std::vector<bool> touched(splits.size(), false);
     auto best = order.begin();
     bool any = false;
@@ -152,13 +159,55 @@ bool Moves::apply(const std::vector<PossibleSplit>& splits, const std::vector<Po
     return any;
 }
 
+std::size_t Moves::split_most(std::size_t wanted, std::vector<std::uint32_t>& next) const {
+    const std::vector<PossibleSplit> all = splits(0);
+    std::size_t count = state_.fits.size();
+    for (const std::size_t k : by_gain(all)) {
+        if (count == wanted)
+            break;
+        if (all[k].leaving.empty())
+            continue;
+        for (const std::uint32_t p : all[k].leaving)
+            next[p] = static_cast<std::uint32_t>(count);
+        rounds_.tell(ClusterSplit{k, count, all[k].gain});
+        ++count;
+    }
+    return count;
+}
+
+std::size_t Moves::merge_least(std::size_t wanted, std::vector<std::uint32_t>& next) const {
+    std::vector<std::uint32_t> into(state_.fits.size());
+    std::iota(into.begin(), into.end(), 0u);
+    std::vector<bool> touched(into.size(), false);
+    std::size_t left = into.size();
+    for (const PossibleMerge& merge : merges()) {
+        if (left == wanted)
+            break;
+        if (touched[merge.into] || touched[merge.from])
+            continue;
+        touched[merge.into] = touched[merge.from] = true;
+        into[merge.from] = static_cast<std::uint32_t>(merge.into);
+        rounds_.tell(ClusterMerge{merge.from, merge.into, merge.loss});
+        --left;
+    }
+    std::vector<std::uint32_t> number(into.size());
+    std::uint32_t count = 0;
+    for (std::size_t k = 0; k < into.size(); ++k) // a pair is called by its lower number
+        number[k] = into[k] == k ? count++ : number[into[k]];
+    for (std::uint32_t& k : next)
+        k = number[k];
+    return left;
+}
+
 } // namespace
 
 bool split_and_merge(const ClusterRounds& rounds, const Spending& spending, double tolerance,
                      const Progress& progress, ClusterState& state) {
     const Moves moves(rounds, spending, state);
     ClusterState next = state;
-    if (!moves.apply(moves.splits(), moves.merges(), next.clusters))
+    // Only clusters whose cost is above the mean are worth a look.
+    const double mean = state.cost / static_cast<double>(state.fits.size());
+    if (!moves.apply(moves.splits(mean), moves.merges(), next.clusters))
         return false;
     next.moments.update(rounds.points, rounds.significance, state.clusters, next.clusters, rounds.threads);
     for (int r = 0; r < tuning::kRoundsAfterMoves; ++r) {
@@ -171,6 +220,20 @@ bool split_and_merge(const ClusterRounds& rounds, const Spending& spending, doub
     if (kept)
         state = std::move(next);
     return kept;
+}
+
+void resize(const ClusterRounds& rounds, const Spending& spending, std::size_t wanted, ClusterState& state) {
+    rounds.refit(state, spending);
+    while (state.fits.size() != wanted) {
+        const Moves moves(rounds, spending, state);
+        std::vector<std::uint32_t> next = state.clusters;
+        const std::size_t count =
+            state.fits.size() < wanted ? moves.split_most(wanted, next) : moves.merge_least(wanted, next);
+        if (count == state.fits.size())
+            return;
+        state = rounds.start(std::move(next), count);
+        rounds.round(state, spending);
+    }
 }
 
 } // namespace prt

@@ -11,4 +11,8 @@ namespace prt {
 bool split_and_merge(const ClusterRounds& rounds, const Spending& spending, double tolerance,
                      const Progress& progress, ClusterState& state);
 
+/// As many clusters as are wanted: those that gain most are split in two, or pairs that lose least become
+/// one, each at most once between two rounds. Where nothing is left to split there are fewer.
+void resize(const ClusterRounds& rounds, const Spending& spending, std::size_t wanted, ClusterState& state);
+
 } // namespace prt

@@ -39,6 +39,17 @@ PointBlocks::PointBlocks(const Transfer& transfer, const Frame& frame, const Gui
     });
 }
 
+void PointBlocks::gather(std::span<const std::uint32_t> points, float* to) const {
+    if (width() == 0)
+        return;
+    for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const std::uint32_t p = points[lane < points.size() ? lane : 0];
+        const float* from = block(p / kLanes) + p % kLanes;
+        for (std::size_t i = 0; i < width(); ++i)
+            to[i * kLanes + lane] = from[i * kLanes];
+    }
+}
+
 void PointBlocks::scale_guides(std::span<const float> scales) {
     for (std::size_t b = 0; b < blocks(); ++b)
         for (std::size_t g = 0; g < guides; ++g)

@@ -32,6 +32,9 @@ struct PointBlocks {
     float coordinate(std::size_t point, std::size_t i) const {
         return values[(point / kLanes * width() + i) * kLanes + point % kLanes];
     }
+    /// Copies points side by side, [width][kLanes], at most kLanes of them and at least one, which fills what
+    /// is left.
+    void gather(std::span<const std::uint32_t> points, float* to) const;
     /// Multiplies the guides by `scales` [guides].
     void scale_guides(std::span<const float> scales);
     /// Coordinates and guides, [width].

@@ -43,9 +43,9 @@ void alternate(const PointBlocks& points, std::span<const float> significance,
     const bool rounds_bases = options.basis_share > 0;
     CodedClusters best;
     double least = std::numeric_limits<double>::infinity();
-    for (int round = 0; round < tuning::kCodingRounds; ++round) {
-        progress.update(static_cast<double>(round) / tuning::kCodingRounds);
-        const bool rounded = rounds_bases && round >= tuning::kRoundedFrom;
+    for (int round = 0; round < options.rounds; ++round) {
+        progress.update(static_cast<double>(round) / options.rounds);
+        const bool rounded = rounds_bases && round >= options.rounded_from;
         refit(points, significance, coded.codes, coded.clusters, options.threads);
         if (rounded) {
             coded.step = basis_step(coded.clusters, total_error(significance, coded.codes.errors),

@@ -15,6 +15,9 @@ struct CodedClusters {
 struct AlternationOptions {
     bool stay = false;      ///< points stay in their clusters: a mean number of components is promised
     double basis_share = 0; ///< error that rounding the bases may add, as a share of what there is; 0: none
+    int rounds = tuning::kCodingRounds;
+    int rounded_from =
+        tuning::kRoundedFrom; ///< the first round with the bases rounded as they will be written
     CompressTrace trace = {};
     int threads = 0;
 };
@@ -22,8 +25,8 @@ struct AlternationOptions {
 /// Codes all points anew for the clusters.
 void encode_all(const PointBlocks& points, const AlternationOptions& options, CodedClusters& coded);
 
-/// Alternates codes, given the clusters, and clusters, given the codes; from the third round on with the
-/// bases rounded as they will be written. Leaves the best of the rounds that could be written.
+/// Alternates codes, given the clusters, and clusters, given the codes; in the end with the bases
+/// rounded. Leaves the best of the rounds that could be written.
 void alternate(const PointBlocks& points, std::span<const float> significance,
                const AlternationOptions& options, const Progress& progress, CodedClusters& coded);
 

@@ -94,7 +94,7 @@ std::vector<float> scale_guides(const Clustering& clustering, QuantisedClusters&
         double variance = 0;
         for (const ClusterFit& fit : clustering.fits)
             variance += fit.significance * fit.guide_variances[g];
-        scales.push_back(static_cast<float>(1 / std::sqrt(std::max(variance, tuning::kGuideRidge))));
+        scales.push_back(static_cast<float>(1 / std::sqrt(std::max(variance, tuning::kLeastGuideVariance))));
         for (std::size_t k = 0; k < clusters.clusters(); ++k) {
             const float center = scales.back() * clusters.center(k)[g], whole = std::round(center);
             clusters.center(k)[g] = whole;

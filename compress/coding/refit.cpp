@@ -3,6 +3,8 @@
 
 #include "coding/refit.h"
 
+#include "tuning.h"
+
 #include <Eigen/Dense>
 
 namespace prt {
@@ -57,8 +59,9 @@ void refit(const PointBlocks& points, std::span<const float> significance, const
             auto [left, right] = normal_equations(points, significance, codes, clusters, k, members[k]);
             if (!(left(0, 0) > 0))
                 continue;
-            // What the points do not determine stays as it is.
-            left.diagonal().array() += 1e-9 * left(0, 0);
+            // What the points hardly determine stays as it is: one slope of 30 would make the rounding of all
+            // rows coarse.
+            left.diagonal().array() += tuning::kRefitRidge * left(0, 0);
             const Eigen::MatrixXd change = left.selfadjointView<Eigen::Lower>().ldlt().solve(right);
             const auto add = [&](Eigen::Index from, float* to) {
                 for (Eigen::Index i = 0; i < change.cols(); ++i)

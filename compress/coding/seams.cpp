@@ -25,6 +25,17 @@ std::vector<double> significance_per_edge(const Adjacency& neighbours, std::span
 
 using PointVector = Eigen::VectorXf;
 
+std::vector<Eigen::MatrixXf> products_of_rows(const QuantisedClusters& clusters) {
+    std::vector<Eigen::MatrixXf> result;
+    for (std::size_t k = 0; k < clusters.clusters(); ++k) {
+        const Eigen::Map<const Eigen::MatrixXf> rows(clusters.row(k, 0),
+                                                     static_cast<Eigen::Index>(clusters.dimension),
+                                                     static_cast<Eigen::Index>(clusters.components[k]));
+        result.emplace_back(rows.transpose() * rows);
+    }
+    return result;
+}
+
 /// Nothing is kept per receiver but its weights: vectors in the space of the frame are formed where they are
 /// needed, for a receiver and its neighbours, since all of them together would take as much memory as the
 /// points.
@@ -58,13 +69,16 @@ private:
         return {clusters_.row(k, j), dimension_};
     }
     std::size_t components(std::size_t p) const { return clusters_.components_of(codes_.clusters[p]); }
-    /// sum_j w_j row_j in the cluster of receiver p.
-    void add_combination(std::size_t p, std::span<const float> w, PointVector& to) const {
+    /// scale · sum_j w_j row_j in the cluster of receiver p.
+    void add_combination(std::size_t p, std::span<const float> w, PointVector& to, float scale = 1) const {
         for (std::size_t j = 0; j < components(p); ++j)
-            to += w[j] * row(codes_.clusters[p], j);
+            to += scale * w[j] * row(codes_.clusters[p], j);
     }
     /// The significance of an edge.
     double edge(std::size_t p, std::size_t q) const { return edge_shares_[p] + edge_shares_[q]; }
+    float edge_price(std::size_t p, std::size_t q) const {
+        return static_cast<float>(options_.seam_price * edge(p, q));
+    }
     /// What cluster k's mean and guides leave of receiver p.
     PointVector left_of(std::size_t p, std::uint32_t k) const {
         PointVector point(static_cast<Eigen::Index>(points_.width()));
@@ -79,11 +93,14 @@ private:
         add_combination(p, codes_.of(p), error);
     }
 
-    /// What a change of the weights of each receiver changes: the quadratic form of eq. 28 applied to the
-    /// vectors that `vector_of(p, to)` gives, and then the rows. [points][max_components]
-    template <class VectorOf>
-    std::vector<float> gradient(VectorOf&& vector_of) const;
+    /// How eq. 28 falls, by halves, with the weights of each receiver: [unknowns], first_ of each.
+    std::vector<float> descent() const;
+    /// Its quadratic form applied to a change of all weights.
+    std::vector<float> curvature(std::span<const float> change) const;
     std::vector<float> inverse_diagonal() const;
+    Eigen::Map<const Eigen::VectorXf> weights_of(std::size_t p, std::span<const float> unknowns) const {
+        return {unknowns.data() + first_[p], static_cast<Eigen::Index>(components(p))};
+    }
 
     void pull_at(std::size_t p, Pull& pull) const;
     /// Of an error `e` at p with a code in cluster k, in eq. 28.
@@ -105,37 +122,73 @@ private:
     std::vector<double> edge_shares_; ///< [points]
     Eigen::Index dimension_;
     double mean_error_;
+    // While weights are solved for:
+    std::vector<std::size_t> first_; ///< [points + 1] a receiver's first unknown: as many as components
+    std::vector<Eigen::MatrixXf> products_; ///< [clusters] of their rows with each other
 };
 
-template <class VectorOf>
-std::vector<float> SeamSmoother::gradient(VectorOf&& vector_of) const {
-    std::vector<float> result(points_.count * clusters_.max_components, 0.0f);
+std::vector<float> SeamSmoother::descent() const {
+    std::vector<float> result(first_.back(), 0.0f);
     parallel_for(points_.count, 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
-        PointVector g(dimension_), own(dimension_), other(dimension_);
+        PointVector sum(dimension_), own(dimension_), other(dimension_);
         for (std::size_t p = begin; p < end; ++p) {
-            vector_of(p, own);
-            g.setZero();
-            g += significance_[p] * own;
+            error_of(p, own);
+            sum = significance_[p] * own;
             for (const std::uint32_t q : neighbours_.of(p)) {
-                vector_of(q, other);
-                g += static_cast<float>(options_.seam_price * edge(p, q)) * (own - other);
+                error_of(q, other);
+                sum += edge_price(p, q) * (own - other);
             }
             for (std::size_t j = 0; j < components(p); ++j)
-                result[p * clusters_.max_components + j] = g.dot(row(codes_.clusters[p], j));
+                result[first_[p] + j] = -sum.dot(row(codes_.clusters[p], j));
+        }
+    });
+    return result;
+}
+
+/// Most neighbours are of the same cluster: their rows meet in products that are known, and only weights are
+/// summed. Vectors are formed across borders alone.
+std::vector<float> SeamSmoother::curvature(std::span<const float> change) const {
+    std::vector<float> result(first_.back(), 0.0f);
+    parallel_for(points_.count, 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
+        PointVector across(dimension_);
+        Eigen::VectorXf within(static_cast<Eigen::Index>(clusters_.max_components));
+        for (std::size_t p = begin; p < end; ++p) {
+            const std::uint32_t k = codes_.clusters[p];
+            const auto m = static_cast<Eigen::Index>(components(p));
+            float own = significance_[p];
+            within.head(m).setZero();
+            bool at_border = false;
+            for (const std::uint32_t q : neighbours_.of(p)) {
+                const float price = edge_price(p, q);
+                own += price;
+                if (codes_.clusters[q] == k) {
+                    within.head(m) -= price * weights_of(q, change);
+                    continue;
+                }
+                if (!at_border)
+                    across.setZero();
+                at_border = true;
+                add_combination(q, change.subspan(first_[q], components(q)), across, -price);
+            }
+            within.head(m) += own * weights_of(p, change);
+            Eigen::Map<Eigen::VectorXf> to(result.data() + first_[p], m);
+            to.noalias() = products_[k] * within.head(m);
+            for (Eigen::Index j = 0; j < m && at_border; ++j)
+                to[j] += across.dot(row(k, static_cast<std::size_t>(j)));
         }
     });
     return result;
 }
 
 std::vector<float> SeamSmoother::inverse_diagonal() const {
-    std::vector<float> result(points_.count * clusters_.max_components, 1.0f);
+    std::vector<float> result(first_.back(), 1.0f);
     for (std::size_t p = 0; p < points_.count; ++p) {
         auto total = static_cast<double>(significance_[p]);
         for (const std::uint32_t q : neighbours_.of(p))
             total += options_.seam_price * edge(p, q);
         for (std::size_t j = 0; j < components(p); ++j) {
             const double d = total * static_cast<double>(row(codes_.clusters[p], j).squaredNorm());
-            result[p * clusters_.max_components + j] = d > 1e-30 ? static_cast<float>(1 / d) : 1.0f;
+            result[first_[p] + j] = d > 1e-30 ? static_cast<float>(1 / d) : 1.0f;
         }
     }
     return result;
@@ -143,22 +196,21 @@ std::vector<float> SeamSmoother::inverse_diagonal() const {
 
 /// All weights together, as real numbers, and then rounded.
 void SeamSmoother::solve_weights() {
-    const std::size_t most = clusters_.max_components;
-    std::vector<float> right = gradient([&](std::size_t p, PointVector& to) { error_of(p, to); });
-    for (float& r : right)
-        r = -r;
-    const auto apply = [&](std::span<const float> direction) {
-        return gradient([&](std::size_t p, PointVector& to) {
-            to.setZero();
-            add_combination(p, direction.subspan(p * most, most), to);
-        });
-    };
-    const std::vector<float> change = conjugate_gradients(apply, inverse_diagonal(), std::move(right));
+    first_.reserve(points_.count + 1);
+    first_.assign(1, 0);
+    for (std::size_t p = 0; p < points_.count; ++p)
+        first_.push_back(first_.back() + components(p));
+    products_ = products_of_rows(clusters_);
+    const std::vector<float> change =
+        conjugate_gradients([&](std::span<const float> direction) { return curvature(direction); },
+                            inverse_diagonal(), descent());
     for (std::size_t p = 0; p < points_.count; ++p)
         for (std::size_t j = 0; j < components(p); ++j) {
-            float& w = codes_.weights[p * most + j];
-            w = clusters_.grid(codes_.clusters[p], j).nearest(w + change[p * most + j]);
+            float& w = codes_.weights[p * clusters_.max_components + j];
+            w = clusters_.grid(codes_.clusters[p], j).nearest(w + change[first_[p] + j]);
         }
+    first_ = {};
+    products_ = {};
 }
 
 PointVector SeamSmoother::code_in(std::uint32_t k, PointVector left, std::span<float> code) const {

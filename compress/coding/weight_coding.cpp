@@ -103,38 +103,23 @@ struct Kernel {
     }
 };
 
-/// Weights and errors of the points of block `b` in the clusters that they have.
-void code_in_clusters(const PointBlocks& points, std::size_t b, std::span<const KernelCluster> clusters,
-                      Codes& codes, std::span<float> weights) {
-    const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
-    const std::span<const std::uint32_t> own = std::span(codes.clusters).subspan(first, n);
-    alignas(64) std::array<float, kLanes> errors{};
-    for (std::size_t lane = 0; lane < n; ++lane) {
-        if (std::find(own.begin(), own.begin() + static_cast<std::ptrdiff_t>(lane), own[lane]) !=
-            own.begin() + static_cast<std::ptrdiff_t>(lane))
-            continue; // done with an earlier lane
-        const KernelCluster& cluster = clusters[own[lane]];
-        weights_of_block(points.block(b), points.dimension, cluster, weights.data(), errors.data());
-        for (std::size_t other = lane; other < n; ++other) {
-            if (own[other] != own[lane])
-                continue;
-            codes.errors[first + other] = errors[other];
-            float* to = codes.weights.data() + (first + other) * codes.max_components;
-            for (std::size_t j = 0; j < codes.max_components; ++j)
-                to[j] = j < cluster.components ? weights[j * kLanes + other] : 0.0f;
-        }
-    }
-}
-
-void code_all(const PointBlocks& points, const Kernel& kernel, std::size_t max_components, Codes& codes,
-              int threads) {
+/// Weights and errors of all points in the clusters that they have.
+void code_in_clusters(const PointBlocks& points, const Kernel& kernel, std::size_t max_components,
+                      Codes& codes, int threads) {
     codes.max_components = max_components;
     codes.errors.resize(points.count);
-    codes.weights.resize(points.count * max_components);
-    parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<float> weights(max_components * kLanes);
-        for (std::size_t b = begin; b < end; ++b)
-            code_in_clusters(points, b, kernel.clusters, codes, weights);
+    codes.weights.assign(points.count * max_components, 0.0f);
+    for_member_blocks(points, codes.clusters, threads, [&](const MemberBlock& members, const float* block) {
+        const KernelCluster& cluster = kernel.clusters[members.cluster];
+        alignas(64) std::array<float, kMostDimensions * kLanes> weights;
+        alignas(64) std::array<float, kLanes> errors{};
+        weights_of_block(block, points.dimension, cluster, weights.data(), errors.data());
+        for (std::size_t lane = 0; lane < members.points.size(); ++lane) {
+            const std::size_t p = members.points[lane];
+            codes.errors[p] = errors[lane];
+            for (std::size_t j = 0; j < cluster.components; ++j)
+                codes.weights[p * max_components + j] = weights[j * kLanes + lane];
+        }
     });
 }
 
@@ -142,23 +127,18 @@ void code_all(const PointBlocks& points, const Kernel& kernel, std::size_t max_c
 
 void encode_in_place(const PointBlocks& points, const QuantisedClusters& clusters, Codes& codes,
                      int threads) {
-    code_all(points, Kernel(clusters), clusters.max_components, codes, threads);
+    code_in_clusters(points, Kernel(clusters), clusters.max_components, codes, threads);
 }
 
 void encode_points(const PointBlocks& points, const QuantisedClusters& clusters,
                    const ClusterLists& candidates, Codes& codes, int threads) {
     const Kernel kernel(clusters);
-    codes.clusters =
-        assign_blocks(
-            points, threads,
-            [&](std::size_t b, std::vector<std::uint32_t>& to) {
-                candidates_of_block(candidates, codes.clusters, b, to);
-            },
-            [&](const float* block, std::span<const std::uint32_t> near, std::uint32_t* best, float* errors) {
-                best_of_block(block, points.dimension, kernel.clusters, near, best, errors);
-            })
-            .clusters;
-    code_all(points, kernel, clusters.max_components, codes, threads);
+    codes.clusters = reassign_members(
+        points, candidates, codes.clusters, threads,
+        [&](const float* block, std::span<const std::uint32_t> near, std::uint32_t* best, float* errors) {
+            best_of_block(block, points.dimension, kernel.clusters, near, best, errors);
+        });
+    code_in_clusters(points, kernel, clusters.max_components, codes, threads);
 }
 
 ClusterLists neighbours_of_codes(const QuantisedClusters& clusters, std::size_t most, int threads) {

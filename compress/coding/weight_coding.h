@@ -20,8 +20,7 @@ struct Codes {
 /// over.
 void encode_in_place(const PointBlocks& points, const QuantisedClusters& clusters, Codes& codes, int threads);
 
-/// Codes every point in the cluster where it loses least, of the `candidates` of its present one and of those
-/// of the points beside it in memory.
+/// Codes every point in the cluster where it loses least, of the `candidates` of its present one.
 void encode_points(const PointBlocks& points, const QuantisedClusters& clusters,
                    const ClusterLists& candidates, Codes& codes, int threads);
 

@@ -24,34 +24,46 @@ using std::numbers::pi;
 /// blocks.
 constexpr std::size_t kStretches = 8, kBlock = 512;
 
-struct Sums {
-    Matrix errors, references;
-};
-
 double ratio(double error, double reference) {
     if (reference > 0)
         return std::sqrt(std::max(error, 0.0) / reference);
     return error > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
-void add_block(const Transfer& reference, const Transfer& approximation, std::span<const float> areas,
-               std::size_t begin, std::size_t end, Sums& sums) {
-    using Vectors = Eigen::Map<const Eigen::MatrixXf>;
-    const auto rows = static_cast<Eigen::Index>(reference.dimension());
-    const auto count = static_cast<Eigen::Index>(end - begin);
-    const Eigen::VectorXd roots =
-        Eigen::Map<const Eigen::VectorXf>(areas.data() + begin, count).cast<double>().cwiseSqrt();
-    const Matrix wanted =
-        Vectors(reference.vector(begin).data(), rows, count).cast<double>() * roots.asDiagonal();
-    const Matrix found =
-        Vectors(approximation.vector(begin).data(), rows, count).cast<double>() * roots.asDiagonal();
-    sums.references.selfadjointView<Eigen::Lower>().rankUpdate(wanted);
-    sums.errors.selfadjointView<Eigen::Lower>().rankUpdate(wanted - found);
-}
-
 std::vector<double> whole(const Matrix& lower) {
     const Matrix all = lower.selfadjointView<Eigen::Lower>();
     return {all.data(), all.data() + all.size()};
+}
+
+/// sum_p a_p v_p v_p^T of the vectors that `block(begin, end)` gives as columns, single or as differences.
+template <class Block>
+std::vector<double> sums_of_squares(std::size_t dimension, std::span<const float> areas, int threads,
+                                    Block&& block) {
+    const auto n = static_cast<Eigen::Index>(dimension);
+    std::array<Matrix, kStretches> stretches;
+    const auto first_of = [&](std::size_t stretch) { return areas.size() * stretch / kStretches; };
+    parallel_for(kStretches, 1, threads, [&](std::size_t stretch, std::size_t) {
+        Matrix sums = Matrix::Zero(n, n);
+        const std::size_t last = first_of(stretch + 1);
+        for (std::size_t begin = first_of(stretch); begin < last; begin += kBlock) {
+            const std::size_t end = std::min(begin + kBlock, last);
+            const Eigen::Map<const Eigen::VectorXf> shares(areas.data() + begin,
+                                                           static_cast<Eigen::Index>(end - begin));
+            const Matrix columns = block(begin, end) * shares.cast<double>().cwiseSqrt().asDiagonal();
+            sums.selfadjointView<Eigen::Lower>().rankUpdate(columns);
+        }
+        stretches[stretch] = std::move(sums);
+    });
+    for (std::size_t stretch = 1; stretch < kStretches; ++stretch)
+        stretches[0] += stretches[stretch];
+    return whole(stretches[0]);
+}
+
+Matrix columns_of(const Transfer& transfer, std::size_t begin, std::size_t end) {
+    return Eigen::Map<const Eigen::MatrixXf>(transfer.vector(begin).data(),
+                                             static_cast<Eigen::Index>(transfer.dimension()),
+                                             static_cast<Eigen::Index>(end - begin))
+        .cast<double>();
 }
 
 /// Squared error and square of exit radiance, summed over receivers and colors.
@@ -139,26 +151,28 @@ double place_of_maximum(auto&& f, double low, double high) {
 
 } // namespace
 
+std::vector<double> second_moments(const Transfer& transfer, std::span<const float> areas, int threads) {
+    return sums_of_squares(transfer.dimension(), areas, threads, [&](std::size_t begin, std::size_t end) {
+        return columns_of(transfer, begin, end);
+    });
+}
+
 ErrorMoments error_moments(const Transfer& reference, const Transfer& approximation,
-                           std::span<const float> areas, int threads) {
+                           std::span<const float> areas, std::vector<double> references, int threads) {
     if (reference.layout != approximation.layout || reference.receivers() != approximation.receivers())
         throw Error("the transfers have different orders, parts or numbers of receivers");
-    const std::size_t receivers = reference.receivers();
-    const auto n = static_cast<Eigen::Index>(reference.dimension());
-    std::array<Sums, kStretches> stretches;
-    const auto first_of = [&](std::size_t stretch) { return receivers * stretch / kStretches; };
-    parallel_for(kStretches, 1, threads, [&](std::size_t stretch, std::size_t) {
-        Sums sums{Matrix::Zero(n, n), Matrix::Zero(n, n)};
-        const std::size_t end = first_of(stretch + 1);
-        for (std::size_t begin = first_of(stretch); begin < end; begin += kBlock)
-            add_block(reference, approximation, areas, begin, std::min(begin + kBlock, end), sums);
-        stretches[stretch] = std::move(sums);
-    });
-    for (std::size_t stretch = 1; stretch < kStretches; ++stretch) {
-        stretches[0].errors += stretches[stretch].errors;
-        stretches[0].references += stretches[stretch].references;
-    }
-    return {reference.layout, whole(stretches[0].errors), whole(stretches[0].references)};
+    return {reference.layout,
+            sums_of_squares(reference.dimension(), areas, threads,
+                            [&](std::size_t begin, std::size_t end) -> Matrix {
+                                return columns_of(reference, begin, end) -
+                                       columns_of(approximation, begin, end);
+                            }),
+            std::move(references)};
+}
+
+ErrorMoments error_moments(const Transfer& reference, const Transfer& approximation,
+                           std::span<const float> areas, int threads) {
+    return error_moments(reference, approximation, areas, second_moments(reference, areas, threads), threads);
 }
 
 double lit_rms(const ErrorMoments& moments, const LightingView& lighting) {

@@ -161,6 +161,13 @@ FamilyModel family_model(LightFamily family, int order) {
     return model;
 }
 
+std::vector<Lighting> members_of_family(LightFamily family, int order) {
+    std::vector<Lighting> lightings;
+    for (FamilyMember& member : family_model(family, order).members)
+        lightings.push_back(std::move(member.lighting));
+    return lightings;
+}
+
 double open_square(const Light& light, const std::vector<double>& texture_powers) {
     double sum = 0;
     for (int l = 0; l < light.order; ++l) {

@@ -24,6 +24,19 @@ std::string short_number(double value) {
     return text.str();
 }
 
+/// A moving basis for one of `kSweepBytes`: those that were best on the knot, the head, the room or the
+/// bunny.
+struct MovingBasisSetting {
+    double bytes;
+    int weight_bits, components;
+};
+
+constexpr MovingBasisSetting kMovingBasisSettings[] = {
+    {5, 32, 5}, {5, 32, 8}, {7, 32, 5}, {7, 32, 8}, {9, 32, 6}, {9, 64, 12}, {13, 64, 8}, {13, 64, 12},
+};
+/// Each takes eight operations, and the mean as many.
+constexpr int kMovingBasisComponents[] = {0, 1, 2, 4};
+
 class Sweeper {
 public:
     Sweeper(const Transfer& transfer, const ReceiverSurface& surface, std::span<const Light> lights,
@@ -31,6 +44,10 @@ public:
         : transfer_(transfer), surface_(surface), lights_(lights), options_(options), progress_(progress) {
         for (const Light& light : lights)
             references_.push_back(exit_radiance(transfer, light, options.threads));
+        one_cluster_.resize(transfer.receivers());
+        metric_ = options.metric ? *options.metric
+                                 : balanced(metric_of_family(LightFamily::outdoor, transfer.layout), transfer,
+                                            surface.areas, options.threads);
     }
 
     Sweep run(std::span<const SweepCandidate> others) {
@@ -44,6 +61,7 @@ public:
             sweep_.by_components.push_back(point);
         }
         plain_pca();
+        moving_bases();
         clustered();
         ours();
         progress_.update(1);
@@ -54,13 +72,19 @@ private:
     SweepPoint measured(const std::string& method, const std::string& setting,
                         const Transfer& decoded) const {
         SweepPoint point{method, setting};
-        double sum = 0;
+        double squares = 0, squared_jumps = 0;
         for (std::size_t l = 0; l < lights_.size(); ++l) {
             const auto lit = exit_radiance(decoded, lights_[l], options_.threads);
             const double rms = lit_rms(references_[l], lit, surface_.areas);
-            sum += rms * rms;
+            squares += rms * rms;
+            // Alike for methods with clusters and without: all edges are inside of one.
+            const double jump = lit_error(references_[l], lit, surface_.areas, surface_.edges, one_cluster_)
+                                    .inner.percentile_99;
+            squared_jumps += jump * jump;
         }
-        point.lit_rms = lights_.empty() ? 0 : std::sqrt(sum / static_cast<double>(lights_.size()));
+        const double lights = std::max(1.0, static_cast<double>(lights_.size()));
+        point.lit_rms = std::sqrt(squares / lights);
+        point.jumps = std::sqrt(squared_jumps / lights);
         point.relative_l2 = relative_l2(transfer_, decoded, surface_.areas);
         return point;
     }
@@ -121,6 +145,38 @@ private:
         }
     }
 
+    void moving_bases() {
+        if (surface_.positions.empty())
+            return;
+        const double receivers = static_cast<double>(transfer_.receivers());
+        double done = 0.025;
+        for (const MovingBasisSetting& setting : kMovingBasisSettings) {
+            const double words = bound_bytes(static_cast<std::size_t>(setting.weight_bits / 8));
+            moving({.components = setting.components,
+                    .weight_bits = setting.weight_bits,
+                    .table_bytes = receivers * (setting.bytes - words)},
+                   progress_.part(done, done + 0.003), sweep_.by_bytes);
+            done += 0.003;
+        }
+        for (const int components : kMovingBasisComponents)
+            moving({.components = components,
+                    .weight_bits = std::max(32, 8 * components),
+                    .nodes = static_cast<std::size_t>(kSweepClusters)},
+                   progress_.part(done, done), sweep_.by_components);
+    }
+
+    /// Nothing where no grid keeps to the bytes.
+    void moving(MovingBasisOptions options, const Progress& progress, std::vector<SweepPoint>& points) const {
+        const Stopwatch stopwatch;
+        options.metric = metric_;
+        options.threads = options_.threads;
+        if (const auto found = moving_basis(transfer_, surface_, options, progress))
+            points.push_back(
+                measured("moving basis",
+                         std::to_string(found->nodes) + " nodes x " + std::to_string(options.components),
+                         found->result, stopwatch.seconds()));
+    }
+
     /// The most components that K clusters can have in `bytes`, with rows as float16; -1: not even none.
     int classic_components(int clusters, double bytes) const {
         const auto row = static_cast<double>(clusters) * static_cast<double>(2 * transfer_.dimension()) /
@@ -136,7 +192,7 @@ private:
 
     void clustered() {
         const int most_clusters = static_cast<int>(std::min<std::size_t>(1024, transfer_.receivers()));
-        double done = 0.03;
+        double done = 0.07;
         for (int clusters = 4; clusters <= most_clusters; clusters *= 2) {
             std::set<int> components; // fewer than fit are never better
             for (const double bytes : kSweepBytes)
@@ -216,7 +272,9 @@ private:
     std::span<const Light> lights_;
     const CompressOptions& options_;
     const Progress& progress_;
+    LightMetric metric_;
     std::vector<std::vector<glm::vec3>> references_;
+    std::vector<std::uint16_t> one_cluster_; ///< [receivers], of all
     Sweep sweep_;
 };
 

@@ -206,16 +206,10 @@ private:
     prt::Image drawn_with_sun(const Sky& sky, const Transfer& transfer, Shadows shadows) const {
         const prt::Lighting lighting{sky.rest, prt::as_light(sky.suns, sky.rest.order)};
         const std::vector<glm::vec3> radiance = prt::exit_radiance(transfer, lighting);
-        prt::Picture picture;
-        picture.scene = &model_->scene;
-        picture.textures = model_->trace->textures();
-        picture.radiance = radiance;
+        prt::Picture picture =
+            viewer::picture_of(*model_, radiance, view_.camera, options_.width, options_.height);
         picture.suns = sky.suns;
         picture.textured = false;
-        picture.camera = view_.camera;
-        picture.width = options_.width;
-        picture.height = options_.height;
-        picture.samples = 1;
         return shadows == Shadows::map ? prt::render_gl(picture, context_)
                                        : prt::render_rays(picture, *model_->trace, {.sun_rays = 64});
     }

@@ -92,6 +92,28 @@ std::string weight_defines(const ClusteredTransfer& transfer) {
     return define("PRT_WEIGHT_VECTORS", static_cast<std::size_t>(receivers.components / 4));
 }
 
+/// What spares the shader a loop over the weights and the table of clusters.
+std::string same_weight_defines(const ClusteredTransfer& transfer) {
+    const ClusteredBases& bases = transfer.bases;
+    if (!clusters_are_alike(bases))
+        return "";
+    const auto components = static_cast<std::size_t>(bases.components.front());
+    std::string text =
+        define("PRT_CLUSTER_ROWS", bases.fixed_rows() + components) + "#define PRT_SAME_WEIGHTS";
+    int position = transfer.receivers.cluster_bits;
+    for (std::size_t j = 0; j < components; ++j) {
+        text += " PRT_ADD(" + std::to_string(j) + "u, ";
+        if (transfer.receivers.format == WeightFormat::packed) {
+            const int width = bases.bits[j];
+            text += "PRT_BITS(" + std::to_string(position) + "u, " + std::to_string(width) + "u))";
+            position += width;
+        } else {
+            text += "prt_weights_" + std::to_string(j / 4) + "[" + std::to_string(j % 4) + "])";
+        }
+    }
+    return text + "\n";
+}
+
 } // namespace
 
 std::string shader_source(std::string_view name, std::string_view defines, ShaderLanguage language) {
@@ -108,7 +130,8 @@ int most_vertex_components(const ClusteredBases& bases) {
 
 std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource constants,
                             ShaderLanguage language, const glm::dvec3& seen_from) {
-    const std::string text = weight_defines(transfer) + guide_defines(transfer.bases, seen_from);
+    const std::string text =
+        weight_defines(transfer) + same_weight_defines(transfer) + guide_defines(transfer.bases, seen_from);
     switch (constants) {
     case ConstantSource::buffer:
         if (language == ShaderLanguage::glsl330 || language == ShaderLanguage::essl300)

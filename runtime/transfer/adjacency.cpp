@@ -14,6 +14,7 @@ std::vector<Edge> unique_edges(std::vector<Edge> edges) {
             std::swap(e.first, e.second);
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    edges.shrink_to_fit(); // of a mesh, each was there twice
     return edges;
 }
 

@@ -80,6 +80,15 @@ std::vector<ClusterLayout> cluster_layouts(const ClusteredBases& bases) {
     return layouts;
 }
 
+bool clusters_are_alike(const ClusteredBases& bases) {
+    if (bases.components.empty())
+        return false;
+    const int components = bases.components.front();
+    return std::ranges::all_of(bases.components, [&](int m) { return m == components; }) &&
+           (bases.bits.empty() ||
+            std::equal(bases.bits.begin() + components, bases.bits.end(), bases.bits.begin()));
+}
+
 std::size_t basis_bytes(const ClusteredBases& bases) {
     // A byte for each m_k, four bits for the width of each packed weight.
     const std::size_t layout = bases.clusters() + (bases.bits.size() + 1) / 2;

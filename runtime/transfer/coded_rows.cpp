@@ -14,6 +14,8 @@ namespace prt {
 namespace {
 
 constexpr int kLevelBits = 4;
+/// Rows that drops are chosen for, spread over all: a thousand tell what a hundred thousand do.
+constexpr std::size_t kRowsLookedAt = 1024;
 
 /// Bits of `value` in two's complement; 0 needs none.
 int width_of(std::int32_t value) {
@@ -45,6 +47,15 @@ public:
             widths_.push_back(static_cast<std::uint8_t>(width_of(value)));
     }
     std::size_t rows() const { return columns_ == 0 ? 0 : widths_.size() / columns_; }
+    /// At most `most` rows, evenly spread.
+    Widths sample(std::size_t most) const {
+        const std::size_t step =
+            std::max(std::size_t{1}, (rows() + most - 1) / std::max(most, std::size_t{1}));
+        Widths some({}, columns_);
+        for (std::size_t r = 0; r < rows(); r += step)
+            some.widths_.insert(some.widths_.end(), row(r).begin(), row(r).end());
+        return some;
+    }
     std::span<const std::uint8_t> row(std::size_t r) const {
         return std::span(widths_).subspan(r * columns_, columns_);
     }
@@ -86,9 +97,9 @@ std::vector<std::uint8_t> mean_drops(const Widths& widths, std::size_t columns) 
     return drops;
 }
 
-/// Drops that make the code short: from the mean ones, or from none where those leave a row too wide, column
-/// by column a bit more or less, and all columns from some one on together, until nothing helps.
-std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) {
+/// Drops that make the code of these rows short: from the mean ones, or from none where those leave a row too
+/// wide, column by column a bit more or less, and all columns from some one on together, until nothing helps.
+std::vector<std::uint8_t> best_drops_of(const Widths& widths, std::size_t columns) {
     std::vector<std::uint8_t> drops = mean_drops(widths, columns);
     std::size_t least = widths.total(drops);
     if (least == ~std::size_t{0}) {
@@ -114,6 +125,11 @@ std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) 
             }
     }
     return drops;
+}
+
+std::vector<std::uint8_t> best_drops(const Widths& widths, std::size_t columns) {
+    const std::vector<std::uint8_t> drops = best_drops_of(widths.sample(kRowsLookedAt), columns);
+    return widths.total(drops) == ~std::size_t{0} ? best_drops_of(widths, columns) : drops;
 }
 
 /// What is learnt of the values that have room for `width` bits.

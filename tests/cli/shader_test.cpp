@@ -62,6 +62,7 @@ TEST_P(Shader, CompilesInEveryLanguage) {
                 continue;
             }
             ASSERT_EQ(outcome.status, 0) << outcome.err;
+            EXPECT_NE(outcome.out.find("no loop"), std::string::npos) << outcome.out;  // there is one cluster
             EXPECT_EQ(text_of(folder / "s.vert").find("#include"), std::string::npos); // stands alone
             if (language == "vulkan")
                 compiles_for_vulkan("s.vert", "vert");

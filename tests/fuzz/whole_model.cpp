@@ -77,4 +77,11 @@ WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::pa
     return {std::move(document), std::move(scene), std::move(baked), std::move(compressed)};
 }
 
+void expect_finite_light(const ClusteredTransfer& transfer) {
+    expect_finite(std::span<const float>(decode(transfer, 1).vectors), "decoded transfer");
+    const Light light = constant_light(transfer.bases.layout.order, glm::vec3(1));
+    for (const glm::vec3& radiance : exit_radiance(transfer, light, 1))
+        expect_finite(std::span<const float>(&radiance.x, 3), "exit radiance");
+}
+
 } // namespace prt::fuzz

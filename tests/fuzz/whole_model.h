@@ -18,4 +18,7 @@ struct WholeModel {
 /// `Error` where the file is refused.
 WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::path& path);
 
+/// Decodes it, lights it, and expects finite numbers.
+void expect_finite_light(const ClusteredTransfer& transfer);
+
 } // namespace prt::fuzz

@@ -29,7 +29,7 @@ ENVIRONMENT = dict(os.environ, UBSAN_OPTIONS="print_stacktrace=1",
 INNER = re.compile(r"std::|vector::|basic_string|\[json\.exception|terminate called|Assertion|Sanitizer|runtime error")
 NO_NUMBER = re.compile(r"(?<![\w./-])-?(nan|inf)(?![\w./-])")
 NULLS = {"seam_place_metres"}  # where there is no seam
-LIGHT = {"prtkit_light": 1, "order": 1, "coefficients": {channel: [1] for channel in ("red", "green", "blue")}}
+LIGHT = {"prtkit_light": 1, "order": 3, "coefficients": {channel: [3] + [0.1] * 8 for channel in ("red", "green", "blue")}}  # that bakes want
 
 # How each kind of file is used: {file} is the changed one, {baked} and {shipped} are those that it came from.
 SCENE = [["info", "{file}"],
@@ -40,9 +40,12 @@ COMPRESS = ["compress", "{file}", "-o", "out.glb"]
 BAKED = SCENE[:2] + SCENE[3:] + [COMPRESS, COMPRESS + ["--meshopt"], COMPRESS + ["--reorder"],
                                  COMPRESS + ["--weights", "16", "--preset", "custom", "--clusters", "3", "--components", "2"],
                                  ["evaluate", "{file}", "{shipped}"]]
-SHIPPED = SCENE[:1] + SCENE[3:] + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.vert"]] + SCENE[1:2]
+SHIPPED = SCENE[:1] + SCENE[3:] + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.vert"],
+                                 ["relight", "{file}", "--env", "light.json", "-o", "out.glb"]] + SCENE[1:2]
 SHIPMENTS = [["--meshopt"], ["--preset", "custom", "--weights", "8", "--clusters", "2", "--components", "3"],
-             ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3"], ["--preset", "u64", "--reorder"]]
+             ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3"], ["--preset", "u64", "--reorder"],
+             ["--preset", "u32x4", "--guides", "position"],
+             ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3", "--guides", "position"]]
 
 
 class Bases:

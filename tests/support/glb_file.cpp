@@ -1,7 +1,9 @@
 #include "glb_file.h"
 
 #include <cstdint>
+#include <cstring>
 #include <fstream>
+#include <iterator>
 
 namespace prt::test {
 
@@ -48,6 +50,19 @@ std::string GlbFile::bytes() const {
 
 void GlbFile::write(const std::filesystem::path& path) const {
     std::ofstream(path, std::ios::binary) << bytes();
+}
+
+GlbFile read_glb(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    GlbFile glb;
+    glb.json = nlohmann::ordered_json::parse(bytes.substr(20, length));
+    const auto* data = reinterpret_cast<const std::byte*>(bytes.data());
+    if (const std::size_t begin = 28 + length; begin < bytes.size())
+        glb.binary.assign(data + begin, data + bytes.size());
+    return glb;
 }
 
 GlbFile triangle_file() {

@@ -33,6 +33,9 @@ struct GlbFile {
 inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsignedShort = 5123,
                      kUnsignedInt = 5125, kFloat = 5126;
 
+/// A .glb taken apart.
+GlbFile read_glb(const std::filesystem::path& path);
+
 /// A file with one triangle (0,0,0) (1,0,0) (0,1,0), indexed, with normals, at node 0.
 GlbFile triangle_file();
 

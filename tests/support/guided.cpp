@@ -54,6 +54,24 @@ void add_guides(ClusteredTransfer& transfer, const std::vector<GuideKind>& kinds
         }
 }
 
+void code_bases(ClusteredBases& bases, const std::vector<float>& scales, std::mt19937& random) {
+    const auto integers = [&](std::size_t count) {
+        std::vector<std::int32_t> values(count);
+        for (std::int32_t& value : values)
+            value = static_cast<std::int32_t>(random() % 201) - 100;
+        return values;
+    };
+    CodedBases& coded = bases.coded;
+    coded.origin.assign(bases.dimension(), 0.5f);
+    coded.scales = scales;
+    coded.step = 0.01f;
+    coded.units.assign(bases.dimension(), 1);
+    coded.units.back() = 4;
+    coded.axes = encode_rows(integers(scales.size() * bases.dimension()), bases.dimension());
+    coded.values = encode_rows(integers(bases.first_rows().back() * scales.size()), scales.size());
+    bases.rows = decode_bases(coded, bases.components, bases.guide_rows());
+}
+
 std::vector<double> decoded_by_hand(const ClusteredTransfer& transfer, std::size_t p) {
     const ClusteredBases& bases = transfer.bases;
     const std::size_t k = transfer.receivers.clusters[p], dimension = bases.dimension(),

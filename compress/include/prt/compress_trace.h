@@ -47,10 +47,13 @@ struct CodingRound {
 
 /// One try of a search for a budget (`prt/search.h`), after the events of its own compression.
 struct SearchTrial {
+    bool draft = false;                  ///< few rounds and no seams: what more of them lead to is estimated
     int clusters = 0, payload_bytes = 0; ///< `bytes_per_receiver`
-    double lit_rms = 0;
-    double bytes_per_vertex = 0; ///< payload and bases
-    double operations = 0;       ///< `CompressStatistics::operations`
+    double lit_rms = 0;                  ///< expected under the metric
+    double worst_lit_rms = 0;            ///< the greatest of that and of those under skies that are promised
+    double jump = 0;                     ///< `jump_across_clusters`, where it is promised
+    double bytes_per_vertex = 0;         ///< payload and bases
+    double operations = 0;               ///< `CompressStatistics::operations`
     double seconds = 0;
 };
 

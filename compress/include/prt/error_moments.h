@@ -23,6 +23,11 @@ struct ErrorMoments {
 /// receivers differ.
 ErrorMoments error_moments(const Transfer& reference, const Transfer& approximation,
                            std::span<const float> areas, int threads = 0);
+/// The same with `references` known, which are the same for every approximation: half of the work.
+ErrorMoments error_moments(const Transfer& reference, const Transfer& approximation,
+                           std::span<const float> areas, std::vector<double> references, int threads = 0);
+/// `ErrorMoments::references`.
+std::vector<double> second_moments(const Transfer& transfer, std::span<const float> areas, int threads = 0);
 
 /// `lit_rms` of prt/error_measures.h between the two transfers under `lighting`, to rounding. 0 where neither
 /// radiates, infinite where only errors do. Throws `Error` where the lighting has fewer bands than the

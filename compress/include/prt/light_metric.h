@@ -40,6 +40,10 @@ enum class LightFamily {
 /// to 0.3 s: analytic skies are integrated.
 LightMetric metric_of_family(LightFamily family, const TransferLayout& layout);
 
+/// The lightings that a family is made of, their suns apart: what is between them is much like one of them.
+/// None of `natural`.
+std::vector<Lighting> members_of_family(LightFamily family, int order);
+
 /// The mean over `lights`, each scaled to the same energy and turned about +Y by every angle. A hundredth of
 /// the power is `natural_metric`'s, so that no error is free. Throws `Error` when a light has fewer bands
 /// than the layout, or all are black.

@@ -3,6 +3,7 @@
 // Options for a budget: how many clusters and bits reach an error, or what error a number of bytes reaches.
 
 #include "prt/compress.h"
+#include "prt/transfer_layout.h"
 
 #include <optional>
 #include <vector>
@@ -11,11 +12,17 @@ namespace prt {
 
 /// What the result must keep. At least one is given.
 struct Budget {
-    std::optional<double> max_error;        ///< expected lit_rms under the metric
-    std::optional<double> bytes_per_vertex; ///< what a game binds (`bytes_per_receiver`), and bases
-    std::optional<double> operations;       ///< of all receivers, guides with them: what the shader pays
+    std::optional<double> max_error = {};        ///< lit_rms, as expected under the metric, and under `skies`
+    std::optional<double> bytes_per_vertex = {}; ///< what a game binds (`bytes_per_receiver`), and bases
+    std::optional<double> operations = {};       ///< of all receivers, guides with them: what the shader pays
+    /// `jump_across_clusters` (prt/jumps.h) under the metric: beside another, since one cluster jumps
+    /// nowhere.
+    std::optional<double> max_jump = {};
+    /// Under each of these, at every turn about +Y, `max_error` holds, too.
+    std::vector<Lighting> skies = {};
 
-    bool any() const { return max_error || bytes_per_vertex || operations; }
+    bool any() const { return max_error || max_jump || bytes_per_vertex || operations; }
+    bool aims() const { return max_error || bytes_per_vertex || operations; }
 };
 
 struct SearchOptions {
@@ -32,13 +39,15 @@ struct SearchResult {
     /// The cheapest that keeps all of the budget, else the nearest to it; its seconds are those of all tries.
     CompressResult result;
     bool kept = false;
+    SearchTrial best; ///< what led to it, with what it promises; of a preset that fits nothing
     std::vector<SearchTrial> trials;
 };
 
-/// Compresses with the numbers of clusters, components and bits that are cheapest in bytes under `max_error`,
-/// or best in error under `bytes_per_vertex`, or, under `operations` alone, in as many bytes as a preset
-/// may take. Takes five to twenty times as long as `compress`. Throws as `compress` does, and for budgets
-/// that are not positive.
+/// Compresses with the guides and numbers of clusters, components and bits that are cheapest in bytes under
+/// `max_error`, or best in error under `bytes_per_vertex`, or, under `operations` alone, in as
+/// many bytes as a preset may take. Takes three to six times as long as `compress`: later tries start from
+/// the clusters of earlier ones. Throws as `compress` does, for budgets that are not positive, and for guides
+/// that take more operations than there may be.
 SearchResult compress_within(const Transfer& transfer, const ReceiverSurface& surface,
                              const SearchOptions& options, const Progress& progress = {});
 

@@ -58,12 +58,7 @@ float night_share(float luminance, float darkness) {
 }
 
 prt::LightMeter meter_of(const ExposureMeter::View& view) {
-    prt::Picture picture;
-    picture.scene = &view.model->scene;
-    picture.textures = view.model->trace->textures();
-    picture.camera = view.camera;
-    picture.width = view.width;
-    picture.height = view.height;
+    prt::Picture picture = picture_of(*view.model, {}, view.camera, view.width, view.height);
     picture.textured = view.textured;
     return {picture, view.model->trace->rays()};
 }

@@ -48,6 +48,19 @@ LoadedModel load_model(const std::filesystem::path& path) {
     return loaded;
 }
 
+prt::Picture picture_of(const Model& model, std::span<const glm::vec3> radiance, const prt::Camera& camera,
+                        int width, int height) {
+    prt::Picture picture;
+    picture.scene = &model.scene;
+    picture.textures = model.trace->textures();
+    picture.radiance = radiance;
+    picture.camera = camera;
+    picture.width = width;
+    picture.height = height;
+    picture.samples = 1;
+    return picture;
+}
+
 std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& progress) {
     prt::BakeOptions options;
     options.order = 1;

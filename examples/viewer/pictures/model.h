@@ -6,12 +6,14 @@
 
 #include "prt/gltf.h"
 #include "prt/mesh_edges.h"
+#include "prt/picture.h"
 #include "prt/support/progress.h"
 #include "prt/trace_scene.h"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -48,6 +50,10 @@ std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path 
 
 /// Reads `path`. Throws `prt::Error`.
 LoadedModel load_model(const std::filesystem::path& path);
+
+/// Of a model from a place, a sample for each pixel; nothing but `radiance` lights it.
+prt::Picture picture_of(const Model& model, std::span<const glm::vec3> radiance, const prt::Camera& camera,
+                        int width, int height);
 
 /// Share of the cosine-weighted hemisphere that is open, for every receiver.
 std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& progress);

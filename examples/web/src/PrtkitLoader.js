@@ -22,7 +22,6 @@
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
 import {
-  BufferAttribute,
   DataTexture,
   DataUtils,
   EquirectangularReflectionMapping,
@@ -40,6 +39,8 @@ import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows }
 import { strengthsOfSuns } from "./lightSet.js";
 import { relitMaterial, sunTraits } from "./relitMaterial.js";
 import { MAX_ORDER, projectLatLong } from "./sphericalHarmonics.js";
+import { convertGeometry } from "./vertexWeights.js";
+import { checkExtension, viewsOf } from "./wholeExtension.js";
 
 export { lightOfSuns, readLightFile } from "./lightFile.js";
 export { ShLight } from "./sphericalHarmonics.js";
@@ -151,57 +152,6 @@ export class PrtkitModel {
   }
 }
 
-/** Bytes of accessors of VEC4 of bytes, one after the other for each vertex, as 32-bit words [vertices][groups]. */
-function packedWords(groups) {
-  const count = groups[0].count;
-  const words = new Uint32Array(count * groups.length);
-  groups.forEach((group, g) => {
-    for (let v = 0; v < count; ++v)
-      words[v * groups.length + g] =
-        (group.getX(v) | (group.getY(v) << 8) | (group.getZ(v) << 16) | (group.getW(v) << 24)) >>> 0;
-  });
-  return words;
-}
-
-/** Words [first, first + 4) of each vertex, or as many as there are. */
-function wordAttribute(words, stride, first) {
-  const size = Math.min(4, stride - first);
-  const count = words.length / stride;
-  const part = new Uint32Array(count * size);
-  for (let v = 0; v < count; ++v)
-    for (let w = 0; w < size; ++w) part[v * size + w] = words[v * stride + first + w];
-  return new BufferAttribute(part, size);
-}
-
-/** Puts the attributes that the shader reads in place of those of the file; returns its defines. */
-function convertGeometry(geometry, model) {
-  const groups = [];
-  for (let i = 0; geometry.hasAttribute(`_prt_weights_${i}`); ++i) {
-    groups.push(geometry.getAttribute(`_prt_weights_${i}`));
-    geometry.deleteAttribute(`_prt_weights_${i}`);
-  }
-  const { clusters } = model;
-  if (clusters.widths) {
-    if (groups.length === 0 || groups.length > 8)
-      throw new Error(`${EXTENSION}: a primitive has ${groups.length} groups of packed weights, not 1 to 8`);
-    const words = packedWords(groups);
-    geometry.setAttribute("prt_words_0", wordAttribute(words, groups.length, 0));
-    if (groups.length > 4) geometry.setAttribute("prt_words_1", wordAttribute(words, groups.length, 4));
-    model.bytesPerVertex = 4 * groups.length;
-    return { ...TABLES, PRT_PACKED_WORDS: groups.length, PRT_CLUSTER_BITS: clusters.clusterBits };
-  }
-  const cluster = geometry.getAttribute("_prt_cluster");
-  if (!cluster || groups.length > 12)
-    throw new Error(`${EXTENSION}: a primitive lacks _PRT_CLUSTER, or has more than 48 components`);
-  const numbers = Uint32Array.from({ length: cluster.count }, (_, v) => cluster.getX(v));
-  geometry.deleteAttribute("_prt_cluster");
-  geometry.setAttribute("prt_cluster", new BufferAttribute(numbers, 1));
-  groups.forEach((group, i) => geometry.setAttribute(`prt_weights_${i}`, group));
-  const weight = groups.length > 0 ? (groups[0].data ?? groups[0]).array.BYTES_PER_ELEMENT : 0;
-  model.bytesPerVertex = numbers.BYTES_PER_ELEMENT + 4 * groups.length * weight;
-  return { ...TABLES, PRT_WEIGHT_VECTORS: groups.length };
-}
-
 /** For `GLTFLoader.register`. Files without the extension load as ever. */
 export class PrtkitPlugin {
   constructor(parser) {
@@ -210,15 +160,28 @@ export class PrtkitPlugin {
   }
 
   async afterRoot(gltf) {
-    const { json, associations } = this.parser;
-    const extension = json.extensions?.[EXTENSION];
+    const extension = this.parser.json.extensions?.[EXTENSION];
     if (!extension) return;
-    const wanted = [extension.packing?.bufferView, extension.centers?.bufferView, extension.bases.bufferView];
-    for (const part of ["origin", "units", "scales", "axes", "values"]) wanted.push(extension.bases[part]?.bufferView);
+    checkExtension(extension);
     const views = new Map();
-    for (const i of wanted)
-      if (i !== undefined) views.set(i, new Uint8Array(await this.parser.getDependency("bufferView", i)));
+    for (const i of viewsOf(extension)) views.set(i, new Uint8Array(await this.viewOf(i)));
     const model = new PrtkitModel(extension, (i) => views.get(i));
+    this.convert(gltf, model);
+    gltf.userData.prtkit = model;
+  }
+
+  /** The bytes of a buffer view; three knows best whether they are there. */
+  async viewOf(i) {
+    try {
+      return await this.parser.getDependency("bufferView", i);
+    } catch (error) {
+      throw new Error(`${EXTENSION}: buffer view ${i} cannot be read`, { cause: error });
+    }
+  }
+
+  /** Gives the meshes of `gltf` what lights them. */
+  convert(gltf, model) {
+    const { json, associations } = this.parser;
     const defines = new Map(); // by geometry: nodes may share one
     for (const scene of gltf.scenes) {
       scene.updateMatrixWorld(true); // as in the file
@@ -227,7 +190,9 @@ export class PrtkitPlugin {
         if (!object.isMesh || from?.meshes === undefined) return;
         if (!defines.has(object.geometry)) {
           if (!Object.keys(object.geometry.attributes).some((name) => name.startsWith("_prt_"))) return;
-          defines.set(object.geometry, convertGeometry(object.geometry, model));
+          const converted = convertGeometry(object.geometry, model.clusters);
+          defines.set(object.geometry, { ...TABLES, ...converted.defines });
+          model.bytesPerVertex = converted.bytesPerVertex;
           model.vertices += object.geometry.getAttribute("position").count;
         }
         const primitive = json.meshes?.[from.meshes]?.primitives?.[from.primitives];
@@ -246,7 +211,6 @@ export class PrtkitPlugin {
         object.receiveShadow = true;
       });
     }
-    gltf.userData.prtkit = model;
   }
 }
 

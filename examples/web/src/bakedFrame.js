@@ -2,6 +2,7 @@
 // the world of the file, whatever the program does with the model later.
 
 import { BufferAttribute, Matrix3, Matrix4, Vector3 } from "three";
+import { expect, LARGEST_WEIGHT } from "./wholeExtension.js";
 
 /** The cofactors of a matrix, by which normals turn, as large as floats like them; also where there is no inverse. */
 export function normalMatrix(matrix) {
@@ -52,8 +53,22 @@ function normalsOfTriangles({ index }, places) {
   return sums;
 }
 
-const lacksNormals = ({ attributes: { normal } }) =>
-  !normal || Array.from({ length: normal.count }, (_, v) => v).some((v) => !normal.getX(v) && !normal.getY(v) && !normal.getZ(v));
+/** Whether a float holds the square of a vector, and of what a matrix makes of it. */
+const isOfUsualLength = (vector) => vector.lengthSq() > 1e-12 && vector.lengthSq() < 1e12;
+
+/** Whether there are vertices whose normals the shader cannot make unit. */
+function lacksNormals({ attributes: { normal, position } }) {
+  if (normal?.count !== position.count) return true;
+  const vector = new Vector3();
+  for (let v = 0; v < normal.count; ++v) if (!isOfUsualLength(vector.fromBufferAttribute(normal, v))) return true;
+  return false;
+}
+
+/** A vector of length 1; zero where that is not to be had. */
+function unitOrZero(vector) {
+  const length = vector.length();
+  return length > 0 && length < Infinity ? vector.divideScalar(length) : vector.set(0, 0, 0);
+}
 
 /** Places seen from `origin` and normals of all vertices as attributes, for meshes that no one matrix moves there. */
 function bakedAttributes(mesh, origin) {
@@ -61,16 +76,27 @@ function bakedAttributes(mesh, origin) {
   const vertices = Array.from({ length: geometry.getAttribute("position").count }, (_, v) => v);
   const matrices = vertices.map((v) => (mesh.isSkinnedMesh ? skinMatrix(mesh, v) : mesh.matrixWorld));
   const places = vertices.map((v) => morphed(mesh, "position", v).applyMatrix4(matrices[v]).sub(origin));
-  const normals = vertices.map((v) => morphed(mesh, "normal", v).applyMatrix3(normalMatrix(matrices[v])).normalize());
+  const normals = vertices.map((v) => unitOrZero(morphed(mesh, "normal", v).applyMatrix3(normalMatrix(matrices[v]))));
   if (normals.some((normal) => normal.lengthSq() === 0)) {
     // A mirroring node turns triangles round.
     const side = !mesh.isSkinnedMesh && mesh.matrixWorld.determinant() < 0 ? -1 : 1;
     const sums = normalsOfTriangles(geometry, places);
-    normals.forEach((normal, v) => normal.lengthSq() === 0 && normal.copy(sums[v]).multiplyScalar(side).normalize());
+    normals.forEach((normal, v) => normal.lengthSq() === 0 && unitOrZero(normal.copy(sums[v]).multiplyScalar(side)));
   }
   const attribute = (vectors) => new BufferAttribute(Float32Array.from(vectors.flatMap((vector) => vector.toArray())), 3);
   geometry.setAttribute("prt_place", attribute(places));
   geometry.setAttribute("prt_normal", attribute(normals));
+}
+
+/** Throws where a place is farther from the origin of its guide than the guide's `scale` allows; NaN is, too. */
+function checkPlaces(mesh, toBake, { scale }) {
+  const { prt_place: baked, position } = mesh.geometry.attributes;
+  const [places, matrix] = baked ? [baked, new Matrix4()] : [position, toBake];
+  const place = new Vector3();
+  for (let v = 0; v < places.count; ++v) {
+    const scaled = place.fromBufferAttribute(places, v).applyMatrix4(matrix).toArray().map((x, i) => Math.abs(x * scale[i]));
+    expect(scaled.every((x) => x <= LARGEST_WEIGHT), `vertex ${v} is farther from the origin of a guide than its scale allows`);
+  }
 }
 
 /** Whether floats would lose digits of places: the matrix moves the mesh by far more than its size. */
@@ -100,6 +126,7 @@ export function bakedFrame(mesh, guides) {
     bakedAttributes(mesh, origin);
     defines.PRT_BAKED_ATTRIBUTES = 1;
   }
+  if (position || defines.PRT_BAKED_ATTRIBUTES) checkPlaces(mesh, toBake, position ?? { scale: [1, 1, 1] });
   return {
     defines,
     uniforms: { prtToBake: { value: toBake }, prtNormalToBake: { value: normalMatrix(mesh.matrixWorld) } },

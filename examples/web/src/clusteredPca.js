@@ -1,6 +1,7 @@
 // Decoding of PRTKIT_clustered_pca, as docs/format.md says. No three.js here.
 
 import { codedRows } from "./codedRows.js";
+import { checkExtension, expect, LARGEST_TRANSFER } from "./wholeExtension.js";
 
 /** Bits of a byte array, lowest first. */
 class BitReader {
@@ -9,7 +10,7 @@ class BitReader {
     this.position = 0;
   }
   read(width) {
-    if (this.position + width > 8 * this.bytes.length) throw new Error("PRTKIT_clustered_pca: the bits end too early");
+    expect(this.position + width <= 8 * this.bytes.length, "the bits end too early");
     let value = 0;
     let taken = 0;
     while (taken < width) {
@@ -23,41 +24,16 @@ class BitReader {
   }
 }
 
-const floats = (bytes) => new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
-
-const LAYOUTS = [[], ["direct"], ["indirect"], ["whole"], ["direct", "indirect"]];
-
-const isUnit = (v) => Array.isArray(v) && v.length === 3 && Math.abs(Math.hypot(...v) - 1) <= 1e-3;
-
-function areParts(parts) {
-  if (!Array.isArray(parts) || !parts.every((part) => part?.channels === 1 || part?.channels === 3)) return false;
-  const skies = parts.filter(({ kind }) => kind !== "lamp");
-  const lamps = parts.slice(skies.length);
-  const names = lamps.map(({ name }) => name);
-  return (
-    parts.length > 0 &&
-    names.every((name) => typeof name === "string" && name !== "") &&
-    new Set(names).size === names.length &&
-    lamps.every(({ kind, towards }) => kind === "lamp" && (towards === undefined || isUnit(towards))) &&
-    skies.every(({ towards }) => towards === undefined) &&
-    LAYOUTS.some((kinds) => kinds.length === skies.length && kinds.every((kind, i) => kind === skies[i].kind))
-  );
+/** `count` finite floats, of at most `largest`. */
+function floats(bytes, count, largest, what) {
+  expect(bytes.byteLength === 4 * count, `${what} have another size than ${count} floats`);
+  const values = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+  checkMagnitudes(values, largest, what);
+  return values;
 }
 
-const KINDS = ["normal", "position"];
-
-const areThree = (v) => Array.isArray(v) && v.length === 3 && v.every(Number.isFinite);
-
-/** Whether guides are none, or each kind once at most, normals first. */
-function areGuides(guides) {
-  if (!Array.isArray(guides)) return false;
-  const kinds = guides.map((guide) => KINDS.indexOf(guide?.kind));
-  return (
-    kinds.every((kind, i) => kind >= 0 && (i === 0 || kind > kinds[i - 1])) &&
-    guides.every(
-      ({ kind, scale, origin }) => areThree(scale) && scale.every((s) => s !== 0) && (kind === "normal" || areThree(origin)),
-    )
-  );
+function checkMagnitudes(values, largest, what) {
+  expect(values.every((value) => Math.abs(value) <= largest), `${what} are not finite, or beyond ${largest}`);
 }
 
 /** Colours that light a part: the coefficients of a sky, or the one strength of a lamp. */
@@ -74,19 +50,11 @@ const dimensionOf = ({ order, parts }) =>
  * what is wrong with a file that is damaged or of another version.
  */
 export function decodeClusters(extension, view) {
-  if (extension.version !== 6)
-    throw new Error(`PRTKIT_clustered_pca: version ${extension.version} is not known, only 6; compress the model again`);
+  checkExtension(extension);
   const { order, parts, components, guides = [], bases, packing } = extension;
-  if (!(order >= 1 && order <= 10) || !areParts(parts) || !Array.isArray(components))
-    throw new Error("PRTKIT_clustered_pca: order, parts or components are wrong");
-  if (!areGuides(guides)) throw new Error("PRTKIT_clustered_pca: the guides are wrong");
   const guideRows = 3 * guides.length;
   let centers = new Int16Array(0);
-  if (guideRows > 0) {
-    const { bufferView, drops } = extension.centers;
-    if (drops.length !== guideRows) throw new Error("PRTKIT_clustered_pca: the centers are not those of the guides");
-    centers = codedRows(view(bufferView), drops, components.length);
-  }
+  if (guideRows > 0) centers = codedRows(view(extension.centers.bufferView), extension.centers.drops, components.length);
   const dimension = dimensionOf({ order, parts });
   const firstRows = [];
   let rowCount = 0;
@@ -94,53 +62,55 @@ export function decodeClusters(extension, view) {
     firstRows.push(rowCount);
     rowCount += 1 + guideRows + m;
   }
-  let rows;
-  if (bases.values) {
-    const origin = floats(view(bases.origin.bufferView));
-    const scales = floats(view(bases.scales.bufferView));
-    const units = bases.units ? floats(view(bases.units.bufferView)) : new Float32Array(dimension).fill(1);
-    const axisCount = scales.length;
-    if (origin.length !== dimension || units.length !== dimension || bases.axes.drops.length !== dimension || bases.values.drops.length !== axisCount)
-      throw new Error("PRTKIT_clustered_pca: the sizes of the coded bases do not fit together");
-    const axes = codedRows(view(bases.axes.bufferView), bases.axes.drops, axisCount);
-    const values = codedRows(view(bases.values.bufferView), bases.values.drops, rowCount);
-    rows = new Float32Array(rowCount * dimension);
-    const row = new Float64Array(dimension);
-    components.forEach((m, k) => {
-      for (let r = firstRows[k]; r <= firstRows[k] + guideRows + m; ++r) {
-        const isMean = r === firstRows[k];
-        const isDirection = r > firstRows[k] + guideRows;
-        for (let a = 0; a < dimension; ++a) row[a] = isMean ? origin[a] : 0;
-        for (let i = 0; i < axisCount; ++i) {
-          const value = values[r * axisCount + i];
-          if (value === 0) continue;
-          const factor = (isDirection ? 2 : 1) * bases.step * scales[i] * value;
-          for (let a = 0; a < dimension; ++a) row[a] += factor * axes[i * dimension + a] * units[a];
-        }
-        rows.set(row, r * dimension);
-      }
-    });
-  } else {
-    rows = floats(view(bases.bufferView));
-    if (rows.length !== rowCount * dimension) throw new Error("PRTKIT_clustered_pca: the bases have another size");
-  }
+  const clusters = { order, parts, components, guides, centers, firstRows, rowCount };
+  const rows = bases.values
+    ? decodedRows(clusters, bases, view)
+    : floats(view(bases.bufferView), rowCount * dimension, LARGEST_TRANSFER, "the bases");
   let widths = null;
   if (packing) {
     const bits = new BitReader(view(packing.bufferView));
     widths = components.map((m) => Array.from({ length: m }, () => bits.read(4) + 1));
   }
-  return {
-    order,
-    parts,
-    components,
-    guides,
-    centers,
-    firstRows,
-    rowCount,
-    rows,
-    widths,
-    clusterBits: packing ? packing.clusterBits : 0,
-  };
+  return { ...clusters, rows, widths, clusterBits: packing ? packing.clusterBits : 0 };
+}
+
+/** Throws where rows of few bytes would take more memory than a file of this size may: 256 MB, and 64 bytes for each. */
+function checkRows(rows, axes, dimension, bytes) {
+  const values = rows * (axes + 3 * dimension) + axes * dimension;
+  expect(4 * values <= 256e6 + 64 * bytes, `the bases would take ${Math.round((4 * values) / 1e6)} MB`);
+}
+
+/** The rows that coded bases stand for. */
+function decodedRows({ order, parts, components, guides, firstRows, rowCount }, bases, view) {
+  const dimension = dimensionOf({ order, parts });
+  const axisCount = bases.values.drops.length;
+  expect(bases.axes.drops.length === dimension, "the sizes of the coded bases do not fit together");
+  const numbers = (part, count, largest, what) => floats(view(bases[part].bufferView), count, largest, what);
+  const origin = numbers("origin", dimension, LARGEST_TRANSFER, "the numbers of the origin");
+  const scales = numbers("scales", axisCount, Number.MAX_VALUE, "the scales");
+  const units = bases.units ? numbers("units", dimension, Number.MAX_VALUE, "the units") : new Float32Array(dimension).fill(1);
+  const codes = [bases.axes, bases.values].map(({ bufferView }) => view(bufferView));
+  checkRows(rowCount, axisCount, dimension, codes[0].length + codes[1].length);
+  const axes = codedRows(codes[0], bases.axes.drops, axisCount);
+  const values = codedRows(codes[1], bases.values.drops, rowCount);
+  const rows = new Float32Array(rowCount * dimension);
+  const row = new Float64Array(dimension);
+  components.forEach((m, k) => {
+    const firstDirection = firstRows[k] + 1 + 3 * guides.length;
+    for (let r = firstRows[k]; r < firstDirection + m; ++r) {
+      const isMean = r === firstRows[k];
+      for (let a = 0; a < dimension; ++a) row[a] = isMean ? origin[a] : 0;
+      for (let i = 0; i < axisCount; ++i) {
+        const value = values[r * axisCount + i];
+        if (value === 0) continue;
+        const factor = (r < firstDirection ? 1 : 2) * bases.step * scales[i] * value;
+        for (let a = 0; a < dimension; ++a) row[a] += factor * axes[i * dimension + a] * units[a];
+      }
+      rows.set(row, r * dimension);
+    }
+  });
+  checkMagnitudes(rows, LARGEST_TRANSFER, "the decoded bases");
+  return rows;
 }
 
 /**

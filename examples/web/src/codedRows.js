@@ -1,5 +1,7 @@
 // Integers in rows, arithmetically coded: "coded rows" of docs/format.md.
 
+import { expect } from "./wholeExtension.js";
+
 /** A model of a bit: [how often it is 1 in 65536ths, how many it has seen], of `count` bits. */
 function models(count) {
   const array = new Uint32Array(2 * count);
@@ -58,6 +60,8 @@ function numberOf(decoder, width, own) {
 
 /** Numbers [rows][drops.length]. */
 export function codedRows(bytes, drops, rows) {
+  // Each row has four bits at least: none are made of nothing.
+  expect(drops.length === 0 || rows / 2 <= bytes.length, "the coded rows end too early");
   const values = new Int16Array(rows * drops.length);
   if (drops.length === 0) return values;
   const decoder = new RangeDecoder(bytes);
@@ -66,7 +70,7 @@ export function codedRows(bytes, drops, rows) {
     const level = decoder.plain(4);
     for (let i = 0; i < drops.length; ++i)
       if (level > drops[i]) values[r * drops.length + i] = numberOf(decoder, level - drops[i], byWidth[level - drops[i]]);
-    if (decoder.position > bytes.length) throw new Error("PRTKIT_clustered_pca: the coded rows end too early");
+    expect(decoder.position <= bytes.length, "the coded rows end too early");
   }
   return values;
 }

@@ -51,6 +51,32 @@ const packed = {
   packing: { clusterBits: 0, bufferView: 1 }, // one weight of 8 bits
 };
 
+const loading = (attributes, extension) => {
+  const { gltf, parser } = scene(attributes, extension);
+  return new PrtkitPlugin(parser).afterRoot(gltf);
+};
+
+test("weights that are not those of the vertices are refused with a reason", async () => {
+  const bytes = (...values) => new BufferAttribute(new Uint8Array(values), 4);
+  await assert.rejects(loading({ _prt_weights_0: bytes(1, 2, 3, 4) }, packed), /another type or number/);
+  await assert.rejects(loading({ _prt_other: bytes(0, 0, 0, 0, 0, 0, 0, 0) }, packed), /0 groups of weights, not 1/);
+  const floats = new BufferAttribute(new Float32Array(8), 4);
+  await assert.rejects(loading({ _prt_weights_0: floats }, packed), /no unsigned bytes/);
+  const two = { ...packed, packing: { clusterBits: 3, bufferView: 1 } };
+  await assert.rejects(loading({ _prt_weights_0: bytes(0, 0, 0, 0, 5, 0, 0, 0) }, two), /vertex 1 is in no cluster/);
+});
+
+test("clusters and weights that are none are refused with a reason", async () => {
+  const plain = { ...packed, packing: undefined };
+  const cluster = (...values) => new BufferAttribute(new Uint8Array(values), 1);
+  const weights = (value) => new BufferAttribute(new Float32Array(8).fill(value), 4);
+  await assert.rejects(loading({ _prt_weights_0: weights(0) }, plain), /lacks _PRT_CLUSTER/);
+  await assert.rejects(loading({ _prt_weights_0: weights(0), _prt_cluster: cluster(0) }, plain), /lacks _PRT_CLUSTER/);
+  await assert.rejects(loading({ _prt_weights_0: weights(0), _prt_cluster: cluster(0, 1) }, plain), /vertex 1 is in no cluster/);
+  for (const wrong of [NaN, 2e9])
+    await assert.rejects(loading({ _prt_weights_0: weights(wrong), _prt_cluster: cluster(0, 0) }, plain), /weights are not finite/);
+});
+
 test("packed weights become words, and the material keeps its colour", async () => {
   const bytes = new BufferAttribute(new Uint8Array([1, 2, 3, 4, 250, 0, 0, 128]), 4);
   const { gltf, parser, mesh } = scene({ _prt_weights_0: bytes }, packed);

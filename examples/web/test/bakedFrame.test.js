@@ -108,6 +108,25 @@ test("vertices without a normal take that of their triangles", () => {
   near(inShader(collapsed, bakedFrame(collapsed, GUIDES), 1)[1], new Vector3());
 });
 
+test("normals that floats cannot make unit are made so before, or are the triangles'", () => {
+  const tiny = [0, 1e-30, 0];
+  const huge = [0, 0, 1e30];
+  for (const [third, expected] of [[tiny, [0, 1, 0]], [huge, [0, 0, 1]], [[NaN, 0, 0], null], [[0, Infinity, 0], null]]) {
+    const mesh = placed(new Mesh(geometryOf(POSITIONS, [NORMALS[0], NORMALS[1], third])), new Matrix4());
+    const frame = bakedFrame(mesh, GUIDES);
+    const triangles = new Vector3(0, -0.5, 1).normalize();
+    near(inShader(mesh, frame, 2)[1], expected ? new Vector3(...expected) : triangles);
+    near(inShader(mesh, frame, 1)[1], new Vector3(...NORMALS[1]));
+  }
+});
+
+test("places that numbers do not hold are refused", () => {
+  for (const wrong of [NaN, Infinity, 2e9]) {
+    const far = [POSITIONS[0], POSITIONS[1], [0, wrong, 0]];
+    assert.throws(() => bakedFrame(placed(new Mesh(geometryOf(far)), new Matrix4()), GUIDES), /vertex 2 is farther/);
+  }
+});
+
 test("skinned meshes are taken in the pose of the file, morphed ones at its weights", () => {
   const geometry = geometryOf();
   geometry.setAttribute("skinIndex", new BufferAttribute(new Uint16Array([0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0]), 4));

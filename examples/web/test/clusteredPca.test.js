@@ -85,7 +85,7 @@ test("coded bases are sums over axes", () => {
     assert.equal(wide[a] - [1, 2, 3][a], [1, 0.5, 4][a] * (rows[a] - [1, 2, 3][a]));
     assert.equal(wide[3 + a], [1, 0.5, 4][a] * rows[3 + a]);
   }
-  assert.throws(() => decodeClusters(scaled, (i) => [...views, bytesOf(1)][i]), /fit together/);
+  assert.throws(() => decodeClusters(scaled, (i) => [...views, bytesOf(1)][i]), /units have another size/);
 });
 
 /** Two clusters of order 1 with guides: mean, six rows, one direction of two bits; mean and six rows. */
@@ -219,6 +219,28 @@ test("files that are damaged or of another version are refused with a reason", (
   assert.throws(() => decodeClusters({ ...plain, order: 11 }, (i) => plainViews[i]), /order/);
   assert.throws(() => decodeClusters({ ...plain, components: [3, 0] }, (i) => plainViews[i]), /size/);
   assert.throws(() => decodeClusters(plain, (i) => [plainViews[0], new Uint8Array(0)][i]), /end too early/);
+});
+
+test("what cannot be computed with is refused with a reason", () => {
+  const refused = (changes, reason, views = plainViews) =>
+    assert.throws(() => decodeClusters({ ...plain, ...changes }, (i) => views[i]), reason);
+  for (const order of [0, 2.5, "1", null]) refused({ order }, /order/);
+  for (const components of [[], "2", [2, -1], [2, 0.5], [601], new Array(65537).fill(0)]) refused({ components }, /components/);
+  for (const bases of [undefined, 7, {}, { bufferView: -1 }, { bufferView: 0, componentType: 5131 }]) refused({ bases }, /bases/);
+  for (const packing of [null, {}, { bufferView: 1, clusterBits: 17 }, { bufferView: 1, clusterBits: 0.5 }]) refused({ packing }, /packing/);
+  refused({ packing: { bufferView: 1, clusterBits: 0 } }, /do not fit/);
+  refused({ components: [17, 0] }, /16 packed/);
+  for (const wrong of [NaN, Infinity, -1.1e6]) refused({}, /not finite/, [bytesOf(2, wrong, 0.25, 3), plainViews[1]]);
+});
+
+test("rows of zeros take no more memory than a file may", () => {
+  const rows = 65536;
+  const drops = new Array(200).fill(0);
+  const coded = { origin: { bufferView: 0 }, scales: { bufferView: 1 }, step: 1, axes: { bufferView: 2, drops: [0] } };
+  const zeros = new Uint8Array(rows * 8);
+  const extension = { ...plain, packing: undefined, components: new Array(rows).fill(7), bases: { ...coded, values: { bufferView: 3, drops } } };
+  const views = [bytesOf(0), new Uint8Array(800), new Uint8Array(200), zeros];
+  assert.throws(() => decodeClusters(extension, (i) => views[i]), /the bases would take 426 MB/);
 });
 
 test("a row has a value for each coefficient of each channel", () => {

@@ -92,6 +92,10 @@ struct ClusterLayout {
         {}; ///< of packed weights: bits - 1 of component j in four bits from 4 (j mod 8) on
 };
 
+/// Whether all clusters have as many components, and packed weights the same bits: a vertex shader wants no
+/// table then, and no loop.
+bool clusters_are_alike(const ClusteredBases& bases);
+
 inline constexpr int kMostPackedComponents = 16;
 
 /// The table [clusters].

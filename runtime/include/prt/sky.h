@@ -25,12 +25,12 @@ public:
 private:
     /// The five parameters of the distribution of Perez et al. (1993), as the paper's appendix A.2 fits them.
     using Perez = std::array<double, 5>;
-    double relative(const Perez& p, double cos_zenith, double gamma) const;
 
     glm::dvec3 sun_;
-    double theta_sun_;
     Perez luminance_, x_, y_;
-    double zenith_luminance_, zenith_x_, zenith_y_; ///< kcd/m² and CIE chromaticity
+    double zenith_luminance_; ///< kcd/m²
+    /// It, and the CIE chromaticity of the zenith, over what the distributions have there.
+    double luminance_over_perez_, x_over_perez_, y_over_perez_;
 };
 
 /// The sky as SH coefficients, by quadrature over the upper hemisphere: the model has no closed form. Add

@@ -204,6 +204,10 @@ std::size_t GltfContents::add_buffer_view(std::span<const std::byte> bytes, std:
         view["byteStride"] = stride;
     if (vertices)
         view["target"] = TINYGLTF_TARGET_ARRAY_BUFFER;
+    // By an eighth at least, so that many views are copied a few times each, and one large one is not
+    // doubled.
+    if (const std::size_t needed = buffer.size() + bytes.size() + 8; needed > buffer.capacity())
+        buffer.reserve(std::max(needed, buffer.size() + buffer.size() / 8));
     const auto* begin = reinterpret_cast<const unsigned char*>(bytes.data());
     buffer.insert(buffer.end(), begin, begin + bytes.size());
     pad_to(buffer, 8);

@@ -29,6 +29,9 @@ std::vector<glm::uvec3> read_triangles(const tinygltf::Model& model, const tinyg
                         " vertices");
 
     std::vector<glm::uvec3> triangles;
+    const bool listed =
+        primitive.mode != TINYGLTF_MODE_TRIANGLE_STRIP && primitive.mode != TINYGLTF_MODE_TRIANGLE_FAN;
+    triangles.reserve(listed ? indices.size() / 3 : indices.size());
     if (primitive.mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
         for (std::size_t i = 0; i + 2 < indices.size(); ++i)
             triangles.emplace_back(indices[i], indices[i + 1 + i % 2], indices[i + 2 - i % 2]);

@@ -23,6 +23,9 @@ Transfer strip() {
 TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
     const Transfer transfer = strip();
     const std::vector<float> areas(transfer.receivers(), 1.0f);
+    std::vector<glm::vec3> positions;
+    for (std::size_t p = 0; p < transfer.receivers(); ++p)
+        positions.push_back({static_cast<float>(p) / 500, 0, 0});
     const std::vector<Light> lights = {constant_light(2, {1, 1, 1}),
                                        directional_light(2, {0, 1, 0}, {2, 1, 1})};
     const std::vector<SweepCandidate> others = {{"half", "as is", [&] {
@@ -41,7 +44,8 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
                                 shown = share;
                             },
                             {}};
-    const Sweep result = sweep(transfer, {areas}, lights, {}, others, progress);
+    const Sweep result =
+        sweep(transfer, {.areas = areas, .positions = positions}, lights, {}, others, progress);
     EXPECT_GT(shown, 0.75);
 
     const SweepPoint* half = best_by_bytes(result, "half", 3);
@@ -51,8 +55,12 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
     EXPECT_EQ(best_by_bytes(result, "half", 2.9), nullptr);
     EXPECT_NE(best_by_components(result, "half", 2), nullptr);
 
-    for (const char* method : {"truncated SH", "plain PCA", "static CPCA", "vector quantisation", kClassic})
+    for (const char* method :
+         {"truncated SH", "plain PCA", "static CPCA", "vector quantisation", kClassic, "moving basis"})
         EXPECT_NE(best_by_bytes(result, method, 100), nullptr) << method;
+    const SweepPoint* blend = best_by_components(result, "moving basis", 8); // of means alone
+    ASSERT_NE(blend, nullptr);
+    EXPECT_EQ(blend->payload_bytes, 0);
     for (const double bytes : kSweepBytes) {
         const SweepPoint* ours = best_by_bytes(result, kOurs, bytes);
         ASSERT_NE(ours, nullptr) << bytes;
@@ -67,6 +75,35 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
             ASSERT_NE(classic, nullptr);
             EXPECT_LE(point.bytes(), classic->bytes());
         }
+}
+
+TEST(Sweep, MeasuresJumpsAlongAllEdgesAlike) {
+    // Every other receiver is a quarter too bright: every edge jumps by that, in each of the two lights.
+    const std::size_t count = 12;
+    Transfer transfer = zero_transfer(1, 1, count), uneven = transfer;
+    std::vector<Edge> edges;
+    for (std::size_t p = 0; p < count; ++p) {
+        transfer.vector(p)[0] = 1;
+        uneven.vector(p)[0] = p % 2 == 0 ? 1.25f : 1.0f;
+        if (p > 0)
+            edges.push_back({static_cast<std::uint32_t>(p - 1), static_cast<std::uint32_t>(p)});
+    }
+    const std::vector<float> areas(count, 1.0f);
+    const std::vector<Light> lights = {constant_light(1, {1, 1, 1}), constant_light(1, {8, 8, 8})};
+    const std::vector<SweepCandidate> others = {{"uneven", "",
+                                                 [&] {
+                                                     return BaselineResult{uneven, 0, 0, 0};
+                                                 }},
+                                                {"bright", "", [&] { // by the same everywhere
+                                                     BaselineResult r{transfer, 0, 0, 0};
+                                                     for (float& v : r.decoded.vectors)
+                                                         v *= 1.25f;
+                                                     return r;
+                                                 }}};
+    const Sweep result = sweep(transfer, {areas, edges}, lights, {}, others);
+    EXPECT_NEAR(best_by_bytes(result, "uneven", 0)->jumps, 0.25, 1e-6);
+    EXPECT_NEAR(best_by_bytes(result, "bright", 0)->jumps, 0, 1e-6);
+    EXPECT_NEAR(best_by_bytes(result, "bright", 0)->lit_rms, 0.25, 1e-6);
 }
 
 TEST(Sweep, SaysWhyOursIsMissing) {

@@ -121,15 +121,7 @@ protected:
     }
     /// What the renderer of `prt render` draws from the same place.
     prt::Picture picture_of(std::span<const glm::vec3> radiance) const {
-        prt::Picture picture;
-        picture.scene = &model->scene;
-        picture.textures = model->trace->textures();
-        picture.radiance = radiance;
-        picture.camera = view.camera;
-        picture.width = kColumns;
-        picture.height = kRows;
-        picture.samples = 1;
-        return picture;
+        return viewer::picture_of(*model, radiance, view.camera, kColumns, kRows);
     }
     bool on_surface(std::size_t pixel) const { return alpha[pixel] == 1; }
 

@@ -79,15 +79,8 @@ protected:
     }
 
     prt::Picture picture_of(std::span<const glm::vec3> radiance) const {
-        prt::Picture picture;
-        picture.scene = &model->scene;
-        picture.textures = model->trace->textures();
-        picture.radiance = radiance;
+        prt::Picture picture = viewer::picture_of(*model, radiance, view.camera, kWidth, kHeight);
         picture.textured = settings.drawing.textured;
-        picture.camera = view.camera;
-        picture.width = kWidth;
-        picture.height = kHeight;
-        picture.samples = 1;
         return picture;
     }
     prt::Image rays(std::span<const glm::vec3> radiance) const {

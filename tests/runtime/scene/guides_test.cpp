@@ -13,9 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <fstream>
 #include <functional>
-#include <iterator>
 #include <utility>
 
 namespace prt {
@@ -150,12 +148,7 @@ TEST(GuidesInFile, OriginsArePlacesInItsWorld) {
     const CompressedTransfer c = guided_transfer(model.scene, kBoth, WeightFormat::packed);
     write_clustered(model.document, model.scene, c);
     save_glb(model.document, folder / "written.glb");
-    std::ifstream file(folder / "written.glb", std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-    std::uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + 12, 4);
-    const auto json =
-        nlohmann::ordered_json::parse(bytes.substr(20, length))["extensions"]["PRTKIT_clustered_pca"];
+    const auto json = test::read_glb(folder / "written.glb").json["extensions"]["PRTKIT_clustered_pca"];
     EXPECT_EQ(json["version"], 6);
     EXPECT_FALSE(json["guides"][0].contains("origin"));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -210,13 +203,7 @@ public:
         Model model = read(folder_ / "t.glb");
         write_clustered(model.document, model.scene, guided_transfer(model.scene, kBoth, format));
         save_glb(model.document, folder_ / "good.glb");
-        std::ifstream file(folder_ / "good.glb", std::ios::binary);
-        const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-        std::uint32_t length = 0;
-        std::memcpy(&length, bytes.data() + 12, 4);
-        good_.json = nlohmann::ordered_json::parse(bytes.substr(20, length));
-        const auto* data = reinterpret_cast<const std::byte*>(bytes.data());
-        good_.binary.assign(data + 28 + length, data + bytes.size());
+        good_ = test::read_glb(folder_ / "good.glb");
         good_.json.erase("buffers");
     }
     std::string refusal(const std::function<void(nlohmann::ordered_json&, GlbFile&)>& change) const {

@@ -2,6 +2,7 @@
 
 #include "prt/support/error.h"
 #include "support/glb_file.h"
+#include "support/guided.h"
 #include "support/temporary_folder.h"
 
 #include <glm/geometric.hpp>
@@ -23,15 +24,6 @@ namespace {
 
 using test::GlbFile;
 
-/// JSON chunk of a written file.
-nlohmann::ordered_json json_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-    std::uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + 12, 4);
-    return nlohmann::ordered_json::parse(bytes.substr(20, length));
-}
-
 BakedTransfer random_bake(const Scene& scene, const TransferLayout& layout) {
     BakedTransfer baked{{layout, {}},
                         {2, 77, 12345678901, BakeMethod::raster, Backend::gpu, receivers_id(scene)}};
@@ -45,26 +37,6 @@ BakedTransfer random_bake(const Scene& scene, const TransferLayout& layout) {
 
 BakedTransfer random_bake(const Scene& scene, int order, int channels) {
     return random_bake(scene, layout_of_one(order, channels));
-}
-
-/// Random code of as many rows as `bases` has, over four axes, and the rows that it stands for.
-void code_bases(ClusteredBases& bases, std::mt19937& random) {
-    CodedBases& coded = bases.coded;
-    const std::size_t axes = 4;
-    const auto integers = [&](std::size_t count) {
-        std::vector<std::int32_t> values(count);
-        for (std::int32_t& v : values)
-            v = static_cast<std::int32_t>(random() % 200) - 100;
-        return values;
-    };
-    coded.origin.assign(bases.dimension(), 0.5f);
-    coded.scales = {1, 0.5f, 0.25f, 0.125f};
-    coded.step = 0.01f;
-    coded.units.assign(bases.dimension(), 1);
-    coded.units.back() = 4;
-    coded.axes = encode_rows(integers(axes * bases.dimension()), bases.dimension());
-    coded.values = encode_rows(integers(bases.first_rows().back() * axes), axes);
-    bases.rows = decode_bases(coded, bases.components);
 }
 
 CompressedTransfer random_compressed(const Scene& scene, int clusters, WeightFormat format) {
@@ -84,7 +56,7 @@ CompressedTransfer random_compressed(const Scene& scene, int clusters, WeightFor
     ClusteredReceivers& r = c.transfer.receivers;
     r.format = format;
     if (format == WeightFormat::packed) {
-        code_bases(b, random);
+        test::code_bases(b, {1, 0.5f, 0.25f, 0.125f}, random);
         r.cluster_bits = std::bit_width(static_cast<unsigned>(clusters - 1));
         r.words = std::max(1, (r.cluster_bits + 10 * b.max_components() + 31) / 32);
         for (std::size_t i = 0; i < rows - static_cast<std::size_t>(clusters); ++i)
@@ -239,7 +211,7 @@ TEST(TransferInGltf, WhatIsUnknownSurvives) {
     const Scene scene = extract_scene(document);
     write_transfer(document, scene, random_bake(scene, 2, 1));
     save_glb(document, files.written);
-    const auto before = json_of(files.source), after = json_of(files.written);
+    const auto before = test::read_glb(files.source).json, after = test::read_glb(files.written).json;
     EXPECT_EQ(after["unknownMember"], "stays");
     EXPECT_EQ(after["extensions"]["VENDOR_unknown"], before["extensions"]["VENDOR_unknown"]);
     EXPECT_EQ(after["meshes"].size(), 2u); // unshared
@@ -291,7 +263,7 @@ TEST(TransferInGltf, CompressingTakesTheRawVectorsOut) {
     write_clustered(baked, baked_scene, random_compressed(baked_scene, 2, WeightFormat::snorm8));
     save_glb(baked, files.written);
     EXPECT_LT(std::filesystem::file_size(files.written) + scene.receivers() * 1000, baked_size);
-    const auto json = json_of(files.written);
+    const auto json = test::read_glb(files.written).json;
     EXPECT_FALSE(json["extensions"].contains("PRTKIT_transfer"));
     EXPECT_EQ(json["extensionsUsed"], (nlohmann::ordered_json{"VENDOR_unknown", "PRTKIT_clustered_pca"}));
     const Scene again = extract_scene(load_gltf(files.written));
@@ -324,7 +296,7 @@ public:
         const Scene scene = extract_scene(document);
         write_clustered(document, scene, random_compressed(scene, 2, format));
         save_glb(document, files_.written);
-        good_ = json_of(files_.written);
+        good_ = test::read_glb(files_.written).json;
         std::ifstream file(files_.written, std::ios::binary);
         bytes_.assign((std::istreambuf_iterator<char>(file)), {});
     }
@@ -523,7 +495,8 @@ TEST(TransferInGltf, DataThatTransferSharesWithGeometryStays) {
     write_transfer(document, scene, random_bake(scene, 1, 1));
     save_glb(document, files.written);
     GlbFile shared = test::triangle_file();
-    shared.json["extensions"]["PRTKIT_transfer"] = json_of(files.written)["extensions"]["PRTKIT_transfer"];
+    shared.json["extensions"]["PRTKIT_transfer"] =
+        test::read_glb(files.written).json["extensions"]["PRTKIT_transfer"];
     auto& primitive = shared.json["meshes"][0]["primitives"][0];
     primitive["extensions"]["PRTKIT_transfer"]["vectors"] = {{"bufferView", 0}}; // of the positions
     primitive["attributes"]["_PRT_CLUSTER"] = 1;                                 // the normals

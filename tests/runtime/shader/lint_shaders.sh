@@ -31,6 +31,7 @@ compiles() {
 
 packed=(PRT_COMPRESSED PRT_CONSTANTS_BUFFER "PRT_PACKED_WORDS 5" "PRT_CLUSTER_BITS 8")
 guides=(PRT_GUIDE_NORMAL PRT_GUIDE_POSITION "PRT_GUIDE_ORIGIN vec3(1.0, 2.0, 3.0)")
+alike=("PRT_CLUSTER_ROWS 3" "PRT_SAME_WEIGHTS PRT_ADD(0u, PRT_BITS(8u, 16u)) PRT_ADD(1u, PRT_BITS(24u, 9u))")
 for file in *.vert *.frag *.comp; do
     case $file in
         bake_trace.comp)
@@ -57,6 +58,7 @@ for file in *.vert *.frag *.comp; do
         prt_relight.vert)
             compiles "$file" "${packed[@]}"
             compiles "$file" "${packed[@]}" "${guides[@]}"
+            compiles "$file" "${packed[@]}" "${alike[@]}"
             ;;
         scene.vert | viewer_*)
             compiles "$file"

@@ -64,6 +64,49 @@ TEST(RelightDefines, SayTheOriginWithAllDigitsOfAFloat) {
     }
 }
 
+/// Two clusters of packed weights with three bits more than the cluster, 1 and 2.
+ClusteredTransfer packed_transfer() {
+    ClusteredTransfer t;
+    t.bases.layout = layout_of_one(1, 1);
+    t.bases.components = {2, 2};
+    t.bases.rows.resize(6);
+    t.bases.bits = {1, 2, 1, 2};
+    t.receivers.format = WeightFormat::packed;
+    t.receivers.cluster_bits = 5;
+    t.receivers.words = 1;
+    return t;
+}
+
+TEST(RelightDefines, SayWhereWeightsAreThatAllClustersDivideAlike) {
+    const ClusteredTransfer packed = packed_transfer();
+    EXPECT_TRUE(clusters_are_alike(packed.bases));
+    const std::string text = relight_defines(packed);
+    EXPECT_NE(text.find("#define PRT_CLUSTER_ROWS 3\n"), std::string::npos) << text;
+    EXPECT_NE(
+        text.find("#define PRT_SAME_WEIGHTS PRT_ADD(0u, PRT_BITS(5u, 1u)) PRT_ADD(1u, PRT_BITS(6u, 2u))\n"),
+        std::string::npos)
+        << text;
+    const std::string plain = relight_defines(transfer_of(5, {GuideKind::normal}));
+    EXPECT_NE(plain.find("#define PRT_CLUSTER_ROWS 9\n"), std::string::npos) << plain;
+    EXPECT_NE(plain.find(" PRT_ADD(3u, prt_weights_0[3]) PRT_ADD(4u, prt_weights_1[0])\n"), std::string::npos)
+        << plain;
+}
+
+TEST(RelightDefines, LeaveALoopWhereClustersDiffer) {
+    for (const int which : {0, 1}) {
+        ClusteredTransfer t = packed_transfer();
+        if (which == 0)
+            t.bases.bits = {1, 2, 2, 1};
+        else
+            t.bases.components = {1, 3}, t.bases.bits = {1, 1, 1, 1};
+        EXPECT_FALSE(clusters_are_alike(t.bases));
+        const std::string text = relight_defines(t);
+        EXPECT_EQ(text.find("PRT_SAME_WEIGHTS"), std::string::npos) << text;
+        EXPECT_EQ(text.find("PRT_CLUSTER_ROWS"), std::string::npos) << text;
+    }
+    EXPECT_FALSE(clusters_are_alike({}));
+}
+
 TEST(RelightDefines, LeaveTheLastAttributeToTheNormal) {
     EXPECT_EQ(most_vertex_components(transfer_of(48, {}).bases), 48);
     EXPECT_NO_THROW(relight_defines(transfer_of(48, {})));

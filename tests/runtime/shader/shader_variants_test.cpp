@@ -1,248 +1,56 @@
 // The vertex shader in every language and with every place for the constants, run by the driver, against C++.
-// Only what OpenGL ES 3.0 has is called, so that one test serves both kinds of context.
 
 #include "prt/compress.h"
 #include "prt/constant_former.h"
 #include "prt/gl_context.h"
 #include "prt/gl_objects.h"
 #include "prt/shader_source.h"
+#include "run_shader.h"
 #include "shared_layout.h"
 #include "support/guided.h"
 
-#include <epoxy/egl.h>
-#include <epoxy/gl.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <random>
 #include <utility>
 
-namespace prt {
+namespace prt::test {
 namespace {
 
-/// An OpenGL ES 3.0 context without a surface.
-class EsContext {
-public:
-    EsContext() {
-        display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
-        if (display_ == EGL_NO_DISPLAY || !eglInitialize(display_, nullptr, nullptr))
-            return;
-        eglBindAPI(EGL_OPENGL_ES_API);
-        const EGLint wanted[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
-        EGLConfig config = nullptr;
-        EGLint count = 0;
-        eglChooseConfig(display_, wanted, &config, 1, &count);
-        const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 0, EGL_NONE};
-        context_ = eglCreateContext(display_, count > 0 ? config : nullptr, EGL_NO_CONTEXT, version);
-        current_ =
-            context_ != EGL_NO_CONTEXT && eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
-    }
-    ~EsContext() {
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        if (context_ != EGL_NO_CONTEXT)
-            eglDestroyContext(display_, context_);
-        eglTerminate(display_);
-        eglBindAPI(EGL_OPENGL_API);
-    }
-    bool current() const { return current_; }
-
-private:
-    EGLDisplay display_ = EGL_NO_DISPLAY;
-    EGLContext context_ = EGL_NO_CONTEXT;
-    bool current_ = false;
-};
-
-GLuint compiled(GLenum stage, const std::string& source) {
-    const GLuint shader = glCreateShader(stage);
-    const char* text = source.c_str();
-    glShaderSource(shader, 1, &text, nullptr);
-    glCompileShader(shader);
-    GLint ok = GL_FALSE;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    char log[2000] = {};
-    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    EXPECT_TRUE(ok) << log;
-    return shader;
+/// Sky and suns apart, and lamps.
+TransferLayout several_parts() {
+    return {4,
+            {{PartKind::direct, 1},
+             {PartKind::indirect, 3},
+             {PartKind::lamp, 3, "lantern"},
+             {PartKind::lamp, 1, "window"}}};
 }
 
-template <class T>
-void bind_buffer(GLenum target, GLuint binding, const std::vector<T>& values) {
-    GLuint name = 0;
-    glGenBuffers(1, &name);
-    glBindBuffer(target, name);
-    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), GL_STATIC_DRAW);
-    glBindBufferBase(target, binding, name);
-}
+/// Clusters that each have components, and bits for them, of their own; or all the same.
+enum class Division { of_their_own, alike };
 
-/// `values` in rows of kConstantTextureWidth texels, the last filled up.
-template <class T>
-void bind_texture(GLuint unit, GLenum internal, GLenum format, GLenum type, std::vector<T> values) {
-    const std::size_t width = kConstantTextureWidth, height = (values.size() + width - 1) / width;
-    values.resize(width * height);
-    GLuint name = 0;
-    glGenTextures(1, &name);
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_2D, name);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal), static_cast<GLsizei>(width),
-                 static_cast<GLsizei>(height), 0, format, type, values.data());
-}
-
-void bind_constants(GLuint program, ConstantSource source, const std::vector<glm::vec4>& constants,
-                    const std::vector<ClusterLayout>& layouts) {
-    switch (source) {
-    case ConstantSource::buffer:
-        bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CONSTANTS, constants);
-        bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_CLUSTERS, layouts);
-        return;
-    case ConstantSource::block:
-        glUniformBlockBinding(program, glGetUniformBlockIndex(program, "PrtConstants"),
-                              PRT_BINDING_CONSTANTS);
-        glUniformBlockBinding(program, glGetUniformBlockIndex(program, "PrtClusters"), PRT_BINDING_CLUSTERS);
-        bind_buffer(GL_UNIFORM_BUFFER, PRT_BINDING_CONSTANTS, constants);
-        bind_buffer(GL_UNIFORM_BUFFER, PRT_BINDING_CLUSTERS, layouts);
-        return;
-    case ConstantSource::texture:
-        bind_texture(PRT_BINDING_CONSTANTS, GL_RGBA32F, GL_RGBA, GL_FLOAT, constants);
-        bind_texture(PRT_BINDING_CLUSTERS, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, layouts);
-        glUniform1i(glGetUniformLocation(program, "prt_constants"), PRT_BINDING_CONSTANTS);
-        glUniform1i(glGetUniformLocation(program, "prt_clusters"), PRT_BINDING_CLUSTERS);
-        return;
-    }
-}
-
-void bind_receivers(const ClusteredReceivers& receivers) {
-    GLuint buffers[2] = {};
-    glGenBuffers(2, buffers);
-    glBindBuffer(GL_ARRAY_BUFFER, buffers[0]);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(receivers.weights.size()), receivers.weights.data(),
-                 GL_STATIC_DRAW);
-    const auto stride = static_cast<GLsizei>(receivers.stride());
-    const bool packed = receivers.format == WeightFormat::packed;
-    const int vectors = packed ? (receivers.words + 3) / 4 : receivers.components / 4;
-    const std::size_t size = packed ? 16 : 4 * bytes_per_weight(receivers.format);
-    for (int v = 0; v < vectors; ++v) {
-        const auto location = static_cast<GLuint>(PRT_LOCATION_WEIGHTS + v);
-        const auto* offset = reinterpret_cast<const void*>(static_cast<std::size_t>(v) * size);
-        glEnableVertexAttribArray(location);
-        if (packed)
-            glVertexAttribIPointer(location, std::min(4, receivers.words - 4 * v), GL_UNSIGNED_INT, stride,
-                                   offset);
-        else
-            glVertexAttribPointer(location, 4,
-                                  receivers.format == WeightFormat::snorm8    ? GL_BYTE
-                                  : receivers.format == WeightFormat::snorm16 ? GL_SHORT
-                                                                              : GL_FLOAT,
-                                  GL_TRUE, stride, offset);
-    }
-    if (packed)
-        return;
-    glBindBuffer(GL_ARRAY_BUFFER, buffers[1]);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(receivers.clusters.size() * 2),
-                 receivers.clusters.data(), GL_STATIC_DRAW);
-    glEnableVertexAttribArray(PRT_LOCATION_CLUSTER);
-    glVertexAttribIPointer(PRT_LOCATION_CLUSTER, 1, GL_UNSIGNED_SHORT, 2, nullptr);
-}
-
-/// The attributes of a mesh that guides want: normals, and positions in the file's world.
-void bind_guides(const ClusteredTransfer& transfer, const glm::vec3& scene_origin) {
-    const std::size_t rows = transfer.bases.guide_rows();
-    for (std::size_t g = 0; g < transfer.bases.guides.size(); ++g) {
-        const Guide& guide = transfer.bases.guides[g];
-        const bool is_normal = guide.kind == GuideKind::normal;
-        std::vector<glm::vec3> vectors;
-        for (std::size_t p = 0; p < transfer.receivers.size(); ++p) {
-            const float* x = &transfer.receivers.guides[p * rows + 3 * g];
-            vectors.push_back(glm::vec3(x[0], x[1], x[2]) +
-                              (is_normal ? glm::vec3(0) : guide.origin + scene_origin));
-        }
-        GLuint buffer = 0;
-        glGenBuffers(1, &buffer);
-        glBindBuffer(GL_ARRAY_BUFFER, buffer);
-        glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vectors.size() * sizeof(glm::vec3)),
-                     vectors.data(), GL_STATIC_DRAW);
-        const GLuint location = is_normal ? PRT_LOCATION_NORMAL : PRT_LOCATION_POSITION;
-        glEnableVertexAttribArray(location);
-        glVertexAttribPointer(location, 3, GL_FLOAT, GL_FALSE, 0, nullptr);
-    }
-}
-
-/// Nothing is drawn, but without a window there is no framebuffer unless we make one.
-void bind_small_framebuffer() {
-    GLuint framebuffer = 0, color = 0;
-    glGenRenderbuffers(1, &color);
-    glBindRenderbuffer(GL_RENDERBUFFER, color);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, 1, 1);
-    glGenFramebuffers(1, &framebuffer);
-    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
-}
-
-std::vector<glm::vec3> radiance_of(const ClusteredTransfer& transfer, const Light& light,
-                                   ShaderLanguage language, ConstantSource source) {
-    const GLuint program = glCreateProgram();
-    const glm::vec3 scene_origin(3, -1, 2);
-    glAttachShader(program,
-                   compiled(GL_VERTEX_SHADER, relight_shader(transfer, source, language, scene_origin)));
-    const std::string header = language == ShaderLanguage::essl300
-                                   ? "#version 300 es\nprecision highp float;\n"
-                               : language == ShaderLanguage::glsl330 ? "#version 330 core\n"
-                                                                     : "#version 450 core\n";
-    glAttachShader(
-        program, compiled(GL_FRAGMENT_SHADER,
-                          header + "in vec3 radiance; out vec4 c; void main() { c = vec4(radiance, 1.0); }"));
-    const char* captured = "radiance";
-    glTransformFeedbackVaryings(program, 1, &captured, GL_INTERLEAVED_ATTRIBS);
-    glLinkProgram(program);
-    GLint linked = GL_FALSE;
-    glGetProgramiv(program, GL_LINK_STATUS, &linked);
-    char log[2000] = {};
-    glGetProgramInfoLog(program, sizeof log, nullptr, log);
-    EXPECT_TRUE(linked) << log;
-    glUseProgram(program);
-
-    const ConstantFormer former(transfer);
-    std::vector<glm::vec4> constants(former.rows());
-    former.form(light.coefficients, constants);
-    GLuint vertex_array = 0, output = 0;
-    glGenVertexArrays(1, &vertex_array);
-    glBindVertexArray(vertex_array);
-    bind_receivers(transfer.receivers);
-    bind_guides(transfer, scene_origin);
-    bind_constants(program, source, constants, cluster_layouts(transfer.bases));
-    bind_small_framebuffer();
-    const std::size_t count = transfer.receivers.size(), bytes = count * sizeof(glm::vec3);
-    glGenBuffers(1, &output);
-    glBindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, output);
-    glBufferData(GL_TRANSFORM_FEEDBACK_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_STATIC_READ);
-    glEnable(GL_RASTERIZER_DISCARD);
-    glBeginTransformFeedback(GL_POINTS);
-    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(count));
-    glEndTransformFeedback();
-    glDisable(GL_RASTERIZER_DISCARD);
-    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
-    std::vector<glm::vec3> radiance(count, glm::vec3(-1));
-    if (const void* data = glMapBufferRange(GL_TRANSFORM_FEEDBACK_BUFFER, 0, static_cast<GLsizeiptr>(bytes),
-                                            GL_MAP_READ_BIT))
-        std::memcpy(radiance.data(), data, bytes);
-    return radiance;
-}
-
-ClusteredTransfer compressed(WeightFormat format) {
+ClusteredTransfer compressed(WeightFormat format, Division division = Division::of_their_own,
+                             const TransferLayout& layout = layout_of_one(4, 3)) {
     std::mt19937 random(5);
     std::normal_distribution<float> normal;
-    Transfer transfer = zero_transfer(4, 3, 600);
+    Transfer transfer = zero_transfer(layout, 600);
     for (std::size_t i = 0; i < transfer.vectors.size(); ++i)
         transfer.vectors[i] = normal(random) + (i % 16 == 0 ? 3.0f : 0.0f);
     CompressOptions options;
     options.clusters = 20;
     options.coding.components = 6;
-    options.coding.bits = 150; // five words: weights lie across words and attributes
     options.coding.format = format;
+    // Five words: weights lie across words and attributes.
+    if (division == Division::of_their_own) {
+        options.coding.bits = 150;
+        options.mean_components = 4;
+    } else if (format == WeightFormat::packed) {
+        options.coding.fixed_bits = {16, 15, 16, 15, 13, 16, 11, 16, 16, 14};
+        options.coding.components = 10;
+    }
     return compress(transfer, {std::vector<float>(600, 1.0f)}, options).transfer;
 }
 
@@ -259,7 +67,37 @@ struct Variant {
     ShaderLanguage language;
     ConstantSource constants;
 };
-class ShaderVariants : public testing::TestWithParam<Variant> {};
+class ShaderVariants : public testing::TestWithParam<Variant> {
+protected:
+    void SetUp() override {
+        if (GetParam().language == ShaderLanguage::essl300) {
+            es = std::make_unique<EsContext>();
+            ASSERT_TRUE(es->current());
+        } else {
+            desktop = GlContext::create(GlDevice::any);
+            ASSERT_TRUE(desktop);
+        }
+    }
+    /// With all sets of guides.
+    void agree_with_cpp(const ClusteredTransfer& plain, const Lighting& lighting) {
+        const auto [language, constants] = GetParam();
+        for (const std::vector<GuideKind>& guides : sets_of_guides()) {
+            ClusteredTransfer transfer = plain;
+            std::mt19937 random(2);
+            add_guides(transfer, guides, random);
+            const auto expected = exit_radiance(transfer, lighting),
+                       measured = radiance_of_shader(transfer, lighting, language, constants);
+            float largest = 0;
+            for (std::size_t p = 0; p < expected.size(); ++p)
+                largest = std::max(largest, glm::distance(expected[p], measured[p]) /
+                                                std::max(1.0f, glm::length(expected[p])));
+            EXPECT_LT(largest, 1e-5f) << static_cast<int>(transfer.receivers.format) << " " << guides.size();
+        }
+    }
+
+    std::unique_ptr<GlContext> desktop;
+    std::unique_ptr<EsContext> es;
+};
 INSTANTIATE_TEST_SUITE_P(All, ShaderVariants,
                          testing::Values(Variant{ShaderLanguage::glsl450, ConstantSource::buffer},
                                          Variant{ShaderLanguage::glsl450, ConstantSource::block},
@@ -269,33 +107,24 @@ INSTANTIATE_TEST_SUITE_P(All, ShaderVariants,
                                          Variant{ShaderLanguage::essl300, ConstantSource::block},
                                          Variant{ShaderLanguage::essl300, ConstantSource::texture}));
 
+constexpr WeightFormat kFormats[] = {WeightFormat::packed, WeightFormat::snorm8, WeightFormat::snorm16,
+                                     WeightFormat::float32};
+
 TEST_P(ShaderVariants, ComputeWhatCppComputes) {
-    const auto [language, constants] = GetParam();
-    std::unique_ptr<GlContext> desktop;
-    std::unique_ptr<EsContext> es;
-    if (language == ShaderLanguage::essl300) {
-        es = std::make_unique<EsContext>();
-        ASSERT_TRUE(es->current());
-    } else {
-        desktop = GlContext::create(GlDevice::any);
-        ASSERT_TRUE(desktop);
+    for (const WeightFormat format : kFormats) {
+        const ClusteredTransfer transfer = compressed(format);
+        EXPECT_FALSE(clusters_are_alike(transfer.bases));
+        agree_with_cpp(transfer, {random_light()});
     }
-    const Light light = random_light();
-    for (const WeightFormat format :
-         {WeightFormat::packed, WeightFormat::snorm8, WeightFormat::snorm16, WeightFormat::float32}) {
-        const ClusteredTransfer plain = compressed(format);
-        for (const std::vector<GuideKind>& guides : test::sets_of_guides()) {
-            ClusteredTransfer transfer = plain;
-            std::mt19937 random(2);
-            test::add_guides(transfer, guides, random);
-            const auto expected = exit_radiance(transfer, light),
-                       measured = radiance_of(transfer, light, language, constants);
-            float largest = 0;
-            for (std::size_t p = 0; p < expected.size(); ++p)
-                largest = std::max(largest, glm::distance(expected[p], measured[p]) /
-                                                std::max(1.0f, glm::length(expected[p])));
-            EXPECT_LT(largest, 1e-5f) << static_cast<int>(format) << " " << guides.size();
-        }
+}
+
+TEST_P(ShaderVariants, ComputeItWithoutALoopWhereClustersAreAlike) {
+    Lighting lighting{random_light(), rotated_about_y(random_light(), 1)};
+    lighting.lamps = {glm::vec3(0.5f, 1, 2), glm::vec3(3)};
+    for (const WeightFormat format : kFormats) {
+        const ClusteredTransfer transfer = compressed(format, Division::alike, several_parts());
+        EXPECT_TRUE(clusters_are_alike(transfer.bases));
+        agree_with_cpp(transfer, lighting);
     }
 }
 
@@ -356,4 +185,4 @@ TEST(ConstantsShader, FormsWhatCppForms) {
 }
 
 } // namespace
-} // namespace prt
+} // namespace prt::test

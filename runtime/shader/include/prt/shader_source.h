@@ -35,8 +35,9 @@ int most_vertex_components(const ClusteredBases& bases);
 
 /// The lines that `prt_exit_radiance.glsl` wants for a model. The shader is given positions as the Scene has
 /// them where `seen_from` is 0, and in the file's world where it is Scene::origin: floats of a world whose
-/// origin is far away are coarse. Throws `Error` where the weights do not fit the vertex attributes, and for
-/// storage buffers in a language that has none.
+/// origin is far away are coarse. Where clusters_are_alike the shader has no loop, and no table of clusters
+/// to bind (PrtClusters, prt_clusters). Throws `Error` where the weights do not fit the vertex attributes,
+/// and for storage buffers in a language that has none.
 std::string relight_defines(const ClusteredTransfer& transfer,
                             ConstantSource constants = ConstantSource::buffer,
                             ShaderLanguage language = ShaderLanguage::glsl450,

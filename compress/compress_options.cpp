@@ -1,6 +1,6 @@
 // What options mean: presets, defaults by format, and what is refused.
 
-#include "options.h"
+#include "compress_options.h"
 
 #include "prt/support/error.h"
 
@@ -101,6 +101,13 @@ void check_input(const Transfer& transfer, const ReceiverSurface& surface, const
         if (edge.first >= transfer.receivers() || edge.second >= transfer.receivers())
             throw Error("an edge joins receivers " + std::to_string(edge.first) + " and " +
                         std::to_string(edge.second) + " of " + std::to_string(transfer.receivers()));
+}
+
+LightMetric metric_of(const CompressOptions& options, const Transfer& transfer,
+                      std::span<const float> areas) {
+    return options.metric ? *options.metric
+                          : balanced(metric_of_family(LightFamily::outdoor, transfer.layout), transfer, areas,
+                                     options.threads);
 }
 
 double basis_share(const CompressOptions& options) {

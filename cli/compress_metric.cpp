@@ -1,0 +1,108 @@
+// What an error of compression costs: the metric of a family, or of lights that are given.
+
+#include "compress_metric.h"
+
+#include "split_light.h"
+
+#include <map>
+#include <optional>
+
+namespace prt::cli {
+namespace {
+
+const std::map<std::string, MetricChoice> kMetrics = {{"outdoor", MetricChoice::outdoor},
+                                                      {"indoor", MetricChoice::indoor},
+                                                      {"day", MetricChoice::day},
+                                                      {"natural", MetricChoice::natural},
+                                                      {"plain", MetricChoice::plain}};
+
+/// None of plain.
+std::optional<LightFamily> family_of(MetricChoice choice) {
+    switch (choice) {
+    case MetricChoice::outdoor:
+        return LightFamily::outdoor;
+    case MetricChoice::indoor:
+        return LightFamily::indoor;
+    case MetricChoice::day:
+        return LightFamily::day;
+    case MetricChoice::natural:
+        return LightFamily::natural;
+    case MetricChoice::plain:
+        break;
+    }
+    return std::nullopt;
+}
+
+/// All ways in which the lightings are used.
+std::vector<Lighting> as_used(const std::vector<Lighting>& lightings, const TransferLayout& layout) {
+    std::vector<Lighting> all;
+    for (const Lighting& lighting : lightings)
+        for (LightingUse& use : uses_of(lighting, layout))
+            all.push_back(std::move(use.lighting));
+    return all;
+}
+
+/// None where no distant light is known of the transfer.
+std::vector<Lighting> skies_to_promise(const std::vector<Lighting>& given, std::optional<LightFamily> family,
+                                       const TransferLayout& layout) {
+    if (layout.distant_parts().empty())
+        return {};
+    std::vector<Lighting> skies =
+        given.empty() && family ? as_used(members_of_family(*family, layout.order), layout) : given;
+    for (Lighting& sky : skies)
+        sky.lamps.assign(layout.lamps(), glm::vec3(0));
+    return skies;
+}
+
+} // namespace
+
+void add_metric(CLI::App* command, MetricArguments& arguments) {
+    CLI::Option* metric =
+        choice(command, "--metric", arguments.metric, kMetrics,
+               "what an error costs, on average over: skies with ground and sun; rooms; clear skies "
+               "of a day; any lighting, any way up; or all coefficients alike",
+               "outdoor");
+    command
+        ->add_option(
+            "--lights", arguments.lights,
+            "compress for this environment (.exr, .hdr, .png, .jpg) or light (.json), turned about +Y; "
+            "repeat it for each of several")
+        ->allow_extra_args(false) // one each time, so that the bake may follow
+        ->excludes(metric)
+        ->check(named)
+        ->type_name("FILE");
+    add_light_options(command, arguments.light_options);
+}
+
+std::vector<NamedLighting> given_lights(const MetricArguments& arguments, const TransferLayout& layout,
+                                        int threads) {
+    std::vector<NamedLighting> lights;
+    for (const Path& path : arguments.lights) {
+        Lighting lighting =
+            layout.distant_parts().size() < 2
+                ? Lighting{load_light(path, layout.order, arguments.light_options, threads).light}
+                : lighting_of(
+                      load_split_light(path, layout.order, {std::nullopt}, arguments.light_options, threads));
+        lights.push_back({path.filename().string(), std::move(lighting)});
+    }
+    return lights;
+}
+
+ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<NamedLighting>& given,
+                       const Transfer& transfer, std::span<const float> areas, int threads) {
+    const TransferLayout& layout = transfer.layout;
+    std::vector<Lighting> lightings;
+    for (const NamedLighting& one : given)
+        lightings.push_back(one.lighting);
+    lightings = as_used(lightings, layout);
+    const auto family = family_of(arguments.metric);
+    std::vector<Lighting> promised = skies_to_promise(lightings, family, layout);
+    if (lightings.empty() && !family)
+        return {plain_metric(layout), std::move(promised)};
+    return {
+        balanced(lightings.empty() ? metric_of_family(*family, layout) : metric_of_lights(lightings, layout),
+                 transfer, areas, threads),
+        std::move(promised)};
+}
+
+} // namespace prt::cli

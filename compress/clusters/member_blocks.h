@@ -1,0 +1,49 @@
+#pragma once
+
+#include "clusters/points.h"
+#include "prt/support/parallel.h"
+
+namespace prt {
+
+/// Points of one cluster that are worked on together, at most kLanes: what is looked up for the cluster
+/// serves them all.
+struct MemberBlock {
+    std::uint32_t cluster = 0;
+    std::span<const std::uint32_t> points;
+};
+
+/// All points, by the clusters that they have.
+class MemberBlocks {
+public:
+    explicit MemberBlocks(std::span<const std::uint32_t> clusters);
+
+    std::size_t size() const { return blocks_.size(); }
+    MemberBlock operator[](std::size_t b) const {
+        const Place& place = blocks_[b];
+        return {place.cluster, std::span(points_).subspan(place.first, place.count)};
+    }
+
+private:
+    struct Place {
+        std::uint32_t cluster, first, count;
+    };
+    std::vector<std::uint32_t> points_; ///< by cluster, ascending
+    std::vector<Place> blocks_;
+};
+
+/// Calls `visit(member_block, block)` for all points by the clusters that they have; `block` is
+/// [width][kLanes], as in PointBlocks, and filled up with copies of its first point.
+template <class Visit>
+void for_member_blocks(const PointBlocks& points, std::span<const std::uint32_t> clusters, int threads,
+                       Visit&& visit) {
+    const MemberBlocks blocks(clusters);
+    parallel_for(blocks.size(), 16, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<float> block(points.width() * kLanes);
+        for (std::size_t b = begin; b < end; ++b) {
+            points.gather(blocks[b].points, block.data());
+            visit(blocks[b], block.data());
+        }
+    });
+}
+
+} // namespace prt

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "prt/compress.h"
+
+namespace prt {
+
+/// How a compression of a search goes.
+struct Course {
+    /// [receivers] clusters of an earlier result, which are split and merged to the number wanted: half of
+    /// the time. Empty: from vector quantisation.
+    std::span<const std::uint16_t> start = {};
+    /// Few rounds and no seams: a third of the time, for an error that is known to a few hundredths.
+    bool draft = false;
+};
+
+CompressResult compress_from(const Course& course, const Transfer& transfer, const ReceiverSurface& surface,
+                             const CompressOptions& options, const Progress& progress);
+
+} // namespace prt

@@ -1,0 +1,364 @@
+// Searches clusters, bits, guides and precision for a budget (docs/math.md, section 4, "Budgets").
+
+#include "search/budget_search.h"
+
+#include "compress_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace prt {
+namespace {
+
+constexpr double kNothingFound = std::numeric_limits<double>::infinity();
+
+/// Where a straight line through both has `value`.
+double interpolated(const KnownClusters& a, const KnownClusters& b, double value) {
+    return a.clusters + (b.clusters - a.clusters) * (value - a.value) / (b.value - a.value);
+}
+
+/// Times as many clusters that change an error by `factor`.
+double clusters_for(double factor, double exponent) {
+    return std::pow(factor, -1 / exponent);
+}
+
+} // namespace
+
+Effort effort_of_preset(const CompressStatistics& too_large) {
+    return {.least_filled = tuning::kLeastFilledOfPreset,
+            .both_ways = tuning::kBothWaysOfPreset,
+            .bytes_per_cluster =
+                static_cast<double>(too_large.basis_bytes) / static_cast<double>(too_large.clusters)};
+}
+
+BudgetSearch::BudgetSearch(const SearchTask& task, const Effort& effort)
+    : task_(task), budget_(task.options.budget), effort_(effort), trials_(task),
+      most_clusters_(most_clusters()) {
+    if (effort.bytes_per_cluster)
+        trials_.expect_bytes_per_cluster(*effort.bytes_per_cluster);
+}
+
+/// Where components are what is short they are few anyway, and more of them must not give way to clusters
+/// that the bytes have room for: 0.40 instead of 1.04 times the error of classic CPCA with one component,
+/// measured on a head.
+SearchResult BudgetSearch::run() {
+    walk(first_line());
+    if (task_.few_receivers())
+        vary_thoroughly();
+    else
+        vary();
+    finish();
+    if (!trials_.kept() && budget_.bytes_per_vertex && task_.options.choose_components)
+        search_fewer_components();
+    return trials_.take_result();
+}
+
+Line BudgetSearch::first_line() const {
+    Line line{.payload = first_payload(),
+              .bases_count = !budget_.operations,
+              .guides = task_.options.compress.guides};
+    if (task_.options.choose_guides && !affordable(line.guides))
+        line.guides = GuideChoice::none;
+    return line;
+}
+
+bool BudgetSearch::affordable(GuideChoice guides) const {
+    return !budget_.operations || task_.components_beside(guides) > 0;
+}
+
+int BudgetSearch::most_clusters() const {
+    if (!task_.options.choose_clusters)
+        return task_.options.compress.clusters;
+    const std::size_t receivers = task_.transfer.receivers(),
+                      enough = std::max(tuning::kAlwaysClusters, receivers / tuning::kReceiversPerCluster);
+    return static_cast<int>(std::clamp<std::size_t>(std::min(enough, receivers), 1, 65536));
+}
+
+int BudgetSearch::least_payload() const {
+    const int given = task_.options.payload;
+    return given > 0 ? given : task_.packed() ? 1 : 0;
+}
+
+int BudgetSearch::most_payload() const {
+    if (task_.options.payload > 0)
+        return task_.options.payload;
+    int most = task_.packed() ? kMostPackedWords : (task_.dimension() + 3) / 4;
+    if (budget_.bytes_per_vertex)
+        while (most > least_payload() && task_.payload_bytes(most) > *budget_.bytes_per_vertex)
+            --most;
+    else if (task_.packed() && budget_.operations && !trials_.saves_bytes())
+        most = std::min(
+            most, static_cast<int>(std::ceil(
+                      (tuning::kEnoughClusterBits + tuning::kEnoughWeightBits * *budget_.operations) / 32)));
+    return most;
+}
+
+double BudgetSearch::most_bytes(const Line& line) const {
+    return budget_.bytes_per_vertex.value_or((1 + tuning::kBasesOverWeights) *
+                                             task_.payload_bytes(std::max(line.payload, most_payload())));
+}
+
+/// Where to begin. Few components leave little to spend on weights.
+int BudgetSearch::first_payload() const {
+    double bytes = tuning::kFirstBytes;
+    if (budget_.max_error)
+        bytes += tuning::kBytesPerHalving * std::log2(tuning::kFirstBytesError / *budget_.max_error);
+    if (budget_.bytes_per_vertex)
+        bytes = (budget_.operations ? tuning::kWeightsShareOfFewComponents : tuning::kWeightsShare) *
+                *budget_.bytes_per_vertex;
+    const double payload = bytes / task_.payload_bytes(1);
+    return std::clamp(static_cast<int>(std::lround(payload)), least_payload(), most_payload());
+}
+
+/// From the start both ways, until it got worse twice in a row.
+double BudgetSearch::walk(const Line& start) {
+    double least = best_on(start);
+    for (const int direction : {1, -1}) {
+        double best = best_on(start);
+        int worse = 0;
+        for (int payload = start.payload + direction;
+             payload >= least_payload() && payload <= most_payload() && worse < tuning::kPatience;
+             payload += direction) {
+            if (trials_.saves_bytes() && trials_.kept() &&
+                task_.payload_bytes(payload) >= trials_.best()->trial.bytes_per_vertex)
+                break; // weights alone take more
+            Line line = start;
+            line.payload = payload;
+            const double found = best_on(line);
+            worse = found < best ? 0 : worse + 1;
+            best = std::min(best, found);
+        }
+        least = std::min(least, best);
+    }
+    return least;
+}
+
+/// Rows pay for their bytes or not: where bases outweigh what they serve, or operations are short, that is
+/// not known before. Guides pay where their rows are cheap beside the weights of all receivers; operations
+/// may be better spent on components.
+void BudgetSearch::vary() {
+    const SearchTrial& best = trials_.best()->trial;
+    const bool other_way = budget_.operations ||
+                           (task_.packed() && best.bytes_per_vertex > effort_.both_ways * best.payload_bytes);
+    if (other_way) {
+        Line line = trials_.best()->line;
+        line.bases_count = !line.bases_count;
+        walk(line);
+    }
+    if (!task_.options.choose_guides)
+        return;
+    for (const GuideChoice guides :
+         {GuideChoice::none, GuideChoice::normal, GuideChoice::normal_and_position}) {
+        Line line = trials_.best()->line;
+        line.guides = guides;
+        if (affordable(guides))
+            best_on(line);
+    }
+}
+
+/// All ways, from each the payloads: for few receivers that takes no time to speak of.
+void BudgetSearch::vary_thoroughly() {
+    const Line from = trials_.best()->line;
+    for (const GuideChoice guides :
+         {GuideChoice::none, GuideChoice::normal, GuideChoice::normal_and_position})
+        for (const bool bases_count : {true, false}) {
+            Line line = from;
+            line.bases_count = bases_count;
+            if (task_.options.choose_guides)
+                line.guides = guides;
+            if (affordable(line.guides))
+                walk(line);
+        }
+    if (!bases_are_coded(task_.options.compress))
+        return;
+    for (const double factor : tuning::kOtherShares) {
+        Line line = trials_.best()->line;
+        line.basis_share = std::min(factor * basis_share(task_.options.compress), tuning::kMostShare);
+        walk(line);
+    }
+}
+
+/// All rounds and seams for the line that the best draft is on; where it has promised too much, for others.
+void BudgetSearch::finish() {
+    if (!trials_.best()->trial.draft)
+        return;
+    Line line = trials_.best()->line;
+    line.finished = true;
+    best_on(line);
+    if (!trials_.kept())
+        walk(line);
+}
+
+/// Where even one cluster with all its directions takes too many bytes: from none of them on, as long as the
+/// budget is kept or comes nearer. A mean alone, of one cluster, is the least that there is.
+void BudgetSearch::search_fewer_components() {
+    const GuideChoice guides =
+        task_.options.choose_guides ? GuideChoice::none : task_.options.compress.guides;
+    const int all = std::min(task_.packed() ? kMostPackedComponents : 4 * least_payload(), task_.dimension());
+    double best = kNothingFound;
+    int worse = 0;
+    for (int components = 0; components < std::max(all, 1) && worse < tuning::kPatience; ++components) {
+        const bool kept = trials_.kept();
+        const double found = walk(
+            {.payload = least_payload(), .most_components = components, .guides = guides, .finished = true});
+        worse = found < best || !kept ? 0 : worse + 1;
+        best = std::min(best, found);
+    }
+}
+
+double BudgetSearch::best_on(const Line& line) {
+    const auto [known, is_new] = least_cost_.try_emplace(line, kNothingFound);
+    if (!is_new)
+        return known->second;
+    double least = kNothingFound;
+    if (!task_.options.choose_clusters)
+        least = trials_.cost(trials_.attempt(task_.options.compress.clusters, line));
+    else if (trials_.saves_bytes())
+        reach_error(line, least);
+    else
+        fill_bytes(line, least);
+    return least_cost_[line] = least;
+}
+
+int BudgetSearch::clamped(double clusters) const {
+    return static_cast<int>(std::clamp(std::round(clusters), 1.0, static_cast<double>(most_clusters_)));
+}
+
+/// At the error or the bytes that are aimed at, by rules of thumb.
+bool BudgetSearch::hopeless(const SearchTrial& t, const Line& line) const {
+    if (task_.few_receivers() || line.finished || !trials_.kept() ||
+        (trials_.keeps(t) && trials_.cost(t) <= trials_.cost(trials_.best()->trial)))
+        return false;
+    const SearchTrial& best = trials_.best()->trial;
+    const double payload = task_.payload_bytes(line.payload);
+    // More clusters may do more than the rule has it, and fewer of them lose less.
+    const auto exponent = [&](bool more) { return more ? steepest_ : tuning::kErrorExponentDown; };
+    if (trials_.saves_bytes()) {
+        const double excess = trials_.excess_of_error(t),
+                     clusters = clusters_for(1 / excess, exponent(excess > 1));
+        return payload + clusters * (t.bytes_per_vertex - payload) >
+               tuning::kHopeless * best.bytes_per_vertex;
+    }
+    const double clusters = (most_bytes(line) - payload) / std::max(t.bytes_per_vertex - payload, 1e-9);
+    return t.lit_rms * std::pow(clusters, -exponent(clusters > 1)) > tuning::kHopeless * best.lit_rms;
+}
+
+/// Of bases, before the first try: by the rows of the best try.
+double BudgetSearch::bytes_per_cluster(const Line& line) const {
+    if (!trials_.best())
+        return trials_.bytes_per_cluster();
+    const SearchTrial& best = trials_.best()->trial;
+    const Line& on = trials_.best()->line;
+    const double guides = guide_rows_of(on.guides, task_.surface), components = best.operations - guides,
+                 more = (1.0 + line.payload) / (1.0 + on.payload),
+                 rows = 1 + guide_rows_of(line.guides, task_.surface) + more * components;
+    return std::max((best.bytes_per_vertex - best.payload_bytes) * task_.receivers() / best.clusters * rows /
+                        (1 + best.operations),
+                    tuning::kLeastBytesPerCluster);
+}
+
+/// Where components are few because nothing else fits, one cluster is what may.
+double BudgetSearch::first_clusters_of_bytes(const Line& line, double aim) const {
+    if (line.most_components < kMostPackedComponents)
+        return 1;
+    if (line.finished)
+        return trials_.best()->trial.clusters;
+    return (aim - task_.payload_bytes(line.payload)) * task_.receivers() / bytes_per_cluster(line);
+}
+
+/// As many clusters as the bytes have room for, between a number that fits and one that does not.
+void BudgetSearch::fill_bytes(const Line& line, double& least) {
+    const double most = most_bytes(line), aim = 0.5 * (1 + effort_.least_filled) * most;
+    KnownClusters fits{0, task_.payload_bytes(line.payload)},
+        too_many{static_cast<double>(most_clusters_) + 1, 0}, before;
+    double next = first_clusters_of_bytes(line, aim);
+    for (int i = 0; i < tuning::kBytesTries && fits.clusters + 1 < too_many.clusters; ++i) {
+        const int clusters = clamped(std::clamp(next, fits.clusters + 1, too_many.clusters - 1));
+        const SearchTrial& trial = trials_.attempt(clusters, line);
+        const double bytes = trial.bytes_per_vertex;
+        least = std::min(least, trials_.cost(trial));
+        if (before.clusters > 0)
+            observed_exponent(before, {static_cast<double>(clusters), trial.lit_rms});
+        before = {static_cast<double>(clusters), trial.lit_rms};
+        (bytes <= most ? fits : too_many) = {static_cast<double>(clusters), bytes};
+        if ((bytes <= most && bytes > effort_.least_filled * most) || hopeless(trial, line))
+            break;
+        if (too_many.value > 0)
+            next = interpolated(fits, too_many, aim);
+        else
+            next = clusters + (aim - bytes) * task_.receivers() / trials_.bytes_per_cluster();
+    }
+}
+
+/// A word more halves the error, as a rule.
+int BudgetSearch::first_clusters(const Line& line) const {
+    if (!trials_.best())
+        return clamped(tuning::kFirstClusters);
+    const SearchTrial& best = trials_.best()->trial;
+    const int words = task_.packed() ? line.payload - trials_.best()->line.payload : 0;
+    return clamped(best.clusters *
+                   clusters_for(std::pow(2, words) / trials_.excess_of_error(best), tuning::kErrorExponent));
+}
+
+/// Whether the same error takes fewer bytes with a word more, where many more clusters are what it takes
+/// here.
+bool BudgetSearch::wants_payload(const SearchTrial& t, const Line& line, double exponent) const {
+    if (!task_.packed() || line.payload == most_payload() || task_.few_receivers())
+        return false;
+    const double excess = trials_.excess_of_error(t), bases = t.bytes_per_vertex - t.payload_bytes;
+    const double here = bases * clusters_for(1 / excess, exponent),
+                 there = task_.payload_bytes(1) +
+                         tuning::kBasesOfAWordMore * bases * clusters_for(2 / excess, tuning::kErrorExponent);
+    return here > tuning::kClearlyMore * there;
+}
+
+/// How the logarithm of an error falls with that of the clusters: on small meshes far more steeply than as a
+/// rule.
+double BudgetSearch::observed_exponent(const KnownClusters& a, const KnownClusters& b) {
+    const double ratio = std::log(b.clusters / a.clusters),
+                 exponent = std::clamp(-std::log(b.value / a.value) / ratio, tuning::kLeastErrorExponent,
+                                       tuning::kMostErrorExponent);
+    if (std::abs(ratio) > tuning::kTellingRatio)
+        steepest_ = std::max(steepest_, exponent);
+    return exponent;
+}
+
+/// As few clusters as reach the error, between a number that misses and one that does: the logarithm of the
+/// error falls straight with that of the clusters, as the last two tries say, or as a rule.
+void BudgetSearch::reach_error(const Line& line, double& least) {
+    const double near_enough =
+        line.finished || !task_.has_drafts() ? tuning::kNearEnough : tuning::kNearEnoughOfDrafts;
+    const double aim = 0.3 * near_enough + 0.7;
+    KnownClusters misses{0, 0}, reaches{static_cast<double>(most_clusters_) + 1, 0}, before;
+    double next = first_clusters(line), exponent = tuning::kErrorExponent;
+    for (int i = 0; i < tuning::kErrorTries && misses.clusters + 1 < reaches.clusters; ++i) {
+        const int clusters = clamped(std::clamp(next, misses.clusters + 1, reaches.clusters - 1));
+        const SearchTrial& trial = trials_.attempt(clusters, line);
+        least = std::min(least, trials_.cost(trial));
+        const double excess = std::max(trials_.excess_of_error(trial), 1e-12);
+        const bool enough = excess <= 1;
+        (enough ? reaches : misses) = {static_cast<double>(clusters), excess};
+        if ((enough && excess > near_enough) || hopeless(trial, line))
+            break;
+        if (misses.value > 0 && reaches.value > 0 &&
+            reaches.clusters < misses.clusters * tuning::kNearClusters)
+            break;
+        // More clusters only cost more where the bytes already pass what is allowed.
+        if (!enough && trial.bytes_per_vertex > budget_.bytes_per_vertex.value_or(kNothingFound))
+            break;
+        if (before.clusters > 0)
+            exponent = observed_exponent(before, {static_cast<double>(clusters), excess});
+        before = {static_cast<double>(clusters), excess};
+        if (!enough && !trials_.kept() && !line.finished && wants_payload(trial, line, exponent))
+            break;
+        const double factor = clusters_for(std::clamp(aim / excess, std::exp(-2.0), std::exp(2.0)), exponent);
+        if (!(reaches.value > 0) && factor > tuning::kHopelessFactor) // a larger payload is the way
+            break;
+        next = clusters * std::clamp(factor, 1 / tuning::kHopelessFactor, tuning::kMostFactor);
+        if (misses.value > 0 && reaches.value > 0 && !(next > misses.clusters && next < reaches.clusters))
+            next = std::sqrt(misses.clusters * reaches.clusters);
+    }
+}
+
+} // namespace prt

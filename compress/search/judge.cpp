@@ -1,0 +1,32 @@
+#include "search/judge.h"
+
+#include "prt/jumps.h"
+
+#include <algorithm>
+
+namespace prt {
+
+Judge::Judge(const Transfer& transfer, const ReceiverSurface& surface, const LightMetric& metric,
+             const Budget& budget, int threads)
+    : transfer_(transfer), surface_(surface), metric_(metric), budget_(budget), threads_(threads) {
+    if (!budget.skies.empty())
+        squares_ = second_moments(transfer, surface.areas, threads);
+}
+
+Verdict Judge::operator()(const CompressResult& result) const {
+    Verdict verdict{result.statistics.lit_rms};
+    if (budget_.skies.empty() && !budget_.max_jump)
+        return verdict;
+    const Transfer decoded = decode(result.transfer, threads_);
+    if (!budget_.skies.empty()) {
+        const ErrorMoments moments = error_moments(transfer_, decoded, surface_.areas, squares_, threads_);
+        for (const Lighting& sky : budget_.skies)
+            verdict.worst_lit_rms = std::max(verdict.worst_lit_rms, lit_rms_over_turns(moments, sky).worst);
+    }
+    if (budget_.max_jump)
+        verdict.jump = jump_across_clusters(transfer_, decoded, result.transfer.receivers.clusters, surface_,
+                                            metric_, threads_);
+    return verdict;
+}
+
+} // namespace prt

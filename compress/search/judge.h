@@ -1,0 +1,32 @@
+#pragma once
+
+#include "prt/error_moments.h"
+#include "prt/search.h"
+
+namespace prt {
+
+/// What a result is to be judged by.
+struct Verdict {
+    double worst_lit_rms =
+        0;           ///< the greatest of the expected one and, at their worst turns, of promised skies
+    double jump = 0; ///< `jump_across_clusters`; 0 where none is asked about
+};
+
+/// Judges results of one transfer by what a budget promises. Keeps references.
+class Judge {
+public:
+    Judge(const Transfer& transfer, const ReceiverSurface& surface, const LightMetric& metric,
+          const Budget& budget, int threads);
+
+    Verdict operator()(const CompressResult& result) const;
+
+private:
+    const Transfer& transfer_;
+    const ReceiverSurface& surface_;
+    const LightMetric& metric_;
+    const Budget& budget_;
+    int threads_;
+    std::vector<double> squares_; ///< `ErrorMoments::references`, where skies are promised
+};
+
+} // namespace prt

@@ -1,0 +1,37 @@
+// What lines of a search take of a receiver and of the vertex shader.
+
+#include "search/line.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace prt {
+
+double payload_bytes(WeightFormat format, int payload) {
+    return format == WeightFormat::packed ? 4.0 * payload
+                                          : 4 + 4.0 * payload * static_cast<double>(bytes_per_weight(format));
+}
+
+int payload_of(const WeightCoding& preset, std::size_t dimension) {
+    if (preset.format != WeightFormat::packed)
+        return (std::min(preset.components, static_cast<int>(dimension)) + 3) / 4;
+    const int bits = preset.fixed_bits.empty()
+                         ? preset.bits
+                         : std::accumulate(preset.fixed_bits.begin(), preset.fixed_bits.end(), 0);
+    return (preset.cluster_bits + bits + 31) / 32;
+}
+
+int guide_rows_of(GuideChoice guides, const ReceiverSurface& surface) {
+    const int normal = surface.normals.empty() ? 0 : 3, position = surface.positions.empty() ? 0 : 3;
+    switch (guides) {
+    case GuideChoice::none:
+        return 0;
+    case GuideChoice::normal:
+        return normal;
+    case GuideChoice::normal_and_position:
+        break;
+    }
+    return normal + position;
+}
+
+} // namespace prt

@@ -1,0 +1,101 @@
+#include "prt/search.h"
+
+#include "compress_options.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
+#include "search/budget_search.h"
+
+#include <cmath>
+#include <string>
+
+namespace prt {
+namespace {
+
+void check_budget(const SearchOptions& o, const ReceiverSurface& surface) {
+    for (const auto& [value, name] :
+         {std::pair(o.budget.max_error, "error"), std::pair(o.budget.max_jump, "jumps"),
+          std::pair(o.budget.bytes_per_vertex, "bytes per vertex"),
+          std::pair(o.budget.operations, "shader operations")})
+        if (value && !(*value > 0 && std::isfinite(*value)))
+            throw Error("a budget of " + std::to_string(*value) + " " + name + " makes no sense");
+    if (!o.budget.any())
+        throw Error("there is no budget to search for");
+    if (!o.budget.aims())
+        throw Error(
+            "one cluster jumps nowhere: a limit on jumps needs one on the error, bytes or operations");
+    if (!o.budget.skies.empty() && !o.budget.max_error)
+        throw Error("skies are given for a promise without an error");
+    const int rows = guide_rows_of(o.compress.guides, surface);
+    if (!o.choose_guides && o.budget.operations && rows > *o.budget.operations)
+        throw Error("the guides alone take " + std::to_string(rows) + " shader operations");
+}
+
+/// Metrics take time to make: every try has the same one.
+SearchTask task_of(const Transfer& transfer, const ReceiverSurface& surface, const SearchOptions& options,
+                   const Progress& progress) {
+    check_input(transfer, surface, options.compress);
+    SearchTask task{transfer, surface, options, progress};
+    task.options.compress.metric = metric_of(options.compress, transfer, surface.areas);
+    return task;
+}
+
+/// A limit on operations that does not bind makes nothing worse: what is best without it is looked for first.
+SearchResult within(SearchTask& task) {
+    const Budget budget = task.options.budget;
+    if (!budget.operations || !(budget.max_error || budget.bytes_per_vertex))
+        return BudgetSearch(task).run();
+    task.options.budget.operations.reset();
+    SearchResult free = BudgetSearch(task).run();
+    if (free.kept && !(free.best.operations > *budget.operations))
+        return free;
+    task.options.budget = budget;
+    SearchResult found = BudgetSearch(task).run();
+    found.trials.insert(found.trials.begin(), free.trials.begin(), free.trials.end());
+    return found;
+}
+
+} // namespace
+
+SearchResult compress_within(const Transfer& transfer, const ReceiverSurface& surface,
+                             const SearchOptions& options, const Progress& progress) {
+    check_budget(options, surface);
+    const Stopwatch stopwatch;
+    SearchTask task = task_of(transfer, surface, options, progress);
+    SearchResult found = within(task);
+    found.result.statistics.seconds = stopwatch.seconds();
+    progress.update(1);
+    return found;
+}
+
+SearchResult compress_preset(const Transfer& transfer, const ReceiverSurface& surface,
+                             const CompressOptions& options, const Progress& progress) {
+    const Stopwatch stopwatch;
+    SearchResult found;
+    // The search that may follow is one of small meshes: it takes no time to speak of.
+    CompressOptions whole = options;
+    whole.bases_count = options.coding.fixed_bits.empty();
+    found.result = compress(transfer, surface, whole, progress.part(0, 0.9));
+    const CompressStatistics& s = found.result.statistics;
+    const auto receivers = static_cast<double>(transfer.receivers());
+    const int payload = payload_of(options.coding, transfer.dimension());
+    const double bound = payload_bytes(options.coding.format, payload);
+    const double most_bases =
+        std::max(tuning::kBasesOverWeights * bound * receivers, tuning::kAlwaysForBases);
+    found.kept = static_cast<double>(s.basis_bytes) <= most_bases;
+    if (!found.kept) {
+        SearchOptions fitting;
+        fitting.compress = options;
+        fitting.payload = payload;
+        fitting.choose_components = options.coding.format == WeightFormat::packed;
+        fitting.choose_guides = false;
+        fitting.budget.bytes_per_vertex = bound + most_bases / receivers;
+        const Progress rest = progress.part(0.9, 1);
+        const SearchTask task = task_of(transfer, surface, fitting, rest);
+        found = BudgetSearch(task, effort_of_preset(s)).run();
+        found.result.statistics.seconds = stopwatch.seconds();
+    }
+    progress.update(1);
+    return found;
+}
+
+} // namespace prt

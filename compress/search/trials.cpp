@@ -1,0 +1,151 @@
+#include "search/trials.h"
+
+#include "compress_from.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+constexpr double kNotKept = 1e6; ///< least cost of what does not keep the budget, above any error or size
+
+} // namespace
+
+std::optional<double> SearchTask::components_beside(GuideChoice guides) const {
+    if (!options.budget.operations)
+        return std::nullopt;
+    return *options.budget.operations - guide_rows_of(guides, surface);
+}
+
+Trials::Trials(const SearchTask& task)
+    : task_(task), budget_(task.options.budget),
+      judge_(task.transfer, task.surface, *task.options.compress.metric, budget_,
+             task.options.compress.threads),
+      bytes_per_cluster_(tuning::kBytesPerClusterAndNumber * task.dimension()) {}
+
+double Trials::excess_of_error(const SearchTrial& t) const {
+    return std::max(budget_.max_error ? t.worst_lit_rms / *budget_.max_error : 0.0,
+                    budget_.max_jump ? t.jump / *budget_.max_jump : 0.0);
+}
+
+double Trials::excess(const SearchTrial& t) const {
+    return std::max({excess_of_error(t),
+                     budget_.bytes_per_vertex ? t.bytes_per_vertex / *budget_.bytes_per_vertex : 0.0,
+                     budget_.operations ? t.operations / *budget_.operations : 0.0});
+}
+
+double Trials::cost(const SearchTrial& t) const {
+    if (!keeps(t))
+        return kNotKept * excess(t);
+    return saves_bytes() ? t.bytes_per_vertex : t.lit_rms;
+}
+
+CompressOptions Trials::options_on(const Line& line, int clusters) const {
+    CompressOptions o = task_.options.compress;
+    WeightCoding& coding = o.coding;
+    o.clusters = clusters;
+    o.guides = line.guides;
+    if (line.basis_share >= 0)
+        o.basis_share = line.basis_share;
+    int most = 4 * line.payload;
+    if (task_.packed()) {
+        coding.cluster_bits = static_cast<int>(std::bit_width(static_cast<unsigned>(clusters - 1)));
+        o.bases_count = line.bases_count;
+        coding.fixed_bits.clear();
+        coding.bits =
+            std::min(32 * line.payload - coding.cluster_bits, kMostPackedBits); // words are bound whole
+        most = kMostPackedComponents;
+    }
+    if (task_.options.choose_components)
+        coding.components = std::min({most, task_.dimension(), line.most_components});
+    if (const std::optional<double> components = task_.components_beside(line.guides)) {
+        o.mean_components = std::max(*components, 0.0);
+        if (!(*components > 0)) // no limit, to `compress`
+            coding.components = 0;
+    }
+    return o;
+}
+
+/// From the last try or the best one, whichever is nearer in number. Few clusters are soon found; and few of
+/// many, or many of few, are not the best.
+std::span<const std::uint16_t> Trials::start_for(int clusters) const {
+    if (clusters <= tuning::kAlwaysFresh || !task_.has_drafts())
+        return {};
+    double nearest = std::log(tuning::kFarStart);
+    std::span<const std::uint16_t> start;
+    const auto consider = [&](const std::optional<Try>& from,
+                              const std::vector<std::uint16_t>& of_receivers) {
+        if (!from)
+            return;
+        const double distance = std::abs(std::log(static_cast<double>(from->trial.clusters) / clusters));
+        if (distance <= nearest) {
+            nearest = distance;
+            start = of_receivers;
+        }
+    };
+    consider(best_, result_.result.transfer.receivers.clusters);
+    consider(last_, last_clusters_);
+    return start;
+}
+
+const SearchTrial& Trials::attempt(int clusters, const Line& line) {
+    const auto key = std::pair(clusters, line);
+    if (const auto known = tried_.find(key); known != tried_.end())
+        return known->second;
+    // How many tries there will be is not known; each takes a tenth of what is left of the bar.
+    const double done = 1 - std::pow(0.9, static_cast<double>(tried_.size()));
+    const bool draft = !line.finished && task_.has_drafts();
+    CompressResult result =
+        compress_from({start_for(clusters), draft}, task_.transfer, task_.surface, options_on(line, clusters),
+                      task_.progress.part(done, done + 0.1 * (1 - done)));
+    const CompressStatistics& s = result.statistics;
+    const Verdict verdict = judge_(result);
+    const double finished = draft ? tuning::kFinishedOverDraft : 1;
+    const SearchTrial trial{.draft = draft,
+                            .clusters = clusters,
+                            .payload_bytes = static_cast<int>(s.bytes_per_receiver),
+                            .lit_rms = finished * s.lit_rms,
+                            .worst_lit_rms = finished * verdict.worst_lit_rms,
+                            .jump = finished * verdict.jump,
+                            .bytes_per_vertex = s.bytes_with_bases(task_.transfer.receivers()),
+                            .operations = s.operations(),
+                            .seconds = s.seconds};
+    bytes_per_cluster_ = std::max(tuning::kLeastBytesPerCluster,
+                                  static_cast<double>(s.basis_bytes) / static_cast<double>(s.clusters));
+    if (task_.options.compress.trace)
+        task_.options.compress.trace(trial);
+    result_.trials.push_back(trial);
+    keep_if_better(std::move(result), trial, line);
+    return tried_[key] = trial;
+}
+
+bool Trials::is_better(const SearchTrial& trial) const {
+    if (!best_ || trial.draft != best_->trial.draft)
+        return !best_ || best_->trial.draft;
+    return cost(trial) < cost(best_->trial);
+}
+
+void Trials::keep_if_better(CompressResult&& result, const SearchTrial& trial, const Line& line) {
+    std::vector<std::uint16_t>& clusters = result.transfer.receivers.clusters;
+    if (!is_better(trial)) {
+        last_ = {trial, line};
+        last_clusters_ = std::move(clusters);
+        return;
+    }
+    if (best_) {
+        last_ = best_;
+        last_clusters_ = std::move(result_.result.transfer.receivers.clusters);
+    }
+    best_ = {trial, line};
+    result_.result = std::move(result);
+}
+
+SearchResult Trials::take_result() {
+    result_.kept = kept();
+    result_.best = best_->trial;
+    return std::move(result_);
+}
+
+} // namespace prt

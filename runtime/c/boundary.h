@@ -1,0 +1,80 @@
+#pragma once
+
+// Between C and C++: statuses and messages for exceptions, and what is asked of pointers and numbers that
+// come in.
+
+#include "prt/prt.h"
+#include "prt/support/error.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <new>
+
+namespace prt::c {
+
+/// What a file or a function says no to, told apart by where it was asked.
+struct BadFile : Error {
+    using Error::Error;
+};
+
+struct TooSmall : Error {
+    using Error::Error;
+};
+
+void say(prt_message* message, const char* text) noexcept;
+
+/// Runs `body` and turns what it throws into a status and a message.
+template <class Body>
+prt_status guarded(prt_message* message, Body&& body) noexcept {
+    try {
+        say(message, "");
+        body();
+        return PRT_OK;
+    } catch (const std::bad_alloc&) {
+        say(message, "out of memory");
+        return PRT_NO_MEMORY;
+    } catch (const BadFile& error) {
+        say(message, error.what());
+        return PRT_BAD_FILE;
+    } catch (const TooSmall& error) {
+        say(message, error.what());
+        return PRT_TOO_SMALL;
+    } catch (const Error& error) {
+        say(message, error.what());
+        return PRT_BAD_ARGUMENT;
+    } catch (const std::exception& error) { // of a library, or a mistake in this one
+        say(message, error.what());
+        return PRT_INTERNAL;
+    }
+}
+
+/// Runs `body`, which reads a file: what it refuses is the file's fault.
+template <class Body>
+void as_file(Body&& body) {
+    try {
+        body();
+    } catch (const Error& error) {
+        throw BadFile(error.what());
+    }
+}
+
+template <class... Pointers>
+void check_pointers(const Pointers*... pointers) {
+    const bool any_null = (... || (pointers == nullptr));
+    if (any_null)
+        throw Error("a pointer is null");
+}
+
+/// Coefficients of an order, which it checks.
+std::size_t count_of(int order);
+
+/// Whether all values lie in -most..most.
+bool within(float most, const float* values, std::size_t count);
+bool finite(const float* values, std::size_t count);
+
+inline glm::vec3* colors(float* light) {
+    return reinterpret_cast<glm::vec3*>(light); // three floats and nothing else
+}
+
+} // namespace prt::c

@@ -1,0 +1,161 @@
+// The C interface: light, of closed forms, of images, turned.
+
+#include "boundary.h"
+#include "prt/environment.h"
+#include "prt/image_file.h"
+#include "prt/light.h"
+#include "prt/sh.h"
+#include "prt/sh_rotation.h"
+
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <span>
+#include <string>
+
+namespace {
+
+using namespace prt::c;
+using prt::Error;
+using prt::Light;
+
+/// Of an image that an array can hold.
+std::size_t pixel_count(int width, int height) {
+    constexpr std::size_t kMost = std::numeric_limits<std::ptrdiff_t>::max() / sizeof(glm::vec3);
+    const auto columns = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(height);
+    if (rows > kMost / columns)
+        throw Error("an image of " + std::to_string(width) + " x " + std::to_string(height) +
+                    " pixels is larger than memory can be");
+    return columns * rows;
+}
+
+glm::vec3 vec3(const float* v) {
+    return glm::make_vec3(v);
+}
+
+void check_colors(const float* light, std::size_t count) {
+    if (!finite(light, 3 * count))
+        throw Error("the coefficients of a light must be finite");
+}
+
+glm::vec3 color(const float* rgb) {
+    if (!finite(rgb, 3))
+        throw Error("a colour of light must be finite");
+    return vec3(rgb);
+}
+
+void put(const Light& light, float* to) {
+    std::copy(light.coefficients.begin(), light.coefficients.end(), colors(to));
+}
+
+Light light_from(int order, const float* from) {
+    const std::size_t count = count_of(order);
+    check_colors(from, count);
+    const auto* first = reinterpret_cast<const glm::vec3*>(from);
+    return {order, {first, first + count}};
+}
+
+prt::LatLongCenter center_of(int center) {
+    if (center != PRT_CENTER_Z && center != PRT_CENTER_X)
+        throw Error("a lat-long image is centerd on +Z or +X");
+    return center == PRT_CENTER_X ? prt::LatLongCenter::x : prt::LatLongCenter::z;
+}
+
+} // namespace
+
+extern "C" {
+
+prt_status prt_light_constant(int order, const float radiance[3], float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(radiance, light);
+        put(prt::constant_light(order, color(radiance)), light);
+    });
+}
+
+prt_status prt_light_directional(int order, const float towards[3], const float irradiance[3], float* light,
+                                 prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(towards, irradiance, light);
+        put(prt::directional_light(order, vec3(towards), color(irradiance)), light);
+    });
+}
+
+prt_status prt_light_cone(int order, const float axis[3], float half_angle, const float radiance[3],
+                          float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(axis, radiance, light);
+        put(prt::cone_light(order, vec3(axis), static_cast<double>(half_angle), color(radiance)), light);
+    });
+}
+
+prt_status prt_light_sphere(int order, const float center[3], float radius, const float radiance[3],
+                            float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(center, radiance, light);
+        put(prt::sphere_light(order, vec3(center), static_cast<double>(radius), color(radiance)), light);
+    });
+}
+
+prt_status prt_light_disc(int order, const float center[3], const float normal[3], float radius,
+                          const float radiance[3], float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(center, normal, radiance, light);
+        put(prt::disc_light(order, vec3(center), vec3(normal), static_cast<double>(radius), color(radiance)),
+            light);
+    });
+}
+
+prt_status prt_light_hemisphere(int order, const float up[3], const float top[3], const float bottom[3],
+                                float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(up, top, bottom, light);
+        put(prt::hemisphere_light(order, vec3(up), color(top), color(bottom)), light);
+    });
+}
+
+prt_status prt_light_from_lat_long(int order, const prt_image* image, int center, int threads, float* light,
+                                   prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(image, light);
+        const auto [width, height, pixels] = *image;
+        check_pointers(pixels);
+        if (width < 1 || height < 1)
+            throw Error("the environment has no pixels");
+        const auto* first = reinterpret_cast<const glm::vec3*>(pixels);
+        prt::Environment environment;
+        environment.center = center_of(center);
+        environment.image = {width, height, {first, first + pixel_count(width, height)}};
+        prt::repair_pixels(environment.image, prt::BadPixels::error);
+        put(prt::project(environment, order, threads), light);
+    });
+}
+
+prt_status prt_light_from_file(int order, const char* path, int center, float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(path, light);
+        prt::check_order(order);
+        prt::EnvironmentOptions options;
+        options.center = center_of(center);
+        as_file([&] { put(prt::project(prt::load_environment(path, options).environment, order), light); });
+    });
+}
+
+prt_status prt_light_rotate(int order, const float rotation[9], float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(rotation, light);
+        Light turned = light_from(order, light);
+        prt::ShRotation(order, glm::dmat3(glm::make_mat3(rotation))).apply(turned.coefficients);
+        check_colors(&turned.coefficients[0].x, turned.coefficients.size());
+        put(turned, light);
+    });
+}
+
+prt_status prt_light_dering(int order, float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(light);
+        put(prt::windowed(light_from(order, light), prt::Window::automatic), light);
+    });
+}
+
+} // extern "C"

@@ -1,0 +1,237 @@
+// The C interface: models that prt compress has written.
+
+#include "boundary.h"
+#include "prt/constant_former.h"
+#include "prt/gltf.h"
+#include "prt/light_set.h"
+#include "prt/shader_source.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string>
+
+struct prt_model {
+    prt::Scene scene;
+    prt::ClusteredTransfer transfer;
+    prt::ConstantFormer former;
+    std::vector<prt::ClusterLayout> layouts;
+};
+
+namespace {
+
+using namespace prt::c;
+using prt::Error;
+
+/// Of light and constants that a model is lit by.
+constexpr float kBrightest = 1e20f, kLargestConstant = 1e30f;
+
+std::span<const glm::vec3> light_colors(const float* from, std::size_t count) {
+    return {reinterpret_cast<const glm::vec3*>(from), count};
+}
+
+/// Those of C are the same numbers.
+prt::ShaderLanguage language_of(int language) {
+    if (language < PRT_GLSL450 || language > PRT_VULKAN)
+        throw Error("there is no such shader language");
+    return static_cast<prt::ShaderLanguage>(language);
+}
+
+prt::ConstantSource source_of(int constants) {
+    if (constants < PRT_CONSTANTS_IN_BUFFER || constants > PRT_CONSTANTS_IN_TEXTURE)
+        throw Error("there is no such place for constants");
+    return static_cast<prt::ConstantSource>(constants);
+}
+
+static_assert(static_cast<int>(prt::ShaderLanguage::vulkan) == PRT_VULKAN &&
+              static_cast<int>(prt::ConstantSource::texture) == PRT_CONSTANTS_IN_TEXTURE &&
+              static_cast<int>(prt::WeightFormat::packed) == PRT_PACKED &&
+              static_cast<int>(prt::WeightFormat::snorm8) == PRT_SNORM8);
+static_assert(sizeof(prt::ClusterLayout) == 4 * sizeof(std::uint32_t) &&
+              sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
+
+prt_model* make_model(const prt::GltfDocument& document, const std::string& name) {
+    prt::Scene scene = prt::extract_scene(document);
+    auto compressed = prt::read_clustered(document, scene);
+    if (!compressed)
+        throw Error(name + ": holds no compressed transfer; run prt compress first");
+    prt::ConstantFormer former(compressed->transfer);
+    auto layouts = prt::cluster_layouts(compressed->transfer.bases);
+    return new prt_model{std::move(scene), std::move(compressed->transfer), std::move(former),
+                         std::move(layouts)};
+}
+
+} // namespace
+
+extern "C" {
+
+prt_status prt_model_load(const char* path, prt_model** model, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(path, model);
+        *model = nullptr;
+        as_file([&] {
+            *model = make_model(prt::load_gltf(path, {.missing_images = prt::MissingImages::ignore}), path);
+        });
+    });
+}
+
+prt_status prt_model_load_memory(const void* bytes, size_t size, prt_model** model, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(bytes, model);
+        *model = nullptr;
+        const std::span file(static_cast<const std::byte*>(bytes), size);
+        as_file([&] {
+            *model = make_model(
+                prt::parse_gltf(file, "memory", {.missing_images = prt::MissingImages::ignore}), "memory");
+        });
+    });
+}
+
+void prt_model_destroy(prt_model* model) {
+    delete model;
+}
+
+prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, out);
+        const prt::ClusteredReceivers& receivers = model->transfer.receivers;
+        *out = {};
+        out->order = model->former.order();
+        out->channels = model->former.layout().channels();
+        out->direct_apart = model->former.layout().has(prt::PartKind::direct);
+        out->receivers = receivers.size();
+        out->clusters = model->layouts.size();
+        out->rows = model->former.rows();
+        out->format = static_cast<prt_weight_format>(receivers.format);
+        out->stride = receivers.stride();
+        out->weights = receivers.weights.data();
+        out->cluster_of = receivers.clusters.data();
+        out->cluster_table = reinterpret_cast<const std::uint32_t*>(model->layouts.data());
+        out->meshes = model->scene.primitives.size();
+    });
+}
+
+prt_status prt_model_get_vertex_inputs(const prt_model* model, prt_vertex_inputs* out, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, out);
+        *out = {};
+        for (const prt::Guide& guide : model->transfer.bases.guides) {
+            if (guide.kind == prt::GuideKind::normal) {
+                out->normals = 1;
+                continue;
+            }
+            out->positions = 1;
+            std::copy_n(glm::value_ptr(guide.origin), 3, out->guide_origin);
+        }
+        std::copy_n(glm::value_ptr(model->scene.origin), 3, out->origin);
+    });
+}
+
+prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, lamps);
+        *lamps = model->former.layout().lamps();
+    });
+}
+
+prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char** name, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, name);
+        const std::span<const prt::TransferPart> lamps = model->former.layout().lamp_parts();
+        if (lamp >= lamps.size())
+            throw Error("the model has " + std::to_string(lamps.size()) + " lamps");
+        *name = lamps[lamp].name.c_str();
+    });
+}
+
+prt_status prt_model_add_sun(const prt_model* model, const float towards[3], const float irradiance[3],
+                             float* lamps, double* away, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, towards, irradiance, lamps);
+        const prt::TransferLayout& layout = model->former.layout();
+        const glm::dvec3 direction(towards[0], towards[1], towards[2]);
+        const double length = glm::length(direction);
+        if (!(length > 0 && std::isfinite(length)) || !within(kBrightest, irradiance, 3))
+            throw Error("a sun needs a direction, and irradiance of at most 1e20");
+        const prt::SunDisc sun{glm::vec3(direction / length), glm::make_vec3(irradiance)};
+        const double angle = prt::add_sun(layout, sun, {reinterpret_cast<glm::vec3*>(lamps), layout.lamps()});
+        if (away)
+            *away = angle;
+    });
+}
+
+prt_status prt_model_get_mesh(const prt_model* model, size_t mesh, prt_mesh* out, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, out);
+        if (mesh >= model->scene.primitives.size())
+            throw Error("the model has " + std::to_string(model->scene.primitives.size()) + " meshes");
+        const prt::Primitive& primitive = model->scene.primitives[mesh];
+        const prt::VertexArray& vertices = model->scene.vertex_arrays[primitive.vertices];
+        *out = {};
+        out->vertices = vertices.size();
+        out->first_receiver = vertices.first_receiver;
+        out->positions = reinterpret_cast<const float*>(vertices.positions.data());
+        out->normals = reinterpret_cast<const float*>(vertices.normals.data());
+        if (!vertices.texcoords.empty() && !vertices.texcoords[0].empty())
+            out->texcoords = reinterpret_cast<const float*>(vertices.texcoords[0].data());
+        out->indices = 3 * primitive.triangles.size();
+        out->index = reinterpret_cast<const std::uint32_t*>(primitive.triangles.data());
+        const glm::vec4 color = model->scene.materials[primitive.material].base_color;
+        std::copy_n(glm::value_ptr(color), 4, out->base_color);
+    });
+}
+
+prt_status prt_model_form_constants(const prt_model* model, int order, const float* light, float* constants,
+                                    prt_message* message) {
+    return prt_model_form_constants_apart(model, order, light, nullptr, nullptr, constants, message);
+}
+
+prt_status prt_model_form_constants_apart(const prt_model* model, int order, const float* sky,
+                                          const float* suns, const float* lamps, float* constants,
+                                          prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, sky, constants);
+        const std::size_t count = count_of(order), rows = model->former.rows(),
+                          strengths = lamps ? model->former.layout().lamps() : 0;
+        if (!within(kBrightest, sky, 3 * count) || (suns && !within(kBrightest, suns, 3 * count)) ||
+            (lamps && !within(kBrightest, lamps, 3 * strengths)))
+            throw Error("the coefficients of a light must be finite and at most 1e20");
+        model->former.form(
+            {light_colors(sky, count), light_colors(suns, suns ? count : 0), light_colors(lamps, strengths)},
+            {reinterpret_cast<glm::vec4*>(constants), rows});
+        if (!within(kLargestConstant, constants, 4 * rows))
+            throw Error("the light is too bright for the model: constants pass 1e30");
+    });
+}
+
+prt_status prt_model_evaluate(const prt_model* model, const float* constants, float* radiance,
+                              prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, constants, radiance);
+        if (!within(kLargestConstant, constants, 4 * model->former.rows()))
+            throw Error("constants must be finite and at most 1e30");
+        prt::evaluate(model->transfer, {reinterpret_cast<const glm::vec4*>(constants), model->former.rows()},
+                      {colors(radiance), model->transfer.receivers.size()});
+    });
+}
+
+prt_status prt_model_shader(const prt_model* model, int language, int constants, char* source, size_t* size,
+                            prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, size);
+        const std::string text =
+            prt::relight_shader(model->transfer, source_of(constants), language_of(language));
+        const std::size_t room = source ? *size : 0;
+        *size = text.size() + 1;
+        if (room < *size)
+            throw TooSmall("the shader takes " + std::to_string(*size) + " bytes");
+        std::memcpy(source, text.c_str(), *size);
+    });
+}
+
+} // extern "C"

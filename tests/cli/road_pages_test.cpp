@@ -1,0 +1,91 @@
+// The pages that commands write, drawn by a browser.
+
+#include "road.h"
+#include "support/glb_file.h"
+
+#include <set>
+#include <string_view>
+
+namespace prt::test {
+namespace {
+
+std::size_t count(const std::string& text, std::string_view part) {
+    std::size_t found = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++found;
+    return found;
+}
+
+/// A page loads nothing, from beside it or from elsewhere.
+void expect_standing_alone(const std::filesystem::path& path) {
+    std::ifstream file(path);
+    const std::string page{std::istreambuf_iterator<char>(file), {}};
+    for (const char* loading :
+         {"src=", "href", "@import", "url(", "fetch(", "import(", "XMLHttpRequest", "{{"})
+        EXPECT_EQ(page.find(loading), std::string::npos) << loading;
+    EXPECT_EQ(count(page, "</script>"), 2u); // the report and what draws it
+}
+
+/// The elements of a page once its script has run, or nothing where there is no browser to run it.
+std::string drawn_page(const std::filesystem::path& path) {
+    if (std::string(PRT_CHROMIUM).empty())
+        return {};
+    const Outcome outcome = run(PRT_CHROMIUM, {"--headless", "--no-sandbox", "--disable-gpu",
+                                               "--user-data-dir=" + path.string() + ".profile", "--dump-dom",
+                                               "file://" + path.string()});
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.out;
+}
+
+TEST_F(Road, ASweepIsAPageThatStandsAlone) {
+    triangle_file().write(folder / "t.glb");
+    ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "2"}).status, 0);
+    const Outcome evaluate =
+        prt({"evaluate", at("b.glb"), "--sweep", "--json", at("e.json"), "--html", at("e.html")});
+    ASSERT_EQ(evaluate.status, 0) << evaluate.err;
+    const auto sweep = read_json(folder / "e.json")["sweep"];
+    EXPECT_GT(sweep["equal_bytes"].size(), 3u);
+    EXPECT_GT(sweep["equal_shader_operations"].size(), 3u);
+    EXPECT_TRUE(sweep["equal_bytes"][0]["jumps_percentile_99"].is_number());
+    expect_standing_alone(folder / "e.html");
+    const std::string drawn = drawn_page(folder / "e.html");
+    if (drawn.empty())
+        GTEST_SKIP() << "chromium is not installed";
+    EXPECT_EQ(count(drawn, "<svg"), 2u);
+    std::size_t curves = 0;
+    for (const char* points : {"equal_bytes", "equal_shader_operations"}) {
+        std::set<std::string> methods = {"prtkit"}; // has its place even without a point
+        for (const auto& point : sweep[points])
+            methods.insert(point["method"]);
+        curves += methods.size();
+    }
+    EXPECT_EQ(count(drawn, "<polyline"), curves);
+    EXPECT_NE(drawn.find("<h2>Error at equal bytes</h2>"), std::string::npos);
+}
+
+TEST_F(Road, BenchMeasuresEveryBackendAndMethod) {
+    triangle_file().write(folder / "a<b>&.glb");
+    const Outcome bench = prt({"bench", at("a<b>&.glb"), "--from", "16", "--to", "64", "--order", "3",
+                               "--json", at("bench.json"), "--html", at("bench.html")});
+    ASSERT_EQ(bench.status, 0) << bench.err;
+    const auto report = read_json(folder / "bench.json");
+    EXPECT_EQ(report["reference_rays"], 64 * 64);
+    ASSERT_EQ(report["runs"].size(), 9u); // three ways, three numbers of rays
+    for (const auto& run : report["runs"]) {
+        EXPECT_LT(run["relative_l2"], 1e-5); // a lone triangle is open: no sampling error at all
+        EXPECT_GT(run["seconds"], 0);
+    }
+    expect_standing_alone(folder / "bench.html");
+    const std::string drawn = drawn_page(folder / "bench.html");
+    if (drawn.empty())
+        GTEST_SKIP() << "chromium is not installed";
+    EXPECT_EQ(count(drawn, "<svg"), 2u); // error over time, speed over rays
+    EXPECT_EQ(count(drawn, "<td>cpu trace</td>"), 3u);
+    EXPECT_EQ(count(drawn, "<polyline"), 6u);
+    EXPECT_EQ(drawn.find("NaN"), std::string::npos);
+    // What a name holds is text, not markup.
+    EXPECT_NE(drawn.find("a&lt;b&gt;&amp;.glb"), std::string::npos);
+}
+
+} // namespace
+} // namespace prt::test

@@ -1,0 +1,72 @@
+// The plug-in of examples/web on damaged shipped files:
+//   node load_web.mjs FOLDER [verbose]
+// Every FOLDER/*.glb is loaded by three's GLTFLoader with it: it is refused by an Error that says why, or lit by finite
+// numbers, in bounded time. FOLDER/whole.*.glb are right, and must be read. Prints what is not so; status 1 then.
+import { readFileSync, readdirSync } from "node:fs";
+import { createRequire } from "node:module";
+import { dirname, join } from "node:path";
+import { fileURLToPath, pathToFileURL } from "node:url";
+
+const web = join(dirname(fileURLToPath(import.meta.url)), "../../examples/web");
+const require = createRequire(join(web, "package.json"));
+const module = (name) => import(pathToFileURL(require.resolve(name)).href);
+const { GLTFLoader } = await module("three/examples/jsm/loaders/GLTFLoader.js");
+const { DataTexture, FloatType, RGBAFormat } = await module("three");
+const { PrtkitPlugin, projectEquirectangular } = await import(pathToFileURL(join(web, "src/PrtkitLoader.js")).href);
+
+const [folder, verbose] = process.argv.slice(2);
+const white = projectEquirectangular(new DataTexture(new Float32Array([1, 1, 1, 1]), 1, 1, RGBAFormat, FloatType));
+const SECONDS = 20; // a file takes milliseconds
+
+/** What is wrong with a model that was read; nothing where all is right. */
+function wrongModel(gltf) {
+  const model = gltf.userData.prtkit;
+  if (!model) return null;
+  model.setLight(white.deringed(), 0.3);
+  const { clusters, constantsTexture } = model;
+  if (!constantsTexture.image.data.every(Number.isFinite)) return "constants are not finite";
+  let wrong = null;
+  gltf.scene.traverse(({ geometry }) => {
+    const attributes = geometry?.attributes ?? {};
+    for (const name of ["prt_place", "prt_normal", "prt_weights_0", "prt_weights_1"])
+      if (attributes[name] && !Array.from(attributes[name].array).every(Number.isFinite)) wrong = `${name} is not finite`;
+    const words = attributes.prt_words_0 ?? attributes.prt_cluster;
+    const mask = clusters.widths ? 2 ** clusters.clusterBits - 1 : 0xffffffff;
+    for (let v = 0; words && v < words.count; ++v)
+      if ((words.getX(v) & mask) >>> 0 >= clusters.components.length) wrong = `vertex ${v} is in no cluster`;
+  });
+  return wrong;
+}
+
+/** What is wrong with the way in which a file is refused. */
+function wrongRefusal(error) {
+  if (!(error instanceof Error)) return "what is thrown is no Error";
+  const inOurs = /examples\/web\/src/.test(error.stack.split("\n").find((line) => line.trim().startsWith("at ")) ?? "");
+  const ours = /^PRTKIT_clustered_pca: [^\n]+$/.test(error.message);
+  return inOurs && !ours ? `says ${error.name}: ${error.message}` : null;
+}
+
+process.on("unhandledRejection", () => {}); // GLTFLoader leaves some behind when it gives up
+let read = 0;
+let findings = 0;
+const files = readdirSync(folder).filter((name) => name.endsWith(".glb"));
+for (const name of files) {
+  const bytes = readFileSync(join(folder, name));
+  const begin = performance.now();
+  let wrong = null;
+  try {
+    const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
+    wrong = wrongModel(await loader.parseAsync(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length), ""));
+    ++read;
+  } catch (error) {
+    wrong = name.startsWith("whole") ? `is refused: ${error}` : wrongRefusal(error);
+    if (wrong && verbose) wrong += `\n${error.stack}`;
+  }
+  if (performance.now() - begin > 1000 * SECONDS) wrong = "takes too long";
+  if (wrong) {
+    ++findings;
+    console.log(`${name}: ${wrong}`);
+  }
+}
+console.log(`${files.length} files, ${read} read, ${findings} findings`);
+process.exitCode = findings > 0 ? 1 : 0;

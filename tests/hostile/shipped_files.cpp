@@ -1,0 +1,111 @@
+#include "shipped_files.h"
+
+#include "prt/compress.h"
+#include "prt/gltf.h"
+#include "support/guided.h"
+#include "support/scene_builder.h"
+#include "support/temporary_folder.h"
+
+#include <random>
+#include <string>
+#include <utility>
+
+namespace prt::test {
+namespace {
+
+const TransferLayout kSky{3, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+const TransferLayout kLamps{
+    2, {{PartKind::whole, 1}, {PartKind::lamp, 3, "lantern"}, {PartKind::lamp, 1, "window"}}};
+
+/// How a file is made.
+struct Recipe {
+    std::string name;
+    TransferLayout layout;
+    CompressOptions options;
+    bool position_alone = false; ///< a guide that the compressor does not choose
+    GlbFile scene = {};
+};
+
+/// A ball on a floor.
+GlbFile smooth_scene() {
+    return scene_file(SceneBuilder().floor({0, 0, 0}, 2, 3).sphere({0.3f, 1, 0}, 0.8f, 4).build());
+}
+
+/// Normals in bytes, a primitive without any, nodes that mirror, scale and turn.
+GlbFile hard_scene() {
+    GlbFile file = smooth_scene();
+    file.json["extensionsUsed"] = {"KHR_mesh_quantization"};
+    file.json["extensionsRequired"] = {"KHR_mesh_quantization"};
+    nlohmann::ordered_json& primitives = file.json["meshes"][0]["primitives"];
+    const std::size_t count = file.json["accessors"][0]["count"];
+    std::vector<std::int8_t> normals;
+    for (std::size_t v = 0; v < count; ++v)
+        normals.insert(normals.end(), {static_cast<std::int8_t>(v % 90), 45, 77, 99});
+    const std::size_t bytes = file.accessor(std::as_bytes(std::span(normals)), count, kByte, "VEC3", true, 4);
+    nlohmann::ordered_json bare = primitives[0];
+    primitives[0]["attributes"]["NORMAL"] = bytes;
+    bare["attributes"].erase("NORMAL");
+    primitives.push_back(bare);
+    file.json["nodes"] = {{{"children", {1, 2}}, {"translation", {100, 2, -30}}},
+                          {{"mesh", 0}, {"scale", {-1, 1, 1}}},
+                          {{"mesh", 0}, {"scale", {3, 0.5, 1.25}}, {"rotation", {0, 0.6, 0, 0.8}}}};
+    return file;
+}
+
+Transfer transfer_of(const Scene& scene, const TransferLayout& layout) {
+    Transfer transfer = zero_transfer(layout, scene.receivers());
+    std::mt19937 random(3);
+    std::normal_distribution<float> normal;
+    for (float& value : transfer.vectors)
+        value = 0.5f + 0.3f * normal(random);
+    return transfer;
+}
+
+GlbFile made(const Recipe& recipe) {
+    const TemporaryFolder folder;
+    (recipe.scene.binary.empty() ? smooth_scene() : recipe.scene).write(folder / "scene.glb");
+    GltfDocument document = load_gltf(folder / "scene.glb");
+    const Scene scene = extract_scene(document);
+    CompressedTransfer compressed{
+        compress(transfer_of(scene, recipe.layout), SceneSurface(scene).view(), recipe.options).transfer,
+        {.rays = 16, .receivers = receivers_id(scene)}};
+    std::mt19937 random(4);
+    if (recipe.position_alone)
+        add_guides(compressed.transfer.bases, {GuideKind::position}, random);
+    write_clustered(document, scene, compressed);
+    save_glb(document, folder / "shipped.glb");
+    return read_glb(folder / "shipped.glb");
+}
+
+std::vector<Recipe> recipes() {
+    WeightCoding fixed = preset_u32x4(), free = preset_u64(), floats{.format = WeightFormat::float32},
+                 bytes{.format = WeightFormat::snorm8};
+    floats.components = bytes.components = 5;
+    return {
+        {"none_fixed", kSky, {.clusters = 6, .coding = fixed, .guides = GuideChoice::none}},
+        {"normal_fixed", kSky, {.clusters = 6, .coding = fixed}},
+        {"normal_free", kLamps, {.clusters = 5, .coding = free}},
+        {"both_free", kSky, {.clusters = 4, .coding = free, .guides = GuideChoice::normal_and_position}},
+        {"both_floats",
+         kLamps,
+         {.clusters = 4, .coding = floats, .guides = GuideChoice::normal_and_position}},
+        {"both_bytes", kSky, {.clusters = 3, .coding = bytes, .guides = GuideChoice::normal_and_position}},
+        {"position_plain", kSky, {.clusters = 4, .coding = fixed, .guides = GuideChoice::none}, true},
+        {"both_hard",
+         kLamps,
+         {.clusters = 4, .coding = free, .guides = GuideChoice::normal_and_position},
+         false,
+         hard_scene()},
+    };
+}
+
+} // namespace
+
+std::vector<ShippedFile> shipped_files() {
+    std::vector<ShippedFile> files;
+    for (const Recipe& recipe : recipes())
+        files.push_back({recipe.name, made(recipe)});
+    return files;
+}
+
+} // namespace prt::test

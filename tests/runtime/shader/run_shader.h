@@ -1,0 +1,48 @@
+#pragma once
+
+// Runs the vertex shader of a model in the context that is current, and reads back what it computes. Only
+// what OpenGL ES 3.0 has is called, so that one test serves both kinds of context.
+
+#include "prt/clustered_transfer.h"
+#include "prt/shader_source.h"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <string>
+#include <vector>
+
+namespace prt::test {
+
+/// An OpenGL ES 3.0 context without a surface.
+class EsContext {
+public:
+    EsContext();
+    ~EsContext();
+    EsContext(const EsContext&) = delete;
+    EsContext& operator=(const EsContext&) = delete;
+    bool current() const { return current_; }
+
+private:
+    EGLDisplay display_ = EGL_NO_DISPLAY;
+    EGLContext context_ = EGL_NO_CONTEXT;
+    bool current_ = false;
+};
+
+/// A shader object. A test in which it does not compile fails.
+GLuint compiled(GLenum stage, const std::string& source);
+
+template <class T>
+void bind_buffer(GLenum target, GLuint binding, const std::vector<T>& values) {
+    GLuint name = 0;
+    glGenBuffers(1, &name);
+    glBindBuffer(target, name);
+    glBufferData(target, static_cast<GLsizeiptr>(values.size() * sizeof(T)), values.data(), GL_STATIC_DRAW);
+    glBindBufferBase(target, binding, name);
+}
+
+/// Exit radiance of every receiver by relight_shader.
+std::vector<glm::vec3> radiance_of_shader(const ClusteredTransfer& transfer, const Lighting& lighting,
+                                          ShaderLanguage language, ConstantSource source);
+
+} // namespace prt::test
