@@ -40,17 +40,19 @@ SearchTask task_of(const Transfer& transfer, const ReceiverSurface& surface, con
 }
 
 /// A limit on operations that does not bind makes nothing worse: what is best without it is looked for first.
-SearchResult within(SearchTask& task) {
-    const Budget budget = task.options.budget;
+SearchResult within(const SearchTask& task) {
+    const Budget& budget = task.options.budget;
     if (!budget.operations || !(budget.max_error || budget.bytes_per_vertex))
         return BudgetSearch(task).run();
-    task.options.budget.operations.reset();
-    SearchResult free = BudgetSearch(task).run();
-    if (free.kept && !(free.best.operations > *budget.operations))
-        return free;
-    task.options.budget = budget;
-    SearchResult found = BudgetSearch(task).run();
-    found.trials.insert(found.trials.begin(), free.trials.begin(), free.trials.end());
+    const Progress first = task.progress.part(0, 0.5), second = task.progress.part(0.5, 1);
+    SearchTask free{task.transfer, task.surface, task.options, first};
+    free.options.budget.operations.reset();
+    SearchResult of_free = BudgetSearch(free).run();
+    if (of_free.kept && !(of_free.best.operations > *budget.operations))
+        return of_free;
+    const SearchTask bound{task.transfer, task.surface, task.options, second};
+    SearchResult found = BudgetSearch(bound).run();
+    found.trials.insert(found.trials.begin(), of_free.trials.begin(), of_free.trials.end());
     return found;
 }
 
@@ -60,8 +62,7 @@ SearchResult compress_within(const Transfer& transfer, const ReceiverSurface& su
                              const SearchOptions& options, const Progress& progress) {
     check_budget(options, surface);
     const Stopwatch stopwatch;
-    SearchTask task = task_of(transfer, surface, options, progress);
-    SearchResult found = within(task);
+    SearchResult found = within(task_of(transfer, surface, options, progress));
     found.result.statistics.seconds = stopwatch.seconds();
     progress.update(1);
     return found;

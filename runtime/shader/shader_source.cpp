@@ -130,8 +130,10 @@ int most_vertex_components(const ClusteredBases& bases) {
 
 std::string relight_defines(const ClusteredTransfer& transfer, ConstantSource constants,
                             ShaderLanguage language, const glm::dvec3& seen_from) {
-    const std::string text =
-        weight_defines(transfer) + same_weight_defines(transfer) + guide_defines(transfer.bases, seen_from);
+    // One by one: the first refuses what the second could not read.
+    std::string text = weight_defines(transfer);
+    text += same_weight_defines(transfer);
+    text += guide_defines(transfer.bases, seen_from);
     switch (constants) {
     case ConstantSource::buffer:
         if (language == ShaderLanguage::glsl330 || language == ShaderLanguage::essl300)
