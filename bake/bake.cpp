@@ -10,11 +10,14 @@
 #include "prt/support/stopwatch.h"
 #include "record.h"
 #include "scene/sealed.h"
+#include "surface/fit_choice.h"
+#include "surface/fitted_light.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace prt {
 namespace {
@@ -27,6 +30,8 @@ void check_raster_options(const BakeOptions& options) {
     if (options.target_error)
         throw Error(
             "method raster takes the same directions everywhere: use method trace for an error to reach");
+    if (options.fit == FitMode::surface)
+        throw Error("method raster takes the same directions everywhere: use method trace for --fit surface");
     if (options.tracer.raster_resolution < 16 || options.tracer.raster_resolution > 16384)
         throw Error("the resolution of depth maps must lie in 16..16384");
 }
@@ -44,6 +49,8 @@ void check_options(const BakeOptions& options) {
         throw Error(fmt::format("rays to lamps must lie in 1..{}, not {}", kMostRays, options.lamps.rays));
     if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
         throw Error("the error to reach must be finite and above 0");
+    if (options.target_error && options.fit == FitMode::surface)
+        throw Error("an error to reach is one of vertices: it does not go with a fit to the surface");
     if (!(options.subsurface.metres_per_unit > 0 && std::isfinite(options.subsurface.metres_per_unit)))
         throw Error("metres per unit must be finite and above 0");
     if (options.tracer.method == BakeMethod::raster)
@@ -54,9 +61,13 @@ void check_options(const BakeOptions& options) {
 SealedIn find_sealed_in(const BakePlan& plan, const Tracer& tracer, const Transfer& direct,
                         const std::stop_token& stop) {
     // Depth maps do not resolve the last hundredth.
-    const SealedOptions options{.most_visibility = tracer.method() == BakeMethod::trace ? 0 : 0.01,
-                                .seed = plan.options.seed};
-    const Sealed sealed = find_sealed(plan.scene, plan.receivers(), direct, options, stop);
+    const double darkest = tracer.method() == BakeMethod::trace ? 0 : 0.01 * kY00;
+    std::vector<std::uint32_t> dark;
+    for (const std::uint32_t p : receivers_on_surfaces(plan.receivers()))
+        if (static_cast<double>(direct.vector(p)[0]) <= darkest)
+            dark.push_back(p);
+    const Sealed sealed =
+        find_sealed(plan.scene, plan.receivers(), std::move(dark), plan.options.seed, stop);
     const auto fronts = static_cast<std::ptrdiff_t>(plan.transport->fronts);
     SealedIn found;
     found.rays = sealed.rays;
@@ -66,6 +77,62 @@ SealedIn find_sealed_in(const BakePlan& plan, const Tracer& tracer, const Transf
         found.refill = Refill(MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts),
                               sealed.receivers);
     return found;
+}
+
+/// Light as it was measured, and how it becomes that of receivers.
+struct Measured {
+    DirectLight direct;
+    SealedIn sealed;
+    std::optional<SurfaceFit> fit; ///< none: measured at receivers
+};
+
+/// Asks points between vertices whether to fit, where that is not said.
+FitChoice fit_choice(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistics,
+                     const Progress& progress) {
+    const BakeOptions& options = plan.options;
+    const bool possible = tracer.method() == BakeMethod::trace && !options.target_error;
+    if (options.fit == FitMode::vertex || !possible)
+        return {};
+    const FitTrial trial = try_fit(plan, tracer, progress);
+    FitChoice choice = choose_fit(trial, options.rays);
+    choice.better = choice.better || options.fit == FitMode::surface;
+    statistics.fit = {.samples = choice.better ? choice.samples : 0,
+                      .between = trial.between,
+                      .sampling = trial.sampling};
+    statistics.rays += trial.rays;
+    return choice;
+}
+
+Measured measure(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistics, const Progress& progress) {
+    const FitChoice choice = fit_choice(plan, tracer, statistics, progress.part(0, 0.03));
+    if (choice.better) {
+        FittedLight fitted = trace_fitted(plan, tracer, choice.samples, progress.part(0.03, 1));
+        statistics.fit.factor_entries = fitted.fit.solver.entries();
+        return {std::move(fitted.direct), std::move(fitted.sealed), std::move(fitted.fit)};
+    }
+    Measured measured{trace_direct(plan, tracer, progress.part(0.03, 1)), {}, {}};
+    measured.sealed = find_sealed_in(plan, tracer, measured.direct.transfer, progress.stop);
+    return measured;
+}
+
+/// Light of the plan's lamps at its receivers.
+LampLight measure_lamps(const BakePlan& plan, Tracer& tracer, const std::optional<SurfaceFit>& fit,
+                        const Progress& progress) {
+    LampTask task{.scene = plan.scene,
+                  .receivers = fit ? fit->samples.receivers : plan.receivers(),
+                  .lamps = plan.lamps,
+                  .options = plan.options.lamps,
+                  .channels = plan.lamp_channels(),
+                  .seed = plan.options.seed,
+                  .threads = plan.options.threads};
+    if (!fit)
+        return tracer.lamp_light(task, progress);
+    task.options.rays = std::max(1, task.options.rays / static_cast<int>(fit->samples.layers));
+    const LampLight at_samples = tracer.lamp_light(task, progress);
+    LampLight light{zero_transfer(at_samples.transfer.layout, plan.receivers().size()), at_samples.rays};
+    fit->apply(at_samples.transfer.vectors, light.transfer.vectors, light.transfer.dimension(),
+               plan.options.threads);
+    return light;
 }
 
 /// Exit transfer of the scene's receivers from that of both sides of its surfaces.
@@ -151,22 +218,18 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 
     const double traced_sky = plan.bounces != 0 ? 0.85 : 0.95,
                  traced_all = plan.lamps.empty() ? traced_sky : traced_sky - 0.2;
-    DirectLight direct = trace_direct(plan, *tracer, progress.part(0, traced_all));
-    LampLight lamps = tracer->lamp_light({.scene = traced,
-                                          .receivers = plan.receivers(),
-                                          .lamps = plan.lamps,
-                                          .options = plan.options.lamps,
-                                          .channels = plan.lamp_channels(),
-                                          .seed = options.seed,
-                                          .threads = options.threads},
-                                         progress.part(traced_all, traced_sky));
-    direct.rays += lamps.rays;
-    const SealedIn sealed = find_sealed_in(plan, *tracer, direct.transfer, progress.stop);
+    BakeStatistics asked;
+    Measured measured = measure(plan, *tracer, asked, progress.part(0, traced_all));
+    DirectLight& direct = measured.direct;
+    const SealedIn& sealed = measured.sealed;
+    LampLight lamps = measure_lamps(plan, *tracer, measured.fit, progress.part(traced_all, traced_sky));
+    direct.rays += lamps.rays + asked.rays;
     seconds.tracing = tracer->seconds();
 
     const Stopwatch transport;
     const TransportOperators operators{sealed.refill, plan.diffusion,
-                                       direct.gather ? &*direct.gather : nullptr};
+                                       direct.gather ? &*direct.gather : nullptr,
+                                       measured.fit ? &*measured.fit : nullptr};
     Propagated exit =
         propagate_all(plan, std::move(direct.transfer), operators, progress.part(traced_sky, 1));
     if (!plan.lamps.empty()) {
@@ -179,6 +242,8 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     seconds.transport = transport.seconds();
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit));
+    result.statistics.fit = asked.fit;
+    result.baked.record.fitted = measured.fit.has_value();
     seconds.all = all.seconds();
     result.statistics.seconds = seconds;
     progress.update(1);

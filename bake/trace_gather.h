@@ -6,7 +6,22 @@
 #include "prt/tracer.h"
 #include "transport/gather.h"
 
+#include <cstdint>
+#include <map>
+#include <vector>
+
 namespace prt {
+
+/// Receivers by their number of rays.
+using ByRays = std::map<std::uint32_t, std::vector<std::uint32_t>>;
+
+/// For rays that serve both.
+TraceOptions gather_options(const BakePlan& plan, std::uint32_t rays);
+
+/// Asks whether the rows of `copies` times so many receivers fit: by what there can be at most, else by what
+/// some of them see. Returns how many rays were traced. Throws `Error` where they do not fit.
+std::size_t check_gather_memory(const BakePlan& plan, Tracer& tracer, const Receivers& receivers,
+                                const ByRays& by_rays, std::size_t copies, const std::stop_token& stop);
 
 struct TracedGather {
     GatherOperator gather;

@@ -27,20 +27,15 @@ bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays)
 
 } // namespace
 
-Sealed find_sealed(const TraceScene& scene, const Receivers& receivers, const Transfer& direct,
-                   const SealedOptions& options, const std::stop_token& stop) {
+Sealed find_sealed(const TraceScene& scene, const Receivers& receivers, std::vector<std::uint32_t> dark,
+                   std::uint64_t seed, const std::stop_token& stop) {
     Sealed result{std::vector<bool>(receivers.size()), 0};
-    const double darkest = options.most_visibility * kY00;
-    std::vector<std::uint32_t> dark;
-    for (const std::uint32_t p : receivers_on_surfaces(receivers))
-        if (static_cast<double>(direct.vector(p)[0]) <= darkest)
-            dark.push_back(p);
     // Few rays for all of them, more for those that may be.
     EmbreeTracer prober(scene);
     std::vector<std::uint8_t> sealed(receivers.size(), 0); // bytes, as several threads write
     for (const int probes : {16, 128, 1024}) {
         Transfer unused = zero_transfer(1, 1, receivers.size());
-        trace_receivers(prober, receivers, dark, {.order = 1, .rays = probes, .seed = options.seed}, unused,
+        trace_receivers(prober, receivers, dark, {.order = 1, .rays = probes, .seed = seed}, unused,
                         {{}, stop}, [&](std::uint32_t p, std::span<const Hit> hits) {
                             sealed[p] = looks_sealed(scene.surfaces(), hits, probes);
                         });

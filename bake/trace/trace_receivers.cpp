@@ -2,35 +2,46 @@
 
 #include "prt/trace_receivers.h"
 
+#include "prt/sh_basis.h"
+
 #include <algorithm>
 #include <cassert>
 
 namespace prt {
 
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
-                     const TraceOptions& options, Transfer& transfer, const Progress& progress,
+                     const TraceOptions& options, const VectorSink& take, const Progress& progress,
                      const ReceiverSink& sink) {
     assert(!sink || tracer.notes_hits());
     const auto share = [&](std::size_t done) {
         return static_cast<double>(done) / static_cast<double>(indices.size());
     };
+    const auto dimension = static_cast<std::size_t>(coefficient_count(options.order));
     std::vector<float> vectors;
     for (std::size_t begin = 0; begin < indices.size();) {
         progress.update(share(begin));
         const auto part =
             indices.subspan(begin, std::min(tracer.batch_size(options), indices.size() - begin));
-        vectors.resize(part.size() * transfer.dimension());
+        vectors.resize(part.size() * dimension);
         HitSink batch_sink;
         if (sink)
             batch_sink = [&](std::size_t i, std::span<const Hit> hits) { sink(part[i], hits); };
         tracer.trace(receivers, part, options, vectors, batch_sink,
                      progress.part(share(begin), share(begin + part.size())));
         for (std::size_t i = 0; i < part.size(); ++i)
-            std::copy_n(&vectors[i * transfer.dimension()], transfer.dimension(),
-                        transfer.vector(part[i]).begin());
+            take(part[i], std::span<const float>(&vectors[i * dimension], dimension));
         begin += part.size();
     }
     progress.update(1);
+}
+
+void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
+                     const TraceOptions& options, Transfer& transfer, const Progress& progress,
+                     const ReceiverSink& sink) {
+    const VectorSink take = [&](std::uint32_t p, std::span<const float> vector) {
+        std::copy(vector.begin(), vector.end(), transfer.vector(p).begin());
+    };
+    trace_receivers(tracer, receivers, indices, options, take, progress, sink);
 }
 
 } // namespace prt

@@ -77,9 +77,10 @@ std::vector<glm::vec3> shared_reflectance(const Surfaces& surfaces, const Transp
     return reflectance;
 }
 
-GatherOperator::GatherOperator(const Surfaces& surfaces, const TransportReceivers& receivers, int channels)
+GatherOperator::GatherOperator(const Surfaces& surfaces, const TransportReceivers& receivers, std::size_t rows,
+                               int channels)
     : surfaces_(surfaces), receivers_(receivers), channels_(channels),
-      reflectance_(shared_reflectance(surfaces, receivers)), rows_(receivers.receivers.size()) {}
+      reflectance_(shared_reflectance(surfaces, receivers)), rows_(rows) {}
 
 template <bool Colored>
 GatherOperator::Row GatherOperator::make_row(std::span<const Hit> hits, int rays) const {
@@ -115,8 +116,8 @@ GatherOperator::Row GatherOperator::make_row(std::span<const Hit> hits, int rays
     return sums.finish(Colored ? channels_ : 1);
 }
 
-void GatherOperator::set_row(std::uint32_t receiver, std::span<const Hit> hits, int rays) {
-    rows_[receiver] = reflectance_.empty() ? make_row<true>(hits, rays) : make_row<false>(hits, rays);
+void GatherOperator::set_row(std::size_t row, std::span<const Hit> hits, int rays) {
+    rows_[row] = reflectance_.empty() ? make_row<true>(hits, rays) : make_row<false>(hits, rays);
 }
 
 std::size_t GatherOperator::entries() const {
@@ -131,31 +132,39 @@ std::size_t GatherOperator::bytes() const {
     return rows_.size() * sizeof(Row) + entries() * (4 + 4 * weights);
 }
 
-void GatherOperator::apply(int order, std::span<float> from, std::span<float> to, int threads) const {
+void GatherOperator::reflect(int order, std::span<float> exit, int threads) const {
     const auto coefficients = static_cast<std::size_t>(coefficient_count(order));
     const std::size_t stride = coefficients * static_cast<std::size_t>(channels_);
-    for (std::size_t p = 0; p < reflectance_.size(); ++p)
-        for (std::size_t i = 0; i < stride; ++i)
-            from[p * stride + i] *= reflectance_[p][static_cast<int>(i / coefficients)];
-    parallel_for(rows_.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<SparseRow> rows;
+    parallel_for(reflectance_.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
+            for (std::size_t i = 0; i < stride; ++i)
+                exit[p * stride + i] *= reflectance_[p][static_cast<int>(i / coefficients)];
+    });
+}
+
+void GatherOperator::apply(int order, std::span<const float> from, std::size_t first, std::span<float> to,
+                           int threads) const {
+    const std::size_t stride =
+        static_cast<std::size_t>(coefficient_count(order)) * static_cast<std::size_t>(channels_);
+    parallel_for(to.size() / stride, 64, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<SparseRow> rows;
+        for (std::size_t p = first + begin; p < first + end; ++p)
             rows.push_back({rows_[p].count, rows_[p].sources.get(), rows_[p].weights.get()});
         apply_rows(order, channels_, !reflectance_.empty(), rows, from.data(), &to[begin * stride]);
     });
 }
 
-void GatherOperator::apply_in_double(int order, std::span<const float> from, std::span<double> to,
-                                     int threads) const {
+void GatherOperator::apply_in_double(int order, std::span<const float> from, std::size_t first,
+                                     std::span<double> to, int threads) const {
     const auto coefficients = static_cast<std::size_t>(coefficient_count(order));
     const auto channels = static_cast<std::size_t>(channels_);
     const std::size_t stride = coefficients * channels;
     const bool shared = !reflectance_.empty();
-    parallel_for(rows_.size(), 64, threads, [&](std::size_t begin, std::size_t end) {
+    parallel_for(to.size() / stride, 64, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p) {
             double* const sums = &to[p * stride];
             std::fill_n(sums, stride, 0.0);
-            const Row& row = rows_[p];
+            const Row& row = rows_[first + p];
             for (std::size_t e = 0; e < row.count; ++e)
                 for (std::size_t c = 0; c < channels; ++c) {
                     const std::uint32_t source = row.sources[e];

@@ -19,16 +19,18 @@ namespace prt {
 /// corner; empty where some surface varies within a triangle or lets light through.
 std::vector<glm::vec3> shared_reflectance(const Surfaces& surfaces, const TransportReceivers& receivers);
 
-/// The gather F: (F X)_p,c = sum over entries of weight_c X_source,c. Rows are receivers. Where the
-/// reflectance belongs to the source alone, X is scaled by it beforehand and an entry has one weight for all
+/// The gather F: (F X)_p,c = sum over entries of weight_c X_source,c. Rows are receivers, or samples of the
+/// surface. Where the reflectance belongs to the source alone, X is scaled by it beforehand and an entry has one weight for all
 /// channels.
 class GatherOperator {
 public:
     /// Keeps references to its arguments.
-    GatherOperator(const Surfaces& surfaces, const TransportReceivers& receivers, int channels);
+    GatherOperator(const Surfaces& surfaces, const TransportReceivers& receivers, std::size_t rows,
+                   int channels);
 
-    /// Makes row `receiver` from what `rays` of its rays met. Rows may be made from several threads.
-    void set_row(std::uint32_t receiver, std::span<const Hit> hits, int rays);
+    /// Makes a row from what `rays` of its rays met. Rows may be made from several threads.
+    void set_row(std::size_t row, std::span<const Hit> hits, int rays);
+    std::size_t rows() const { return rows_.size(); }
 
     /// A row holds three entries per ray at most, each a source and a weight per channel.
     static constexpr double kMostBytesPerRay = 3 * 16;
@@ -36,11 +38,17 @@ public:
     std::size_t entries() const;
     std::size_t bytes() const;
 
-    /// to = F from; both [receivers][channels][order²]. `from` is used up.
-    void apply(int order, std::span<float> from, std::span<float> to, int threads) const;
+    /// Multiplies exit transfer [receivers][channels][order²] by the reflectance that belongs to it.
+    void reflect(int order, std::span<float> exit, int threads) const;
 
-    /// The same with sums in double, slower.
-    void apply_in_double(int order, std::span<const float> from, std::span<double> to, int threads) const;
+    /// to = F from for the rows from `first` on, as many as `to` [rows][channels][order²] has, where `from` was
+    /// reflected.
+    void apply(int order, std::span<const float> from, std::size_t first, std::span<float> to,
+               int threads) const;
+
+    /// The same from what was not reflected, with sums in double, slower.
+    void apply_in_double(int order, std::span<const float> from, std::size_t first, std::span<double> to,
+                         int threads) const;
 
     struct Row {
         std::uint32_t count = 0;

@@ -31,18 +31,46 @@ void exit_from_incident(const TransportOperators& operators, int order, int chan
         diffusion.apply(channels, order, vectors, threads);
 }
 
+/// Incident transfer of receivers from exit transfer: `gather(first, to)` writes that of rows.
+template <class Value, class Gather>
+void incident_from_rows(const TransportOperators& operators, std::size_t stride, std::span<Value> incident,
+                        int threads, Gather&& gather) {
+    if (!operators.fit) {
+        gather(0, incident);
+        return;
+    }
+    constexpr std::size_t kBlock = 1 << 14; // samples at a time
+    const FitEquations& equations = operators.fit->equations;
+    std::vector<Value> x(equations.unknowns * stride), some(std::min(kBlock, operators.gather->rows()) * stride);
+    for (std::size_t first = 0; first < operators.gather->rows(); first += kBlock) {
+        const std::span<Value> block(some.data(),
+                                     std::min(kBlock, operators.gather->rows() - first) * stride);
+        gather(first, block);
+        add_samples(equations, first, std::span<const Value>(block), stride, std::span(x));
+    }
+    operators.fit->solver.solve(x, stride, threads);
+    spread_unknowns(equations, std::span<const Value>(x), stride, incident);
+}
+
 /// One bounce: exit transfer from exit transfer.
 ColumnOperator bounce_operator(const TransportOperators& operators, int order, int channels, int threads) {
-    const auto apply = [&operators, order, channels, threads](std::span<float> from, std::span<float> to) {
-        operators.gather->apply(order, from, to, threads);
+    const auto stride = static_cast<std::size_t>(channels * coefficient_count(order));
+    const auto apply = [&operators, order, channels, stride, threads](std::span<float> from,
+                                                                      std::span<float> to) {
+        operators.gather->reflect(order, from, threads);
+        incident_from_rows(operators, stride, to, threads, [&](std::size_t first, std::span<float> rows) {
+            operators.gather->apply(order, from, first, rows, threads);
+        });
         exit_from_incident(operators, order, channels, to, threads);
     };
-    const auto residual = [&operators, order, channels,
-                           threads](std::span<const float> b, std::span<const float> x, std::span<float> r) {
+    const auto residual = [&operators, order, stride, threads](
+                              std::span<const float> b, std::span<const float> x, std::span<float> r) {
         std::vector<double> incident(x.size());
-        operators.gather->apply_in_double(order, x, incident, threads);
-        operators.refill.apply(std::span<double>(incident),
-                               static_cast<std::size_t>(channels * coefficient_count(order)));
+        incident_from_rows(operators, stride, std::span(incident), threads,
+                           [&](std::size_t first, std::span<double> rows) {
+                               operators.gather->apply_in_double(order, x, first, rows, threads);
+                           });
+        operators.refill.apply(std::span<double>(incident), stride);
         for (std::size_t i = 0; i < r.size(); ++i)
             r[i] = static_cast<float>(static_cast<double>(b[i]) - static_cast<double>(x[i]) + incident[i]);
     };

@@ -5,6 +5,7 @@
 #include "prt/support/progress.h"
 #include "prt/transfer.h"
 #include "scene/refill.h"
+#include "surface/surface_fit.h"
 #include "transport/diffusion.h"
 #include "transport/gather.h"
 
@@ -18,6 +19,8 @@ struct TransportOperators {
     const Refill& refill;
     std::span<const DiffusionOperator> diffusion;
     const GatherOperator* gather = nullptr; ///< null: no bounces
+    const SurfaceFit* fit = nullptr;        ///< makes receivers of the samples that `gather` is of; null: it is
+                                            ///< of receivers
 };
 
 struct Propagated {

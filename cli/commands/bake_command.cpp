@@ -23,6 +23,8 @@ struct BakeArguments {
 };
 
 const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
+const std::map<std::string, FitMode> kFits = {
+    {"auto", FitMode::automatic}, {"vertex", FitMode::vertex}, {"surface", FitMode::surface}};
 const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
                                                         {"raster", BakeMethod::raster}};
 const std::map<std::string, std::optional<TransferStorage>> kStorages = {
@@ -163,6 +165,11 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
 void add_method(CLI::App* command, BakeOptions& options) {
     add_backend(command, options.tracer.backend,
                 "gpu: OpenGL 4.5 of any kind; auto: a hardware GPU, else the CPU");
+    options.fit = FitMode::automatic;
+    choice(command, "--fit", options.fit, kFits,
+           "where light is measured: at vertices; over the surface between them, so that the values of "
+           "vertices come nearest to it where they are interpolated; auto: as points between vertices tell",
+           "auto");
     choice(command, "--method", options.tracer.method, kBakeMethods,
            "trace: rays; raster: depth maps from many directions, direct light only, on the GPU", "trace");
     command
@@ -192,6 +199,9 @@ Json statistics_json(const BakeStatistics& s) {
             {"sampling_error_relative_l2", s.sampling_error},
             {"float16_error_relative_l2", s.rounding_error},
             {"remaining_energy", s.remaining_energy},
+            {"fit", s.fit.samples > 0 ? "surface" : "vertex"},
+            {"samples_per_receiver", s.fit.samples},
+            {"interpolation_error_relative_l2", s.fit.between},
             {"lamps", s.lamps.count},
             {"lamp_lights", s.lamps.lights},
             {"lamp_triangles", s.lamps.triangles},
@@ -226,6 +236,11 @@ void add_sentences(const BakeArguments& a, const BakeResult& result, Report& rep
             "{sampling_error_relative_l2:.3f%} estimated");
     else if (s.sampling_error > 0)
         say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
+    if (s.fit.between > 0 || s.fit.samples > 0)
+        say(fmt::format("between vertices direct light would err by {{interpolation_error_relative_l2:.3f%}}: {}",
+                        s.fit.samples > 0
+                            ? "vertices are fitted to {samples_per_receiver} samples of the surface each"
+                            : "it is measured at vertices"));
     if (s.gather.entries > 0)
         say("bounces: {gather_entries} pairs of receivers that light each other, {gather_bytes:.1fM} MB; at "
             "most {remaining_energy:.2g%} of a receiver's light is missing");

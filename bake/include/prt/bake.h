@@ -21,6 +21,14 @@ enum class Inside {
     keep,   ///< they stay dark
 };
 
+/// Where light is measured.
+enum class FitMode {
+    automatic, ///< where some points between vertices tell that it errs less
+    vertex,    ///< at vertices
+    surface,   ///< over the surface between them, and vertices take the values whose interpolation comes
+               ///< nearest to that (Kavan, Bargteil and Sloan 2011)
+};
+
 /// Bounce until nothing is left.
 inline constexpr int kEndlessBounces = -1;
 /// More than that need not be asked for: endless bounces through media end there, too.
@@ -67,7 +75,8 @@ struct BakeOptions {
     int order = 6;
     int rays = 1024;                    ///< per receiver; directions where method is raster
     std::optional<double> target_error; ///< relative L2 to reach, with as many rays as each receiver needs
-    int bounces = 0;                    ///< or kEndlessBounces
+    FitMode fit = FitMode::vertex;
+    int bounces = 0; ///< or kEndlessBounces
     TracerChoice tracer;
     SubsurfaceOptions subsurface;
     LampOptions lamps;
@@ -80,6 +89,13 @@ struct BakeOptions {
 };
 
 struct BakeStatistics {
+    /// How light was measured, and what points between vertices told of it; 0 where none was asked.
+    struct Fit {
+        int samples = 0;      ///< that each receiver's rays are divided among; 0: at vertices
+        double between = 0;   ///< relative L2 of direct light between vertices, were these without noise
+        double sampling = 0;  ///< relative L2 of the rays of one receiver
+        std::size_t factor_entries = 0;
+    };
     struct Receivers {
         std::size_t all = 0;        ///< of the scene
         std::size_t traced = 0;     ///< those on a surface; the others have zero transfer
@@ -89,6 +105,7 @@ struct BakeStatistics {
     };
     struct Seconds {
         double build = 0; ///< acceleration structures and textures
+        double fit = 0;   ///< of vertices to the surface
         TraceSeconds tracing;
         double transport = 0; ///< bounces and subsurface scattering
         double all = 0;
@@ -100,6 +117,7 @@ struct BakeStatistics {
         std::size_t count = 0, lights = 0, triangles = 0; ///< names, and what shines under them
     };
     Receivers receivers;
+    Fit fit;
     std::size_t triangles = 0;
     std::size_t rays = 0; ///< traced in all
     std::string device;

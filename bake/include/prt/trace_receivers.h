@@ -7,9 +7,16 @@ namespace prt {
 /// Takes the hits of a receiver. Called from several threads.
 using ReceiverSink = std::function<void(std::uint32_t receiver, std::span<const Hit> hits)>;
 
-/// Replaces the transfer of receivers[indices] in `transfer`, of one channel, by the direct transfer that
-/// `tracer` finds. Receivers go to it in batches, between which the work can be stopped. `sink` gets their
-/// hits, from a tracer that notes them.
+/// Takes the direct transfer of a receiver, [order²]. Called from one thread, in the order of the receivers.
+using VectorSink = std::function<void(std::uint32_t receiver, std::span<const float> vector)>;
+
+/// Gives `vectors` the direct transfer of receivers[indices] that `tracer` finds. They go to it in batches,
+/// between which the work can be stopped. `sink` gets their hits, from a tracer that notes them.
+void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
+                     const TraceOptions& options, const VectorSink& vectors, const Progress& progress = {},
+                     const ReceiverSink& sink = {});
+
+/// Replaces the transfer of receivers[indices] in `transfer`, of one channel.
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, Transfer& transfer, const Progress& progress = {},
                      const ReceiverSink& sink = {});

@@ -1,0 +1,63 @@
+// Bends where the light bends, and nowhere else.
+
+#include "surface/bend_weights.h"
+
+#include <algorithm>
+
+namespace prt {
+namespace {
+
+/// Weights are noise over signal times this: measured on nine scenes at 256 to 16 384 rays, where 0.1 to 0.3
+/// are best and differ little.
+constexpr double kWeightOfNoise = 0.15;
+/// Signal is at least this share of noise: by chance the two estimates cancel.
+constexpr double kLeastSignal = 0.02;
+constexpr double kLeastWeight = 0.0005, kMostWeight = 5;
+
+/// Sums of squares of bends.
+struct Squares {
+    double all = 0, noise = 0;
+
+    Squares& operator+=(const Squares& other) {
+        all += other.all;
+        noise += other.noise;
+        return *this;
+    }
+};
+
+double squared_bend(const Bend& bend, std::span<const float> x, std::size_t stride) {
+    double sum = 0;
+    for (std::size_t c = 0; c < stride; ++c) {
+        float value = 0;
+        for (std::size_t i = 0; i < bend.unknowns.size(); ++i)
+            value += bend.factors[i] * x[bend.unknowns[i] * stride + c];
+        sum += static_cast<double>(value) * static_cast<double>(value);
+    }
+    return sum;
+}
+
+} // namespace
+
+std::vector<float> bend_weights(const FitEquations& equations, std::span<const float> x,
+                                std::span<const float> noise, std::size_t stride) {
+    std::vector<Squares> round(equations.unknowns);
+    for (const Bend& bend : equations.bends) {
+        const Squares squares{squared_bend(bend, x, stride), squared_bend(bend, noise, stride)};
+        for (const std::uint32_t u : bend.unknowns)
+            round[u] += squares;
+    }
+    std::vector<float> weights;
+    weights.reserve(equations.bends.size());
+    for (const Bend& bend : equations.bends) {
+        Squares near;
+        for (const std::uint32_t u : bend.unknowns)
+            near += round[u];
+        const double signal = std::max(near.all - near.noise, kLeastSignal * near.noise);
+        weights.push_back(static_cast<float>(
+            signal > 0 ? std::clamp(kWeightOfNoise * near.noise / signal, kLeastWeight, kMostWeight)
+                       : kLeastWeight));
+    }
+    return weights;
+}
+
+} // namespace prt

@@ -1,0 +1,31 @@
+#pragma once
+
+#include "surface/fit_equations.h"
+
+#include <memory>
+#include <span>
+
+namespace prt {
+
+/// Solves (M + R) x = b, with M_ij = Σ_s a_s φ_i φ_j and xᵀ R x = Σ_e w_e A_e bend_e(x)². The matrix is
+/// factored once. Thread-safe.
+class FitSolver {
+public:
+    /// `bend_weights` [bends]: w_e, what bending costs against squared error over the surface.
+    FitSolver(const FitEquations& equations, std::span<const float> bend_weights);
+    ~FitSolver();
+    FitSolver(FitSolver&&) noexcept;
+    FitSolver& operator=(FitSolver&&) noexcept;
+
+    /// Of the factor.
+    std::size_t entries() const;
+    /// Replaces b by x, [unknowns][stride]; zero where no sample tells. Deterministic, whatever the threads.
+    void solve(std::span<float> b_then_x, std::size_t stride, int threads) const;
+    void solve(std::span<double> b_then_x, std::size_t stride, int threads) const;
+
+private:
+    struct Factor;
+    std::unique_ptr<Factor> factor_;
+};
+
+} // namespace prt

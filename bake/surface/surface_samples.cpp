@@ -1,0 +1,151 @@
+// Spreads samples over triangles by their area, one at least on each.
+
+#include "surface/surface_samples.h"
+
+#include "scene/interpolated.h"
+#include "trace/sample_sequence.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+/// One side of a triangle.
+struct TriangleSide {
+    std::uint32_t triangle;
+    bool back;
+    double area;
+    glm::vec3 normal; ///< unit, of the plane
+};
+
+std::vector<TriangleSide> sides_of(const Surfaces& surfaces, const TransportReceivers& receivers) {
+    const Receivers& all = receivers.receivers;
+    std::vector<TriangleSide> sides;
+    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
+        const glm::uvec3& c = surfaces.corners(t);
+        const glm::dvec3 a(all.positions[c.x]), b(all.positions[c.y]), d(all.positions[c.z]);
+        const glm::dvec3 normal = glm::cross(b - a, d - a);
+        const double doubled = glm::length(normal);
+        if (!(doubled > 0))
+            continue;
+        for (const bool back : {false, true}) {
+            if (back && (receivers.back.empty() || !surfaces.two_sided(t)))
+                continue;
+            const glm::uvec3 corners = corner_receivers(surfaces, receivers, t, back);
+            if (corners == glm::uvec3(kNoReceiver))
+                continue;
+            sides.push_back({t, back, 0.5 * doubled, glm::vec3((back ? -normal : normal) / doubled)});
+        }
+    }
+    return sides;
+}
+
+/// Shares of a triangle by a point of the unit square.
+glm::vec2 folded(const glm::dvec2& u) {
+    return glm::vec2(u.x + u.y > 1 ? 1.0 - u : u);
+}
+
+/// The mean of the corners' normals by shares; those of the plane where they cancel.
+glm::vec3 normal_at(const Receivers& receivers, const glm::uvec3& corners, const SamplePlace& place,
+                    const glm::vec3& of_plane) {
+    glm::vec3 sum(0);
+    const std::array<float, 3> shares = place.shares();
+    for (int i = 0; i < 3; ++i)
+        if (corners[i] != kNoReceiver)
+            sum += shares[static_cast<std::size_t>(i)] * receivers.normals[corners[i]];
+    const float length = glm::length(sum);
+    return length > 0 ? sum / length : of_plane;
+}
+
+struct Sample {
+    SamplePlace place;
+    TriangleSide side;
+    float area;
+    std::uint32_t near; ///< receiver at the nearest corner
+};
+
+std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportReceivers& receivers,
+                                   const SampleSpread& spread) {
+    // Powers of the inverse of the plastic number: the two-dimensional sequence that is most even.
+    constexpr double kPlastic = 1.32471795724474602596;
+    const glm::dvec2 step(1 / kPlastic, 1 / (kPlastic * kPlastic));
+    const std::vector<TriangleSide> sides = sides_of(surfaces, receivers);
+    double area = 0;
+    for (const TriangleSide& side : sides)
+        area += side.area;
+    // What is left of the samples once each side has its one goes by area.
+    const auto spare = static_cast<double>(spread.count - std::min(spread.count, sides.size()));
+    const double per_area = area > 0 ? spare / area : 0;
+    std::vector<Sample> samples;
+    samples.reserve(spread.count);
+    double owed = 0.5;
+    for (const TriangleSide& side : sides) {
+        owed += side.area * per_area;
+        const double more = std::floor(owed);
+        owed -= more;
+        const auto n = static_cast<std::size_t>(more) + 1;
+        const std::uint32_t hash = receiver_seed(2 * side.triangle + (side.back ? 1u : 0u), spread.seed);
+        const glm::dvec2 offset((hash >> 16) / 65536.0, (hash & 0xffff) / 65536.0);
+        const glm::uvec3 corners = corner_receivers(surfaces, receivers, side.triangle, side.back);
+        for (std::size_t i = 0; i < n; ++i) {
+            const SamplePlace place{side.triangle, side.back,
+                                    folded(glm::fract(offset + static_cast<double>(i) * step))};
+            const std::array<float, 3> shares = place.shares();
+            const auto nearest = std::max_element(shares.begin(), shares.end()) - shares.begin();
+            samples.push_back({place, side, static_cast<float>(side.area / static_cast<double>(n)),
+                               corners[static_cast<int>(nearest)]});
+        }
+    }
+    return samples;
+}
+
+} // namespace
+
+glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& receivers,
+                            std::uint32_t triangle, bool back) {
+    glm::uvec3 corners = surfaces.corners(triangle);
+    for (int i = 0; i < 3; ++i) {
+        if (back)
+            corners[i] = receivers.back_of(corners[i]);
+        if (corners[i] != kNoReceiver && receivers.receivers.normals[corners[i]] == glm::vec3(0))
+            corners[i] = kNoReceiver;
+    }
+    return corners;
+}
+
+Receivers SurfaceSamples::layer(std::size_t k) const {
+    Receivers result;
+    for (std::size_t s = k; s < size(); s += layers) {
+        result.positions.push_back(receivers.positions[s]);
+        result.normals.push_back(receivers.normals[s]);
+        result.areas.push_back(receivers.areas[s]);
+        result.starts.push_back(receivers.starts[s]);
+    }
+    return result;
+}
+
+SurfaceSamples sample_surfaces(const Surfaces& surfaces, const TransportReceivers& receivers,
+                               const SampleSpread& spread) {
+    std::vector<Sample> all = spread_samples(surfaces, receivers, spread);
+    std::stable_sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.near < b.near; });
+    SurfaceSamples samples;
+    samples.layers = spread.layers;
+    for (const Sample& sample : all) {
+        const TriangleSide& side = sample.side;
+        samples.places.push_back(sample.place);
+        Receivers& r = samples.receivers;
+        r.positions.push_back(
+            interpolated(receivers.receivers.positions, surfaces.corners(side.triangle), sample.place.uv));
+        r.normals.push_back(
+            normal_at(receivers.receivers, corner_receivers(surfaces, receivers, side.triangle, side.back),
+                      sample.place, side.normal));
+        r.areas.push_back(sample.area);
+        r.starts.push_back(side.normal);
+    }
+    return samples;
+}
+
+} // namespace prt

@@ -1,0 +1,53 @@
+#pragma once
+
+// Points spread over the surfaces of a scene, where light is measured instead of at vertices.
+
+#include "prt/trace_scene.h"
+#include "transport/transport_receivers.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Where a sample lies: shares of the corners of a triangle, of one side of it.
+struct SamplePlace {
+    std::uint32_t triangle; ///< in the order of the scene's primitives and their triangles
+    bool back;              ///< of the triangle
+    glm::vec2 uv;           ///< barycentric coordinates of corners 1 and 2
+
+    std::array<float, 3> shares() const { return {1 - uv.x - uv.y, uv.x, uv.y}; }
+};
+
+/// Samples are receivers of their own: their areas are what they stand for. Arrays are parallel. Each
+/// `layers` that follow one another lie close together and share the net of one receiver's rays: sample
+/// g layers + k is receiver g of layer k.
+struct SurfaceSamples {
+    Receivers receivers;
+    std::vector<SamplePlace> places;
+    std::size_t layers = 1;
+
+    std::size_t size() const { return places.size(); }
+    Receivers layer(std::size_t k) const;
+};
+
+/// The receivers at the corners of a triangle on one side; kNoReceiver where a corner has no normal and
+/// stays dark.
+glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& receivers,
+                            std::uint32_t triangle, bool back);
+
+/// How samples are spread.
+struct SampleSpread {
+    std::size_t count = 0; ///< about so many
+    std::size_t layers = 1;
+    std::uint64_t seed = 0;
+};
+
+/// At least one sample on every side of every triangle that `receivers` are on, the others by area, stratified
+/// within each triangle (the sequence R2 of M. Roberts, 2018, folded into it).
+SurfaceSamples sample_surfaces(const Surfaces& surfaces, const TransportReceivers& receivers,
+                               const SampleSpread& spread);
+
+} // namespace prt
