@@ -6,12 +6,14 @@
 #include "prt/trace_receivers.h"
 #include "trace/embree_tracer.h"
 
+#include <cmath>
 #include <span>
 
 namespace prt {
 namespace {
 
 constexpr double kLeastBacks = 0.98; ///< of all rays; among loose sheets nine of ten may be
+constexpr int kMostProbes = 1024;
 
 /// Whether the hits of so many rays are all of them, and nearly all backs of single-sided surfaces.
 bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays) {
@@ -22,7 +24,9 @@ bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays)
         if (hit.back && !surfaces.two_sided(hit.triangle))
             backs += static_cast<double>(hit.weight);
     }
-    return ended > rays - kRounding && backs >= kLeastBacks * rays;
+    // Of few rays more may meet a front by chance.
+    const double by_chance = rays < kMostProbes ? 3 * std::sqrt((1 - kLeastBacks) * rays) : 0;
+    return ended > rays - kRounding && backs >= kLeastBacks * rays - by_chance;
 }
 
 } // namespace
@@ -33,7 +37,7 @@ Sealed find_sealed(const TraceScene& scene, const Receivers& receivers, std::vec
     // Few rays for all of them, more for those that may be.
     EmbreeTracer prober(scene);
     std::vector<std::uint8_t> sealed(receivers.size(), 0); // bytes, as several threads write
-    for (const int probes : {16, 128, 1024}) {
+    for (const int probes : {16, 128, kMostProbes}) {
         Transfer unused = zero_transfer(1, 1, receivers.size());
         trace_receivers(prober, receivers, dark, {.order = 1, .rays = probes, .seed = seed}, unused,
                         {{}, stop}, [&](std::uint32_t p, std::span<const Hit> hits) {

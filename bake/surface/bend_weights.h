@@ -7,8 +7,9 @@
 
 namespace prt {
 
-/// What bending costs where nothing is known of the light.
-inline constexpr float kPlainBendWeight = 0.003f;
+/// What bending costs where nothing is known of the light; and in a first fit, whose error is to be noise
+/// alone.
+inline constexpr float kPlainBendWeight = 0.02f, kFirstBendWeight = 0.003f;
 
 /// Weights of bends [bends] that tell light from the noise of rays, empirical Bayes: noise over signal, as it
 /// is round each edge. `x` is a first fit, and `noise` [unknowns][stride] what random signs of independent

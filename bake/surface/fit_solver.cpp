@@ -28,13 +28,16 @@ Matrix normal_matrix(const FitEquations& equations, std::span<const float> bend_
         else if (i > j)
             entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
     };
+    // A triangle of one sample that shares no edge has no other values than that of the sample.
+    constexpr double kSlope = 1e-5;
     for (const FitRow& row : equations.rows)
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j)
                 if (row.unknowns[i] != kNoReceiver && row.unknowns[j] != kNoReceiver)
                     add(row.unknowns[i], row.unknowns[j],
-                        static_cast<double>(row.area) * static_cast<double>(row.shares[i]) *
-                            static_cast<double>(row.shares[j]));
+                        static_cast<double>(row.area) *
+                            (static_cast<double>(row.shares[i]) * static_cast<double>(row.shares[j]) +
+                             kSlope * (i == j ? 2.0 : -1.0)));
     for (std::size_t e = 0; e < equations.bends.size(); ++e) {
         const Bend& bend = equations.bends[e];
         for (std::size_t i = 0; i < 4; ++i)

@@ -188,12 +188,19 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each,
 
     const int threads = plan.options.threads;
     const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
-    FitSolver plain(equations, std::vector<float>(equations.bends.size(), kPlainBendWeight));
-    std::vector<float> first = sums.b;
-    plain.solve(first, stride, threads);
-    std::vector<float> rest = traced.signed_rest(std::move(sums.signed_b), first), noise = rest;
-    plain.solve(noise, stride, threads);
-    const FitSolver solver(equations, bend_weights(equations, first, noise, stride));
+    const auto solver_with = [&](float bend_weight) {
+        return FitSolver(equations, std::vector<float>(equations.bends.size(), bend_weight));
+    };
+    std::vector<float> first = sums.b, rest, weights;
+    {
+        const FitSolver solver = solver_with(kFirstBendWeight);
+        solver.solve(first, stride, threads);
+        rest = traced.signed_rest(std::move(sums.signed_b), first);
+        std::vector<float> noise = rest;
+        solver.solve(noise, stride, threads);
+        weights = bend_weights(equations, first, noise, stride);
+    }
+    const FitSolver solver(equations, weights);
     const auto of_receivers = [&](std::vector<float>& b) {
         solver.solve(b, stride, threads);
         Transfer transfer = zero_transfer(plan.options.order, 1, plan.receivers().size());
@@ -205,6 +212,7 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each,
     direct.mean_visibility = mean_visibility(direct.transfer, plan.areas());
     direct.sampling_error = relative_noise(plan.receivers(), direct.transfer, of_receivers(rest));
     progress.update(1);
+    FitSolver plain = solver_with(kPlainBendWeight);
     return {std::move(direct), {std::move(samples), std::move(equations), std::move(plain)}, std::move(sealed)};
 }
 

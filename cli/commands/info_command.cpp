@@ -23,10 +23,11 @@ std::string counted(const std::string& key, std::size_t count, const char* what)
 /// How the transfer was baked; `key` leads to its record.
 std::string record_sentence(const std::string& key, const BakeRecord& record) {
     const bool raster = record.method == BakeMethod::raster;
-    return fmt::format("baked by {} on the {}, {} per vertex, {}, seed {{{}/seed}}",
+    return fmt::format("baked by {} on the {}, {} per vertex{}, {}, seed {{{}/seed}}",
                        raster ? "depth maps" : "rays", record.backend == Backend::cpu ? "CPU" : "GPU",
                        counted(key + "/rays_per_receiver", static_cast<std::size_t>(record.rays),
                                raster ? "direction" : "ray"),
+                       record.fitted ? " over the surface round it" : "",
                        counted(key + "/bounces", static_cast<std::size_t>(record.bounces), "bounce"), key);
 }
 

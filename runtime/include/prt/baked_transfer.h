@@ -32,10 +32,10 @@ struct BakeRecord {
     int rays = 0;    ///< per receiver, the mean where it differs; directions where method is raster
     std::uint64_t seed = 0;
     BakeMethod method = BakeMethod::trace;
-    bool fitted = false; ///< vertices have the values whose interpolation comes nearest to light between them
     Backend backend = Backend::cpu;
     std::string receivers;     ///< receivers_id of the scene
     double sampling_error = 0; ///< estimated relative L2 of the direct light
+    bool fitted = false;       ///< values of vertices come nearest to the light between them, interpolated
 };
 
 /// How the numbers of raw transfer are stored in a file.
