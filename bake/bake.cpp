@@ -66,8 +66,7 @@ SealedIn find_sealed_in(const BakePlan& plan, const Tracer& tracer, const Transf
     for (const std::uint32_t p : receivers_on_surfaces(plan.receivers()))
         if (static_cast<double>(direct.vector(p)[0]) <= darkest)
             dark.push_back(p);
-    const Sealed sealed =
-        find_sealed(plan.scene, plan.receivers(), std::move(dark), plan.options.seed, stop);
+    const Sealed sealed = find_sealed(plan.scene, plan.receivers(), std::move(dark), plan.options.seed, stop);
     const auto fronts = static_cast<std::ptrdiff_t>(plan.transport->fronts);
     SealedIn found;
     found.rays = sealed.rays;
@@ -96,9 +95,8 @@ FitChoice fit_choice(const BakePlan& plan, Tracer& tracer, BakeStatistics& stati
     const FitTrial trial = try_fit(plan, tracer, progress);
     FitChoice choice = choose_fit(trial, options.rays);
     choice.better = choice.better || options.fit == FitMode::surface;
-    statistics.fit = {.samples = choice.better ? choice.samples : 0,
-                      .between = trial.between,
-                      .sampling = trial.sampling};
+    statistics.fit = {
+        .samples = choice.better ? choice.samples : 0, .between = trial.between, .sampling = trial.sampling};
     statistics.rays += trial.rays;
     return choice;
 }

@@ -15,7 +15,7 @@ namespace prt {
 namespace {
 
 double memory_there(const BakeOptions& options) {
-    return options.memory_limit > 0 ? options.memory_limit : available_memory();
+    return options.memory.limit > 0 ? options.memory.limit : available_memory();
 }
 
 double memory_needed(const BakePlan& plan) {
@@ -57,7 +57,7 @@ void check_memory(const BakePlan& plan, double more) {
                         "and {} {:.2g} GB",
                         needed * 1e-9, plan.receivers().size(), plan.options.order, plan.options.rays,
                         plan.bounces != 0 ? ", with bounces" : "",
-                        plan.options.memory_limit > 0 ? "the limit is" : "there are", there * 1e-9));
+                        plan.options.memory.limit > 0 ? "the limit is" : "there are", there * 1e-9));
 }
 
 } // namespace prt

@@ -59,7 +59,6 @@ BakeStatistics statistics_of(const BakePlan& plan, const DirectLight& direct, co
                    .back_sides = plan.receivers().size() - fronts,
                    .sealed = sealed.receivers,
                    .refilled = sealed.refill.size()};
-    s.triangles = plan.scene.surfaces().triangles();
     s.rays = direct.rays + sealed.rays;
     s.mean_visibility = direct.mean_visibility;
     s.sampling_error = direct.sampling_error;
@@ -92,7 +91,8 @@ BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight&
     result.statistics = statistics_of(plan, direct, sealed, exit);
     result.statistics.device = tracer.device();
     BakedTransfer& baked = result.baked;
-    baked.storage = plan.options.storage ? *plan.options.storage : choose_storage(result.statistics);
+    baked.storage =
+        plan.options.memory.storage ? *plan.options.memory.storage : choose_storage(result.statistics);
     baked.record = {.bounces = exit.bounces,
                     .rays = direct.mean_rays,
                     .seed = plan.options.seed,

@@ -80,9 +80,8 @@ TracedGather trace_gather(const BakePlan& plan, Tracer& tracer, std::span<const 
         by_rays[rays_of[p]].push_back(p);
         all += rays_of[p];
     }
-    TracedGather traced{
-        empty_gather(plan, plan.receivers().size()),
-        all + check_gather_memory(plan, tracer, plan.receivers(), by_rays, 1, progress.stop)};
+    TracedGather traced{empty_gather(plan, plan.receivers().size()),
+                        all + check_gather_memory(plan, tracer, plan.receivers(), by_rays, 1, progress.stop)};
     const auto share = [&](std::size_t rays) { return static_cast<double>(rays) / static_cast<double>(all); };
     for (const auto& [rays, members] : by_rays) {
         const TraceOptions options = gather_options(plan, rays);

@@ -5,12 +5,15 @@
 
 #include "prt/bake.h"
 #include "prt/error_measures.h"
+#include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
+#include "prt/surface_reference.h"
 #include "prt/trace_receivers.h"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace prt {
 namespace {
@@ -24,9 +27,12 @@ constexpr std::uint64_t kReferenceSeed = 0x51ed270b7a5d1f3c;
 struct Setup {
     Backend backend;
     BakeMethod method;
+    bool fitted = false;
 };
-constexpr Setup kSetups[] = {
-    {Backend::cpu, BakeMethod::trace}, {Backend::gpu, BakeMethod::trace}, {Backend::gpu, BakeMethod::raster}};
+constexpr Setup kSetups[] = {{Backend::cpu, BakeMethod::trace},
+                             {Backend::cpu, BakeMethod::trace, true},
+                             {Backend::gpu, BakeMethod::trace},
+                             {Backend::gpu, BakeMethod::raster}};
 
 class Bench {
 public:
@@ -40,12 +46,12 @@ public:
         result.receivers = receivers_.size();
         result.triangles = scene_.triangles();
         result.order = options_.order;
-        // The reference and each series take a quarter of the time.
-        double begin = 0.25;
+        // The references and each series take a fifth of the time.
+        double begin = 0.2;
         make_reference(result, progress.part(0, begin));
         for (const Setup& setup : kSetups) {
-            result.series.push_back(measure(setup, progress.part(begin, begin + 0.25)));
-            begin += 0.25;
+            result.series.push_back(measure(setup, progress.part(begin, begin + 0.2)));
+            begin += 0.2;
         }
         progress.update(1);
         return result;
@@ -61,10 +67,12 @@ private:
             sample.push_back(indices_[i]);
         const TraceScene scene(scene_, textures_, {.threads = options_.threads});
         const std::unique_ptr<Tracer> tracer = make_tracer(scene, {.backend = Backend::cpu});
+        surface_.emplace(scene, SurfaceReferenceOptions{.order = options_.order}, progress.part(0, 0.3));
+        result.surface_points = surface_->points();
         reference_ = empty_transfer();
         trace_receivers(*tracer, receivers_, sample,
                         {.order = options_.order, .rays = rays, .seed = kReferenceSeed}, reference_,
-                        progress);
+                        progress.part(0.3, 1));
         areas_.assign(receivers_.size(), 0);
         for (const std::uint32_t p : sample)
             areas_[p] = receivers_.areas[p];
@@ -73,7 +81,7 @@ private:
     }
 
     BenchSeries measure(const Setup& setup, const Progress& progress) const {
-        BenchSeries series{.backend = setup.backend, .method = setup.method};
+        BenchSeries series{.backend = setup.backend, .method = setup.method, .fitted = setup.fitted};
         double per_ray = 0;
         for (int rays = options_.fewest_rays; rays <= options_.most_rays; rays *= 2) {
             const double expected = per_ray * rays;
@@ -85,8 +93,9 @@ private:
             }
             const double share = static_cast<double>(rays) / options_.most_rays;
             try {
-                series.runs.push_back(
-                    measure_run(setup, rays, series.device, progress.part(share / 2, share)));
+                const Progress part = progress.part(share / 2, share);
+                series.runs.push_back(setup.fitted ? measure_fit(rays, series.device, part)
+                                                   : measure_run(setup, rays, series.device, part));
             } catch (const Cancelled&) {
                 throw;
             } catch (const Error& error) {
@@ -123,6 +132,33 @@ private:
         run.parts.transfer -= before.transfer;
         run.rays_per_second = static_cast<double>(indices_.size()) * rays / run.seconds;
         run.relative_l2 = relative_l2(reference_, transfer, areas_);
+        run.surface_l2 = surface_->relative_l2(transfer);
+        return run;
+    }
+
+    /// A whole bake: reading textures is not counted, as for others.
+    BenchRun measure_fit(int rays, std::string& device, const Progress& progress) const {
+        BakeOptions options;
+        options.order = options_.order;
+        options.rays = rays;
+        options.fit = FitMode::surface;
+        options.tracer.backend = Backend::cpu;
+        options.lamps.mode = LampMode::none;
+        options.threads = options_.threads;
+        options.seed = options_.seed;
+        const BakeResult result = bake(scene_, options, progress);
+        const BakeStatistics& s = result.statistics;
+        device = s.device;
+        BenchRun run;
+        run.rays = rays;
+        run.seconds = s.seconds.all;
+        run.seconds_build = s.seconds.build;
+        run.parts = s.seconds.tracing;
+        run.rays_per_second = s.rays_per_second();
+        if (result.baked.transfer.layout.channels() != 1)
+            throw Error("light that comes through colored sheets is not measured between vertices");
+        run.relative_l2 = relative_l2(reference_, result.baked.transfer, areas_);
+        run.surface_l2 = surface_->relative_l2(result.baked.transfer);
         return run;
     }
 
@@ -135,6 +171,7 @@ private:
     std::vector<std::uint32_t> indices_;
     std::vector<float> areas_; ///< of the receivers that the reference has, else zero
     Transfer reference_;
+    std::optional<SurfaceReference> surface_;
 };
 
 } // namespace

@@ -55,7 +55,8 @@ public:
                 continue;
             const std::span<const float> a = at_points.first.vector(s), b = at_points.second.vector(s);
             const auto weight = static_cast<double>(samples_.receivers.areas[s]);
-            bends += weight * product(missing(at_vertices.first, c, s, a), missing(at_vertices.second, c, s, b));
+            bends +=
+                weight * product(missing(at_vertices.first, c, s, a), missing(at_vertices.second, c, s, b));
             noise += weight * squared_distance(a, b) / 2;
             norm += weight * product(a, b);
         }
@@ -89,7 +90,8 @@ private:
         const std::vector<float> light = first_look();
         double mean = 0, areas = 0;
         for (std::size_t p = 0; p < light.size(); ++p) {
-            mean += static_cast<double>(plan_.receivers().areas[p]) * static_cast<double>(light[p] * light[p]);
+            mean +=
+                static_cast<double>(plan_.receivers().areas[p]) * static_cast<double>(light[p] * light[p]);
             areas += static_cast<double>(plan_.receivers().areas[p]);
         }
         mean = areas > 0 ? mean / areas : 0;
@@ -184,18 +186,20 @@ FitChoice choose_fit(const FitTrial& trial, int rays) {
     // ray's noise falls faster than the number of samples grows (n^-1.5 against n^-1), and between vertices
     // half of its square is left.
     constexpr double kBestFit = 0.5, kOfFewSamples = 0.6, kNoise = 0.75;
+    constexpr double kNothing = 1e-3;                  // nobody sees it
     constexpr int kMostSamples = 16, kLeastRays = 128; // of a sample: fewer take longer
     const double between = trial.between * trial.between, noise = trial.sampling * trial.sampling;
     FitChoice best;
     double least = 0;
     for (int samples = 2; samples <= kMostSamples; samples *= 2) {
-        const double error = kBestFit * between * (1 + kOfFewSamples / samples) + kNoise * std::sqrt(samples) * noise;
+        const double error =
+            kBestFit * between * (1 + kOfFewSamples / samples) + kNoise * std::sqrt(samples) * noise;
         if (samples > 2 && (rays / samples < kLeastRays || error >= least))
             break;
         best.samples = samples;
         least = error;
     }
-    best.better = least < between + noise / 2;
+    best.better = trial.between > kNothing && least < between + noise / 2;
     return best;
 }
 

@@ -16,9 +16,8 @@ void number_unknowns(const TransportReceivers& receivers, FitEquations& equation
         return std::tuple(p >= receivers.fronts, at.x, at.y, at.z, n.x, n.y, n.z);
     };
     std::vector<std::uint32_t> order = receivers_on_surfaces(all);
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return key(a) != key(b) ? key(a) < key(b) : a < b;
-    });
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return key(a) != key(b) ? key(a) < key(b) : a < b; });
     std::vector<std::uint32_t> first(all.size(), kNoReceiver); // of those that are alike
     for (std::size_t i = 0; i < order.size(); ++i)
         first[order[i]] = i > 0 && key(order[i]) == key(order[i - 1]) ? first[order[i - 1]] : order[i];
@@ -51,8 +50,8 @@ std::vector<FitTriangle> triangles_over(const Surfaces& surfaces, const Transpor
             if (std::ranges::count(triangle.unknowns, kNoReceiver) > 0)
                 continue;
             for (std::size_t i = 0; i < 3; ++i)
-                triangle.corners[i] = glm::dvec3(
-                    receivers.receivers.positions[surfaces.corners(t)[static_cast<int>(i)]]);
+                triangle.corners[i] =
+                    glm::dvec3(receivers.receivers.positions[surfaces.corners(t)[static_cast<int>(i)]]);
             triangles.push_back(triangle);
         }
     return triangles;

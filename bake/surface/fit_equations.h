@@ -1,7 +1,7 @@
 #pragma once
 
 // Which values vertices must have so that their interpolation comes nearest to samples of the surface (L.
-// Kavan, A. W. Bargteil and P.-P. Sloan, "Least Squares Vertex Baking", EGSR 2011; docs/math.md, section 7).
+// Kavan, A. W. Bargteil and P.-P. Sloan, "Least Squares Vertex Baking", EGSR 2011; docs/math.md, section 14).
 
 #include "surface/smoothness.h"
 #include "surface/surface_samples.h"
@@ -20,8 +20,8 @@ struct FitRow {
     float area; ///< m²
 };
 
-/// The least-squares problem Σ_s a_s (Σ_i φ_i(s) x_i - T_s)². Receivers of one position and normal on the same
-/// side of surfaces are one unknown x_i; those on no surface are none, and stay dark.
+/// The least-squares problem Σ_s a_s (Σ_i φ_i(s) x_i - T_s)². Receivers of one position and normal on the
+/// same side of surfaces are one unknown x_i; those on no surface are none, and stay dark.
 struct FitEquations {
     std::vector<std::uint32_t> unknown_of; ///< [receivers], kNoReceiver: none
     std::size_t unknowns = 0;

@@ -90,8 +90,8 @@ private:
         if (plan_.bounces != 0) {
             if (!direct.gather) {
                 const auto rays = static_cast<std::uint32_t>(rays_);
-                direct.rays += check_gather_memory(plan_, tracer_, layer, {{rays, indices}},
-                                                   samples_.layers, progress.stop);
+                direct.rays += check_gather_memory(plan_, tracer_, layer, {{rays, indices}}, samples_.layers,
+                                                   progress.stop);
                 direct.gather.emplace(plan_.scene.surfaces(), *plan_.transport, samples_.size(),
                                       plan_.channels);
             }
@@ -117,9 +117,8 @@ private:
     void set_row(std::size_t sample, std::span<const Hit> hits, GatherOperator& gather) const {
         thread_local std::vector<Hit> others;
         others.clear();
-        std::copy_if(hits.begin(), hits.end(), std::back_inserter(others), [&](const Hit& hit) {
-            return hit.triangle != samples_.places[sample].triangle;
-        });
+        std::copy_if(hits.begin(), hits.end(), std::back_inserter(others),
+                     [&](const Hit& hit) { return hit.triangle != samples_.places[sample].triangle; });
         gather.set_row(sample, others, rays_);
     }
 
@@ -177,9 +176,9 @@ double relative_noise(const Receivers& receivers, const Transfer& light, const T
 FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each, const Progress& progress) {
     const std::size_t on_surfaces = receivers_on_surfaces(plan.receivers()).size();
     const auto layers = static_cast<std::size_t>(samples_each);
-    SurfaceSamples samples = sample_surfaces(
-        plan.scene.surfaces(), *plan.transport,
-        {.count = on_surfaces * layers, .layers = layers, .seed = plan.options.seed});
+    SurfaceSamples samples =
+        sample_surfaces(plan.scene.surfaces(), *plan.transport,
+                        {.count = on_surfaces * layers, .layers = layers, .seed = plan.options.seed});
     FitEquations equations = fit_equations(plan.scene.surfaces(), *plan.transport, samples);
     SampleTracer traced(plan, tracer, samples, equations);
     DirectLight direct;
@@ -213,7 +212,8 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each,
     direct.sampling_error = relative_noise(plan.receivers(), direct.transfer, of_receivers(rest));
     progress.update(1);
     FitSolver plain = solver_with(kPlainBendWeight);
-    return {std::move(direct), {std::move(samples), std::move(equations), std::move(plain)}, std::move(sealed)};
+    return {
+        std::move(direct), {std::move(samples), std::move(equations), std::move(plain)}, std::move(sealed)};
 }
 
 } // namespace prt

@@ -4,8 +4,8 @@
 
 namespace prt {
 
-/// Samples of the surface, and the operator from light at them to light at receivers (docs/math.md, section
-/// 7).
+/// Samples of the surface, and the operator from light at them to light at receivers (section 14 of
+/// docs/math.md).
 struct SurfaceFit {
     SurfaceSamples samples;
     FitEquations equations;

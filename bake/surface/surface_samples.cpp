@@ -130,7 +130,8 @@ Receivers SurfaceSamples::layer(std::size_t k) const {
 SurfaceSamples sample_surfaces(const Surfaces& surfaces, const TransportReceivers& receivers,
                                const SampleSpread& spread) {
     std::vector<Sample> all = spread_samples(surfaces, receivers, spread);
-    std::stable_sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.near < b.near; });
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Sample& a, const Sample& b) { return a.near < b.near; });
     SurfaceSamples samples;
     samples.layers = spread.layers;
     for (const Sample& sample : all) {
@@ -139,9 +140,9 @@ SurfaceSamples sample_surfaces(const Surfaces& surfaces, const TransportReceiver
         Receivers& r = samples.receivers;
         r.positions.push_back(
             interpolated(receivers.receivers.positions, surfaces.corners(side.triangle), sample.place.uv));
-        r.normals.push_back(
-            normal_at(receivers.receivers, corner_receivers(surfaces, receivers, side.triangle, side.back),
-                      sample.place, side.normal));
+        r.normals.push_back(normal_at(receivers.receivers,
+                                      corner_receivers(surfaces, receivers, side.triangle, side.back),
+                                      sample.place, side.normal));
         r.areas.push_back(sample.area);
         r.starts.push_back(side.normal);
     }

@@ -45,8 +45,8 @@ struct SampleSpread {
     std::uint64_t seed = 0;
 };
 
-/// At least one sample on every side of every triangle that `receivers` are on, the others by area, stratified
-/// within each triangle (the sequence R2 of M. Roberts, 2018, folded into it).
+/// At least one sample on every side of every triangle that `receivers` are on, the others by area,
+/// stratified within each triangle (the sequence R2 of M. Roberts, 2018, folded into it).
 SurfaceSamples sample_surfaces(const Surfaces& surfaces, const TransportReceivers& receivers,
                                const SampleSpread& spread);
 

@@ -77,8 +77,8 @@ std::vector<glm::vec3> shared_reflectance(const Surfaces& surfaces, const Transp
     return reflectance;
 }
 
-GatherOperator::GatherOperator(const Surfaces& surfaces, const TransportReceivers& receivers, std::size_t rows,
-                               int channels)
+GatherOperator::GatherOperator(const Surfaces& surfaces, const TransportReceivers& receivers,
+                               std::size_t rows, int channels)
     : surfaces_(surfaces), receivers_(receivers), channels_(channels),
       reflectance_(shared_reflectance(surfaces, receivers)), rows_(rows) {}
 

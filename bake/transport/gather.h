@@ -20,8 +20,8 @@ namespace prt {
 std::vector<glm::vec3> shared_reflectance(const Surfaces& surfaces, const TransportReceivers& receivers);
 
 /// The gather F: (F X)_p,c = sum over entries of weight_c X_source,c. Rows are receivers, or samples of the
-/// surface. Where the reflectance belongs to the source alone, X is scaled by it beforehand and an entry has one weight for all
-/// channels.
+/// surface. Where the reflectance belongs to the source alone, X is scaled by it beforehand and an entry has
+/// one weight for all channels.
 class GatherOperator {
 public:
     /// Keeps references to its arguments.
@@ -41,8 +41,8 @@ public:
     /// Multiplies exit transfer [receivers][channels][order²] by the reflectance that belongs to it.
     void reflect(int order, std::span<float> exit, int threads) const;
 
-    /// to = F from for the rows from `first` on, as many as `to` [rows][channels][order²] has, where `from` was
-    /// reflected.
+    /// to = F from for the rows from `first` on, as many as `to` [rows][channels][order²] has, where `from`
+    /// was reflected.
     void apply(int order, std::span<const float> from, std::size_t first, std::span<float> to,
                int threads) const;
 

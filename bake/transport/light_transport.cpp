@@ -41,7 +41,8 @@ void incident_from_rows(const TransportOperators& operators, std::size_t stride,
     }
     constexpr std::size_t kBlock = 1 << 14; // samples at a time
     const FitEquations& equations = operators.fit->equations;
-    std::vector<Value> x(equations.unknowns * stride), some(std::min(kBlock, operators.gather->rows()) * stride);
+    std::vector<Value> x(equations.unknowns * stride),
+        some(std::min(kBlock, operators.gather->rows()) * stride);
     for (std::size_t first = 0; first < operators.gather->rows(); first += kBlock) {
         const std::span<Value> block(some.data(),
                                      std::min(kBlock, operators.gather->rows() - first) * stride);
@@ -63,8 +64,8 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
         });
         exit_from_incident(operators, order, channels, to, threads);
     };
-    const auto residual = [&operators, order, stride, threads](
-                              std::span<const float> b, std::span<const float> x, std::span<float> r) {
+    const auto residual = [&operators, order, stride, threads](std::span<const float> b,
+                                                               std::span<const float> x, std::span<float> r) {
         std::vector<double> incident(x.size());
         incident_from_rows(operators, stride, std::span(incident), threads,
                            [&](std::size_t first, std::span<double> rows) {

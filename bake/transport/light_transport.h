@@ -19,8 +19,8 @@ struct TransportOperators {
     const Refill& refill;
     std::span<const DiffusionOperator> diffusion;
     const GatherOperator* gather = nullptr; ///< null: no bounces
-    const SurfaceFit* fit = nullptr;        ///< makes receivers of the samples that `gather` is of; null: it is
-                                            ///< of receivers
+    const SurfaceFit* fit = nullptr; ///< makes receivers of the samples that `gather` is of; null: it is
+                                     ///< of receivers
 };
 
 struct Propagated {

@@ -117,7 +117,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             [&options](const std::uint64_t& bytes) {
                 if (bytes > std::uint64_t{1} << 60) // what a negative number is taken for
                     throw CLI::ValidationError("--memory-limit", "is no size that memory can have");
-                options.memory_limit = static_cast<double>(bytes);
+                options.memory.limit = static_cast<double>(bytes);
             },
             "bytes that the bake may take; otherwise what the machine or its container has")
         ->transform(CLI::AsSizeValue(true))
@@ -185,7 +185,6 @@ Json statistics_json(const BakeStatistics& s) {
             {"back_sides", s.receivers.back_sides},
             {"receivers_sealed", s.receivers.sealed},
             {"receivers_refilled", s.receivers.refilled},
-            {"triangles", s.triangles},
             {"rays", s.rays},
             {"device", s.device},
             {"seconds", s.seconds.all},
@@ -237,10 +236,10 @@ void add_sentences(const BakeArguments& a, const BakeResult& result, Report& rep
     else if (s.sampling_error > 0)
         say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
     if (s.fit.between > 0 || s.fit.samples > 0)
-        say(fmt::format("between vertices direct light would err by {{interpolation_error_relative_l2:.3f%}}: {}",
-                        s.fit.samples > 0
-                            ? "vertices are fitted to {samples_per_receiver} samples of the surface each"
-                            : "it is measured at vertices"));
+        say(fmt::format(
+            "between vertices direct light would err by {{interpolation_error_relative_l2:.3f%}}: {}",
+            s.fit.samples > 0 ? "vertices are fitted to {samples_per_receiver} samples of the surface each"
+                              : "it is measured at vertices"));
     if (s.gather.entries > 0)
         say("bounces: {gather_entries} pairs of receivers that light each other, {gather_bytes:.1fM} MB; at "
             "most {remaining_energy:.2g%} of a receiver's light is missing");
@@ -263,6 +262,7 @@ Report report_of(const BakeArguments& a, const BakeResult& result, const Scene& 
     if (a.options.target_error)
         add_figures(report, {{"target_error_relative_l2", *a.options.target_error}});
     Json statistics = statistics_json(result.statistics);
+    statistics["triangles"] = scene.triangles();
     for (const std::string& notice : scene.notices)
         statistics["notices"].push_back(notice);
     add_figures(report, statistics);
@@ -346,7 +346,7 @@ void add_bake(CLI::App& app, Session& session) {
         ->allow_extra_args(false)
         ->type_name("MATERIAL");
     add_method(command, a.options);
-    choice(command, "--storage", a.options.storage, kStorages,
+    choice(command, "--storage", a.options.memory.storage, kStorages,
            "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
     command->add_option("--seed", a.options.seed, "seed of the samples")
         ->capture_default_str()

@@ -144,9 +144,9 @@ TEST(Storage, IsFloat16WhereSamplingErrsTenTimesAsMuch) {
     options.target_error = 5e-4;
     EXPECT_EQ(bake(scene, options).baked.storage, TransferStorage::float32);
     options.target_error.reset();
-    options.storage = TransferStorage::float32;
+    options.memory.storage = TransferStorage::float32;
     EXPECT_EQ(bake(scene, options).baked.storage, TransferStorage::float32);
-    options.storage = TransferStorage::float16;
+    options.memory.storage = TransferStorage::float16;
     const BakeResult result = bake(scene, options);
     EXPECT_EQ(result.baked.storage, TransferStorage::float16);
     Transfer rounded = result.baked.transfer;
@@ -165,7 +165,7 @@ TEST(SamplingError, OfFixedRaysIsNeitherLowNorScattered) {
         options.rays = rays;
         options.seed = seed;
         options.tracer.backend = Backend::cpu;
-        options.storage = TransferStorage::float32;
+        options.memory.storage = TransferStorage::float32;
         return bake(scene, options);
     };
     const Transfer reference = baked(1 << 14, 77).baked.transfer;

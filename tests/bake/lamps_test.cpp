@@ -41,7 +41,7 @@ BakeOptions lamp_options(int bounces = 0) {
     options.order = 2;
     options.rays = 64;
     options.bounces = bounces;
-    options.storage = TransferStorage::float32;
+    options.memory.storage = TransferStorage::float32;
     options.tracer.backend = Backend::cpu;
     return options;
 }

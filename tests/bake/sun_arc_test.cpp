@@ -75,7 +75,7 @@ BakeOptions options_of(LampMode mode) {
     BakeOptions options;
     options.order = 2;
     options.rays = 64;
-    options.storage = TransferStorage::float32;
+    options.memory.storage = TransferStorage::float32;
     options.tracer.backend = Backend::cpu;
     options.lamps.mode = mode;
     return options;

@@ -19,7 +19,7 @@ PARTS = {
     "c": ("runtime/c", "runtime shader image scene", "glm"),
     "render": ("runtime/render", "runtime image scene", "glm"),
     "gl": ("runtime/render/gl", "runtime scene render shader shaders", "glm epoxy glfw"),
-    "bake": ("bake", "runtime scene render shaders", "glm fmt embree"),
+    "bake": ("bake", "runtime scene render shaders", "glm fmt embree Eigen"),
     "bake_gpu": ("bake/trace/gpu", "runtime scene gl bake shaders", "glm embree epoxy"),
     "compress": ("compress", "runtime scene", "glm Eigen"),
     "compress_study": ("compress/study", "runtime scene compress", "glm Eigen faiss"),

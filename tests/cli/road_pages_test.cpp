@@ -70,18 +70,20 @@ TEST_F(Road, BenchMeasuresEveryBackendAndMethod) {
     ASSERT_EQ(bench.status, 0) << bench.err;
     const auto report = read_json(folder / "bench.json");
     EXPECT_EQ(report["reference_rays"], 64 * 64);
-    ASSERT_EQ(report["runs"].size(), 9u); // three ways, three numbers of rays
+    ASSERT_EQ(report["runs"].size(), 12u); // four ways, three numbers of rays
     for (const auto& run : report["runs"]) {
         EXPECT_LT(run["relative_l2"], 1e-5); // a lone triangle is open: no sampling error at all
+        EXPECT_LT(run["surface_l2"], 1e-5);
         EXPECT_GT(run["seconds"], 0);
     }
     expect_standing_alone(folder / "bench.html");
     const std::string drawn = drawn_page(folder / "bench.html");
     if (drawn.empty())
         GTEST_SKIP() << "chromium is not installed";
-    EXPECT_EQ(count(drawn, "<svg"), 2u); // error over time, speed over rays
+    EXPECT_EQ(count(drawn, "<svg"), 3u); // error at and between vertices over time, speed over rays
     EXPECT_EQ(count(drawn, "<td>cpu trace</td>"), 3u);
-    EXPECT_EQ(count(drawn, "<polyline"), 6u);
+    EXPECT_EQ(count(drawn, "<td>cpu trace fitted</td>"), 3u);
+    EXPECT_EQ(count(drawn, "<polyline"), 12u);
     EXPECT_EQ(drawn.find("NaN"), std::string::npos);
     // What a name holds is text, not markup.
     EXPECT_NE(drawn.find("a&lt;b&gt;&amp;.glb"), std::string::npos);

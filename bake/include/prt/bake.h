@@ -71,6 +71,12 @@ struct Repairs {
     Inside inside = Inside::refill;
 };
 
+struct BakeMemory {
+    double limit = 0; ///< bytes; 0: what the machine or its container has
+    /// None: float16 where its rounding is less than a tenth of the sampling error.
+    std::optional<TransferStorage> storage = {};
+};
+
 struct BakeOptions {
     int order = 6;
     int rays = 1024;                    ///< per receiver; directions where method is raster
@@ -81,19 +87,17 @@ struct BakeOptions {
     SubsurfaceOptions subsurface;
     LampOptions lamps;
     Repairs repairs;
-    /// None: float16 where its rounding is less than a tenth of the sampling error.
-    std::optional<TransferStorage> storage = {};
-    double memory_limit = 0; ///< bytes; 0: what the machine or its container has
-    int threads = 0;         ///< 0: all
+    BakeMemory memory;
+    int threads = 0; ///< 0: all
     std::uint64_t seed = 0;
 };
 
 struct BakeStatistics {
     /// How light was measured, and what points between vertices told of it; 0 where none was asked.
     struct Fit {
-        int samples = 0;      ///< that each receiver's rays are divided among; 0: at vertices
-        double between = 0;   ///< relative L2 of direct light between vertices, were these without noise
-        double sampling = 0;  ///< relative L2 of the rays of one receiver
+        int samples = 0;     ///< that each receiver's rays are divided among; 0: at vertices
+        double between = 0;  ///< relative L2 of direct light between vertices, were these without noise
+        double sampling = 0; ///< relative L2 of the rays of one receiver
         std::size_t factor_entries = 0;
     };
     struct Receivers {
@@ -118,7 +122,6 @@ struct BakeStatistics {
     };
     Receivers receivers;
     Fit fit;
-    std::size_t triangles = 0;
     std::size_t rays = 0; ///< traced in all
     std::string device;
     Seconds seconds;

@@ -27,17 +27,21 @@ struct BenchRun {
     TraceSeconds parts;
     double rays_per_second = 0;
     double relative_l2 = 0; ///< against the reference, over its receivers
+    double surface_l2 = 0;  ///< over the surface, interpolated between vertices
 };
 
 struct BenchSeries {
     Backend backend = Backend::cpu;
     BakeMethod method = BakeMethod::trace;
+    bool fitted = false; ///< to samples of the surface
     std::string device = {};
     std::vector<BenchRun> runs = {};
     std::string left_out = {}; ///< what is missing, and why; empty: nothing
 
-    /// "cpu trace"
-    std::string name() const { return std::string(to_string(backend)) + " " + to_string(method); }
+    /// "cpu trace", "cpu trace fitted"
+    std::string name() const {
+        return std::string(to_string(backend)) + " " + to_string(method) + (fitted ? " fitted" : "");
+    }
 };
 
 struct BenchResult {
@@ -46,6 +50,7 @@ struct BenchResult {
     int order = 0;
     int reference_rays = 0; ///< 64 times the most rays
     std::size_t reference_receivers = 0;
+    std::size_t surface_points = 0; ///< of the surface's reference, each of 16 384 rays
     std::vector<BenchSeries> series;
 };
 

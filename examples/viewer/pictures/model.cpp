@@ -67,7 +67,7 @@ std::vector<float> ambient_occlusion(const Model& model, const prt::Progress& pr
     options.rays = kOcclusionRays;
     options.tracer.backend = prt::Backend::cpu; // beside the window's own context
     options.repairs.bad_textures = prt::BadTextures::ignore;
-    options.storage = prt::TransferStorage::float32;
+    options.memory.storage = prt::TransferStorage::float32;
     options.lamps.mode = prt::LampMode::none; // how open a place is, whatever shines there
     const prt::Transfer direct = prt::bake(model.scene, options, progress).baked.transfer;
     // R under uniform light of radiance 1.

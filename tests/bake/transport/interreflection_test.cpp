@@ -407,7 +407,7 @@ TEST(Memory, IsEstimatedFirstAndTooMuchIsRefused) {
     options.order = 10;
     EXPECT_GT(estimate_memory(options, 100'000'000, 200'000'000, 100), 1.2e11);
     options.bounces = 1;
-    options.memory_limit = 20e6;
+    options.memory.limit = 20e6;
     options.tracer.backend = Backend::cpu;
     try {
         bake(make_bowl(0.5).scene, options);
@@ -425,7 +425,7 @@ TEST(Memory, OfBouncesIsWhatRaysReallyMeet) {
     options.rays = 2048;
     options.bounces = 1;
     options.tracer.backend = Backend::cpu;
-    options.memory_limit = 50e6; // as much as 9 600 · 2 048 entries would be, a third of them
+    options.memory.limit = 50e6; // as much as 9 600 · 2 048 entries would be, a third of them
     EXPECT_NO_THROW(bake(scene, options));
 }
 
