@@ -130,6 +130,8 @@ LampLight measure_lamps(const BakePlan& plan, Tracer& tracer, const std::optiona
     LampLight light{zero_transfer(at_samples.transfer.layout, plan.receivers().size()), at_samples.rays};
     fit->apply(at_samples.transfer.vectors, light.transfer.vectors, light.transfer.dimension(),
                plan.options.threads);
+    for (float& v : light.transfer.vectors) // beside a peak the best fit falls below zero
+        v = std::max(v, 0.0f);
     return light;
 }
 
