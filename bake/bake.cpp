@@ -50,7 +50,7 @@ void check_options(const BakeOptions& options) {
     if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
         throw Error("the error to reach must be finite and above 0");
     if (options.target_error && options.fit == FitMode::surface)
-        throw Error("an error to reach is one of vertices: it does not go with a fit to the surface");
+        throw Error("an error to reach is one of vertices: leave out the fit to the surface");
     if (!(options.subsurface.metres_per_unit > 0 && std::isfinite(options.subsurface.metres_per_unit)))
         throw Error("metres per unit must be finite and above 0");
     if (options.tracer.method == BakeMethod::raster)

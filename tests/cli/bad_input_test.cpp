@@ -143,6 +143,11 @@ TEST_F(BadInput, RasterWithBouncesOrOnTheCpu) {
     refuse_bake(scene, {"--method", "raster", "--bounces", "1"});
     refuse_bake(scene, {"--method", "raster", "--backend", "cpu"});
     refuse_bake(scene, {"--method", "raster", "--target-error", "0.1"});
+    refuse_bake(scene, {"--method", "raster", "--fit", "surface"});
+}
+
+TEST_F(BadInput, FitsToAnErrorOfVertices) {
+    refuse_bake(good(), {"--fit", "surface", "--target-error", "0.1"});
 }
 
 TEST_F(BadInput, MediaForMaterialsThatAreNotThere) {

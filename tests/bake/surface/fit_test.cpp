@@ -327,6 +327,39 @@ TEST(FittedBake, BouncesAreAGeometricSeries) {
     }
 }
 
+/// A lamp h over a floor gives 1 / (pi h²) below it, and falls as h / (pi d³).
+TEST(FittedBake, LampsLightAsTheyDoAndNeverTakeLightAway) {
+    Scene scene = SceneBuilder().floor({0, 0, 0}, 2, 16).build();
+    PunctualLight lamp;
+    lamp.name = "lamp";
+    lamp.position = {0.3f, 1, 0};
+    scene.lights = {lamp};
+    const Transfer transfer = bake(scene, fitted_options()).baked.transfer;
+    const std::vector<glm::vec3> lit = exit_radiance(transfer, constant_light(3, glm::vec3(0)));
+    const VertexArray& floor = scene.vertex_arrays[0];
+    for (std::size_t p = 0; p < lit.size(); ++p) {
+        const double d = static_cast<double>(glm::distance(floor.positions[p], lamp.position));
+        // A best fit of cells of 0.25 lies h²/6 of the curvature, 3 / pi at the peak, above it there.
+        EXPECT_NEAR(static_cast<double>(lit[p].x), 1 / (std::numbers::pi * d * d * d), 0.01);
+    }
+    // So near that its light is a peak between vertices: round it the best fit would be below zero.
+    scene.lights[0].position = {0.06f, 0.02f, 0.06f};
+    for (const glm::vec3& v :
+         exit_radiance(bake(scene, fitted_options()).baked.transfer, constant_light(3, glm::vec3(0))))
+        EXPECT_GE(v.x, 0);
+}
+
+TEST(FittedBake, LightsThinSheetsFromBothSides) {
+    Scene sheet = test::painted(SceneBuilder().floor({0, 1, 0}, 1, 4).build(), glm::vec3(0.5f), true);
+    sheet.materials[0].transmission.factor = 0.5f;
+    BakeOptions options = fitted_options();
+    options.bounces = 1;
+    // T = (1 - f) X_front + (f c/rho) X_back with f = 0.5, c/rho = 2: under a uniform sky 0.5 + 1.
+    for (const glm::vec3& lit :
+         exit_radiance(bake(sheet, options).baked.transfer, constant_light(3, glm::vec3(1))))
+        EXPECT_NEAR(lit.x, 1.5f, 1e-4f);
+}
+
 TEST(FittedBake, TakesTheLightOfNeighboursInsideGeometry) {
     // A box on a floor whose cells it covers in the middle: nothing sees these.
     SceneBuilder builder;

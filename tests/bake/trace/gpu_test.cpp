@@ -340,6 +340,9 @@ TEST(GpuBake, OfEveryTransportIsTheCpus) {
         return relative_l2(cpu.baked.transfer, gpu.baked.transfer, areas);
     };
     EXPECT_LT(difference(options), 3e-3);
+    options.fit = FitMode::surface;
+    EXPECT_LT(difference(options), 3e-3);
+    options.fit = FitMode::vertex;
     options.subsurface.media = {{"", {glm::dvec3(20, 30, 40), glm::dvec3(0.5), 1.3}}};
     EXPECT_LT(difference(options), 3e-3);
     options.subsurface.media.clear();
