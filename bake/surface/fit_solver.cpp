@@ -62,6 +62,13 @@ struct FitSolver::Factor {
     Eigen::SimplicialLDLT<Matrix, Eigen::Lower> ldlt;
     Eigen::VectorXd pivots;
 
+    /// The pattern of `matrix` is known.
+    void factor(const Matrix& matrix) {
+        ldlt.factorize(matrix);
+        if (ldlt.info() != Eigen::Success)
+            throw Error("the values of vertices cannot be fitted to the surface");
+        pivots = ldlt.vectorD();
+    }
     std::size_t unknowns() const { return static_cast<std::size_t>(ldlt.rows()); }
     /// Rows of the factor that unknowns have become.
     const int* order() const { return ldlt.permutationP().indices().data(); }
@@ -108,10 +115,13 @@ void FitSolver::Factor::solve(std::span<Value> values, std::size_t stride, int t
 
 FitSolver::FitSolver(const FitEquations& equations, std::span<const float> bend_weights)
     : factor_(std::make_unique<Factor>()) {
-    factor_->ldlt.compute(normal_matrix(equations, bend_weights));
-    if (factor_->ldlt.info() != Eigen::Success)
-        throw Error("the values of vertices cannot be fitted to the surface");
-    factor_->pivots = factor_->ldlt.vectorD();
+    const Matrix matrix = normal_matrix(equations, bend_weights);
+    factor_->ldlt.analyzePattern(matrix);
+    factor_->factor(matrix);
+}
+
+void FitSolver::factor(const FitEquations& equations, std::span<const float> bend_weights) {
+    factor_->factor(normal_matrix(equations, bend_weights));
 }
 
 FitSolver::~FitSolver() = default;

@@ -7,12 +7,15 @@
 
 namespace prt {
 
-/// Solves (M + R) x = b, with M_ij = Σ_s a_s φ_i φ_j and xᵀ R x = Σ_e w_e A_e bend_e(x)². The matrix is
-/// factored once. Thread-safe.
+/// Solves (M + R) x = b, with M_ij = Σ_s a_s φ_i φ_j and xᵀ R x = Σ_e w_e A_e bend_e(x)². Solving is
+/// thread-safe.
 class FitSolver {
 public:
-    /// `bend_weights` [bends]: w_e, what bending costs against squared error over the surface.
+    /// Factors the matrix. `bend_weights` [bends]: w_e, what bending costs against squared error over the
+    /// surface.
     FitSolver(const FitEquations& equations, std::span<const float> bend_weights);
+    /// Factors it anew for other weights, in the order that was found for the first.
+    void factor(const FitEquations& equations, std::span<const float> bend_weights);
     ~FitSolver();
     FitSolver(FitSolver&&) noexcept;
     FitSolver& operator=(FitSolver&&) noexcept;

@@ -187,19 +187,13 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each,
 
     const int threads = plan.options.threads;
     const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));
-    const auto solver_with = [&](float bend_weight) {
-        return FitSolver(equations, std::vector<float>(equations.bends.size(), bend_weight));
-    };
-    std::vector<float> first = sums.b, rest, weights;
-    {
-        const FitSolver solver = solver_with(kFirstBendWeight);
-        solver.solve(first, stride, threads);
-        rest = traced.signed_rest(std::move(sums.signed_b), first);
-        std::vector<float> noise = rest;
-        solver.solve(noise, stride, threads);
-        weights = bend_weights(equations, first, noise, stride);
-    }
-    const FitSolver solver(equations, weights);
+    const auto even = [&](float weight) { return std::vector<float>(equations.bends.size(), weight); };
+    FitSolver solver(equations, even(kFirstBendWeight));
+    std::vector<float> first = sums.b;
+    solver.solve(first, stride, threads);
+    std::vector<float> rest = traced.signed_rest(std::move(sums.signed_b), first), noise = rest;
+    solver.solve(noise, stride, threads);
+    solver.factor(equations, bend_weights(equations, first, noise, stride));
     const auto of_receivers = [&](std::vector<float>& b) {
         solver.solve(b, stride, threads);
         Transfer transfer = zero_transfer(plan.options.order, 1, plan.receivers().size());
@@ -211,9 +205,10 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each,
     direct.mean_visibility = mean_visibility(direct.transfer, plan.areas());
     direct.sampling_error = relative_noise(plan.receivers(), direct.transfer, of_receivers(rest));
     progress.update(1);
-    FitSolver plain = solver_with(kPlainBendWeight);
+    if (plan.bounces != 0 || !plan.lamps.empty()) // their light bends elsewhere
+        solver.factor(equations, even(kPlainBendWeight));
     return {
-        std::move(direct), {std::move(samples), std::move(equations), std::move(plain)}, std::move(sealed)};
+        std::move(direct), {std::move(samples), std::move(equations), std::move(solver)}, std::move(sealed)};
 }
 
 } // namespace prt
