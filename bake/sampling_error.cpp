@@ -5,6 +5,7 @@
 
 #include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
+#include "trace/picked.h"
 #include "trace/scrambles.h"
 
 #include <algorithm>
@@ -30,19 +31,10 @@ std::map<std::uint32_t, double> choose_receivers(const Receivers& receivers, con
         const double visible = static_cast<double>(transfer.vector(p)[0]) / kY00;
         return area_of(receivers, p) * (0.02 + std::clamp(visible * (1 - visible), 0.0, 0.25));
     };
-    double sum = 0;
-    for (const std::uint32_t p : all)
-        sum += likely(p);
-    const auto wanted =
-        static_cast<double>(std::clamp(all.size() / kReceiversPerCheck, kLeastChecked, kMostChecked));
-    const double step = sum / wanted;
+    const std::size_t wanted = std::clamp(all.size() / kReceiversPerCheck, kLeastChecked, kMostChecked);
     std::map<std::uint32_t, double> weights;
-    double reached = 0, next = 0.5 * step;
-    for (const std::uint32_t p : all) {
-        reached += likely(p);
-        for (; next < reached; next += step)
-            weights[p] += step / likely(p);
-    }
+    for (const Picked& picked : pick(all.size(), wanted, [&](std::size_t i) { return likely(all[i]); }))
+        weights[all[picked.index]] = picked.stands_for;
     return weights;
 }
 

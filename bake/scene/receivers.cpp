@@ -9,6 +9,14 @@
 
 namespace prt {
 
+void Receivers::append(const Receivers& from, std::size_t index) {
+    positions.push_back(from.positions[index]);
+    normals.push_back(from.normals[index]);
+    areas.push_back(from.areas[index]);
+    if (!from.starts.empty())
+        starts.push_back(from.starts[index]);
+}
+
 Receivers vertex_receivers(const Scene& scene) {
     Receivers receivers;
     for (const VertexArray& vertices : scene.vertex_arrays) {

@@ -7,6 +7,7 @@
 #include "scene/sealed.h"
 #include "surface/surface_samples.h"
 #include "trace/embree_tracer.h"
+#include "trace/picked.h"
 
 #include <cmath>
 #include <numeric>
@@ -18,29 +19,18 @@ SurfaceReference::SurfaceReference(const TraceScene& scene, const SurfaceReferen
     const TransportReceivers receivers = without_back_sides(vertex_receivers(scene.scene()));
     const SurfaceSamples dense =
         sample_surfaces(scene.surfaces(), receivers, {.count = 4 * options.points, .seed = options.seed});
-    double area = 0;
-    for (const float a : dense.receivers.areas)
-        area += static_cast<double>(a);
     // Of the samples, of which every triangle has one, so many by area.
+    const auto area = [&](std::size_t s) { return static_cast<double>(dense.receivers.areas[s]); };
     Receivers chosen;
-    const double step = area / static_cast<double>(options.points);
-    double reached = 0, next = 0.5 * step;
-    for (std::size_t s = 0; s < dense.size(); ++s) {
-        reached += static_cast<double>(dense.receivers.areas[s]);
-        if (!(next < reached))
-            continue;
-        const double picks = std::ceil((reached - next) / step);
-        next += picks * step;
-        const glm::uvec3 corners =
-            corner_receivers(scene.surfaces(), receivers, dense.places[s].triangle, false);
+    for (const Picked& picked : pick(dense.size(), options.points, area)) {
+        const SamplePlace& place = dense.places[picked.index];
+        const glm::uvec3 corners = corner_receivers(scene.surfaces(), receivers, place.triangle, false);
         if (glm::any(glm::equal(corners, glm::uvec3(kNoReceiver))))
             continue;
-        points_.push_back(
-            {{corners.x, corners.y, corners.z}, dense.places[s].shares(), static_cast<float>(picks * step)});
-        chosen.positions.push_back(dense.receivers.positions[s]);
-        chosen.normals.push_back(dense.receivers.normals[s]);
-        chosen.areas.push_back(points_.back().area);
-        chosen.starts.push_back(dense.receivers.starts[s]);
+        points_.push_back({{corners.x, corners.y, corners.z},
+                           place.shares(),
+                           static_cast<float>(picked.stands_for * area(picked.index))});
+        chosen.append(dense.receivers, picked.index);
     }
     EmbreeTracer tracer(scene);
     light_ = zero_transfer(options.order, 1, chosen.size());

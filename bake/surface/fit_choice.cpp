@@ -5,6 +5,7 @@
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
 #include "surface/surface_samples.h"
+#include "trace/picked.h"
 #include "trace/scrambles.h"
 
 #include <algorithm>
@@ -106,24 +107,11 @@ private:
             return static_cast<double>(dense.receivers.areas[s]) *
                    (static_cast<double>((high - low) * (high - low)) + kLeastLikely * mean);
         };
-        double sum = 0;
-        for (std::size_t s = 0; s < dense.size(); ++s)
-            sum += likely(s);
-        const double step = sum / static_cast<double>(count);
         SurfaceSamples some;
-        double reached = 0, next = 0.5 * step;
-        for (std::size_t s = 0; s < dense.size(); ++s) {
-            reached += likely(s);
-            if (!(next < reached))
-                continue;
-            double stands_for = 0;
-            for (; next < reached; next += step)
-                stands_for += step / likely(s);
-            some.places.push_back(dense.places[s]);
-            some.receivers.positions.push_back(dense.receivers.positions[s]);
-            some.receivers.normals.push_back(dense.receivers.normals[s]);
-            some.receivers.starts.push_back(dense.receivers.starts[s]);
-            some.receivers.areas.push_back(static_cast<float>(stands_for) * dense.receivers.areas[s]);
+        for (const Picked& picked : pick(dense.size(), count, likely)) {
+            some.places.push_back(dense.places[picked.index]);
+            some.receivers.append(dense.receivers, picked.index);
+            some.receivers.areas.back() *= static_cast<float>(picked.stands_for);
         }
         return some;
     }

@@ -118,12 +118,8 @@ glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& 
 
 Receivers SurfaceSamples::layer(std::size_t k) const {
     Receivers result;
-    for (std::size_t s = k; s < size(); s += layers) {
-        result.positions.push_back(receivers.positions[s]);
-        result.normals.push_back(receivers.normals[s]);
-        result.areas.push_back(receivers.areas[s]);
-        result.starts.push_back(receivers.starts[s]);
-    }
+    for (std::size_t s = k; s < size(); s += layers)
+        result.append(receivers, s);
     return result;
 }
 

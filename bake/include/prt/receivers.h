@@ -21,6 +21,8 @@ struct Receivers {
     std::vector<glm::vec3> starts = {};
 
     std::size_t size() const { return positions.size(); }
+    /// Appends receiver `index` of `from`, whose starts are as empty as here.
+    void append(const Receivers& from, std::size_t index);
 };
 
 /// Every vertex of the scene, in the order of its vertex arrays, with a third of the area of its triangles.
