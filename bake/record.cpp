@@ -94,6 +94,7 @@ BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight&
     baked.storage =
         plan.options.memory.storage ? *plan.options.memory.storage : choose_storage(result.statistics);
     baked.record = {.bounces = exit.bounces,
+                    .endless = plan.bounces == kEndlessBounces,
                     .rays = direct.mean_rays,
                     .seed = plan.options.seed,
                     .method = tracer.method(),

@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include "light_set.h"
+#include "no_shadow.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
@@ -271,20 +272,6 @@ Report report_of(const BakeArguments& a, const BakeResult& result, const Scene& 
     return report;
 }
 
-/// Surfaces of these materials stop no light.
-void leave_out_shadows(Scene& scene, const std::vector<std::string>& names) {
-    for (const std::string& name : names) {
-        bool found = false;
-        for (Material& material : scene.materials)
-            if (material.name == name) {
-                material.casts_shadow = false;
-                found = true;
-            }
-        if (!found)
-            throw Error("no material is called '" + name + "'");
-    }
-}
-
 BakeResult baked(const BakeArguments& a, Scene& scene, Session& session) {
     leave_out_shadows(scene, a.no_shadow);
     ProgressBar bar = session.progress_bar("baking");
@@ -339,12 +326,7 @@ void add_bake(CLI::App& app, Session& session) {
                      "sun's arc of a day, or a list")
         ->check(named)
         ->type_name("FILE");
-    command
-        ->add_option("--no-shadow", a.no_shadow,
-                     "a material whose surfaces stop no light, as the sky or the outline that is a shell "
-                     "round a scene")
-        ->allow_extra_args(false)
-        ->type_name("MATERIAL");
+    add_no_shadow(command, a.no_shadow);
     add_method(command, a.options);
     choice(command, "--storage", a.options.memory.storage, kStorages,
            "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");

@@ -1,7 +1,9 @@
 #include "commands/commands.h"
 
+#include "budget/measure_budget.h"
 #include "comparison.h"
 #include "evaluation_lights.h"
+#include "no_shadow.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/error_measures.h"
@@ -22,6 +24,8 @@ struct EvaluateArguments {
     SunCount suns = {std::nullopt};
     int rotations = 1; ///< of each light about +Y
     bool sweep = false;
+    bool budget = false;
+    std::vector<std::string> no_shadow; ///< names of materials
     GltfOptions reading;
     int threads = 0;
 };
@@ -73,10 +77,13 @@ void add_sizes_of_bake(const EvaluateArguments& a, const Transfer& transfer, Rep
 }
 
 std::vector<Path> check(const EvaluateArguments& a) {
-    if (a.shipped.empty() && !a.sweep)
+    if (a.shipped.empty() && !a.sweep && !a.budget)
         throw CLI::ValidationError(
             "evaluate", "compares two files: prt evaluate BAKED.glb SHIPPED.glb; or measures what the "
-                        "compressor makes of one: prt evaluate BAKED.glb --sweep");
+                        "compressor makes of one: prt evaluate BAKED.glb --sweep; or where the error of a "
+                        "picture comes from: prt evaluate BAKED.glb [SHIPPED.glb] --budget");
+    if (a.budget && a.rotations != 1)
+        throw CLI::ValidationError("--rotations", "a budget is under each light as it stands: use --rotate");
     std::vector<Path> inputs = a.lights;
     inputs.insert(inputs.end(), {a.baked, a.shipped});
     return check_outputs({{a.files.json, "--json", {".json"}},
@@ -100,6 +107,18 @@ void run(EvaluateArguments a, Session& session) {
                         .threads = a.threads},
                        baked, lights, report);
     add_sizes_of_bake(a, baked.baked->transfer, report);
+    if (a.budget)
+        add_budget({.baked = a.baked,
+                    .shipped = a.shipped,
+                    .reading = a.reading,
+                    .lights = {.files = a.lights,
+                               .suns = a.suns,
+                               .reading = a.light_options,
+                               .order = {},
+                               .apart = {},
+                               .threads = a.threads},
+                    .no_shadow = a.no_shadow},
+                   baked, report, session);
     if (a.sweep)
         add_sweep(run_sweep(a, baked, lights, session), report);
     publish(report, a.files, session);
@@ -134,6 +153,11 @@ void add_evaluate(CLI::App& app, Session& session) {
     command->add_flag(
         "--sweep", a.sweep,
         "error against size and shader cost of this compressor and of those it came from; minutes");
+    command->add_flag(
+        "--budget", a.budget,
+        "take the error over the surface, against path tracing, apart by its causes: light, bounces, "
+        "vertices, rays, bytes; and say what to change. Bakes once more");
+    add_no_shadow(command, a.no_shadow);
     add_reading(command, a.reading);
     add_threads(command, a.threads);
     add_reports(command, a.files);

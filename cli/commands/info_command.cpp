@@ -28,7 +28,10 @@ std::string record_sentence(const std::string& key, const BakeRecord& record) {
                        counted(key + "/rays_per_receiver", static_cast<std::size_t>(record.rays),
                                raster ? "direction" : "ray"),
                        record.fitted ? " over the surface round it" : "",
-                       counted(key + "/bounces", static_cast<std::size_t>(record.bounces), "bounce"), key);
+                       record.endless
+                           ? "all bounces"
+                           : counted(key + "/bounces", static_cast<std::size_t>(record.bounces), "bounce"),
+                       key);
 }
 
 void add_scene(const Path& path, const Scene& scene, Report& report) {

@@ -76,6 +76,36 @@ function chart(data) {
   ]);
 }
 
+/** A bar on its line: its name, its parts one behind the other, its value. */
+function bar(data, series, line, scale) {
+  const kName = 150, kLine = 30, top = kTop + 14 + kLine * line;
+  let at = kName;
+  const parts = data.lengths.map((length, part) => {
+    const width = length * scale, from = at;
+    at += width;
+    return svg("rect", { x: from, y: top, width, height: kLine - 8, style: `fill:var(--series-${part % kColors})` },
+      [svg("title", {}, [series[part]])]);
+  });
+  return [
+    svg("text", { x: kName - 8, y: top + 16, "text-anchor": "end" }, [data.name]), ...parts,
+    svg("text", { x: at + 8, y: top + 16 }, [data.value]),
+  ];
+}
+
+/** Bars under one another, and the names of their colors. */
+function bars({ title, series, bars: list }) {
+  const longest = Math.max(...list.map(({ lengths }) => lengths.reduce((sum, length) => sum + length, 0)), 1e-9);
+  const height = kTop + 30 * list.length + 24, step = 110;
+  return svg("svg", { viewBox: `0 0 ${kWidth} ${height}`, role: "img", "aria-label": title }, [
+    ...series.flatMap((name, part) => [
+      svg("rect", { x: 150 + step * part, y: 8, width: 14, height: 14, style: `fill:var(--series-${part % kColors})` }),
+      svg("text", { x: 170 + step * part, y: 20 }, [name]),
+    ]),
+    ...list.flatMap((data, line) => bar(data, series, line, (kWidth - 230) / longest)),
+    svg("text", { x: 150, y: height - 6, class: "soft" }, [title]),
+  ]);
+}
+
 /** Rows of cells in a box that scrolls; `head`: the first row names the columns. */
 function table(rows, head) {
   const cells = (row, name) => element("tr", {}, row.map((text) => element(name, {}, [text])));
@@ -105,8 +135,8 @@ function draw(report) {
   if (report.pictures.length > 0)
     document.body.append(element("div", { class: "pictures" }, report.pictures.map(picture)));
   if (report.figures.length > 0) document.body.append(...titled("Figures", table(report.figures, false)));
-  for (const { title, about, rows, charts } of report.tables) {
-    document.body.append(...titled(title, ...charts.map(chart), table(rows, true)));
+  for (const { title, about, rows, charts, bars: stacks } of report.tables) {
+    document.body.append(...titled(title, ...charts.map(chart), ...stacks.map(bars), table(rows, true)));
     if (about) document.body.append(element("p", {}, [about]));
   }
   for (const note of report.notes) document.body.append(element("p", {}, [`Left out: ${note}.`]));

@@ -73,6 +73,7 @@ Json bake_record_json(const BakeRecord& record) {
             {"bounces", record.bounces},
             {"seed", record.seed},
             {"receivers_id", record.receivers},
+            {"endless", record.endless},
             {"fitted", record.fitted},
             {"sampling_error_relative_l2", record.sampling_error}};
 }

@@ -49,6 +49,19 @@ struct Chart {
     std::vector<ChartSeries> series;
 };
 
+/// A bar of parts one behind the other.
+struct Bar {
+    std::string name, value;     ///< at its beginning and at its end
+    std::vector<double> lengths; ///< [series]
+};
+
+/// Bars under one another, on one scale.
+struct Bars {
+    std::string title;
+    std::vector<std::string> series;
+    std::vector<Bar> bars;
+};
+
 /// Who a table is for.
 enum class Audience { all, files, people };
 
@@ -58,6 +71,7 @@ struct Table {
     std::vector<Column> columns;
     std::vector<std::vector<Json>> rows; ///< [rows][columns]; null: there is none
     std::vector<Chart> charts = {};      ///< before the table, for HTML
+    std::vector<Bars> bars = {};         ///< the same
     Audience audience = Audience::all;
     std::size_t most_shown = 1000; ///< rows that people see
 };

@@ -31,6 +31,13 @@ Json chart_json(const Chart& chart) {
     return {{"x_title", chart.x_title}, {"y_title", chart.y_title}, {"series", series}};
 }
 
+Json bars_json(const Bars& bars) {
+    Json list = Json::array();
+    for (const Bar& bar : bars.bars)
+        list.push_back({{"name", bar.name}, {"value", bar.value}, {"lengths", bar.lengths}});
+    return {{"title", bars.title}, {"series", bars.series}, {"bars", list}};
+}
+
 /// Cells as text, the head first.
 Json table_json(const Table& table) {
     const std::vector<std::size_t> columns = columns_for_people(table);
@@ -42,10 +49,13 @@ Json table_json(const Table& table) {
         for (const std::size_t c : columns)
             rows.back().push_back(shown(table.rows[r][c], table.columns[c]));
     }
-    Json charts = Json::array();
+    Json charts = Json::array(), bars = Json::array();
+    for (const Bars& one : table.bars)
+        bars.push_back(bars_json(one));
     for (const Chart& chart : table.charts)
         charts.push_back(chart_json(chart));
-    return {{"title", table.title}, {"about", table.about}, {"rows", rows}, {"charts", charts}};
+    return {
+        {"title", table.title}, {"about", table.about}, {"rows", rows}, {"charts", charts}, {"bars", bars}};
 }
 
 /// What people see of a report, for report/page.js.

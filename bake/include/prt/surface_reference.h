@@ -2,16 +2,12 @@
 
 // How far a bake is from the light between its vertices. Experimental.
 
-#include "prt/receivers.h"
 #include "prt/support/progress.h"
+#include "prt/surface_points.h"
 #include "prt/trace_scene.h"
 #include "prt/transfer.h"
 
-#include <glm/vec3.hpp>
-
-#include <array>
 #include <cstdint>
-#include <vector>
 
 namespace prt {
 
@@ -34,12 +30,7 @@ public:
     std::size_t points() const { return points_.size(); }
 
 private:
-    struct Point {
-        std::array<std::uint32_t, 3> receivers;
-        std::array<float, 3> shares;
-        float area;
-    };
-    std::vector<Point> points_;
+    SurfacePoints points_;
     Transfer light_; ///< [points]
 };
 

@@ -88,6 +88,8 @@ Json record_json(const BakeRecord& record) {
     if (!record.receivers.empty())
         json["receivers"] = record.receivers;
     json["samplingError"] = record.sampling_error;
+    if (record.endless)
+        json["endless"] = true;
     if (record.fitted)
         json["fitted"] = true;
     return json;
@@ -102,6 +104,7 @@ BakeRecord read_record(const Json& json) {
     record.seed = count_or_zero<std::uint64_t>(json, "seed");
     record.receivers = read_hash(json);
     record.sampling_error = json.value("samplingError", 0.0);
+    record.endless = json.value("endless", false);
     record.fitted = json.value("fitted", false);
     if (!(record.sampling_error >= 0))
         throw Error("samplingError of the bake is negative");

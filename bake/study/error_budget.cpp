@@ -1,0 +1,186 @@
+// Products of differences from two independent references: their noise has no mean. Intervals by resampling
+// points (B. Efron, "Bootstrap Methods: Another Look at the Jackknife", 1979).
+
+#include "prt/error_budget.h"
+
+#include "prt/bake.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+namespace prt {
+namespace {
+
+using Radiance = std::vector<glm::vec3>;
+
+/// Sums over points that are drawn anew, by which intervals are found.
+class Resampling {
+public:
+    explicit Resampling(const SurfacePoints& points, const SurfaceRadiance& reference) {
+        constexpr std::size_t kTimes = 400; // the 2.5th percentile is then the tenth of them
+        std::mt19937_64 random(1);
+        std::vector<double> square(points.size());
+        for (std::size_t p = 0; p < points.size(); ++p)
+            square[p] = static_cast<double>(glm::dot(reference.truth(0)[p] + reference.suns()[p],
+                                                     reference.truth(1)[p] + reference.suns()[p]));
+        areas_.assign(points.receivers.areas.begin(), points.receivers.areas.end());
+        counts_.assign(kTimes, std::vector<float>(points.size(), 0));
+        std::uniform_int_distribution<std::size_t> any(0, points.size() - 1);
+        for (std::vector<float>& counts : counts_)
+            for (std::size_t i = 0; i < counts.size(); ++i)
+                ++counts[any(random)];
+        norm_ = sum(square, nullptr);
+        for (const std::vector<float>& counts : counts_)
+            norms_.push_back(sum(square, &counts));
+    }
+
+    /// Of `values` [points], whose mean by area is wanted.
+    SquaredError estimate(std::span<const double> values) const {
+        SquaredError error;
+        if (!(norm_ > 0))
+            return error;
+        error.value = sum(values, nullptr) / norm_;
+        std::vector<double> drawn;
+        for (std::size_t t = 0; t < counts_.size(); ++t)
+            if (norms_[t] > 0)
+                drawn.push_back(sum(values, &counts_[t]) / norms_[t]);
+        std::sort(drawn.begin(), drawn.end());
+        const auto at = [&](double share) {
+            return drawn[static_cast<std::size_t>(share * static_cast<double>(drawn.size() - 1))];
+        };
+        error.low = at(0.025);
+        error.high = at(0.975);
+        return error;
+    }
+
+private:
+    double sum(std::span<const double> values, const std::vector<float>* counts) const {
+        double total = 0;
+        for (std::size_t p = 0; p < values.size(); ++p)
+            total += areas_[p] * values[p] * (counts ? static_cast<double>((*counts)[p]) : 1.0);
+        return total;
+    }
+
+    std::vector<double> areas_;
+    std::vector<std::vector<float>> counts_;
+    std::vector<double> norms_;
+    double norm_ = 0;
+};
+
+double product(const glm::vec3& a, const glm::vec3& b) {
+    return glm::dot(glm::dvec3(a), glm::dvec3(b));
+}
+
+/// `value(p)` of all points.
+template <class Value>
+std::vector<double> of_points(const SurfacePoints& points, Value&& value) {
+    std::vector<double> values(points.size());
+    for (std::size_t p = 0; p < values.size(); ++p)
+        values[p] = value(p);
+    return values;
+}
+
+} // namespace
+
+const char* to_string(ErrorCause cause) {
+    static constexpr const char* kNames[] = {"light", "bounces", "vertices", "rays", "bytes"};
+    return kNames[static_cast<std::size_t>(cause)];
+}
+
+double SquaredError::root() const {
+    return std::sqrt(std::max(value, 0.0));
+}
+
+double ErrorBudget::sum() const {
+    double all = 0;
+    for (const SquaredError& cause : causes)
+        all += cause.value;
+    return all;
+}
+
+ErrorCause ErrorBudget::largest() const {
+    const auto most = std::max_element(causes.begin(), causes.end(),
+                                       [](const auto& a, const auto& b) { return a.value < b.value; });
+    return static_cast<ErrorCause>(most - causes.begin());
+}
+
+ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut,
+                         const InterpolatedRadiance& radiance) {
+    const Resampling resampling(points, reference);
+    const auto estimate = [&](auto&& value) { return resampling.estimate(of_points(points, value)); };
+    const BandCut endless{cut.order, kEndlessBounces, cut.factors};
+    const std::span<const glm::vec3> truth[2] = {reference.truth(0), reference.truth(1)};
+    const Radiance bands[2] = {reference.under(endless, 0), reference.under(endless, 1)};
+    const Radiance wanted[2] = {reference.under(cut, 0), reference.under(cut, 1)};
+    const auto &baked = radiance.baked, &repeated = radiance.repeated, &shipped = radiance.shipped;
+    ErrorBudget budget;
+    budget.of(ErrorCause::light) = estimate(
+        [&](std::size_t p) { return product(bands[0][p] - truth[0][p], bands[1][p] - truth[1][p]); });
+    budget.of(ErrorCause::bounces) = estimate(
+        [&](std::size_t p) { return product(wanted[0][p] - bands[0][p], wanted[1][p] - bands[1][p]); });
+    budget.of(ErrorCause::vertices) = estimate([&](std::size_t p) {
+        return 0.5 * (product(baked[p] - wanted[0][p], repeated[p] - wanted[1][p]) +
+                      product(baked[p] - wanted[1][p], repeated[p] - wanted[0][p]));
+    });
+    // Half of the squared difference of two alike; else what `baked` shares with its own noise: of the
+    // product all else, which has no noise of `baked`, has no mean.
+    budget.of(ErrorCause::rays) = estimate([&](std::size_t p) {
+        const glm::vec3 noise = baked[p] - repeated[p];
+        return radiance.alike ? 0.5 * product(noise, noise)
+                              : product(noise, baked[p] - 0.5f * (wanted[0][p] + wanted[1][p]));
+    });
+    budget.of(ErrorCause::bytes) =
+        estimate([&](std::size_t p) { return product(shipped[p] - baked[p], shipped[p] - baked[p]); });
+    const auto total = of_points(
+        points, [&](std::size_t p) { return product(shipped[p] - truth[0][p], shipped[p] - truth[1][p]); });
+    budget.total = resampling.estimate(total);
+    budget.together = {budget.total.value - budget.sum(), 0, 0};
+    return budget;
+}
+
+SquaredError cut_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut) {
+    const Radiance first = reference.under(cut, 0), second = reference.under(cut, 1);
+    return Resampling(points, reference).estimate(of_points(points, [&](std::size_t p) {
+        return product(first[p] - reference.truth(0)[p], second[p] - reference.truth(1)[p]);
+    }));
+}
+
+SquaredError split_error(const SurfacePoints& points, const SurfaceRadiance& reference,
+                         const QuarterCorners& quarters, const SurfaceRadiance& corners, const BandCut& cut) {
+    Radiance missing[2];
+    for (int half = 0; half < 2; ++half) {
+        const Radiance here = reference.under(cut, half), at_corners = corners.under(cut, half);
+        for (std::size_t p = 0; p < points.size(); ++p) {
+            glm::vec3 sum = -here[p];
+            for (std::size_t i = 0; i < 3; ++i)
+                sum += quarters.shares[p][i] * at_corners[3 * p + i];
+            missing[half].push_back(sum);
+        }
+    }
+    return Resampling(points, reference).estimate(of_points(points, [&](std::size_t p) {
+        return product(missing[0][p], missing[1][p]);
+    }));
+}
+
+ErrorBudget mean_budget(std::span<const ErrorBudget> budgets) {
+    ErrorBudget mean;
+    const double share = 1 / static_cast<double>(budgets.size());
+    const auto add = [share](SquaredError& sum, const SquaredError& one) {
+        sum.value += share * one.value;
+        sum.low += share * one.low;
+        sum.high += share * one.high;
+    };
+    for (const ErrorBudget& budget : budgets) {
+        for (std::size_t c = 0; c < kErrorCauses; ++c)
+            add(mean.causes[c], budget.causes[c]);
+        add(mean.together, budget.together);
+        add(mean.total, budget.total);
+    }
+    return mean;
+}
+
+} // namespace prt

@@ -1,0 +1,61 @@
+#include "budget/budget.h"
+
+#include "prt/support/error.h"
+
+namespace prt::cli {
+namespace {
+
+SurfacePoints points_of(const TraceScene& scene, const BudgetEffort& effort, const Progress& progress) {
+    SurfacePoints points = surface_points(
+        scene, {.count = effort.points, .seed = effort.seed, .threads = effort.threads}, {{}, progress.stop});
+    if (points.size() == 0)
+        throw Error("has no surface that light reaches, so that there is no error to take apart");
+    return points;
+}
+
+/// At the points; lamps are off.
+std::vector<glm::vec3> radiance_at(const BudgetReference& reference, const Transfer& transfer,
+                                   Lighting lighting, int threads) {
+    lighting.lamps.assign(transfer.layout.lamps(), glm::vec3(0));
+    return interpolated(reference.points(), exit_radiance(transfer, lighting, threads));
+}
+
+} // namespace
+
+BudgetReference::BudgetReference(const Scene& scene, const std::vector<BudgetLight>& lights,
+                                 const BudgetEffort& effort, const Progress& progress)
+    : lights_(lights), scene_(scene, load_textures(scene, BadTextures::ignore), {.threads = effort.threads}),
+      points_(points_of(scene_, effort, progress)) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const auto count = static_cast<double>(lights.size());
+        radiance_.emplace_back(
+            scene_, points_, lights[i].measured,
+            SurfaceRadianceOptions{.paths = effort.paths, .seed = effort.seed, .threads = effort.threads},
+            progress.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
+    }
+}
+
+double BudgetReference::cut_error(int order, int bounces) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        sum += prt::cut_error(points_, radiance_[i], cut(i, order, bounces)).value;
+    return sum / static_cast<double>(lights_.size());
+}
+
+std::vector<ErrorBudget> budgets(const BudgetReference& reference, const BudgetStages& stages, int threads) {
+    std::vector<ErrorBudget> all;
+    const int order = stages.baked.layout.order;
+    for (std::size_t i = 0; i < reference.lights().size(); ++i) {
+        const Lighting lighting = reference.lights()[i].lighting(order);
+        const auto at_points = [&](const Transfer& transfer) {
+            return radiance_at(reference, transfer, lighting, threads);
+        };
+        InterpolatedRadiance radiance{at_points(stages.baked), at_points(stages.repeated), {}, stages.alike};
+        radiance.shipped = stages.shipped ? at_points(*stages.shipped) : radiance.baked;
+        all.push_back(error_budget(reference.points(), reference.of(i),
+                                   reference.cut(i, order, stages.bounces), radiance));
+    }
+    return all;
+}
+
+} // namespace prt::cli

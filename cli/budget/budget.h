@@ -1,0 +1,59 @@
+#pragma once
+
+// What a picture's errors come from, under each of several lights.
+
+#include "budget/budget_lights.h"
+#include "prt/error_budget.h"
+#include "prt/support/progress.h"
+
+#include <optional>
+#include <vector>
+
+namespace prt::cli {
+
+struct BudgetEffort {
+    std::size_t points = 2048;
+    int paths = 256; ///< from each, in each half
+    std::uint64_t seed = 0x9e3779b97f4a7c15;
+    int threads = 0;
+};
+
+/// A scene, points on it, and what path tracing says of them under each light. Stays where it is.
+class BudgetReference {
+public:
+    /// Keeps references to `scene` and `lights`. Throws `Error` where no surface can be seen.
+    BudgetReference(const Scene& scene, const std::vector<BudgetLight>& lights, const BudgetEffort& effort,
+                    const Progress& progress);
+
+    const std::vector<BudgetLight>& lights() const { return lights_; }
+    const SurfacePoints& points() const { return points_; }
+    const TraceScene& scene() const { return scene_; }
+    const SurfaceRadiance& of(std::size_t light) const { return radiance_[light]; }
+
+    /// What a bake of that order and of so many bounces could hold under a light.
+    BandCut cut(std::size_t light, int order, int bounces) const {
+        return {order, bounces, lights_[light].factors(order)};
+    }
+    /// Squared relative error of light and bounces, the mean over all lights.
+    double cut_error(int order, int bounces) const;
+
+private:
+    const std::vector<BudgetLight>& lights_;
+    TraceScene scene_;
+    SurfacePoints points_;
+    std::vector<SurfaceRadiance> radiance_; ///< [lights]
+};
+
+/// Transfer of the stages: as baked, by the same bake with another seed, and as shipped.
+struct BudgetStages {
+    const Transfer& baked;
+    const Transfer& repeated;
+    const Transfer* shipped = nullptr; ///< null: not compressed
+    int bounces = 0;                   ///< or kEndlessBounces
+    bool alike = true;                 ///< both bakes have as many rays
+};
+
+/// [lights]
+std::vector<ErrorBudget> budgets(const BudgetReference& reference, const BudgetStages& stages, int threads);
+
+} // namespace prt::cli

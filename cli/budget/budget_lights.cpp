@@ -1,0 +1,137 @@
+#include "budget/budget_lights.h"
+
+#include "evaluation_lights.h"
+
+#include <glm/common.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace prt::cli {
+namespace {
+
+/// The sky that coefficients describe, dark where they are negative.
+Image drawn(const Light& light) {
+    constexpr int kWidth = 256; // a texel is a tenth of what ten bands resolve
+    const Light sky = deringed(light);
+    Image image{kWidth, kWidth / 2, {}};
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            image.pixels.push_back(glm::max(
+                radiance(sky, glm::vec3(lat_long_direction(image.width, image.height, x + 0.5, y + 0.5))),
+                glm::vec3(0)));
+    return image;
+}
+
+/// Suns as rays meet them: wide ones as many, evenly over the disc.
+std::vector<Sun> as_seen_by_rays(std::span<const SunDisc> discs) {
+    constexpr int kParts = 16;
+    std::vector<Sun> suns;
+    for (const SunDisc& disc : discs) {
+        const int parts = disc.half_angle > 0 ? kParts : 1;
+        for (int i = 0; i < parts; ++i) { // on a spiral (docs/math.md, eq. 41)
+            const double radius = disc.half_angle * std::sqrt((i + 0.5) / parts),
+                         angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+            const glm::dvec3 to(disc.towards),
+                across = glm::normalize(
+                    glm::cross(to, std::abs(to.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
+            const glm::dvec3 off = across * std::cos(angle) + glm::cross(to, across) * std::sin(angle);
+            suns.push_back({glm::vec3(parts == 1 ? to : to * std::cos(radius) + off * std::sin(radius)),
+                            disc.irradiance / static_cast<float>(parts)});
+        }
+    }
+    return suns;
+}
+
+/// The image turned about +Y by `texels` of its columns; content moves to the left, as `rotated_about_y`
+/// turns.
+Image turned(Image image, int texels) {
+    for (int y = 0; y < image.height; ++y) {
+        const auto row = image.pixels.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
+        std::rotate(row, row + texels, row + image.width);
+    }
+    return image;
+}
+
+/// From an environment map whose suns are `split`.
+MeasuredLight of_image(const SplitLight& light, const BudgetLightOptions& options) {
+    const Image whole = resampled_lat_long(*light.sky.environment);
+    const double degrees = std::remainder(options.reading.rotation_degrees, 360.0);
+    const int texels =
+        (static_cast<int>(std::lround(degrees / 360 * whole.width)) + whole.width) % whole.width;
+    const double angle = 2 * std::numbers::pi * texels / whole.width;
+    const auto bands = [&](const Environment& environment) {
+        return rotated_about_y(project(environment, kMaxOrder, options.threads), angle);
+    };
+    MeasuredLight measured{.all = DistantLight(turned(whole, texels)),
+                           .sky = {},
+                           .suns = {},
+                           .sky_bands = {},
+                           .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
+    if (light.split.suns.empty()) {
+        measured.sky_bands = bands(*light.sky.environment);
+        return measured;
+    }
+    measured.sky.emplace(turned(resampled_lat_long(light.split.remainder), texels));
+    measured.sky_bands = bands(light.split.remainder);
+    SplitLight suns_alone;
+    suns_alone.split.suns = light.split.suns;
+    suns_alone.sky.light = suns_alone.whole = constant_light(kMaxOrder, glm::vec3(0));
+    measured.suns = cli::turned(suns_alone, angle).split.suns;
+    measured.sun_bands = as_light(measured.suns, kMaxOrder);
+    return measured;
+}
+
+/// From coefficients of kMaxOrder and suns.
+MeasuredLight of_coefficients(const SplitLight& light, bool apart) {
+    const std::vector<Sun> suns = as_seen_by_rays(light.split.suns);
+    const Image sky = drawn(light.sky.light);
+    MeasuredLight measured{.all = DistantLight(sky, suns),
+                           .sky = {},
+                           .suns = {},
+                           .sky_bands = apart ? light.sky.light : light.whole,
+                           .sun_bands = constant_light(kMaxOrder, glm::vec3(0))};
+    if (apart && !suns.empty()) {
+        measured.sky.emplace(sky);
+        measured.suns = light.split.suns;
+        measured.sun_bands = as_light(light.split.suns, kMaxOrder);
+    }
+    return measured;
+}
+
+} // namespace
+
+BandFactors BudgetLight::factors(int order) const {
+    return dering_factors(truncated(measured.sky_bands, order));
+}
+
+Lighting BudgetLight::lighting(int order) const {
+    Lighting lighting{with_band_factors(truncated(measured.sky_bands, order), factors(order))};
+    if (!measured.suns.empty())
+        lighting.suns = truncated(measured.sun_bands, order);
+    return lighting;
+}
+
+std::vector<BudgetLight> budget_lights(const BudgetLightOptions& options) {
+    std::vector<BudgetLight> lights;
+    const SunCount suns = options.apart ? options.suns : SunCount{0};
+    for (const Path& path : options.files) {
+        LightOptions unturned = options.reading;
+        unturned.rotation_degrees = 0;
+        SplitLight light = load_split_light(path, options.order, suns, unturned, options.threads);
+        if (light.sky.environment) {
+            lights.push_back({light.sky.name, of_image(light, options)});
+            continue;
+        }
+        light = load_split_light(path, kMaxOrder, {std::nullopt}, options.reading, options.threads);
+        lights.push_back({light.sky.name, of_coefficients(light, options.apart && suns.count != 0)});
+    }
+    if (lights.empty())
+        for (const SplitLight& light : default_lights(kMaxOrder))
+            lights.push_back({light.sky.name, of_coefficients(light, options.apart)});
+    return lights;
+}
+
+} // namespace prt::cli

@@ -1,0 +1,102 @@
+#include "budget/budget_report.h"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <cmath>
+
+namespace prt::cli {
+namespace {
+
+constexpr ErrorCause kCauses[] = {ErrorCause::light, ErrorCause::bounces, ErrorCause::vertices,
+                                  ErrorCause::rays, ErrorCause::bytes};
+
+/// The error that a bound of its square is.
+double root(double squared) {
+    return std::sqrt(std::max(squared, 0.0));
+}
+
+std::vector<Json> row_of(const std::string& name, const ErrorBudget& budget) {
+    std::vector<Json> row = {name, budget.total.root()};
+    for (const ErrorCause cause : kCauses)
+        row.emplace_back(budget.of(cause).root());
+    row.emplace_back(budget.total.value > 0 ? Json(budget.sum() / budget.total.value) : Json());
+    row.emplace_back(
+        fmt::format("{:.2f} .. {:.2f} %", 100 * root(budget.total.low), 100 * root(budget.total.high)));
+    for (const SquaredError* error :
+         {&budget.total, &budget.of(ErrorCause::light), &budget.of(ErrorCause::bounces),
+          &budget.of(ErrorCause::vertices), &budget.of(ErrorCause::rays), &budget.of(ErrorCause::bytes)}) {
+        row.emplace_back(root(error->low));
+        row.emplace_back(root(error->high));
+    }
+    return row;
+}
+
+Bars bars_of(const std::vector<BudgetLight>& lights, const std::vector<ErrorBudget>& budgets) {
+    Bars bars{"squared error over the surface, shares of the causes; the length is the total", {}, {}};
+    for (const ErrorCause cause : kCauses)
+        bars.series.emplace_back(to_string(cause));
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const double sum = budgets[i].sum(), total = budgets[i].total.root();
+        Bar bar{lights[i].name, fmt::format("{:.2f} %", 100 * total), {}};
+        for (const ErrorCause cause : kCauses)
+            bar.lengths.push_back(sum > 0 ? total * std::max(0.0, budgets[i].of(cause).value) / sum : 0);
+        bars.bars.push_back(std::move(bar));
+    }
+    return bars;
+}
+
+} // namespace
+
+Table budget_table(const std::vector<BudgetLight>& lights, const std::vector<ErrorBudget>& budgets) {
+    Table table{"budget", "Where the error over the surface comes from", "", {}, {}};
+    table.columns = {{"light", "light"}, {"total", "total", Unit::percent, 2}};
+    for (const ErrorCause cause : kCauses)
+        table.columns.push_back(
+            {std::string(to_string(cause)) + "_error", to_string(cause), Unit::percent, 2});
+    table.columns.push_back({"sum_over_total", "sum of squares over total", Unit::plain, 2});
+    table.columns.push_back({"total_interval", "95 % interval of the total"});
+    for (const char* name : {"total", "light", "bounces", "vertices", "rays", "bytes"})
+        for (const char* end : {"_low", "_high"})
+            table.columns.push_back({std::string(name) + end});
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        table.rows.push_back(row_of(lights[i].name, budgets[i]));
+    if (lights.size() > 1)
+        table.rows.push_back(row_of("root mean square", mean_budget(budgets)));
+    table.bars = {bars_of(lights, budgets)};
+    table.about = "Relative L2 of exit radiance for albedo 1 at points all over the surface, against path "
+                  "tracing under the "
+                  "whole light. Light: what the bands cannot hold, with their ringing taken out. Bounces: "
+                  "those not baked. "
+                  "Vertices: light is interpolated between them. Rays: noise of the bake. Bytes: "
+                  "compression. Each is what "
+                  "would be left if it were the only one; their squares add up to that of the total, but for "
+                  "what they do to "
+                  "each other. Suns that can be lit apart are left to the renderer, and count in what errors "
+                  "are relative to.";
+    return table;
+}
+
+std::string budget_in_words(const ErrorBudget& mean, std::size_t lights) {
+    std::vector<std::string> causes;
+    for (const ErrorCause cause : kCauses)
+        causes.push_back(fmt::format("{} {:.2f}", to_string(cause), 100 * mean.of(cause).root()));
+    return fmt::format("{:.2f} % from path tracing{}: {} %", 100 * mean.total.root(),
+                       lights > 1 ? fmt::format(" under these {} lights", lights) : "",
+                       fmt::join(causes, ", "));
+}
+
+void add_advice(const std::optional<Advice>& advice, Report& report) {
+    const std::string text =
+        advice ? fmt::format("against {}: {} would bring {:.2f} to {:.2f} %", to_string(advice->cause),
+                             advice->option, 100 * advice->before, 100 * advice->after)
+               : "no single option takes a fiftieth of that away";
+    add_figure(report, {"advice", "what to change"}, text);
+    if (advice)
+        add_figures(report, {{"advice_cause", to_string(advice->cause)},
+                             {"advice_option", advice->option},
+                             {"total_error", advice->before},
+                             {"total_error_with_advice", advice->after}});
+}
+
+} // namespace prt::cli

@@ -1,0 +1,19 @@
+#pragma once
+
+#include "budget/advice.h"
+#include "report/report.h"
+
+#include <string>
+#include <vector>
+
+namespace prt::cli {
+
+/// A table of all lights with their mean, and a bar for each.
+Table budget_table(const std::vector<BudgetLight>& lights, const std::vector<ErrorBudget>& budgets);
+
+/// "3.10 % from path tracing under these 2 lights: light 2.90, vertices 1.00, ... %"
+std::string budget_in_words(const ErrorBudget& mean, std::size_t lights);
+
+void add_advice(const std::optional<Advice>& advice, Report& report);
+
+} // namespace prt::cli

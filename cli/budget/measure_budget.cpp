@@ -1,0 +1,71 @@
+#include "budget/measure_budget.h"
+
+#include "budget/advice.h"
+#include "budget/budget_report.h"
+#include "budget/repeated_bake.h"
+#include "no_shadow.h"
+#include "prt/bake.h"
+#include "prt/support/error.h"
+#include "solid_materials.h"
+
+namespace prt::cli {
+namespace {
+
+/// Paths do not enter media.
+void check_no_media(const SceneFile& baked) {
+    const std::vector<bool> solid = solid_materials(baked);
+    for (const Primitive& primitive : baked.scene.primitives)
+        if (solid[primitive.material])
+            throw Error(
+                "light of the material '" + baked.scene.materials[primitive.material].name +
+                "' comes out of a medium, which the path tracer that a budget is measured by does not "
+                "enter");
+}
+
+void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFile* shipped, Report& report,
+             Session& session) {
+    const int threads = request.lights.threads;
+    const BakeRecord& record = *baked.record();
+    ProgressBar bar = session.progress_bar("taking errors apart");
+    const Progress progress = bar.progress();
+    const std::vector<BudgetLight> lights = budget_lights(request.lights);
+    const Transfer repeated = repeated_bake(baked, threads, progress.part(0, 0.4));
+    const BudgetEffort effort{.threads = threads};
+    const BudgetReference reference(baked.scene, lights, effort, progress.part(0.4, 0.8));
+    const std::optional<Transfer> coded =
+        shipped ? std::optional(decode(shipped->compressed->transfer, threads)) : std::nullopt;
+    const std::vector<ErrorBudget> all =
+        budgets(reference,
+                {.baked = baked.baked->transfer,
+                 .repeated = repeated,
+                 .shipped = coded ? &*coded : nullptr,
+                 .bounces = record.endless ? kEndlessBounces : record.bounces},
+                threads);
+    const ErrorBudget mean = mean_budget(all);
+    const std::optional<Advice> what =
+        advice({.reference = reference, .baked = baked, .shipped = shipped, .effort = effort}, mean,
+               progress.part(0.8, 1));
+    report.tables.push_back(budget_table(lights, all));
+    add_figure(report, {"surface_error", "error over the surface"}, budget_in_words(mean, lights.size()));
+    add_advice(what, report);
+}
+
+} // namespace
+
+void add_budget(BudgetRequest request, SceneFile& baked, Report& report, Session& session) {
+    about(request.baked, [&] {
+        check_no_media(baked);
+        leave_out_shadows(baked.scene, request.no_shadow);
+    });
+    std::optional<SceneFile> shipped;
+    if (!request.shipped.empty())
+        shipped = load_scene_file(request.shipped, request.reading);
+    if (shipped && !shipped->compressed)
+        throw Error(request.shipped.string() + ": is no compressed file: a budget is of one bake");
+    const TransferLayout& layout = shipped ? layout_of(*shipped) : layout_of(baked);
+    request.lights.order = baked.order();
+    request.lights.apart = layout.has(PartKind::direct);
+    about(request.baked, [&] { measure(request, baked, shipped ? &*shipped : nullptr, report, session); });
+}
+
+} // namespace prt::cli

@@ -1,0 +1,88 @@
+#include "commands/commands.h"
+
+#include "make/make_model.h"
+#include "no_shadow.h"
+#include "options.h"
+#include "outputs.h"
+
+namespace prt::cli {
+namespace {
+
+struct MakeArguments {
+    MakeRequest request;
+    ReportFiles files;
+};
+
+void run(MakeArguments a, Session& session) {
+    MakeRequest& r = a.request;
+    std::vector<Path> inputs = r.lights;
+    inputs.push_back(r.scene);
+    r.reading.outputs = check_outputs({{r.output, "--output", {".glb"}},
+                                       {r.baked, "--baked", {".glb"}},
+                                       {a.files.json, "--json", {".json"}},
+                                       {a.files.html, "--html", {".html", ".htm"}},
+                                       {a.files.csv, "--csv", {".csv"}}},
+                                      inputs);
+    Report report;
+    report.title = "Made of " + r.scene.filename().string();
+    report.origin = {{"scene", r.scene.string()}, {"command", session.command_line()}};
+    make_model(r, report, session);
+    publish(report, a.files, session);
+}
+
+} // namespace
+
+void add_make(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand(
+        "make",
+        "Bake and compress a scene for skies, spending rays, bands, bounces and bytes where they pay");
+    auto options_of_lights = std::make_shared<std::vector<const CLI::Option*>>();
+    auto& a =
+        arguments_for<MakeArguments>(command, [command, &session, options_of_lights](MakeArguments given) {
+            for (const CLI::Option* option : *options_of_lights)
+                for (const std::string& value : option->results())
+                    given.request.light_options += " " + option->get_name() + " " + value;
+            run(std::move(given), session);
+        });
+    MakeRequest& r = a.request;
+    command->add_option("scene", r.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
+    add_output(command, r.output, "compressed .glb to write");
+    command
+        ->add_option(
+            "--lights", r.lights,
+            "environment (.exr, .hdr, .png, .jpg) or light (.json) that it will stand in; repeat it for "
+            "each of several")
+        ->required()
+        ->allow_extra_args(false) // one each time, so that the scene may follow
+        ->check(named)
+        ->type_name("FILE");
+    CLI::Option* error =
+        command
+            ->add_option(
+                "--max-error", r.goal.max_error,
+                "error over the surface at most, against path tracing under these lights, in all; the "
+                "fewest bytes that keep it, then the least time")
+            ->check(above_zero())
+            ->default_str("0.03, or a fifth more than the highest order leaves");
+    command
+        ->add_option("--bytes-per-vertex", r.goal.bytes_per_vertex,
+                     "the best of at most this size, with bases")
+        ->check(above_zero())
+        ->excludes(error);
+    command
+        ->add_option("--seconds", r.goal.seconds,
+                     "about how long it may take: fewer rays and tries; what must be, takes its time")
+        ->check(above_zero());
+    command->add_flag("--best-effort", r.goal.best_effort, "write the nearest where nothing keeps the error");
+    command->add_option("--baked", r.baked, "keep the bake, too")->check(named)->type_name("FILE.glb");
+    add_no_shadow(command, r.no_shadow);
+    const std::size_t before = command->get_options().size();
+    add_light_options(command, r.reading_lights);
+    const auto all = command->get_options();
+    options_of_lights->assign(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
+    add_reading(command, r.reading);
+    add_threads(command, r.threads);
+    add_reports(command, a.files);
+}
+
+} // namespace prt::cli

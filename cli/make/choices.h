@@ -1,0 +1,37 @@
+#pragma once
+
+// How `prt make` divides an error that is allowed among its causes. Squared errors throughout, relative to
+// the squared radiance of the surface.
+
+#include "prt/error_budget.h"
+
+#include <functional>
+
+namespace prt::cli {
+
+/// Shares of what is allowed: bytes get what light, vertices and rays leave. Bands and rays are cheap beside
+/// bytes, which grow without end as their share goes to nothing.
+inline constexpr double kShareOfLight = 0.4, kShareOfBounces = 0.05, kShareOfRays = 0.05;
+/// What light, vertices and rays may take of it together: of the rest bytes would need too many.
+inline constexpr double kMostBeforeBytes = 0.85;
+/// What is aimed at where nothing is said: 3 %, or, where no order holds the light so well, a fifth more than
+/// the highest leaves.
+inline constexpr double kUsualError = 0.03, kAboveLeast = 1.2;
+
+/// Light and bounces of a cut.
+using ErrorOfCut = std::function<double(int order, int bounces)>;
+
+struct CutChoice {
+    int order, bounces;
+    double squared; ///< of light and bounces
+};
+
+/// The fewest bounces without which next to nothing is missing, and the lowest order that leaves a share of
+/// `allowed`, or, where none does, little more than the highest.
+CutChoice choose_cut(const ErrorOfCut& error, double allowed);
+
+/// Rays per receiver, a power of two, so that their noise, `measured` with `rays`, has its share of
+/// `allowed`.
+int choose_rays(double measured, int rays, double allowed);
+
+} // namespace prt::cli

@@ -1,0 +1,335 @@
+#include "make/make_model.h"
+
+#include "budget/budget_report.h"
+#include "budget/measure_budget.h"
+#include "compress_metric.h"
+#include "make/choices.h"
+#include "no_shadow.h"
+#include "prt/encode_glb.h"
+#include "prt/jumps.h"
+#include "prt/search.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace prt::cli {
+namespace {
+
+constexpr int kPilotRays = 256;
+
+/// A file in quotes where a shell needs them.
+std::string as_argument(const Path& path) {
+    const std::string text = path.string();
+    return text.find_first_of(" \t'\"\\$`*?;&|<>(){}#") == std::string::npos ? text : "'" + text + "'";
+}
+
+std::string percent(double squared) {
+    return fmt::format("{:.2f} %", 100 * std::sqrt(std::max(squared, 0.0)));
+}
+
+std::string bounces_in_words(int bounces) {
+    return bounces == kEndlessBounces ? "inf" : fmt::format("{}", bounces);
+}
+
+/// A compression that was tried.
+struct Compressed {
+    ClusteredTransfer transfer;
+    CompressStatistics statistics;
+    double asked = 0; ///< --max-error, or --bytes-per-vertex
+    std::vector<ErrorBudget> budgets;
+    double total() const { return mean_budget(budgets).total.value; }
+};
+
+/// What is spent.
+struct MakePlan {
+    double error = 0; ///< that is aimed at
+    CutChoice cut{};
+    FitMode fit = FitMode::vertex;
+    int rays = 0;
+};
+
+class Maker {
+public:
+    Maker(const MakeRequest& request, Session& session)
+        : r_(request), session_(session), document_(load_gltf(request.scene, request.reading)),
+          scene_(extract_scene(document_)) {
+        print_notices(r_.scene.string(), scene_.notices);
+        leave_out_shadows(scene_, r_.no_shadow);
+        lights_ = budget_lights({.files = r_.lights,
+                                 .suns = {std::nullopt},
+                                 .reading = r_.reading_lights,
+                                 .order = 6,
+                                 .apart = true,
+                                 .threads = r_.threads});
+    }
+
+    void run(Report& report) {
+        look_at_light();
+        pilot();
+        final_bake();
+        Compressed best = r_.goal.bytes_per_vertex ? within_bytes() : within_error();
+        write(best, report);
+    }
+
+private:
+    double allowed() const { return plan_.error * plan_.error; }
+
+    /// Path tracing tells what each order and number of bounces leaves, and so which to take.
+    void look_at_light() {
+        ProgressBar bar = session_.progress_bar("tracing paths");
+        reference_ = std::make_unique<BudgetReference>(scene_, lights_, BudgetEffort{.threads = r_.threads},
+                                                       bar.progress());
+        const auto error = [&](int order, int bounces) { return reference_->cut_error(order, bounces); };
+        const double least = error(kMaxOrder, kEndlessBounces);
+        plan_.error =
+            r_.goal.max_error.value_or(std::max(kUsualError, kAboveLeast * std::sqrt(std::max(least, 0.0))));
+        for (const int order : {2, 4, 6, 8, 10})
+            tried_.push_back(fmt::format("order {}, all bounces: light {}", order,
+                                         percent(error(order, kEndlessBounces))));
+        tried_.push_back(fmt::format("order {}, no bounces: light and bounces {}", kMaxOrder,
+                                     percent(error(kMaxOrder, 0))));
+        plan_.cut = choose_cut(error, allowed());
+        if (r_.goal.max_error && plan_.cut.squared > kMostBeforeBytes * allowed() && !r_.goal.best_effort)
+            throw Error(
+                fmt::format("nothing keeps {} under these lights: what {} bands cannot hold is {} already "
+                            "(--best-effort makes the nearest)",
+                            percent(allowed()), plan_.cut.order, percent(plan_.cut.squared)));
+    }
+
+    BakeOptions bake_options(int rays) const {
+        BakeOptions options;
+        options.order = plan_.cut.order;
+        options.bounces = plan_.cut.bounces;
+        options.rays = rays;
+        options.fit = FitMode::automatic;
+        options.threads = r_.threads;
+        return options;
+    }
+
+    BakeResult baked(const BakeOptions& options, const std::string& title) {
+        ProgressBar bar = session_.progress_bar(title);
+        return bake(scene_, options, bar.progress());
+    }
+
+    /// Two bakes of few rays tell what vertices and rays cost.
+    void pilot() {
+        const Stopwatch stopwatch;
+        BakeOptions options = bake_options(kPilotRays);
+        options.lamps.mode = LampMode::none;
+        const BakedTransfer first = baked(options, "baking a trial").baked;
+        plan_.fit = options.fit = first.record.fitted ? FitMode::surface : FitMode::vertex;
+        options.seed = 1;
+        pilot_ = baked(options, "baking another").baked.transfer;
+        const ErrorBudget budget = mean_budget(budgets(
+            *reference_,
+            {.baked = first.transfer, .repeated = pilot_, .shipped = nullptr, .bounces = plan_.cut.bounces},
+            r_.threads));
+        tried_.push_back(fmt::format(
+            "{} rays, {}: vertices {}, rays {}", kPilotRays, first.record.fitted ? "fitted" : "at vertices",
+            percent(budget.of(ErrorCause::vertices).value), percent(budget.of(ErrorCause::rays).value)));
+        plan_.rays = choose_rays(budget.of(ErrorCause::rays).value, kPilotRays, allowed());
+        const double seconds_per_ray = stopwatch.seconds() / 2 / kPilotRays;
+        if (r_.goal.seconds) { // half of what is left, for compressing takes as long
+            const double left = 0.5 * (*r_.goal.seconds - watch_.seconds());
+            while (plan_.rays > 64 && plan_.rays * seconds_per_ray > left)
+                plan_.rays /= 2;
+        }
+        const double before_bytes =
+            budget.total.value -
+            budget.of(ErrorCause::rays).value * (1 - std::pow(kPilotRays / double(plan_.rays), 1.2));
+        if (r_.goal.max_error && before_bytes > kMostBeforeBytes * allowed() && !r_.goal.best_effort)
+            throw Error(fmt::format(
+                "nothing keeps {} under these lights: {} before compression, by light {}, vertices "
+                "{} (--best-effort makes the nearest)",
+                percent(allowed()), percent(before_bytes), percent(plan_.cut.squared),
+                percent(budget.of(ErrorCause::vertices).value)));
+    }
+
+    /// Written and read, as those do who take one step after the other.
+    void final_bake() {
+        BakeOptions options = bake_options(plan_.rays);
+        options.fit = plan_.fit;
+        const BakeResult result = baked(options, "baking");
+        for (const std::string& notice : result.statistics.notices)
+            notices_.push_back(notice);
+        write_transfer(document_, scene_, result.baked);
+        const std::vector<std::byte> file = encode_glb(document_);
+        session_.write(r_.baked, file);
+        model_.emplace(scene_file_of(parse_gltf(file, r_.output), r_.output));
+        discard_transfer(model_->document);
+    }
+
+    const Transfer& transfer() const { return model_->baked->transfer; }
+
+    /// --max-error or --bytes-per-vertex, as `prt compress` does it with --lights.
+    Compressed compressed(std::optional<double> max_error, std::optional<double> bytes) {
+        const MetricArguments metric{
+            .metric = MetricChoice::outdoor, .lights = r_.lights, .light_options = r_.reading_lights};
+        const SceneSurface surface(model_->scene);
+        ErrorTerms terms = error_terms(metric, given_lights(metric, transfer().layout, r_.threads),
+                                       transfer(), surface.areas, r_.threads);
+        SearchOptions options;
+        options.compress.metric = std::move(terms.metric);
+        options.compress.threads = r_.threads;
+        options.budget.max_error = max_error;
+        options.budget.bytes_per_vertex = bytes;
+        if (max_error) {
+            options.budget.skies = std::move(terms.promised);
+            options.budget.max_jump = kUnseenJump;
+        }
+        ProgressBar bar = session_.progress_bar("compressing");
+        SearchResult found = compress_within(transfer(), surface.view(), options, bar.progress());
+        if (!found.kept && bytes)
+            throw Error(fmt::format("nothing is as small as {} bytes per vertex; the least is {:.2f}", *bytes,
+                                    found.result.statistics.bytes_with_bases(transfer().receivers())));
+        Compressed one{std::move(found.result.transfer),
+                       found.result.statistics,
+                       max_error.value_or(bytes.value_or(0)),
+                       {}};
+        const Transfer coded = decode(one.transfer, r_.threads);
+        one.budgets = budgets(*reference_,
+                              {.baked = transfer(),
+                               .repeated = pilot_,
+                               .shipped = &coded,
+                               .bounces = plan_.cut.bounces,
+                               .alike = plan_.rays == kPilotRays},
+                              r_.threads);
+        tried_.push_back(fmt::format("prt compress {} {:.4g}: {:.2f} bytes per vertex, bytes {}, in all {}",
+                                     max_error ? "--max-error" : "--bytes-per-vertex", one.asked,
+                                     one.statistics.bytes_with_bases(transfer().receivers()),
+                                     percent(mean_budget(one.budgets).of(ErrorCause::bytes).value),
+                                     percent(one.total())));
+        return one;
+    }
+
+    Compressed within_bytes() { return compressed({}, r_.goal.bytes_per_vertex); }
+
+    double size(const Compressed& one) const {
+        return one.statistics.bytes_with_bases(transfer().receivers());
+    }
+
+    /// What compression may err by is found by trying: it promises the worst turn of each sky at vertices,
+    /// and what counts is the surface as it stands.
+    Compressed within_error() {
+        constexpr int kTries = 4;
+        constexpr double kEnough = 0.93; // of the error, above which no byte worth saving is left
+        const auto rest = [&](const std::vector<ErrorBudget>& all) {
+            const ErrorBudget mean = mean_budget(all);
+            return mean.total.value - mean.of(ErrorCause::bytes).value;
+        };
+        const std::vector<ErrorBudget> uncompressed = budgets(
+            *reference_,
+            {.baked = transfer(), .repeated = pilot_, .shipped = nullptr, .bounces = plan_.cut.bounces},
+            r_.threads);
+        double left = std::max(allowed() - rest(uncompressed), (1 - kMostBeforeBytes) * allowed());
+        double asked = std::sqrt(left);
+        std::optional<Compressed> best;
+        for (int i = 0; i < kTries; ++i) {
+            Compressed one = compressed(asked, {});
+            const double bytes = mean_budget(one.budgets).of(ErrorCause::bytes).value, total = one.total();
+            const bool keeps = total <= allowed(), kept = best && best->total() <= allowed();
+            if (!best || (keeps && (!kept || size(one) < size(*best))) ||
+                (!keeps && !kept && total < best->total()))
+                best = std::move(one);
+            const bool late = r_.goal.seconds && watch_.seconds() > 0.7 * *r_.goal.seconds;
+            if ((keeps && total > kEnough * kEnough * allowed()) || late || !(bytes > 0))
+                break;
+            left = std::max(allowed() - (total - bytes), 0.02 * allowed());
+            asked *= std::clamp(std::sqrt(0.97 * left / bytes), 0.4, 2.5);
+        }
+        if (r_.goal.max_error && best->total() > allowed() && !r_.goal.best_effort)
+            throw Error(fmt::format(
+                "nothing keeps {} under these lights; the nearest has {} (--best-effort makes it)",
+                percent(allowed()), percent(best->total())));
+        return std::move(*best);
+    }
+
+    std::vector<std::string> by_hand(const Compressed& best) const {
+        const Path kept = r_.baked.empty() ? Path("baked.glb") : r_.baked;
+        std::string bake =
+            fmt::format("prt bake {} -o {} --order {} --rays {} --bounces {} --fit {}", as_argument(r_.scene),
+                        as_argument(kept), plan_.cut.order, plan_.rays, bounces_in_words(plan_.cut.bounces),
+                        plan_.fit == FitMode::surface ? "surface" : "vertex");
+        for (const std::string& material : r_.no_shadow)
+            bake += " --no-shadow " + as_argument(material);
+        std::string compress =
+            fmt::format("prt compress {} -o {}", as_argument(kept), as_argument(r_.output));
+        for (const Path& light : r_.lights)
+            compress += " --lights " + as_argument(light);
+        compress += r_.light_options;
+        compress += fmt::format(" {} {}", r_.goal.bytes_per_vertex ? "--bytes-per-vertex" : "--max-error",
+                                best.asked);
+        return {bake, compress};
+    }
+
+    void write(Compressed& best, Report& report) {
+        write_clustered(model_->document, model_->scene, {best.transfer, model_->baked->record});
+        const std::uintmax_t bytes = session_.write(r_.output, encode_glb(model_->document));
+        const ErrorBudget mean = mean_budget(best.budgets);
+        add_figures(report, {{"output", r_.output.string()},
+                             {"order", plan_.cut.order},
+                             {"rays_per_receiver", plan_.rays},
+                             {"bounces", bounces_in_words(plan_.cut.bounces)},
+                             {"fit", plan_.fit == FitMode::surface ? "surface" : "vertex"},
+                             {"receivers", transfer().receivers()},
+                             {"clusters", best.statistics.clusters},
+                             {"bytes_bound_per_vertex", best.statistics.bytes_per_receiver},
+                             {"bytes_bound_per_vertex_with_bases", size(best)},
+                             {"error_aimed_at", plan_.error},
+                             {"total_error", mean.total.root()},
+                             {"total_error_low", std::sqrt(std::max(mean.total.low, 0.0))},
+                             {"total_error_high", std::sqrt(std::max(mean.total.high, 0.0))},
+                             {"bytes_file", bytes},
+                             {"seconds", watch_.seconds()},
+                             {"tried", tried_},
+                             {"by_hand", by_hand(best)},
+                             {"notices", notices_}});
+        report.tables.push_back(budget_table(lights_, best.budgets));
+        say(best, mean, report);
+    }
+
+    void say(const Compressed& best, const ErrorBudget& mean, Report& report) const {
+        auto& lines = report.sentences;
+        lines.push_back(
+            fmt::format("{{output}}: order {{order}}, {{rays_per_receiver}} rays, {{bounces}} bounces, {}; "
+                        "{{bytes_bound_per_vertex}} bytes per vertex to bind, "
+                        "{{bytes_bound_per_vertex_with_bases:.2f}} with the bases; {{seconds:.1f}} s",
+                        plan_.fit == FitMode::surface ? "fitted to the surface" : "measured at vertices"));
+        lines.push_back("over the surface " + budget_in_words(mean, lights_.size()) +
+                        "; 95 % interval of the total {total_error_low:.2f%} .. {total_error_high:.2f%}");
+        if (!r_.goal.bytes_per_vertex && mean.total.value > allowed())
+            lines.emplace_back("that is more than was aimed at, {error_aimed_at:.2f%}");
+        for (std::size_t i = 0; i < notices_.size(); ++i)
+            lines.push_back(fmt::format("{{notices/{}}}", i));
+        for (std::size_t i = 0; i < tried_.size(); ++i)
+            lines.push_back(fmt::format("tried: {{tried/{}}}", i));
+        lines.emplace_back("the same by hand: {by_hand/0}");
+        lines.emplace_back("                  {by_hand/1}");
+        (void)best;
+    }
+
+    const MakeRequest& r_;
+    Session& session_;
+    GltfDocument document_;
+    Scene scene_;
+    std::vector<BudgetLight> lights_;
+    std::unique_ptr<BudgetReference> reference_;
+    Stopwatch watch_;
+    MakePlan plan_;
+    Transfer pilot_;
+    std::optional<SceneFile> model_;
+    std::vector<std::string> tried_, notices_;
+};
+
+} // namespace
+
+void make_model(const MakeRequest& request, Report& report, Session& session) {
+    about(request.scene, [&] { Maker(request, session).run(report); });
+}
+
+} // namespace prt::cli

@@ -1,0 +1,29 @@
+#include "no_shadow.h"
+
+#include "prt/support/error.h"
+
+namespace prt::cli {
+
+void add_no_shadow(CLI::App* command, std::vector<std::string>& materials) {
+    command
+        ->add_option("--no-shadow", materials,
+                     "a material whose surfaces stop no light, as the sky or the outline that is a shell "
+                     "round a scene")
+        ->allow_extra_args(false)
+        ->type_name("MATERIAL");
+}
+
+void leave_out_shadows(Scene& scene, const std::vector<std::string>& materials) {
+    for (const std::string& name : materials) {
+        bool found = false;
+        for (Material& material : scene.materials)
+            if (material.name == name) {
+                material.casts_shadow = false;
+                found = true;
+            }
+        if (!found)
+            throw Error("no material is called '" + name + "'");
+    }
+}
+
+} // namespace prt::cli
