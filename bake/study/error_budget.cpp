@@ -142,10 +142,26 @@ ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& ref
     return budget;
 }
 
-SquaredError cut_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut) {
-    const Radiance first = reference.under(cut, 0), second = reference.under(cut, 1);
+SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut) {
+    const BandCut all{cut.order, kEndlessBounces, cut.factors};
+    const Radiance first = reference.under(all, 0), second = reference.under(all, 1);
     return Resampling(points, reference).estimate(of_points(points, [&](std::size_t p) {
         return product(first[p] - reference.truth(0)[p], second[p] - reference.truth(1)[p]);
+    }));
+}
+
+SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference,
+                           const BandCut& cut) {
+    const BandCut all{cut.order, kEndlessBounces, cut.factors};
+    Radiance missing[2];
+    for (int half = 0; half < 2; ++half) {
+        missing[half] = reference.under(all, half);
+        const Radiance there = reference.under(cut, half);
+        for (std::size_t p = 0; p < points.size(); ++p)
+            missing[half][p] -= there[p];
+    }
+    return Resampling(points, reference).estimate(of_points(points, [&](std::size_t p) {
+        return product(missing[0][p], missing[1][p]);
     }));
 }
 

@@ -11,7 +11,11 @@
 #include "trace/disc_share.h"
 #include "trace/each_receiver.h"
 
+#include <glm/geometric.hpp>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -42,18 +46,22 @@ SurfaceHit hit_at(const TraceScene& scene, const SurfacePoints& points, std::siz
             true};
 }
 
+/// Of the sequence of a point.
+struct PathRange {
+    std::uint32_t seed;
+    int begin, end;
+};
+
 struct PointSum {
     glm::vec3 truth{0};
     BandRadiance bands;
 };
 
-/// The sum over the paths of a point.
-PointSum sum_of_paths(const LightPaths& paths, const SurfaceHit& hit, const MeasuredLight& light, int count,
-                      std::uint32_t seed) {
-    PointSum sum;
+void add_paths(const LightPaths& paths, const SurfaceHit& hit, const MeasuredLight& light, PathRange range,
+               PointSum& sum) {
     std::array<float, static_cast<std::size_t>(coefficient_count(kMaxOrder))> basis;
-    for (int i = 0; i < count; ++i) {
-        PathSamples samples(seed, static_cast<std::uint32_t>(i));
+    for (int i = range.begin; i < range.end; ++i) {
+        PathSamples samples(range.seed, static_cast<std::uint32_t>(i));
         LightPath path;
         const bool escapes = paths.scatter(hit, path, samples) && paths.follow(path, samples);
         sum.truth += path.radiance;
@@ -65,7 +73,6 @@ PointSum sum_of_paths(const LightPaths& paths, const SurfaceHit& hit, const Meas
         if (bounces > 0 && !light.suns.empty())
             add(sum.bands.suns[bounces], bands_of(light.sun_bands, basis), path.throughput);
     }
-    return sum;
 }
 
 void scale(BandRadiance& radiance, float factor) {
@@ -75,38 +82,80 @@ void scale(BandRadiance& radiance, float factor) {
                 band *= factor;
 }
 
+/// Direct light of suns at a point.
+glm::vec3 sun_light(const TraceScene& scene, const SurfaceHit& hit, std::span<const SunDisc> suns) {
+    constexpr int kSunRays = 64;
+    glm::vec3 sum(0);
+    for (const SunDisc& sun : suns) {
+        const DiscDirections disc(sun.towards, sun.half_angle, kSunRays);
+        const double share = share_of_disc(scene, hit.side.origin(), hit.side.normal, disc, 0,
+                                           [](int) { return std::numeric_limits<float>::infinity(); });
+        sum += sun.irradiance / std::numbers::pi_v<float> * static_cast<float>(share);
+    }
+    return sum;
+}
+
+/// What all bands and bounces give together.
+glm::vec3 all_of(const BandRadiance& radiance) {
+    glm::vec3 sum(0);
+    for (const auto* bounces : {&radiance.sky, &radiance.suns})
+        for (const BandRadiance::Bands& bands : *bounces)
+            sum += std::accumulate(bands.begin(), bands.end(), glm::vec3(0));
+    return sum;
+}
+
+/// Standard error of the mean of a product of both halves over their square, where they differ by noise
+/// alone: that of the light or of its bands, whichever is larger. Sums are of so many paths.
+double noise_of(const SurfacePoints& points, const std::array<std::vector<PointSum>, 2>& sums,
+                std::span<const glm::vec3> suns, int paths) {
+    const double share = 1.0 / paths;
+    double of_light = 0, of_bands = 0, norm = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const glm::dvec3 a(sums[0][p].truth), b(sums[1][p].truth), sun(suns[p]);
+        const glm::dvec3 bands(all_of(sums[0][p].bands) - all_of(sums[1][p].bands));
+        const auto area = static_cast<double>(points.receivers.areas[p]);
+        of_light += area * glm::dot(a - b, a - b) * share * share / 2;
+        of_bands += area * glm::dot(bands, bands) * share * share / 2;
+        norm += area * glm::dot(share * a + sun, share * b + sun);
+    }
+    return norm > 0 ? std::max(of_light, of_bands) / norm / std::sqrt(static_cast<double>(points.size())) : 0;
+}
+
 } // namespace
 
 SurfaceRadiance::SurfaceRadiance(const TraceScene& scene, const SurfacePoints& points,
                                  const MeasuredLight& light, const SurfaceRadianceOptions& options,
-                                 const Progress& progress)
-    : suns_(points.size(), glm::vec3(0)) {
+                                 const Progress& progress) {
     const LightPaths paths{scene, {light.seen(), light.all}, {kEndlessBounces, false, false}};
-    for (Half& half : halves_) {
-        half.truth.resize(points.size());
-        half.bands.resize(points.size());
+    std::vector<SurfaceHit> hits;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        hits.push_back(hit_at(scene, points, p));
+        suns_.push_back(sun_light(scene, hits.back(), light.suns));
     }
-    constexpr int kSunRays = 64;
-    std::vector<DiscDirections> discs;
-    for (const SunDisc& sun : light.suns)
-        discs.emplace_back(sun.towards, sun.half_angle, kSunRays);
+    std::array<std::vector<PointSum>, 2> sums{std::vector<PointSum>(points.size()),
+                                              std::vector<PointSum>(points.size())};
     std::vector<std::uint32_t> all(points.size());
     std::iota(all.begin(), all.end(), 0u);
-    for_each_receiver(all, options.threads, progress, [&](std::uint32_t p) {
-        const SurfaceHit hit = hit_at(scene, points, p);
-        const float share = 1 / static_cast<float>(options.paths);
-        for (std::size_t h = 0; h < halves_.size(); ++h) {
-            PointSum sum = sum_of_paths(paths, hit, light, options.paths, receiver_seed(p, options.seed + h));
-            halves_[h].truth[p] = sum.truth * share;
-            scale(sum.bands, share);
-            halves_[h].bands[p] = sum.bands;
+    int done = 0;
+    for (int next = options.paths; done < next;) {
+        const auto most = static_cast<double>(std::max(options.paths, options.most_paths));
+        for_each_receiver(all, options.threads, progress.part(done / most, next / most),
+                          [&](std::uint32_t p) {
+                              for (std::size_t h = 0; h < sums.size(); ++h)
+                                  add_paths(paths, hits[p], light,
+                                            {receiver_seed(p, options.seed + h), done, next}, sums[h][p]);
+                          });
+        done = next;
+        if (noise_of(points, sums, suns_, done) > options.noise)
+            next = std::max(done, std::min(2 * done, options.most_paths));
+    }
+    for (std::size_t h = 0; h < sums.size(); ++h)
+        for (PointSum& sum : sums[h]) {
+            scale(sum.bands, 1 / static_cast<float>(done));
+            halves_[h].truth.push_back(sum.truth / static_cast<float>(done));
+            halves_[h].bands.push_back(sum.bands);
         }
-        for (std::size_t s = 0; s < discs.size(); ++s)
-            suns_[p] +=
-                light.suns[s].irradiance / std::numbers::pi_v<float> *
-                static_cast<float>(share_of_disc(scene, hit.side.origin(), hit.side.normal, discs[s], 0,
-                                                 [](int) { return std::numeric_limits<float>::infinity(); }));
-    });
+    progress.update(1);
 }
 
 std::vector<glm::vec3> SurfaceRadiance::under(const BandCut& cut, int half) const {

@@ -54,9 +54,9 @@ private:
             return std::nullopt;
         const double rest = budget_.sum() - budget_.of(ErrorCause::light).value;
         int chosen = order() + 1;
-        double squared = s_.reference.cut_error(chosen, kEndlessBounces);
+        double squared = s_.reference.light_error(chosen);
         while (chosen < kMaxOrder && squared > rest)
-            squared = s_.reference.cut_error(++chosen, kEndlessBounces);
+            squared = s_.reference.light_error(++chosen);
         return Trial{fmt::format("prt bake --order {}", chosen), squared};
     }
 
@@ -70,8 +70,7 @@ private:
             const MeasuredLight& light = s_.reference.lights()[i].measured;
             const auto radiance = [&](const SurfacePoints& points, std::uint64_t seed) {
                 return SurfaceRadiance(s_.reference.scene(), points, light,
-                                       {.paths = s_.effort.paths, .seed = seed, .threads = s_.effort.threads},
-                                       {{}, progress_.stop});
+                                       {.seed = seed, .threads = s_.effort.threads}, {{}, progress_.stop});
             };
             const SurfaceRadiance here = radiance(some, s_.effort.seed + 2),
                                   corners = radiance(quarters.corners, s_.effort.seed + 4);

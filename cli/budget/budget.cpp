@@ -1,5 +1,6 @@
 #include "budget/budget.h"
 
+#include "prt/bake.h"
 #include "prt/support/error.h"
 
 namespace prt::cli {
@@ -30,15 +31,22 @@ BudgetReference::BudgetReference(const Scene& scene, const std::vector<BudgetLig
         const auto count = static_cast<double>(lights.size());
         radiance_.emplace_back(
             scene_, points_, lights[i].measured,
-            SurfaceRadianceOptions{.paths = effort.paths, .seed = effort.seed, .threads = effort.threads},
+            SurfaceRadianceOptions{.noise = effort.noise, .seed = effort.seed, .threads = effort.threads},
             progress.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
     }
 }
 
-double BudgetReference::cut_error(int order, int bounces) const {
+double BudgetReference::light_error(int order) const {
     double sum = 0;
     for (std::size_t i = 0; i < lights_.size(); ++i)
-        sum += prt::cut_error(points_, radiance_[i], cut(i, order, bounces)).value;
+        sum += prt::light_error(points_, radiance_[i], cut(i, order, kEndlessBounces)).value;
+    return sum / static_cast<double>(lights_.size());
+}
+
+double BudgetReference::bounces_error(int bounces) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < lights_.size(); ++i)
+        sum += prt::bounces_error(points_, radiance_[i], cut(i, kMaxOrder, bounces)).value;
     return sum / static_cast<double>(lights_.size());
 }
 

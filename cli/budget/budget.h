@@ -12,8 +12,8 @@
 namespace prt::cli {
 
 struct BudgetEffort {
-    std::size_t points = 2048;
-    int paths = 256; ///< from each, in each half
+    std::size_t points = 1024;
+    double noise = 5e-5; ///< of squared errors (`SurfaceRadianceOptions`)
     std::uint64_t seed = 0x9e3779b97f4a7c15;
     int threads = 0;
 };
@@ -34,8 +34,10 @@ public:
     BandCut cut(std::size_t light, int order, int bounces) const {
         return {order, bounces, lights_[light].factors(order)};
     }
-    /// Squared relative error of light and bounces, the mean over all lights.
-    double cut_error(int order, int bounces) const;
+    /// Squared relative errors, the mean over all lights: of so many bands, with all bounces; and of bounces
+    /// that are missing.
+    double light_error(int order) const;
+    double bounces_error(int bounces) const;
 
 private:
     const std::vector<BudgetLight>& lights_;

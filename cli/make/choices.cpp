@@ -8,19 +8,18 @@
 
 namespace prt::cli {
 
-CutChoice choose_cut(const ErrorOfCut& error, double allowed) {
+CutChoice choose_cut(const CutErrors& errors, double allowed) {
     constexpr double kLittleMore = 1.25;
-    const double least = error(kMaxOrder, kEndlessBounces);
     int bounces = 0;
-    while (bounces < kCountedBounces && error(kMaxOrder, bounces) > least + kShareOfBounces * allowed)
+    while (bounces < kCountedBounces && errors.bounces(bounces) > kShareOfBounces * allowed)
         ++bounces;
     if (bounces == kCountedBounces)
         bounces = kEndlessBounces;
-    const double wanted = std::max(kShareOfLight * allowed, kLittleMore * error(kMaxOrder, bounces));
+    const double wanted = std::max(kShareOfLight * allowed, kLittleMore * errors.light(kMaxOrder));
     int order = 2; // a single band has no directions
-    while (order < kMaxOrder && error(order, bounces) > wanted)
+    while (order < kMaxOrder && errors.light(order) > wanted)
         ++order;
-    return {order, bounces, error(order, bounces)};
+    return {order, bounces, errors.light(order) + errors.bounces(bounces)};
 }
 
 int choose_rays(double measured, int rays, double allowed) {

@@ -12,14 +12,19 @@ namespace prt::cli {
 /// Shares of what is allowed: bytes get what light, vertices and rays leave. Bands and rays are cheap beside
 /// bytes, which grow without end as their share goes to nothing.
 inline constexpr double kShareOfLight = 0.4, kShareOfBounces = 0.05, kShareOfRays = 0.05;
+/// Of what points and paths may be uncertain by.
+inline constexpr double kShareOfNoise = 0.1;
 /// What light, vertices and rays may take of it together: of the rest bytes would need too many.
 inline constexpr double kMostBeforeBytes = 0.85;
-/// What is aimed at where nothing is said: 3 %, or, where no order holds the light so well, a fifth more than
-/// the highest leaves.
-inline constexpr double kUsualError = 0.03, kAboveLeast = 1.2;
+/// What is aimed at where nothing is said: 3 %, or, where light and vertices leave more, so much that bytes
+/// get a third of it.
+inline constexpr double kUsualError = 0.03, kAboveRest = 1.5;
 
-/// Light and bounces of a cut.
-using ErrorOfCut = std::function<double(int order, int bounces)>;
+/// What path tracing tells of bands and of bounces.
+struct CutErrors {
+    std::function<double(int order)> light;     ///< with all bounces
+    std::function<double(int bounces)> bounces; ///< of those that are missing
+};
 
 struct CutChoice {
     int order, bounces;
@@ -28,7 +33,7 @@ struct CutChoice {
 
 /// The fewest bounces without which next to nothing is missing, and the lowest order that leaves a share of
 /// `allowed`, or, where none does, little more than the highest.
-CutChoice choose_cut(const ErrorOfCut& error, double allowed);
+CutChoice choose_cut(const CutErrors& errors, double allowed);
 
 /// Rays per receiver, a power of two, so that their noise, `measured` with `rays`, has its share of
 /// `allowed`.

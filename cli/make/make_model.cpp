@@ -82,23 +82,28 @@ private:
     /// Path tracing tells what each order and number of bounces leaves, and so which to take.
     void look_at_light() {
         ProgressBar bar = session_.progress_bar("tracing paths");
-        reference_ = std::make_unique<BudgetReference>(scene_, lights_, BudgetEffort{.threads = r_.threads},
+        reference_ = std::make_unique<BudgetReference>(scene_, lights_, BudgetEffort{.noise = kShareOfNoise * allowed(), .threads = r_.threads},
                                                        bar.progress());
-        const auto error = [&](int order, int bounces) { return reference_->cut_error(order, bounces); };
-        const double least = error(kMaxOrder, kEndlessBounces);
-        plan_.error =
-            r_.goal.max_error.value_or(std::max(kUsualError, kAboveLeast * std::sqrt(std::max(least, 0.0))));
+        const CutErrors errors{[&](int order) { return reference_->light_error(order); },
+                               [&](int bounces) { return reference_->bounces_error(bounces); }};
+        plan_.error = r_.goal.max_error.value_or(
+            std::max(kUsualError, std::sqrt(kAboveRest * std::max(errors.light(kMaxOrder), 0.0))));
         for (const int order : {2, 4, 6, 8, 10})
-            tried_.push_back(fmt::format("order {}, all bounces: light {}", order,
-                                         percent(error(order, kEndlessBounces))));
-        tried_.push_back(fmt::format("order {}, no bounces: light and bounces {}", kMaxOrder,
-                                     percent(error(kMaxOrder, 0))));
-        plan_.cut = choose_cut(error, allowed());
-        if (r_.goal.max_error && plan_.cut.squared > kMostBeforeBytes * allowed() && !r_.goal.best_effort)
+            tried_.push_back(fmt::format("order {}: light {}", order, percent(errors.light(order))));
+        for (const int bounces : {0, 1, 2, 4})
+            tried_.push_back(
+                fmt::format("{} bounces: bounces {}", bounces, percent(errors.bounces(bounces))));
+        plan_.cut = choose_cut(errors, allowed());
+        check_possible(plan_.cut.squared, fmt::format("what {} bands cannot hold", plan_.cut.order));
+    }
+
+    /// Ends where an error that was asked for is used up before compression.
+    void check_possible(double squared, const std::string& cause) const {
+        if (r_.goal.max_error && squared > kMostBeforeBytes * allowed() && !r_.goal.best_effort)
             throw Error(
-                fmt::format("nothing keeps {} under these lights: what {} bands cannot hold is {} already "
-                            "(--best-effort makes the nearest)",
-                            percent(allowed()), plan_.cut.order, percent(plan_.cut.squared)));
+                fmt::format("nothing keeps {} under these lights: {} is {} already (--best-effort makes the "
+                            "nearest)",
+                            percent(allowed()), cause, percent(squared)));
     }
 
     BakeOptions bake_options(int rays) const {
@@ -139,15 +144,15 @@ private:
             while (plan_.rays > 64 && plan_.rays * seconds_per_ray > left)
                 plan_.rays /= 2;
         }
-        const double before_bytes =
-            budget.total.value -
-            budget.of(ErrorCause::rays).value * (1 - std::pow(kPilotRays / double(plan_.rays), 1.2));
-        if (r_.goal.max_error && before_bytes > kMostBeforeBytes * allowed() && !r_.goal.best_effort)
-            throw Error(fmt::format(
-                "nothing keeps {} under these lights: {} before compression, by light {}, vertices "
-                "{} (--best-effort makes the nearest)",
-                percent(allowed()), percent(before_bytes), percent(plan_.cut.squared),
-                percent(budget.of(ErrorCause::vertices).value)));
+        const ErrorCause causes[] = {ErrorCause::light, ErrorCause::bounces, ErrorCause::vertices};
+        double before_bytes = kShareOfRays * allowed();
+        for (const ErrorCause cause : causes)
+            before_bytes += budget.of(cause).value;
+        if (!r_.goal.max_error)
+            plan_.error = std::max(kUsualError, std::sqrt(kAboveRest * before_bytes));
+        check_possible(before_bytes, fmt::format("light ({}) with what vertices leave between them ({})",
+                                                 percent(plan_.cut.squared),
+                                                 percent(budget.of(ErrorCause::vertices).value)));
     }
 
     /// Written and read, as those do who take one step after the other.
@@ -229,6 +234,7 @@ private:
         double left = std::max(allowed() - rest(uncompressed), (1 - kMostBeforeBytes) * allowed());
         double asked = std::sqrt(left);
         std::optional<Compressed> best;
+        double last = 0; // size
         for (int i = 0; i < kTries; ++i) {
             Compressed one = compressed(asked, {});
             const double bytes = mean_budget(one.budgets).of(ErrorCause::bytes).value, total = one.total();
@@ -237,7 +243,9 @@ private:
                 (!keeps && !kept && total < best->total()))
                 best = std::move(one);
             const bool late = r_.goal.seconds && watch_.seconds() > 0.7 * *r_.goal.seconds;
-            if ((keeps && total > kEnough * kEnough * allowed()) || late || !(bytes > 0))
+            const bool same = i > 0 && size(*best) == last; // there is no smaller one
+            last = size(*best);
+            if ((keeps && (same || total > kEnough * kEnough * allowed())) || late || !(bytes > 0))
                 break;
             left = std::max(allowed() - (total - bytes), 0.02 * allowed());
             asked *= std::clamp(std::sqrt(0.97 * left / bytes), 0.4, 2.5);

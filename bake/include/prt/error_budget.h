@@ -60,8 +60,9 @@ struct InterpolatedRadiance {
 ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut,
                          const InterpolatedRadiance& radiance);
 
-/// Squared relative error of what another cut would leave: light, bounces.
-SquaredError cut_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut);
+/// What another cut would leave: of the bands of its order, with all bounces; and of its bounces.
+SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut);
+SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut);
 
 /// Squared relative error between vertices, were all triangles split at the middles of their edges and light
 /// exact at their corners, by `corners` of `quarters` [3 points]. `points` are those of `reference`.

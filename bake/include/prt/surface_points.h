@@ -17,7 +17,7 @@
 namespace prt {
 
 struct SurfacePointOptions {
-    std::size_t count = 2048; ///< about so many
+    std::size_t count = 1024; ///< about so many
     std::uint64_t seed = 0x2545f4914f6cdd1d;
     int threads = 0; ///< 0: all
 };
