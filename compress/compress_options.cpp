@@ -58,10 +58,10 @@ void check_attribute(std::span<const glm::vec3> values, std::size_t receivers, c
 }
 
 void check_finite(const TransferView& transfer, std::span<const float> areas) {
-    constexpr std::size_t kBlock = 256;
+    constexpr std::size_t kRead = 256;
     std::vector<float> vectors;
-    for (std::size_t begin = 0; begin < transfer.receivers(); begin += kBlock) {
-        vectors.resize(std::min(kBlock, transfer.receivers() - begin) * transfer.dimension());
+    for (std::size_t begin = 0; begin < transfer.receivers(); begin += kRead) {
+        vectors.resize(std::min(kRead, transfer.receivers() - begin) * transfer.dimension());
         transfer.read(begin, vectors);
         if (!std::ranges::all_of(vectors, [](float v) { return std::abs(v) <= kMostTransfer; }))
             throw Error("the transfer holds values that are not finite, or beyond 1e12");

@@ -61,9 +61,9 @@ Moments moments_about(const Vector& shift, const TransferView& transfer, std::sp
 /// The significance, scaled to the sum 1 again, without outliers, whose vector is far longer than the median.
 std::vector<float> without_outliers(const TransferView& transfer, std::span<const float> significance) {
     std::vector<float> lengths(significance.size());
-    constexpr std::size_t kBlock = 256;
-    for (std::size_t begin = 0; begin < lengths.size(); begin += kBlock) {
-        const std::size_t end = std::min(begin + kBlock, lengths.size());
+    constexpr std::size_t kRead = 256;
+    for (std::size_t begin = 0; begin < lengths.size(); begin += kRead) {
+        const std::size_t end = std::min(begin + kRead, lengths.size());
         const Eigen::MatrixXf vectors = columns_of(transfer, begin, end);
         for (std::size_t p = begin; p < end; ++p)
             lengths[p] = vectors.col(static_cast<Eigen::Index>(p - begin)).stableNorm();

@@ -24,9 +24,9 @@ Eigen::MatrixXd factor_of(const LightMetric& metric) {
 Eigen::VectorXd mean_vector(const TransferView& transfer, std::span<const float> areas) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(transfer.dimension()));
     double area = 0;
-    constexpr std::size_t kBlock = 256;
-    for (std::size_t begin = 0; begin < areas.size(); begin += kBlock) {
-        const std::size_t end = std::min(begin + kBlock, areas.size());
+    constexpr std::size_t kRead = 256;
+    for (std::size_t begin = 0; begin < areas.size(); begin += kRead) {
+        const std::size_t end = std::min(begin + kRead, areas.size());
         const Eigen::MatrixXf vectors = columns_of(transfer, begin, end);
         for (std::size_t p = begin; p < end; ++p) {
             sum += static_cast<double>(areas[p]) *
