@@ -39,8 +39,7 @@ struct Waves {
         }
     }
     CompressResult compressed(const TransferView& transfer, int threads) const {
-        CompressOptions options{
-            .clusters = 12, .coding = preset_u32(), .metric = plain_metric(floats.layout)};
+        CompressOptions options{.clusters = 4, .coding = preset_u32(), .metric = plain_metric(floats.layout)};
         options.threads = threads;
         return compress(transfer, {areas, edges}, options);
     }
