@@ -89,8 +89,8 @@ std::vector<NamedLighting> given_lights(const MetricArguments& arguments, const 
 }
 
 ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<NamedLighting>& given,
-                       const Transfer& transfer, std::span<const float> areas, int threads) {
-    const TransferLayout& layout = transfer.layout;
+                       const TransferView& transfer, std::span<const float> areas, int threads) {
+    const TransferLayout& layout = transfer.layout();
     std::vector<Lighting> lightings;
     for (const NamedLighting& one : given)
         lightings.push_back(one.lighting);

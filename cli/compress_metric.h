@@ -28,6 +28,6 @@ std::vector<NamedLighting> given_lights(const MetricArguments& arguments, const 
                                         int threads);
 
 ErrorTerms error_terms(const MetricArguments& arguments, const std::vector<NamedLighting>& given,
-                       const Transfer& transfer, std::span<const float> areas, int threads);
+                       const TransferView& transfer, std::span<const float> areas, int threads);
 
 } // namespace prt::cli

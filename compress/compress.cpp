@@ -16,7 +16,7 @@ namespace {
 
 /// What every step of a compression sees.
 struct Task {
-    const Transfer& transfer;
+    const TransferView& transfer;
     const CompressOptions& options;
     std::vector<float> significance;
     LightMetric metric;
@@ -31,6 +31,12 @@ struct FoundClusters {
     PointBlocks points;
     Clustering clustering;
 };
+
+/// What rounding points to 16 bits may add in squared error: nothing where they are so few that they take no
+/// memory to speak of.
+double rounding_allowed(const Task& task, double most) {
+    return task.transfer.receivers() < tuning::kManyReceivers ? 0 : most;
+}
 
 /// Axes that carry less than a hundredth of the error that will be left are left out. That is known only
 /// afterwards: a frame that turns out too coarse is made anew.
@@ -49,12 +55,14 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
         found.frame = fit_frame(task.transfer, task.significance, task.metric, most_dropped, options.threads);
         if (found.frame.dimension > 0) // else there is nothing to tell
             found.guides = task.guides;
-        found.points = PointBlocks(task.transfer, found.frame, found.guides, options.threads);
+        found.points = PointBlocks(task.transfer, found.frame, found.guides, options.threads,
+                                   rounding_allowed(task, tuning::kRoundingOverDropped * most_dropped));
         std::mt19937_64 random(options.seed);
         found.clustering =
             cluster_points(found.points, task.significance, how, random, progress.part(from, to));
         const double cost = found.clustering.cost;
-        if (!(found.frame.dropped > tuning::kTooMuchDropped * cost) || most_dropped == 0)
+        const double lost = found.frame.dropped + found.points.rounding();
+        if (!(lost > tuning::kTooMuchDropped * cost) || most_dropped == 0)
             return found;
         most_dropped =
             cost < tuning::kExactError ? 0 : std::max(tuning::kDroppedAgain * cost, tuning::kLeastDropped);
@@ -92,7 +100,8 @@ void round_frame(const Task& task, Coding& coding) {
     coding.coded_frame = code_frame(coding.frame, task.metric, tuning::kAxisRoundingShare * error);
     coding.coded.clusters = truncated(coding.coded.clusters, coding.frame.dimension);
     coding.points = {}; // the points of the one frame make room for those of the other
-    coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, task.options.threads);
+    coding.points = PointBlocks(task.transfer, coding.frame, coding.guides, task.options.threads,
+                                rounding_allowed(task, tuning::kPointsRoundingShare * error));
     encode_in_place(coding.points, coding.coded.clusters, coding.coded.codes, task.options.threads);
 }
 
@@ -123,7 +132,10 @@ void drop_empty(QuantisedClusters& clusters, Codes& codes) {
 
 /// Where bits are divided alike in all clusters, those that need fewer rows get empty ones: then no cluster
 /// is an exception, and the shader has no loop.
-void fill_up(std::span<const int> fixed_bits, QuantisedClusters& clusters) {
+void fill_up(std::span<const int> fixed_bits, QuantisedClusters& clusters, Codes& codes) {
+    if (fixed_bits.empty())
+        return;
+    const QuantisedClusters before = clusters;
     for (std::size_t k = 0; k < clusters.clusters(); ++k)
         for (std::size_t j = clusters.components_of(k);
              j < std::min(clusters.max_components, fixed_bits.size()); ++j) {
@@ -131,6 +143,13 @@ void fill_up(std::span<const int> fixed_bits, QuantisedClusters& clusters) {
             clusters.grids[k * clusters.max_components + j] = WeightGrid::of_bits(fixed_bits[j]);
             clusters.components[k] = static_cast<int>(j) + 1;
         }
+    CodeWeights filled(codes.clusters.size(), clusters);
+    for (std::size_t p = 0; p < codes.clusters.size(); ++p) {
+        std::vector<float> weights(clusters.max_components, 0.0f);
+        codes.read(before, p, weights.data());
+        filled.write(clusters, codes.clusters[p], p, weights.data());
+    }
+    codes.weights = std::move(filled);
 }
 
 /// Everything from points to what a file holds.
@@ -153,11 +172,14 @@ ClusteredTransfer code(const Task& task, std::span<const Edge> edges, FoundClust
     progress.update(0.7);
     if ((options.seam_price > 0 || options.border_price > 0) && !edges.empty() && !draft)
         smooth_seams(coding.points, task.significance, edges, coded.clusters,
-                     {options.seam_price, options.border_price, options.mean_components, options.threads},
+                     {.seam_price = options.seam_price,
+                      .border_price = options.border_price,
+                      .mean_components = options.mean_components,
+                      .threads = options.threads},
                      coded.codes);
     coding.points = {};
     drop_empty(coded.clusters, coded.codes);
-    fill_up(options.coding.fixed_bits, coded.clusters);
+    fill_up(options.coding.fixed_bits, coded.clusters, coded.codes);
     progress.update(0.9);
     return encode(coding.frame, coding.coded_frame, coded.clusters, coded.codes, coding.guides,
                   {options.coding.format, options.coding.cluster_bits, coded.step});
@@ -172,13 +194,14 @@ double mean_components_of(const ClusteredTransfer& transfer) {
 
 } // namespace
 
-CompressResult compress(const Transfer& transfer, const ReceiverSurface& surface,
+CompressResult compress(const TransferView& transfer, const ReceiverSurface& surface,
                         const CompressOptions& options, const Progress& progress) {
     return compress_from({}, transfer, surface, options, progress);
 }
 
-CompressResult compress_from(const Course& course, const Transfer& transfer, const ReceiverSurface& surface,
-                             const CompressOptions& options, const Progress& progress) {
+CompressResult compress_from(const Course& course, const TransferView& transfer,
+                             const ReceiverSurface& surface, const CompressOptions& options,
+                             const Progress& progress) {
     check_input(transfer, surface, options);
     const std::span<const float> areas = surface.areas;
     const Stopwatch stopwatch;
@@ -200,8 +223,7 @@ CompressResult compress_from(const Course& course, const Transfer& transfer, con
     statistics.bytes_per_receiver = bytes_per_receiver(result.transfer);
     statistics.bits_per_receiver = bits_per_receiver(result.transfer);
     statistics.basis_bytes = basis_bytes(result.transfer.bases);
-    statistics.lit_rms = expected_lit_rms(transfer, decode(result.transfer, options.threads), areas,
-                                          task.metric, options.threads);
+    statistics.lit_rms = expected_lit_rms(transfer, result.transfer, areas, task.metric, options.threads);
     statistics.seconds = stopwatch.seconds();
     progress.update(1);
     return result;

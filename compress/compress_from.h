@@ -13,7 +13,8 @@ struct Course {
     bool draft = false;
 };
 
-CompressResult compress_from(const Course& course, const Transfer& transfer, const ReceiverSurface& surface,
-                             const CompressOptions& options, const Progress& progress);
+CompressResult compress_from(const Course& course, const TransferView& transfer,
+                             const ReceiverSurface& surface, const CompressOptions& options,
+                             const Progress& progress);
 
 } // namespace prt

@@ -57,10 +57,15 @@ void check_attribute(std::span<const glm::vec3> values, std::size_t receivers, c
             throw Error("the " + std::string(name) + " of receivers are not finite");
 }
 
-void check_finite(const Transfer& transfer, std::span<const float> areas) {
-    if (!std::all_of(transfer.vectors.begin(), transfer.vectors.end(),
-                     [](float v) { return std::abs(v) <= kMostTransfer; }))
-        throw Error("the transfer holds values that are not finite, or beyond 1e12");
+void check_finite(const TransferView& transfer, std::span<const float> areas) {
+    constexpr std::size_t kRead = 256;
+    std::vector<float> vectors;
+    for (std::size_t begin = 0; begin < transfer.receivers(); begin += kRead) {
+        vectors.resize(std::min(kRead, transfer.receivers() - begin) * transfer.dimension());
+        transfer.read(begin, vectors);
+        if (!std::ranges::all_of(vectors, [](float v) { return std::abs(v) <= kMostTransfer; }))
+            throw Error("the transfer holds values that are not finite, or beyond 1e12");
+    }
     if (!std::all_of(areas.begin(), areas.end(), [](float area) { return std::isfinite(area); }))
         throw Error("the areas of receivers are not finite");
 }
@@ -83,11 +88,12 @@ WeightCoding preset_u64x9() {
     return {.components = 9, .fixed_bits = {9, 8, 7, 7, 6, 6, 5, 4, 4}, .cluster_bits = 8};
 }
 
-void check_input(const Transfer& transfer, const ReceiverSurface& surface, const CompressOptions& options) {
-    check_layout(transfer.layout);
+void check_input(const TransferView& transfer, const ReceiverSurface& surface,
+                 const CompressOptions& options) {
+    check_layout(transfer.layout());
     check_options(options);
     const std::optional<LightMetric>& metric = options.metric;
-    if (metric && metric->layout != transfer.layout)
+    if (metric && metric->layout != transfer.layout())
         throw Error("the metric has another order or other parts than the transfer");
     if (transfer.receivers() == 0)
         throw Error("there are no receivers to compress");
@@ -103,11 +109,11 @@ void check_input(const Transfer& transfer, const ReceiverSurface& surface, const
                         std::to_string(edge.second) + " of " + std::to_string(transfer.receivers()));
 }
 
-LightMetric metric_of(const CompressOptions& options, const Transfer& transfer,
+LightMetric metric_of(const CompressOptions& options, const TransferView& transfer,
                       std::span<const float> areas) {
     return options.metric ? *options.metric
-                          : balanced(metric_of_family(LightFamily::outdoor, transfer.layout), transfer, areas,
-                                     options.threads);
+                          : balanced(metric_of_family(LightFamily::outdoor, transfer.layout()), transfer,
+                                     areas, options.threads);
 }
 
 double basis_share(const CompressOptions& options) {

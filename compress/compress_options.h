@@ -9,10 +9,12 @@
 namespace prt {
 
 /// Throws `Error` for what cannot be compressed, or not so.
-void check_input(const Transfer& transfer, const ReceiverSurface& surface, const CompressOptions& options);
+void check_input(const TransferView& transfer, const ReceiverSurface& surface,
+                 const CompressOptions& options);
 
 /// As given, or of outdoor light, `balanced`.
-LightMetric metric_of(const CompressOptions& options, const Transfer& transfer, std::span<const float> areas);
+LightMetric metric_of(const CompressOptions& options, const TransferView& transfer,
+                      std::span<const float> areas);
 
 /// As given, or by the format of the weights.
 double basis_share(const CompressOptions& options);

@@ -53,6 +53,11 @@ inline constexpr int kFewBits = 48;
 /// share of it, or with all axes where the error is below kExactError (float rounding). By hand.
 inline constexpr double kTooMuchDropped = 0.04, kDroppedAgain = 0.01, kLeastDropped = 1e-13,
                         kExactError = 1e-11;
+/// Points of so many receivers are rounded to 16 bits: half of the memory. The error that this may add, over
+/// what axes may drop at first; later, as a share of the error. By hand. On a grid of 1.5 million vertices
+/// lit_rms is 5.865 % with this and stretches of seams, and 5.861 % without. [preset]
+inline constexpr std::size_t kManyReceivers = 65536;
+inline constexpr double kRoundingOverDropped = 0.1, kPointsRoundingShare = 0.001;
 /// Shares of the error that leaving out axes and rounding them may add in a file. By hand. [sweep]
 inline constexpr double kAxesShare = 0.01, kAxisRoundingShare = 0.02;
 /// Share of the error that rounding the bases may add: bytes of bases against error, measured on small meshes
@@ -121,6 +126,9 @@ inline constexpr int kMostLengthTenths = 10, kLeastLengthTenths = 3;
 /// are rounded afterwards, to steps far larger. By hand. [seams]
 inline constexpr int kMostSolverSteps = 30;
 inline constexpr double kSolverTolerance = 1e-6;
+/// Receivers whose weights are solved for together, so that the solver takes no memory to speak of. Of a grid
+/// of 1.5 million vertices jumps are the same to a thousandth. [seams]
+inline constexpr std::size_t kSolvedTogether = 65536;
 /// Sweeps over the receivers that choose clusters at seams, and the share of changes below which they end. By
 /// hand. [seams]
 inline constexpr int kMostSeamSweeps = 10;

@@ -9,6 +9,7 @@
 #include "prt/reorder.h"
 #include "prt/search.h"
 #include "prt/sh.h"
+#include "prt/stored_transfer.h"
 #include "prt/support/error.h"
 #include "report/trace_lines.h"
 #include "sky_errors.h"
@@ -184,11 +185,34 @@ struct Outcome {
     std::optional<SearchTrial> best; ///< of a search
 };
 
-Outcome run_compressor(const CompressArguments& a, const SceneFile& model, const SearchOptions& options,
-                       Session& session) {
-    const Transfer& transfer = model.baked->transfer;
-    const SceneSurface owner(model.scene);
-    const ReceiverSurface surface = owner.view();
+/// A bake that is compressed. Its transfer stays as the file has it, and its vertices in the document.
+struct Bake {
+    GltfDocument document;
+    StoredBake stored;
+};
+
+Bake load_bake(const Path& path, const GltfOptions& reading) {
+    GltfDocument document = load_gltf(path, reading);
+    std::optional<StoredBake> stored = read_stored_transfer(document, extract_scene(document));
+    if (!stored)
+        throw Error(path.string() + (scene_file_of(std::move(document), path).compressed
+                                         ? ": is compressed already; compress the bake it came from"
+                                         : ": holds no transfer; run prt bake first"));
+    discard_transfer(document); // it is in `stored`, and would be in memory twice
+    return {std::move(document), std::move(*stored)};
+}
+
+/// What the compressor may look at.
+SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
+    SceneSurface surface(extract_scene(bake.document));
+    const bool chooses = options.budget.any() && options.choose_guides;
+    if (!chooses && options.compress.guides != GuideChoice::normal_and_position)
+        surface.positions = {};
+    return surface;
+}
+
+Outcome run_compressor(const CompressArguments& a, const TransferView& transfer,
+                       const ReceiverSurface& surface, const SearchOptions& options, Session& session) {
     const CompressOptions& o = options.compress;
     ProgressBar bar = session.progress_bar("compressing");
     if (a.preset) {
@@ -207,22 +231,28 @@ Outcome run_compressor(const CompressArguments& a, const SceneFile& model, const
     return {std::move(found.result), std::move(found.trials), found.best};
 }
 
-/// The scene's file with the result, in the order that is asked for.
-std::vector<std::byte> encoded(const CompressArguments& a, SceneFile& model, ClusteredTransfer& result) {
+/// The bake's file with the result, in the order that is asked for.
+std::vector<std::byte> encoded(const CompressArguments& a, GltfDocument document, const Scene& scene,
+                               CompressedTransfer result) {
     if (a.writing.reorder) {
-        const std::vector<std::uint32_t> order = order_by_cluster(model.scene, result.receivers);
-        reorder_vertices(model.document, model.scene, order);
-        result.receivers = reordered(result.receivers, order);
+        const std::vector<std::uint32_t> order = order_by_cluster(scene, result.transfer.receivers);
+        reorder_vertices(document, scene, order);
+        result.transfer.receivers = reordered(result.transfer.receivers, order);
     }
-    write_clustered(model.document, model.scene, {result, model.baked->record});
-    return encode_glb(model.document,
-                      a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none);
+    write_clustered(document, scene, result);
+    return encode_glb(document, a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none);
 }
 
+struct Written {
+    Scene scene;
+    ClusteredTransfer transfer;
+};
+
 /// What is about to be published, as everybody will read it.
-SceneFile read_back(const CompressArguments& a, std::span<const std::byte> file) {
+Written read_back(const CompressArguments& a, std::span<const std::byte> file) {
     try {
-        return scene_file_of(parse_gltf(file, a.output), a.output);
+        SceneFile read = scene_file_of(parse_gltf(file, a.output), a.output);
+        return {std::move(read.scene), std::move(read.compressed->transfer)};
     } catch (const Error& error) {
         throw Error(a.baked.string() + ": cannot be compressed, nobody could read " + error.what());
     }
@@ -246,21 +276,17 @@ std::string guides_in_words(const ClusteredBases& bases) {
     return bases.guides.empty() ? "none" : fmt::format("{}", fmt::join(guide_names(bases), ", "));
 }
 
-/// What the file holds.
-Transfer decoded(const SceneFile& written, int threads) {
-    return decode(written.compressed->transfer, threads);
-}
-
-/// The errors are those of `coded`, against `transfer` in its order.
-Json result_json(const CompressStatistics& s, const CompressOptions& options, const Transfer& transfer,
-                 const Transfer& coded, const ErrorMoments& moments, const SceneFile& written) {
-    const SceneSurface surface(written.scene);
+/// The errors are those of what is written, against `transfer` in its order.
+Json result_json(const CompressStatistics& s, const CompressOptions& options, const TransferView& transfer,
+                 const ErrorMoments& moments, const Written& written) {
+    const std::vector<float> areas = receiver_areas(written.scene);
+    const std::vector<Edge> edges = mesh_edges(written.scene);
     const std::size_t receivers = transfer.receivers();
     const std::size_t uncompressed = transfer.dimension() * sizeof(float);
-    const ClusteredBases& bases = written.compressed->transfer.bases;
-    return {{"order", transfer.layout.order},
-            {"channels", transfer.layout.channels()},
-            {"parts", parts_figures(transfer.layout)},
+    const ClusteredBases& bases = written.transfer.bases;
+    return {{"order", transfer.layout().order},
+            {"channels", transfer.layout().channels()},
+            {"parts", parts_figures(transfer.layout())},
             {"receivers", receivers},
             {"clusters", s.clusters},
             {"components_most", bases.max_components()},
@@ -269,9 +295,9 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
             {"shader_operations", s.operations()},
             {"lit_rms", expected_lit_rms(moments, *options.metric)},
             {"jump_across_clusters",
-             jump_across_clusters(transfer, coded, written.compressed->transfer.receivers.clusters,
-                                  surface.view(), *options.metric, options.threads)},
-            {"relative_l2", relative_l2(transfer, coded, surface.areas)},
+             jump_across_clusters(transfer, written.transfer, written.transfer.receivers.clusters,
+                                  {areas, edges}, *options.metric, options.threads)},
+            {"relative_l2", relative_l2(transfer, written.transfer, areas)},
             {"lit_rms_by_iteration", s.lit_rms_by_iteration},
             {"bytes_bound_per_vertex", s.bytes_per_receiver},
             {"bytes_bound_per_vertex_with_bases", s.bytes_with_bases(receivers)},
@@ -326,15 +352,6 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
     return list;
 }
 
-SceneFile load_bake(const Path& path, const GltfOptions& reading) {
-    SceneFile model = load_scene_file(path, reading);
-    if (!model.baked)
-        throw Error(path.string() + (model.compressed
-                                         ? ": is compressed already; compress the bake it came from"
-                                         : ": holds no transfer; run prt bake first"));
-    return model;
-}
-
 void run(CompressArguments a, Session& session) {
     std::vector<Path> inputs = a.metric.lights;
     inputs.push_back(a.baked);
@@ -342,38 +359,44 @@ void run(CompressArguments a, Session& session) {
                                        {a.reports.json, "--json", {".json"}},
                                        {a.reports.trace, "--trace", {".jsonl"}}},
                                       inputs);
-    SceneFile model = load_bake(a.baked, a.reading);
+    Bake bake = load_bake(a.baked, a.reading);
+    TransferView transfer = bake.stored.transfer;
     if (a.writing.whole)
-        model.baked->transfer = as_whole(model.baked->transfer, a.options.compress.threads);
-    const Transfer& transfer = model.baked->transfer;
+        transfer = as_whole(std::move(transfer));
     SearchOptions options = a.options;
-    std::vector<NamedLighting> skies = given_lights(a.metric, transfer.layout, options.compress.threads);
-    ErrorTerms terms =
-        error_terms(a.metric, skies, transfer, receiver_areas(model.scene), options.compress.threads);
+    std::optional<SceneSurface> surface = surface_of(bake, options);
+    std::vector<NamedLighting> skies = given_lights(a.metric, transfer.layout(), options.compress.threads);
+    ErrorTerms terms = error_terms(a.metric, skies, transfer, surface->areas, options.compress.threads);
     options.compress.metric = std::move(terms.metric);
     if (options.budget.max_error)
         options.budget.skies = std::move(terms.promised);
     if (a.components_given && options.compress.coding.components > static_cast<int>(transfer.dimension()))
         throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
                                 transfer.dimension(), options.compress.coding.components));
-    discard_transfer(model.document); // it is in `transfer`, and would be in memory twice
     std::string trace;
     if (!a.reports.trace.empty())
         options.compress.trace = [&](const CompressEvent& event) { trace += trace_line(event); };
-    Outcome outcome = run_compressor(a, model, options, session);
+    Outcome outcome = run_compressor(a, transfer, surface->view(), options, session);
+    surface.reset();
     session.write(a.reports.trace, trace);
-    const VertexReuse reuse_before = vertex_reuse(model.scene);
-    const std::vector<std::byte> file =
-        about(a.baked, [&] { return encoded(a, model, outcome.result.transfer); });
-    const SceneFile written = read_back(a, file);
-    put_in_order_of(written.scene, model);
+    Scene scene = extract_scene(bake.document);
+    const VertexReuse reuse_before = vertex_reuse(scene);
+    const std::vector<std::byte> file = about(a.baked, [&] {
+        return encoded(a, std::move(bake.document), scene,
+                       {std::move(outcome.result.transfer), bake.stored.record});
+    });
+    for (Primitive& primitive : scene.primitives)
+        primitive.triangles = {}; // vertices alone are compared with what was written
+    const Written written = read_back(a, file);
+    const std::vector<std::uint32_t> order = matching_receivers(written.scene, scene);
+    scene = {};
+    transfer = in_order(std::move(transfer), order);
     const CompressStatistics& s = outcome.result.statistics;
     Report report;
     add_figures(report, {{"output", a.output.string()}});
-    const Transfer coded = decoded(written, options.compress.threads);
     const ErrorMoments moments =
-        error_moments(transfer, coded, receiver_areas(written.scene), options.compress.threads);
-    add_figures(report, result_json(s, options.compress, transfer, coded, moments, written));
+        error_moments(transfer, written.transfer, receiver_areas(written.scene), options.compress.threads);
+    add_figures(report, result_json(s, options.compress, transfer, moments, written));
     add_figures(report, reuse_json(reuse_before, vertex_reuse(written.scene)));
     add_figures(report, {{"bytes_file", session.write(a.output, file)},
                          {"trials", trials_json(outcome.trials)},
@@ -381,7 +404,7 @@ void run(CompressArguments a, Session& session) {
     report.sentences = sentences(a, a.preset && !outcome.trials.empty());
     if (outcome.best)
         add_promises(options.budget, *outcome.best, report);
-    std::ranges::move(standard_skies(transfer.layout.order), std::back_inserter(skies));
+    std::ranges::move(standard_skies(transfer.layout().order), std::back_inserter(skies));
     add_sky_errors(moments, skies, report);
     publish(report, a.reports.json, session);
 }

@@ -71,8 +71,9 @@ Assignment assign(const PointBlocks& points, const PenalisedClusters& clusters, 
     parallel_for(points.blocks(), 32, threads, [&](std::size_t begin, std::size_t end) {
         alignas(64) std::array<std::uint32_t, kLanes> nearest{};
         alignas(64) std::array<float, kLanes> errors{};
+        std::vector<float> room(points.width() * kLanes);
         for (std::size_t b = begin; b < end; ++b) {
-            nearest_of_block(points.block(b), clusters, all, nearest.data(), errors.data());
+            nearest_of_block(points.block(b, room.data()), clusters, all, nearest.data(), errors.data());
             const std::size_t first = b * kLanes, n = std::min(kLanes, points.count - first);
             std::copy_n(nearest.begin(), n, &result.clusters[first]);
             std::transform(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(n),
@@ -94,8 +95,9 @@ std::vector<std::uint32_t> reassign(const PointBlocks& points, const PenalisedCl
 void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads) {
     parallel_for(points.blocks(), 256, threads, [&](std::size_t begin, std::size_t end) {
         alignas(64) std::array<float, kLanes> distances{};
+        std::vector<float> room(points.width() * kLanes);
         for (std::size_t b = begin; b < end; ++b) {
-            distances_of_block(points.block(b), points.dimension, center, distances.data());
+            distances_of_block(points.block(b, room.data()), points.dimension, center, distances.data());
             for (std::size_t p = b * kLanes; p < std::min((b + 1) * kLanes, points.count); ++p)
                 errors[p] = std::min(errors[p], distances[p % kLanes]);
         }

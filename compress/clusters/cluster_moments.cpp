@@ -15,10 +15,31 @@
 namespace prt {
 namespace {
 
-/// A point that enters (+1) or leaves (-1) a cluster.
-struct Change {
-    std::uint32_t point;
-    double sign;
+/// Points that enter or leave each cluster, ascending, one list after the other.
+struct Changes {
+    std::vector<std::size_t> first; ///< [clusters + 1]
+    std::vector<std::uint32_t> points;
+
+    Changes(std::span<const float> significance, std::span<const std::uint32_t> before,
+            std::span<const std::uint32_t> after, std::size_t clusters)
+        : first(clusters + 1, 0) {
+        const auto visit = [&](auto&& change) {
+            for (std::uint32_t p = 0; p < before.size(); ++p)
+                if (before[p] != after[p] && significance[p] > 0)
+                    for (const std::uint32_t k : {before[p], after[p]})
+                        if (k < clusters)
+                            change(p, k);
+        };
+        visit([&](std::uint32_t, std::uint32_t k) { ++first[k + 1]; });
+        for (std::size_t k = 0; k < clusters; ++k)
+            first[k + 1] += first[k];
+        points.resize(first.back());
+        std::vector<std::size_t> next(first.begin(), first.end() - 1);
+        visit([&](std::uint32_t p, std::uint32_t k) { points[next[k]++] = p; });
+    }
+    std::span<const std::uint32_t> of(std::size_t k) const {
+        return std::span(points).subspan(first[k], first[k + 1] - first[k]);
+    }
 };
 
 } // namespace
@@ -53,21 +74,13 @@ void ClusterMoments::update(const PointBlocks& points, std::span<const float> si
                             std::span<const std::uint32_t> before, std::span<const std::uint32_t> after,
                             int threads) {
     const std::size_t count = values_.size() / stride_;
-    std::vector<std::vector<Change>> changes(count);
-    for (std::uint32_t p = 0; p < points.count; ++p) {
-        if (before[p] == after[p] || !(significance[p] > 0))
-            continue;
-        if (before[p] < count)
-            changes[before[p]].push_back({p, -1});
-        if (after[p] < count)
-            changes[after[p]].push_back({p, 1});
-    }
+    const Changes changes(significance, before, after, count);
     parallel_for(count, 1, threads, [&](std::size_t begin, std::size_t end) {
         std::vector<float> point(dimension_ + guides_);
         for (std::size_t k = begin; k < end; ++k)
-            for (const Change& change : changes[k]) {
-                points.copy_point(change.point, point.data());
-                add(point, change.sign * static_cast<double>(significance[change.point]),
+            for (const std::uint32_t p : changes.of(k)) {
+                points.copy_point(p, point.data());
+                add(point, (before[p] == k ? -1 : 1) * static_cast<double>(significance[p]),
                     std::span(values_).subspan(k * stride_, stride_));
             }
     });

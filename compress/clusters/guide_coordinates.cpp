@@ -27,23 +27,18 @@ double extent(std::span<const glm::vec3> values) {
 
 GuideCoordinates guide_coordinates(const ReceiverSurface& surface, GuideChoice choice) {
     GuideCoordinates result;
-    std::vector<std::span<const glm::vec3>> attributes;
     const auto add = [&](GuideKind kind, std::span<const glm::vec3> values) {
         const double size = extent(values);
         const auto scale = static_cast<float>(1 / size);
         if (!(size > 0) || !std::isfinite(scale))
             return;
         result.guides.push_back({kind, glm::vec3(0), glm::vec3(scale)});
-        attributes.push_back(values);
+        result.attributes.push_back(values);
     };
     if (choice != GuideChoice::none)
         add(GuideKind::normal, surface.normals);
     if (choice == GuideChoice::normal_and_position)
         add(GuideKind::position, surface.positions);
-    for (std::size_t p = 0; p < surface.areas.size() && !attributes.empty(); ++p)
-        for (const std::span<const glm::vec3> values : attributes)
-            for (int i = 0; i < 3; ++i)
-                result.values.push_back(values[p][i]);
     return result;
 }
 

@@ -8,15 +8,19 @@
 
 namespace prt {
 
-/// Coordinates of the guides at all receivers, and what they are multiplied with to be weights.
+/// Coordinates of the guides at all receivers, and what they are multiplied with to be weights. Keeps
+/// references to the surface.
 struct GuideCoordinates {
     std::vector<Guide> guides;
-    std::vector<float> values; ///< [receivers][count()], seen from the guides' origins
+    std::vector<std::span<const glm::vec3>> attributes; ///< [guides][receivers], seen from their origins
 
     std::size_t count() const { return 3 * guides.size(); }
+    float value(std::size_t receiver, std::size_t g) const {
+        return attributes[g / 3][receiver][static_cast<int>(g % 3)];
+    }
     float& scale(std::size_t g) { return guides[g / 3].scale[static_cast<int>(g % 3)]; }
     float scaled(std::size_t receiver, std::size_t g) const {
-        return values[receiver * count() + g] * guides[g / 3].scale[static_cast<int>(g % 3)];
+        return value(receiver, g) * guides[g / 3].scale[static_cast<int>(g % 3)];
     }
 };
 

@@ -3,7 +3,7 @@
 #include "clusters/guide_coordinates.h"
 #include "metric/frame.h"
 #include "prt/support/vector_lanes.h"
-#include "prt/transfer.h"
+#include "prt/transfer_view.h"
 
 #include <cstdint>
 #include <span>
@@ -17,20 +17,30 @@ inline constexpr std::size_t kMostDimensions = kMostTransferNumbers;
 
 /// Transfer vectors as points of the space of a frame, laid out for vector units: blocks of kLanes points, in
 /// each block coordinate by coordinate, and then its guides. The last block is filled up with copies of its
-/// first point.
+/// first point. Floats, or whole numbers of 16 bits in steps that suit kStepBlocks blocks each.
 struct PointBlocks {
+    static constexpr std::size_t kStepBlocks = 64;
+
     std::size_t count = 0, dimension = 0, guides = 0;
-    std::vector<float> values; ///< [blocks][width][kLanes]
+    std::vector<float> values;         ///< [blocks][width][kLanes]; nothing where they are rounded
+    std::vector<std::int16_t> rounded; ///< the same over their steps
+    std::vector<float> steps;          ///< [blocks / kStepBlocks, rounded up][width]
 
     PointBlocks() = default;
-    PointBlocks(const Transfer& transfer, const Frame& frame, const GuideCoordinates& guides, int threads);
+    /// Rounded where the mean squared error of that is at most `most_rounding`.
+    PointBlocks(const TransferView& transfer, const Frame& frame, const GuideCoordinates& guides, int threads,
+                double most_rounding = 0);
 
+    /// The mean squared error of rounding; 0 where they are floats.
+    double rounding() const;
     /// Numbers of a point.
     std::size_t width() const { return dimension + guides; }
     std::size_t blocks() const { return (count + kLanes - 1) / kLanes; }
-    const float* block(std::size_t b) const { return values.data() + b * width() * kLanes; }
+    /// [width][kLanes], in `room` for as many where it does not stand in memory like that.
+    const float* block(std::size_t b, float* room) const;
     float coordinate(std::size_t point, std::size_t i) const {
-        return values[(point / kLanes * width() + i) * kLanes + point % kLanes];
+        const std::size_t at = (point / kLanes * width() + i) * kLanes + point % kLanes;
+        return rounded.empty() ? values[at] : static_cast<float>(rounded[at]) * steps_of(point / kLanes)[i];
     }
     /// Copies points side by side, [width][kLanes], at most kLanes of them and at least one, which fills what
     /// is left.
@@ -42,6 +52,14 @@ struct PointBlocks {
         for (std::size_t i = 0; i < width(); ++i)
             to[i] = coordinate(point, i);
     }
+
+private:
+    const float* steps_of(std::size_t block) const { return steps.data() + block / kStepBlocks * width(); }
+    /// All blocks, kStepBlocks at a time: `take(first_block, numbers)`, numbers as they stand in a block.
+    template <class Take>
+    void project(const TransferView& transfer, const Frame& frame, const GuideCoordinates& coordinates,
+                 int threads, Take&& take) const;
+    void round_blocks(std::size_t first, std::span<const float> numbers);
 };
 
 /// sum_p significance[p] errors[p], in a fixed order.

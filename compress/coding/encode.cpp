@@ -148,10 +148,12 @@ void pack(const QuantisedClusters& clusters, const Codes& codes, const Encoding&
     const std::vector<ClusterLayout> layouts = cluster_layouts(bases);
     std::vector<std::uint32_t> words(static_cast<std::size_t>(receivers.words)),
         values(clusters.max_components);
+    std::vector<float> weights(clusters.max_components);
     for (std::size_t p = 0; p < codes.clusters.size(); ++p) {
         const std::uint32_t k = codes.clusters[p];
+        codes.read(clusters, p, weights.data());
         for (std::size_t j = 0; j < layouts[k].components; ++j)
-            values[j] = static_cast<std::uint32_t>(clusters.grid(k, j).index_of(codes.of(p)[j]));
+            values[j] = static_cast<std::uint32_t>(clusters.grid(k, j).index_of(weights[j]));
         pack_words(k, receivers.cluster_bits, layouts[k], values, words);
         std::memcpy(&receivers.weights[p * receivers.stride()], words.data(), receivers.stride());
     }
@@ -220,7 +222,9 @@ ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, cons
     ClusteredTransfer result;
     result.bases = make_bases(frame, clusters, coded_frame, guides.guides, encoding.step);
     ClusteredReceivers& receivers = result.receivers;
-    receivers.guides = guides.values;
+    receivers.guides.resize(codes.clusters.size() * guides.count());
+    for (std::size_t at = 0; at < receivers.guides.size(); ++at)
+        receivers.guides[at] = guides.value(at / guides.count(), at % guides.count());
     receivers.format = encoding.format;
     receivers.clusters.assign(codes.clusters.begin(), codes.clusters.end());
     if (encoding.format == WeightFormat::packed) {
@@ -230,9 +234,12 @@ ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, cons
     receivers.components = (result.bases.max_components() + 3) / 4 * 4;
     const std::size_t size = bytes_per_weight(encoding.format), stride = receivers.stride();
     receivers.weights.assign(codes.clusters.size() * stride, std::byte{0});
-    for (std::size_t p = 0; p < codes.clusters.size(); ++p)
+    std::vector<float> weights(clusters.max_components);
+    for (std::size_t p = 0; p < codes.clusters.size(); ++p) {
+        codes.read(clusters, p, weights.data());
         for (std::size_t j = 0; j < clusters.components_of(codes.clusters[p]); ++j)
-            store_weight(&receivers.weights[p * stride + j * size], codes.of(p)[j], encoding.format);
+            store_weight(&receivers.weights[p * stride + j * size], weights[j], encoding.format);
+    }
     return result;
 }
 

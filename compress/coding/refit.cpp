@@ -17,19 +17,19 @@ struct NormalEquations {
 };
 
 NormalEquations normal_equations(const PointBlocks& points, std::span<const float> significance,
-                                 const Codes& codes, const AffineClusters& clusters, std::size_t k,
+                                 const Codes& codes, const QuantisedClusters& clusters, std::size_t k,
                                  std::span<const std::uint32_t> members) {
     const auto d = static_cast<Eigen::Index>(clusters.dimension), m = Eigen::Index{clusters.components[k]},
                known = 1 + static_cast<Eigen::Index>(clusters.guides), n = known + m;
     NormalEquations equations{Eigen::MatrixXd::Zero(n, n), Eigen::MatrixXd::Zero(n, d)};
-    std::vector<float> point(points.width());
+    std::vector<float> point(points.width()), w(clusters.max_components);
     Eigen::VectorXd z(n), residual(d);
     z[0] = 1;
     for (const std::uint32_t p : members) {
         if (!(significance[p] > 0))
             continue;
         points.copy_point(p, point.data());
-        const std::span<const float> w = codes.of(p);
+        codes.read(clusters, p, w.data());
         subtract_known(clusters, k, point.data());
         residual = Eigen::Map<const Eigen::VectorXf>(point.data(), d).cast<double>();
         for (std::size_t g = 0; g < clusters.guides; ++g)
@@ -50,7 +50,7 @@ NormalEquations normal_equations(const PointBlocks& points, std::span<const floa
 } // namespace
 
 void refit(const PointBlocks& points, std::span<const float> significance, const Codes& codes,
-           AffineClusters& clusters, int threads) {
+           QuantisedClusters& clusters, int threads) {
     if (points.dimension == 0)
         return;
     const ClusterLists members = members_of(codes.clusters, clusters.clusters());

@@ -6,6 +6,6 @@ namespace prt {
 
 /// Means and rows that fit the codes best, by least squares with the significance of the points.
 void refit(const PointBlocks& points, std::span<const float> significance, const Codes& codes,
-           AffineClusters& clusters, int threads);
+           QuantisedClusters& clusters, int threads);
 
 } // namespace prt

@@ -10,6 +10,9 @@
 
 #include <Eigen/Dense>
 
+#include <array>
+#include <numeric>
+
 namespace prt {
 namespace {
 
@@ -24,6 +27,37 @@ std::vector<double> significance_per_edge(const Adjacency& neighbours, std::span
 }
 
 using PointVector = Eigen::VectorXf;
+
+/// All receivers; of more than are solved for together neighbours soon after each other: breadth first from
+/// the first of each piece of the mesh.
+std::vector<std::uint32_t> order_of_stretches(const Adjacency& neighbours, std::size_t solved_together) {
+    std::vector<std::uint32_t> order;
+    if (neighbours.receivers() <= solved_together) {
+        order.resize(neighbours.receivers());
+        std::iota(order.begin(), order.end(), 0u);
+        return order;
+    }
+    order.reserve(neighbours.receivers());
+    std::vector<bool> met(neighbours.receivers(), false);
+    const auto meet = [&](std::uint32_t p) {
+        if (!met[p])
+            order.push_back(p);
+        met[p] = true;
+    };
+    std::size_t next = 0;
+    for (std::uint32_t start = 0; start < neighbours.receivers(); ++start)
+        for (meet(start); next < order.size(); ++next)
+            for (const std::uint32_t q : neighbours.of(order[next]))
+                meet(q);
+    return order;
+}
+
+/// Receivers whose weights are solved for together.
+struct Stretch {
+    std::span<const std::uint32_t> receivers;
+    std::size_t unknowns = 0;
+};
+constexpr std::uint32_t kElsewhere = ~0u; ///< has no unknowns in the stretch
 
 std::vector<Eigen::MatrixXf> products_of_rows(const QuantisedClusters& clusters) {
     std::vector<Eigen::MatrixXf> result;
@@ -70,7 +104,7 @@ private:
     }
     std::size_t components(std::size_t p) const { return clusters_.components_of(codes_.clusters[p]); }
     /// scale · sum_j w_j row_j in the cluster of receiver p.
-    void add_combination(std::size_t p, std::span<const float> w, PointVector& to, float scale = 1) const {
+    void add_combination(std::size_t p, const float* w, PointVector& to, float scale = 1) const {
         for (std::size_t j = 0; j < components(p); ++j)
             to += scale * w[j] * row(codes_.clusters[p], j);
     }
@@ -90,14 +124,18 @@ private:
     /// Code minus point.
     void error_of(std::size_t p, PointVector& error) const {
         error = -left_of(p, codes_.clusters[p]);
-        add_combination(p, codes_.of(p), error);
+        std::array<float, kMostDimensions> weights;
+        codes_.read(clusters_, p, weights.data());
+        add_combination(p, weights.data(), error);
     }
 
+    /// Weights of a stretch as real numbers, and then rounded.
+    void solve(std::span<const std::uint32_t> receivers);
     /// How eq. 28 falls, by halves, with the weights of each receiver: [unknowns], first_ of each.
-    std::vector<float> descent() const;
-    /// Its quadratic form applied to a change of all weights.
-    std::vector<float> curvature(std::span<const float> change) const;
-    std::vector<float> inverse_diagonal() const;
+    std::vector<float> descent(const Stretch& stretch) const;
+    /// Its quadratic form applied to a change of all weights of the stretch.
+    std::vector<float> curvature(const Stretch& stretch, std::span<const float> change) const;
+    std::vector<float> inverse_diagonal(const Stretch& stretch) const;
     Eigen::Map<const Eigen::VectorXf> weights_of(std::size_t p, std::span<const float> unknowns) const {
         return {unknowns.data() + first_[p], static_cast<Eigen::Index>(components(p))};
     }
@@ -123,15 +161,15 @@ private:
     Eigen::Index dimension_;
     double mean_error_;
     // While weights are solved for:
-    std::vector<std::size_t> first_; ///< [points + 1] a receiver's first unknown: as many as components
+    std::vector<std::uint32_t> first_;      ///< [points] a receiver's first unknown of as many as components
     std::vector<Eigen::MatrixXf> products_; ///< [clusters] of their rows with each other
 };
 
-std::vector<float> SeamSmoother::descent() const {
-    std::vector<float> result(first_.back(), 0.0f);
-    parallel_for(points_.count, 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
+std::vector<float> SeamSmoother::descent(const Stretch& stretch) const {
+    std::vector<float> result(stretch.unknowns, 0.0f);
+    parallel_for(stretch.receivers.size(), 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
         PointVector sum(dimension_), own(dimension_), other(dimension_);
-        for (std::size_t p = begin; p < end; ++p) {
+        for (const std::uint32_t p : stretch.receivers.subspan(begin, end - begin)) {
             error_of(p, own);
             sum = significance_[p] * own;
             for (const std::uint32_t q : neighbours_.of(p)) {
@@ -147,12 +185,12 @@ std::vector<float> SeamSmoother::descent() const {
 
 /// Most neighbours are of the same cluster: their rows meet in products that are known, and only weights are
 /// summed. Vectors are formed across borders alone.
-std::vector<float> SeamSmoother::curvature(std::span<const float> change) const {
-    std::vector<float> result(first_.back(), 0.0f);
-    parallel_for(points_.count, 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
+std::vector<float> SeamSmoother::curvature(const Stretch& stretch, std::span<const float> change) const {
+    std::vector<float> result(stretch.unknowns, 0.0f);
+    parallel_for(stretch.receivers.size(), 1024, options_.threads, [&](std::size_t begin, std::size_t end) {
         PointVector across(dimension_);
         Eigen::VectorXf within(static_cast<Eigen::Index>(clusters_.max_components));
-        for (std::size_t p = begin; p < end; ++p) {
+        for (const std::uint32_t p : stretch.receivers.subspan(begin, end - begin)) {
             const std::uint32_t k = codes_.clusters[p];
             const auto m = static_cast<Eigen::Index>(components(p));
             float own = significance_[p];
@@ -161,6 +199,8 @@ std::vector<float> SeamSmoother::curvature(std::span<const float> change) const 
             for (const std::uint32_t q : neighbours_.of(p)) {
                 const float price = edge_price(p, q);
                 own += price;
+                if (first_[q] == kElsewhere)
+                    continue;
                 if (codes_.clusters[q] == k) {
                     within.head(m) -= price * weights_of(q, change);
                     continue;
@@ -168,7 +208,7 @@ std::vector<float> SeamSmoother::curvature(std::span<const float> change) const 
                 if (!at_border)
                     across.setZero();
                 at_border = true;
-                add_combination(q, change.subspan(first_[q], components(q)), across, -price);
+                add_combination(q, change.data() + first_[q], across, -price);
             }
             within.head(m) += own * weights_of(p, change);
             Eigen::Map<Eigen::VectorXf> to(result.data() + first_[p], m);
@@ -180,9 +220,9 @@ std::vector<float> SeamSmoother::curvature(std::span<const float> change) const 
     return result;
 }
 
-std::vector<float> SeamSmoother::inverse_diagonal() const {
-    std::vector<float> result(first_.back(), 1.0f);
-    for (std::size_t p = 0; p < points_.count; ++p) {
+std::vector<float> SeamSmoother::inverse_diagonal(const Stretch& stretch) const {
+    std::vector<float> result(stretch.unknowns, 1.0f);
+    for (const std::uint32_t p : stretch.receivers) {
         auto total = static_cast<double>(significance_[p]);
         for (const std::uint32_t q : neighbours_.of(p))
             total += options_.seam_price * edge(p, q);
@@ -194,21 +234,34 @@ std::vector<float> SeamSmoother::inverse_diagonal() const {
     return result;
 }
 
-/// All weights together, as real numbers, and then rounded.
-void SeamSmoother::solve_weights() {
-    first_.reserve(points_.count + 1);
-    first_.assign(1, 0);
-    for (std::size_t p = 0; p < points_.count; ++p)
-        first_.push_back(first_.back() + components(p));
-    products_ = products_of_rows(clusters_);
+void SeamSmoother::solve(std::span<const std::uint32_t> receivers) {
+    Stretch stretch{receivers};
+    for (const std::uint32_t p : receivers) {
+        first_[p] = static_cast<std::uint32_t>(stretch.unknowns);
+        stretch.unknowns += components(p);
+    }
     const std::vector<float> change =
-        conjugate_gradients([&](std::span<const float> direction) { return curvature(direction); },
-                            inverse_diagonal(), descent());
-    for (std::size_t p = 0; p < points_.count; ++p)
-        for (std::size_t j = 0; j < components(p); ++j) {
-            float& w = codes_.weights[p * clusters_.max_components + j];
-            w = clusters_.grid(codes_.clusters[p], j).nearest(w + change[first_[p] + j]);
-        }
+        conjugate_gradients([&](std::span<const float> direction) { return curvature(stretch, direction); },
+                            inverse_diagonal(stretch), descent(stretch));
+    std::vector<float> w(clusters_.max_components);
+    for (const std::uint32_t p : receivers) {
+        const std::uint32_t k = codes_.clusters[p];
+        codes_.read(clusters_, p, w.data());
+        for (std::size_t j = 0; j < components(p); ++j)
+            w[j] = clusters_.grid(k, j).nearest(w[j] + change[first_[p] + j]);
+        codes_.weights.write(clusters_, k, p, w.data());
+        first_[p] = kElsewhere;
+    }
+}
+
+/// So many receivers at a time that vectors of all unknowns, of which the solver has six, take next to no
+/// memory. What few edges cross from one stretch to the next is seen by the sweeps that follow.
+void SeamSmoother::solve_weights() {
+    products_ = products_of_rows(clusters_);
+    first_.assign(points_.count, kElsewhere);
+    const std::vector<std::uint32_t> order = order_of_stretches(neighbours_, options_.solved_together);
+    for (std::size_t begin = 0; begin < order.size(); begin += options_.solved_together)
+        solve(std::span(order).subspan(begin, std::min(options_.solved_together, order.size() - begin)));
     first_ = {};
     products_ = {};
 }
@@ -291,9 +344,7 @@ std::size_t SeamSmoother::sweep(std::ptrdiff_t& spare) {
             continue;
         spare -= clusters_.components[better.cluster] - clusters_.components[codes_.clusters[p]];
         codes_.clusters[p] = better.cluster;
-        float* to = codes_.weights.data() + p * clusters_.max_components;
-        std::fill_n(to, clusters_.max_components, 0.0f);
-        std::copy_n(better.weights.begin(), clusters_.components[better.cluster], to);
+        codes_.weights.write(clusters_, better.cluster, p, better.weights.data());
         ++changed;
     }
     return changed;

@@ -104,21 +104,22 @@ struct Kernel {
 };
 
 /// Weights and errors of all points in the clusters that they have.
-void code_in_clusters(const PointBlocks& points, const Kernel& kernel, std::size_t max_components,
+void code_in_clusters(const PointBlocks& points, const QuantisedClusters& clusters, const Kernel& kernel,
                       Codes& codes, int threads) {
-    codes.max_components = max_components;
     codes.errors.resize(points.count);
-    codes.weights.assign(points.count * max_components, 0.0f);
+    codes.weights = CodeWeights(points.count, clusters);
     for_member_blocks(points, codes.clusters, threads, [&](const MemberBlock& members, const float* block) {
         const KernelCluster& cluster = kernel.clusters[members.cluster];
         alignas(64) std::array<float, kMostDimensions * kLanes> weights;
         alignas(64) std::array<float, kLanes> errors{};
+        std::array<float, kMostDimensions> own;
         weights_of_block(block, points.dimension, cluster, weights.data(), errors.data());
         for (std::size_t lane = 0; lane < members.points.size(); ++lane) {
             const std::size_t p = members.points[lane];
             codes.errors[p] = errors[lane];
             for (std::size_t j = 0; j < cluster.components; ++j)
-                codes.weights[p * max_components + j] = weights[j * kLanes + lane];
+                own[j] = weights[j * kLanes + lane];
+            codes.weights.write(clusters, members.cluster, p, own.data());
         }
     });
 }
@@ -127,7 +128,7 @@ void code_in_clusters(const PointBlocks& points, const Kernel& kernel, std::size
 
 void encode_in_place(const PointBlocks& points, const QuantisedClusters& clusters, Codes& codes,
                      int threads) {
-    code_in_clusters(points, Kernel(clusters), clusters.max_components, codes, threads);
+    code_in_clusters(points, clusters, Kernel(clusters), codes, threads);
 }
 
 void encode_points(const PointBlocks& points, const QuantisedClusters& clusters,
@@ -138,7 +139,7 @@ void encode_points(const PointBlocks& points, const QuantisedClusters& clusters,
         [&](const float* block, std::span<const std::uint32_t> near, std::uint32_t* best, float* errors) {
             best_of_block(block, points.dimension, kernel.clusters, near, best, errors);
         });
-    code_in_clusters(points, kernel, clusters.max_components, codes, threads);
+    code_in_clusters(points, clusters, kernel, codes, threads);
 }
 
 ClusterLists neighbours_of_codes(const QuantisedClusters& clusters, std::size_t most, int threads) {
@@ -148,10 +149,10 @@ ClusterLists neighbours_of_codes(const QuantisedClusters& clusters, std::size_t 
 void keep_better(const PointBlocks& points, const QuantisedClusters& clusters, const Codes& before,
                  Codes& codes, int threads) {
     parallel_for(points.count, 1024, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<float> rest(points.width());
+        std::vector<float> rest(points.width()), w(clusters.max_components);
         for (std::size_t p = begin; p < end; ++p) {
             const std::size_t k = before.clusters[p];
-            const std::span<const float> w = before.of(p);
+            before.read(clusters, p, w.data());
             points.copy_point(p, rest.data());
             subtract_known(clusters, k, rest.data());
             for (std::size_t j = 0; j < clusters.components_of(k); ++j)
@@ -164,7 +165,7 @@ void keep_better(const PointBlocks& points, const QuantisedClusters& clusters, c
                 continue;
             codes.clusters[p] = before.clusters[p];
             codes.errors[p] = error;
-            std::copy(w.begin(), w.end(), codes.weights.begin() + static_cast<std::ptrdiff_t>(p * w.size()));
+            codes.weights.copy(before.weights, p);
         }
     });
 }

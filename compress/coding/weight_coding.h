@@ -1,18 +1,18 @@
 #pragma once
 
-#include "coding/quantised_clusters.h"
+#include "coding/code_weights.h"
 
 namespace prt {
 
 /// What every point is coded as.
 struct Codes {
-    std::size_t max_components = 0;
     std::vector<std::uint32_t> clusters; ///< [points]
-    std::vector<float> weights;          ///< [points][max_components], on the grid
+    CodeWeights weights;
     std::vector<float> errors; ///< [points] squared distance of the point to what its code stands for
 
-    std::span<const float> of(std::size_t point) const {
-        return std::span(weights).subspan(point * max_components, max_components);
+    /// Of `point`, to `to` [components of its cluster].
+    void read(const QuantisedClusters& of, std::size_t point, float* to) const {
+        weights.read(of, clusters[point], point, to);
     }
 };
 

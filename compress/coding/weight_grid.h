@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 
 namespace prt {
 
@@ -23,6 +24,8 @@ public:
     float nearest(float weight) const {
         return is_any() ? weight : std::round((std::clamp(weight, -1.0f, 1.0f) + 1) * steps_) / steps_ - 1;
     }
+    /// The value of q.
+    float at(std::uint32_t q) const { return static_cast<float>(q) / steps_ - 1; }
     /// The q of a weight on the grid.
     long index_of(float weight) const { return std::lround((weight + 1) * steps_); }
 

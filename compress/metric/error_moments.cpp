@@ -3,6 +3,7 @@
 #include "prt/error_moments.h"
 
 #include "metric/color_blocks.h"
+#include "metric/transfer_columns.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 
@@ -57,13 +58,6 @@ std::vector<double> sums_of_squares(std::size_t dimension, std::span<const float
     for (std::size_t stretch = 1; stretch < kStretches; ++stretch)
         stretches[0] += stretches[stretch];
     return whole(stretches[0]);
-}
-
-Matrix columns_of(const Transfer& transfer, std::size_t begin, std::size_t end) {
-    return Eigen::Map<const Eigen::MatrixXf>(transfer.vector(begin).data(),
-                                             static_cast<Eigen::Index>(transfer.dimension()),
-                                             static_cast<Eigen::Index>(end - begin))
-        .cast<double>();
 }
 
 /// Squared error and square of exit radiance, summed over receivers and colors.
@@ -151,26 +145,27 @@ double place_of_maximum(auto&& f, double low, double high) {
 
 } // namespace
 
-std::vector<double> second_moments(const Transfer& transfer, std::span<const float> areas, int threads) {
-    return sums_of_squares(transfer.dimension(), areas, threads, [&](std::size_t begin, std::size_t end) {
-        return columns_of(transfer, begin, end);
-    });
+std::vector<double> second_moments(const TransferView& transfer, std::span<const float> areas, int threads) {
+    return sums_of_squares(transfer.dimension(), areas, threads,
+                           [&](std::size_t begin, std::size_t end) -> Matrix {
+                               return columns_of(transfer, begin, end).cast<double>();
+                           });
 }
 
-ErrorMoments error_moments(const Transfer& reference, const Transfer& approximation,
+ErrorMoments error_moments(const TransferView& reference, const TransferView& approximation,
                            std::span<const float> areas, std::vector<double> references, int threads) {
-    if (reference.layout != approximation.layout || reference.receivers() != approximation.receivers())
+    if (reference.layout() != approximation.layout() || reference.receivers() != approximation.receivers())
         throw Error("the transfers have different orders, parts or numbers of receivers");
-    return {reference.layout,
+    return {reference.layout(),
             sums_of_squares(reference.dimension(), areas, threads,
                             [&](std::size_t begin, std::size_t end) -> Matrix {
-                                return columns_of(reference, begin, end) -
-                                       columns_of(approximation, begin, end);
+                                return columns_of(reference, begin, end).cast<double>() -
+                                       columns_of(approximation, begin, end).cast<double>();
                             }),
             std::move(references)};
 }
 
-ErrorMoments error_moments(const Transfer& reference, const Transfer& approximation,
+ErrorMoments error_moments(const TransferView& reference, const TransferView& approximation,
                            std::span<const float> areas, int threads) {
     return error_moments(reference, approximation, areas, second_moments(reference, areas, threads), threads);
 }

@@ -3,6 +3,7 @@
 
 #include "metric/frame.h"
 
+#include "metric/transfer_columns.h"
 #include "prt/support/parallel.h"
 #include "tuning.h"
 
@@ -24,7 +25,7 @@ struct Moments {
 
 /// First and second moments, by significance, of all vectors about `shift`, block by block in double and
 /// summed in a fixed order.
-Moments moments_about(const Vector& shift, const Transfer& transfer, std::span<const float> significance,
+Moments moments_about(const Vector& shift, const TransferView& transfer, std::span<const float> significance,
                       int threads) {
     const auto n = static_cast<Eigen::Index>(transfer.dimension());
     // At most 64 partial sums, whatever the number of receivers.
@@ -37,8 +38,9 @@ Moments moments_about(const Vector& shift, const Transfer& transfer, std::span<c
         Matrix rows(n, static_cast<Eigen::Index>(kRows));
         for (std::size_t first = begin; first < end; first += kRows) {
             const std::size_t count = std::min(kRows, end - first);
+            const Eigen::MatrixXf vectors = columns_of(transfer, first, first + count);
             for (std::size_t r = 0; r < count; ++r) {
-                const Eigen::Map<const Eigen::VectorXf> vector(transfer.vector(first + r).data(), n);
+                const auto vector = vectors.col(static_cast<Eigen::Index>(r));
                 const double root = std::sqrt(static_cast<double>(significance[first + r]));
                 rows.col(static_cast<Eigen::Index>(r)) = (vector.cast<double>() - shift) * root;
                 part.sum += rows.col(static_cast<Eigen::Index>(r)) * root;
@@ -57,12 +59,15 @@ Moments moments_about(const Vector& shift, const Transfer& transfer, std::span<c
 }
 
 /// The significance, scaled to the sum 1 again, without outliers, whose vector is far longer than the median.
-std::vector<float> without_outliers(const Transfer& transfer, std::span<const float> significance) {
-    std::vector<float> lengths;
-    for (std::size_t p = 0; p < significance.size(); ++p)
-        lengths.push_back(Eigen::Map<const Eigen::VectorXf>(transfer.vector(p).data(),
-                                                            static_cast<Eigen::Index>(transfer.dimension()))
-                              .stableNorm());
+std::vector<float> without_outliers(const TransferView& transfer, std::span<const float> significance) {
+    std::vector<float> lengths(significance.size());
+    constexpr std::size_t kRead = 256;
+    for (std::size_t begin = 0; begin < lengths.size(); begin += kRead) {
+        const std::size_t end = std::min(begin + kRead, lengths.size());
+        const Eigen::MatrixXf vectors = columns_of(transfer, begin, end);
+        for (std::size_t p = begin; p < end; ++p)
+            lengths[p] = vectors.col(static_cast<Eigen::Index>(p - begin)).stableNorm();
+    }
     std::vector<float> sorted = lengths;
     const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
     std::nth_element(sorted.begin(), middle, sorted.end());
@@ -114,7 +119,7 @@ Matrix largest_axes(const Matrix& eigenvectors, std::size_t count) {
 
 } // namespace
 
-Frame fit_frame(const Transfer& transfer, std::span<const float> significance, const LightMetric& metric,
+Frame fit_frame(const TransferView& transfer, std::span<const float> significance, const LightMetric& metric,
                 double most_dropped, int threads) {
     const auto n = static_cast<Eigen::Index>(transfer.dimension());
     Matrix root, inverse;
@@ -127,7 +132,7 @@ Frame fit_frame(const Transfer& transfer, std::span<const float> significance, c
     const double energy = (root * (origin + moments.sum)).squaredNorm() + std::max(covariance.trace(), 0.0);
     const double scale = energy > 0 ? 1 / std::sqrt(energy) : 1;
 
-    Frame frame{transfer.layout, transfer.dimension(), {}, {}, {}, {}, 0, scale};
+    Frame frame{transfer.layout(), transfer.dimension(), {}, {}, {}, {}, 0, scale};
     frame.origin.assign(origin.begin(), origin.end());
     for (Eigen::Index i = n; i-- > 0;) // eigenvalues ascend
         frame.variances.push_back(std::max(0.0, solver.eigenvalues()[i]) * scale * scale);

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "prt/light_metric.h"
-#include "prt/transfer.h"
+#include "prt/transfer_view.h"
 
 #include <span>
 #include <vector>
@@ -27,7 +27,7 @@ struct Frame {
 
 /// The frame of `transfer` with as few axes as leave a squared error of at most `most_dropped`.
 /// `significance` [receivers] sums to 1.
-Frame fit_frame(const Transfer& transfer, std::span<const float> significance, const LightMetric& metric,
+Frame fit_frame(const TransferView& transfer, std::span<const float> significance, const LightMetric& metric,
                 double most_dropped, int threads);
 
 /// Axes without which the squared error grows to at most `most`.

@@ -1,5 +1,6 @@
 #include "prt/jumps.h"
 
+#include "metric/transfer_columns.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 
@@ -20,26 +21,28 @@ Eigen::MatrixXd factor_of(const LightMetric& metric) {
     return solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal() * solver.eigenvectors().transpose();
 }
 
-Eigen::Map<const Eigen::VectorXf> vector_of(const Transfer& transfer, std::size_t receiver) {
-    return {transfer.vector(receiver).data(), static_cast<Eigen::Index>(transfer.dimension())};
-}
-
-Eigen::VectorXd mean_vector(const Transfer& transfer, std::span<const float> areas) {
+Eigen::VectorXd mean_vector(const TransferView& transfer, std::span<const float> areas) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(transfer.dimension()));
     double area = 0;
-    for (std::size_t p = 0; p < areas.size(); ++p) {
-        sum += static_cast<double>(areas[p]) * vector_of(transfer, p).cast<double>();
-        area += static_cast<double>(areas[p]);
+    constexpr std::size_t kRead = 256;
+    for (std::size_t begin = 0; begin < areas.size(); begin += kRead) {
+        const std::size_t end = std::min(begin + kRead, areas.size());
+        const Eigen::MatrixXf vectors = columns_of(transfer, begin, end);
+        for (std::size_t p = begin; p < end; ++p) {
+            sum += static_cast<double>(areas[p]) *
+                   vectors.col(static_cast<Eigen::Index>(p - begin)).cast<double>();
+            area += static_cast<double>(areas[p]);
+        }
     }
     return area > 0 ? Eigen::VectorXd(sum / area) : sum;
 }
 
 } // namespace
 
-double jump_across_clusters(const Transfer& reference, const Transfer& approximation,
+double jump_across_clusters(const TransferView& reference, const TransferView& approximation,
                             std::span<const std::uint16_t> clusters, const ReceiverSurface& surface,
                             const LightMetric& metric, int threads) {
-    if (reference.layout != approximation.layout || reference.layout != metric.layout ||
+    if (reference.layout() != approximation.layout() || reference.layout() != metric.layout ||
         reference.receivers() != approximation.receivers() || clusters.size() != reference.receivers() ||
         surface.areas.size() != reference.receivers())
         throw Error("the transfers have different orders, parts or numbers of receivers");
@@ -53,12 +56,12 @@ double jump_across_clusters(const Transfer& reference, const Transfer& approxima
         return 0;
     std::vector<double> jumps(across.size());
     parallel_for(across.size(), 256, threads, [&](std::size_t begin, std::size_t end) {
-        const auto error = [&](std::size_t p) {
-            return vector_of(reference, p) - vector_of(approximation, p);
+        const auto error = [&](std::size_t p) -> Eigen::VectorXf {
+            return columns_of(reference, p, p + 1) - columns_of(approximation, p, p + 1);
         };
         for (std::size_t e = begin; e < end; ++e) {
             const Eigen::VectorXd difference =
-                (error(across[e].first) - error(across[e].second)).template cast<double>();
+                (error(across[e].first) - error(across[e].second)).cast<double>();
             jumps[e] = (factor * difference).norm() / mean;
         }
     });

@@ -5,6 +5,7 @@
 
 #include "metric/color_blocks.h"
 #include "metric/natural_share.h"
+#include "metric/transfer_columns.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
 #include "tuning.h"
@@ -125,10 +126,10 @@ Lighting changed(const Lighting& lighting, auto&& change) {
 }
 
 /// What the transfer costs without approximation: of all distant light together, then of each lamp.
-std::vector<double> costs_of_parts(LightMetric& metric, const Transfer& transfer,
+std::vector<double> costs_of_parts(LightMetric& metric, const TransferView& transfer,
                                    std::span<const float> areas, int threads) {
     const TransferLayout& layout = metric.layout;
-    const Eigen::Index n = dimension_of(layout), of_sky = of_sky_in(layout);
+    const Eigen::Index of_sky = of_sky_in(layout);
     constexpr std::size_t kGrain = 1024;
     const std::size_t blocks = (transfer.receivers() + kGrain - 1) / kGrain;
     std::vector<Eigen::VectorXd> of_block(
@@ -136,8 +137,7 @@ std::vector<double> costs_of_parts(LightMetric& metric, const Transfer& transfer
     const Eigen::Map<Matrix> moments = matrix_of(metric);
     parallel_for(transfer.receivers(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
         const auto count = static_cast<Eigen::Index>(end - begin);
-        const Matrix t =
-            Eigen::Map<const Eigen::MatrixXf>(transfer.vector(begin).data(), n, count).cast<double>();
+        const Matrix t = columns_of(transfer, begin, end).cast<double>();
         Eigen::VectorXd& sums = of_block[begin / kGrain];
         for (Eigen::Index p = 0; p < count; ++p) {
             const auto area = static_cast<double>(areas[begin + static_cast<std::size_t>(p)]);
@@ -220,7 +220,7 @@ LightMetric metric_of_lights(std::span<const Light> lights, const TransferLayout
     return metric_of_lights(skies, layout);
 }
 
-LightMetric balanced(LightMetric metric, const Transfer& transfer, std::span<const float> areas,
+LightMetric balanced(LightMetric metric, const TransferView& transfer, std::span<const float> areas,
                      int threads) {
     const std::vector<double> costs = costs_of_parts(metric, transfer, areas, threads);
     const std::span<const double> of_lamps = std::span(costs).subspan(1);
@@ -238,21 +238,19 @@ LightMetric balanced(LightMetric metric, const Transfer& transfer, std::span<con
     return metric;
 }
 
-double expected_lit_rms(const Transfer& reference, const Transfer& approximation,
+double expected_lit_rms(const TransferView& reference, const TransferView& approximation,
                         std::span<const float> areas, const LightMetric& metric, int threads) {
-    if (reference.layout != approximation.layout || metric.layout != reference.layout ||
+    if (reference.layout() != approximation.layout() || metric.layout != reference.layout() ||
         reference.receivers() != approximation.receivers())
         throw Error("the transfers or the metric have different orders, parts or numbers of receivers");
-    const Eigen::Index n = dimension_of(reference.layout);
     const Eigen::Map<const Matrix> moments = matrix_of(metric);
     constexpr std::size_t kGrain = 1024;
     const std::size_t blocks = (reference.receivers() + kGrain - 1) / kGrain;
     std::vector<double> errors(blocks, 0), norms(blocks, 0);
     parallel_for(reference.receivers(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
-        using Vectors = Eigen::Map<const Eigen::MatrixXf>;
         const auto count = static_cast<Eigen::Index>(end - begin);
-        const Matrix t = Vectors(reference.vector(begin).data(), n, count).cast<double>(),
-                     d = t - Vectors(approximation.vector(begin).data(), n, count).cast<double>();
+        const Matrix t = columns_of(reference, begin, end).cast<double>(),
+                     d = t - columns_of(approximation, begin, end).cast<double>();
         const Matrix cost_of_error = moments * d, cost = moments * t;
         for (Eigen::Index p = 0; p < count; ++p) {
             const auto area = static_cast<double>(areas[begin + static_cast<std::size_t>(p)]);

@@ -11,6 +11,7 @@ std::vector<float> significance_of(std::span<const float> areas) {
     for (const float area : areas)
         total += static_cast<double>(std::max(area, 0.0f));
     std::vector<float> significance;
+    significance.reserve(areas.size());
     for (const float area : areas)
         significance.push_back(static_cast<float>(total > 0
                                                       ? static_cast<double>(std::max(area, 0.0f)) / total

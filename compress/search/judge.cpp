@@ -6,7 +6,7 @@
 
 namespace prt {
 
-Judge::Judge(const Transfer& transfer, const ReceiverSurface& surface, const LightMetric& metric,
+Judge::Judge(const TransferView& transfer, const ReceiverSurface& surface, const LightMetric& metric,
              const Budget& budget, int threads)
     : transfer_(transfer), surface_(surface), metric_(metric), budget_(budget), threads_(threads) {
     if (!budget.skies.empty())
@@ -17,7 +17,7 @@ Verdict Judge::operator()(const CompressResult& result) const {
     Verdict verdict{result.statistics.lit_rms};
     if (budget_.skies.empty() && !budget_.max_jump)
         return verdict;
-    const Transfer decoded = decode(result.transfer, threads_);
+    const TransferView decoded(result.transfer);
     if (!budget_.skies.empty()) {
         const ErrorMoments moments = error_moments(transfer_, decoded, surface_.areas, squares_, threads_);
         for (const Lighting& sky : budget_.skies)

@@ -15,13 +15,13 @@ struct Verdict {
 /// Judges results of one transfer by what a budget promises. Keeps references.
 class Judge {
 public:
-    Judge(const Transfer& transfer, const ReceiverSurface& surface, const LightMetric& metric,
+    Judge(const TransferView& transfer, const ReceiverSurface& surface, const LightMetric& metric,
           const Budget& budget, int threads);
 
     Verdict operator()(const CompressResult& result) const;
 
 private:
-    const Transfer& transfer_;
+    const TransferView& transfer_;
     const ReceiverSurface& surface_;
     const LightMetric& metric_;
     const Budget& budget_;

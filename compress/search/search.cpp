@@ -31,7 +31,7 @@ void check_budget(const SearchOptions& o, const ReceiverSurface& surface) {
 }
 
 /// Metrics take time to make: every try has the same one.
-SearchTask task_of(const Transfer& transfer, const ReceiverSurface& surface, const SearchOptions& options,
+SearchTask task_of(const TransferView& transfer, const ReceiverSurface& surface, const SearchOptions& options,
                    const Progress& progress) {
     check_input(transfer, surface, options.compress);
     SearchTask task{transfer, surface, options, progress};
@@ -58,7 +58,7 @@ SearchResult within(const SearchTask& task) {
 
 } // namespace
 
-SearchResult compress_within(const Transfer& transfer, const ReceiverSurface& surface,
+SearchResult compress_within(const TransferView& transfer, const ReceiverSurface& surface,
                              const SearchOptions& options, const Progress& progress) {
     check_budget(options, surface);
     const Stopwatch stopwatch;
@@ -68,7 +68,7 @@ SearchResult compress_within(const Transfer& transfer, const ReceiverSurface& su
     return found;
 }
 
-SearchResult compress_preset(const Transfer& transfer, const ReceiverSurface& surface,
+SearchResult compress_preset(const TransferView& transfer, const ReceiverSurface& surface,
                              const CompressOptions& options, const Progress& progress) {
     const Stopwatch stopwatch;
     SearchResult found;

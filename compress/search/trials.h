@@ -11,7 +11,7 @@ namespace prt {
 
 /// What is compressed, and what for. Keeps references.
 struct SearchTask {
-    const Transfer& transfer;
+    const TransferView& transfer;
     const ReceiverSurface& surface;
     SearchOptions options; ///< with a metric
     const Progress& progress;

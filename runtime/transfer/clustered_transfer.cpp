@@ -1,8 +1,7 @@
-// Sizes of compressed transfer, and what it stands for.
+// Sizes of compressed transfer, and what it shows under a light.
 #include "prt/clustered_transfer.h"
 
 #include "prt/constant_former.h"
-#include "prt/support/parallel.h"
 #include "transfer/packed_weights.h"
 
 #include <algorithm>
@@ -68,36 +67,6 @@ std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Li
 
 std::vector<glm::vec3> exit_radiance(const ClusteredTransfer& transfer, const Light& light, int threads) {
     return exit_radiance(transfer, Lighting{light}, threads);
-}
-
-Transfer decode(const ClusteredTransfer& transfer, int threads) {
-    const ClusteredBases& bases = transfer.bases;
-    const std::size_t dimension = bases.dimension();
-    const std::vector<ClusterLayout> layouts = cluster_layouts(bases);
-    const std::size_t guides = bases.guide_rows();
-    Transfer result = zero_transfer(bases.layout, transfer.receivers.size());
-    parallel_for(transfer.receivers.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
-        std::vector<float> weights(static_cast<std::size_t>(bases.max_components()));
-        for (std::size_t p = begin; p < end; ++p) {
-            const std::size_t k = transfer.receivers.clusters[p];
-            const ClusterLayout& layout = layouts[k];
-            decode_weights(transfer, layouts, p, weights);
-            const float* row = &bases.rows[layout.first_row * dimension];
-            const std::span<float> out = result.vector(p);
-            std::copy_n(row, dimension, out.begin());
-            const auto add_row = [&](float weight) {
-                row += dimension;
-                for (std::size_t i = 0; i < dimension; ++i)
-                    out[i] += weight * row[i];
-            };
-            for (std::size_t g = 0; g < guides; ++g)
-                add_row(bases.guide_scale(g) * transfer.receivers.guides[p * guides + g] -
-                        static_cast<float>(bases.centers[k * guides + g]));
-            for (std::size_t j = 0; j < layout.components; ++j)
-                add_row(weights[j]);
-        }
-    });
-    return result;
 }
 
 } // namespace prt

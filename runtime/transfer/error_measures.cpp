@@ -46,10 +46,38 @@ void check_lit(std::span<const glm::vec3> reference, std::span<const glm::vec3> 
     check_finite(areas, "areas of receivers");
 }
 
+/// Squares of one receiver, color by color.
+struct VectorSquares {
+    double error = 0, norm = 0;
+};
+
+VectorSquares squares_of(const float* reference, const TransferLayout& layout, const float* approximation,
+                         const TransferLayout& other) {
+    VectorSquares squares;
+    const int channels = std::max(layout.channels(), other.channels());
+    for (std::size_t part = 0; part < layout.parts.size(); ++part) {
+        const int stored = layout.parts[part].channels, stored_other = other.parts[part].channels;
+        const std::size_t count = layout.columns_of(layout.parts[part]);
+        for (int c = 0; c < channels; ++c) {
+            const float* t = reference + count * static_cast<std::size_t>(std::min(c, stored - 1));
+            const float* a = approximation + count * static_cast<std::size_t>(std::min(c, stored_other - 1));
+            for (std::size_t i = 0; i < count; ++i) {
+                const double difference = static_cast<double>(t[i]) - static_cast<double>(a[i]);
+                squares.error += difference * difference;
+                squares.norm += static_cast<double>(t[i]) * static_cast<double>(t[i]);
+            }
+        }
+        reference += count * static_cast<std::size_t>(stored);
+        approximation += count * static_cast<std::size_t>(stored_other);
+    }
+    return squares;
+}
+
 } // namespace
 
-double relative_l2(const Transfer& reference, const Transfer& approximation, std::span<const float> areas) {
-    const TransferLayout &layout = reference.layout, &other = approximation.layout;
+double relative_l2(const TransferView& reference, const TransferView& approximation,
+                   std::span<const float> areas) {
+    const TransferLayout &layout = reference.layout(), &other = approximation.layout();
     if (layout.order != other.order || reference.receivers() != approximation.receivers())
         throw Error("the transfers have different orders or numbers of receivers");
     if (!same_parts(layout, other)) {
@@ -57,31 +85,24 @@ double relative_l2(const Transfer& reference, const Transfer& approximation, std
             throw Error("the transfers have different lamps");
         return relative_l2(as_whole(reference), as_whole(approximation), areas);
     }
-    check_finite(reference.vectors, "transfer vectors");
-    check_finite(approximation.vectors, "transfer vectors");
     check_finite(areas, "areas of receivers");
-    const int channels = std::max(layout.channels(), other.channels());
     double error = 0, norm = 0;
-    for (std::size_t p = 0; p < reference.receivers(); ++p) {
-        double receiver_error = 0, receiver_norm = 0;
-        const float *of_reference = reference.vector(p).data(), *of_other = approximation.vector(p).data();
-        for (std::size_t part = 0; part < layout.parts.size(); ++part) {
-            const int stored = layout.parts[part].channels, stored_other = other.parts[part].channels;
-            const std::size_t count = layout.columns_of(layout.parts[part]);
-            for (int c = 0; c < channels; ++c) {
-                const float* t = of_reference + count * static_cast<std::size_t>(std::min(c, stored - 1));
-                const float* a = of_other + count * static_cast<std::size_t>(std::min(c, stored_other - 1));
-                for (std::size_t i = 0; i < count; ++i) {
-                    const double difference = static_cast<double>(t[i]) - static_cast<double>(a[i]);
-                    receiver_error += difference * difference;
-                    receiver_norm += static_cast<double>(t[i]) * static_cast<double>(t[i]);
-                }
-            }
-            of_reference += count * static_cast<std::size_t>(stored);
-            of_other += count * static_cast<std::size_t>(stored_other);
+    constexpr std::size_t kBlock = 256;
+    std::vector<float> of_reference, of_other;
+    for (std::size_t begin = 0; begin < reference.receivers(); begin += kBlock) {
+        const std::size_t count = std::min(kBlock, reference.receivers() - begin);
+        of_reference.resize(count * reference.dimension());
+        of_other.resize(count * approximation.dimension());
+        reference.read(begin, of_reference);
+        approximation.read(begin, of_other);
+        check_finite(of_reference, "transfer vectors");
+        check_finite(of_other, "transfer vectors");
+        for (std::size_t p = 0; p < count; ++p) {
+            const VectorSquares squares = squares_of(&of_reference[p * reference.dimension()], layout,
+                                                     &of_other[p * approximation.dimension()], other);
+            error += static_cast<double>(areas[begin + p]) * squares.error;
+            norm += static_cast<double>(areas[begin + p]) * squares.norm;
         }
-        error += static_cast<double>(areas[p]) * receiver_error;
-        norm += static_cast<double>(areas[p]) * receiver_norm;
     }
     return std::sqrt(ratio(error, norm));
 }

@@ -2,6 +2,7 @@
 #include "prt/transfer.h"
 
 #include "prt/support/parallel.h"
+#include "prt/transfer_view.h"
 
 #include <algorithm>
 
@@ -84,6 +85,20 @@ Transfer as_whole(const Transfer& transfer, int threads) {
             add_parts(transfer.vector(p), transfer.layout, whole.layout, whole.vector(p));
     });
     return whole;
+}
+
+TransferView as_whole(TransferView transfer) {
+    const TransferLayout whole = as_whole(transfer.layout());
+    const std::size_t receivers = transfer.receivers();
+    return {whole, receivers, [from = std::move(transfer), whole](std::size_t first, std::span<float> to) {
+                const std::size_t numbers = whole.dimension(), count = to.size() / numbers;
+                std::vector<float> parts(count * from.dimension());
+                from.read(first, parts);
+                std::ranges::fill(to, 0.0f);
+                for (std::size_t p = 0; p < count; ++p)
+                    add_parts(std::span(parts).subspan(p * from.dimension(), from.dimension()), from.layout(),
+                              whole, to.subspan(p * numbers, numbers));
+            }};
 }
 
 double mean_visibility(const Transfer& transfer, std::span<const float> areas) {

@@ -4,7 +4,7 @@
 // which `lit_rms` under a lighting takes microseconds, whatever the number of receivers. Experimental.
 
 #include "prt/light_metric.h"
-#include "prt/transfer.h"
+#include "prt/transfer_view.h"
 
 #include <span>
 #include <vector>
@@ -21,13 +21,14 @@ struct ErrorMoments {
 /// Two passes of a symmetric rank-k update: dimension² operations a receiver, and memory that does not grow
 /// with the receivers. The result does not depend on `threads`. Throws `Error` when layouts or numbers of
 /// receivers differ.
-ErrorMoments error_moments(const Transfer& reference, const Transfer& approximation,
+ErrorMoments error_moments(const TransferView& reference, const TransferView& approximation,
                            std::span<const float> areas, int threads = 0);
 /// The same with `references` known, which are the same for every approximation: half of the work.
-ErrorMoments error_moments(const Transfer& reference, const Transfer& approximation,
+ErrorMoments error_moments(const TransferView& reference, const TransferView& approximation,
                            std::span<const float> areas, std::vector<double> references, int threads = 0);
 /// `ErrorMoments::references`.
-std::vector<double> second_moments(const Transfer& transfer, std::span<const float> areas, int threads = 0);
+std::vector<double> second_moments(const TransferView& transfer, std::span<const float> areas,
+                                   int threads = 0);
 
 /// `lit_rms` of prt/error_measures.h between the two transfers under `lighting`, to rounding. 0 where neither
 /// radiates, infinite where only errors do. Throws `Error` where the lighting has fewer bands than the

@@ -4,7 +4,7 @@
 
 #include "prt/light_metric.h"
 #include "prt/receiver_surface.h"
-#include "prt/transfer.h"
+#include "prt/transfer_view.h"
 
 #include <cstdint>
 #include <span>
@@ -22,7 +22,7 @@ inline constexpr double kUnseenJump = 0.05;
 /// the areas of both, of how the error of exit radiance differs between the ends: root of the mean square
 /// under `metric`, over that of the mean exit radiance of all receivers by area: sqrt(d^T C d / m^T C m). 0
 /// without such edges. Throws `Error` when layouts or numbers of receivers differ.
-double jump_across_clusters(const Transfer& reference, const Transfer& approximation,
+double jump_across_clusters(const TransferView& reference, const TransferView& approximation,
                             std::span<const std::uint16_t> clusters, const ReceiverSurface& surface,
                             const LightMetric& metric, int threads = 0);
 

@@ -3,7 +3,7 @@
 // What an error of transfer costs: the mean squared error of exit radiance over a family of lightings.
 
 #include "prt/light.h"
-#include "prt/transfer.h"
+#include "prt/transfer_view.h"
 
 #include <span>
 #include <vector>
@@ -54,12 +54,12 @@ LightMetric metric_of_lights(std::span<const Light> lights, const TransferLayout
 /// Weighs lamps so that each costs as much as the others on `transfer`, and all together as much as distant
 /// light, where there is any: an error counts alike by day and by night, and whichever lamps are dimmed,
 /// however bright they are beside a sky and each other.
-LightMetric balanced(LightMetric metric, const Transfer& transfer, std::span<const float> areas,
+LightMetric balanced(LightMetric metric, const TransferView& transfer, std::span<const float> areas,
                      int threads = 0);
 
 /// sqrt( E sum_p a_p |R_p - R'_p|² / E sum_p a_p |R_p|² ), the expectation over the lightings of `metric`:
 /// the `lit_rms` of all of them at once. Throws `Error` when layouts or numbers of receivers differ.
-double expected_lit_rms(const Transfer& reference, const Transfer& approximation,
+double expected_lit_rms(const TransferView& reference, const TransferView& approximation,
                         std::span<const float> areas, const LightMetric& metric, int threads = 0);
 
 } // namespace prt

@@ -48,14 +48,14 @@ struct SearchResult {
 /// many bytes as a preset may take. Takes three to six times as long as `compress`: later tries start from
 /// the clusters of earlier ones. Throws as `compress` does, for budgets that are not positive, and for guides
 /// that take more operations than there may be.
-SearchResult compress_within(const Transfer& transfer, const ReceiverSurface& surface,
+SearchResult compress_within(const TransferView& transfer, const ReceiverSurface& surface,
                              const SearchOptions& options, const Progress& progress = {});
 
 /// A coding (`preset_u32` and its like, or weights that are not packed) that fits small meshes, too: as it
 /// is where its bases take at most twice the bytes of the weights, or 4 KB; else the clusters and bits that
 /// lose least in as many words and no more bytes of bases than that. `kept` is false where nothing is as
 /// small.
-SearchResult compress_preset(const Transfer& transfer, const ReceiverSurface& surface,
+SearchResult compress_preset(const TransferView& transfer, const ReceiverSurface& surface,
                              const CompressOptions& options, const Progress& progress = {});
 
 } // namespace prt

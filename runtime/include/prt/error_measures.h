@@ -5,7 +5,7 @@
 
 #include "prt/adjacency.h"
 #include "prt/light.h"
-#include "prt/transfer.h"
+#include "prt/transfer_view.h"
 
 #include <optional>
 #include <span>
@@ -16,7 +16,8 @@ namespace prt {
 /// sqrt( sum_p a_p |T_p - T'_p|² / sum_p a_p |T_p|² ); 0 when both are zero. A grey transfer compares with a
 /// colored one as three equal channels; transfer of other parts as a whole. Throws `Error` when receivers or
 /// orders differ.
-double relative_l2(const Transfer& reference, const Transfer& approximation, std::span<const float> areas);
+double relative_l2(const TransferView& reference, const TransferView& approximation,
+                   std::span<const float> areas);
 
 /// Relative L2 of exit radiance, albedo 1, three channels, both [receivers].
 double lit_rms(std::span<const glm::vec3> reference, std::span<const glm::vec3> approximation,

@@ -29,6 +29,18 @@ std::size_t new_indices(GltfContents& contents, const std::vector<std::uint32_t>
                                   {"type", "SCALAR"}});
 }
 
+/// Bit by bit, in the same order.
+bool same_receivers(const Scene& scene, const Scene& other) {
+    const auto same = [](const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
+        return a.size() == b.size() &&
+               (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
+    };
+    return std::ranges::equal(scene.vertex_arrays, other.vertex_arrays,
+                              [&](const VertexArray& a, const VertexArray& b) {
+                                  return same(a.positions, b.positions) && same(a.normals, b.normals);
+                              });
+}
+
 /// Vertex array, position and normal, bit by bit.
 using Key = std::array<std::uint32_t, 7>;
 
@@ -130,11 +142,11 @@ void reorder_vertices(GltfDocument& document, const Scene& scene, std::span<cons
 }
 
 std::vector<std::uint32_t> matching_receivers(const Scene& scene, const Scene& other) {
-    const std::vector<Key> keys = keys_of(scene), other_keys = keys_of(other);
-    std::vector<std::uint32_t> match(keys.size());
+    std::vector<std::uint32_t> match(scene.receivers());
     std::iota(match.begin(), match.end(), 0u);
-    if (keys == other_keys)
+    if (same_receivers(scene, other))
         return match;
+    const std::vector<Key> keys = keys_of(scene), other_keys = keys_of(other);
     const std::vector<std::uint32_t> order = sorted(keys), other_order = sorted(other_keys);
     for (std::size_t i = 0; i < order.size(); ++i) {
         if (i >= other_order.size() || keys[order[i]] != other_keys[other_order[i]])

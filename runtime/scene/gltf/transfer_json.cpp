@@ -7,6 +7,7 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -202,6 +203,17 @@ void read_float_view(const GltfContents& contents, const Json& object, std::span
         std::memcpy(to.data(), bytes.data(), to.size_bytes());
     }
     check_magnitudes(to, kLargestTransfer, what);
+}
+
+void read_half_view(const GltfContents& contents, const Json& object, std::span<std::uint16_t> to,
+                    const std::string& what) {
+    const auto bytes = float_bytes(contents, object, to.size(), what);
+    if (to.empty())
+        return;
+    std::memcpy(to.data(), bytes.data(), to.size_bytes());
+    for (const std::uint16_t half : to)
+        if ((half & 0x7C00) == 0x7C00) // infinite, or no number
+            check_magnitudes(std::array{glm::unpackHalf1x16(half)}, kLargestTransfer, what);
 }
 
 std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,

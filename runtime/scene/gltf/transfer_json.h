@@ -8,6 +8,7 @@
 #include "prt/support/error.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <span>
 #include <string>
@@ -58,6 +59,9 @@ bool is_half(const Json& object);
 /// many, all values of transfer.
 void read_float_view(const GltfContents& contents, const Json& object, std::span<float> to,
                      const std::string& what);
+/// The same of one that `is_half`, as it stands.
+void read_half_view(const GltfContents& contents, const Json& object, std::span<std::uint16_t> to,
+                    const std::string& what);
 /// Reads `count` floats of {"bufferView": ..., "componentType": 5126}; throws unless there are as many, all
 /// at most `largest`.
 std::vector<float> read_float_view(const GltfContents& contents, const Json& object, std::size_t count,

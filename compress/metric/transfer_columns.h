@@ -1,0 +1,17 @@
+#pragma once
+
+#include "prt/transfer_view.h"
+
+#include <Eigen/Core>
+
+namespace prt {
+
+/// Vectors of receivers [begin, end), side by side.
+inline Eigen::MatrixXf columns_of(const TransferView& transfer, std::size_t begin, std::size_t end) {
+    Eigen::MatrixXf columns(static_cast<Eigen::Index>(transfer.dimension()),
+                            static_cast<Eigen::Index>(end - begin));
+    transfer.read(begin, {columns.data(), static_cast<std::size_t>(columns.size())});
+    return columns;
+}
+
+} // namespace prt

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "prt/clustered_transfer.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Decodes compressed transfer, receiver by receiver. Keeps a reference.
+class ClusteredVectors {
+public:
+    explicit ClusteredVectors(const ClusteredTransfer& transfer)
+        : transfer_(transfer), layouts_(cluster_layouts(transfer.bases)),
+          dimension_(transfer.bases.dimension()),
+          most_components_(static_cast<std::size_t>(transfer.bases.max_components())) {}
+
+    /// Vectors of receivers from `first` on, as many as `to` [..][dimension] has room for.
+    void read(std::size_t first, std::span<float> to) const;
+
+private:
+    const ClusteredTransfer& transfer_;
+    std::vector<ClusterLayout> layouts_;
+    std::size_t dimension_, most_components_;
+};
+
+} // namespace prt
