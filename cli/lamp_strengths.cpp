@@ -1,5 +1,6 @@
 #include "lamp_strengths.h"
 
+#include "inputs.h"
 #include "json_file.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
