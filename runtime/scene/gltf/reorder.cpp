@@ -20,15 +20,6 @@
 namespace prt {
 namespace {
 
-std::size_t new_indices(GltfContents& contents, const std::vector<std::uint32_t>& indices) {
-    const std::size_t view = contents.add_buffer_view(std::as_bytes(std::span(indices)));
-    contents.json["bufferViews"][view]["target"] = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
-    return contents.add_accessor({{"bufferView", view},
-                                  {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
-                                  {"count", indices.size()},
-                                  {"type", "SCALAR"}});
-}
-
 /// Vertex array, position and normal, bit by bit.
 using Key = std::array<std::uint32_t, 7>;
 
@@ -92,7 +83,7 @@ void reorder(GltfContents& contents, const Scene& scene, std::span<const std::ui
         }
         for (std::uint32_t& index : indices)
             index = place.at(index);
-        primitive["indices"] = new_indices(contents, indices);
+        primitive["indices"] = add_index_accessor(contents, indices);
     }
     contents.remove_unused(std::move(replaced));
 }
