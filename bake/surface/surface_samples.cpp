@@ -18,17 +18,19 @@ struct TriangleSide {
     std::uint32_t triangle;
     bool back;
     double area;
-    glm::vec3 normal; ///< unit, of the plane
 };
+
+/// Normal of a triangle's front, as long as twice its area.
+glm::dvec3 doubled_area(const Receivers& receivers, const glm::uvec3& c) {
+    const glm::dvec3 a(receivers.positions[c.x]), b(receivers.positions[c.y]), d(receivers.positions[c.z]);
+    return glm::cross(b - a, d - a);
+}
 
 std::vector<TriangleSide> sides_of(const Surfaces& surfaces, const TransportReceivers& receivers) {
     const Receivers& all = receivers.receivers;
     std::vector<TriangleSide> sides;
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
-        const glm::uvec3& c = surfaces.corners(t);
-        const glm::dvec3 a(all.positions[c.x]), b(all.positions[c.y]), d(all.positions[c.z]);
-        const glm::dvec3 normal = glm::cross(b - a, d - a);
-        const double doubled = glm::length(normal);
+        const double doubled = glm::length(doubled_area(all, surfaces.corners(t)));
         if (!(doubled > 0))
             continue;
         for (const bool back : {false, true}) {
@@ -37,27 +39,10 @@ std::vector<TriangleSide> sides_of(const Surfaces& surfaces, const TransportRece
             const glm::uvec3 corners = corner_receivers(surfaces, receivers, t, back);
             if (corners == glm::uvec3(kNoReceiver))
                 continue;
-            sides.push_back({t, back, 0.5 * doubled, glm::vec3((back ? -normal : normal) / doubled)});
+            sides.push_back({t, back, 0.5 * doubled});
         }
     }
     return sides;
-}
-
-/// Shares of a triangle by a point of the unit square.
-glm::vec2 folded(const glm::dvec2& u) {
-    return glm::vec2(u.x + u.y > 1 ? 1.0 - u : u);
-}
-
-/// The mean of the corners' normals by shares; those of the plane where they cancel.
-glm::vec3 normal_at(const Receivers& receivers, const glm::uvec3& corners, const SamplePlace& place,
-                    const glm::vec3& of_plane) {
-    glm::vec3 sum(0);
-    const std::array<float, 3> shares = place.shares();
-    for (int i = 0; i < 3; ++i)
-        if (corners[i] != kNoReceiver)
-            sum += shares[static_cast<std::size_t>(i)] * receivers.normals[corners[i]];
-    const float length = glm::length(sum);
-    return length > 0 ? sum / length : of_plane;
 }
 
 struct Sample {
@@ -69,9 +54,6 @@ struct Sample {
 
 std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportReceivers& receivers,
                                    const SampleSpread& spread) {
-    // Powers of the inverse of the plastic number: the two-dimensional sequence that is most even.
-    constexpr double kPlastic = 1.32471795724474602596;
-    const glm::dvec2 step(1 / kPlastic, 1 / (kPlastic * kPlastic));
     const std::vector<TriangleSide> sides = sides_of(surfaces, receivers);
     double area = 0;
     for (const TriangleSide& side : sides)
@@ -88,11 +70,9 @@ std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportRece
         owed -= more;
         const auto n = static_cast<std::size_t>(more) + 1;
         const std::uint32_t hash = receiver_seed(2 * side.triangle + (side.back ? 1u : 0u), spread.seed);
-        const glm::dvec2 offset((hash >> 16) / 65536.0, (hash & 0xffff) / 65536.0);
         const glm::uvec3 corners = corner_receivers(surfaces, receivers, side.triangle, side.back);
         for (std::size_t i = 0; i < n; ++i) {
-            const SamplePlace place{side.triangle, side.back,
-                                    folded(glm::fract(offset + static_cast<double>(i) * step))};
+            const SamplePlace place{side.triangle, side.back, even_point(hash, i)};
             const std::array<float, 3> shares = place.shares();
             const auto nearest = std::max_element(shares.begin(), shares.end()) - shares.begin();
             samples.push_back({place, side, static_cast<float>(side.area / static_cast<double>(n)),
@@ -102,7 +82,28 @@ std::vector<Sample> spread_samples(const Surfaces& surfaces, const TransportRece
     return samples;
 }
 
+/// The mean of the corners' normals by shares; those of the plane where they cancel.
+glm::vec3 normal_at(const Receivers& receivers, const glm::uvec3& corners, const SamplePlace& place,
+                    const glm::vec3& of_plane) {
+    glm::vec3 sum(0);
+    const std::array<float, 3> shares = place.shares();
+    for (int i = 0; i < 3; ++i)
+        if (corners[i] != kNoReceiver)
+            sum += shares[static_cast<std::size_t>(i)] * receivers.normals[corners[i]];
+    const float length = glm::length(sum);
+    return length > 0 ? sum / length : of_plane;
+}
+
 } // namespace
+
+glm::vec2 even_point(std::uint32_t hash, std::size_t i) {
+    // Powers of the inverse of the plastic number: the two-dimensional sequence that is most even.
+    constexpr double kPlastic = 1.32471795724474602596;
+    const glm::dvec2 step(1 / kPlastic, 1 / (kPlastic * kPlastic));
+    const glm::dvec2 offset((hash >> 16) / 65536.0, (hash & 0xffff) / 65536.0);
+    const glm::dvec2 u = glm::fract(offset + static_cast<double>(i) * step);
+    return glm::vec2(u.x + u.y > 1 ? 1.0 - u : u);
+}
 
 glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& receivers,
                             std::uint32_t triangle, bool back) {
@@ -123,6 +124,21 @@ Receivers SurfaceSamples::layer(std::size_t k) const {
     return result;
 }
 
+void append_sample(SurfaceSamples& samples, const Surfaces& surfaces, const TransportReceivers& receivers,
+                   const SamplePlace& place, float area) {
+    const Receivers& all = receivers.receivers;
+    const glm::uvec3& c = surfaces.corners(place.triangle);
+    const glm::dvec3 normal = doubled_area(all, c);
+    const glm::vec3 of_plane((place.back ? -normal : normal) / glm::length(normal));
+    samples.places.push_back(place);
+    Receivers& r = samples.receivers;
+    r.positions.push_back(interpolated(all.positions, c, place.uv));
+    r.normals.push_back(
+        normal_at(all, corner_receivers(surfaces, receivers, place.triangle, place.back), place, of_plane));
+    r.areas.push_back(area);
+    r.starts.push_back(of_plane);
+}
+
 SurfaceSamples sample_surfaces(const Surfaces& surfaces, const TransportReceivers& receivers,
                                const SampleSpread& spread) {
     std::vector<Sample> all = spread_samples(surfaces, receivers, spread);
@@ -130,18 +146,8 @@ SurfaceSamples sample_surfaces(const Surfaces& surfaces, const TransportReceiver
                      [](const Sample& a, const Sample& b) { return a.near < b.near; });
     SurfaceSamples samples;
     samples.layers = spread.layers;
-    for (const Sample& sample : all) {
-        const TriangleSide& side = sample.side;
-        samples.places.push_back(sample.place);
-        Receivers& r = samples.receivers;
-        r.positions.push_back(
-            interpolated(receivers.receivers.positions, surfaces.corners(side.triangle), sample.place.uv));
-        r.normals.push_back(normal_at(receivers.receivers,
-                                      corner_receivers(surfaces, receivers, side.triangle, side.back),
-                                      sample.place, side.normal));
-        r.areas.push_back(sample.area);
-        r.starts.push_back(side.normal);
-    }
+    for (const Sample& sample : all)
+        append_sample(samples, surfaces, receivers, sample.place, sample.area);
     return samples;
 }
 

@@ -38,6 +38,14 @@ struct SurfaceSamples {
 glm::uvec3 corner_receivers(const Surfaces& surfaces, const TransportReceivers& receivers,
                             std::uint32_t triangle, bool back);
 
+/// Barycentric coordinates of the i-th of points that are even over a triangle however many there are: the
+/// sequence R2 of M. Roberts, 2018, folded. `hash` moves it.
+glm::vec2 even_point(std::uint32_t hash, std::size_t i);
+
+/// Appends a sample at `place`, on a triangle with an area, that stands for `area`.
+void append_sample(SurfaceSamples& samples, const Surfaces& surfaces, const TransportReceivers& receivers,
+                   const SamplePlace& place, float area);
+
 /// How samples are spread.
 struct SampleSpread {
     std::size_t count = 0; ///< about so many
@@ -46,7 +54,7 @@ struct SampleSpread {
 };
 
 /// At least one sample on every side of every triangle that `receivers` are on, the others by area,
-/// stratified within each triangle (the sequence R2 of M. Roberts, 2018, folded into it).
+/// even within each triangle.
 SurfaceSamples sample_surfaces(const Surfaces& surfaces, const TransportReceivers& receivers,
                                const SampleSpread& spread);
 

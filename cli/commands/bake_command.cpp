@@ -5,8 +5,10 @@
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
+#include "prt/refine.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
+#include "report/bake_report.h"
 
 #include <fmt/core.h>
 
@@ -19,6 +21,8 @@ namespace {
 struct BakeArguments {
     Path scene, output, json, light_set;
     std::vector<std::string> no_shadow; ///< names of materials
+    std::optional<double> refine;       ///< relative L2 over the surface to split triangles for
+    std::size_t most_vertices = 0;      ///< of a refined scene; 0: as many as `refine` allows
     BakeOptions options;
     GltfOptions reading;
 };
@@ -180,102 +184,62 @@ void add_method(CLI::App* command, BakeOptions& options) {
         ->check(CLI::Range(16, 16384));
 }
 
-Json statistics_json(const BakeStatistics& s) {
-    return {{"receivers", s.receivers.all},
-            {"receivers_traced", s.receivers.traced},
-            {"back_sides", s.receivers.back_sides},
-            {"receivers_sealed", s.receivers.sealed},
-            {"receivers_refilled", s.receivers.refilled},
-            {"rays", s.rays},
-            {"device", s.device},
-            {"seconds", s.seconds.all},
-            {"seconds_build", s.seconds.build},
-            {"seconds_trace", s.seconds.tracing.trace},
-            {"seconds_accumulate", s.seconds.tracing.accumulate},
-            {"seconds_transfer", s.seconds.tracing.transfer},
-            {"seconds_transport", s.seconds.transport},
-            {"rays_per_second", s.rays_per_second()},
-            {"mean_visibility", s.mean_visibility},
-            {"sampling_error_relative_l2", s.sampling_error},
-            {"float16_error_relative_l2", s.rounding_error},
-            {"remaining_energy", s.remaining_energy},
-            {"fit", s.fit.samples > 0 ? "surface" : "vertex"},
-            {"samples_per_receiver", s.fit.samples},
-            {"interpolation_error_relative_l2", s.fit.between},
-            {"lamps", s.lamps.count},
-            {"lamp_lights", s.lamps.lights},
-            {"lamp_triangles", s.lamps.triangles},
-            {"gather_entries", s.gather.entries},
-            {"gather_bytes", s.gather.bytes},
-            {"notices", s.notices}};
+void add_refinement(CLI::App* command, BakeArguments& a) {
+    CLI::Option* refine =
+        command
+            ->add_option("--refine", a.refine,
+                         "split triangles, in the file that is written, too, until direct light between "
+                         "vertices errs by no more than this over the surface, in relative L2: 0.02 is 2 %. "
+                         "Light is fitted to the surface then")
+            ->check(above_zero());
+    command
+        ->add_option("--most-vertices", a.most_vertices,
+                     "vertices that --refine may reach, all nodes together; otherwise four times those of "
+                     "the scene, or 20000 where that is more")
+        ->check(CLI::PositiveNumber)
+        ->needs(refine);
 }
 
-constexpr double kDark = 0.05; ///< mean visibility; a cellar with a window has as much
-
-/// What the statistics say in words.
-void add_sentences(const BakeArguments& a, const BakeResult& result, Report& report) {
-    const BakeStatistics& s = result.statistics;
-    const bool raster = a.options.tracer.method == BakeMethod::raster;
-    const auto say = [&](std::string sentence) { report.sentences.push_back(std::move(sentence)); };
-    say(fmt::format("{{output}}: {{receivers}} receivers, {{triangles}} triangles, order {{order}}, "
-                    "{}, {{bake/rays_per_receiver}} {} each, {{bake/bounces}} bounces",
-                    parts_in_words(result.baked.transfer.layout), raster ? "directions" : "rays"));
-    say(fmt::format("{} on the {}: {{device}}", raster ? "depth maps" : "rays",
-                    result.baked.record.backend == Backend::cpu ? "CPU" : "GPU"));
-    if (s.receivers.all > s.receivers.traced)
-        say(fmt::format("{} receivers are on no surface and have zero transfer",
-                        s.receivers.all - s.receivers.traced));
-    for (std::size_t i = 0; i < s.notices.size(); ++i)
-        say(fmt::format("{{notices/{}}}", i));
-    say(fmt::format("{{seconds:.3f}} s: build {{seconds_build:.3f}}, trace {{seconds_trace:.3f}}, accumulate "
-                    "{{seconds_accumulate:.3f}}, transfer {{seconds_transfer:.3f}}, transport "
-                    "{{seconds_transport:.3f}}; {{rays_per_second:.2fM}} million {}/s",
-                    raster ? "tests" : "rays"));
-    if (a.options.target_error)
-        say("error of the direct light: {target_error_relative_l2:.3f%} asked for, "
-            "{sampling_error_relative_l2:.3f%} estimated");
-    else if (s.sampling_error > 0)
-        say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
-    if (s.fit.between > 0 || s.fit.samples > 0)
-        say(fmt::format(
-            "between vertices direct light would err by {{interpolation_error_relative_l2:.3f%}}: {}",
-            s.fit.samples > 0 ? "vertices are fitted to {samples_per_receiver} samples of the surface each"
-                              : "it is measured at vertices"));
-    if (s.gather.entries > 0)
-        say("bounces: {gather_entries} pairs of receivers that light each other, {gather_bytes:.1fM} MB; at "
-            "most {remaining_energy:.2g%} of a receiver's light is missing");
-    if (s.lamps.count > 0)
-        say("lamps: {lamps}, of {lamp_lights} lights and {lamp_triangles} triangles that shine");
-    say("{mean_visibility:.1f%} of the light of a uniform sky arrives, on average");
-    if (s.mean_visibility < kDark && a.no_shadow.empty() && s.lamps.count == 0)
-        say("hardly any light comes in: where a shell round the scene, as an outline or a sky, keeps it out, "
-            "--no-shadow MATERIAL lets it pass");
+/// The scene of a document, as the options want it baked.
+Scene scene_of(const GltfDocument& document, const BakeArguments& a) {
+    Scene scene = extract_scene(document);
+    if (!a.light_set.empty())
+        std::ranges::move(read_light_set(a.light_set), std::back_inserter(scene.lights));
+    return scene;
 }
 
-Report report_of(const BakeArguments& a, const BakeResult& result, const Scene& scene, std::uintmax_t bytes) {
-    Report report;
-    add_figures(report, {{"output", a.output.string()},
-                         {"order", a.options.order},
-                         {"channels", result.baked.transfer.layout.channels()},
-                         {"parts", parts_figures(result.baked.transfer.layout)},
-                         {"storage", to_string(result.baked.storage)},
-                         {"bake", bake_record_json(result.baked.record)}});
-    if (a.options.target_error)
-        add_figures(report, {{"target_error_relative_l2", *a.options.target_error}});
-    Json statistics = statistics_json(result.statistics);
-    statistics["triangles"] = scene.triangles();
-    for (const std::string& notice : scene.notices)
-        statistics["notices"].push_back(notice);
-    add_figures(report, statistics);
-    add_figures(report, {{"bytes_file", bytes}});
-    add_sentences(a, result, report);
-    return report;
+/// Puts the finer document and scene in the place of these.
+RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
+    ProgressBar bar = session.progress_bar("refining");
+    const RefineResult result = prt::refine(
+        scene, a.options, {.target = *a.refine, .most_vertices = a.most_vertices}, bar.progress());
+    if (result.statistics.rounds == 0)
+        return result.statistics;
+    document = refined(std::move(document), scene, result.refinement);
+    Scene finer = scene_of(document, a);
+    leave_out_shadows(finer, a.no_shadow);
+    finer.notices = std::move(scene.notices); // of the file that was given
+    scene = std::move(finer);
+    return result.statistics;
 }
 
-BakeResult baked(const BakeArguments& a, Scene& scene, Session& session) {
+/// What was baked, and of which mesh.
+struct Baked {
+    std::optional<RefineStatistics> refinement;
+    BakeResult result;
+};
+
+Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     leave_out_shadows(scene, a.no_shadow);
+    Baked baked;
+    BakeOptions options = a.options;
+    if (a.refine) {
+        baked.refinement = refine(a, document, scene, session);
+        options.fit = FitMode::surface; // as the error was measured
+    }
     ProgressBar bar = session.progress_bar("baking");
-    return bake(scene, a.options, bar.progress());
+    baked.result = bake(scene, options, bar.progress());
+    return baked;
 }
 
 void run(BakeArguments a, Session& session) {
@@ -285,16 +249,22 @@ void run(BakeArguments a, Session& session) {
     reading.missing_images =
         a.options.repairs.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
     GltfDocument document = load_gltf(a.scene, reading);
-    Scene scene = extract_scene(document);
+    Scene scene = scene_of(document, a);
     print_notices(a.scene.string(), scene.notices);
-    if (!a.light_set.empty())
-        std::ranges::move(read_light_set(a.light_set), std::back_inserter(scene.lights));
-    const BakeResult result = about(a.scene, [&] { return baked(a, scene, session); });
+    const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
     const std::vector<std::byte> file = about(a.scene, [&] {
-        write_transfer(document, scene, result.baked);
+        write_transfer(document, scene, baked.result.baked);
         return encode_glb(document);
     });
-    publish(report_of(a, result, scene, session.write(a.output, file)), a.json, session);
+    publish(bake_report({.output = a.output.string(),
+                         .options = a.options,
+                         .no_shadow = !a.no_shadow.empty(),
+                         .scene = scene,
+                         .result = baked.result,
+                         .refinement = baked.refinement,
+                         .refine_target = a.refine.value_or(0),
+                         .bytes = session.write(a.output, file)}),
+            a.json, session);
 }
 
 } // namespace
@@ -328,6 +298,7 @@ void add_bake(CLI::App& app, Session& session) {
         ->type_name("FILE");
     add_no_shadow(command, a.no_shadow);
     add_method(command, a.options);
+    add_refinement(command, a);
     choice(command, "--storage", a.options.memory.storage, kStorages,
            "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
     command->add_option("--seed", a.options.seed, "seed of the samples")

@@ -54,6 +54,8 @@ struct ExampleScene {
 
 ExampleScene torus_knot_over_plane();
 ExampleScene room_with_columns();
+/// The same of as few triangles as show its shape.
+ExampleScene plain_room();
 /// The room with three lamps and a glowing sign.
 ExampleScene night_room();
 ExampleScene terrain();

@@ -21,42 +21,58 @@ void set_bounds(Json& accessor, std::span<const double> values, std::size_t comp
     accessor["max"] = high;
 }
 
-/// Gathered components as numbers, integers without normalisation.
-std::vector<double> stored_values(int component_type, std::span<const std::byte> elements,
-                                  std::size_t components, const std::vector<std::uint32_t>& source) {
+/// Components as numbers, integers without normalisation.
+std::vector<double> stored_values(int component_type, std::span<const std::byte> elements) {
     std::vector<double> values;
     with_component_type(component_type, [&](auto type) {
-        for (const std::uint32_t i : source)
-            for (std::size_t c = 0; c < components; ++c) {
-                std::memcpy(&type, &elements[(i * components + c) * sizeof type], sizeof type);
-                values.push_back(static_cast<double>(type));
-            }
+        values.reserve(elements.size() / sizeof type);
+        for (std::size_t at = 0; at < elements.size(); at += sizeof type) {
+            std::memcpy(&type, &elements[at], sizeof type);
+            values.push_back(static_cast<double>(type));
+        }
     });
     return values;
 }
 
 } // namespace
 
+std::size_t add_vertex_accessor(GltfContents& contents, Json accessor, std::span<const std::byte> elements) {
+    const int component_type = accessor["componentType"].get<int>();
+    const auto components =
+        static_cast<std::size_t>(component_count(tinygltf_type(accessor["type"].get<std::string>())));
+    const std::size_t size = component_bytes(component_type) * components, count = elements.size() / size;
+    const std::size_t stride = (size + 3) / 4 * 4; // vertex attributes are aligned to 4 bytes
+    std::vector<std::byte> padded(count * stride);
+    for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(&padded[i * stride], &elements[i * size], size);
+    accessor.erase("sparse");
+    accessor.erase("byteOffset");
+    accessor["count"] = count;
+    accessor["bufferView"] = contents.add_buffer_view(padded, stride, true);
+    if (accessor.contains("min") || accessor.contains("max"))
+        set_bounds(accessor, stored_values(component_type, elements), components);
+    return contents.add_accessor(std::move(accessor));
+}
+
 std::size_t add_gathered_accessor(GltfContents& contents, const Json& reference,
                                   const std::vector<std::uint32_t>& source) {
     const int index = reference.get<int>();
-    const tinygltf::Accessor& old = contents.model.accessors.at(static_cast<std::size_t>(index));
+    const std::size_t size = check_accessor(contents.model, index);
     const std::vector<std::byte> elements = read_elements(contents.model, index);
-    const auto components = static_cast<std::size_t>(component_count(old.type));
-    const std::size_t size = component_bytes(old.componentType) * components;
-    const std::size_t stride = (size + 3) / 4 * 4; // vertex attributes are aligned to 4 bytes
-    std::vector<std::byte> gathered(source.size() * stride);
+    std::vector<std::byte> gathered(source.size() * size);
     for (std::size_t i = 0; i < source.size(); ++i)
-        std::memcpy(&gathered[i * stride], &elements[source[i] * size], size);
+        std::memcpy(&gathered[i * size], &elements[source[i] * size], size);
+    return add_vertex_accessor(contents, contents.json["accessors"][static_cast<std::size_t>(index)],
+                               gathered);
+}
 
-    Json accessor = contents.json["accessors"][static_cast<std::size_t>(index)];
-    accessor.erase("sparse");
-    accessor.erase("byteOffset");
-    accessor["count"] = source.size();
-    accessor["bufferView"] = contents.add_buffer_view(gathered, stride, true);
-    if (accessor.contains("min") || accessor.contains("max"))
-        set_bounds(accessor, stored_values(old.componentType, elements, components, source), components);
-    return contents.add_accessor(std::move(accessor));
+std::size_t add_index_accessor(GltfContents& contents, std::span<const std::uint32_t> indices) {
+    const std::size_t view = contents.add_buffer_view(std::as_bytes(indices));
+    contents.json["bufferViews"][view]["target"] = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
+    return contents.add_accessor({{"bufferView", view},
+                                  {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
+                                  {"count", indices.size()},
+                                  {"type", "SCALAR"}});
 }
 
 } // namespace prt

@@ -20,15 +20,6 @@
 namespace prt {
 namespace {
 
-std::size_t new_indices(GltfContents& contents, const std::vector<std::uint32_t>& indices) {
-    const std::size_t view = contents.add_buffer_view(std::as_bytes(std::span(indices)));
-    contents.json["bufferViews"][view]["target"] = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
-    return contents.add_accessor({{"bufferView", view},
-                                  {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
-                                  {"count", indices.size()},
-                                  {"type", "SCALAR"}});
-}
-
 /// Bit by bit, in the same order.
 bool same_receivers(const Scene& scene, const Scene& other) {
     const auto same = [](const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b) {
@@ -104,7 +95,7 @@ void reorder(GltfContents& contents, const Scene& scene, std::span<const std::ui
         }
         for (std::uint32_t& index : indices)
             index = place.at(index);
-        primitive["indices"] = new_indices(contents, indices);
+        primitive["indices"] = add_index_accessor(contents, indices);
     }
     contents.remove_unused(std::move(replaced));
 }

@@ -93,13 +93,7 @@ void write_split_vertices(GltfContents& contents, Json& primitive_json, const Sc
     std::vector<std::uint32_t> indices;
     for (const glm::uvec3& t : primitive.triangles)
         indices.insert(indices.end(), {t.x, primitive.mirrored ? t.z : t.y, primitive.mirrored ? t.y : t.z});
-    const std::size_t index_view = contents.add_buffer_view(std::as_bytes(std::span(indices)));
-    contents.json["bufferViews"][index_view]["target"] = TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER;
-    primitive_json["indices"] =
-        contents.add_accessor({{"bufferView", index_view},
-                               {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT},
-                               {"count", indices.size()},
-                               {"type", "SCALAR"}});
+    primitive_json["indices"] = add_index_accessor(contents, indices);
     primitive_json.erase("mode");
 }
 

@@ -1,0 +1,136 @@
+// Longest-edge refinement: marks spread to longest edges, then each triangle is cut by those of its own.
+
+#include "refine/bisection.h"
+
+#include <algorithm>
+
+namespace prt {
+namespace {
+
+/// A corner of a triangle or the middle of an edge.
+struct Point {
+    std::uint32_t vertex; ///< of its array
+    glm::dvec2 at;        ///< in the whole
+};
+
+class Splitter {
+public:
+    Splitter(const Scene& scene, const WeldedEdges& edges, const EdgeMarks& marks)
+        : scene_(scene), edges_(edges), marks_(marks), middles_(edges.sides.size()) {}
+
+    Bisection split() {
+        result_.refinement.midpoints.resize(scene_.vertex_arrays.size());
+        for (std::size_t i = 0; i < edges_.sides.size(); ++i) {
+            const WeldedEdges::Sides& sides = edges_.sides[i];
+            if (!marks_.marked(sides.edge))
+                continue;
+            auto& midpoints = result_.refinement.midpoints[sides.array];
+            middles_[i] =
+                static_cast<std::uint32_t>(scene_.vertex_arrays[sides.array].size() + midpoints.size());
+            midpoints.push_back({sides.first, sides.second});
+        }
+        for (const Primitive& primitive : scene_.primitives) {
+            triangles_ = &result_.refinement.triangles.emplace_back();
+            for (const glm::uvec3& t : primitive.triangles)
+                split(t);
+        }
+        return std::move(result_);
+    }
+
+private:
+    /// First from the middle of the longest edge to the corner across, then either half from there to the
+    /// middle of its other old edge.
+    void split(const glm::uvec3& t) {
+        constexpr glm::dvec2 kCorners[3] = {{0, 0}, {1, 0}, {0, 1}};
+        const std::size_t l = edges_.longest[whole_], m = (l + 1) % 3, n = (l + 2) % 3;
+        const auto corner = [&](std::size_t i) { return Point{t[static_cast<int>(i)], kCorners[i]}; };
+        const Point a = corner(l), b = corner(m), c = corner(n);
+        if (!is_marked(l)) {
+            add(corner(0), corner(1), corner(2));
+        } else {
+            const Point ab = middle(l, a, b);
+            if (is_marked(n)) {
+                const Point ca = middle(n, c, a);
+                add(a, ab, ca);
+                add(ab, c, ca);
+            } else {
+                add(a, ab, c);
+            }
+            if (is_marked(m)) {
+                const Point bc = middle(m, b, c);
+                add(ab, b, bc);
+                add(ab, bc, c);
+            } else {
+                add(ab, b, c);
+            }
+        }
+        ++whole_;
+    }
+
+    bool is_marked(std::size_t i) const { return marks_.marked(edges_.of_triangle[whole_][i]); }
+
+    Point middle(std::size_t i, const Point& from, const Point& to) const {
+        return {middles_[edges_.sides_of_triangle[whole_][i]], 0.5 * (from.at + to.at)};
+    }
+
+    void add(const Point& a, const Point& b, const Point& c) {
+        triangles_->push_back({a.vertex, b.vertex, c.vertex});
+        result_.parts.push_back({whole_, {a.at, b.at, c.at}});
+    }
+
+    const Scene& scene_;
+    const WeldedEdges& edges_;
+    const EdgeMarks& marks_;
+    std::vector<std::uint32_t> middles_; ///< [sides] vertex of its array
+    std::vector<glm::uvec3>* triangles_ = nullptr;
+    std::uint32_t whole_ = 0;
+    Bisection result_;
+};
+
+} // namespace
+
+EdgeMarks::EdgeMarks(const WeldedEdges& edges)
+    : edges_(edges), marked_(edges.lengths.size()), first_(edges.lengths.size() + 1),
+      sides_(edges.lengths.size()) {
+    for (const auto& of : edges.of_triangle)
+        for (const std::uint32_t e : of)
+            if (e != kNoEdge)
+                ++first_[e + 1];
+    for (std::size_t e = 0; e + 1 < first_.size(); ++e)
+        first_[e + 1] += first_[e];
+    triangles_.resize(first_.back());
+    std::vector<std::uint32_t> next(first_.begin(), first_.end() - 1);
+    for (std::uint32_t t = 0; t < edges.of_triangle.size(); ++t)
+        for (const std::uint32_t e : edges.of_triangle[t])
+            if (e != kNoEdge)
+                triangles_[next[e]++] = t;
+    for (const WeldedEdges::Sides& sides : edges.sides)
+        ++sides_[sides.edge];
+}
+
+void EdgeMarks::mark(std::uint32_t edge) {
+    std::vector<std::uint32_t> waiting = {edge}; // longer and longer: it ends
+    while (!waiting.empty()) {
+        const std::uint32_t e = waiting.back();
+        waiting.pop_back();
+        if (e == kNoEdge || marked_[e])
+            continue;
+        marked_[e] = true;
+        vertices_ += sides_[e];
+        for (std::uint32_t i = first_[e]; i < first_[e + 1]; ++i)
+            waiting.push_back(edges_.of_triangle[triangles_[i]][edges_.longest[triangles_[i]]]);
+    }
+}
+
+Bisection bisect(const Scene& scene, const WeldedEdges& edges, const EdgeMarks& marks) {
+    return Splitter(scene, edges, marks).split();
+}
+
+void append(Refinement& refinement, Refinement next) {
+    for (std::size_t a = 0; a < refinement.midpoints.size(); ++a)
+        refinement.midpoints[a].insert(refinement.midpoints[a].end(), next.midpoints[a].begin(),
+                                       next.midpoints[a].end());
+    refinement.triangles = std::move(next.triangles);
+}
+
+} // namespace prt

@@ -1,0 +1,175 @@
+// Splits the triangles that hold most of the error, and looks again, until little enough is left.
+
+#include "prt/refine.h"
+
+#include "plan.h"
+#include "prt/sh.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
+#include "refine/surface_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <utility>
+
+namespace prt {
+namespace {
+
+/// Where no limit is given.
+constexpr std::size_t kTimesVertices = 4, kLeastLimit = 20000;
+/// Of the squared error, the largest shares up to so much are split in one round. The plain room
+/// (benchmarks.md) to 2 %: 0.3 took 15 rounds to 6 951 vertices, 0.7 8 to 7 487, with 1.94 % left either
+/// time.
+constexpr double kShareOfRound = 0.5;
+/// What one bisection takes off the squared error of a triangle: half where a step of light crosses it, 3/4
+/// where it bends alike along and across.
+constexpr double kTakenOff = 0.7;
+/// Corners are rounded to 2^-24 of the scene's half extent, or less: over edges of 2^-13 of it triangles lean
+/// by 2^-11 at most, and rays still leave them 30 roundings off.
+constexpr double kLeastEdge = 1.0 / 8192;
+void check_options(const BakeOptions& options, const RefineOptions& how) {
+    check_order(options.order);
+    if (!(how.target > 0 && std::isfinite(how.target)))
+        throw Error("the error to refine to must be finite and above 0");
+    if (options.tracer.method == BakeMethod::raster)
+        throw Error("refinement asks points of the surface by rays: use method trace");
+    if (options.target_error)
+        throw Error("an error to reach is one of vertices: leave it out, or refinement");
+    if (options.fit == FitMode::vertex)
+        throw Error("refinement is for light that is fitted to the surface: leave out fit vertex");
+}
+
+/// A scene on its way to be finer.
+class Refiner {
+public:
+    Refiner(const Scene& scene, const TraceScene& traced, Tracer& tracer, const BakeOptions& options,
+            const RefineOptions& how)
+        : options_(options), how_(how), points_(traced, tracer, options, how.target), finer_(scene) {
+        const Bounds box = bounds(scene);
+        const glm::vec3 size = box.high - box.low;
+        least_edge_ = kLeastEdge * 0.5 * static_cast<double>(std::max({size.x, size.y, size.z}));
+        most_ = how.most_vertices > 0 ? how.most_vertices
+                                      : std::max(kTimesVertices * scene.receivers(), kLeastLimit);
+        result_.refinement = no_refinement(scene);
+    }
+
+    RefineResult run(const Progress& progress) {
+        RefineStatistics& s = result_.statistics;
+        bool limited = false;
+        while (true) {
+            const SurfaceError error = measure(progress);
+            s.after = {finer_.receivers(), finer_.triangles(), error.relative_l2()};
+            if (s.rounds == 0)
+                s.before = s.after;
+            s.end = limited ? RefineEnd::vertices : RefineEnd::target;
+            // Once triangles were chosen by what points told, those tell too well of the others.
+            if (limited || (s.after.error <= how_.target && (s.rounds == 0 || !points_.look_closer())))
+                break;
+            if (s.after.error <= how_.target)
+                continue;
+            const WeldedEdges edges = welded_edges(finer_);
+            const EdgeMarks marks = mark(worst_triangles(error, edges), edges, limited);
+            if (marks.vertices() == 0) {
+                s.end = limited ? RefineEnd::vertices : RefineEnd::edges;
+                break;
+            }
+            split(bisect(finer_, edges, marks));
+            ++s.rounds;
+        }
+        s.points = points_.size();
+        s.rays = points_.rays();
+        s.rays_per_point = 2 * points_.rays_per_scramble();
+        progress.update(1);
+        return std::move(result_);
+    }
+
+private:
+    SurfaceError measure(const Progress& progress) {
+        const LitMesh mesh(finer_);
+        points_.spread(mesh, progress.part(shown_, shown_ + 0.1 * (1 - shown_)));
+        shown_ += 0.1 * (1 - shown_);
+        SurfaceError error = surface_error(mesh, points_, options_.threads);
+        const double now = error.relative_l2();
+        if (first_ == 0)
+            first_ = now;
+        if (first_ > how_.target && now > how_.target) // the way is even in logarithms
+            shown_ = std::max(shown_, std::log(first_ / now) / std::log(first_ / how_.target));
+        progress.update(shown_);
+        return error;
+    }
+
+    double allowed(const SurfaceError& error) const { return how_.target * how_.target * error.norm; }
+
+    /// Triangles that can be split, by their errors: so many that splitting them takes off what is too much,
+    /// or the share of a round.
+    std::vector<std::uint32_t> worst_triangles(const SurfaceError& error, const WeldedEdges& edges) const {
+        const std::vector<double>& e = error.of_triangles;
+        std::vector<std::uint32_t> worst;
+        for (std::uint32_t t = 0; t < e.size(); ++t) {
+            const std::uint32_t longest = edges.of_triangle[t][edges.longest[t]];
+            if (e[t] > 0 && longest != kNoEdge && edges.lengths[longest] >= 2 * least_edge_)
+                worst.push_back(t);
+        }
+        std::stable_sort(worst.begin(), worst.end(),
+                         [&](std::uint32_t a, std::uint32_t b) { return e[a] > e[b]; });
+        const double all = std::accumulate(e.begin(), e.end(), 0.0);
+        double left = std::min(kShareOfRound * all, (all - allowed(error)) / kTakenOff);
+        std::size_t count = 0;
+        for (; count < worst.size() && left > 0; ++count)
+            left -= e[worst[count]];
+        worst.resize(count);
+        return worst;
+    }
+
+    /// Marks as many of them as the limit allows, and says whether it did not allow all.
+    EdgeMarks mark(const std::vector<std::uint32_t>& worst, const WeldedEdges& edges, bool& limited) const {
+        const auto mark_first = [&](std::size_t count) {
+            EdgeMarks marks(edges);
+            std::size_t marked = 0;
+            while (marked < count && finer_.receivers() + marks.vertices() <= most_) {
+                const std::uint32_t t = worst[marked++];
+                marks.mark(edges.of_triangle[t][edges.longest[t]]);
+            }
+            return std::pair(std::move(marks), marked);
+        };
+        auto [marks, marked] = mark_first(worst.size());
+        limited = finer_.receivers() + marks.vertices() > most_;
+        if (!limited)
+            return std::move(marks);
+        return mark_first(std::max<std::size_t>(marked, 1) - 1).first; // the last was too much
+    }
+
+    void split(Bisection bisection) {
+        finer_ = refined(finer_, bisection.refinement);
+        points_.move(bisection.parts);
+        append(result_.refinement, std::move(bisection.refinement));
+    }
+
+    const BakeOptions& options_;
+    const RefineOptions& how_;
+    LightPoints points_;
+    Scene finer_;
+    double least_edge_ = 0; ///< metres
+    std::size_t most_ = 0;  ///< vertices
+    double first_ = 0, shown_ = 0;
+    RefineResult result_;
+};
+
+} // namespace
+
+RefineResult refine(const Scene& scene, const BakeOptions& options, const RefineOptions& how,
+                    const Progress& progress) {
+    check_options(options, how);
+    const Stopwatch all;
+    BakeOptions direct = options; // nothing bounces here
+    direct.bounces = 0;
+    const TraceScene traced = trace_scene(scene, choose_media(scene, options), direct);
+    const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
+    RefineResult result = Refiner(scene, traced, *tracer, options, how).run(progress);
+    result.statistics.seconds = all.seconds();
+    return result;
+}
+
+} // namespace prt

@@ -1,0 +1,147 @@
+#include "report/bake_report.h"
+
+#include "options.h"
+#include "report/publish.h"
+
+#include <fmt/core.h>
+
+#include <utility>
+
+namespace prt::cli {
+namespace {
+
+Json refinement_json(const RefineStatistics& s, double target) {
+    const char* const ends[] = {"target", "vertices", "edges"};
+    return {{"refine_target_relative_l2", target},
+            {"refine_end", ends[static_cast<std::size_t>(s.end)]},
+            {"refine_rounds", s.rounds},
+            {"vertices_before", s.before.vertices},
+            {"vertices_after", s.after.vertices},
+            {"triangles_before", s.before.triangles},
+            {"triangles_after", s.after.triangles},
+            {"refine_error_before_relative_l2", s.before.error},
+            {"refine_error_relative_l2", s.after.error},
+            {"refine_points", s.points},
+            {"refine_rays_per_point", s.rays_per_point},
+            {"refine_rays", s.rays},
+            {"refine_seconds", s.seconds}};
+}
+
+void add_refinement_sentences(const RefineStatistics& s, Report& report) {
+    report.sentences.push_back(
+        s.rounds == 0
+            ? "refined: no triangle needs to be split; between vertices direct light errs by "
+              "{refine_error_relative_l2:.3f%}"
+            : "refined in {refine_rounds} rounds, {refine_seconds:.3f} s: from {vertices_before} vertices to "
+              "{vertices_after}, from {triangles_before} triangles to {triangles_after}; between vertices "
+              "direct light errs by {refine_error_relative_l2:.3f%}, before by "
+              "{refine_error_before_relative_l2:.3f%}");
+    if (s.end == RefineEnd::vertices)
+        report.sentences.push_back("--refine asked for {refine_target_relative_l2:.3f%}, for which "
+                                   "--most-vertices is too few");
+    if (s.end == RefineEnd::edges)
+        report.sentences.push_back("--refine asked for {refine_target_relative_l2:.3f%}: what is left is in "
+                                   "triangles too small to split");
+}
+
+Json statistics_json(const BakeStatistics& s) {
+    return {{"receivers", s.receivers.all},
+            {"receivers_traced", s.receivers.traced},
+            {"back_sides", s.receivers.back_sides},
+            {"receivers_sealed", s.receivers.sealed},
+            {"receivers_refilled", s.receivers.refilled},
+            {"rays", s.rays},
+            {"device", s.device},
+            {"seconds", s.seconds.all},
+            {"seconds_build", s.seconds.build},
+            {"seconds_trace", s.seconds.tracing.trace},
+            {"seconds_accumulate", s.seconds.tracing.accumulate},
+            {"seconds_transfer", s.seconds.tracing.transfer},
+            {"seconds_transport", s.seconds.transport},
+            {"rays_per_second", s.rays_per_second()},
+            {"mean_visibility", s.mean_visibility},
+            {"sampling_error_relative_l2", s.sampling_error},
+            {"float16_error_relative_l2", s.rounding_error},
+            {"remaining_energy", s.remaining_energy},
+            {"fit", s.fit.samples > 0 ? "surface" : "vertex"},
+            {"samples_per_receiver", s.fit.samples},
+            {"interpolation_error_relative_l2", s.fit.between},
+            {"lamps", s.lamps.count},
+            {"lamp_lights", s.lamps.lights},
+            {"lamp_triangles", s.lamps.triangles},
+            {"gather_entries", s.gather.entries},
+            {"gather_bytes", s.gather.bytes},
+            {"notices", s.notices}};
+}
+
+constexpr double kDark = 0.05; ///< mean visibility; a cellar with a window has as much
+
+/// What the statistics say in words.
+void add_sentences(const BakeOutcome& baked, Report& report) {
+    const BakeResult& result = baked.result;
+    const BakeStatistics& s = result.statistics;
+    const bool raster = baked.options.tracer.method == BakeMethod::raster;
+    const auto say = [&](std::string sentence) { report.sentences.push_back(std::move(sentence)); };
+    say(fmt::format("{{output}}: {{receivers}} receivers, {{triangles}} triangles, order {{order}}, "
+                    "{}, {{bake/rays_per_receiver}} {} each, {{bake/bounces}} bounces",
+                    parts_in_words(result.baked.transfer.layout), raster ? "directions" : "rays"));
+    say(fmt::format("{} on the {}: {{device}}", raster ? "depth maps" : "rays",
+                    result.baked.record.backend == Backend::cpu ? "CPU" : "GPU"));
+    if (s.receivers.all > s.receivers.traced)
+        say(fmt::format("{} receivers are on no surface and have zero transfer",
+                        s.receivers.all - s.receivers.traced));
+    for (std::size_t i = 0; i < s.notices.size(); ++i)
+        say(fmt::format("{{notices/{}}}", i));
+    say(fmt::format("{{seconds:.3f}} s: build {{seconds_build:.3f}}, trace {{seconds_trace:.3f}}, accumulate "
+                    "{{seconds_accumulate:.3f}}, transfer {{seconds_transfer:.3f}}, transport "
+                    "{{seconds_transport:.3f}}; {{rays_per_second:.2fM}} million {}/s",
+                    raster ? "tests" : "rays"));
+    if (baked.options.target_error)
+        say("error of the direct light: {target_error_relative_l2:.3f%} asked for, "
+            "{sampling_error_relative_l2:.3f%} estimated");
+    else if (s.sampling_error > 0)
+        say("error of the direct light: {sampling_error_relative_l2:.3f%} estimated");
+    if (baked.refinement)
+        add_refinement_sentences(*baked.refinement, report);
+    else if (s.fit.between > 0 || s.fit.samples > 0)
+        say(fmt::format(
+            "between vertices direct light would err by {{interpolation_error_relative_l2:.3f%}}: {}",
+            s.fit.samples > 0 ? "vertices are fitted to {samples_per_receiver} samples of the surface each"
+                              : "it is measured at vertices"));
+    if (s.gather.entries > 0)
+        say("bounces: {gather_entries} pairs of receivers that light each other, {gather_bytes:.1fM} MB; at "
+            "most {remaining_energy:.2g%} of a receiver's light is missing");
+    if (s.lamps.count > 0)
+        say("lamps: {lamps}, of {lamp_lights} lights and {lamp_triangles} triangles that shine");
+    say("{mean_visibility:.1f%} of the light of a uniform sky arrives, on average");
+    if (s.mean_visibility < kDark && !baked.no_shadow && s.lamps.count == 0)
+        say("hardly any light comes in: where a shell round the scene, as an outline or a sky, keeps it out, "
+            "--no-shadow MATERIAL lets it pass");
+}
+
+} // namespace
+
+Report bake_report(const BakeOutcome& baked) {
+    const BakeResult& result = baked.result;
+    Report report;
+    add_figures(report, {{"output", baked.output},
+                         {"order", baked.options.order},
+                         {"channels", result.baked.transfer.layout.channels()},
+                         {"parts", parts_figures(result.baked.transfer.layout)},
+                         {"storage", to_string(result.baked.storage)},
+                         {"bake", bake_record_json(result.baked.record)}});
+    if (baked.options.target_error)
+        add_figures(report, {{"target_error_relative_l2", *baked.options.target_error}});
+    Json statistics = statistics_json(result.statistics);
+    statistics["triangles"] = baked.scene.triangles();
+    for (const std::string& notice : baked.scene.notices)
+        statistics["notices"].push_back(notice);
+    add_figures(report, statistics);
+    add_figures(report, {{"bytes_file", baked.bytes}});
+    if (baked.refinement)
+        add_figures(report, refinement_json(*baked.refinement, baked.refine_target));
+    add_sentences(baked, report);
+    return report;
+}
+
+} // namespace prt::cli
