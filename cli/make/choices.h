@@ -12,6 +12,10 @@ namespace prt::cli {
 /// Shares of what is allowed: bytes get what light, vertices and rays leave. Bands and rays are cheap beside
 /// bytes, which grow without end as their share goes to nothing.
 inline constexpr double kShareOfLight = 0.4, kShareOfBounces = 0.05, kShareOfRays = 0.05;
+/// Meshes are refined where vertices have more than so much of it, to so much.
+inline constexpr double kMostOfVertices = 0.3, kShareOfVertices = 0.15;
+/// Rays of a vertex at least, however little time there is.
+inline constexpr int kFewestRays = 64;
 /// Of what points and paths may be uncertain by.
 inline constexpr double kShareOfNoise = 0.1;
 /// What light, vertices and rays may take of it together: of the rest bytes would need too many.

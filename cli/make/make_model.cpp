@@ -7,6 +7,7 @@
 #include "no_shadow.h"
 #include "prt/encode_glb.h"
 #include "prt/jumps.h"
+#include "prt/refine.h"
 #include "prt/search.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
@@ -49,8 +50,16 @@ struct Compressed {
 struct MakePlan {
     double error = 0; ///< that is aimed at
     CutChoice cut{};
-    FitMode fit = FitMode::vertex;
+    double refine = 0; ///< target of refinement; 0: none
+    FitMode fit = FitMode::automatic;
     int rays = 0;
+};
+
+/// What two bakes of few rays tell.
+struct Pilot {
+    ErrorBudget budget;
+    double between = 0; ///< relative L2 of direct transfer that interpolation errs by
+    double seconds_per_ray = 0;
 };
 
 class Maker {
@@ -69,25 +78,42 @@ public:
     }
 
     void run(Report& report) {
-        look_at_light();
-        pilot();
-        final_bake();
-        Compressed best = r_.goal.bytes_per_vertex ? within_bytes() : within_error();
+        plan_.error = r_.goal.max_error.value_or(kUsualError);
+        trace_paths();
+        choose_bands();
+        Pilot pilot = bake_pilot();
+        if (pilot.budget.of(ErrorCause::vertices).value > kMostOfVertices * allowed() && in_time(0.3)) {
+            refine_mesh(pilot);
+            trace_paths();
+            pilot = bake_pilot();
+        }
+        choose_effort(pilot);
+        bake_all();
+        Compressed best =
+            r_.goal.bytes_per_vertex ? compressed({}, r_.goal.bytes_per_vertex) : within_error();
         write(best, report);
     }
 
 private:
     double allowed() const { return plan_.error * plan_.error; }
+    bool in_time(double share) const {
+        return !r_.goal.seconds || watch_.seconds() < share * *r_.goal.seconds;
+    }
+
+    void trace_paths() {
+        ProgressBar bar = session_.progress_bar("tracing paths");
+        reference_ = std::make_unique<BudgetReference>(
+            scene_, lights_, BudgetEffort{.noise = kShareOfNoise * allowed(), .threads = r_.threads},
+            bar.progress());
+    }
 
     /// Path tracing tells what each order and number of bounces leaves, and so which to take.
-    void look_at_light() {
-        ProgressBar bar = session_.progress_bar("tracing paths");
-        reference_ = std::make_unique<BudgetReference>(scene_, lights_, BudgetEffort{.noise = kShareOfNoise * allowed(), .threads = r_.threads},
-                                                       bar.progress());
+    void choose_bands() {
         const CutErrors errors{[&](int order) { return reference_->light_error(order); },
                                [&](int bounces) { return reference_->bounces_error(bounces); }};
-        plan_.error = r_.goal.max_error.value_or(
-            std::max(kUsualError, std::sqrt(kAboveRest * std::max(errors.light(kMaxOrder), 0.0))));
+        if (!r_.goal.max_error)
+            plan_.error =
+                std::max(kUsualError, std::sqrt(kAboveRest * std::max(errors.light(kMaxOrder), 0.0)));
         for (const int order : {2, 4, 6, 8, 10})
             tried_.push_back(fmt::format("order {}: light {}", order, percent(errors.light(order))));
         for (const int bounces : {0, 1, 2, 4})
@@ -111,7 +137,7 @@ private:
         options.order = plan_.cut.order;
         options.bounces = plan_.cut.bounces;
         options.rays = rays;
-        options.fit = FitMode::automatic;
+        options.fit = plan_.fit;
         options.threads = r_.threads;
         return options;
     }
@@ -121,45 +147,69 @@ private:
         return bake(scene_, options, bar.progress());
     }
 
-    /// Two bakes of few rays tell what vertices and rays cost.
-    void pilot() {
+    /// Tells what vertices and rays cost, and whether vertices are fitted.
+    Pilot bake_pilot() {
         const Stopwatch stopwatch;
         BakeOptions options = bake_options(kPilotRays);
         options.lamps.mode = LampMode::none;
-        const BakedTransfer first = baked(options, "baking a trial").baked;
-        plan_.fit = options.fit = first.record.fitted ? FitMode::surface : FitMode::vertex;
+        const BakeResult first = baked(options, "baking a trial");
+        plan_.fit = options.fit = first.baked.record.fitted ? FitMode::surface : FitMode::vertex;
         options.seed = 1;
         pilot_ = baked(options, "baking another").baked.transfer;
-        const ErrorBudget budget = mean_budget(budgets(
-            *reference_,
-            {.baked = first.transfer, .repeated = pilot_, .shipped = nullptr, .bounces = plan_.cut.bounces},
-            r_.threads));
-        tried_.push_back(fmt::format(
-            "{} rays, {}: vertices {}, rays {}", kPilotRays, first.record.fitted ? "fitted" : "at vertices",
-            percent(budget.of(ErrorCause::vertices).value), percent(budget.of(ErrorCause::rays).value)));
-        plan_.rays = choose_rays(budget.of(ErrorCause::rays).value, kPilotRays, allowed());
-        const double seconds_per_ray = stopwatch.seconds() / 2 / kPilotRays;
+        Pilot pilot{mean_budget(budgets(*reference_,
+                                        {.baked = first.baked.transfer,
+                                         .repeated = pilot_,
+                                         .shipped = nullptr,
+                                         .bounces = plan_.cut.bounces},
+                                        r_.threads)),
+                    first.statistics.fit.between, stopwatch.seconds() / (2 * kPilotRays)};
+        tried_.push_back(fmt::format("{} vertices of {} rays, {}: vertices {}, rays {}", scene_.receivers(),
+                                     kPilotRays, plan_.fit == FitMode::surface ? "fitted" : "as they are",
+                                     percent(pilot.budget.of(ErrorCause::vertices).value),
+                                     percent(pilot.budget.of(ErrorCause::rays).value)));
+        return pilot;
+    }
+
+    /// Splits triangles until vertices have their share of the error.
+    void refine_mesh(const Pilot& pilot) {
+        const double vertices = pilot.budget.of(ErrorCause::vertices).value;
+        BakeOptions options = bake_options(kPilotRays);
+        options.fit = plan_.fit = FitMode::surface;
+        plan_.refine = pilot.between * std::sqrt(kShareOfVertices * allowed() / vertices);
+        if (!(plan_.refine > 0))
+            return;
+        ProgressBar bar = session_.progress_bar("refining");
+        const RefineResult result = refine(scene_, options, {.target = plan_.refine}, bar.progress());
+        tried_.push_back(fmt::format("refined to {:.3g} of direct light: {} vertices",
+                                     result.statistics.after.error, result.statistics.after.vertices));
+        if (result.statistics.rounds == 0)
+            return;
+        document_ = refined(std::move(document_), scene_, result.refinement);
+        scene_ = extract_scene(document_);
+        leave_out_shadows(scene_, r_.no_shadow);
+    }
+
+    /// Rays by what noise they leave, in the time that there is.
+    void choose_effort(const Pilot& pilot) {
+        plan_.rays = choose_rays(pilot.budget.of(ErrorCause::rays).value, kPilotRays, allowed());
         if (r_.goal.seconds) { // half of what is left, for compressing takes as long
             const double left = 0.5 * (*r_.goal.seconds - watch_.seconds());
-            while (plan_.rays > 64 && plan_.rays * seconds_per_ray > left)
+            while (plan_.rays > kFewestRays && plan_.rays * pilot.seconds_per_ray > left)
                 plan_.rays /= 2;
         }
-        const ErrorCause causes[] = {ErrorCause::light, ErrorCause::bounces, ErrorCause::vertices};
         double before_bytes = kShareOfRays * allowed();
-        for (const ErrorCause cause : causes)
-            before_bytes += budget.of(cause).value;
+        for (const ErrorCause cause : {ErrorCause::light, ErrorCause::bounces, ErrorCause::vertices})
+            before_bytes += pilot.budget.of(cause).value;
         if (!r_.goal.max_error)
             plan_.error = std::max(kUsualError, std::sqrt(kAboveRest * before_bytes));
         check_possible(before_bytes, fmt::format("light ({}) with what vertices leave between them ({})",
                                                  percent(plan_.cut.squared),
-                                                 percent(budget.of(ErrorCause::vertices).value)));
+                                                 percent(pilot.budget.of(ErrorCause::vertices).value)));
     }
 
     /// Written and read, as those do who take one step after the other.
-    void final_bake() {
-        BakeOptions options = bake_options(plan_.rays);
-        options.fit = plan_.fit;
-        const BakeResult result = baked(options, "baking");
+    void bake_all() {
+        const BakeResult result = baked(bake_options(plan_.rays), "baking");
         for (const std::string& notice : result.statistics.notices)
             notices_.push_back(notice);
         write_transfer(document_, scene_, result.baked);
@@ -212,8 +262,6 @@ private:
         return one;
     }
 
-    Compressed within_bytes() { return compressed({}, r_.goal.bytes_per_vertex); }
-
     double size(const Compressed& one) const {
         return one.statistics.bytes_with_bases(transfer().receivers());
     }
@@ -242,10 +290,9 @@ private:
             if (!best || (keeps && (!kept || size(one) < size(*best))) ||
                 (!keeps && !kept && total < best->total()))
                 best = std::move(one);
-            const bool late = r_.goal.seconds && watch_.seconds() > 0.7 * *r_.goal.seconds;
             const bool same = i > 0 && size(*best) == last; // there is no smaller one
             last = size(*best);
-            if ((keeps && (same || total > kEnough * kEnough * allowed())) || late || !(bytes > 0))
+            if ((keeps && (same || total > kEnough * kEnough * allowed())) || !in_time(0.7) || !(bytes > 0))
                 break;
             left = std::max(allowed() - (total - bytes), 0.02 * allowed());
             asked *= std::clamp(std::sqrt(0.97 * left / bytes), 0.4, 2.5);
@@ -263,6 +310,8 @@ private:
             fmt::format("prt bake {} -o {} --order {} --rays {} --bounces {} --fit {}", as_argument(r_.scene),
                         as_argument(kept), plan_.cut.order, plan_.rays, bounces_in_words(plan_.cut.bounces),
                         plan_.fit == FitMode::surface ? "surface" : "vertex");
+        if (plan_.refine > 0)
+            bake += fmt::format(" --refine {}", plan_.refine);
         for (const std::string& material : r_.no_shadow)
             bake += " --no-shadow " + as_argument(material);
         std::string compress =
@@ -284,6 +333,7 @@ private:
                              {"rays_per_receiver", plan_.rays},
                              {"bounces", bounces_in_words(plan_.cut.bounces)},
                              {"fit", plan_.fit == FitMode::surface ? "surface" : "vertex"},
+                             {"refine", plan_.refine > 0 ? Json(plan_.refine) : Json()},
                              {"receivers", transfer().receivers()},
                              {"clusters", best.statistics.clusters},
                              {"bytes_bound_per_vertex", best.statistics.bytes_per_receiver},
@@ -304,7 +354,8 @@ private:
     void say(const Compressed& best, const ErrorBudget& mean, Report& report) const {
         auto& lines = report.sentences;
         lines.push_back(
-            fmt::format("{{output}}: order {{order}}, {{rays_per_receiver}} rays, {{bounces}} bounces, {}; "
+            fmt::format("{{output}}: {{receivers}} vertices, order {{order}}, {{rays_per_receiver}} rays, "
+                        "{{bounces}} bounces, {}; "
                         "{{bytes_bound_per_vertex}} bytes per vertex to bind, "
                         "{{bytes_bound_per_vertex_with_bases:.2f}} with the bases; {{seconds:.1f}} s",
                         plan_.fit == FitMode::surface ? "fitted to the surface" : "measured at vertices"));
