@@ -232,7 +232,7 @@ Outcome run_compressor(const CompressArguments& a, const TransferView& transfer,
 }
 
 /// The bake's file with the result, in the order that is asked for.
-std::vector<std::byte> encoded(const CompressArguments& a, GltfDocument document, const Scene& scene,
+std::vector<std::byte> encoded(const CompressArguments& a, GltfDocument document, Scene& scene,
                                CompressedTransfer result) {
     if (a.writing.reorder) {
         const std::vector<std::uint32_t> order = order_by_cluster(scene, result.transfer.receivers);
@@ -240,22 +240,35 @@ std::vector<std::byte> encoded(const CompressArguments& a, GltfDocument document
         result.transfer.receivers = reordered(result.transfer.receivers, order);
     }
     write_clustered(document, scene, result);
+    result = {}; // what is in the document makes room for the file
+    for (Primitive& primitive : scene.primitives)
+        primitive.triangles = {}; // vertices alone are compared with what is written
     return encode_glb(document, a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none);
 }
 
 struct Written {
     Scene scene;
     ClusteredTransfer transfer;
+    std::uintmax_t bytes; ///< of the file
 };
 
-/// What is about to be published, as everybody will read it.
-Written read_back(const CompressArguments& a, std::span<const std::byte> file) {
+/// What `read` makes of the file that is about to be published, as everybody will read it.
+template <class Read>
+auto readable(const CompressArguments& a, Read&& read) {
     try {
-        SceneFile read = scene_file_of(parse_gltf(file, a.output), a.output);
-        return {std::move(read.scene), std::move(read.compressed->transfer)};
+        return read();
     } catch (const Error& error) {
         throw Error(a.baked.string() + ": cannot be compressed, nobody could read " + error.what());
     }
+}
+
+/// Stages the file and reads it back; its bytes stay in memory no longer than it takes to parse them.
+Written written(const CompressArguments& a, std::vector<std::byte> file, Session& session) {
+    GltfDocument document = readable(a, [&] { return parse_gltf(file, a.output); });
+    const std::uintmax_t bytes = session.write(a.output, file);
+    file = {};
+    SceneFile read = readable(a, [&] { return scene_file_of(std::move(document), a.output); });
+    return {std::move(read.scene), std::move(read.compressed->transfer), bytes};
 }
 
 Json trials_json(const std::vector<SearchTrial>& trials) {
@@ -381,26 +394,24 @@ void run(CompressArguments a, Session& session) {
     session.write(a.reports.trace, trace);
     Scene scene = extract_scene(bake.document);
     const VertexReuse reuse_before = vertex_reuse(scene);
-    const std::vector<std::byte> file = about(a.baked, [&] {
+    std::vector<std::byte> file = about(a.baked, [&] {
         return encoded(a, std::move(bake.document), scene,
                        {std::move(outcome.result.transfer), bake.stored.record});
     });
-    for (Primitive& primitive : scene.primitives)
-        primitive.triangles = {}; // vertices alone are compared with what was written
-    const Written written = read_back(a, file);
-    const std::vector<std::uint32_t> order = matching_receivers(written.scene, scene);
+    const Written result = written(a, std::move(file), session);
+    const std::vector<std::uint32_t> order = matching_receivers(result.scene, scene);
     scene = {};
     transfer = in_order(std::move(transfer), order);
     const CompressStatistics& s = outcome.result.statistics;
     Report report;
     add_figures(report, {{"output", a.output.string()}});
     const ErrorMoments moments =
-        error_moments(transfer, written.transfer, receiver_areas(written.scene), options.compress.threads);
-    add_figures(report, result_json(s, options.compress, transfer, moments, written));
-    add_figures(report, reuse_json(reuse_before, vertex_reuse(written.scene)));
-    add_figures(report, {{"bytes_file", session.write(a.output, file)},
-                         {"trials", trials_json(outcome.trials)},
-                         {"seconds", s.seconds}});
+        error_moments(transfer, result.transfer, receiver_areas(result.scene), options.compress.threads);
+    add_figures(report, result_json(s, options.compress, transfer, moments, result));
+    add_figures(report, reuse_json(reuse_before, vertex_reuse(result.scene)));
+    add_figures(
+        report,
+        {{"bytes_file", result.bytes}, {"trials", trials_json(outcome.trials)}, {"seconds", s.seconds}});
     report.sentences = sentences(a, a.preset && !outcome.trials.empty());
     if (outcome.best)
         add_promises(options.budget, *outcome.best, report);

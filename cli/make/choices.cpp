@@ -33,4 +33,24 @@ int choose_rays(double measured, int rays, double allowed) {
     return chosen;
 }
 
+void AskedError::came_out(double allowed, double total, double of_bytes, double size) {
+    constexpr double kEnough = 0.87;                  // of the squared error: the root of it is within 7 %
+    constexpr double kFarthest = 2.5, kClosest = 1.1; // steps
+    const bool keeps = total <= allowed;
+    const bool same = size == last_size_;
+    last_size_ = size;
+    (keeps ? low_ : high_) = next_;
+    open_ = of_bytes > 0 && !(keeps && total > kEnough * allowed) &&
+            !(keeps && same && high_ == 0) && // nothing is smaller
+
+            !(low_ > 0 && high_ > 0 && high_ < kClosest * low_);
+    const double left = std::max(allowed - (total - of_bytes), 0.02 * allowed);
+    next_ *= std::clamp(std::sqrt(0.97 * left / std::max(of_bytes, 1e-12)), 1 / kFarthest, kFarthest);
+    const bool between = (low_ == 0 || next_ > low_) && (high_ == 0 || next_ < high_);
+    if (low_ > 0 && high_ > 0 && (!between || same))
+        next_ = std::sqrt(low_ * high_);
+    else if (!between)
+        next_ = keeps ? kFarthest * low_ : high_ / kFarthest;
+}
+
 } // namespace prt::cli

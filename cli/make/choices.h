@@ -18,6 +18,8 @@ inline constexpr double kMostOfVertices = 0.3, kShareOfVertices = 0.15;
 inline constexpr int kFewestRays = 64;
 /// Of what points and paths may be uncertain by.
 inline constexpr double kShareOfNoise = 0.1;
+/// The least that they are asked for: squares of a third of a per cent, which nobody sees.
+inline constexpr double kLeastNoise = 1e-5;
 /// What light, vertices and rays may take of it together: of the rest bytes would need too many.
 inline constexpr double kMostBeforeBytes = 0.85;
 /// What is aimed at where nothing is said: 3 %, or, where light and vertices leave more, so much that bytes
@@ -42,5 +44,22 @@ CutChoice choose_cut(const CutErrors& errors, double allowed);
 /// Rays per receiver, a power of two, so that their noise, `measured` with `rays`, has its share of
 /// `allowed`.
 int choose_rays(double measured, int rays, double allowed);
+
+/// Looks for the error to ask of the compressor so that what comes out is just below what is allowed.
+class AskedError {
+public:
+    explicit AskedError(double first) : next_(first) {}
+
+    double next() const { return next_; }
+    /// Whether `next` may save bytes, or keep what is allowed.
+    bool worth_trying() const { return open_; }
+    /// What `next` led to: squared errors in all and of bytes, and a size.
+    void came_out(double allowed, double total, double of_bytes, double size);
+
+private:
+    double next_, low_ = 0, high_ = 0; ///< the largest that kept it, the least that did not; 0: none yet
+    double last_size_ = 0;
+    bool open_ = true;
+};
 
 } // namespace prt::cli

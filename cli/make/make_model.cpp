@@ -58,7 +58,6 @@ struct MakePlan {
 /// What two bakes of few rays tell.
 struct Pilot {
     ErrorBudget budget;
-    double between = 0; ///< relative L2 of direct transfer that interpolation errs by
     double seconds_per_ray = 0;
 };
 
@@ -82,8 +81,8 @@ public:
         trace_paths();
         choose_bands();
         Pilot pilot = bake_pilot();
-        if (pilot.budget.of(ErrorCause::vertices).value > kMostOfVertices * allowed() && in_time(0.3)) {
-            refine_mesh(pilot);
+        const bool coarse = pilot.budget.of(ErrorCause::vertices).value > kMostOfVertices * allowed();
+        if (coarse && in_time(0.3) && refine_mesh(pilot)) {
             trace_paths();
             pilot = bake_pilot();
         }
@@ -103,7 +102,8 @@ private:
     void trace_paths() {
         ProgressBar bar = session_.progress_bar("tracing paths");
         reference_ = std::make_unique<BudgetReference>(
-            scene_, lights_, BudgetEffort{.noise = kShareOfNoise * allowed(), .threads = r_.threads},
+            scene_, lights_,
+            BudgetEffort{.noise = std::max(kShareOfNoise * allowed(), kLeastNoise), .threads = r_.threads},
             bar.progress());
     }
 
@@ -162,7 +162,7 @@ private:
                                          .shipped = nullptr,
                                          .bounces = plan_.cut.bounces},
                                         r_.threads)),
-                    first.statistics.fit.between, stopwatch.seconds() / (2 * kPilotRays)};
+                    stopwatch.seconds() / (2 * kPilotRays)};
         tried_.push_back(fmt::format("{} vertices of {} rays, {}: vertices {}, rays {}", scene_.receivers(),
                                      kPilotRays, plan_.fit == FitMode::surface ? "fitted" : "as they are",
                                      percent(pilot.budget.of(ErrorCause::vertices).value),
@@ -170,23 +170,31 @@ private:
         return pilot;
     }
 
-    /// Splits triangles until vertices have their share of the error.
-    void refine_mesh(const Pilot& pilot) {
-        const double vertices = pilot.budget.of(ErrorCause::vertices).value;
+    /// Splits triangles until vertices have their share of the error; false where none is split.
+    bool refine_mesh(const Pilot& pilot) {
+        constexpr double kLook = 1e3; // a target that is met at once
         BakeOptions options = bake_options(kPilotRays);
-        options.fit = plan_.fit = FitMode::surface;
-        plan_.refine = pilot.between * std::sqrt(kShareOfVertices * allowed() / vertices);
-        if (!(plan_.refine > 0))
-            return;
+        options.fit = FitMode::surface;
         ProgressBar bar = session_.progress_bar("refining");
-        const RefineResult result = refine(scene_, options, {.target = plan_.refine}, bar.progress());
-        tried_.push_back(fmt::format("refined to {:.3g} of direct light: {} vertices",
-                                     result.statistics.after.error, result.statistics.after.vertices));
+        const Progress progress = bar.progress();
+        // What is measured under these lights is to direct transfer between vertices as it will be then.
+        const double now = refine(scene_, options, {.target = kLook}, progress.part(0, 0.1))
+                               .statistics.before.error,
+                     vertices = pilot.budget.of(ErrorCause::vertices).value;
+        const double target = now * std::sqrt(kShareOfVertices * allowed() / vertices);
+        if (!(target > 0))
+            return false;
+        const RefineResult result = refine(scene_, options, {.target = target}, progress.part(0.1, 1));
+        tried_.push_back(
+            fmt::format("prt bake --refine {:.3g}: {} vertices", target, result.statistics.after.vertices));
         if (result.statistics.rounds == 0)
-            return;
+            return false;
+        plan_.refine = target;
+        plan_.fit = FitMode::surface;
         document_ = refined(std::move(document_), scene_, result.refinement);
         scene_ = extract_scene(document_);
         leave_out_shadows(scene_, r_.no_shadow);
+        return true;
     }
 
     /// Rays by what noise they leave, in the time that there is.
@@ -269,8 +277,7 @@ private:
     /// What compression may err by is found by trying: it promises the worst turn of each sky at vertices,
     /// and what counts is the surface as it stands.
     Compressed within_error() {
-        constexpr int kTries = 4;
-        constexpr double kEnough = 0.93; // of the error, above which no byte worth saving is left
+        constexpr int kTries = 5;
         const auto rest = [&](const std::vector<ErrorBudget>& all) {
             const ErrorBudget mean = mean_budget(all);
             return mean.total.value - mean.of(ErrorCause::bytes).value;
@@ -279,23 +286,17 @@ private:
             *reference_,
             {.baked = transfer(), .repeated = pilot_, .shipped = nullptr, .bounces = plan_.cut.bounces},
             r_.threads);
-        double left = std::max(allowed() - rest(uncompressed), (1 - kMostBeforeBytes) * allowed());
-        double asked = std::sqrt(left);
+        const double left = std::max(allowed() - rest(uncompressed), (1 - kMostBeforeBytes) * allowed());
+        AskedError asked(std::sqrt(left));
         std::optional<Compressed> best;
-        double last = 0; // size
-        for (int i = 0; i < kTries; ++i) {
-            Compressed one = compressed(asked, {});
+        for (int i = 0; i < kTries && asked.worth_trying() && (i == 0 || in_time(0.7)); ++i) {
+            Compressed one = compressed(asked.next(), {});
             const double bytes = mean_budget(one.budgets).of(ErrorCause::bytes).value, total = one.total();
+            asked.came_out(allowed(), total, bytes, size(one));
             const bool keeps = total <= allowed(), kept = best && best->total() <= allowed();
             if (!best || (keeps && (!kept || size(one) < size(*best))) ||
                 (!keeps && !kept && total < best->total()))
                 best = std::move(one);
-            const bool same = i > 0 && size(*best) == last; // there is no smaller one
-            last = size(*best);
-            if ((keeps && (same || total > kEnough * kEnough * allowed())) || !in_time(0.7) || !(bytes > 0))
-                break;
-            left = std::max(allowed() - (total - bytes), 0.02 * allowed());
-            asked *= std::clamp(std::sqrt(0.97 * left / bytes), 0.4, 2.5);
         }
         if (r_.goal.max_error && best->total() > allowed() && !r_.goal.best_effort)
             throw Error(fmt::format(

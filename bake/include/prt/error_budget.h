@@ -56,7 +56,7 @@ struct InterpolatedRadiance {
 
 /// Every stage is replaced by truth in turn: by the path tracer's light for that of the bands (light), by all
 /// bounces (bounces), by radiance at the points (vertices), by an independent bake (rays), and by the
-/// uncompressed bake (bytes); docs/math.md, section 15. `cut`: of the bake.
+/// uncompressed bake (bytes); docs/math.md, section 16. `cut`: of the bake.
 ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut,
                          const InterpolatedRadiance& radiance);
 

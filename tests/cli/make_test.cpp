@@ -1,0 +1,108 @@
+// prt make and prt evaluate --budget, from the command line to the file.
+
+#include "road.h"
+#include "support/glb_file.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace prt::test {
+namespace {
+
+std::string bytes_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The arguments of a line that prt has printed, whose paths have no spaces.
+std::vector<std::string> arguments_of(const std::string& line) {
+    std::istringstream words(line);
+    std::vector<std::string> arguments{std::istream_iterator<std::string>(words), {}};
+    arguments.erase(arguments.begin()); // prt
+    return arguments;
+}
+
+#ifdef PRT_EXAMPLE_SCENES
+class Make : public Road {
+protected:
+    void SetUp() override {
+        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "knot", "sky"}).status, 0);
+    }
+    Outcome make(std::vector<std::string> options) const {
+        options.insert(options.begin(), {"make", at("knot.glb"), "-o", at("s.glb"), "--lights", at("sky.exr"),
+                                         "--json", at("m.json")});
+        return prt(options);
+    }
+};
+
+TEST_F(Make, KeepsTheErrorAndSaysHowToDoTheSameByHand) {
+    const Outcome made = make({"--max-error", "0.1", "--baked", at("b.glb")});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const auto report = read_json(folder / "m.json");
+    EXPECT_LE(report["total_error"], 0.1);
+    EXPECT_LE(report["total_error_low"], report["total_error"]);
+    EXPECT_GE(report["total_error_high"], report["total_error"]);
+    const std::string baked = bytes_of(folder / "b.glb"), shipped = bytes_of(folder / "s.glb");
+    for (const std::string line : report["by_hand"]) {
+        const Outcome step = prt(arguments_of(line));
+        ASSERT_EQ(step.status, 0) << line << '\n' << step.err;
+    }
+    EXPECT_TRUE(bytes_of(folder / "b.glb") == baked);
+    EXPECT_TRUE(bytes_of(folder / "s.glb") == shipped);
+
+    // What was promised, measured by the other command: a bake more, and other points' paths are the same.
+    const Outcome evaluated = prt({"evaluate", at("b.glb"), at("s.glb"), "--budget", "--lights",
+                                   at("sky.exr"), "--json", at("e.json"), "--html", at("e.html")});
+    ASSERT_EQ(evaluated.status, 0) << evaluated.err;
+    const auto budget = read_json(folder / "e.json")["budget"][0];
+    EXPECT_LE(budget["total"], 0.1);
+    EXPECT_NEAR(budget["total"], report["total_error"], 0.01);
+    EXPECT_NEAR(budget["sum_over_total"], 1, 0.15);
+    EXPECT_GT(budget["rays_error"], 0);
+    EXPECT_GT(budget["bytes_error"], 0);
+    EXPECT_NE(bytes_of(folder / "e.html").find("\"bars\""), std::string::npos);
+}
+
+TEST_F(Make, KeepsBytes) {
+    ASSERT_EQ(make({"--bytes-per-vertex", "4.5", "--max-error", "0.1"}).status, 2);
+    const Outcome made = make({"--bytes-per-vertex", "4.5", "--seconds", "5"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    EXPECT_LE(read_json(folder / "m.json")["bytes_bound_per_vertex_with_bases"], 4.5);
+    const Outcome none = make({"--bytes-per-vertex", "1", "--seconds", "5"});
+    EXPECT_EQ(none.status, 1);
+    EXPECT_NE(none.err.find("nothing is as small as 1 bytes"), std::string::npos) << none.err;
+}
+
+TEST_F(Make, SaysWhatKeepsAnErrorFromBeingMet) {
+    const Outcome none = make({"--max-error", "0.001"});
+    EXPECT_EQ(none.status, 1);
+    EXPECT_NE(none.err.find("nothing keeps 0.10 %"), std::string::npos) << none.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "s.glb"));
+}
+
+TEST_F(Make, TellsBouncesThatWereNotBaked) {
+    ASSERT_EQ(prt({"bake", at("knot.glb"), "-o", at("b.glb"), "--order", "4", "--rays", "64"}).status, 0);
+    const Outcome evaluated =
+        prt({"evaluate", at("b.glb"), "--budget", "--lights", at("sky.exr"), "--json", at("e.json")});
+    ASSERT_EQ(evaluated.status, 0) << evaluated.err;
+    const auto report = read_json(folder / "e.json");
+    EXPECT_EQ(report["advice_option"], "prt bake --bounces inf");
+    EXPECT_GT(report["budget"][0]["bounces_error"], 0.1);
+    EXPECT_LT(report["total_error_with_advice"], 0.1);
+}
+#endif
+
+TEST_F(Road, RefusesBudgetsOfWhatPathsCannotTell) {
+    triangle_file().write(folder / "t.glb");
+    ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "64", "--subsurface", "marble"}).status,
+              0);
+    const Outcome medium = prt({"evaluate", at("b.glb"), "--budget"});
+    EXPECT_EQ(medium.status, 1);
+    EXPECT_NE(medium.err.find("comes out of a medium"), std::string::npos) << medium.err;
+    EXPECT_EQ(std::count(medium.err.begin(), medium.err.end(), '\n'), 1) << medium.err;
+    EXPECT_EQ(prt({"evaluate", at("b.glb"), "--budget", "--rotations", "4"}).status, 2);
+    EXPECT_EQ(prt({"make", at("t.glb"), "-o", at("s.glb")}).status, 2); // under what lights?
+}
+
+} // namespace
+} // namespace prt::test
