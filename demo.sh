@@ -24,13 +24,13 @@ made() {
     local name=$1
     echo
     $prt make "out/scenes/$name.glb" -o "out/$name.shipped.glb" --baked "out/$name.baked.glb" --lights "$sky" --max-error 0.03
-    budget=--budget look_at "$name" "${@:2}"
+    budget=1 look_at "$name" "${@:2}"
 }
 look_at() {
     local name=$1
     $prt render "out/$name.shipped.glb" --env "$sky" -o "out/$name.png" "${@:2}"
     $prt render "out/$name.shipped.glb" --env "$sky" --rotate 120 -o "out/$name.turned.png" "${@:2}"
-    $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" ${budget:-} --html "out/$name.html" --json "out/$name.json"
+    $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" ${budget:+--budget} --html "out/$name.html" --json "out/$name.json"
 }
 made knot
 road room 3 u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45

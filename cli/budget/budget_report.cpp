@@ -86,12 +86,14 @@ std::string budget_in_words(const ErrorBudget& mean, std::size_t lights) {
                        fmt::join(causes, ", "));
 }
 
+std::string advice_in_words(const std::optional<Advice>& advice) {
+    return advice ? fmt::format("against {}: {} would bring {:.2f} to {:.2f} %", to_string(advice->cause),
+                                advice->option, 100 * advice->before, 100 * advice->after)
+                  : "no single option takes a fiftieth of that away";
+}
+
 void add_advice(const std::optional<Advice>& advice, Report& report) {
-    const std::string text =
-        advice ? fmt::format("against {}: {} would bring {:.2f} to {:.2f} %", to_string(advice->cause),
-                             advice->option, 100 * advice->before, 100 * advice->after)
-               : "no single option takes a fiftieth of that away";
-    add_figure(report, {"advice", "what to change"}, text);
+    add_figures(report, {{"advice", advice_in_words(advice)}});
     if (advice)
         add_figures(report, {{"advice_cause", to_string(advice->cause)},
                              {"advice_option", advice->option},

@@ -14,6 +14,10 @@ Table budget_table(const std::vector<BudgetLight>& lights, const std::vector<Err
 /// "3.10 % from path tracing under these 2 lights: light 2.90, vertices 1.00, ... %"
 std::string budget_in_words(const ErrorBudget& mean, std::size_t lights);
 
+/// "against light: prt bake --order 8 would bring 3.10 to 1.90 %"
+std::string advice_in_words(const std::optional<Advice>& advice);
+
+/// As figures of files.
 void add_advice(const std::optional<Advice>& advice, Report& report);
 
 } // namespace prt::cli

@@ -8,6 +8,8 @@
 #include "prt/support/error.h"
 #include "solid_materials.h"
 
+#include <fmt/core.h>
+
 namespace prt::cli {
 namespace {
 
@@ -45,8 +47,11 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
     const std::optional<Advice> what =
         advice({.reference = reference, .baked = baked, .shipped = shipped, .effort = effort}, mean,
                progress.part(0.8, 1));
-    report.tables.push_back(budget_table(lights, all));
-    add_figure(report, {"surface_error", "error over the surface"}, budget_in_words(mean, lights.size()));
+    Table table = budget_table(lights, all);
+    const std::string words = budget_in_words(mean, lights.size());
+    table.about = fmt::format("Over the surface {}; {}. {}", words, advice_in_words(what), table.about);
+    report.tables.insert(report.tables.begin(), std::move(table));
+    add_figures(report, {{"surface_error", words}});
     add_advice(what, report);
 }
 

@@ -398,10 +398,14 @@ void run(CompressArguments a, Session& session) {
         return encoded(a, std::move(bake.document), scene,
                        {std::move(outcome.result.transfer), bake.stored.record});
     });
+    if (!a.writing.reorder)
+        scene = {}; // vertices are where they were
     const Written result = written(a, std::move(file), session);
-    const std::vector<std::uint32_t> order = matching_receivers(result.scene, scene);
-    scene = {};
-    transfer = in_order(std::move(transfer), order);
+    if (a.writing.reorder) {
+        const std::vector<std::uint32_t> order = matching_receivers(result.scene, scene);
+        scene = {};
+        transfer = in_order(std::move(transfer), order);
+    }
     const CompressStatistics& s = outcome.result.statistics;
     Report report;
     add_figures(report, {{"output", a.output.string()}});

@@ -95,7 +95,7 @@ function bar(data, series, line, scale) {
 /** Bars under one another, and the names of their colors. */
 function bars({ title, series, bars: list }) {
   const longest = Math.max(...list.map(({ lengths }) => lengths.reduce((sum, length) => sum + length, 0)), 1e-9);
-  const height = kTop + 30 * list.length + 24, step = 110;
+  const height = kTop + 30 * list.length + 36, step = 110;
   return svg("svg", { viewBox: `0 0 ${kWidth} ${height}`, role: "img", "aria-label": title }, [
     ...series.flatMap((name, part) => [
       svg("rect", { x: 150 + step * part, y: 8, width: 14, height: 14, style: `fill:var(--series-${part % kColors})` }),
