@@ -2,6 +2,7 @@
 #include "known_names.h"
 #include "prt/support/error.h"
 #include "session.h"
+#include "shell_word.h"
 #include "terminal.h"
 
 #include <CLI/CLI.hpp>
@@ -22,12 +23,8 @@ namespace {
 /// As a shell would take it.
 std::string command_line(int argc, char** argv) {
     std::string line = "prt";
-    for (int i = 1; i < argc; ++i) {
-        const std::string word = argv[i];
-        const bool plain =
-            !word.empty() && word.find_first_of(" \t\n'\"\\$`*?;&|<>(){}#") == std::string::npos;
-        line += plain ? " " + word : " '" + word + "'";
-    }
+    for (int i = 1; i < argc; ++i)
+        line += " " + shell_word(argv[i]);
     return line;
 }
 

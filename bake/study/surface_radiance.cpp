@@ -7,6 +7,7 @@
 #include "pictures/light_paths.h"
 #include "prt/bake.h"
 #include "prt/sh.h"
+#include "prt/support/stopwatch.h"
 #include "scene/interpolated.h"
 #include "trace/disc_share.h"
 #include "trace/each_receiver.h"
@@ -136,6 +137,7 @@ SurfaceRadiance::SurfaceRadiance(const TraceScene& scene, const SurfacePoints& p
                                               std::vector<PointSum>(points.size())};
     std::vector<std::uint32_t> all(points.size());
     std::iota(all.begin(), all.end(), 0u);
+    const Stopwatch stopwatch;
     int done = 0;
     for (int next = options.paths; done < next;) {
         const auto most = static_cast<double>(std::max(options.paths, options.most_paths));
@@ -146,7 +148,8 @@ SurfaceRadiance::SurfaceRadiance(const TraceScene& scene, const SurfacePoints& p
                                             {receiver_seed(p, options.seed + h), done, next}, sums[h][p]);
                           });
         done = next;
-        if (noise_of(points, sums, suns_, done) > options.noise)
+        const bool late = options.seconds > 0 && stopwatch.seconds() > options.seconds;
+        if (!late && noise_of(points, sums, suns_, done) > options.noise)
             next = std::max(done, std::min(2 * done, options.most_paths));
     }
     for (std::size_t h = 0; h < sums.size(); ++h)

@@ -31,7 +31,10 @@ BudgetReference::BudgetReference(const Scene& scene, const std::vector<BudgetLig
         const auto count = static_cast<double>(lights.size());
         radiance_.emplace_back(
             scene_, points_, lights[i].measured,
-            SurfaceRadianceOptions{.noise = effort.noise, .seed = effort.seed, .threads = effort.threads},
+            SurfaceRadianceOptions{.noise = effort.noise,
+                                   .seconds = effort.seconds,
+                                   .seed = effort.seed,
+                                   .threads = effort.threads},
             progress.part(static_cast<double>(i) / count, static_cast<double>(i + 1) / count));
     }
 }

@@ -14,6 +14,7 @@ namespace prt::cli {
 struct BudgetEffort {
     std::size_t points = 1024;
     double noise = 5e-5; ///< of squared errors (`SurfaceRadianceOptions`)
+    double seconds = 0;  ///< for each light, about; 0: any
     std::uint64_t seed = 0x9e3779b97f4a7c15;
     int threads = 0;
 };

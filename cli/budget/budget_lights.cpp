@@ -1,6 +1,7 @@
 #include "budget/budget_lights.h"
 
 #include "evaluation_lights.h"
+#include "light_file.h"
 
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
@@ -101,6 +102,18 @@ MeasuredLight of_coefficients(const SplitLight& light, bool apart) {
     return measured;
 }
 
+/// A light file with zeros for the bands that it does not have: there is no more light in it.
+SplitLight all_bands(const Path& path, const BudgetLightOptions& options) {
+    const int order = std::min(read_light_file(path).sky.order, kMaxOrder);
+    SplitLight light = load_split_light(path, order, {std::nullopt}, options.reading, options.threads);
+    for (Light* bands : {&light.sky.light, &light.whole}) {
+        bands->order = kMaxOrder;
+        bands->coefficients.resize(static_cast<std::size_t>(coefficient_count(kMaxOrder)), glm::vec3(0));
+    }
+    light.whole = sum(light.sky.light, as_light(light.split.suns, kMaxOrder));
+    return light;
+}
+
 } // namespace
 
 BandFactors BudgetLight::factors(int order) const {
@@ -120,13 +133,13 @@ std::vector<BudgetLight> budget_lights(const BudgetLightOptions& options) {
     for (const Path& path : options.files) {
         LightOptions unturned = options.reading;
         unturned.rotation_degrees = 0;
-        SplitLight light = load_split_light(path, options.order, suns, unturned, options.threads);
+        const SplitLight light = load_split_light(path, options.order, suns, unturned, options.threads);
         if (light.sky.environment) {
             lights.push_back({light.sky.name, of_image(light, options)});
             continue;
         }
-        light = load_split_light(path, kMaxOrder, {std::nullopt}, options.reading, options.threads);
-        lights.push_back({light.sky.name, of_coefficients(light, options.apart && suns.count != 0)});
+        lights.push_back(
+            {light.sky.name, of_coefficients(all_bands(path, options), options.apart && suns.count != 0)});
     }
     if (lights.empty())
         for (const SplitLight& light : default_lights(kMaxOrder))

@@ -10,12 +10,10 @@
 namespace prt::cli {
 namespace {
 
-/// Relative L2 of what two bakes of one layout differ by in distant light.
+/// Relative L2 of what two bakes of one layout differ by in their first part.
 double difference(const Transfer& a, const Transfer& b, std::span<const float> areas) {
     double squared = 0, norm = 0;
-    std::size_t numbers = 0;
-    for (const TransferPart& part : b.layout.parts)
-        numbers += b.layout.numbers_of(part);
+    const std::size_t numbers = b.layout.numbers_of(b.layout.parts.front());
     for (std::size_t p = 0; p < b.receivers(); ++p)
         for (std::size_t i = 0; i < numbers; ++i) {
             const double one = static_cast<double>(a.vector(p)[i]),
@@ -44,9 +42,10 @@ BakeOptions options_of(const BakeRecord& record, int order, int threads) {
 }
 
 Transfer repeated_bake(const SceneFile& model, int threads, const Progress& progress) {
-    // Two bakes of independent rays differ by sqrt(2) times the error of one; what is estimated from two
-    // samples of a half is off by less than another factor of two in practice.
-    constexpr double kNoise = 3, kRounding = 0.02;
+    // Two bakes of independent rays differ by sqrt(2) times the error of one in direct light, which comes
+    // first; the estimate of that is off by less than another factor of two in practice, of few rays that are
+    // fitted by four. A scene that was baked otherwise differs by tens of per cents.
+    constexpr double kNoise = 6, kRounding = 0.05;
     const Transfer& baked = model.baked->transfer;
     const BakeRecord& record = *model.record();
     BakeOptions options = options_of(record, baked.layout.order, threads);

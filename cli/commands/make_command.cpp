@@ -4,6 +4,7 @@
 #include "no_shadow.h"
 #include "options.h"
 #include "outputs.h"
+#include "shell_word.h"
 
 namespace prt::cli {
 namespace {
@@ -41,7 +42,7 @@ void add_make(CLI::App& app, Session& session) {
         arguments_for<MakeArguments>(command, [command, &session, options_of_lights](MakeArguments given) {
             for (const CLI::Option* option : *options_of_lights)
                 for (const std::string& value : option->results())
-                    given.request.light_options += " " + option->get_name() + " " + value;
+                    given.request.light_options += " " + option->get_name() + " " + shell_word(value);
             run(std::move(given), session);
         });
     MakeRequest& r = a.request;

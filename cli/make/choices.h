@@ -26,6 +26,11 @@ inline constexpr double kMostBeforeBytes = 0.85;
 /// get a third of it.
 inline constexpr double kUsualError = 0.03, kAboveRest = 1.5;
 
+/// What light, vertices and rays are chosen for where bytes are given: about what eight of them leave.
+inline constexpr double kBesideBytes = 0.01;
+/// Of the time that may be taken, what paths get before bakes.
+inline constexpr double kShareOfTime = 0.15;
+
 /// What path tracing tells of bands and of bounces.
 struct CutErrors {
     std::function<double(int order)> light;     ///< with all bounces

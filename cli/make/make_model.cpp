@@ -11,6 +11,7 @@
 #include "prt/search.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
+#include "shell_word.h"
 
 #include <fmt/core.h>
 
@@ -22,12 +23,6 @@ namespace prt::cli {
 namespace {
 
 constexpr int kPilotRays = 256;
-
-/// A file in quotes where a shell needs them.
-std::string as_argument(const Path& path) {
-    const std::string text = path.string();
-    return text.find_first_of(" \t'\"\\$`*?;&|<>(){}#") == std::string::npos ? text : "'" + text + "'";
-}
 
 std::string percent(double squared) {
     return fmt::format("{:.2f} %", 100 * std::sqrt(std::max(squared, 0.0)));
@@ -63,21 +58,15 @@ struct Pilot {
 
 class Maker {
 public:
-    Maker(const MakeRequest& request, Session& session)
+    Maker(const MakeRequest& request, Session& session, std::vector<BudgetLight> lights)
         : r_(request), session_(session), document_(load_gltf(request.scene, request.reading)),
-          scene_(extract_scene(document_)) {
+          scene_(extract_scene(document_)), lights_(std::move(lights)) {
         print_notices(r_.scene.string(), scene_.notices);
         leave_out_shadows(scene_, r_.no_shadow);
-        lights_ = budget_lights({.files = r_.lights,
-                                 .suns = {std::nullopt},
-                                 .reading = r_.reading_lights,
-                                 .order = 6,
-                                 .apart = true,
-                                 .threads = r_.threads});
     }
 
     void run(Report& report) {
-        plan_.error = r_.goal.max_error.value_or(kUsualError);
+        plan_.error = r_.goal.bytes_per_vertex ? kBesideBytes : r_.goal.max_error.value_or(kUsualError);
         trace_paths();
         choose_bands();
         Pilot pilot = bake_pilot();
@@ -94,6 +83,7 @@ public:
     }
 
 private:
+    bool aims_by_itself() const { return !r_.goal.max_error && !r_.goal.bytes_per_vertex; }
     double allowed() const { return plan_.error * plan_.error; }
     bool in_time(double share) const {
         return !r_.goal.seconds || watch_.seconds() < share * *r_.goal.seconds;
@@ -103,7 +93,10 @@ private:
         ProgressBar bar = session_.progress_bar("tracing paths");
         reference_ = std::make_unique<BudgetReference>(
             scene_, lights_,
-            BudgetEffort{.noise = std::max(kShareOfNoise * allowed(), kLeastNoise), .threads = r_.threads},
+            BudgetEffort{.noise = std::max(kShareOfNoise * allowed(), kLeastNoise),
+                         .seconds =
+                             kShareOfTime * r_.goal.seconds.value_or(0) / static_cast<double>(lights_.size()),
+                         .threads = r_.threads},
             bar.progress());
     }
 
@@ -111,7 +104,7 @@ private:
     void choose_bands() {
         const CutErrors errors{[&](int order) { return reference_->light_error(order); },
                                [&](int bounces) { return reference_->bounces_error(bounces); }};
-        if (!r_.goal.max_error)
+        if (aims_by_itself())
             plan_.error =
                 std::max(kUsualError, std::sqrt(kAboveRest * std::max(errors.light(kMaxOrder), 0.0)));
         for (const int order : {2, 4, 6, 8, 10})
@@ -208,7 +201,7 @@ private:
         double before_bytes = kShareOfRays * allowed();
         for (const ErrorCause cause : {ErrorCause::light, ErrorCause::bounces, ErrorCause::vertices})
             before_bytes += pilot.budget.of(cause).value;
-        if (!r_.goal.max_error)
+        if (aims_by_itself())
             plan_.error = std::max(kUsualError, std::sqrt(kAboveRest * before_bytes));
         check_possible(before_bytes, fmt::format("light ({}) with what vertices leave between them ({})",
                                                  percent(plan_.cut.squared),
@@ -307,18 +300,18 @@ private:
 
     std::vector<std::string> by_hand(const Compressed& best) const {
         const Path kept = r_.baked.empty() ? Path("baked.glb") : r_.baked;
-        std::string bake =
-            fmt::format("prt bake {} -o {} --order {} --rays {} --bounces {} --fit {}", as_argument(r_.scene),
-                        as_argument(kept), plan_.cut.order, plan_.rays, bounces_in_words(plan_.cut.bounces),
-                        plan_.fit == FitMode::surface ? "surface" : "vertex");
+        std::string bake = fmt::format("prt bake {} -o {} --order {} --rays {} --bounces {} --fit {}",
+                                       shell_word(r_.scene.string()), shell_word(kept.string()),
+                                       plan_.cut.order, plan_.rays, bounces_in_words(plan_.cut.bounces),
+                                       plan_.fit == FitMode::surface ? "surface" : "vertex");
         if (plan_.refine > 0)
             bake += fmt::format(" --refine {}", plan_.refine);
         for (const std::string& material : r_.no_shadow)
-            bake += " --no-shadow " + as_argument(material);
+            bake += " --no-shadow " + shell_word(material);
         std::string compress =
-            fmt::format("prt compress {} -o {}", as_argument(kept), as_argument(r_.output));
+            fmt::format("prt compress {} -o {}", shell_word(kept.string()), shell_word(r_.output.string()));
         for (const Path& light : r_.lights)
-            compress += " --lights " + as_argument(light);
+            compress += " --lights " + shell_word(light.string());
         compress += r_.light_options;
         compress += fmt::format(" {} {}", r_.goal.bytes_per_vertex ? "--bytes-per-vertex" : "--max-error",
                                 best.asked);
@@ -386,10 +379,28 @@ private:
     std::vector<std::string> tried_, notices_;
 };
 
+/// Throws `Error` where nothing does.
+void check_shine(const MakeRequest& request, const std::vector<BudgetLight>& lights) {
+    const auto shines = [](const BudgetLight& light) {
+        return light.measured.sky_bands.coefficients[0] + light.measured.sun_bands.coefficients[0] !=
+               glm::vec3(0);
+    };
+    if (std::ranges::none_of(lights, shines))
+        throw Error(request.lights.front().string() +
+                    ": is black, and errors are relative to the light there is");
+}
+
 } // namespace
 
 void make_model(const MakeRequest& request, Report& report, Session& session) {
-    about(request.scene, [&] { Maker(request, session).run(report); });
+    std::vector<BudgetLight> lights = budget_lights({.files = request.lights,
+                                                     .suns = {std::nullopt},
+                                                     .reading = request.reading_lights,
+                                                     .order = 6,
+                                                     .apart = true,
+                                                     .threads = request.threads});
+    check_shine(request, lights);
+    about(request.scene, [&] { Maker(request, session, std::move(lights)).run(report); });
 }
 
 } // namespace prt::cli

@@ -30,7 +30,7 @@ Json refinement_json(const RefineStatistics& s, double target) {
 void add_refinement_sentences(const RefineStatistics& s, Report& report) {
     report.sentences.push_back(
         s.rounds == 0
-            ? "refined: no triangle needs to be split; between vertices direct light errs by "
+            ? "refined: no triangle is split; between vertices direct light errs by "
               "{refine_error_relative_l2:.3f%}"
             : "refined in {refine_rounds} rounds, {refine_seconds:.3f} s: from {vertices_before} vertices to "
               "{vertices_after}, from {triangles_before} triangles to {triangles_after}; between vertices "

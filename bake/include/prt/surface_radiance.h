@@ -48,6 +48,7 @@ struct SurfaceRadianceOptions {
     /// Twice as many again as long as the mean over all points of a squared difference, relative to the
     /// radiance, has a larger standard error by noise.
     double noise = 5e-5;
+    double seconds = 0; ///< after which there are no more, whatever their noise; 0: any
     std::uint64_t seed = 0x9e3779b97f4a7c15;
     int threads = 0; ///< 0: all
 };
