@@ -22,6 +22,8 @@ std::vector<const prt::TransferLayout*> Document::layouts() const {
 void Document::open(const LoadedModel& model) {
     loaded = model;
     occlusion = nullptr;
+    repeated = {};
+    budget.reset();
     if (!loaded.raw && !loaded.compressed)
         loaded.record.bounces = kBakeBounces;
     if (compressed()) {
