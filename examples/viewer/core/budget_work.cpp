@@ -19,6 +19,11 @@ namespace {
 
 using Radiance = std::vector<glm::vec3>;
 
+/// Of noise in squared errors, and paths of each half: a sixteenth of the time that files are given, for
+/// errors of some percent. The interval of the total says what is left.
+constexpr double kNoise = 2e-4;
+constexpr int kMostPaths = 1024;
+
 /// One thread is left to draw.
 int threads_beside_drawing() {
     return std::max(1, prt::thread_count(0) - 1);
@@ -142,7 +147,9 @@ void find_budget(Channel& channel, const BudgetSubject& subject) {
         prt::surface_points(*model.trace, {.threads = threads}, {{}, progress.stop});
     if (points.size() == 0)
         throw prt::Error("the model has no surface that light reaches, so that there is no error to measure");
-    const prt::SurfaceRadiance reference(*model.trace, points, light, {.threads = threads}, progress);
+    const prt::SurfaceRadiance reference(*model.trace, points, light,
+                                         {.most_paths = kMostPaths, .noise = kNoise, .threads = threads},
+                                         progress);
 
     const prt::Light sky = prt::truncated(light.sky_bands, subject.light_order);
     const prt::BandFactors factors = window_factors(sky, subject.rig.settings().window);

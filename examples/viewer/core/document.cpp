@@ -38,6 +38,7 @@ void Document::open(const LoadedModel& model) {
 void Document::set(const Baked& baked) {
     loaded.raw = baked.transfer;
     loaded.record = baked.record;
+    repeated = {};
     ++transfer_version;
 }
 

@@ -202,7 +202,8 @@ void Viewer::take(const NumberPictures& pictures) {
 }
 
 void Viewer::take(const RepeatedBake& repeated) {
-    document_.repeated = repeated;
+    if (repeated.of == document_.loaded.raw)
+        document_.repeated = repeated;
 }
 
 void Viewer::take(const SurfaceBudget& budget) {
