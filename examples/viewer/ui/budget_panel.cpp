@@ -64,11 +64,11 @@ void show_errors(const Viewer& viewer, const prt::ErrorBudget& errors) {
     draw_bar(errors);
     for (const Row& row : kRows)
         draw_row(row, errors.of(row.cause));
-    line("total",
-         fmt::format("{}, {:.2f} .. {:.2f}", percent(errors.total.root()),
-                     100 * std::sqrt(std::max(errors.total.low, 0.0)),
-                     100 * std::sqrt(std::max(errors.total.high, 0.0))),
-         "Relative L2 of light all over the surface against path tracing, and its 95 % interval.");
+    line("total", percent(errors.total.root()),
+         "Relative L2 of light all over the surface against path tracing.");
+    line("its 95 % interval",
+         fmt::format("{:.2f} .. {:.2f} %", 100 * std::sqrt(std::max(errors.total.low, 0.0)),
+                     100 * std::sqrt(std::max(errors.total.high, 0.0))));
     if (!viewer.budget_is_current())
         ImGui::TextWrapped("Of another light or transfer: measure again.");
     if (any_shines(viewer.settings.lit.lamps))

@@ -86,7 +86,7 @@ Legend legend_of(const Viewer& viewer, PictureKind kind) {
                 "jump between clusters, of the mean; blue: inside one"};
     case PictureKind::surface_error:
         return {true, "0", fmt::format("{:.0f} %", 100 * kWhiteSurfaceError),
-                "of the radiance (root mean square), against path tracing"};
+                "of the mean radiance (RMS), by path tracing"};
     default:
         return {};
     }

@@ -183,7 +183,7 @@ TEST_F(Script, TheScaleOfTheDisplayMakesPanelsLarger) {
 
 TEST_F(Script, MeasuresWhereTheErrorOverTheSurfaceComesFrom) {
     run(R"([
-        {"size": [640, 360]}, {"wait": "work"}, {"no_sky": []},
+        {"size": [160, 90]}, {"wait": "work"}, {"no_sky": []},
         {"set": {"panels": false, "split": 0, "background": false}},
         {"light": {"kind": "hemisphere", "direction": [0, 1, 0], "strength": 1}}, {"budget": "even.json"},
         {"set": {"right": "surface_error"}}, {"screenshot": "even.png"},
