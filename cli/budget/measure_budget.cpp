@@ -2,9 +2,9 @@
 
 #include "budget/advice.h"
 #include "budget/budget_report.h"
-#include "budget/repeated_bake.h"
 #include "no_shadow.h"
 #include "prt/bake.h"
+#include "prt/repeated_bake.h"
 #include "prt/support/error.h"
 #include "solid_materials.h"
 
@@ -31,7 +31,8 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
     ProgressBar bar = session.progress_bar("taking errors apart");
     const Progress progress = bar.progress();
     const std::vector<BudgetLight> lights = budget_lights(request.lights);
-    const Transfer repeated = repeated_bake(baked, threads, progress.part(0, 0.4));
+    const Transfer repeated =
+        repeated_bake(baked.scene, baked.baked->transfer, record, threads, progress.part(0, 0.4));
     const BudgetEffort effort{.threads = threads};
     const BudgetReference reference(baked.scene, lights, effort, progress.part(0.4, 0.8));
     const std::optional<Transfer> coded =

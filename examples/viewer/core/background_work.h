@@ -14,7 +14,7 @@
 
 namespace viewer {
 
-enum class Stage { starting, reading, baking, compressing, occlusion, saving };
+enum class Stage { starting, reading, baking, compressing, occlusion, saving, measuring };
 
 /// One piece of work at a time, which posts values of type `Finding`. Starting another stops the first
 /// without waiting for it; nothing that it posts afterwards counts.
@@ -71,6 +71,8 @@ public:
             channel->done_ = true;
         });
     }
+    /// Ends the work without waiting for it; what it posts afterwards does not count.
+    void stop() { retire(); }
     /// Returns what was posted since the last call.
     std::vector<Finding> collect() {
         std::erase_if(retired_, [](const Job& job) {

@@ -22,6 +22,8 @@ std::vector<const prt::TransferLayout*> Document::layouts() const {
 void Document::open(const LoadedModel& model) {
     loaded = model;
     occlusion = nullptr;
+    repeated = {};
+    budget.reset();
     if (!loaded.raw && !loaded.compressed)
         loaded.record.bounces = kBakeBounces;
     if (compressed()) {
@@ -36,6 +38,7 @@ void Document::open(const LoadedModel& model) {
 void Document::set(const Baked& baked) {
     loaded.raw = baked.transfer;
     loaded.record = baked.record;
+    repeated = {};
     ++transfer_version;
 }
 

@@ -4,15 +4,9 @@
 
 #include "core/findings.h"
 
+#include <optional>
+
 namespace viewer {
-
-/// Tells two states of the light on the model apart.
-struct RadianceVersion {
-    std::uint64_t transfer = 0, light = 0, lamps = 0;
-    bool suns_apart = false;
-
-    friend bool operator==(const RadianceVersion&, const RadianceVersion&) = default;
-};
 
 /// What transfer takes.
 struct TransferFigures {
@@ -26,6 +20,8 @@ struct Document {
     Occlusion occlusion;
     CompressionSettings compressed_as;  ///< the compressed transfer, or the one that is on its way
     std::uint64_t transfer_version = 1; ///< counts up with every transfer
+    RepeatedBake repeated;
+    std::optional<SurfaceBudget> budget; ///< the last that was measured, which may be of another light
 
     const Model* model() const { return loaded.model.get(); } ///< null: nothing is open
     std::string name() const { return model() ? model()->path.filename().string() : std::string(); }

@@ -7,6 +7,8 @@
 #include "pictures/model.h"
 #include "pictures/picture_kind.h"
 
+#include "prt/error_budget.h"
+
 #include <memory>
 #include <string>
 #include <utility>
@@ -50,11 +52,32 @@ struct NumberPictures {
     std::vector<std::pair<PictureKind, std::vector<glm::vec3>>> colors;
 };
 
+/// Tells two states of the light on the model apart.
+struct RadianceVersion {
+    std::uint64_t transfer = 0, light = 0, lamps = 0;
+    bool suns_apart = false;
+
+    friend bool operator==(const RadianceVersion&, const RadianceVersion&) = default;
+};
+
+/// A bake done again with another seed.
+struct RepeatedBake {
+    std::shared_ptr<const prt::Transfer> of, transfer;
+};
+
+/// Where the error over the surface of `model` comes from, under one light without lamps.
+struct SurfaceBudget {
+    std::shared_ptr<const Model> model;
+    RadianceVersion version; ///< `lamps` is 0
+    prt::ErrorBudget errors;
+    std::vector<glm::vec3> colors; ///< [receivers] of the total, for `PictureKind::surface_error`
+};
+
 struct Saved {
     std::filesystem::path path;
 };
 
-enum class JobKind { model, environments, numbers, saving };
+enum class JobKind { model, environments, numbers, saving, budget };
 
 /// A job ended with this message.
 struct Failure {
@@ -62,8 +85,8 @@ struct Failure {
     std::string why;
 };
 
-using Finding =
-    std::variant<LoadedModel, Baked, Compressed, Occlusion, EnvironmentFile, NumberPictures, Saved, Failure>;
+using Finding = std::variant<LoadedModel, Baked, Compressed, Occlusion, EnvironmentFile, NumberPictures,
+                             RepeatedBake, SurfaceBudget, Saved, Failure>;
 
 using Channel = BackgroundWork<Finding>::Channel;
 

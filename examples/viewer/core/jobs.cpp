@@ -1,5 +1,6 @@
 #include "core/jobs.h"
 
+#include "core/budget_work.h"
 #include "core/transfer_work.h"
 
 #include "prt/support/error.h"
@@ -85,6 +86,14 @@ void Jobs::find_numbers(const Document& document, const prt::Lighting& lighting,
     });
 }
 
+void Jobs::find_budget(const Document& document, const LightRig& rig, const RadianceVersion& version) {
+    BudgetSubject subject{document.loaded, nullptr, rig, document.light_order(), version};
+    if (document.repeated.of == document.loaded.raw)
+        subject.repeated = document.repeated.transfer;
+    start(JobKind::budget,
+          [subject = std::move(subject)](Channel& channel) { viewer::find_budget(channel, subject); });
+}
+
 void Jobs::save(const Document& document, const std::filesystem::path& output) {
     start(JobKind::saving, [loaded = document.loaded, output](Channel& channel) {
         channel.enter(Stage::saving, "saving " + output.filename().string());
@@ -95,7 +104,8 @@ void Jobs::save(const Document& document, const std::filesystem::path& output) {
 
 std::vector<Finding> Jobs::collect() {
     std::vector<Finding> all;
-    for (const JobKind kind : {JobKind::environments, JobKind::model, JobKind::numbers, JobKind::saving})
+    for (const JobKind kind :
+         {JobKind::environments, JobKind::model, JobKind::numbers, JobKind::saving, JobKind::budget})
         std::ranges::move(works_[static_cast<std::size_t>(kind)].collect(), std::back_inserter(all));
     for (const Finding& finding : all)
         if (const auto* read = std::get_if<EnvironmentFile>(&finding))

@@ -22,8 +22,13 @@ public:
     /// Reads environments; those that were still being read are read, too.
     void read_environments(const std::vector<std::filesystem::path>& paths);
     void find_numbers(const Document& document, const prt::Lighting& lighting, const LampSettings& lamps);
+    /// Measures where the error over the surface comes from, of a document with raw transfer.
+    void find_budget(const Document& document, const LightRig& rig, const RadianceVersion& version);
     /// Writes the model with its compressed transfer.
     void save(const Document& document, const std::filesystem::path& output);
+
+    /// Ends work of that kind.
+    void stop(JobKind kind) { works_[static_cast<std::size_t>(kind)].stop(); }
 
     /// Returns what was found since the last call.
     std::vector<Finding> collect();
@@ -33,15 +38,15 @@ public:
     bool busy() const;
     /// Nothing would be lost by compressing again.
     bool may_compress() const;
-    /// Of the work on the model.
-    std::string label() const { return work(JobKind::model).label(); }
-    double share() const { return work(JobKind::model).share(); }
+    /// Of work of that kind: what is done, and how far it is.
+    std::string label(JobKind kind = JobKind::model) const { return work(kind).label(); }
+    double share(JobKind kind = JobKind::model) const { return work(kind).share(); }
 
 private:
     const BackgroundWork<Finding>& work(JobKind kind) const { return works_[static_cast<std::size_t>(kind)]; }
     void start(JobKind kind, std::function<void(Channel&)> work);
 
-    std::array<BackgroundWork<Finding>, 4> works_; ///< [JobKind]
+    std::array<BackgroundWork<Finding>, 5> works_; ///< [JobKind]
     std::vector<std::filesystem::path> environments_to_read_;
 };
 

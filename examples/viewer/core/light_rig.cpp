@@ -133,8 +133,10 @@ LoadedEnvironment load_environment(const std::string& path) {
     const prt::Environment environment = prt::load_environment(path).environment;
     LoadedEnvironment result = ready(std::filesystem::path(path).filename().string(), environment);
     prt::SunSplit split = prt::find_suns(environment);
-    if (!split.suns.empty())
+    if (!split.suns.empty()) {
         result.sky = prt::project(split.remainder, prt::kMaxOrder);
+        result.sky_lat_long = prt::resampled_lat_long(split.remainder);
+    }
     result.suns = std::move(split.suns);
     return result;
 }
@@ -236,11 +238,16 @@ prt::Light LightRig::light(int order) const {
     return prt::windowed(sum, settings_.window);
 }
 
-LightApart LightRig::light_apart(int order) const {
+std::vector<prt::SunDisc> LightRig::strongest_first() const {
     std::vector<prt::SunDisc> suns = turned_suns();
     std::ranges::copy(own_suns(), std::back_inserter(suns));
     std::ranges::stable_sort(suns, std::greater(),
                              [](const prt::SunDisc& sun) { return prt::luminance(sun.irradiance); });
+    return suns;
+}
+
+LightApart LightRig::light_apart(int order) const {
+    std::vector<prt::SunDisc> suns = strongest_first();
     const auto most = std::min<std::size_t>(suns.size(), prt::kMostShadowedSuns);
     prt::Light sky = prt::constant_light(order, glm::vec3(0)), of_suns = sky;
     if (const LoadedEnvironment* environment = base())
@@ -253,22 +260,22 @@ LightApart LightRig::light_apart(int order) const {
     return {{prt::windowed(sky, settings_.window), std::move(of_suns)}, std::move(suns)};
 }
 
-prt::DistantLight LightRig::distant_light() const {
-    const LoadedEnvironment* environment = base();
-    const bool plain = environment && settings_.rotation == 0 &&
+/// Of an image of the environment, null where there is none, and these suns.
+prt::DistantLight LightRig::distant_light(const prt::Image* lat_long,
+                                          const std::vector<prt::SunDisc>& suns) const {
+    const bool plain = lat_long && settings_.rotation == 0 &&
                        std::none_of(settings_.lights.begin(), settings_.lights.end(),
                                     [](const RigLight& l) { return l.on && l.kind != LightKind::sun; });
     if (plain)
-        return prt::DistantLight(environment->lat_long, as_seen_by_rays(own_suns()));
+        return prt::DistantLight(*lat_long, as_seen_by_rays(suns));
     // All in one image, in the axes of the world.
     prt::Image image{1024, 512, std::vector<glm::vec3>(std::size_t{1024} * 512, glm::vec3(0))};
-    if (environment) {
+    if (lat_long) {
         const float c = std::cos(settings_.rotation), s = std::sin(settings_.rotation);
         for (int y = 0; y < image.height; ++y)
             for (int x = 0; x < image.width; ++x) {
                 const glm::vec3 d(prt::lat_long_direction(image.width, image.height, x + 0.5, y + 0.5));
-                image.at(x, y) =
-                    prt::sample_lat_long(environment->lat_long, {c * d.x - s * d.z, d.y, s * d.x + c * d.z});
+                image.at(x, y) = prt::sample_lat_long(*lat_long, {c * d.x - s * d.z, d.y, s * d.x + c * d.z});
             }
     }
     for (const RigLight& light : settings_.lights) {
@@ -284,7 +291,42 @@ prt::DistantLight LightRig::distant_light() const {
                     image.at(x, y) += radiance * (0.5f + 0.5f * glm::dot(d, light.direction));
                 }
     }
-    return prt::DistantLight(std::move(image), as_seen_by_rays(own_suns()));
+    return prt::DistantLight(std::move(image), as_seen_by_rays(suns));
+}
+
+prt::DistantLight LightRig::distant_light() const {
+    const LoadedEnvironment* environment = base();
+    return distant_light(environment ? &environment->lat_long : nullptr, own_suns());
+}
+
+prt::MeasuredLight LightRig::measured_light() const {
+    LightRig rig = *this;
+    rig.settings_.window = prt::Window::none;
+    return {.all = distant_light(),
+            .sky = {},
+            .suns = {},
+            .sky_bands = rig.light(prt::kMaxOrder),
+            .sun_bands = prt::constant_light(prt::kMaxOrder, glm::vec3(0))};
+}
+
+prt::MeasuredLight LightRig::measured_light_apart() const {
+    LightRig rig = *this;
+    rig.settings_.window = prt::Window::none;
+    LightApart apart = rig.light_apart(prt::kMaxOrder);
+    if (apart.suns.empty())
+        return measured_light();
+    const LoadedEnvironment* environment = base();
+    const bool has_suns = environment && !environment->sky_lat_long.pixels.empty();
+    std::vector<prt::SunDisc> others = strongest_first();
+    others.erase(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(apart.suns.size()));
+    return {.all = distant_light(),
+            .sky = distant_light(has_suns      ? &environment->sky_lat_long
+                                 : environment ? &environment->lat_long
+                                               : nullptr,
+                                 others),
+            .suns = std::move(apart.suns),
+            .sky_bands = std::move(apart.lighting.sky),
+            .sun_bands = std::move(*apart.lighting.suns)};
 }
 
 const prt::Image* LightRig::background() const {

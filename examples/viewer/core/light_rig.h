@@ -6,6 +6,7 @@
 #include "prt/environment.h"
 #include "prt/light.h"
 #include "prt/sun_disc.h"
+#include "prt/surface_radiance.h"
 #include "prt/transfer_layout.h"
 
 #include <array>
@@ -79,8 +80,9 @@ struct LightSettings {
 struct LoadedEnvironment {
     std::string name;
     prt::Image lat_long;
-    prt::Light light; ///< of the highest order
-    prt::Light sky;   ///< the same without its suns
+    prt::Light light;        ///< of the highest order
+    prt::Light sky;          ///< the same without its suns
+    prt::Image sky_lat_long; ///< and its image; empty where it has none
     std::vector<prt::SunDisc> suns;
     float mean = 1; ///< luminance
 };
@@ -110,6 +112,10 @@ public:
     LightApart light_apart(int order) const;
     /// The same light as rays meet it. Suns are suns; all else is in its environment.
     prt::DistantLight distant_light() const;
+    /// As an error budget measures it: under no window, all in the sky or with the suns of `light_apart`
+    /// apart.
+    prt::MeasuredLight measured_light() const;
+    prt::MeasuredLight measured_light_apart() const;
 
     /// How much it is night, 0..1; an environment map is as it is.
     float darkness() const;
@@ -122,6 +128,8 @@ private:
     const LoadedEnvironment* base() const;
     std::vector<prt::SunDisc> own_suns() const;
     std::vector<prt::SunDisc> turned_suns() const;
+    std::vector<prt::SunDisc> strongest_first() const;
+    prt::DistantLight distant_light(const prt::Image* lat_long, const std::vector<prt::SunDisc>& suns) const;
     void add_shapes(prt::Light& sum) const;
     float unit() const;
 

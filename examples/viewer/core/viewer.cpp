@@ -84,6 +84,13 @@ void Viewer::bake_anew() {
         jobs_.bake(document_.loaded.model);
 }
 
+void Viewer::measure_budget() {
+    if (!can_measure())
+        return message("the error over the surface is measured of a bake, once it is there");
+    gpu_->budget = lampless();
+    jobs_.find_budget(document_, lighting_.rig, lampless());
+}
+
 void Viewer::save(std::filesystem::path output) {
     if (!can_save())
         return message("there is nothing compressed yet to save");
@@ -127,6 +134,7 @@ void Viewer::update(double seconds) {
 
 void Viewer::take(const LoadedModel& loaded) {
     document_.open(loaded);
+    stop_budget();
     settings.lit.lamps.each.clear();
     follow_lamps();
     compression = document_.compressed_as;
@@ -154,6 +162,8 @@ void Viewer::upload_model() {
         message("the compressed transfer has more components than a vertex has attributes");
     if (document_.occlusion)
         gpu_->model->set_occlusion(*document_.occlusion);
+    if (document_.budget)
+        gpu_->model->set_numbers(PictureKind::surface_error, document_.budget->colors);
 }
 
 void Viewer::take(const Baked& baked) {
@@ -189,6 +199,19 @@ void Viewer::take(const NumberPictures& pictures) {
     if (pictures.model == document_.loaded.model && gpu_->model)
         for (const auto& [kind, colors] : pictures.colors)
             gpu_->model->set_numbers(kind, colors);
+}
+
+void Viewer::take(const RepeatedBake& repeated) {
+    if (repeated.of == document_.loaded.raw)
+        document_.repeated = repeated;
+}
+
+void Viewer::take(const SurfaceBudget& budget) {
+    if (budget.model != document_.loaded.model)
+        return;
+    document_.budget = budget;
+    if (gpu_->model)
+        gpu_->model->set_numbers(PictureKind::surface_error, budget.colors);
 }
 
 void Viewer::take(const Saved& saved) {

@@ -32,6 +32,13 @@ public:
     void open(const std::vector<std::filesystem::path>& paths);
     /// Bakes the model anew, though it may hold transfer.
     void bake_anew();
+    /// There is a bake of which the error over the surface can be measured.
+    bool can_measure() const { return document_.raw() && !jobs_.busy(JobKind::model); }
+    /// Measures it in the background, under the present light.
+    void measure_budget();
+    void stop_budget() { jobs_.stop(JobKind::budget); }
+    /// The budget that was measured last is of this light and of this transfer.
+    bool budget_is_current() const { return document_.budget && document_.budget->version == lampless(); }
     /// There is compressed transfer to save.
     bool can_save() const { return document_.compressed() && !jobs_.busy(JobKind::saving); }
     /// Writes the model with it in the background; a message says where, or why not. `output` empty: beside
@@ -86,7 +93,7 @@ private:
         std::unique_ptr<GpuModel> model;
         prt::GlObject background;
         std::uint64_t background_version = 0;
-        RadianceVersion lit, numbers; ///< that the model is lit by, that numbers were asked for
+        RadianceVersion lit, numbers, budget; ///< that the model is lit by, that were asked for
         GpuTimer frame, vertices;
         MeshRenderer meshes;
     };
@@ -102,6 +109,8 @@ private:
     void take(const Occlusion& occlusion);
     void take(const EnvironmentFile& file);
     void take(const NumberPictures& pictures);
+    void take(const RepeatedBake& repeated);
+    void take(const SurfaceBudget& budget);
     void take(const Saved& saved);
     void take(const Failure& failure);
     void upload_model();
@@ -111,6 +120,12 @@ private:
         return {document_.transfer_version, lighting_.rig.version(), lighting_.lamps_version(),
                 settings.lit.suns_apart};
     }
+    /// What a budget depends on.
+    RadianceVersion lampless() const {
+        RadianceVersion lampless = version();
+        lampless.lamps = 0;
+        return lampless;
+    }
     const LightApart& light() {
         return lighting_.light_for_pictures(document_.light_order(), settings.lit.suns_apart);
     }
@@ -119,6 +134,7 @@ private:
     void follow_light();
     std::string left_out(PictureKind kind) const;
     void find_numbers();
+    void follow_budget();
     FrameView frame_view();
     void draw_sides(const std::array<PictureKind, 2>& kinds, const FrameView& view);
     void show_reference(int side, const FrameView& view);

@@ -27,6 +27,7 @@ void Viewer::draw(std::uint32_t framebuffer, int width, int height) {
     gpu_->renderer.resize({.width = width, .height = height, .samples = settings.drawing.samples});
     follow_light();
     find_numbers();
+    follow_budget();
     const FrameView view = frame_view();
     gpu_->frame.begin();
     if (!gpu_->model) {
@@ -72,6 +73,13 @@ void Viewer::find_numbers() {
     jobs_.find_numbers(document_, light().lighting, lighting_.lamps());
 }
 
+/// Measures the budget of the newest transfer and light for its picture, one after the other.
+void Viewer::follow_budget() {
+    const bool asked = gpu_->budget == lampless() || budget_is_current() || jobs_.busy(JobKind::budget);
+    if (wants(PictureKind::surface_error) && can_measure() && !asked)
+        measure_budget();
+}
+
 FrameView Viewer::frame_view() {
     FrameView view;
     view.camera = camera.camera();
@@ -100,6 +108,8 @@ std::string Viewer::left_out(PictureKind kind) const {
     if (!transfer && !shows_numbers(kind) && any_shines(settings.lit.lamps))
         return kind == PictureKind::reference ? "without lamps and what shines"
                                               : "without the light of lamps";
+    if (kind == PictureKind::surface_error && !budget_is_current())
+        return "of another light or transfer";
     if (kind != PictureKind::reference && gpu_->model->takes_suns_as_sky(kind))
         return "no direct light is kept apart, so that suns are lit as sky";
     return "";
@@ -111,8 +121,8 @@ Viewer::Shown Viewer::shown(PictureKind wanted) const {
     if (wanted == PictureKind::reference || gpu_->model->can_draw(wanted))
         return {wanted, left_out(wanted)};
     std::string why = "not there yet";
-    const bool needs_raw =
-        wanted == PictureKind::prt || wanted == PictureKind::error || wanted == PictureKind::seams;
+    const bool needs_raw = wanted == PictureKind::prt || wanted == PictureKind::error ||
+                           wanted == PictureKind::seams || wanted == PictureKind::surface_error;
     if (needs_raw && !document_.raw() && !jobs_.busy(JobKind::model))
         why = "the file holds compressed transfer only; bake to see it";
     return {PictureKind::unshadowed, why};

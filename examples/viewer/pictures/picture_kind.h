@@ -20,6 +20,7 @@ enum class PictureKind {
     components,     ///< how many directions the cluster has
     error,          ///< of the compression, under this light
     seams,          ///< jumps of that error between clusters
+    surface_error,  ///< all of it, at points over the surface, against path tracing
 };
 
 struct PictureName {
@@ -27,7 +28,7 @@ struct PictureName {
     const char *id, *title; ///< for scripts; for people
 };
 
-inline constexpr std::array<PictureName, 11> kPictures = {{
+inline constexpr std::array<PictureName, 12> kPictures = {{
     {PictureKind::unshadowed, "unshadowed", "Unshadowed irradiance"},
     {PictureKind::ssao, "ssao", "SSAO"},
     {PictureKind::ssao_normals, "ssao_normals", "SSAO with normals"},
@@ -39,6 +40,7 @@ inline constexpr std::array<PictureName, 11> kPictures = {{
     {PictureKind::components, "components", "Number of components"},
     {PictureKind::error, "error", "Error of compression"},
     {PictureKind::seams, "seams", "Seams of compression"},
+    {PictureKind::surface_error, "surface_error", "Error over the surface"},
 }};
 
 inline const PictureName& name_of(PictureKind kind) {
@@ -58,7 +60,7 @@ inline bool is_ssao(PictureKind kind) {
 /// Colors that stand for numbers: shown as they are, without exposure and base color.
 inline bool shows_numbers(PictureKind kind) {
     return kind == PictureKind::clusters || kind == PictureKind::components || kind == PictureKind::error ||
-           kind == PictureKind::seams;
+           kind == PictureKind::seams || kind == PictureKind::surface_error;
 }
 
 } // namespace viewer

@@ -113,6 +113,19 @@ Json figures_json(const Figures& f) {
             {"difference_pixels", f.difference.pixels}};
 }
 
+Json budget_json(const prt::ErrorBudget& budget) {
+    const auto json = [](const prt::SquaredError& error) {
+        return Json{{"error", error.root()},
+                    {"squared", error.value},
+                    {"squared_low", error.low},
+                    {"squared_high", error.high}};
+    };
+    Json causes = Json::object();
+    for (std::size_t i = 0; i < prt::kErrorCauses; ++i)
+        causes[prt::to_string(static_cast<prt::ErrorCause>(i))] = json(budget.causes[i]);
+    return {{"total", json(budget.total)}, {"causes", causes}, {"squared_together", budget.together.value}};
+}
+
 // ---- the player
 
 /// The viewer, its controls and panels, and a screen for them.
@@ -199,12 +212,15 @@ void wait(Player& player, const Json& json) {
         return player.wait([&] { return player.viewer->figures().reference_passes >= passes; },
                            "the reference");
     }
-    const bool numbers = json.get<std::string>() == "numbers";
-    if (!numbers && json.get<std::string>() != "work")
-        throw prt::Error("what to wait for is work, numbers or a reference");
+    const std::string what = json.get<std::string>();
+    if (what != "work" && what != "numbers" && what != "budget")
+        throw prt::Error("what to wait for is work, numbers, a budget or a reference");
     const Jobs& jobs = player.viewer->jobs();
-    player.wait([&] { return !(numbers ? jobs.busy(JobKind::numbers) : jobs.busy()); },
-                "work in the background");
+    const auto busy = [&] {
+        return what == "work" ? jobs.busy()
+                              : jobs.busy(what == "numbers" ? JobKind::numbers : JobKind::budget);
+    };
+    player.wait([&] { return !busy(); }, "work in the background");
 }
 
 void set(Player& player, const Json& json) {
@@ -359,12 +375,29 @@ void take_screenshot(Player& player, const Json& json) {
     save_screenshot(player.screen->framebuffer(), player.size.x, player.size.y, player.path(json));
 }
 
+void write(const std::filesystem::path& path, const Json& json) {
+    prt::OutputFile output(path);
+    output.write(json.dump(2) + "\n");
+    output.commit();
+}
+
 void write_figures(Player& player, const Json& json) {
     glFinish();
     player.draw();
-    prt::OutputFile output(player.path(json));
-    output.write(figures_json(player.viewer->figures()).dump(2) + "\n");
-    output.commit();
+    write(player.path(json), figures_json(player.viewer->figures()));
+}
+
+/// Measures the budget where that of the present light is not there yet.
+void write_budget(Player& player, const Json& json) {
+    Viewer& viewer = *player.viewer;
+    player.draw(); // takes over the light that is set
+    if (!viewer.jobs().busy(JobKind::budget) && !viewer.budget_is_current())
+        viewer.measure_budget();
+    player.wait([&] { return !viewer.jobs().busy(JobKind::budget); }, "the budget");
+    player.fail_on_message();
+    if (!viewer.budget_is_current())
+        throw prt::Error("the budget is of another light");
+    write(player.path(json), budget_json(viewer.document().budget->errors));
 }
 
 struct Step {
@@ -395,6 +428,7 @@ constexpr Step kSteps[] = {{"size", set_size},
                            {"spin", spin},
                            {"screenshot", take_screenshot},
                            {"figures", write_figures},
+                           {"budget", write_budget},
                            {"lose_context", lose_context},
                            {"expect_message", expect_message}};
 

@@ -1,5 +1,6 @@
 #include "ui/overlay.h"
 
+#include "core/budget_work.h"
 #include "ui/controls.h"
 
 #include "prt/receiver_colors.h"
@@ -83,6 +84,9 @@ Legend legend_of(const Viewer& viewer, PictureKind kind) {
     case PictureKind::seams:
         return {true, "0", fmt::format("{:.0f} %", 100 * prt::kWhiteSeam),
                 "jump between clusters, of the mean; blue: inside one"};
+    case PictureKind::surface_error:
+        return {true, "0", fmt::format("{:.0f} %", 100 * kWhiteSurfaceError),
+                "of the mean radiance (RMS), by path tracing"};
     default:
         return {};
     }

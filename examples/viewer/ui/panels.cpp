@@ -1,5 +1,6 @@
 #include "ui/panels.h"
 
+#include "ui/budget_panel.h"
 #include "ui/commands.h"
 #include "ui/overlay.h"
 #include "ui/widgets.h"
@@ -311,6 +312,8 @@ void draw_panels(Viewer& viewer) {
                 lamp_panel(viewer);
             if (ImGui::CollapsingHeader("Transfer", ImGuiTreeNodeFlags_DefaultOpen))
                 transfer_panel(viewer);
+            if (viewer.document().model() && ImGui::CollapsingHeader("Budget"))
+                budget_panel(viewer);
             if (viewer.settings.lobe)
                 lobe_panel(viewer);
             ImGui::TextDisabled("H: help   Tab: hide");

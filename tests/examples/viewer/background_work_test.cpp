@@ -52,5 +52,22 @@ TEST(BackgroundWork, ThatMakesWayPostsNothingMore) {
     EXPECT_EQ(collect_all(work), std::vector<std::string>{"second"});
 }
 
+TEST(BackgroundWork, ThatIsStoppedPostsNothingMore) {
+    Work work;
+    std::atomic<bool> begun = false;
+    work.start([&](Work::Channel& channel) {
+        for (;;) {
+            begun = true;
+            channel.post("never taken");
+            channel.progress().update(0);
+        }
+    });
+    while (!begun)
+        std::this_thread::yield();
+    work.stop();
+    EXPECT_FALSE(work.busy());
+    EXPECT_TRUE(collect_all(work).empty());
+}
+
 } // namespace
 } // namespace viewer

@@ -242,12 +242,40 @@ TEST(LightRig, FindsTheSunsOfAnEnvironmentAndTurnsThemWithIt) {
     EXPECT_NEAR(together(apart).coefficients[0].g / rig.light(kOrder).coefficients[0].g, 1, 1e-3);
     EXPECT_LT(relative_difference(apart.lighting.sky, prt::constant_light(kOrder, glm::vec3(1))), 0.01);
     EXPECT_TRUE(rig.distant_light().suns().empty()); // rays meet it in the image
+    const prt::MeasuredLight measured = rig.measured_light_apart();
+    EXPECT_LT(relative_difference(projected(*measured.sky), prt::constant_light(kOrder, glm::vec3(1))), 0.01);
     settings.rotation = 1;
     rig.set(settings);
     EXPECT_LT(glm::distance(rig.light_apart(kOrder).suns[0].towards,
                             glm::vec3(glm::rotate(glm::dmat4(1), 1.0, glm::dvec3(0, 1, 0)) *
                                       glm::dvec4(glm::dvec3(apart.suns[0].towards), 0))),
               1e-5f);
+}
+
+TEST(LightRig, MeasuresBandsAndRaysOfTheSameLight) {
+    LightRig rig;
+    LightSettings settings = rig.settings(); // a day with its sun
+    settings.window = prt::Window::hann;     // of which bands and rays know nothing
+    settings.rotation = 1;
+    settings.lights.assign(6, make_light(LightKind::sun)); // more than are apart
+    settings.lights.push_back(make_light(LightKind::hemisphere));
+    for (std::size_t i = 0; i < 6; ++i)
+        settings.lights[i].direction = glm::normalize(glm::vec3(std::cos(i), 0.5f, std::sin(i)));
+    rig.set(settings);
+    const auto bands = [](const prt::Light& light) { return prt::truncated(light, kOrder); };
+    const prt::MeasuredLight together = rig.measured_light(), apart = rig.measured_light_apart();
+    // The day's image of 128 x 64 is turned in one of 1024 x 512, sampled in between; its sun has an extent
+    // that rays do not meet.
+    constexpr double kTurned = 0.01;
+    EXPECT_FALSE(together.sky);
+    EXPECT_LT(relative_difference(bands(together.sky_bands), projected(together.all)), kTurned);
+    ASSERT_TRUE(apart.sky);
+    EXPECT_EQ(apart.suns.size(), 4U);
+    EXPECT_EQ(apart.sky->suns().size(), 3U);
+    EXPECT_LT(relative_difference(bands(apart.sky_bands), projected(*apart.sky)), kTurned);
+    EXPECT_LT(
+        relative_difference(prt::sum(bands(apart.sky_bands), bands(apart.sun_bands)), projected(apart.all)),
+        kTurned);
 }
 
 TEST(LightRig, CountsItsChanges) {

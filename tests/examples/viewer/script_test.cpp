@@ -16,6 +16,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace viewer {
 namespace {
 
@@ -177,6 +179,37 @@ TEST_F(Script, TheScaleOfTheDisplayMakesPanelsLarger) {
     EXPECT_GT(at("one.png", 300, 13).b, 60);
     EXPECT_LT(at("one.png", 500, 30).b, 60);
     EXPECT_GT(at("two.png", 500, 30).b, 60);
+}
+
+TEST_F(Script, MeasuresWhereTheErrorOverTheSurfaceComesFrom) {
+    run(R"([
+        {"size": [160, 90]}, {"wait": "work"}, {"no_sky": []},
+        {"set": {"panels": false, "split": 0, "background": false}},
+        {"light": {"kind": "hemisphere", "direction": [0, 1, 0], "strength": 1}}, {"budget": "even.json"},
+        {"set": {"right": "surface_error"}}, {"screenshot": "even.png"},
+        {"light": {"kind": "sun", "direction": [0.5, 1, 0], "strength": 3}}, {"draw": 1}, {"wait": "budget"},
+        {"screenshot": "sun.png"}, {"budget": "apart.json"},
+        {"set": {"suns_apart": false}}, {"draw": 1}, {"budget": "bands.json"}, {"lose_context": []}, {"draw": 2}
+    ])",
+        with_transfer());
+    for (const char* name : {"even.json", "apart.json", "bands.json"}) {
+        const nlohmann::json budget = json(name);
+        double sum = 0;
+        for (const auto& cause : budget["causes"])
+            sum += cause["squared"].get<double>();
+        const double total = budget["total"]["squared"].get<double>(),
+                     together = budget["squared_together"].get<double>();
+        EXPECT_GT(total, 0) << name;
+        EXPECT_NEAR(sum + together, total, 1e-9) << name;
+        // What causes do to each other is the smaller part where there are several of like size.
+        EXPECT_LT(std::abs(together), 0.5 * total) << name;
+        EXPECT_GT(budget["causes"]["bytes"]["squared"].get<double>(), 0) << name;
+        EXPECT_GT(budget["causes"]["rays"]["squared"].get<double>(), 0) << name;
+    }
+    const auto light = [&](const char* name) { return json(name)["causes"]["light"]["error"].get<double>(); };
+    EXPECT_LT(light("even.json"), 0.01);                     // two bands hold a hemisphere light
+    EXPECT_GT(light("bands.json"), 2 * light("apart.json")); // three hold no sun
+    EXPECT_NE(picture("even.png").pixels, picture("sun.png").pixels);
 }
 
 TEST_F(Script, SavesTheCompressedModel) {

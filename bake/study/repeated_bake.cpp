@@ -1,4 +1,6 @@
-#include "budget/repeated_bake.h"
+// Bakes as the record says, and checks that it is the same but for noise.
+
+#include "prt/repeated_bake.h"
 
 #include "prt/bake.h"
 #include "prt/support/error.h"
@@ -7,11 +9,11 @@
 
 #include <cmath>
 
-namespace prt::cli {
+namespace prt {
 namespace {
 
 /// Relative L2 of what two bakes of one layout differ by in their first part.
-double difference(const Transfer& a, const Transfer& b, std::span<const float> areas) {
+double difference_of_bakes(const Transfer& a, const Transfer& b, std::span<const float> areas) {
     double squared = 0, norm = 0;
     const std::size_t numbers = b.layout.numbers_of(b.layout.parts.front());
     for (std::size_t p = 0; p < b.receivers(); ++p)
@@ -24,9 +26,8 @@ double difference(const Transfer& a, const Transfer& b, std::span<const float> a
     return norm > 0 ? std::sqrt(squared / norm) : 0;
 }
 
-} // namespace
-
-BakeOptions options_of(const BakeRecord& record, int order, int threads) {
+/// How a bake was made, as far as its record says; lamps are left out.
+BakeOptions options_of_record(const BakeRecord& record, int order, int threads) {
     BakeOptions options;
     options.order = order;
     options.rays = record.rays;
@@ -41,30 +42,30 @@ BakeOptions options_of(const BakeRecord& record, int order, int threads) {
     return options;
 }
 
-Transfer repeated_bake(const SceneFile& model, int threads, const Progress& progress) {
+} // namespace
+
+Transfer repeated_bake(const Scene& scene, const Transfer& baked, const BakeRecord& record, int threads,
+                       const Progress& progress) {
     // Two bakes of independent rays differ by sqrt(2) times the error of one in direct light, which comes
     // first; the estimate of that is off by less than another factor of two in practice, of few rays that are
     // fitted by four. A scene that was baked otherwise differs by tens of per cents.
     constexpr double kNoise = 6, kRounding = 0.05;
-    const Transfer& baked = model.baked->transfer;
-    const BakeRecord& record = *model.record();
-    BakeOptions options = options_of(record, baked.layout.order, threads);
+    BakeOptions options = options_of_record(record, baked.layout.order, threads);
     options.repairs.bad_textures = BadTextures::ignore; // the bake has passed them
     options.seed = ~record.seed;
-    Transfer repeated = bake(model.scene, options, progress).baked.transfer;
+    Transfer repeated = bake(scene, options, progress).baked.transfer;
     const std::size_t parts = baked.layout.distant_parts().size();
     bool same = parts == repeated.layout.parts.size();
     for (std::size_t i = 0; same && i < parts; ++i)
         same = baked.layout.parts[i] == repeated.layout.parts[i];
-    const double off = same ? difference(baked, repeated, receiver_areas(model.scene)) : 1;
+    const double off = same ? difference_of_bakes(baked, repeated, receiver_areas(scene)) : 1;
     if (!(off <= kNoise * record.sampling_error + kRounding))
         throw Error(fmt::format(
             "baked again, it differs by {:.1f} %, where {:.1f} % is the noise of its rays: a budget needs a "
-            "bake "
-            "of the scene as it is in the file; name its --no-shadow again, and bake without --inside and "
-            "--subsurface",
+            "bake of the scene as it is in the file; name its --no-shadow again, and bake without --inside "
+            "and --subsurface",
             100 * off, 100 * record.sampling_error));
     return repeated;
 }
 
-} // namespace prt::cli
+} // namespace prt

@@ -1,0 +1,173 @@
+#include "core/budget_work.h"
+
+#include "prt/bake.h"
+#include "prt/dering.h"
+#include "prt/receiver_colors.h"
+#include "prt/repeated_bake.h"
+#include "prt/sh.h"
+#include "prt/subsurface.h"
+#include "prt/support/error.h"
+#include "prt/support/parallel.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace viewer {
+namespace {
+
+using Radiance = std::vector<glm::vec3>;
+
+/// Of noise in squared errors, and paths of each half: a sixteenth of the time that files are given, for
+/// errors of some percent. The interval of the total says what is left.
+constexpr double kNoise = 2e-4;
+constexpr int kMostPaths = 1024;
+
+/// One thread is left to draw.
+int threads_beside_drawing() {
+    return std::max(1, prt::thread_count(0) - 1);
+}
+
+/// Paths do not enter media.
+void check_no_media(const prt::Scene& scene) {
+    for (const prt::Material& material : scene.materials)
+        if (prt::medium_of(material))
+            throw prt::Error("light of the material '" + material.name +
+                             "' comes out of a medium, which the path tracer that a budget is measured by "
+                             "does not enter");
+}
+
+/// By which `windowed` scales the bands.
+prt::BandFactors window_factors(const prt::Light& light, prt::Window window) {
+    if (window == prt::Window::automatic)
+        return prt::dering_factors(light);
+    prt::BandFactors factors;
+    factors.fill(1);
+    for (int l = 0; l < light.order; ++l) {
+        double& factor = factors[static_cast<std::size_t>(l)];
+        if (window == prt::Window::hann)
+            factor = prt::hann_window(l, light.order);
+        else if (window == prt::Window::lanczos)
+            factor = prt::lanczos_window(l, light.order);
+    }
+    return factors;
+}
+
+/// At points; lamps are off.
+template <class Transfer>
+Radiance radiance_at(const prt::SurfacePoints& points, const Transfer& transfer,
+                     const prt::TransferLayout& layout, prt::Lighting lighting) {
+    lighting.lamps.assign(layout.lamps(), glm::vec3(0));
+    return prt::interpolated(points, prt::exit_radiance(transfer, lighting, threads_beside_drawing()));
+}
+
+/// The raw transfer baked again; the one that there is where it is of that.
+std::shared_ptr<const prt::Transfer> repeated(Channel& channel, const BudgetSubject& subject) {
+    if (subject.repeated)
+        return subject.repeated;
+    channel.enter(Stage::baking, "baking with another seed");
+    const LoadedModel& loaded = subject.loaded;
+    const auto repeated = std::make_shared<const prt::Transfer>(prt::repeated_bake(
+        loaded.model->scene, *loaded.raw, loaded.record, threads_beside_drawing(), channel.progress()));
+    channel.post(RepeatedBake{loaded.raw, repeated});
+    return repeated;
+}
+
+/// The picture of the total.
+std::vector<glm::vec3> total_colors(const Model& model, const prt::SurfacePoints& points,
+                                    const prt::SurfaceRadiance& reference, const Radiance& shown) {
+    std::vector<double> squared;
+    double norm = 0, area = 0;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const glm::dvec3 a(reference.truth(0)[p]), b(reference.truth(1)[p]), sun(reference.suns()[p]),
+            at_point(shown[p]);
+        squared.push_back(glm::dot(at_point - a, at_point - b)); // their noise has no mean
+        norm += static_cast<double>(points.receivers.areas[p]) * glm::dot(a + sun, b + sun);
+        area += static_cast<double>(points.receivers.areas[p]);
+    }
+    return surface_error_colors(model, points, squared, norm / area);
+}
+
+/// Spreads sums from receivers that have a weight to those that have none, an edge in each round.
+void spread(const std::vector<prt::Edge>& edges, std::vector<double>& sums, std::vector<double>& weights) {
+    for (bool more = true; more;) {
+        more = false;
+        const std::vector<double> before = weights;
+        for (const prt::Edge& edge : edges)
+            for (const auto& [from, to] :
+                 {std::pair(edge.first, edge.second), std::pair(edge.second, edge.first)})
+                if (before[from] > 0 && !(before[to] > 0)) {
+                    sums[to] += sums[from] / before[from];
+                    weights[to] += 1;
+                    more = true;
+                }
+    }
+}
+
+} // namespace
+
+std::vector<glm::vec3> surface_error_colors(const Model& model, const prt::SurfacePoints& points,
+                                            std::span<const double> squared, double norm) {
+    const glm::vec3 unknown(0.01f, 0.02f, 0.08f);
+    std::vector<double> sums(model.areas.size(), 0), weights = sums;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+        const std::array<float, 3> shares = points.shares(p);
+        for (int corner = 0; corner < 3; ++corner) {
+            const double weight = static_cast<double>(points.receivers.areas[p]) *
+                                  static_cast<double>(shares[static_cast<std::size_t>(corner)]);
+            sums[points.corners[p][corner]] += weight * squared[p];
+            weights[points.corners[p][corner]] += weight;
+        }
+    }
+    spread(model.edges, sums, weights);
+    std::vector<glm::vec3> colors;
+    for (std::size_t r = 0; r < sums.size(); ++r) {
+        const double mean = weights[r] > 0 ? std::max(0.0, sums[r] / weights[r]) : 0;
+        colors.push_back(weights[r] > 0 && norm > 0
+                             ? prt::heat_color(std::sqrt(mean / norm) / kWhiteSurfaceError)
+                             : unknown);
+    }
+    return colors;
+}
+
+void find_budget(Channel& channel, const BudgetSubject& subject) {
+    const LoadedModel& loaded = subject.loaded;
+    const Model& model = *loaded.model;
+    check_no_media(model.scene);
+    const int order = loaded.compressed ? loaded.compressed->bases.layout.order : loaded.raw->layout.order;
+    const auto again = repeated(channel, subject);
+    channel.enter(Stage::measuring, "following paths from the surface");
+    const bool apart = subject.version.suns_apart && loaded.raw->layout.has(prt::PartKind::direct);
+    const prt::MeasuredLight light =
+        apart ? subject.rig.measured_light_apart() : subject.rig.measured_light();
+    const int threads = threads_beside_drawing();
+    const prt::Progress progress = channel.progress();
+    const prt::SurfacePoints points =
+        prt::surface_points(*model.trace, {.threads = threads}, {{}, progress.stop});
+    if (points.size() == 0)
+        throw prt::Error("the model has no surface that light reaches, so that there is no error to measure");
+    const prt::SurfaceRadiance reference(*model.trace, points, light,
+                                         {.most_paths = kMostPaths, .noise = kNoise, .threads = threads},
+                                         progress);
+
+    const prt::Light sky = prt::truncated(light.sky_bands, subject.light_order);
+    const prt::BandFactors factors = window_factors(sky, subject.rig.settings().window);
+    prt::Lighting lighting{prt::with_band_factors(sky, factors)};
+    if (!light.suns.empty())
+        lighting.suns = prt::truncated(light.sun_bands, subject.light_order);
+    const auto baked_at = [&](const prt::Transfer& transfer) {
+        return radiance_at(points, truncated(transfer, order), transfer.layout, lighting);
+    };
+    prt::InterpolatedRadiance radiance{baked_at(*loaded.raw), baked_at(*again), {}};
+    radiance.shipped =
+        loaded.compressed ? radiance_at(points, *loaded.compressed, loaded.compressed->bases.layout, lighting)
+                          : radiance.baked;
+    const prt::BandCut cut{order, loaded.record.endless ? prt::kEndlessBounces : loaded.record.bounces,
+                           factors};
+    channel.post(SurfaceBudget{loaded.model, subject.version,
+                               prt::error_budget(points, reference, cut, radiance),
+                               total_colors(model, points, reference, radiance.shipped)});
+}
+
+} // namespace viewer
