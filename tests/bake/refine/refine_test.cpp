@@ -27,7 +27,7 @@ BakeOptions options_of_order(int order) {
 }
 
 /// A floor of two triangles under a wall that stands on it, off its middle.
-Scene floor_with_wall() {
+Scene floor_to_refine() {
     return SceneBuilder()
         .floor({0, 0, 0}, 4)
         .quad({1, 0, -4}, {1, 0, 4}, {1, 2, 4}, {1, 2, -4})
@@ -45,7 +45,7 @@ TEST(Refine, LeavesAnOpenPlaneAsItIs) {
 }
 
 TEST(Refine, ReachesTheTargetBySurfaceReference) {
-    const Scene scene = floor_with_wall();
+    const Scene scene = floor_to_refine();
     BakeOptions options = options_of_order(4);
     const RefineResult result = refine(scene, options, {.target = 0.03});
     EXPECT_EQ(result.statistics.end, RefineEnd::target);
@@ -65,7 +65,7 @@ TEST(Refine, ReachesTheTargetBySurfaceReference) {
 }
 
 TEST(Refine, SplitsAlongTheShadow) {
-    const Scene scene = floor_with_wall();
+    const Scene scene = floor_to_refine();
     const Scene finer = refined(scene, refine(scene, options_of_order(4), {.target = 0.03}).refinement);
     // Vertices of the floor by distance from the wall's foot, where light jumps, over 8 m.
     double near = 0, far = 0;
@@ -76,7 +76,7 @@ TEST(Refine, SplitsAlongTheShadow) {
 }
 
 TEST(Refine, KeepsTheLimitAndSaysSo) {
-    const Scene scene = floor_with_wall();
+    const Scene scene = floor_to_refine();
     for (const std::size_t most : {21u, 40u, 123u}) {
         const RefineResult result =
             refine(scene, options_of_order(3), {.target = 0.01, .most_vertices = most});
@@ -91,7 +91,7 @@ TEST(Refine, KeepsTheLimitAndSaysSo) {
 }
 
 TEST(Refine, DoesNotDependOnThreads) {
-    const Scene scene = floor_with_wall();
+    const Scene scene = floor_to_refine();
     BakeOptions options = options_of_order(3);
     options.threads = 1;
     const RefineResult one = refine(scene, options, {.target = 0.05});
@@ -144,7 +144,7 @@ TEST(Refine, RefusesWhatItCannotMeasure) {
 TEST(Refine, StopsWhenAsked) {
     std::stop_source stop;
     Progress progress{[&](double) { stop.request_stop(); }, stop.get_token()};
-    EXPECT_THROW(refine(floor_with_wall(), options_of_order(3), {.target = 1e-3}, progress), Cancelled);
+    EXPECT_THROW(refine(floor_to_refine(), options_of_order(3), {.target = 1e-3}, progress), Cancelled);
 }
 
 TEST(Refine, SaysHowFarItIsAndNeverLess) {
@@ -154,7 +154,7 @@ TEST(Refine, SaysHowFarItIsAndNeverLess) {
         falls = falls || share < last || share > 1;
         last = share;
     };
-    refine(floor_with_wall(), options_of_order(3), {.target = 0.05}, {report, {}});
+    refine(floor_to_refine(), options_of_order(3), {.target = 0.05}, {report, {}});
     EXPECT_FALSE(falls);
     EXPECT_EQ(last, 1);
 }

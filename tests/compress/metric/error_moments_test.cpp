@@ -14,7 +14,7 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kReceivers = 4300; // more than one block of each stretch
+constexpr std::size_t kOfMoments = 4300; // more than one block of each stretch
 
 TransferLayout with_lamps() {
     return {3, {{PartKind::whole, 1}, {PartKind::lamp, 1, "white"}, {PartKind::lamp, 3, "red"}}};
@@ -35,12 +35,12 @@ struct Case {
     std::normal_distribution<float> normal;
 
     explicit Case(const TransferLayout& layout)
-        : reference(zero_transfer(layout, kReceivers)), approximation(reference), random(3) {
+        : reference(zero_transfer(layout, kOfMoments)), approximation(reference), random(3) {
         for (float& v : reference.vectors)
             v = normal(random);
         for (std::size_t i = 0; i < reference.vectors.size(); ++i)
             approximation.vectors[i] = reference.vectors[i] + 0.1f * normal(random);
-        for (std::size_t p = 0; p < kReceivers; ++p)
+        for (std::size_t p = 0; p < kOfMoments; ++p)
             areas.push_back(static_cast<float>(p % 5));
     }
     Light light(int order) {

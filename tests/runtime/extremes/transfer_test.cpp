@@ -71,7 +71,7 @@ TEST_P(Measure, IsFiniteOrRefused) {
 
 TEST(Measure, OfNothingIsNothing) {
     EXPECT_EQ(lit_rms({}, {}, {}), 0);
-    EXPECT_EQ(relative_l2({}, {}, {}), 0);
+    EXPECT_EQ(relative_l2(Transfer{}, Transfer{}, {}), 0);
     EXPECT_EQ(lit_error({}, {}, {}, {}, std::nullopt).rms, 0);
     EXPECT_EQ(mean_visibility({}, {}), 0);
     EXPECT_TRUE(unique_edges({}).empty());

@@ -44,9 +44,9 @@ struct Finer {
         written = test::read_glb(folder / "finer.glb");
     }
 
-    Json primitive() const { return written.json["meshes"][0]["primitives"][0]; }
+    Json primitive_in() const { return written.json["meshes"][0]["primitives"][0]; }
     Json accessor(const Json& index) const { return written.json["accessors"][index.get<std::size_t>()]; }
-    Json accessor(const char* attribute) const { return accessor(primitive()["attributes"][attribute]); }
+    Json accessor(const char* attribute) const { return accessor(primitive_in()["attributes"][attribute]); }
     /// The components of element `i` of an accessor.
     template <class T>
     std::vector<T> element(const Json& index, std::size_t i, std::size_t components) const {
@@ -61,7 +61,7 @@ struct Finer {
     }
     template <class T>
     std::vector<T> element(const char* attribute, std::size_t i, std::size_t components) const {
-        return element<T>(primitive()["attributes"][attribute], i, components);
+        return element<T>(primitive_in()["attributes"][attribute], i, components);
     }
 
     test::TemporaryFolder folder;
@@ -69,12 +69,12 @@ struct Finer {
     GlbFile written;
 };
 
-Json& primitive(GlbFile& file, std::size_t index = 0) {
+Json& primitive_in(GlbFile& file, std::size_t index = 0) {
     return file.json["meshes"][0]["primitives"][index];
 }
 
 void set(GlbFile& file, const char* attribute, std::size_t accessor) {
-    primitive(file)["attributes"][attribute] = accessor;
+    primitive_in(file)["attributes"][attribute] = accessor;
 }
 
 void expect_same(const Scene& a, const Scene& b) {
@@ -175,11 +175,11 @@ TEST(RefinedFile, AveragesMorphTargetsAndSparseOnesToo) {
          {{"bufferView", file.view(std::as_bytes(std::span(at)))}, {"componentType", test::kUnsignedByte}}},
         {"values", {{"bufferView", file.view(std::as_bytes(std::span(value)))}}}};
     file.json["accessors"].push_back(sparse);
-    primitive(file)["targets"] =
+    primitive_in(file)["targets"] =
         Json::array({{{"POSITION", target}}, {{"POSITION", file.json["accessors"].size() - 1}}});
     file.json["meshes"][0]["weights"] = {0.5, 0.25};
     const Finer finer(file);
-    const Json targets = finer.primitive()["targets"];
+    const Json targets = finer.primitive_in()["targets"];
     EXPECT_EQ(finer.element<float>(targets[0]["POSITION"], 3, 3), (std::vector<float>{0, 0, 1}));
     EXPECT_EQ(finer.element<float>(targets[1]["POSITION"], 3, 3), (std::vector<float>{0, 0, 4}));
     EXPECT_FALSE(finer.accessor(targets[1]["POSITION"]).contains("sparse"));
@@ -236,19 +236,19 @@ TEST(RefinedFile, KeepsVerticesWithoutWeights) {
 
 TEST(RefinedFile, SplitsStripsAndWhatIsTurned) {
     GlbFile file = test::triangle_file();
-    primitive(file)["mode"] = 5;
+    primitive_in(file)["mode"] = 5;
     file.json["nodes"][0]["scale"] = {-1, 1, 1}; // the scene turns its triangles round
     const Finer finer(file);
     ASSERT_TRUE(finer.in_file.primitives[0].mirrored);
-    EXPECT_FALSE(finer.primitive().contains("mode"));
+    EXPECT_FALSE(finer.primitive_in().contains("mode"));
     expect_same(finer.in_memory, finer.in_file);
-    EXPECT_EQ(finer.element<std::uint32_t>(finer.primitive()["indices"], 0, 3),
+    EXPECT_EQ(finer.element<std::uint32_t>(finer.primitive_in()["indices"], 0, 3),
               (std::vector<std::uint32_t>{0, 1, 3})); // as the file had it: 0 1 2 without the middle 3
 }
 
 TEST(RefinedFile, KeepsFlatNormalsOfPrimitivesWithoutAny) {
     GlbFile file = test::triangle_file();
-    primitive(file)["attributes"].erase("NORMAL");
+    primitive_in(file)["attributes"].erase("NORMAL");
     const Finer finer(file);
     EXPECT_EQ(finer.element<float>("NORMAL", 3, 3), (std::vector<float>{0, 0, 1}));
     EXPECT_EQ(finer.in_file.vertex_arrays[0].size(), 4); // not split by roundings
@@ -268,10 +268,10 @@ TEST(RefinedFile, IsRefinedForEachNodeByItself) {
 
 TEST(RefinedFile, SharesVerticesOfSeveralPrimitivesAndLeavesPointsAlone) {
     GlbFile file = test::triangle_file();
-    primitive(file)["extras"] = {{"kept", true}};
-    file.json["meshes"][0]["primitives"].push_back(primitive(file));
+    primitive_in(file)["extras"] = {{"kept", true}};
+    file.json["meshes"][0]["primitives"].push_back(primitive_in(file));
     file.json["meshes"][0]["primitives"].push_back(
-        Json{{"attributes", {{"POSITION", primitive(file)["attributes"]["POSITION"]}}}, {"mode", 0}});
+        Json{{"attributes", {{"POSITION", primitive_in(file)["attributes"]["POSITION"]}}}, {"mode", 0}});
     const Finer finer(file);
     const Json primitives = finer.written.json["meshes"][0]["primitives"];
     EXPECT_EQ(primitives[0]["attributes"], primitives[1]["attributes"]);

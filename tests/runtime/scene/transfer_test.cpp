@@ -26,7 +26,13 @@ using test::GlbFile;
 
 BakedTransfer random_bake(const Scene& scene, const TransferLayout& layout) {
     BakedTransfer baked{{layout, {}},
-                        {2, 77, 12345678901, BakeMethod::raster, Backend::gpu, receivers_id(scene)}};
+                        {.bounces = 2,
+                         .endless = true,
+                         .rays = 77,
+                         .seed = 12345678901,
+                         .method = BakeMethod::raster,
+                         .backend = Backend::gpu,
+                         .receivers = receivers_id(scene)}};
     std::mt19937 random(3);
     std::normal_distribution<float> normal;
     baked.transfer.vectors.resize(scene.receivers() * baked.transfer.dimension());
@@ -136,6 +142,7 @@ TEST(TransferInGltf, RawVectorsComeBackExactly) {
     EXPECT_EQ(scene_again.triangles(), scene.triangles());
     const auto read = read_transfer(again, scene_again);
     ASSERT_TRUE(read);
+    EXPECT_TRUE(read->record.endless);
     EXPECT_EQ(read->transfer.layout.order, 4);
     EXPECT_EQ(read->transfer.layout.channels(), 3);
     EXPECT_EQ(read->transfer.vectors, baked.transfer.vectors);
