@@ -38,13 +38,12 @@ void add_make(CLI::App& app, Session& session) {
         "make",
         "Bake and compress a scene for skies, spending rays, bands, bounces and bytes where they pay");
     auto options_of_lights = std::make_shared<std::vector<const CLI::Option*>>();
-    auto& a =
-        arguments_for<MakeArguments>(command, [command, &session, options_of_lights](MakeArguments given) {
-            for (const CLI::Option* option : *options_of_lights)
-                for (const std::string& value : option->results())
-                    given.request.light_options += " " + option->get_name() + " " + shell_word(value);
-            run(std::move(given), session);
-        });
+    auto& a = arguments_for<MakeArguments>(command, [&session, options_of_lights](MakeArguments given) {
+        for (const CLI::Option* option : *options_of_lights)
+            for (const std::string& value : option->results())
+                given.request.light_options += " " + option->get_name() + " " + shell_word(value);
+        run(std::move(given), session);
+    });
     MakeRequest& r = a.request;
     command->add_option("scene", r.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
     add_output(command, r.output, "compressed .glb to write");
