@@ -25,11 +25,11 @@ namespace {
 constexpr std::size_t kOfFold = 1, kOfFoldInParts = 2, kOfSurface = 4096;
 /// What is asked how noisy rays are, and by how many of them.
 constexpr std::size_t kFirstPoints = 256;
-constexpr int kFirstRays = 256, kLeastRays = 64, kMostRaysOfPoint = 16384;
+constexpr int kFirstRays = 256, kFewestRaysOfPoint = 64, kMostRaysOfPoint = 16384;
 /// Noise of a point by one scramble, over the error that matters. Triangles that noise makes look good are
 /// not asked again: the plain room (benchmarks.md) baked by 4 096 rays had 2.03 % where 1.82 % were
 /// estimated, but with 3 2.49 % for 1.95 %.
-constexpr double kNoise = 1.5;
+constexpr double kNoiseOfPoint = 1.5;
 
 /// How deep `at` lies in the triangle of these corners, and where: negative outside.
 struct Found {
@@ -138,11 +138,12 @@ int LightPoints::choose_rays(const SurfaceSamples& added, const Progress& progre
         norm += product(a, b);
     }
     if (!(norm > 0 && noise > 0))
-        return kLeastRays;
+        return kFewestRaysOfPoint;
     // The error of a net of n rays falls as n^-0.75 (docs/math.md, section 14).
-    const double rays = kFirstRays * std::pow(std::sqrt(noise / norm) / (kNoise * tolerance_), 1 / 0.75);
-    return static_cast<int>(
-        std::clamp<double>(std::ceil(rays / kLeastRays) * kLeastRays, kLeastRays, kMostRaysOfPoint));
+    const double rays =
+        kFirstRays * std::pow(std::sqrt(noise / norm) / (kNoiseOfPoint * tolerance_), 1 / 0.75);
+    return static_cast<int>(std::clamp<double>(std::ceil(rays / kFewestRaysOfPoint) * kFewestRaysOfPoint,
+                                               kFewestRaysOfPoint, kMostRaysOfPoint));
 }
 
 std::vector<float> LightPoints::trace(const Receivers& receivers, int rays, const Progress& progress) {
