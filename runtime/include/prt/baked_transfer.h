@@ -28,9 +28,9 @@ const char* to_string(BakeMethod method);
 
 /// How a bake was made; written to the file and shown by `prt info`.
 struct BakeRecord {
-    int bounces = 0; ///< done
+    int bounces = 0;      ///< done
     bool endless = false; ///< all bounces are; then `bounces` says how often the solver applied the operator
-    int rays = 0;    ///< per receiver, the mean where it differs; directions where method is raster
+    int rays = 0;         ///< per receiver, the mean where it differs; directions where method is raster
     std::uint64_t seed = 0;
     BakeMethod method = BakeMethod::trace;
     Backend backend = Backend::cpu;
