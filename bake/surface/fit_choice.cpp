@@ -20,6 +20,8 @@ namespace {
 constexpr std::size_t kReceiversPerPoint = 100, kLeastPoints = 16, kMostPoints = 256;
 /// All vertices have this share of their rays first, and at most so many.
 constexpr int kShareOfFirstLook = 32, kMostFirst = 64;
+/// Halves of more rays would tell no more.
+constexpr int kMostOfHalf = 4096;
 /// What a point may contribute where vertices agree, in mean squares.
 constexpr double kLeastLikely = 0.02;
 
@@ -63,7 +65,9 @@ public:
         }
         if (norm > 0) {
             result_.between = std::sqrt(std::max(0.0, bends) / norm);
-            result_.sampling = std::sqrt(noise * std::pow(2, -1.5) / norm); // of nets of twice the rays
+            // The squared noise of nets of n rays falls as n^-1.5.
+            const double times = static_cast<double>(plan_.options.rays) / rays_of_half();
+            result_.sampling = std::sqrt(noise * std::pow(times, -1.5) / norm);
         }
         return result_;
     }
@@ -120,9 +124,11 @@ private:
         return corner_receivers(plan_.scene.surfaces(), *plan_.transport, place.triangle, place.back);
     }
 
+    int rays_of_half() const { return std::clamp(plan_.options.rays / 2, 1, kMostOfHalf); }
+
     Halves trace(const Receivers& receivers, std::span<const std::uint32_t> indices) {
         TraceOptions options{.order = plan_.options.order,
-                             .rays = std::max(1, plan_.options.rays / 2),
+                             .rays = rays_of_half(),
                              .seed = plan_.options.seed + 5 * kSecondScramble};
         Halves halves{zero_transfer(options.order, 1, receivers.size()),
                       zero_transfer(options.order, 1, receivers.size())};
