@@ -78,12 +78,16 @@ Table budget_table(const std::vector<BudgetLight>& lights, const std::vector<Err
 }
 
 std::string budget_in_words(const ErrorBudget& mean, std::size_t lights) {
+    constexpr double kMuch = 1.25; // beyond what is not known of squares
     std::vector<std::string> causes;
     for (const ErrorCause cause : kCauses)
         causes.push_back(fmt::format("{} {:.2f}", to_string(cause), 100 * mean.of(cause).root()));
-    return fmt::format("{:.2f} % from path tracing{}: {} %", 100 * mean.total.root(),
+    const char* together = mean.sum() > kMuch * mean.total.value   ? ", which partly undo each other"
+                           : mean.total.value > kMuch * mean.sum() ? ", which add to each other"
+                                                                   : "";
+    return fmt::format("{:.2f} % from path tracing{}: {} %{}", 100 * mean.total.root(),
                        lights > 1 ? fmt::format(" under these {} lights", lights) : "",
-                       fmt::join(causes, ", "));
+                       fmt::join(causes, ", "), together);
 }
 
 std::string advice_in_words(const std::optional<Advice>& advice) {

@@ -193,14 +193,12 @@ GlbFile skinned(const std::vector<std::uint8_t>& joints, const std::vector<Weigh
     GlbFile file = test::triangle_file();
     set(file, "JOINTS_0", file.accessor(joints, test::kUnsignedByte, "VEC4", 4));
     set(file, "WEIGHTS_0", file.accessor(weights, component_type, "VEC4", 4, component_type != test::kFloat));
-    std::vector<std::size_t> nodes;
-    for (std::size_t j = 0; j < 9; ++j)
-        nodes.push_back(j + 1);
-    file.json["skins"] = {{{"joints", nodes}}};
-    file.json["nodes"] = {{{"mesh", 0}, {"skin", 0}}};
-    for (std::size_t j = 0; j < 9; ++j)
-        file.json["nodes"].push_back(Json{{"translation", {0, 0, static_cast<double>(j)}}});
-    file.json["scenes"][0]["nodes"] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    file.json["nodes"][0]["skin"] = 0;
+    for (std::size_t j = 1; j <= 9; ++j) {
+        file.json["skins"][0]["joints"].push_back(j);
+        file.json["nodes"][j]["translation"] = std::vector<double>{0, 0, static_cast<double>(j - 1)};
+        file.json["scenes"][0]["nodes"].push_back(j);
+    }
     return file;
 }
 
