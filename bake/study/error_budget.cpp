@@ -84,6 +84,20 @@ std::vector<double> of_points(const SurfacePoints& points, Value&& value) {
     return values;
 }
 
+Radiance difference(Radiance of, std::span<const glm::vec3> from) {
+    for (std::size_t p = 0; p < of.size(); ++p)
+        of[p] -= from[p];
+    return of;
+}
+
+/// Of what is missing by each of two independent references.
+SquaredError error_of(const SurfacePoints& points, const SurfaceRadiance& reference,
+                      const std::array<Radiance, 2>& missing) {
+    return Resampling(points, reference).estimate(of_points(points, [&](std::size_t p) {
+        return product(missing[0][p], missing[1][p]);
+    }));
+}
+
 } // namespace
 
 const char* to_string(ErrorCause cause) {
@@ -144,42 +158,32 @@ ErrorBudget error_budget(const SurfacePoints& points, const SurfaceRadiance& ref
 
 SquaredError light_error(const SurfacePoints& points, const SurfaceRadiance& reference, const BandCut& cut) {
     const BandCut all{cut.order, kEndlessBounces, cut.factors};
-    const Radiance first = reference.under(all, 0), second = reference.under(all, 1);
-    return Resampling(points, reference).estimate(of_points(points, [&](std::size_t p) {
-        return product(first[p] - reference.truth(0)[p], second[p] - reference.truth(1)[p]);
-    }));
+    return error_of(points, reference,
+                    {difference(reference.under(all, 0), reference.truth(0)),
+                     difference(reference.under(all, 1), reference.truth(1))});
 }
 
 SquaredError bounces_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                            const BandCut& cut) {
     const BandCut all{cut.order, kEndlessBounces, cut.factors};
-    Radiance missing[2];
-    for (int half = 0; half < 2; ++half) {
-        missing[half] = reference.under(all, half);
-        const Radiance there = reference.under(cut, half);
-        for (std::size_t p = 0; p < points.size(); ++p)
-            missing[half][p] -= there[p];
-    }
-    return Resampling(points, reference).estimate(of_points(points, [&](std::size_t p) {
-        return product(missing[0][p], missing[1][p]);
-    }));
+    return error_of(points, reference,
+                    {difference(reference.under(all, 0), reference.under(cut, 0)),
+                     difference(reference.under(all, 1), reference.under(cut, 1))});
 }
 
 SquaredError split_error(const SurfacePoints& points, const SurfaceRadiance& reference,
                          const QuarterCorners& quarters, const SurfaceRadiance& corners, const BandCut& cut) {
-    Radiance missing[2];
+    std::array<Radiance, 2> missing;
     for (int half = 0; half < 2; ++half) {
         const Radiance here = reference.under(cut, half), at_corners = corners.under(cut, half);
         for (std::size_t p = 0; p < points.size(); ++p) {
             glm::vec3 sum = -here[p];
             for (std::size_t i = 0; i < 3; ++i)
                 sum += quarters.shares[p][i] * at_corners[3 * p + i];
-            missing[half].push_back(sum);
+            missing[static_cast<std::size_t>(half)].push_back(sum);
         }
     }
-    return Resampling(points, reference).estimate(of_points(points, [&](std::size_t p) {
-        return product(missing[0][p], missing[1][p]);
-    }));
+    return error_of(points, reference, missing);
 }
 
 ErrorBudget mean_budget(std::span<const ErrorBudget> budgets) {

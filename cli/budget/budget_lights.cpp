@@ -2,6 +2,7 @@
 
 #include "evaluation_lights.h"
 #include "light_file.h"
+#include "prt/support/tangent_frame.h"
 
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
@@ -35,10 +36,9 @@ std::vector<Sun> as_seen_by_rays(std::span<const SunDisc> discs) {
         for (int i = 0; i < parts; ++i) { // on a spiral (docs/math.md, eq. 41)
             const double radius = disc.half_angle * std::sqrt((i + 0.5) / parts),
                          angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
-            const glm::dvec3 to(disc.towards),
-                across = glm::normalize(
-                    glm::cross(to, std::abs(to.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0)));
-            const glm::dvec3 off = across * std::cos(angle) + glm::cross(to, across) * std::sin(angle);
+            const TangentFrame frame = tangent_frame(disc.towards);
+            const glm::dvec3 to(disc.towards), off = glm::dvec3(frame.tangent) * std::cos(angle) +
+                                                     glm::dvec3(frame.bitangent) * std::sin(angle);
             suns.push_back({glm::vec3(parts == 1 ? to : to * std::cos(radius) + off * std::sin(radius)),
                             disc.irradiance / static_cast<float>(parts)});
         }

@@ -342,10 +342,10 @@ private:
                              {"by_hand", by_hand(best)},
                              {"notices", notices_}});
         report.tables.push_back(budget_table(lights_, best.budgets));
-        say(best, mean, report);
+        say(mean, report);
     }
 
-    void say(const Compressed& best, const ErrorBudget& mean, Report& report) const {
+    void say(const ErrorBudget& mean, Report& report) const {
         auto& lines = report.sentences;
         lines.push_back(
             fmt::format("{{output}}: {{receivers}} vertices, order {{order}}, {{rays_per_receiver}} rays, "
@@ -363,7 +363,6 @@ private:
             lines.push_back(fmt::format("tried: {{tried/{}}}", i));
         lines.emplace_back("the same by hand: {by_hand/0}");
         lines.emplace_back("                  {by_hand/1}");
-        (void)best;
     }
 
     const MakeRequest& r_;
