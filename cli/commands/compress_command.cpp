@@ -402,9 +402,8 @@ void run(CompressArguments a, Session& session) {
         scene = {}; // vertices are where they were
     const Written result = written(a, std::move(file), session);
     if (a.writing.reorder) {
-        const std::vector<std::uint32_t> order = matching_receivers(result.scene, scene);
+        transfer = in_order(std::move(transfer), matching_receivers(result.scene, scene));
         scene = {};
-        transfer = in_order(std::move(transfer), order);
     }
     const CompressStatistics& s = outcome.result.statistics;
     Report report;

@@ -58,12 +58,14 @@ TransferView::TransferView(const ClusteredTransfer& transfer)
                    [vectors = std::make_shared<const ClusteredVectors>(transfer)](
                        std::size_t first, std::span<float> to) { vectors->read(first, to); }) {}
 
-TransferView in_order(TransferView transfer, std::span<const std::uint32_t> order) {
+TransferView in_order(TransferView transfer, std::vector<std::uint32_t> order) {
     TransferLayout layout = transfer.layout();
-    return {std::move(layout), order.size(),
-            [from = std::move(transfer), order](std::size_t first, std::span<float> to) {
+    const std::size_t receivers = order.size();
+    return {std::move(layout), receivers,
+            [from = std::move(transfer), order = std::make_shared<const std::vector<std::uint32_t>>(
+                                             std::move(order))](std::size_t first, std::span<float> to) {
                 for (; !to.empty(); to = to.subspan(from.dimension()))
-                    from.read(order[first++], to.first(from.dimension()));
+                    from.read((*order)[first++], to.first(from.dimension()));
             }};
 }
 

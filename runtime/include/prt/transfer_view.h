@@ -48,7 +48,7 @@ private:
 
 /// `as_whole` of prt/transfer.h, vector by vector.
 TransferView as_whole(TransferView transfer);
-/// Receiver order[p] at place p. Keeps a reference to `order` [receivers].
-TransferView in_order(TransferView transfer, std::span<const std::uint32_t> order);
+/// Receiver order[p] at place p; `order` [receivers] is kept.
+TransferView in_order(TransferView transfer, std::vector<std::uint32_t> order);
 
 } // namespace prt
