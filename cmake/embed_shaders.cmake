@@ -16,3 +16,26 @@ function(prtkit_embed_shaders target)
     list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/shaders/)
     prtkit_embed_files(${target} FUNCTION embedded_files HEADER embedded_files.h FILES ${ARGN})
 endfunction()
+
+# prtkit_embed_kernels(<target> <name>...): compiles shaders/<name>.comp to SPIR-V for Vulkan 1.2 and makes it part of a
+# target, as an array of words in the header kernels/<name>.h; <name>_query is <name> with the device's ray queries.
+function(prtkit_embed_kernels target)
+    find_program(PRTKIT_GLSLANG glslangValidator REQUIRED)
+    set(folder ${CMAKE_CURRENT_BINARY_DIR}/kernels)
+    file(MAKE_DIRECTORY ${folder})
+    file(GLOB parts CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*.glsl ${PROJECT_SOURCE_DIR}/shaders/shared_*.h)
+    foreach(name IN LISTS ARGN)
+        string(REGEX REPLACE "_query$" "" kernel ${name})
+        set(define "")
+        if(NOT kernel STREQUAL name)
+            set(define -DPRT_RAY_QUERY)
+        endif()
+        set(source ${PROJECT_SOURCE_DIR}/shaders/${kernel}.comp)
+        add_custom_command(OUTPUT ${folder}/${name}.h
+            COMMAND ${PRTKIT_GLSLANG} -V --quiet --target-env vulkan1.2 ${define} -I${PROJECT_SOURCE_DIR}/shaders
+                --variable-name ${name} -o ${folder}/${name}.h ${source}
+            DEPENDS ${source} ${parts} VERBATIM)
+        target_sources(${target} PRIVATE ${folder}/${name}.h)
+    endforeach()
+    target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()

@@ -1,109 +1,121 @@
-// Traversal of the wide, quantised bounding volume hierarchy (bake/trace/gpu/wide_bvh.h).
-//
-// Define before including: PRT_STACK_SIZE, entries that the deepest path can need. Loops have one exit and no
-// `continue`: Mesa's software rasteriser computes wrong results for those where threads diverge.
+// Rays through our own hierarchy (bake/trace/gpu/wide_bvh.h) as its authors traverse it: what waits on the stack are
+// groups of children that a ray hits of one node, a bit each. Loops have one exit and no `continue`: Mesa's software
+// rasteriser computes wrong results for those where threads diverge.
+
+layout(constant_id = PRT_CONSTANT_STACK) const int kStack = 64; // groups: as many as the hierarchy has levels
 
 layout(std430, binding = PRT_BINDING_NODES) readonly buffer Nodes {
     WideNode nodes[];
 };
-layout(std430, binding = PRT_BINDING_CORNERS) readonly buffer Corners {
-    vec4 corners[]; // three per triangle; w of the first: index of the triangle, as bits
-};
-
-struct BvhHit {
-    uint triangle; // in the scene's order
-    uint slot;     // in the order of `corners`
-    float t;
-    vec2 uv;
-    bool back;
-};
-
-const float kFar = 3.402823e38;
-const uint kLeaf = 0x80000000u;
 
 // By Plücker coordinates about the origin: neighbours agree on the side of a shared edge, so that no ray passes
 // between them.
-bool hit_triangle(uint slot, vec3 origin, vec3 direction, float t_min, float t_max, out BvhHit hit) {
-    precise vec3 a = corners[3u * slot].xyz - origin;
-    precise vec3 b = corners[3u * slot + 1u].xyz - origin;
-    precise vec3 c = corners[3u * slot + 2u].xyz - origin;
+bool hit_triangle(TracedRay ray, uint slot, float t_min, float t_max, out RayHit hit) {
+    precise vec3 a = corners[3u * slot].xyz - ray.origin;
+    precise vec3 b = corners[3u * slot + 1u].xyz - ray.origin;
+    precise vec3 c = corners[3u * slot + 2u].xyz - ray.origin;
     precise vec3 ea = c - a, eb = a - b, ec = b - c;
-    precise float u = dot(cross(ea, c + a), direction);
-    precise float v = dot(cross(eb, a + b), direction);
-    precise float w = dot(cross(ec, b + c), direction);
+    precise float u = dot(cross(ea, c + a), ray.direction);
+    precise float v = dot(cross(eb, a + b), ray.direction);
+    precise float w = dot(cross(ec, b + c), ray.direction);
     bool inside = min(u, min(v, w)) >= 0.0 || max(u, max(v, w)) <= 0.0;
     vec3 normal = cross(ea, eb); // the same as cross(b - a, c - a): towards the front
-    float facing = dot(normal, direction), sum = u + v + w;
-    float t = dot(normal, a) / facing;
-    hit.triangle = floatBitsToUint(corners[3u * slot].w);
+    float sum = u + v + w;
     hit.slot = slot;
-    hit.t = t;
+    hit.facing = dot(normal, ray.direction);
+    hit.t = dot(normal, a) / hit.facing;
     hit.uv = vec2(u, v) / sum;
-    hit.back = facing > 0.0;
-    return inside && facing != 0.0 && sum != 0.0 && t >= t_min && t < t_max;
+    return inside && hit.facing != 0.0 && sum != 0.0 && hit.t >= t_min && hit.t < t_max;
 }
 
-// The next number above a distance: where a ray goes on behind what it met. GPUs may take smaller ones for 0.
-float behind(float t) {
-    return max(uintBitsToFloat(floatBitsToUint(abs(t)) + 1u), 1.17549435e-38);
+// What a ray hits of the children of a node: a bit for every triangle from first_triangle on in x, and in y one in
+// the upper eight bits for every inner child, the first to visit the highest; below, which slots have inner ones.
+uvec2 hit_children(WideNode node, TracedRay ray, vec3 inverse, uint last_slot, float t_min, float t_max) {
+    vec3 step = uintBitsToFloat(
+        uvec3(step_bits(node.exponents, 0u), step_bits(node.exponents, 1u), step_bits(node.exponents, 2u)));
+    vec3 base = (node.origin - ray.origin) * inverse, scale = step * inverse;
+    // What rounding can do to the planes below.
+    vec3 slack = 3e-7 * (abs(base) + 256.0 * abs(scale));
+    vec3 nearer = base - slack, farther = base + slack;
+    bvec3 negative = lessThan(inverse, vec3(0.0));
+    uvec2 hits = uvec2(0u);
+    for (uint half_of = 0u; half_of < 2u; ++half_of) {
+        bool second = half_of == 1u;
+        uint meta = second ? node.meta.y : node.meta.x;
+        uvec3 low = second ? uvec3(node.low[0].y, node.low[1].y, node.low[2].y)
+                           : uvec3(node.low[0].x, node.low[1].x, node.low[2].x);
+        uvec3 high = second ? uvec3(node.high[0].y, node.high[1].y, node.high[2].y)
+                            : uvec3(node.high[0].x, node.high[1].x, node.high[2].x);
+        uvec3 near = mix(low, high, negative), far = mix(high, low, negative);
+        for (uint i = 0u; i < 4u; ++i) {
+            uint shift = 8u * i, slot = 4u * half_of + i, child = meta >> shift & 255u;
+            vec3 enter = nearer + scale * vec3(near >> shift & 255u),
+                 leave = farther + scale * vec3(far >> shift & 255u);
+            bool hit =
+                max(max(enter.x, enter.y), max(enter.z, t_min)) <= min(min(leave.x, leave.y), min(leave.z, t_max));
+            bool inner = PRT_IS_INNER(child);
+            hits.x |= hit && !inner ? (1u << PRT_LEAF_COUNT(child)) - 1u << PRT_LEAF_FIRST(child) : 0u;
+            hits.y |= inner ? (1u << slot) | (hit ? 1u << (24u + (slot ^ last_slot)) : 0u) : 0u;
+        }
+    }
+    return hits;
 }
 
-// The nearest hit in [t_min, t_max), or with `any` the first that is found.
-bool trace_ray(vec3 origin, vec3 direction, float t_min, float t_max, bool any, out BvhHit nearest) {
-    vec3 safe = mix(direction, vec3(1e-20), lessThan(abs(direction), vec3(1e-20)));
-    vec3 inverse = 1.0 / safe;
-    uint octant = (safe.x < 0.0 ? 1u : 0u) | (safe.y < 0.0 ? 2u : 0u) | (safe.z < 0.0 ? 4u : 0u);
-    nearest.triangle = 0u;
-    nearest.slot = 0u;
+// With `any` what is left of the ray's light in [t_min, t_max) goes to `left`, and the answer is whether that is less
+// than `least`; else whether there is a nearest triangle that stops some.
+bool trace_ray(TracedRay ray, float t_min, float t_max, bool any, float least, inout float left, out RayHit nearest) {
+    vec3 inverse = 1.0 / mix(ray.direction, vec3(1e-20), lessThan(abs(ray.direction), vec3(1e-20)));
+    uint last_slot = (inverse.x < 0.0 ? 0u : 1u) | (inverse.y < 0.0 ? 0u : 2u) | (inverse.z < 0.0 ? 0u : 4u);
     nearest.t = t_max;
-    nearest.uv = vec2(0.0);
-    nearest.back = false;
     bool found = false, running = true;
-
-    // Entries: (node, distance), or with kLeaf a leaf: number of triangles << 29 | the first of them.
-    uvec2 stack[PRT_STACK_SIZE];
-    int height = 1;
-    stack[0] = uvec2(0u, 0u);
+    uvec2 stack[kStack];
+    int height = 0;
+    uvec2 nodes_left = uvec2(0u, 1u << (24u + last_slot) | 1u); // first child and bits of hit_children: the root
     while (running) {
-        --height;
-        uvec2 entry = stack[height];
-        bool wanted = uintBitsToFloat(entry.y) < nearest.t;
-        if (wanted && (entry.x & kLeaf) != 0u) {
-            uint first = entry.x & 0x1fffffffu, count = (entry.x >> 29) & 3u;
-            for (uint i = 0u; i < count; ++i) {
-                BvhHit hit;
-                if (hit_triangle(first + i, origin, direction, t_min, nearest.t, hit)) {
+        uint position = uint(findMSB(nodes_left.y)), slot = position - 24u ^ last_slot;
+        nodes_left.y &= ~(1u << position);
+        WideNode node = nodes[nodes_left.x + uint(bitCount(nodes_left.y & (1u << slot) - 1u & 255u))];
+        if (nodes_left.y >= 1u << 24) {
+            stack[height] = nodes_left;
+            ++height;
+        }
+        uvec2 hits = hit_children(node, ray, inverse, last_slot, t_min, nearest.t);
+        nodes_left = uvec2(node.first_child, hits.y);
+        while (hits.x != 0u) {
+            uint i = uint(findLSB(hits.x));
+            hits.x &= hits.x - 1u;
+            RayHit hit;
+            if (hit_triangle(ray, node.first_triangle + i, t_min, nearest.t, hit)) {
+                hit.covered = covered_at(ray, hit.slot, hit.t, hit.uv);
+                left *= 1.0 - hit.covered;
+                if (any ? left < least : hit.covered > 0.0) {
                     nearest = hit;
                     found = true;
-                }
-            }
-        } else if (wanted) {
-            WideNode node = nodes[entry.x];
-            vec3 step = uintBitsToFloat(
-                uvec3(step_bits(node.exponents, 0u), step_bits(node.exponents, 1u), step_bits(node.exponents, 2u)));
-            vec3 base = (node.origin - origin) * inverse, scale = step * inverse;
-            // What rounding can do to the planes below.
-            vec3 slack = 3e-7 * (abs(base) + 256.0 * abs(scale));
-            for (int k = 7; k >= 0; --k) {
-                uint slot = uint(k) ^ octant;
-                uint meta = byte_of(node.meta, slot);
-                vec3 low = base + scale * vec3(byte_of(node.low[0], slot), byte_of(node.low[1], slot),
-                                               byte_of(node.low[2], slot));
-                vec3 high = base + scale * vec3(byte_of(node.high[0], slot), byte_of(node.high[1], slot),
-                                                byte_of(node.high[2], slot));
-                vec3 enter = min(low, high) - slack, leave = max(low, high) + slack;
-                float t_enter = max(max(enter.x, enter.y), max(enter.z, t_min));
-                float t_leave = min(min(leave.x, leave.y), min(leave.z, nearest.t));
-                if (meta != 0u && t_enter <= t_leave) {
-                    uint child = PRT_IS_INNER(meta) ? node.first_child + PRT_INNER_CHILD(meta)
-                                                    : kLeaf | PRT_LEAF_COUNT(meta) << 29 |
-                                                          (node.first_triangle + PRT_LEAF_FIRST(meta));
-                    stack[height] = uvec2(child, floatBitsToUint(max(t_enter, 0.0)));
-                    ++height;
+                    hits.x = any ? 0u : hits.x;
                 }
             }
         }
-        running = height > 0 && !(any && found);
+        if (nodes_left.y < 1u << 24) {
+            running = height > 0;
+            if (running) {
+                --height;
+                nodes_left = stack[height];
+            }
+        }
+        running = running && !(any && found);
     }
     return found;
+}
+
+// The nearest triangle in [t_min, t_max) that stops some light.
+bool nearest(TracedRay ray, float t_min, float t_max, out RayHit hit) {
+    float left = 1.0;
+    return trace_ray(ray, t_min, t_max, false, 0.0, left, hit);
+}
+
+// Share of light that passes as far as t_max; less than `least` is nothing.
+float transmittance(TracedRay ray, float t_max, float least) {
+    RayHit hit;
+    float left = 1.0;
+    return trace_ray(ray, 0.0, t_max, true, least, left, hit) ? 0.0 : left;
 }

@@ -1,17 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
 // Irradiance of receivers by the light of one lamp that arrives without a bounce (docs/math.md, section 13), by the
 // samples of the CPU (bake/lamps/lamp_rays.cpp). One thread a receiver: those of a group look at the same lights and
 // triangles at the same time, and their rays go side by side.
 
-#include "shared_bake.h"
-#include "shared_structs.h"
+#include "bake_kernel.glsl"
 #include "shared_samples.h"
 #include "shared_lamps.h"
 #include "bake_frame.glsl"
-#include "bake_bvh.glsl"
+#include "bake_traversal.glsl"
 #include "bake_emission.glsl"
-#ifdef PRT_ALPHA
-#include "bake_alpha.glsl"
-#endif
 
 layout(local_size_x = PRT_LAMP_THREADS) in;
 
@@ -28,34 +27,16 @@ layout(std430, binding = PRT_BINDING_SHINING_TRIANGLES) readonly buffer ShiningT
     ShiningTriangle shining[];
 };
 
-uniform uint first_receiver, end_receiver;                         // of this dispatch
-uniform uint first_light, end_light, first_triangle, end_triangle; // of the lamp
-uniform uint scramble;                                             // of its samples
-uniform uint most_rays;                                            // to all of the lamp that has extent
-uniform uint first_ray, end_ray;                                   // of this dispatch
-uniform float radius;                                              // of points and spots, metres
-uniform float nearest;                                             // that a point counts as, metres
+layout(push_constant) uniform Push {
+    LampPush push;
+};
 
 const float kPi = 3.14159265;
 
 // Share of light that passes along unit `direction` as far as `to`.
-float transmittance(vec3 origin, vec3 direction, float to) {
-    BvhHit hit;
-#ifdef PRT_ALPHA
-    float left = 1.0, t = 0.0;
-    bool running = true;
-    while (running) {
-        running = trace_ray(origin, direction, t, to, false, hit);
-        if (running) {
-            left *= 1.0 - coverage(floatBitsToUint(corners[3u * hit.slot + 1u].w), hit.uv, 0.0);
-            t = behind(hit.t);
-            running = left > 0.0;
-        }
-    }
-    return left;
-#else
-    return trace_ray(origin, direction, 0.0, to, true, hit) ? 0.0 : 1.0;
-#endif
+float passing(vec3 origin, vec3 direction, float to) {
+    const float kNothing = 1.17549435e-38;
+    return transmittance(TracedRay(origin, direction, 0.0), to, kNothing);
 }
 
 // A light as it is seen from a receiver, and what it gives there unless something is in its way.
@@ -79,12 +60,14 @@ SeenLight see_light(PunctualLight light, LampReceiver receiver) {
     } else {
         vec3 to = light.position - receiver.position.xyz;
         seen.distance = length(to);
-        float near = max(seen.distance, max(radius, nearest));
+        float near = max(seen.distance, max(push.radius, push.nearest));
         seen.towards = seen.distance > 0.0 ? to / seen.distance : receiver.normal.xyz;
         seen.share = share_in_cone(-dot(light.direction, seen.towards), light.inner_cosine, light.outer_cosine) *
                      share_in_range(seen.distance * light.inverse_range) / (near * near);
-        seen.half_angle = radius < seen.distance ? asin(radius / seen.distance) : radius > 0.0 ? 0.5 * kPi : 0.0;
-        reach = radius / near;
+        seen.half_angle = push.radius < seen.distance ? asin(push.radius / seen.distance)
+                          : push.radius > 0.0         ? 0.5 * kPi
+                                                      : 0.0;
+        reach = push.radius / near;
     }
     float cosine = dot(receiver.normal.xyz, seen.towards);
     seen.weight = dot(light.intensity, vec3(0.2126, 0.7152, 0.0722)) * seen.share * clamp(cosine + reach, 0.0, 1.0);
@@ -108,9 +91,9 @@ float arriving(SeenLight light, LampReceiver receiver, uvec3 begin_end_count, ui
         float cosine = dot(receiver.normal.xyz, towards.xyz);
         if (cosine > 0.0) {
             float to = light.distance;
-            if (light.distance < kFar && radius > 0.0)
-                to = distance_to_sphere(light.distance, towards.w, radius);
-            sum += cosine * transmittance(receiver.origin.xyz, towards.xyz, to);
+            if (light.distance < kFar && push.radius > 0.0)
+                to = distance_to_sphere(light.distance, towards.w, push.radius);
+            sum += cosine * passing(receiver.origin.xyz, towards.xyz, to);
         }
     }
     return sum / (float(begin_end_count.z) * (1.0 - 0.5 * depth)); // mean cosine of the disc
@@ -119,17 +102,17 @@ float arriving(SeenLight light, LampReceiver receiver, uvec3 begin_end_count, ui
 // By lights of KHR_lights_punctual: a ray to each, or where they have extent as many as they have of all light here.
 vec4 light_of_lights(LampReceiver receiver, uint seed) {
     float all = 0.0;
-    for (uint i = first_light; i < end_light; ++i)
+    for (uint i = push.first_light; i < push.end_light; ++i)
         all += see_light(lights[i], receiver).weight;
     vec4 sum = vec4(0.0);
     uint before = 0u; // rays to the lights before
-    for (uint i = first_light; i < end_light; ++i) {
+    for (uint i = push.first_light; i < push.end_light; ++i) {
         SeenLight light = see_light(lights[i], receiver);
         uint rays = 0u;
         if (light.weight > 0.0)
-            rays = light.half_angle > 0.0 ? rays_of_share(most_rays, light.weight / all) : 1u;
-        uint begin = clamp(first_ray, before, before + rays) - before;
-        uint end = clamp(end_ray, before, before + rays) - before;
+            rays = light.half_angle > 0.0 ? rays_of_share(push.most_rays, light.weight / all) : 1u;
+        uint begin = clamp(push.first_ray, before, before + rays) - before;
+        uint end = clamp(push.end_ray, before, before + rays) - before;
         if (begin < end) {
             float share = light.share * arriving(light, receiver, uvec3(begin, end, rays), seed);
             sum += vec4(share * lights[i].intensity, float(end - begin));
@@ -155,10 +138,9 @@ vec3 irradiance_along(LampReceiver receiver, ShiningTriangle t, SeenTriangle see
         vec3 outward = normalize(seen.volume > 0.0 ? -seen.normal : seen.normal);
         vec3 way = point.place + t.offset * outward;
         float distance = length(way);
-        float share = transmittance(receiver.origin.xyz, way / distance, distance) * cosine * point.angle / seen.angle;
-#ifdef PRT_ALPHA
-        share *= coverage(t.alpha, point.uv, 0.0);
-#endif
+        float share = passing(receiver.origin.xyz, way / distance, distance) * cosine * point.angle / seen.angle;
+        if (kAlpha)
+            share *= coverage(t.alpha, point.uv, 0.0);
         if (share > 0.0)
             result = share * emission(t, point.uv);
     }
@@ -169,25 +151,25 @@ vec3 irradiance_along(LampReceiver receiver, ShiningTriangle t, SeenTriangle see
 // angle that it fills.
 vec4 light_of_triangles(LampReceiver receiver, uint seed) {
     float all = 0.0;
-    uint last = end_triangle;
-    for (uint i = first_triangle; i < end_triangle; ++i) {
+    uint last = push.end_triangle;
+    for (uint i = push.first_triangle; i < push.end_triangle; ++i) {
         float weight = shining[i].luminance * see_shining(shining[i], receiver).angle;
         all += weight;
         last = weight > 0.0 ? i : last;
     }
     vec4 sum = vec4(0.0);
     float before = 0.0;
-    uint ray = first_ray, end = min(end_ray, most_rays);
-    for (uint i = first_triangle; i < end_triangle; ++i) {
+    uint ray = push.first_ray, end = min(push.end_ray, push.most_rays);
+    for (uint i = push.first_triangle; i < push.end_triangle; ++i) {
         SeenTriangle seen = see_shining(shining[i], receiver);
         float weight = shining[i].luminance * seen.angle, until = before + weight;
         bool running = weight > 0.0 && ray < end;
         while (running) {
-            float target = all * ((float(ray) + unit_number(seed)) / float(most_rays));
+            float target = all * ((float(ray) + unit_number(seed)) / float(push.most_rays));
             running = target < until || i == last; // whatever rounding made of the sum
             if (running) {
                 vec2 u = vec2(clamp((target - before) / weight, 0.0, 1.0), golden(ray, seed * 2654435761u));
-                float stands_for = all / (shining[i].luminance * float(most_rays));
+                float stands_for = all / (shining[i].luminance * float(push.most_rays));
                 sum += vec4(stands_for * irradiance_along(receiver, shining[i], seen, u), 1.0);
                 ++ray;
                 running = ray < end;
@@ -199,11 +181,11 @@ vec4 light_of_triangles(LampReceiver receiver, uint seed) {
 }
 
 void main() {
-    uint p = first_receiver + gl_GlobalInvocationID.x;
-    if (p >= end_receiver)
+    uint p = push.first_receiver + gl_GlobalInvocationID.x;
+    if (p >= push.receivers)
         return;
     LampReceiver receiver = receivers[p];
-    uint seed = pcg_hash(floatBitsToUint(receiver.origin.w) ^ scramble);
+    uint seed = pcg_hash(floatBitsToUint(receiver.origin.w) ^ push.scramble);
     vec4 sum = light_of_lights(receiver, seed) + light_of_triangles(receiver, seed);
-    sums[p] = first_ray == 0u ? sum : sums[p] + sum;
+    sums[p] = push.first_ray == 0u ? sum : sums[p] + sum;
 }

@@ -4,7 +4,8 @@
 
 #include "shared_bake.h"
 #include "shared_structs.h"
-#include "bake_sh.glsl"
+
+#define PRT_COEFFICIENTS (PRT_ORDER * PRT_ORDER)
 
 layout(local_size_x = 64) in;
 

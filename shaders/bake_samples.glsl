@@ -25,3 +25,15 @@ vec3 ray_direction(uvec2 point, uint seed, mat3 frame) {
     return frame * vec3(radius * (wide ? cosine : sine), radius * (wide ? sine : cosine),
                         sqrt(max(0.0, 1.0 - radius * radius)));
 }
+
+// Points of the sequence are linear over GF(2): point (first + j) is point j XOR point `first`.
+uvec2 sobol_offset(uint first) {
+    uint column = 1u, y = 0u, index = first;
+    while (index != 0u) {
+        if ((index & 1u) != 0u)
+            y ^= column;
+        column ^= column << 1;
+        index >>= 1;
+    }
+    return uvec2(first, y);
+}

@@ -1,4 +1,7 @@
 // The texel that stands for one beside the texture, as on the CPU (runtime/render/texture.cpp).
+#ifndef PRT_BAKE_WRAP_GLSL
+#define PRT_BAKE_WRAP_GLSL
+
 int wrapped(int i, int size, uint wrap) {
     if (wrap == PRT_WRAP_CLAMP)
         return clamp(i, 0, size - 1);
@@ -6,3 +9,5 @@ int wrapped(int i, int size, uint wrap) {
     int rest = i - period * int(floor(float(i) / float(period)));
     return rest < size ? rest : 2 * size - 1 - rest;
 }
+
+#endif

@@ -31,8 +31,18 @@
 #define PRT_BINDING_ALPHA_TRIANGLES 9
 #define PRT_BINDING_ALPHA_MATERIALS 10
 #define PRT_BINDING_ALPHA_TEXELS 11
-// Uniform blocks.
-#define PRT_BINDING_SH_FACTORS 0
+#define PRT_BINDING_SHARES 12
+#define PRT_BINDING_SH_FACTORS 13
+#define PRT_BINDING_PROGRESS 14
+#define PRT_BINDING_BLOCKED_RAYS 15
+// Specialisation constants.
+#define PRT_CONSTANT_ALPHA 0
+#define PRT_CONSTANT_TEXTURED 1
+#define PRT_CONSTANT_HITS 2
+#define PRT_CONSTANT_ORDER 3
+#define PRT_CONSTANT_SUBGROUPS 4
+#define PRT_CONSTANT_STACK 5
+#define PRT_CONSTANT_OPAQUE 6
 // Texture units.
 #define PRT_UNIT_OPAQUE_DEPTH 2
 #define PRT_UNIT_LAST_DEPTH 3
@@ -52,9 +62,10 @@
 // A ray with less than this left is taken to end at the surface it meets.
 #define PRT_LEAST_TRANSMITTANCE (1.0 / 1024.0)
 
-// Rays that are generated and traced together, and the threads that do it.
+// Rays that are generated together, threads that trace them, and how many such beams a workgroup traces.
 #define PRT_CHUNK 1024
-#define PRT_TRACE_THREADS 64
+#define PRT_BEAM 32
+#define PRT_BEAMS 2
 // Receivers of a workgroup whose rays to lamps are traced together.
 #define PRT_LAMP_THREADS 64
 

@@ -10,11 +10,33 @@ struct Receiver {
     vec4 normal;
 };
 
+// Which rays of which receivers a dispatch traces.
+struct TracePush {
+    uint receivers;
+    uint first_chunk, chunks;           // of this dispatch
+    uint all_chunks, last_rays;         // chunks of a receiver; rays of the last
+    uint first_ray;                     // of the sequence
+    uint whole_followed, last_followed; // rays to follow, of a whole chunk and the last
+    uint hit_room;
+    float spread; // that of TracedRay, times the cosine to the normal
+};
+
 // A receiver that lamps shine on.
 struct LampReceiver {
     vec4 origin; // of its rays, off the surface; w: its index, as bits
     vec4 normal;
     vec4 position;
+};
+
+// Which rays to a lamp a dispatch traces.
+struct LampPush {
+    uint first_receiver, receivers;                            // of this dispatch; of all that are bound
+    uint first_light, end_light, first_triangle, end_triangle; // of the lamp
+    uint scramble;                                             // of its samples
+    uint most_rays;                                            // to all of the lamp that has extent
+    uint first_ray, end_ray;                                   // of this dispatch
+    float radius;                                              // of points and spots, metres
+    float nearest;                                             // that a point counts as, metres
 };
 
 // A light of KHR_lights_punctual.
@@ -54,13 +76,18 @@ struct EmissionImage {
 
 // A surface that a ray met.
 struct HitRecord {
-    uint receiver; // in the batch
-    uint chunk;    // of the receiver's rays
-    uint triangle; // in the scene's order; PRT_HIT_BACK: met from behind
+    uint triangle; // in the scene's order, or PRT_NO_HIT; PRT_HIT_BACK: met from behind
     float u, v, weight, footprint;
-    uint unused;
+    uint row; // chunk of a receiver
 };
+#define PRT_NO_HIT 0xffffffffu
 #define PRT_HIT_BACK 0x80000000u
+
+// Where a thread is among its rays.
+struct ThreadProgress {
+    uint ray;      // that it is at, counting from 1; 0: not begun
+    float t, left; // distance on the way, and share of the ray
+};
 
 // A direction that depth maps are drawn for.
 struct Direction {

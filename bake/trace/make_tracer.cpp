@@ -5,28 +5,39 @@
 #include "prt/support/error.h"
 #include "trace/embree_tracer.h"
 #include "trace/gpu/gl_rasterizer.h"
-#include "trace/gpu/gl_tracer.h"
+#include "trace/gpu/vulkan_tracer.h"
+#include "trace/lasting_tracer.h"
 
 namespace prt {
+namespace {
+
+std::unique_ptr<Tracer> make_rasterizer(const TraceScene& scene, const TracerChoice& choice) {
+    const bool any = choice.backend == Backend::gpu;
+    std::string why;
+    std::unique_ptr<GlContext> context = GlContext::create(any ? GlDevice::any : GlDevice::hardware, &why);
+    if (!context)
+        throw Error("there is no OpenGL 4.5 to draw depth maps on (" + why + ")" +
+                    (any ? "" : ": automatic takes hardware only, --backend gpu also software"));
+    return std::make_unique<GlRasterizer>(std::move(context), scene, choice.raster_resolution);
+}
+
+} // namespace
 
 std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice& choice) {
-    const bool raster = choice.method == BakeMethod::raster;
-    std::unique_ptr<GlContext> context;
-    if (choice.backend != Backend::cpu) {
-        std::string why;
-        context =
-            GlContext::create(choice.backend == Backend::gpu ? GlDevice::any : GlDevice::hardware, &why);
-        if (!context && (choice.backend == Backend::gpu || raster))
-            throw Error("there is no OpenGL 4.5 to bake on (" + why + ")" +
-                        (choice.backend == Backend::automatic
-                             ? ": automatic takes hardware only, --backend gpu also software"
-                             : ""));
-    }
-    if (!context)
+    if (choice.method == BakeMethod::raster && choice.backend != Backend::cpu)
+        return make_rasterizer(scene, choice);
+    if (choice.backend == Backend::cpu)
         return std::make_unique<EmbreeTracer>(scene);
-    if (raster)
-        return std::make_unique<GlRasterizer>(std::move(context), scene, choice.raster_resolution);
-    return std::make_unique<GlTracer>(std::move(context), scene);
+    if (choice.backend == Backend::gpu)
+        return std::make_unique<VulkanTracer>(scene, VulkanChoice{.device = choice.gpu, .ray_queries = choice.ray_queries});
+    try {
+        return std::make_unique<LastingTracer>(
+            std::make_unique<VulkanTracer>(
+                scene, VulkanChoice{.hardware_only = true, .ray_queries = choice.ray_queries}),
+            scene);
+    } catch (const Error&) { // none, or too small for the scene
+        return std::make_unique<EmbreeTracer>(scene);
+    }
 }
 
 } // namespace prt

@@ -20,7 +20,8 @@ PARTS = {
     "render": ("runtime/render", "runtime image scene", "glm"),
     "gl": ("runtime/render/gl", "runtime scene render shader shaders", "glm epoxy glfw"),
     "bake": ("bake", "runtime scene render shaders", "glm fmt embree Eigen"),
-    "bake_gpu": ("bake/trace/gpu", "runtime scene gl bake shaders", "glm embree epoxy"),
+    "vulkan": ("bake/vulkan", "runtime bake", "glm fmt vulkan"),
+    "bake_gpu": ("bake/trace/gpu", "runtime scene gl bake vulkan shaders", "glm embree epoxy"),
     "compress": ("compress", "runtime scene", "glm Eigen"),
     "compress_study": ("compress/study", "runtime scene compress", "glm Eigen faiss"),
     "shaders": ("shaders", "", ""),
@@ -46,7 +47,7 @@ PACKAGES = {  # how their headers begin
     "stb/": "stb", "zlib": "zlib", "tiny_gltf": "tinygltf", "nlohmann/": "nlohmann", "meshoptimizer": "meshoptimizer",
     "draco/": "draco",
     "epoxy/": "epoxy", "GLFW/": "glfw", "embree3/": "embree", "fmt/": "fmt", "CLI/": "CLI", "faiss/": "faiss",
-    "imgui": "imgui", "backends/imgui": "imgui",
+    "imgui": "imgui", "backends/imgui": "imgui", "vulkan/vulkan_raii": "vulkan",
 }
 SYSTEM = re.compile(r"^[a-z_]+$|^(std[a-z]+|string|math|time|signal|errno|limits|unistd|dirent|fcntl|poll|dlfcn|windows)\.h$|^sys/|^linux/")
 INCLUDE = re.compile(r'^\s*#\s*include\s*(["<])([^">]+)[">]', re.MULTILINE)

@@ -32,7 +32,7 @@ GlObject make_map(GLenum target) {
 
 } // namespace
 
-DepthMaps::DepthMaps(const GpuScene& scene, const Bounds& bounds, int resolution, bool blends)
+DepthMaps::DepthMaps(const RasterScene& scene, const Bounds& bounds, int resolution, bool blends)
     : scene_(scene), resolution_(resolution), center_(0.5f * (bounds.low + bounds.high)),
       // A little larger, so that nothing lies on the border.
       radius_(std::max(0.5f * glm::length(bounds.high - bounds.low) * 1.001f,

@@ -4,8 +4,8 @@
 
 #include "prt/gl_objects.h"
 #include "prt/scene.h"
-#include "trace/gpu/gpu_scene.h"
 #include "trace/gpu/gpu_structs.h"
+#include "trace/gpu/raster_scene.h"
 
 #include <array>
 #include <functional>
@@ -18,7 +18,7 @@ class DepthMaps {
 public:
     /// Maps of `resolution` squared texels; keeps a reference to `scene`. `blends`: some surfaces stop light
     /// in part, and their layers can be peeled. Throws `Error` where the device has no such maps.
-    DepthMaps(const GpuScene& scene, const Bounds& bounds, int resolution, bool blends);
+    DepthMaps(const RasterScene& scene, const Bounds& bounds, int resolution, bool blends);
 
     /// Directions that there are maps for; layers belong to one at a time.
     std::size_t at_once() const { return layers_ ? 1 : kMost; }
@@ -44,7 +44,7 @@ private:
     glm::mat4 map_matrix(const glm::vec3& direction) const;
     void draw(const GlObject& program, const GlObject& target, const glm::vec3& direction) const;
 
-    const GpuScene& scene_;
+    const RasterScene& scene_;
     int resolution_;
     glm::vec3 center_; ///< of the sphere round the scene
     float radius_;

@@ -4,10 +4,10 @@
 
 #include "trace/gpu/gl_rasterizer.h"
 
+#include "lamps/lamp_light.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
-#include "trace/gpu/gl_lamp_light.h"
 #include "trace/gpu/gpu_receivers.h"
 #include "trace/gpu/touching_triangles.h"
 
@@ -76,7 +76,8 @@ class GlRasterizer::Batch {
 public:
     Batch(const TraceScene& scene, const Receivers& receivers, std::span<const std::uint32_t> indices,
           const TraceOptions& options)
-        : receivers_(upload_receivers(scene, receivers, indices, options.seed)),
+        : receivers_(make_buffer(
+              std::span<const gpu::Receiver>(gpu_receivers(scene, receivers, indices, options.seed)))),
           sums_(indices.size() * sums_of(options.order)),
           gpu_sums_(make_buffer(std::span<const float>(sums_))) {
         const TouchingTriangles touching = touching_triangles(scene, receivers, indices);
@@ -107,8 +108,8 @@ private:
 };
 
 GlRasterizer::GlRasterizer(std::unique_ptr<GlContext> context, const TraceScene& scene, int resolution)
-    : context_(std::move(context)), scene_(scene), gpu_scene_(scene),
-      maps_(gpu_scene_, bounds(scene.scene()), resolution, has_blended(scene.scene(), scene.surfaces())) {}
+    : context_(std::move(context)), scene_(scene), raster_scene_(scene),
+      maps_(raster_scene_, bounds(scene.scene()), resolution, has_blended(scene.scene(), scene.surfaces())) {}
 
 std::size_t GlRasterizer::batch_size(const TraceOptions& options) const {
     GLint64 largest = 0;
@@ -126,7 +127,7 @@ void GlRasterizer::trace(const Receivers& receivers, std::span<const std::uint32
     Stopwatch transfer;
     Batch batch(scene_, receivers, indices, options);
     seconds_.transfer += transfer.seconds();
-    gpu_scene_.bind();
+    raster_scene_.bind();
     batch.bind();
     maps_.bind();
     const std::vector<glm::vec3> directions = even_directions(options.rays, options.seed);
@@ -182,7 +183,7 @@ void GlRasterizer::dispatch(const GlObject& shader, std::size_t receivers, std::
 }
 
 LampLight GlRasterizer::lamp_light(const LampTask& task, const Progress& progress) {
-    return lamp_light_on_gpu(gpu_scene_, task, progress);
+    return lamp_light_on_cpu(task, progress);
 }
 
 } // namespace prt

@@ -4,7 +4,7 @@
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
 #include "trace/gpu/depth_maps.h"
-#include "trace/gpu/gpu_scene.h"
+#include "trace/gpu/raster_scene.h"
 
 #include <map>
 #include <memory>
@@ -40,7 +40,7 @@ private:
 
     std::unique_ptr<GlContext> context_;
     const TraceScene& scene_;
-    GpuScene gpu_scene_;
+    RasterScene raster_scene_;
     DepthMaps maps_;
     std::map<std::pair<int, bool>, GlObject> programs_; ///< by order, and whether for peeling
 };

@@ -3,15 +3,14 @@
 #include "trace/gpu/gpu_receivers.h"
 
 #include "prt/support/parallel.h"
-#include "trace/gpu/gpu_structs.h"
 #include "trace/sample_sequence.h"
 
 #include <bit>
 
 namespace prt {
 
-GlObject upload_receivers(const TraceScene& scene, const Receivers& receivers,
-                          std::span<const std::uint32_t> indices, std::uint64_t seed) {
+std::vector<gpu::Receiver> gpu_receivers(const TraceScene& scene, const Receivers& receivers,
+                                         std::span<const std::uint32_t> indices, std::uint64_t seed) {
     std::vector<gpu::Receiver> batch(indices.size());
     parallel_for(indices.size(), 256, scene.threads(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -21,7 +20,7 @@ GlObject upload_receivers(const TraceScene& scene, const Receivers& receivers,
                         glm::vec4(receivers.normals[p], 0)};
         }
     });
-    return make_buffer(std::span<const gpu::Receiver>(batch));
+    return batch;
 }
 
 } // namespace prt

@@ -1,176 +1,83 @@
-// The hierarchy and the tables of surfaces that do not stop all light, made and uploaded.
+// Makes the hierarchy and the tables of a scene, and uploads them.
 
 #include "trace/gpu/gpu_scene.h"
 
-#include "prt/light_passing.h"
-#include "trace/gpu/storage_buffer.h"
 #include "trace/gpu/wide_bvh.h"
 
-#include <glm/geometric.hpp>
-
-#include <bit>
-#include <cmath>
+#include <algorithm>
 
 namespace prt {
 namespace {
 
-using gpu::AlphaMaterial, gpu::AlphaTriangle;
+/// Positions of all vertices, and the corners of `triangles` among them.
+struct Mesh {
+    std::vector<glm::vec3> positions;
+    std::vector<glm::uvec3> corners;
 
-static_assert(PRT_WRAP_REPEAT == static_cast<int>(Wrap::repeat) &&
-              PRT_WRAP_MIRROR == static_cast<int>(Wrap::mirror) &&
-              PRT_WRAP_CLAMP == static_cast<int>(Wrap::clamp));
-
-/// Tables for triangles that are not opaque.
-struct AlphaTables {
-    std::vector<std::uint32_t> index;     ///< [triangles], counting from 1; 0: opaque
-    std::vector<AlphaTriangle> triangles; ///< [triangles that are not opaque][layers]
-    std::vector<AlphaMaterial> materials; ///< [primitives][layers]
-    std::vector<std::uint8_t> texels;
+    Mesh(const TraceScene& scene, std::span<const std::uint32_t> triangles) {
+        for (const VertexArray& vertices : scene.scene().vertex_arrays)
+            positions.insert(positions.end(), vertices.positions.begin(), vertices.positions.end());
+        for (const std::uint32_t t : triangles)
+            corners.push_back(scene.surfaces().corners(t));
+    }
 };
 
-/// One of the things that decide how much of a ray a surface stops.
-struct AlphaLayer {
-    std::uint32_t mode;
-    float cutoff, factor;
-    const TextureUse* use;
-    int channel;       ///< of the texture
-    bool vertex_alpha; ///< times that of the vertices
-};
-
-/// Glass first, whose mode says that the surface stops rays in part.
-std::vector<AlphaLayer> alpha_layers(const Material& m) {
-    std::vector<AlphaLayer> layers;
-    if (m.glass.factor > 0)
-        layers.push_back({PRT_ALPHA_GLASS, 0, glass_transmittance(m), &m.glass.texture, 0, false});
-    if (m.alpha_mode != AlphaMode::opaque)
-        layers.push_back({static_cast<std::uint32_t>(m.alpha_mode), m.alpha_cutoff, m.base_color.a,
-                          &m.base_color_texture, 3, true});
-    return layers;
-}
-
-AlphaMaterial alpha_material(const AlphaLayer& layer, const Surfaces& surfaces, const VertexArray& vertices,
-                             const std::vector<Texture>& textures, std::vector<std::uint8_t>& texels) {
-    const TextureUse& use = *layer.use;
-    AlphaMaterial result{
-        .mode = layer.mode,
-        .cutoff = layer.cutoff,
-        .factor = layer.factor,
-        .texels = PRT_NO_TEXELS,
-        .width = 1,
-        .height = 1,
-        .levels = 1,
-        .wrap = PRT_WRAPS(static_cast<std::uint32_t>(use.wrap_u), static_cast<std::uint32_t>(use.wrap_v))};
-    if (!surfaces.has_texture(vertices, use))
-        return result;
-    const Texture& texture = textures[static_cast<std::size_t>(use.image)];
-    result.texels = static_cast<std::uint32_t>(texels.size());
-    result.width = texture.levels[0].width;
-    result.height = texture.levels[0].height;
-    result.levels = static_cast<std::int32_t>(texture.levels.size());
-    for (const Image8& level : texture.levels)
-        for (const glm::u8vec4& texel : level.pixels)
-            texels.push_back(texel[layer.channel]);
-    return result;
-}
-
-AlphaTriangle alpha_triangle(const AlphaLayer& layer, std::uint32_t index, const AlphaMaterial& m,
-                             const VertexArray& vertices, const glm::uvec3& corners) {
-    AlphaTriangle triangle{
-        .texcoord = {}, .vertex_alpha = {1, 1, 1}, .material = index, .texel_density = 0, .next = 0};
-    for (int i = 0; i < 3; ++i) {
-        if (m.texels != PRT_NO_TEXELS)
-            triangle.texcoord[i] =
-                layer.use->transform *
-                glm::vec3(vertices.texcoords[static_cast<std::size_t>(layer.use->texcoord)][corners[i]], 1);
-        if (layer.vertex_alpha && !vertices.colors.empty())
-            triangle.vertex_alpha[i] = vertices.colors[corners[i]].a;
-    }
-    const glm::vec2 size(m.width, m.height);
-    const glm::vec2 ab = (triangle.texcoord[1] - triangle.texcoord[0]) * size,
-                    ac = (triangle.texcoord[2] - triangle.texcoord[0]) * size;
-    const glm::vec3& a = vertices.positions[corners.x];
-    const float area =
-        glm::length(glm::cross(vertices.positions[corners.y] - a, vertices.positions[corners.z] - a));
-    const float density = std::abs(ab.x * ac.y - ab.y * ac.x) / area;
-    triangle.texel_density = std::isfinite(density) ? density : 0;
-    return triangle;
-}
-
-AlphaTables make_alpha_tables(const Scene& scene, const Surfaces& surfaces,
-                              const std::vector<Texture>& textures) {
-    AlphaTables tables;
-    tables.index.resize(surfaces.triangles());
-    std::vector<std::uint32_t> material_of(scene.primitives.size(), PRT_NO_TEXELS); // of the first layer
-    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
-        if (surfaces.opaque(t))
-            continue;
-        const Primitive& primitive = scene.primitives[surfaces.primitive(t)];
-        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
-        const std::vector<AlphaLayer> layers = alpha_layers(scene.materials[primitive.material]);
-        std::uint32_t& first = material_of[surfaces.primitive(t)];
-        if (first == PRT_NO_TEXELS) {
-            first = static_cast<std::uint32_t>(tables.materials.size());
-            for (const AlphaLayer& layer : layers)
-                tables.materials.push_back(
-                    alpha_material(layer, surfaces, vertices, textures, tables.texels));
-        }
-        const glm::uvec3 corners = surfaces.corners(t) - static_cast<unsigned>(vertices.first_receiver);
-        tables.index[t] = static_cast<std::uint32_t>(tables.triangles.size()) + 1;
-        for (std::uint32_t l = 0; l < layers.size(); ++l) {
-            tables.triangles.push_back(
-                alpha_triangle(layers[l], first + l, tables.materials[first + l], vertices, corners));
-            if (l + 1 < layers.size())
-                tables.triangles.back().next = static_cast<std::uint32_t>(tables.triangles.size()) + 1;
-        }
-    }
-    tables.texels.resize((tables.texels.size() + 3) / 4 * 4);
-    return tables;
-}
+/// Private stacks of up to 32 groups stay in registers on some chips, which then hold fewer threads.
+constexpr int kLeastStack = 64;
 
 } // namespace
 
-GpuScene::GpuScene(const TraceScene& trace_scene)
-    : triangles_(trace_scene.surfaces().triangles()), has_alpha_(trace_scene.surfaces().traits().alpha) {
-    const Scene& scene = trace_scene.scene();
-    const Surfaces& surfaces = trace_scene.surfaces();
-    std::vector<glm::vec3> positions;
-    for (const VertexArray& vertices : scene.vertex_arrays)
-        positions.insert(positions.end(), vertices.positions.begin(), vertices.positions.end());
-    std::vector<glm::uvec3> indices(surfaces.triangles());
-    for (std::uint32_t t = 0; t < indices.size(); ++t)
-        indices[t] =
-            surfaces.material(t).casts_shadow ? surfaces.corners(t) : glm::uvec3(surfaces.corners(t).x);
-    const WideBvh bvh = build_wide_bvh(positions, indices, trace_scene.threads());
-    AlphaTables alpha = make_alpha_tables(scene, surfaces, trace_scene.textures());
-
-    std::vector<glm::vec4> corners;
-    corners.reserve(3 * bvh.triangles.size());
-    for (const std::uint32_t t : bvh.triangles) {
-        const float tags[3] = {std::bit_cast<float>(t), std::bit_cast<float>(alpha.index[t]), 0};
-        for (int i = 0; i < 3; ++i)
-            corners.emplace_back(positions[indices[t][i]], tags[i]);
+GpuScene::GpuScene(const VulkanDevice& device, GpuQueue& queue, const TraceScene& scene)
+    : has_alpha_(scene.surfaces().traits().alpha), textured_(scene.surfaces().traits().textured),
+      alpha_(make_alpha_tables(scene)) {
+    std::vector<std::uint32_t> triangles = shadowing_triangles(scene);
+    opaque_ = static_cast<std::uint32_t>(
+        std::ranges::count_if(triangles, [&](std::uint32_t t) { return scene.surfaces().opaque(t); }));
+    const Mesh mesh(scene, triangles);
+    const auto upload = [&]<class T>(const std::vector<T>& values, const char* what) {
+        return uploaded(device, queue, std::as_bytes(std::span(values)), what);
+    };
+    if (device.traits().ray_queries) {
+        structure_.emplace(device, queue, mesh.positions, mesh.corners, opaque_);
+    } else {
+        // Nothing casts a shadow: a node without children.
+        const WideBvh bvh = triangles.empty() ? WideBvh{.nodes = {gpu::WideNode{}}}
+                                              : build_wide_bvh(mesh.positions, mesh.corners, scene.threads());
+        levels_ = bvh.depth;
+        nodes_ = upload(bvh.nodes, "the nodes");
+        std::vector<std::uint32_t> in_leaves;
+        for (const std::uint32_t t : bvh.triangles)
+            in_leaves.push_back(triangles[t]);
+        triangles = std::move(in_leaves);
     }
-    nodes_ = storage_buffer(bvh.nodes, "the nodes");
-    corners_ = storage_buffer(corners, "the triangles");
-    alpha_triangles_ = storage_buffer(alpha.triangles, "the cut-out triangles");
-    alpha_materials_ = storage_buffer(alpha.materials, "the cut-out materials");
-    alpha_texels_ = storage_buffer(alpha.texels, "the cut-out textures");
-    alpha_index_ = std::move(alpha.index);
-    // On every level at most seven siblings wait besides the child that is visited.
-    stack_size_ = 7 * bvh.depth + 2;
+    corners_ = upload(tagged_corners(scene, triangles, alpha_), "the triangles");
+    alpha_triangles_ = upload(alpha_.triangles, "the cut-out triangles");
+    alpha_materials_ = upload(alpha_.materials, "the cut-out materials");
+    alpha_texels_ = upload(alpha_.texels, "the cut-out textures");
 }
 
-std::string GpuScene::defines() const {
-    return "#define PRT_STACK_SIZE " + std::to_string(stack_size_) + "\n" +
-           (has_alpha_ ? "#define PRT_ALPHA\n" : "");
+std::size_t GpuScene::bytes() const {
+    return (structure_ ? structure_->bytes() : nodes_.bytes()) + corners_.bytes() + alpha_triangles_.bytes() +
+           alpha_materials_.bytes() + alpha_texels_.bytes();
 }
 
-void GpuScene::bind() const {
-    bind_storage(PRT_BINDING_NODES, nodes_);
-    bind_storage(PRT_BINDING_CORNERS, corners_);
-    bind_storage(PRT_BINDING_ALPHA_TRIANGLES, alpha_triangles_);
-    bind_storage(PRT_BINDING_ALPHA_MATERIALS, alpha_materials_);
-    bind_storage(PRT_BINDING_ALPHA_TEXELS, alpha_texels_);
+GpuResources GpuScene::resources() const {
+    GpuResources resources{{{PRT_BINDING_CORNERS, &corners_},
+                            {PRT_BINDING_ALPHA_TRIANGLES, &alpha_triangles_},
+                            {PRT_BINDING_ALPHA_MATERIALS, &alpha_materials_},
+                            {PRT_BINDING_ALPHA_TEXELS, &alpha_texels_}}};
+    if (structure_)
+        resources.structures[PRT_BINDING_NODES] = structure_->handle();
+    else
+        resources.buffers[PRT_BINDING_NODES] = &nodes_;
+    return resources;
+}
+
+std::map<std::uint32_t, std::uint32_t> GpuScene::constants() const {
+    return {{PRT_CONSTANT_ALPHA, has_alpha_},
+            {PRT_CONSTANT_TEXTURED, textured_},
+            {PRT_CONSTANT_STACK, static_cast<std::uint32_t>(std::max(kLeastStack, levels_))},
+            {PRT_CONSTANT_OPAQUE, opaque_}};
 }
 
 } // namespace prt

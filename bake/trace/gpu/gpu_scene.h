@@ -1,35 +1,38 @@
 #pragma once
 
-// A scene in the buffers that the bake shaders read.
+// A scene on a Vulkan device, as the kernels that trace read it.
 
-#include "prt/gl_objects.h"
 #include "prt/trace_scene.h"
+#include "trace/gpu/alpha_tables.h"
+#include "vulkan/acceleration_structure.h"
+#include "vulkan/gpu_kernel.h"
 
-#include <cstdint>
-#include <string>
-#include <vector>
+#include <map>
+#include <optional>
 
 namespace prt {
 
 class GpuScene {
 public:
-    /// Builds the hierarchy and uploads. A context must be current. Throws `Error` when memory runs out.
-    explicit GpuScene(const TraceScene& scene);
+    /// Builds a hierarchy, by the device where it traverses itself, and uploads. Throws `Error` where the
+    /// scene does not fit.
+    GpuScene(const VulkanDevice& device, GpuQueue& queue, const TraceScene& scene);
 
     bool has_alpha() const { return has_alpha_; }
-    std::size_t triangles() const { return triangles_; }
-    /// Where the triangle stands in the alpha table, counting from 1; 0: it is opaque.
-    std::uint32_t alpha_index(std::uint32_t triangle) const { return alpha_index_[triangle]; }
-    /// Defines for shaders that include bake_bvh.glsl.
-    std::string defines() const;
-    void bind() const;
+    const AlphaTables& alpha() const { return alpha_; }
+    std::size_t bytes() const; ///< in the device's memory
+    /// What a kernel that traces has of it, beside what is its own.
+    GpuResources resources() const;
+    /// Its specialisation constants, where `textured` asks for footprints.
+    std::map<std::uint32_t, std::uint32_t> constants() const;
 
 private:
-    GlObject nodes_, corners_, alpha_triangles_, alpha_materials_, alpha_texels_;
-    std::vector<std::uint32_t> alpha_index_;
-    int stack_size_ = 0;
-    std::size_t triangles_ = 0;
-    bool has_alpha_ = false;
+    bool has_alpha_, textured_;
+    AlphaTables alpha_;
+    std::uint32_t opaque_ = 0;
+    int levels_ = 0;
+    GpuBuffer nodes_, corners_, alpha_triangles_, alpha_materials_, alpha_texels_;
+    std::optional<AccelerationStructure> structure_;
 };
 
 } // namespace prt

@@ -61,15 +61,22 @@ PRT_AT(EmissionImage, height, 8);
 PRT_AT(EmissionImage, wrap, 12);
 PRT_AT(EmissionImage, linear, 16);
 
-static_assert(sizeof(HitRecord) == 32);
-PRT_AT(HitRecord, receiver, 0);
-PRT_AT(HitRecord, chunk, 4);
-PRT_AT(HitRecord, triangle, 8);
-PRT_AT(HitRecord, u, 12);
-PRT_AT(HitRecord, v, 16);
-PRT_AT(HitRecord, weight, 20);
-PRT_AT(HitRecord, footprint, 24);
-PRT_AT(HitRecord, unused, 28);
+static_assert(sizeof(TracePush) == 40);
+PRT_AT(TracePush, receivers, 0);
+PRT_AT(TracePush, spread, 36);
+
+static_assert(sizeof(HitRecord) == 24);
+PRT_AT(HitRecord, triangle, 0);
+PRT_AT(HitRecord, u, 4);
+PRT_AT(HitRecord, weight, 12);
+PRT_AT(HitRecord, footprint, 16);
+PRT_AT(HitRecord, row, 20);
+
+static_assert(sizeof(ThreadProgress) == 12);
+
+static_assert(sizeof(LampPush) == 48);
+PRT_AT(LampPush, first_receiver, 0);
+PRT_AT(LampPush, radius, 40);
 
 static_assert(sizeof(Direction) == 480);
 PRT_AT(Direction, towards_light, 0);

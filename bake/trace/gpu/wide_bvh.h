@@ -11,8 +11,8 @@
 namespace prt {
 
 struct WideBvh {
-    std::vector<gpu::WideNode> nodes;     ///< the root is the first
-    std::vector<std::uint32_t> triangles; ///< in the order of the leaves: index in the scene's order
+    std::vector<gpu::WideNode> nodes = {}; ///< the root is the first
+    std::vector<std::uint32_t> triangles = {}; ///< in the order of the leaves: index in the scene's order
     int depth = 0;                        ///< levels of nodes
 };
 

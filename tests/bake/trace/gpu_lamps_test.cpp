@@ -4,9 +4,9 @@
 #include "lamps/lamp_light.h"
 #include "prt/bake.h"
 #include "support/scene_builder.h"
+#include "support/vulkan_choice.h"
 #include "trace/embree_tracer.h"
-#include "trace/gpu/gl_rasterizer.h"
-#include "trace/gpu/gl_tracer.h"
+#include "trace/gpu/vulkan_tracer.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -60,7 +60,8 @@ class LitScene {
 public:
     explicit LitScene(Scene scene, std::vector<Texture> textures = {})
         : scene_(std::move(scene)), trace_(scene_, std::move(textures)), receivers_(vertex_receivers(scene_)),
-          cpu_(trace_), gpu_(GlContext::create(GlDevice::any), trace_) {}
+          cpu_(trace_), gpu_(trace_, test::vulkan_choice()) {}
+    ~LitScene() { test::expect_valid(gpu_.vulkan()); }
 
     LampLight light(Tracer& tracer, const LampOptions& options) {
         lamps_ = choose_lamps(trace_.surfaces(), options);
@@ -77,7 +78,7 @@ private:
     TraceScene trace_;
     Receivers receivers_;
     EmbreeTracer cpu_;
-    GlTracer gpu_;
+    VulkanTracer gpu_;
     std::vector<Lamp> lamps_;
 };
 

@@ -1,11 +1,9 @@
-// Lights, triangles that shine, and their textures, packed and uploaded.
+// Packs lights, triangles that shine, and their textures.
 
-#include "trace/gpu/gpu_lamps.h"
+#include "trace/gpu/lamp_tables.h"
 
 #include "lamps/lamp_rays.h"
 #include "lamps/punctual.h"
-#include "trace/gpu/gpu_structs.h"
-#include "trace/gpu/storage_buffer.h"
 
 #include <glm/gtc/packing.hpp>
 
@@ -93,34 +91,25 @@ gpu::ShiningTriangle packed(const ShiningTriangles::Shining& t, const TraceScene
 
 } // namespace
 
-GpuLamps::GpuLamps(const GpuScene& gpu_scene, const TraceScene& scene, std::span<const Lamp> lamps) {
-    std::vector<gpu::PunctualLight> lights;
-    std::vector<gpu::ShiningTriangle> triangles;
+LampTables make_lamp_tables(const TraceScene& scene, std::span<const Lamp> lamps, const AlphaTables& alpha) {
+    LampTables tables;
     EmissionImages emission(scene);
     for (const Lamp& lamp : lamps) {
-        Ranges ranges{};
-        ranges.first_light = static_cast<std::uint32_t>(lights.size());
+        LampTables::Ranges ranges{};
+        ranges.first_light = static_cast<std::uint32_t>(tables.lights.size());
         for (const std::uint32_t light : lamp.lights)
-            lights.push_back(packed(scene.scene().lights[light]));
-        ranges.end_light = static_cast<std::uint32_t>(lights.size());
-        ranges.first_triangle = static_cast<std::uint32_t>(triangles.size());
+            tables.lights.push_back(packed(scene.scene().lights[light]));
+        ranges.end_light = static_cast<std::uint32_t>(tables.lights.size());
+        ranges.first_triangle = static_cast<std::uint32_t>(tables.triangles.size());
         const ShiningTriangles shining(scene, lamp);
         for (const ShiningTriangles::Shining& t : shining.all())
-            triangles.push_back(packed(t, scene, gpu_scene.alpha_index(t.triangle), emission));
-        ranges.end_triangle = static_cast<std::uint32_t>(triangles.size());
-        ranges_.push_back(ranges);
+            tables.triangles.push_back(packed(t, scene, alpha.index[t.triangle], emission));
+        ranges.end_triangle = static_cast<std::uint32_t>(tables.triangles.size());
+        tables.ranges.push_back(ranges);
     }
-    lights_ = storage_buffer(lights, "the lights");
-    triangles_ = storage_buffer(triangles, "the triangles that shine");
-    images_ = storage_buffer(emission.images, "the textures that shine");
-    texels_ = storage_buffer(emission.texels, "the texels that shine");
-}
-
-void GpuLamps::bind() const {
-    bind_storage(PRT_BINDING_PUNCTUAL_LIGHTS, lights_);
-    bind_storage(PRT_BINDING_SHINING_TRIANGLES, triangles_);
-    bind_storage(PRT_BINDING_EMISSION_IMAGES, images_);
-    bind_storage(PRT_BINDING_EMISSION_TEXELS, texels_);
+    tables.images = std::move(emission.images);
+    tables.texels = std::move(emission.texels);
+    return tables;
 }
 
 } // namespace prt

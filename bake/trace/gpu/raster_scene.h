@@ -1,0 +1,28 @@
+#pragma once
+
+// A scene in the buffers that depth maps are drawn from.
+
+#include "prt/gl_objects.h"
+#include "prt/trace_scene.h"
+
+#include <string>
+
+namespace prt {
+
+class RasterScene {
+public:
+    /// Uploads. A context must be current. Throws `Error` when memory runs out.
+    explicit RasterScene(const TraceScene& scene);
+
+    std::size_t triangles() const { return triangles_; }
+    /// Defines for shaders that draw it.
+    std::string defines() const;
+    void bind() const;
+
+private:
+    GlObject corners_, alpha_triangles_, alpha_materials_, alpha_texels_;
+    std::size_t triangles_ = 0;
+    bool has_alpha_ = false;
+};
+
+} // namespace prt

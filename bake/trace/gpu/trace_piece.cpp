@@ -1,0 +1,146 @@
+// Records what the device does for a piece: trace, count, sum, and copy back.
+
+#include "trace/gpu/trace_piece.h"
+
+#include "prt/sh_basis.h"
+
+#include <algorithm>
+
+namespace prt {
+
+TracePiece::TracePiece(const VulkanDevice& device, const GpuScene& scene, const TraceKernels& kernels,
+                       const Room& room)
+    : kernels_(kernels), room_(room) {
+    const auto mirrored = [&](std::size_t bytes, GpuMemory host, const char* what) -> Mirrored {
+        return {{device, bytes, GpuMemory::device, what}, {device, bytes, host, what}};
+    };
+    const bool alpha = kernels.has_alpha(), hits = kernels.notes_hits();
+    const std::size_t sums = static_cast<std::size_t>(coefficient_count(kernels.order())) + 1;
+    const std::size_t rows_of_alpha = alpha ? room.rows : 0, threads = hits ? rows_of_alpha * PRT_BEAM : 0;
+    buffers_ = {
+        .receivers = mirrored(room.receivers * sizeof(gpu::Receiver), GpuMemory::upload, "the receivers"),
+        .sums = mirrored(room.receivers * sums * sizeof(float), GpuMemory::download, "the sums over rays"),
+        .hits =
+            mirrored(hits ? room.hits * sizeof(gpu::HitRecord) : 0, GpuMemory::download, "what rays meet"),
+        .hit_count = mirrored(sizeof(std::uint32_t), GpuMemory::download, "the number of hits"),
+        .blocked_rays = mirrored(room.rows * sizeof(std::uint32_t), GpuMemory::download, "the blocked rays"),
+        .blocked = {device, room.rows * PRT_BEAM * sizeof(std::uint32_t), GpuMemory::device,
+                    "the blocked rays"},
+        .shares = {device, rows_of_alpha * PRT_CHUNK * sizeof(float), GpuMemory::device,
+                   "the shares of rays"},
+        .threads = {device, threads * sizeof(gpu::ThreadProgress), GpuMemory::device,
+                    "the progress of threads"}};
+    bind(device, scene);
+}
+
+void TracePiece::bind(const VulkanDevice& device, const GpuScene& scene) {
+    const GpuResources tables = kernels_.tables();
+    GpuResources tracing = scene.resources();
+    tracing.buffers.merge(std::map<std::uint32_t, const GpuBuffer*>{
+        {PRT_BINDING_SAMPLES, tables.buffers.at(PRT_BINDING_SAMPLES)},
+        {PRT_BINDING_RECEIVERS, &buffers_.receivers.device},
+        {PRT_BINDING_BLOCKED, &buffers_.blocked},
+        {PRT_BINDING_HITS, &buffers_.hits.device}});
+    if (kernels_.notes_hits() && !kernels_.has_alpha()) {
+        GpuResources counting = tracing;
+        counting.buffers[PRT_BINDING_BLOCKED_RAYS] = &buffers_.blocked_rays.device;
+        bindings_.count_blocked = {device, kernels_.count_blocked(), counting};
+    }
+    tracing.buffers.merge(
+        std::map<std::uint32_t, const GpuBuffer*>{{PRT_BINDING_SHARES, &buffers_.shares},
+                                                  {PRT_BINDING_HIT_COUNT, &buffers_.hit_count.device},
+                                                  {PRT_BINDING_PROGRESS, &buffers_.threads}});
+    bindings_.trace = {device, kernels_.trace(), tracing};
+    GpuResources summing = tables;
+    summing.buffers.merge(
+        std::map<std::uint32_t, const GpuBuffer*>{{PRT_BINDING_RECEIVERS, &buffers_.receivers.device},
+                                                  {PRT_BINDING_SUMS, &buffers_.sums.device},
+                                                  {PRT_BINDING_BLOCKED, &buffers_.blocked},
+                                                  {PRT_BINDING_SHARES, &buffers_.shares}});
+    bindings_.accumulate = {device, kernels_.accumulate(), summing};
+}
+
+std::size_t TracePiece::sums_bytes() const {
+    return push_.receivers * (static_cast<std::size_t>(coefficient_count(kernels_.order())) + 1) *
+           sizeof(float);
+}
+
+void TracePiece::trace(const vk::raii::CommandBuffer& commands) const {
+    if (hits_in_any_order())
+        commands.fillBuffer(buffers_.hit_count.device.handle(), 0, VK_WHOLE_SIZE, 0);
+    barrier(commands);
+    kernels_.trace().dispatch(commands, bindings_.trace.handle(), push_,
+                              (push_.receivers + PRT_BEAMS - 1) / PRT_BEAMS, push_.chunks);
+    barrier(commands);
+}
+
+void TracePiece::sum(const vk::raii::CommandBuffer& commands) const {
+    commands.fillBuffer(buffers_.sums.device.handle(), 0, VK_WHOLE_SIZE, 0);
+    barrier(commands);
+    kernels_.accumulate().dispatch(commands, bindings_.accumulate.handle(), push_, push_.receivers);
+    barrier(commands);
+    copy(commands, buffers_.sums.device, buffers_.sums.host, sums_bytes());
+}
+
+void TracePiece::copy_hits(const vk::raii::CommandBuffer& commands) const {
+    const std::size_t hits = kernels_.has_alpha() ? room_.hits : rows() * (push_.whole_followed + 1);
+    copy(commands, buffers_.hits.device, buffers_.hits.host, hits * sizeof(gpu::HitRecord));
+    if (kernels_.has_alpha())
+        copy(commands, buffers_.hit_count.device, buffers_.hit_count.host, sizeof(std::uint32_t));
+    else
+        copy(commands, buffers_.blocked_rays.device, buffers_.blocked_rays.host,
+             rows() * sizeof(std::uint32_t));
+}
+
+void TracePiece::start(GpuQueue& queue, const gpu::TracePush& push) {
+    push_ = push;
+    push_.hit_room = static_cast<std::uint32_t>(room_.hits);
+    ticket_ = queue.submit([&](const vk::raii::CommandBuffer& commands) {
+        copy(commands, buffers_.receivers.host, buffers_.receivers.device,
+             push_.receivers * sizeof(gpu::Receiver));
+        if (hits_in_any_order())
+            commands.fillBuffer(buffers_.threads.handle(), 0, VK_WHOLE_SIZE, 0);
+        trace(commands);
+        if (kernels_.notes_hits() && !kernels_.has_alpha()) {
+            constexpr std::size_t kThreads = PRT_BEAM * PRT_BEAMS;
+            kernels_.count_blocked().dispatch(commands, bindings_.count_blocked.handle(), push_,
+                                              (rows() + kThreads - 1) / kThreads);
+        }
+        sum(commands);
+        if (kernels_.notes_hits())
+            copy_hits(commands);
+        barrier_to_host(commands);
+    });
+}
+
+std::size_t TracePiece::wanted_hits() const {
+    return buffers_.hit_count.host.as<const std::uint32_t>().front();
+}
+
+void TracePiece::finish(GpuQueue& queue, const TakeHits& take) {
+    queue.wait(ticket_);
+    const std::span<const gpu::HitRecord> hits = buffers_.hits.host.as<const gpu::HitRecord>();
+    if (!kernels_.notes_hits())
+        return;
+    if (!kernels_.has_alpha()) {
+        take(hits.first(rows() * (push_.whole_followed + 1)));
+        return;
+    }
+    take(hits.first(std::min(room_.hits, wanted_hits())));
+    if (wanted_hits() <= room_.hits)
+        return;
+    while (wanted_hits() > room_.hits) {
+        queue.wait(queue.submit([&](const vk::raii::CommandBuffer& commands) {
+            trace(commands);
+            copy_hits(commands);
+            barrier_to_host(commands);
+        }));
+        take(hits.first(std::min(room_.hits, wanted_hits())));
+    }
+    queue.wait(queue.submit([&](const vk::raii::CommandBuffer& commands) {
+        sum(commands);
+        barrier_to_host(commands);
+    }));
+}
+
+} // namespace prt

@@ -1,0 +1,194 @@
+// Shadow rays to lamps in a compute shader (shaders/bake_lamps.comp): one lamp at a time, many receivers.
+
+#include "trace/gpu/vulkan_lamp_light.h"
+
+#include "kernels/bake_lamps.h"
+#include "kernels/bake_lamps_query.h"
+#include "lamps/punctual.h"
+#include "prt/support/parallel.h"
+#include "prt/support/stopwatch.h"
+#include "trace/gpu/lamp_tables.h"
+#include "trace/sample_sequence.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+namespace prt {
+namespace {
+
+constexpr double kLampDispatchSeconds = 0.05;         ///< a desktop's driver kills what takes seconds
+constexpr std::uint32_t kLampRaysAtOnce = 256;        ///< of a receiver in a dispatch, for the same reason
+constexpr std::size_t kLampReceiversAtOnce = 1 << 18; ///< in the device's memory: 16 MB
+
+void write_receivers(const LampTask& task, std::span<const std::uint32_t> indices,
+                     std::span<gpu::LampReceiver> receivers) {
+    parallel_for(indices.size(), 256, task.threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint32_t p = indices[i];
+            receivers[i] = {
+                glm::vec4(task.scene.rays().ray_origin(task.receivers, p), std::bit_cast<float>(p)),
+                glm::vec4(task.receivers.normals[p], 0), glm::vec4(task.receivers.positions[p], 0)};
+        }
+    });
+}
+
+/// The kernel with all that it reads, and how fast it was.
+class LampKernel {
+public:
+    LampKernel(const VulkanDevice& device, GpuQueue& queue, const GpuScene& scene, const LampTask& task,
+               std::size_t receivers)
+        : task_(task), queue_(queue), tables_(make_lamp_tables(task.scene, task.lamps, scene.alpha())),
+          lights_(upload(device, tables_.lights, "the lights")),
+          triangles_(upload(device, tables_.triangles, "the triangles that shine")),
+          images_(upload(device, tables_.images, "the textures that shine")),
+          texels_(upload(device, tables_.texels, "the texels that shine")),
+          staging_(device, receivers * sizeof(gpu::LampReceiver), GpuMemory::upload,
+                   "the receivers of lamps"),
+          receivers_(device, staging_.bytes(), GpuMemory::device, "the receivers of lamps"),
+          sums_(device, receivers * sizeof(glm::vec4), GpuMemory::device, "light of lamps"),
+          read_back_(device, sums_.bytes(), GpuMemory::download, "light of lamps") {
+        GpuResources resources = scene.resources();
+        resources.buffers.merge(
+            std::map<std::uint32_t, const GpuBuffer*>{{PRT_BINDING_PUNCTUAL_LIGHTS, &lights_},
+                                                      {PRT_BINDING_SHINING_TRIANGLES, &triangles_},
+                                                      {PRT_BINDING_EMISSION_IMAGES, &images_},
+                                                      {PRT_BINDING_EMISSION_TEXELS, &texels_},
+                                                      {PRT_BINDING_RECEIVERS, &receivers_},
+                                                      {PRT_BINDING_SUMS, &sums_}});
+        GpuKernel::Source source{.spirv = device.traits().ray_queries
+                                              ? std::span<const std::uint32_t>(bake_lamps_query)
+                                              : bake_lamps,
+                                 .buffers = {},
+                                 .push_bytes = sizeof(gpu::LampPush),
+                                 .constants = scene.constants()};
+        source.constants[PRT_CONSTANT_TEXTURED] = 0; // the finest levels serve
+        for (const auto& [binding, buffer] : resources.buffers)
+            source.buffers.push_back(binding);
+        for (const auto& [binding, structure] : resources.structures)
+            source.structures.push_back(binding);
+        kernel_ = GpuKernel(device, source);
+        bindings_ = GpuBindings(device, kernel_, resources);
+    }
+
+    void set_receivers(std::span<const std::uint32_t> indices) {
+        count_ = indices.size();
+        write_receivers(task_, indices, staging_.as<gpu::LampReceiver>());
+        queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+            copy(commands, staging_, receivers_, count_ * sizeof(gpu::LampReceiver));
+        }));
+    }
+
+    /// Irradiance of the receivers by one lamp, and rays: valid until the next call.
+    std::span<const glm::vec4> trace(std::size_t lamp, const Progress& progress) {
+        const LampTables::Ranges& ranges = tables_.ranges[lamp];
+        gpu::LampPush push{.first_receiver = 0,
+                           .receivers = static_cast<std::uint32_t>(count_),
+                           .first_light = ranges.first_light,
+                           .end_light = ranges.end_light,
+                           .first_triangle = ranges.first_triangle,
+                           .end_triangle = ranges.end_triangle,
+                           .scramble = seed_scramble(task_.seed + lamp),
+                           .most_rays = static_cast<std::uint32_t>(task_.options.rays),
+                           .first_ray = 0,
+                           .end_ray = 0,
+                           .radius = static_cast<float>(task_.options.radius),
+                           .nearest = static_cast<float>(kNearestToLight)};
+        const std::uint32_t rays = most_rays(ranges);
+        for (; push.first_ray < rays; push.first_ray += kLampRaysAtOnce) {
+            const bool last = rays - push.first_ray <= kLampRaysAtOnce;
+            push.end_ray =
+                last ? std::numeric_limits<std::uint32_t>::max() : push.first_ray + kLampRaysAtOnce;
+            trace_slice(std::min(rays, kLampRaysAtOnce) + (ranges.lights() + ranges.triangles()) / 8.0, push,
+                        progress);
+        }
+        queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+            copy(commands, sums_, read_back_, count_ * sizeof(glm::vec4));
+            barrier_to_host(commands);
+        }));
+        return read_back_.as<const glm::vec4>().first(count_);
+    }
+
+private:
+    template <class T>
+    GpuBuffer upload(const VulkanDevice& device, const std::vector<T>& values, const char* what) {
+        return uploaded(device, queue_, std::as_bytes(std::span(values)), what);
+    }
+
+    /// That a receiver can have to a lamp: shares of them are rounded up for each light. One at least, so
+    /// that what is dark is written, too.
+    std::uint32_t most_rays(const LampTables::Ranges& ranges) const {
+        const auto spread = static_cast<std::uint32_t>(task_.options.rays);
+        return std::max(
+            {1u, ranges.triangles() > 0 ? spread : 0, ranges.lights() > 0 ? spread + ranges.lights() : 0});
+    }
+
+    /// `work`: of a receiver, in rays. Two dispatches are under way at a time.
+    void trace_slice(double work, gpu::LampPush push, const Progress& progress) {
+        GpuQueue::Ticket before = 0;
+        for (std::size_t begin = 0; begin < count_;) {
+            progress.check();
+            const auto in_time = static_cast<std::size_t>(work_per_second_ * kLampDispatchSeconds / work);
+            const std::size_t size =
+                std::min(count_ - begin, std::max<std::size_t>(in_time, PRT_LAMP_THREADS));
+            push.first_receiver = static_cast<std::uint32_t>(begin);
+            const Stopwatch watch;
+            const std::size_t groups =
+                std::min<std::size_t>((size + PRT_LAMP_THREADS - 1) / PRT_LAMP_THREADS, kMostLampGroups);
+            const std::size_t done = std::min(count_ - begin, groups * PRT_LAMP_THREADS);
+            push.receivers = static_cast<std::uint32_t>(begin + done);
+            const GpuQueue::Ticket ticket = queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+                kernel_.dispatch(commands, bindings_.handle(), push, groups);
+            });
+            queue_.wait(before);
+            if (before == 0)
+                queue_.wait(ticket); // the first tells the speed
+            const double clock = queue_.seconds(before == 0 ? ticket : before),
+                         took = clock > 0 ? clock : watch.seconds();
+            work_per_second_ =
+                0.5 * (work_per_second_ + work * static_cast<double>(done) / std::max(took, 1e-6));
+            before = ticket;
+            begin += done;
+        }
+        queue_.wait(before);
+    }
+
+    static constexpr std::size_t kMostLampGroups = 65535;
+    const LampTask& task_;
+    GpuQueue& queue_;
+    LampTables tables_;
+    GpuBuffer lights_, triangles_, images_, texels_, staging_, receivers_, sums_, read_back_;
+    GpuKernel kernel_;
+    GpuBindings bindings_;
+    std::size_t count_ = 0;
+    double work_per_second_ = 1e6; ///< until measured, that of a software device
+};
+
+} // namespace
+
+LampLight lamp_light_on_gpu(const VulkanDevice& device, GpuQueue& queue, const GpuScene& scene,
+                            const LampTask& task, const Progress& progress) {
+    LampLight light = no_lamp_light(task);
+    const std::vector<std::uint32_t> indices = receivers_on_surfaces(task.receivers);
+    if (task.lamps.empty() || indices.empty())
+        return light;
+    LampKernel kernel(device, queue, scene, task, std::min(kLampReceiversAtOnce, indices.size()));
+    for (std::size_t first = 0; first < indices.size(); first += kLampReceiversAtOnce) {
+        const auto batch =
+            std::span(indices).subspan(first).first(std::min(kLampReceiversAtOnce, indices.size() - first));
+        kernel.set_receivers(batch);
+        for (std::size_t k = 0; k < task.lamps.size(); ++k) {
+            const double done = static_cast<double>(k) / static_cast<double>(task.lamps.size());
+            progress.update((static_cast<double>(first) + done * static_cast<double>(batch.size())) /
+                            static_cast<double>(indices.size()));
+            const std::span<const glm::vec4> sums = kernel.trace(k, progress);
+            for (std::size_t i = 0; i < batch.size(); ++i) {
+                put_irradiance(task, batch[i], k, glm::dvec3(sums[i]), light);
+                light.rays += static_cast<std::size_t>(sums[i].w);
+            }
+        }
+    }
+    return light;
+}
+
+} // namespace prt

@@ -1,0 +1,61 @@
+#pragma once
+
+#include "prt/trace_scene.h"
+#include "prt/tracer.h"
+#include "trace/gpu/gpu_scene.h"
+#include "trace/gpu/trace_kernels.h"
+#include "trace/gpu/trace_piece.h"
+#include "vulkan/gpu_queue.h"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+namespace prt {
+
+/// Traces on a GPU: by its own ray queries, or in a compute shader through a wide quantised hierarchy. The
+/// same samples as EmbreeTracer. Rays go to the device in pieces of about a twentieth of a second, by the
+/// speed that was measured; the processor prepares one while another is traced. Throws `GpuLost` where the
+/// device goes away.
+class VulkanTracer final : public Tracer {
+public:
+    /// Keeps a reference to `scene`. `piece_bytes`: what a buffer of a piece may have. Throws `Error` where
+    /// there is no such device, and where the scene does not fit it.
+    VulkanTracer(const TraceScene& scene, const VulkanChoice& choice, std::size_t piece_bytes = 64 << 20);
+    Backend backend() const override { return Backend::gpu; }
+    std::string device() const override;
+    std::size_t batch_size(const TraceOptions& options) const override;
+    void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
+               const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
+               const Progress& progress = {}) override;
+    LampLight lamp_light(const LampTask& task, const Progress& progress) override;
+    const VulkanDevice& vulkan() const { return device_; }
+    std::size_t scene_bytes() const { return scene_on_gpu_.bytes(); }
+
+private:
+    struct Job;
+    class Results;
+    using Pieces = std::array<std::unique_ptr<TracePiece>, 2>;
+
+    TraceKernels& kernels(int order, bool hits);
+    TracePiece::Room room_for(const Job& job) const;
+    Pieces& pieces_for(const Job& job);
+    gpu::TracePush next(const Job& job, std::size_t receiver, std::size_t chunk) const;
+    void finish(TracePiece& piece, Results& results);
+    void run(const Job& job, Results& results, const Progress& progress);
+
+    VulkanDevice device_;
+    GpuQueue queue_;
+    const TraceScene& scene_;
+    GpuScene scene_on_gpu_;
+    std::size_t piece_bytes_;
+    std::map<std::pair<int, bool>, TraceKernels> kernels_; ///< by order, and whether hits are noted
+    Pieces pieces_;
+    const TraceKernels* of_pieces_ = nullptr;
+    double rays_per_second_ = 1e6; ///< until measured, that of a software device
+    double hits_per_ray_ = 1;      ///< through blended surfaces, a quarter more than measured
+};
+
+} // namespace prt

@@ -1,0 +1,39 @@
+#pragma once
+
+#include "prt/trace_scene.h"
+#include "prt/tracer.h"
+
+#include <functional>
+#include <memory>
+
+namespace prt {
+
+/// Traces on a GPU while that lasts: where it is lost or runs out of memory on the way, the call that it
+/// failed in and all that follow go to the CPU, and `device` says so.
+class LastingTracer final : public Tracer {
+public:
+    /// Keeps a reference to `scene`.
+    LastingTracer(std::unique_ptr<Tracer> gpu, const TraceScene& scene)
+        : tracer_(std::move(gpu)), scene_(scene) {}
+    Backend backend() const override { return tracer_->backend(); }
+    std::string device() const override { return lost_ + tracer_->device(); }
+    std::size_t batch_size(const TraceOptions& options) const override {
+        return tracer_->batch_size(options);
+    }
+    /// A sink may be told again of a receiver.
+    void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
+               const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
+               const Progress& progress = {}) override;
+    LampLight lamp_light(const LampTask& task, const Progress& progress) override;
+
+private:
+    /// Calls `work`, and once more on the CPU where the GPU fails.
+    template <class Work>
+    auto lasting(const Work& work);
+
+    std::unique_ptr<Tracer> tracer_;
+    const TraceScene& scene_;
+    std::string lost_; ///< what `device` says of a GPU that was
+};
+
+} // namespace prt

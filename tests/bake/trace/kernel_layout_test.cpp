@@ -1,0 +1,77 @@
+// Structs that kernels and C++ share: the offsets that the compiled kernels read them at.
+
+#include "trace/gpu/gpu_structs.h"
+
+#include "kernels/bake_lamps.h"
+#include "kernels/bake_trace.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <map>
+#include <span>
+#include <string>
+
+namespace prt {
+namespace {
+
+/// Offsets by "Struct.member", and strides of arrays by "Struct", as SPIR-V says (its specification, section
+/// 3).
+std::map<std::string, std::uint32_t> layout_of(std::span<const std::uint32_t> spirv) {
+    enum : std::uint32_t {
+        name = 5,
+        member_name = 6,
+        runtime_array = 29,
+        decorate = 71,
+        member_decorate = 72
+    };
+    enum : std::uint32_t { array_stride = 6, offset = 35 };
+    std::map<std::uint32_t, std::string> names;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> members;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> offsets;
+    std::map<std::uint32_t, std::uint32_t> strides, elements;
+    for (std::size_t at = 5; at < spirv.size(); at += spirv[at] >> 16) {
+        const std::uint32_t* const word = &spirv[at];
+        const std::uint32_t operation = word[0] & 0xffff;
+        if (operation == name)
+            names[word[1]] = reinterpret_cast<const char*>(&word[2]);
+        else if (operation == member_name)
+            members[{word[1], word[2]}] = reinterpret_cast<const char*>(&word[3]);
+        else if (operation == member_decorate && word[3] == offset)
+            offsets[{word[1], word[2]}] = word[4];
+        else if (operation == decorate && word[2] == array_stride)
+            strides[word[1]] = word[3];
+        else if (operation == runtime_array)
+            elements[word[1]] = word[2];
+    }
+    std::map<std::string, std::uint32_t> layout;
+    for (const auto& [member, at] : offsets)
+        layout[names[member.first] + "." + members[member]] = at;
+    for (const auto& [array, element] : elements)
+        if (!names[element].empty())
+            layout[names[element]] = strides[array];
+    return layout;
+}
+
+#define PRT_EXPECT_AT(layout, type, member)                                                                  \
+    EXPECT_EQ(layout[#type "." #member], offsetof(gpu::type, member)) << #type "." #member;                  \
+    EXPECT_EQ(layout[#type], sizeof(gpu::type)) << #type
+
+TEST(GpuStructs, LieInMemoryAsKernelsReadThem) {
+    std::map<std::string, std::uint32_t> trace = layout_of(bake_trace), lamps = layout_of(bake_lamps);
+    PRT_EXPECT_AT(trace, Receiver, normal);
+    PRT_EXPECT_AT(trace, HitRecord, row);
+    PRT_EXPECT_AT(trace, ThreadProgress, left);
+    PRT_EXPECT_AT(trace, AlphaTriangle, next);
+    PRT_EXPECT_AT(trace, AlphaMaterial, wrap);
+    PRT_EXPECT_AT(trace, WideNode, high);
+    PRT_EXPECT_AT(lamps, LampReceiver, position);
+    PRT_EXPECT_AT(lamps, PunctualLight, outer_cosine);
+    PRT_EXPECT_AT(lamps, ShiningTriangle, image);
+    PRT_EXPECT_AT(lamps, EmissionImage, linear);
+    EXPECT_EQ(trace["TracePush.spread"], offsetof(gpu::TracePush, spread));
+    EXPECT_EQ(lamps["LampPush.nearest"], offsetof(gpu::LampPush, nearest));
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "vulkan/vulkan_device.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace prt::test {
+
+/// The traversal that this run is to test, with every call validated: our own, or where PRT_TEST_RAY_QUERIES
+/// is set that of the device.
+inline VulkanChoice vulkan_choice() {
+    return {.ray_queries = std::getenv("PRT_TEST_RAY_QUERIES") != nullptr, .validate = true};
+}
+
+/// Expects that the device was used as Vulkan says, and traverses as it was chosen to.
+inline void expect_valid(const VulkanDevice& device) {
+    EXPECT_EQ(device.traits().ray_queries, vulkan_choice().ray_queries);
+    for (const std::string& complaint : device.complaints())
+        ADD_FAILURE() << complaint;
+}
+
+} // namespace prt::test
