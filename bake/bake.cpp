@@ -58,7 +58,7 @@ void check_options(const BakeOptions& options) {
 }
 
 /// Receivers that are sealed in take the light of their neighbours, where they shall.
-SealedIn find_sealed_in(const BakePlan& plan, const Tracer& tracer, const Transfer& direct,
+SealedIn find_sealed_in(const BakePlan& plan, Tracer& tracer, const Transfer& direct,
                         const std::stop_token& stop) {
     // Depth maps do not resolve the last hundredth.
     const double darkest = tracer.method() == BakeMethod::trace ? 0 : 0.01 * kY00;
@@ -66,7 +66,8 @@ SealedIn find_sealed_in(const BakePlan& plan, const Tracer& tracer, const Transf
     for (const std::uint32_t p : receivers_on_surfaces(plan.receivers()))
         if (static_cast<double>(direct.vector(p)[0]) <= darkest)
             dark.push_back(p);
-    const Sealed sealed = find_sealed(plan.scene, plan.receivers(), std::move(dark), plan.options.seed, stop);
+    const Sealed sealed =
+        find_sealed(tracer, plan.scene, plan.receivers(), std::move(dark), plan.options.seed, stop);
     const auto fronts = static_cast<std::ptrdiff_t>(plan.transport->fronts);
     SealedIn found;
     found.rays = sealed.rays;

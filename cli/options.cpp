@@ -90,8 +90,16 @@ void add_reports(CLI::App* command, ReportFiles& files) {
         ->check(named);
 }
 
-void add_backend(CLI::App* command, Backend& backend, const std::string& text) {
-    choice(command, "--backend", backend, kBackends, text, "auto");
+CLI::Option* add_gpu(CLI::App* command, std::string& gpu) {
+    return command
+        ->add_option("--gpu", gpu,
+                     "the GPU to bake on: its number, or a part of its name (bench --list-devices)")
+        ->type_name("N|NAME")
+        ->check(named);
+}
+
+CLI::Option* add_backend(CLI::App* command, Backend& backend, const std::string& text) {
+    return choice(command, "--backend", backend, kBackends, text, "auto");
 }
 
 void add_light_options(CLI::App* command, LightOptions& options) {

@@ -54,7 +54,9 @@ void add_reading(CLI::App* command, GltfOptions& reading);
 void add_threads(CLI::App* command, int& threads);
 void add_json(CLI::App* command, Path& json);
 void add_reports(CLI::App* command, ReportFiles& files);
-void add_backend(CLI::App* command, Backend& backend, const std::string& text);
+CLI::Option* add_backend(CLI::App* command, Backend& backend, const std::string& text);
+/// --gpu, of commands that bake on one.
+CLI::Option* add_gpu(CLI::App* command, std::string& gpu);
 void add_light_options(CLI::App* command, LightOptions& options);
 
 /// What `text` says, all of it, in any notation of C; nothing where that is no number.

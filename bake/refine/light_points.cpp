@@ -110,7 +110,8 @@ void LightPoints::spread(const LitMesh& mesh, const Progress& progress) {
     for (std::uint32_t p = 0; p < added.size(); ++p)
         if (light[p * stride()] <= 0 && light[p * stride() + coefficients_] <= 0)
             dark.push_back(p);
-    const Sealed found = find_sealed(scene_, added.receivers, std::move(dark), options_.seed, progress.stop);
+    const Sealed found =
+        find_sealed(tracer_, scene_, added.receivers, std::move(dark), options_.seed, progress.stop);
     rays_traced_ += found.rays;
     light_.insert(light_.end(), light.begin(), light.end());
     for (std::size_t p = 0; p < added.size(); ++p)

@@ -7,6 +7,7 @@
 #include "trace/embree_tracer.h"
 
 #include <cmath>
+#include <optional>
 #include <span>
 
 namespace prt {
@@ -31,11 +32,12 @@ bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays)
 
 } // namespace
 
-Sealed find_sealed(const TraceScene& scene, const Receivers& receivers, std::vector<std::uint32_t> dark,
-                   std::uint64_t seed, const std::stop_token& stop) {
+Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& receivers,
+                   std::vector<std::uint32_t> dark, std::uint64_t seed, const std::stop_token& stop) {
     Sealed result{std::vector<bool>(receivers.size()), 0};
+    std::optional<EmbreeTracer> on_cpu;
+    Tracer& prober = tracer.notes_hits() ? tracer : on_cpu.emplace(scene);
     // Few rays for all of them, more for those that may be.
-    EmbreeTracer prober(scene);
     std::vector<std::uint8_t> sealed(receivers.size(), 0); // bytes, as several threads write
     for (const int probes : {16, 128, kMostProbes}) {
         Transfer unused = zero_transfer(1, 1, receivers.size());

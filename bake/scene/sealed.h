@@ -4,6 +4,7 @@
 
 #include "prt/support/progress.h"
 #include "prt/trace_scene.h"
+#include "prt/tracer.h"
 #include "prt/transfer.h"
 
 #include <cstddef>
@@ -19,8 +20,8 @@ struct Sealed {
 
 /// Which of the `dark` receivers are sealed in: none of 1 024 rays escapes and 98 of 100 end at the back of a
 /// single-sided surface, which scatters nothing. Where fronts are seen, as in a dark room, darkness is the
-/// truth.
-Sealed find_sealed(const TraceScene& scene, const Receivers& receivers, std::vector<std::uint32_t> dark,
-                   std::uint64_t seed, const std::stop_token& stop);
+/// truth. Rays go to `tracer`, or where that notes no hits to the CPU.
+Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& receivers,
+                   std::vector<std::uint32_t> dark, std::uint64_t seed, const std::stop_token& stop);
 
 } // namespace prt

@@ -13,6 +13,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 
 namespace prt {
@@ -28,11 +29,14 @@ struct Setup {
     Backend backend;
     BakeMethod method;
     bool fitted = false;
+    Traversal traversal = Traversal::automatic;
 };
 constexpr Setup kSetups[] = {{Backend::cpu, BakeMethod::trace},
                              {Backend::cpu, BakeMethod::trace, true},
-                             {Backend::gpu, BakeMethod::trace},
+                             {Backend::gpu, BakeMethod::trace, false, Traversal::device},
+                             {Backend::gpu, BakeMethod::trace, false, Traversal::compute},
                              {Backend::gpu, BakeMethod::raster}};
+constexpr double kShare = 1.0 / (1 + std::size(kSetups)); ///< of the time, for each series and the references
 
 class Bench {
 public:
@@ -46,12 +50,11 @@ public:
         result.receivers = receivers_.size();
         result.triangles = scene_.triangles();
         result.order = options_.order;
-        // The references and each series take a fifth of the time.
-        double begin = 0.2;
+        double begin = kShare;
         make_reference(result, progress.part(0, begin));
         for (const Setup& setup : kSetups) {
-            result.series.push_back(measure(setup, progress.part(begin, begin + 0.2)));
-            begin += 0.2;
+            result.series.push_back(measure(setup, progress.part(begin, begin + kShare)));
+            begin += kShare;
         }
         progress.update(1);
         return result;
@@ -81,7 +84,10 @@ private:
     }
 
     BenchSeries measure(const Setup& setup, const Progress& progress) const {
-        BenchSeries series{.backend = setup.backend, .method = setup.method, .fitted = setup.fitted};
+        BenchSeries series{.backend = setup.backend,
+                           .method = setup.method,
+                           .fitted = setup.fitted,
+                           .traversal = setup.traversal};
         double per_ray = 0;
         for (int rays = options_.fewest_rays; rays <= options_.most_rays; rays *= 2) {
             const double expected = per_ray * rays;
@@ -113,7 +119,9 @@ private:
         const std::unique_ptr<Tracer> tracer =
             make_tracer(scene, {.backend = setup.backend,
                                 .method = setup.method,
-                                .raster_resolution = options_.raster_resolution});
+                                .raster_resolution = options_.raster_resolution,
+                                .gpu = options_.gpu,
+                                .traversal = setup.traversal});
         device = tracer->device();
         // Shaders are compiled on first use; a bake of a game's scene does not notice.
         Transfer transfer = empty_transfer();

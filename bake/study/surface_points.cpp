@@ -61,7 +61,8 @@ SurfacePoints surface_points(const TraceScene& scene, const SurfacePointOptions&
     for (const std::uint32_t p : indices)
         if (light.vector(p)[0] <= 0)
             dark.push_back(p);
-    const Sealed sealed = find_sealed(scene, all.receivers, std::move(dark), options.seed, progress.stop);
+    const Sealed sealed =
+        find_sealed(tracer, scene, all.receivers, std::move(dark), options.seed, progress.stop);
     SurfacePoints points;
     for (const std::uint32_t p : indices)
         if (!sealed.receivers[p])

@@ -146,7 +146,7 @@ private:
             if (light.first.vector(p)[0] <= 0 && light.second.vector(p)[0] <= 0)
                 dark.push_back(p);
         const Sealed found =
-            find_sealed(plan_.scene, receivers, std::move(dark), plan_.options.seed, progress_.stop);
+            find_sealed(tracer_, plan_.scene, receivers, std::move(dark), plan_.options.seed, progress_.stop);
         result_.rays += found.rays;
         return found.receivers;
     }

@@ -131,11 +131,11 @@ private:
 };
 
 /// Samples that are sealed in tell nothing; receivers that none tells of take the light of their neighbours.
-SealedIn leave_out_sealed(const BakePlan& plan, const SurfaceSamples& samples,
+SealedIn leave_out_sealed(const BakePlan& plan, Tracer& tracer, const SurfaceSamples& samples,
                           std::vector<std::uint32_t> dark, FitEquations& equations,
                           const std::stop_token& stop) {
     const Sealed sealed =
-        find_sealed(plan.scene, samples.receivers, std::move(dark), plan.options.seed, stop);
+        find_sealed(tracer, plan.scene, samples.receivers, std::move(dark), plan.options.seed, stop);
     SealedIn result;
     result.rays = sealed.rays;
     std::vector<bool> told(equations.unknowns), asked(equations.unknowns);
@@ -183,7 +183,7 @@ FittedLight trace_fitted(const BakePlan& plan, Tracer& tracer, int samples_each,
     SampleTracer traced(plan, tracer, samples, equations);
     DirectLight direct;
     SampleSums sums = traced.trace(direct, progress.part(0, 0.95));
-    SealedIn sealed = leave_out_sealed(plan, samples, std::move(sums.dark), equations, progress.stop);
+    SealedIn sealed = leave_out_sealed(plan, tracer, samples, std::move(sums.dark), equations, progress.stop);
 
     const int threads = plan.options.threads;
     const auto stride = static_cast<std::size_t>(coefficient_count(plan.options.order));

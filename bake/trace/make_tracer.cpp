@@ -29,11 +29,12 @@ std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice&
     if (choice.backend == Backend::cpu)
         return std::make_unique<EmbreeTracer>(scene);
     if (choice.backend == Backend::gpu)
-        return std::make_unique<VulkanTracer>(scene, VulkanChoice{.device = choice.gpu, .ray_queries = choice.ray_queries});
+        return std::make_unique<VulkanTracer>(
+            scene, VulkanChoice{.device = choice.gpu, .traversal = choice.traversal});
     try {
         return std::make_unique<LastingTracer>(
             std::make_unique<VulkanTracer>(
-                scene, VulkanChoice{.hardware_only = true, .ray_queries = choice.ray_queries}),
+                scene, VulkanChoice{.hardware_only = true, .traversal = choice.traversal}),
             scene);
     } catch (const Error&) { // none, or too small for the scene
         return std::make_unique<EmbreeTracer>(scene);

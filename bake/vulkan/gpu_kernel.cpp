@@ -4,6 +4,13 @@
 
 namespace prt {
 
+void GpuKernel::Source::take_bindings(const GpuResources& resources) {
+    for (const auto& [binding, buffer] : resources.buffers)
+        buffers.push_back(binding);
+    for (const auto& [binding, structure] : resources.structures)
+        structures.push_back(binding);
+}
+
 GpuKernel::GpuKernel(const VulkanDevice& device, const Source& source) {
     std::vector<vk::DescriptorSetLayoutBinding> bindings;
     for (const std::uint32_t b : source.buffers)

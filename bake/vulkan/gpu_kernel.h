@@ -21,10 +21,13 @@ class GpuKernel {
 public:
     struct Source {
         std::span<const std::uint32_t> spirv;
-        std::vector<std::uint32_t> buffers;         ///< bindings
+        std::vector<std::uint32_t> buffers = {};    ///< bindings
         std::vector<std::uint32_t> structures = {}; ///< bindings of hierarchies of the device
         std::uint32_t push_bytes = 0;
         std::map<std::uint32_t, std::uint32_t> constants = {}; ///< by their constant_id
+
+        /// Appends all of `resources`.
+        void take_bindings(const GpuResources& resources);
     };
     GpuKernel() = default;
     GpuKernel(const VulkanDevice& device, const Source& source);

@@ -218,7 +218,9 @@ VulkanDevice::VulkanDevice(const VulkanChoice& choice)
         if (!traits_.about.lacks.empty())
             throw Error(
                 fmt::format("\"{}\" cannot bake: it has no {}", traits_.about.name, traits_.about.lacks));
-        traits_.ray_queries = choice.ray_queries && traits_.about.ray_queries;
+        if (choice.traversal == Traversal::device && !traits_.about.ray_queries)
+            throw Error(fmt::format("\"{}\" has no ray queries", traits_.about.name));
+        traits_.ray_queries = choice.traversal != Traversal::compute && traits_.about.ray_queries;
         physical_ = std::move(found[chosen]);
         make_device();
     });

@@ -4,6 +4,7 @@
 
 #include "prt/gpu_devices.h"
 #include "prt/gpu_failure.h"
+#include "prt/make_tracer.h"
 #include "prt/support/error.h"
 
 #include <vulkan/vulkan_raii.hpp>
@@ -19,8 +20,8 @@ namespace prt {
 struct VulkanChoice {
     std::string device = {}; ///< a number, or part of a name; empty: the best
     bool hardware_only = false;
-    bool ray_queries = true; ///< of the device, where it has them
-    bool validate = false;   ///< every call, by the layer for that: see complaints()
+    Traversal traversal = Traversal::automatic;
+    bool validate = false; ///< every call, by the layer for that: see complaints()
 };
 
 /// Stays where it is.

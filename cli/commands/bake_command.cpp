@@ -28,6 +28,8 @@ struct BakeArguments {
 };
 
 const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
+const std::map<std::string, Traversal> kTraversals = {
+    {"auto", Traversal::automatic}, {"device", Traversal::device}, {"compute", Traversal::compute}};
 const std::map<std::string, FitMode> kFits = {
     {"auto", FitMode::automatic}, {"vertex", FitMode::vertex}, {"surface", FitMode::surface}};
 const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
@@ -169,7 +171,12 @@ void add_lamps(CLI::App* command, LampOptions& lamps) {
 
 void add_method(CLI::App* command, BakeOptions& options) {
     add_backend(command, options.tracer.backend,
-                "gpu: OpenGL 4.5 of any kind; auto: a hardware GPU, else the CPU");
+                "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
+    add_gpu(command, options.tracer.gpu);
+    choice(command, "--traversal", options.tracer.traversal, kTraversals,
+           "how a GPU finds what rays meet: device: its ray queries; compute: a hierarchy of our own; auto: "
+           "ray queries where it has some",
+           "auto");
     options.fit = FitMode::automatic;
     choice(command, "--fit", options.fit, kFits,
            "where light is measured: at vertices; over the surface between them, so that the values of "
@@ -242,7 +249,19 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
     return baked;
 }
 
+/// A GPU that is named is the one to bake on.
+void choose_gpu(TracerChoice& tracer) {
+    if (tracer.gpu.empty())
+        return;
+    if (tracer.backend == Backend::cpu)
+        throw Error("--gpu names a GPU, and --backend cpu uses none");
+    if (tracer.method == BakeMethod::raster)
+        throw Error("--gpu names a GPU for rays: depth maps are drawn where OpenGL is");
+    tracer.backend = Backend::gpu;
+}
+
 void run(BakeArguments a, Session& session) {
+    choose_gpu(a.options.tracer);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
                                       {a.scene, a.light_set});
     GltfOptions reading = a.reading;

@@ -3,6 +3,7 @@
 #include "inputs.h"
 #include "options.h"
 #include "outputs.h"
+#include "prt/gpu_devices.h"
 #include "report/bench_report.h"
 
 #include <fmt/core.h>
@@ -15,8 +16,24 @@ struct BenchArguments {
     ReportFiles files;
     BenchOptions options;
     GltfOptions reading;
-    bool classic = false;
+    bool classic = false, list_devices = false;
 };
+
+std::string in_words(const GpuDevice& device) {
+    if (!device.lacks.empty())
+        return fmt::format("{}; cannot bake: no {}", device.name, device.lacks);
+    return fmt::format("{}; {}; {}, {}, {:.1f} GB of memory", device.name, device.driver,
+                       device.hardware ? "hardware" : "software",
+                       device.ray_queries ? "ray queries" : "no ray queries", device.memory / 1e9);
+}
+
+void print_devices() {
+    const std::vector<GpuDevice> devices = gpu_devices();
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        fmt::print("{}: {}\n", i, in_words(devices[i]));
+    if (devices.empty())
+        fmt::print("no GPU: no driver for Vulkan is installed\n");
+}
 
 Report scene_report(const BenchArguments& a, Session& session) {
     const GltfDocument document = load_gltf(a.scene, a.reading);
@@ -44,14 +61,19 @@ Report hill_report(const BenchArguments& a, Session& session) {
 }
 
 void run(BenchArguments a, Session& session) {
+    if (a.list_devices)
+        return print_devices();
     if (a.scene.empty() && !a.classic)
-        throw CLI::RequiredError("scene, or --classic");
+        throw CLI::RequiredError("scene, --classic or --list-devices");
     a.reading.outputs = check_outputs({{a.files.json, "--json", {".json"}},
                                        {a.files.html, "--html", {".html", ".htm"}},
                                        {a.files.csv, "--csv", {".csv"}}},
                                       {a.scene});
     Report report = a.classic ? hill_report(a, session) : scene_report(a, session);
     report.origin.emplace_back("command", session.command_line());
+    const std::vector<GpuDevice> devices = gpu_devices();
+    for (std::size_t i = 0; i < devices.size(); ++i)
+        report.origin.emplace_back(fmt::format("GPU {}", i), in_words(devices[i]));
     publish(report, a.files, session);
 }
 
@@ -65,6 +87,9 @@ void add_bench(CLI::App& app, Session& session) {
     CLI::Option* scene = command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->check(named);
     command->add_flag("--classic", a.classic, "generated meshes like those of Hill's table of 2004")
         ->excludes(scene);
+    command->add_flag("--list-devices", a.list_devices, "print the GPUs that bakes could run on, and end")
+        ->excludes(scene);
+    add_gpu(command, a.options.gpu);
     command->add_option("--order", a.options.order, "SH order N")
         ->capture_default_str()
         ->check(CLI::Range(1, kMaxOrder));

@@ -15,6 +15,7 @@ struct BenchOptions {
     int order = 6;
     int fewest_rays = 64, most_rays = 4096; ///< doubled from one to the other
     int raster_resolution = 1024;
+    std::string gpu = {};     ///< TracerChoice::gpu
     double most_seconds = 60; ///< a run that would take longer is left out
     int threads = 0;
     std::uint64_t seed = 0;
@@ -34,13 +35,15 @@ struct BenchSeries {
     Backend backend = Backend::cpu;
     BakeMethod method = BakeMethod::trace;
     bool fitted = false; ///< to samples of the surface
+    Traversal traversal = Traversal::automatic;
     std::string device = {};
     std::vector<BenchRun> runs = {};
     std::string left_out = {}; ///< what is missing, and why; empty: nothing
 
-    /// "cpu trace", "cpu trace fitted"
+    /// "cpu trace", "cpu trace fitted", "gpu trace, ray queries"
     std::string name() const {
-        return std::string(to_string(backend)) + " " + to_string(method) + (fitted ? " fitted" : "");
+        return std::string(to_string(backend)) + " " + to_string(method) + (fitted ? " fitted" : "") +
+               (traversal == Traversal::device ? ", ray queries" : "");
     }
 };
 

@@ -8,6 +8,13 @@
 
 namespace prt {
 
+/// How a GPU finds what a ray meets.
+enum class Traversal {
+    automatic, ///< by its own means where it has some, else by ours
+    device,    ///< by its own: ray queries
+    compute,   ///< through our hierarchy
+};
+
 /// Which tracer to use.
 struct TracerChoice {
     Backend backend = Backend::automatic;
@@ -15,7 +22,7 @@ struct TracerChoice {
     int raster_resolution = 1024; ///< texels along each side of a depth map
     /// The GPU to trace on: its number among gpu_devices(), or a part of its name; empty: the best.
     std::string gpu = {};
-    bool ray_queries = true; ///< use the GPU's own traversal, where it has one
+    Traversal traversal = Traversal::automatic;
 };
 
 /// The tracer that `choice` asks for: on a hardware GPU where the backend is automatic and there is one that

@@ -34,10 +34,7 @@ GpuKernel::Source source(std::span<const std::uint32_t> spirv, std::vector<std::
                              .buffers = std::move(own),
                              .push_bytes = sizeof(gpu::TracePush),
                              .constants = std::move(constants)};
-    for (const auto& [binding, buffer] : scene.buffers)
-        source.buffers.push_back(binding);
-    for (const auto& [binding, structure] : scene.structures)
-        source.structures.push_back(binding);
+    source.take_bindings(scene);
     return source;
 }
 

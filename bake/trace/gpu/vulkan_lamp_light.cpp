@@ -38,44 +38,44 @@ class LampKernel {
 public:
     LampKernel(const VulkanDevice& device, GpuQueue& queue, const GpuScene& scene, const LampTask& task,
                std::size_t receivers)
-        : task_(task), queue_(queue), tables_(make_lamp_tables(task.scene, task.lamps, scene.alpha())),
-          lights_(upload(device, tables_.lights, "the lights")),
-          triangles_(upload(device, tables_.triangles, "the triangles that shine")),
-          images_(upload(device, tables_.images, "the textures that shine")),
-          texels_(upload(device, tables_.texels, "the texels that shine")),
-          staging_(device, receivers * sizeof(gpu::LampReceiver), GpuMemory::upload,
-                   "the receivers of lamps"),
-          receivers_(device, staging_.bytes(), GpuMemory::device, "the receivers of lamps"),
-          sums_(device, receivers * sizeof(glm::vec4), GpuMemory::device, "light of lamps"),
-          read_back_(device, sums_.bytes(), GpuMemory::download, "light of lamps") {
+        : task_(task), queue_(queue), tables_(make_lamp_tables(task.scene, task.lamps, scene.alpha())) {
+        const auto upload = [&]<class T>(const std::vector<T>& values, const char* what) {
+            return uploaded(device, queue, std::as_bytes(std::span(values)), what);
+        };
+        buffers_.lights = upload(tables_.lights, "the lights");
+        buffers_.triangles = upload(tables_.triangles, "the triangles that shine");
+        buffers_.images = upload(tables_.images, "the textures that shine");
+        buffers_.texels = upload(tables_.texels, "the texels that shine");
+        constexpr const char* kReceivers = "the receivers of lamps";
+        const std::size_t bytes = receivers * sizeof(gpu::LampReceiver), sums = receivers * sizeof(glm::vec4);
+        buffers_.staging = {device, bytes, GpuMemory::upload, kReceivers};
+        buffers_.receivers = {device, bytes, GpuMemory::device, kReceivers};
+        buffers_.sums = {device, sums, GpuMemory::device, "light of lamps"};
+        buffers_.read_back = {device, sums, GpuMemory::download, "light of lamps"};
         GpuResources resources = scene.resources();
         resources.buffers.merge(
-            std::map<std::uint32_t, const GpuBuffer*>{{PRT_BINDING_PUNCTUAL_LIGHTS, &lights_},
-                                                      {PRT_BINDING_SHINING_TRIANGLES, &triangles_},
-                                                      {PRT_BINDING_EMISSION_IMAGES, &images_},
-                                                      {PRT_BINDING_EMISSION_TEXELS, &texels_},
-                                                      {PRT_BINDING_RECEIVERS, &receivers_},
-                                                      {PRT_BINDING_SUMS, &sums_}});
+            std::map<std::uint32_t, const GpuBuffer*>{{PRT_BINDING_PUNCTUAL_LIGHTS, &buffers_.lights},
+                                                      {PRT_BINDING_SHINING_TRIANGLES, &buffers_.triangles},
+                                                      {PRT_BINDING_EMISSION_IMAGES, &buffers_.images},
+                                                      {PRT_BINDING_EMISSION_TEXELS, &buffers_.texels},
+                                                      {PRT_BINDING_RECEIVERS, &buffers_.receivers},
+                                                      {PRT_BINDING_SUMS, &buffers_.sums}});
         GpuKernel::Source source{.spirv = device.traits().ray_queries
                                               ? std::span<const std::uint32_t>(bake_lamps_query)
                                               : bake_lamps,
-                                 .buffers = {},
                                  .push_bytes = sizeof(gpu::LampPush),
                                  .constants = scene.constants()};
         source.constants[PRT_CONSTANT_TEXTURED] = 0; // the finest levels serve
-        for (const auto& [binding, buffer] : resources.buffers)
-            source.buffers.push_back(binding);
-        for (const auto& [binding, structure] : resources.structures)
-            source.structures.push_back(binding);
+        source.take_bindings(resources);
         kernel_ = GpuKernel(device, source);
         bindings_ = GpuBindings(device, kernel_, resources);
     }
 
     void set_receivers(std::span<const std::uint32_t> indices) {
         count_ = indices.size();
-        write_receivers(task_, indices, staging_.as<gpu::LampReceiver>());
+        write_receivers(task_, indices, buffers_.staging.as<gpu::LampReceiver>());
         queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
-            copy(commands, staging_, receivers_, count_ * sizeof(gpu::LampReceiver));
+            copy(commands, buffers_.staging, buffers_.receivers, count_ * sizeof(gpu::LampReceiver));
         }));
     }
 
@@ -103,17 +103,16 @@ public:
                         progress);
         }
         queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
-            copy(commands, sums_, read_back_, count_ * sizeof(glm::vec4));
+            copy(commands, buffers_.sums, buffers_.read_back, count_ * sizeof(glm::vec4));
             barrier_to_host(commands);
         }));
-        return read_back_.as<const glm::vec4>().first(count_);
+        return buffers_.read_back.as<const glm::vec4>().first(count_);
     }
 
 private:
-    template <class T>
-    GpuBuffer upload(const VulkanDevice& device, const std::vector<T>& values, const char* what) {
-        return uploaded(device, queue_, std::as_bytes(std::span(values)), what);
-    }
+    struct Buffers {
+        GpuBuffer lights, triangles, images, texels, staging, receivers, sums, read_back;
+    };
 
     /// That a receiver can have to a lamp: shares of them are rounded up for each light. One at least, so
     /// that what is dark is written, too.
@@ -157,7 +156,7 @@ private:
     const LampTask& task_;
     GpuQueue& queue_;
     LampTables tables_;
-    GpuBuffer lights_, triangles_, images_, texels_, staging_, receivers_, sums_, read_back_;
+    Buffers buffers_;
     GpuKernel kernel_;
     GpuBindings bindings_;
     std::size_t count_ = 0;

@@ -173,7 +173,7 @@ TEST(GpuTrace, PassesGlassAsTheCpuDoes) {
 
 BakeResult bake_on(Backend backend, const Scene& scene, BakeOptions options) {
     options.tracer.backend = backend;
-    options.tracer.ray_queries = vulkan_choice().ray_queries;
+    options.tracer.traversal = vulkan_choice().traversal;
     return bake(scene, options);
 }
 
