@@ -37,6 +37,7 @@ threads() {
 }
 
 optimised() {
+    tests/support/fetch_drivers.sh build/drivers || echo "test.sh: no driver with ray queries: tests of them are skipped"
     cmake --preset check >/dev/null
     cmake --build --preset check
     # The web page: lint, units, types, and its pictures in Chromium against those of prt.
