@@ -228,9 +228,13 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     seconds.tracing = tracer->seconds();
 
     const Stopwatch transport;
-    const TransportOperators operators{sealed.refill, plan.diffusion,
-                                       direct.gather ? &*direct.gather : nullptr,
-                                       measured.fit ? &*measured.fit : nullptr};
+    const std::unique_ptr<GatherProduct> product =
+        direct.gather ? tracer->gather_product(*direct.gather) : nullptr;
+    const TransportOperators operators{.refill = sealed.refill,
+                                       .diffusion = plan.diffusion,
+                                       .gather = direct.gather ? &*direct.gather : nullptr,
+                                       .product = product.get(),
+                                       .fit = measured.fit ? &*measured.fit : nullptr};
     Propagated exit =
         propagate_all(plan, std::move(direct.transfer), operators, progress.part(traced_sky, 1));
     if (!plan.lamps.empty()) {
@@ -244,6 +248,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit));
     result.statistics.fit = asked.fit;
+    result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();
     seconds.all = all.seconds();
     result.statistics.seconds = seconds;

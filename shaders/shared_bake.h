@@ -35,6 +35,15 @@
 #define PRT_BINDING_SH_FACTORS 13
 #define PRT_BINDING_PROGRESS 14
 #define PRT_BINDING_BLOCKED_RAYS 15
+// Those of the gather.
+#define PRT_BINDING_ROW_ENDS 1
+#define PRT_BINDING_SOURCES 2
+#define PRT_BINDING_WEIGHTS 3
+#define PRT_BINDING_REFLECTANCE 4
+#define PRT_BINDING_EXIT 5
+#define PRT_BINDING_GATHERED 6
+#define PRT_BINDING_TOTAL 7
+#define PRT_BINDING_ENERGY 8
 // Specialisation constants.
 #define PRT_CONSTANT_ALPHA 0
 #define PRT_CONSTANT_TEXTURED 1
@@ -43,6 +52,9 @@
 #define PRT_CONSTANT_SUBGROUPS 4
 #define PRT_CONSTANT_STACK 5
 #define PRT_CONSTANT_OPAQUE 6
+#define PRT_CONSTANT_CHANNELS 7
+#define PRT_CONSTANT_ROW_THREADS 8
+#define PRT_CONSTANT_SHARED 9
 // Texture units.
 #define PRT_UNIT_OPAQUE_DEPTH 2
 #define PRT_UNIT_LAST_DEPTH 3
@@ -66,6 +78,8 @@
 #define PRT_CHUNK 1024
 #define PRT_BEAM 32
 #define PRT_BEAMS 2
+// Threads of a workgroup that gathers.
+#define PRT_GATHER_THREADS 64
 // Receivers of a workgroup whose rays to lamps are traced together.
 #define PRT_LAMP_THREADS 64
 

@@ -21,6 +21,17 @@ struct TracePush {
     float spread; // that of TracedRay, times the cosine to the normal
 };
 
+// Which rows of a block a dispatch gathers.
+struct GatherPush {
+    uint first_row, end_row; // of the block
+    uint first_gathered;     // where row 0 of the block is written
+    uint add;                // whether to the total, too
+};
+struct EnergyPush {
+    uint first, end; // vectors
+    uint place;      // of the energies
+};
+
 // A receiver that lamps shine on.
 struct LampReceiver {
     vec4 origin; // of its rays, off the surface; w: its index, as bits

@@ -5,10 +5,62 @@
 #include "lamps/lamp_light.h"
 #include "prt/gpu_failure.h"
 #include "trace/embree_tracer.h"
+#include "transport/gather.h"
+#include "transport/gather_product.h"
 
 #include <fmt/core.h>
 
 namespace prt {
+namespace {
+
+/// Products by a GPU while that lasts, then by the processor.
+class LastingProduct final : public GatherProduct {
+public:
+    LastingProduct(std::unique_ptr<GatherProduct> gpu, const GatherOperator& gather, int threads)
+        : gpu_(std::move(gpu)), gather_(gather), threads_(threads) {}
+
+    void load(int order, std::span<const float> exit) override {
+        order_ = order;
+        exit_ = exit;
+        reflected_.clear();
+        while_it_lasts([&] { gpu_->load(order, exit); });
+    }
+    void apply(std::size_t first, std::span<float> to) override {
+        if (while_it_lasts([&] { gpu_->apply(first, to); }))
+            return;
+        if (reflected_.empty()) {
+            reflected_.assign(exit_.begin(), exit_.end());
+            gather_.reflect(order_, reflected_, threads_);
+        }
+        gather_.apply(order_, reflected_, first, to, threads_);
+    }
+    std::optional<BounceEnergy> bounce(Transfer& transfer, int bounces, const Progress& progress) override {
+        std::optional<BounceEnergy> energy;
+        while_it_lasts([&] { energy = gpu_->bounce(transfer, bounces, progress); });
+        return energy;
+    }
+    std::size_t bytes_moved() const override { return gpu_ ? gpu_->bytes_moved() : 0; }
+
+private:
+    template <class Work>
+    bool while_it_lasts(const Work& work) {
+        try {
+            if (gpu_)
+                work();
+        } catch (const GpuFailure&) {
+            gpu_.reset();
+        }
+        return gpu_ != nullptr;
+    }
+
+    std::unique_ptr<GatherProduct> gpu_;
+    const GatherOperator& gather_;
+    int threads_, order_ = 0;
+    std::span<const float> exit_;
+    std::vector<float> reflected_; ///< what `exit_` is for the processor
+};
+
+} // namespace
 
 template <class Work>
 auto LastingTracer::lasting(const Work& work) {
@@ -46,6 +98,11 @@ void LastingTracer::trace(const Receivers& receivers, std::span<const std::uint3
 
 LampLight LastingTracer::lamp_light(const LampTask& task, const Progress& progress) {
     return lasting([&] { return tracer_->lamp_light(task, progress); });
+}
+
+std::unique_ptr<GatherProduct> LastingTracer::gather_product(const GatherOperator& gather) {
+    std::unique_ptr<GatherProduct> product = lasting([&] { return tracer_->gather_product(gather); });
+    return product ? std::make_unique<LastingProduct>(std::move(product), gather, scene_.threads()) : nullptr;
 }
 
 } // namespace prt

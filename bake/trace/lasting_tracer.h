@@ -25,6 +25,8 @@ public:
                const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                const Progress& progress = {}) override;
     LampLight lamp_light(const LampTask& task, const Progress& progress) override;
+    /// Products go on with the processor, too.
+    std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather) override;
 
 private:
     /// Calls `work`, and once more on the CPU where the GPU fails.

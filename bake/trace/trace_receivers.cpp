@@ -3,11 +3,16 @@
 #include "prt/trace_receivers.h"
 
 #include "prt/sh_basis.h"
+#include "transport/gather_product.h"
 
 #include <algorithm>
 #include <cassert>
 
 namespace prt {
+
+std::unique_ptr<GatherProduct> Tracer::gather_product(const GatherOperator&) {
+    return nullptr;
+}
 
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, const VectorSink& take, const Progress& progress,

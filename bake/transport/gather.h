@@ -56,6 +56,12 @@ public:
         std::unique_ptr<float[]> weights;         ///< [count][channels, or 1 where reflectance is shared]
     };
 
+    int channels() const { return channels_; }
+    std::size_t receivers() const { return receivers_.receivers.size(); }
+    std::span<const Row> all_rows() const { return rows_; }
+    /// [receivers], or nothing where an entry has a weight per channel.
+    std::span<const glm::vec3> reflectance() const { return reflectance_; }
+
 private:
     template <bool Colored>
     Row make_row(std::span<const Hit> hits, int rays) const;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace prt {
 namespace {
@@ -58,9 +59,15 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
     const auto stride = static_cast<std::size_t>(channels * coefficient_count(order));
     const auto apply = [&operators, order, channels, stride, threads](std::span<float> from,
                                                                       std::span<float> to) {
-        operators.gather->reflect(order, from, threads);
+        if (operators.product)
+            operators.product->load(order, from);
+        else
+            operators.gather->reflect(order, from, threads);
         incident_from_rows(operators, stride, to, threads, [&](std::size_t first, std::span<float> rows) {
-            operators.gather->apply(order, from, first, rows, threads);
+            if (operators.product)
+                operators.product->apply(first, rows);
+            else
+                operators.gather->apply(order, from, first, rows, threads);
         });
         exit_from_incident(operators, order, channels, to, threads);
     };
@@ -76,6 +83,27 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
             r[i] = static_cast<float>(static_cast<double>(b[i]) - static_cast<double>(x[i]) + incident[i]);
     };
     return {apply, residual};
+}
+
+/// What is left after a bounce, as a geometric series, over the sum of all.
+double remaining_after(const BounceEnergy& energy, double total) {
+    const double ratio = energy.before_last > 0 ? energy.last / energy.before_last : 0;
+    if (energy.last == 0 || total == 0)
+        return 0;
+    return ratio < 1 ? energy.last * ratio / (1 - ratio) / total : 1;
+}
+
+/// So many bounces on the device, where nothing happens to light between them.
+std::optional<Propagated> bounce_on_device(Transfer& transfer, const TransportOperators& operators,
+                                           int bounces, const Progress& progress) {
+    if (!operators.product || operators.fit || !operators.diffusion.empty() || operators.refill.size() > 0)
+        return std::nullopt;
+    const std::optional<BounceEnergy> energy = operators.product->bounce(transfer, bounces, progress);
+    if (!energy)
+        return std::nullopt;
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(transfer.layout.order));
+    const double total = largest_norm(transfer.vectors, coefficients);
+    return Propagated{std::move(transfer), bounces, remaining_after(*energy, total)};
 }
 
 /// Adds bounce after bounce, until so little remains.
@@ -94,11 +122,7 @@ Propagated bounce_often(Transfer transfer, const TransportOperators& operators, 
         std::swap(now, next);
         ++result.bounces;
         const double energy = largest_norm(now, coefficients);
-        const double ratio = before > 0 ? energy / before : 0;
-        const double total = largest_norm(transfer.vectors, coefficients);
-        result.remaining = energy == 0 || total == 0 ? 0
-                           : ratio < 1               ? energy * ratio / (1 - ratio) / total
-                                                     : 1;
+        result.remaining = remaining_after({before, energy}, largest_norm(transfer.vectors, coefficients));
         before = energy;
         result.converged = result.remaining < least_remaining;
         if (result.converged)
@@ -154,8 +178,11 @@ Propagated propagate(Transfer direct, const TransportOperators& operators, int b
     exit_from_incident(operators, direct.layout.order, direct.layout.channels(), direct.vectors, threads);
     if (!operators.gather || bounces == 0)
         return {.transfer = std::move(direct)};
-    if (bounces != kEndlessBounces)
+    if (bounces != kEndlessBounces) {
+        if (std::optional<Propagated> done = bounce_on_device(direct, operators, bounces, progress))
+            return std::move(*done);
         return bounce_often(std::move(direct), operators, bounces, 0, threads, progress);
+    }
     // Media may return more light than they took (docs/math.md, section 8): a solution of the equation need
     // then be no sum over bounces, so that the sum itself is taken.
     return operators.diffusion.empty()

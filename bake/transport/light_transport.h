@@ -8,6 +8,7 @@
 #include "surface/surface_fit.h"
 #include "transport/diffusion.h"
 #include "transport/gather.h"
+#include "transport/gather_product.h"
 
 #include <span>
 
@@ -19,6 +20,7 @@ struct TransportOperators {
     const Refill& refill;
     std::span<const DiffusionOperator> diffusion;
     const GatherOperator* gather = nullptr; ///< null: no bounces
+    GatherProduct* product = nullptr;       ///< by a device; null: by the processor
     const SurfaceFit* fit = nullptr; ///< makes receivers of the samples that `gather` is of; null: it is
                                      ///< of receivers
 };

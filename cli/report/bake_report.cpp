@@ -71,6 +71,7 @@ Json statistics_json(const BakeStatistics& s) {
             {"lamp_triangles", s.lamps.triangles},
             {"gather_entries", s.gather.entries},
             {"gather_bytes", s.gather.bytes},
+            {"gather_bytes_moved", s.gather.bytes_moved},
             {"notices", s.notices}};
 }
 
@@ -111,6 +112,8 @@ void add_sentences(const BakeOutcome& baked, Report& report) {
     if (s.gather.entries > 0)
         say("bounces: {gather_entries} pairs of receivers that light each other, {gather_bytes:.1fM} MB; at "
             "most {remaining_energy:.2g%} of a receiver's light is missing");
+    if (s.gather.bytes_moved > 0)
+        say("the GPU applied them: {gather_bytes_moved:.1fM} MB went to it and came back");
     if (s.lamps.count > 0)
         say("lamps: {lamps}, of {lamp_lights} lights and {lamp_triangles} triangles that shine");
     say("{mean_visibility:.1f%} of the light of a uniform sky arrives, on average");

@@ -116,6 +116,7 @@ struct BakeStatistics {
     };
     struct Gather {
         std::size_t entries = 0, bytes = 0;
+        std::size_t bytes_moved = 0; ///< to and from the device that applied it; 0: the processor did
     };
     struct Lamps {
         std::size_t count = 0, lights = 0, triangles = 0; ///< names, and what shines under them

@@ -6,11 +6,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <span>
 #include <string>
 
 namespace prt {
 
+class GatherOperator;
+class GatherProduct;
 struct LampLight;
 struct LampTask;
 
@@ -67,6 +70,9 @@ public:
     /// Direct light of lamps (bake/lamps/lamp_light.h), by samples that are the same for every tracer. Throws
     /// `Cancelled` when asked to stop.
     virtual LampLight lamp_light(const LampTask& task, const Progress& progress) = 0;
+    /// The products of bounces (bake/transport/gather_product.h), on a device that keeps a reference to
+    /// `gather`; null where the processor is as good.
+    virtual std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather);
     TraceSeconds seconds() const { return seconds_; }
 
 protected:

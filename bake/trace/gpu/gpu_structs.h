@@ -65,6 +65,9 @@ static_assert(sizeof(TracePush) == 40);
 PRT_AT(TracePush, receivers, 0);
 PRT_AT(TracePush, spread, 36);
 
+static_assert(sizeof(GatherPush) == 16);
+static_assert(sizeof(EnergyPush) == 12);
+
 static_assert(sizeof(HitRecord) == 24);
 PRT_AT(HitRecord, triangle, 0);
 PRT_AT(HitRecord, u, 4);

@@ -6,6 +6,7 @@
 #include "prt/sh.h"
 #include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
+#include "trace/gpu/gpu_gather.h"
 #include "trace/gpu/gpu_receivers.h"
 #include "trace/gpu/vulkan_lamp_light.h"
 #include "trace/sample_sequence.h"
@@ -285,6 +286,15 @@ void VulkanTracer::run(const Job& job, Results& results, const Progress& progres
             if (work.piece)
                 queue_.wait_for_all();
         throw;
+    }
+}
+
+std::unique_ptr<GatherProduct> VulkanTracer::gather_product(const GatherOperator& gather) {
+    pieces_ = {}; // what they take is wanted now
+    try {
+        return with_vulkan_errors([&] { return std::make_unique<GpuGather>(device_, queue_, gather); });
+    } catch (const GpuMemoryError&) {
+        return nullptr;
     }
 }
 

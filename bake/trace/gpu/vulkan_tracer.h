@@ -31,6 +31,8 @@ public:
                const TraceOptions& options, std::span<float> vectors, const HitSink& sink = {},
                const Progress& progress = {}) override;
     LampLight lamp_light(const LampTask& task, const Progress& progress) override;
+    /// None where the device has no room.
+    std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather) override;
     const VulkanDevice& vulkan() const { return device_; }
     std::size_t scene_bytes() const { return scene_on_gpu_.bytes(); }
 

@@ -34,7 +34,7 @@ guides=(PRT_GUIDE_NORMAL PRT_GUIDE_POSITION "PRT_GUIDE_ORIGIN vec3(1.0, 2.0, 3.0
 alike=("PRT_CLUSTER_ROWS 3" "PRT_SAME_WEIGHTS PRT_ADD(0u, PRT_BITS(8u, 16u)) PRT_ADD(1u, PRT_BITS(24u, 9u))")
 for file in *.vert *.frag *.comp; do
     case $file in
-        bake_accumulate.comp | bake_blocked.comp | bake_lamps.comp | bake_trace.comp) ;; # the build compiles them
+        bake_accumulate.comp | bake_blocked.comp | bake_energy.comp | bake_gather.comp | bake_lamps.comp | bake_trace.comp) ;; # the build compiles them
         bake_raster.*)
             for defines in PRT_OPAQUE PRT_ALPHA "PRT_ALPHA PRT_PEEL"; do
                 # shellcheck disable=SC2086

@@ -1,0 +1,244 @@
+// Bounces on a device: exit transfer lies there in two places, and goes from one to the other.
+
+#include "trace/gpu/gpu_gather.h"
+
+#include "prt/sh_basis.h"
+#include "prt/support/stopwatch.h"
+#include "trace/gpu/gpu_structs.h"
+
+#include "kernels/bake_energy.h"
+#include "kernels/bake_gather.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+constexpr double kGatherSeconds = 0.05;            ///< of a dispatch
+constexpr std::size_t kMostGatherGroups = 65535;   ///< that every device takes
+constexpr std::size_t kRowsAtOnce = 1 << 14;       ///< that are asked for where they are no receivers
+constexpr const char* kTransfer = "exit transfer"; ///< what buffers hold
+
+GpuBuffer upload_reflectance(const VulkanDevice& device, GpuQueue& queue, const GatherOperator& gather) {
+    std::vector<float> values;
+    for (const glm::vec3& reflectance : gather.reflectance())
+        for (int c = 0; c < gather.channels(); ++c)
+            values.push_back(reflectance[c]);
+    return uploaded(device, queue, std::as_bytes(std::span(values)), "the reflectance");
+}
+
+} // namespace
+
+/// What depends on the order: kernels, and exit transfer in two places and in sum.
+class GpuGather::Values {
+public:
+    Values(const GpuGather& owner, int for_order, bool with_total)
+        : order(for_order),
+          columns(static_cast<std::size_t>(owner.gather_.channels() * coefficient_count(order))),
+          has_total(with_total), owner_(owner) {
+        const VulkanDevice& device = owner.device_;
+        const std::size_t receivers = owner.gather_.receivers(),
+                          rows = std::max(receivers, std::min(kRowsAtOnce, owner.gather_.rows()));
+        for (GpuBuffer& place : transfer)
+            place = {device, rows * columns * sizeof(float), GpuMemory::device, kTransfer};
+        total = {device, with_total ? receivers * columns * sizeof(float) : 0, GpuMemory::device, kTransfer};
+        sent = {device, transfer[0].bytes(), GpuMemory::upload, kTransfer};
+        received = {device, transfer[0].bytes(), GpuMemory::download, kTransfer};
+        energies = {device, 2 * sizeof(std::uint32_t), GpuMemory::device, "energies"};
+        make_gather(device);
+        make_energy(device);
+    }
+
+    GpuResources resources(const GatherBlocks::Buffers& rows, std::size_t from) const {
+        return {{{PRT_BINDING_ROW_ENDS, &rows.row_ends},
+                 {PRT_BINDING_SOURCES, &rows.sources},
+                 {PRT_BINDING_WEIGHTS, &rows.weights},
+                 {PRT_BINDING_REFLECTANCE, &owner_.reflectance_},
+                 {PRT_BINDING_EXIT, &transfer[from]},
+                 {PRT_BINDING_GATHERED, &transfer[1 - from]},
+                 {PRT_BINDING_TOTAL, &total}}};
+    }
+
+    const int order;
+    const std::size_t columns;
+    const bool has_total;
+    std::array<GpuBuffer, 2> transfer;
+    GpuBuffer total, sent, received, energies;
+    GpuKernel gather, energy;
+    std::uint32_t row_threads = 1;
+    std::vector<std::array<GpuBindings, 2>> gather_bindings; ///< [blocks], from either place to the other
+    std::array<GpuBindings, 2> energy_bindings;              ///< of either place
+
+private:
+    void make_gather(const VulkanDevice& device) {
+        while (row_threads < columns && row_threads < PRT_GATHER_THREADS)
+            row_threads *= 2;
+        const GatherOperator& rows = owner_.gather_;
+        GpuKernel::Source source{
+            .spirv = bake_gather,
+            .push_bytes = sizeof(gpu::GatherPush),
+            .constants = {{PRT_CONSTANT_ORDER, static_cast<std::uint32_t>(order)},
+                          {PRT_CONSTANT_CHANNELS, static_cast<std::uint32_t>(rows.channels())},
+                          {PRT_CONSTANT_ROW_THREADS, row_threads},
+                          {PRT_CONSTANT_SHARED, !rows.reflectance().empty()}}};
+        source.take_bindings(resources({}, 0));
+        gather = GpuKernel(device, source);
+        for (std::size_t i = 0; i < owner_.blocks_.all().size(); ++i) {
+            gather_bindings.emplace_back();
+            for (const std::size_t from : {0u, 1u})
+                gather_bindings.back()[from] = {device, gather, resources(owner_.blocks_.buffers(i), from)};
+        }
+    }
+
+    void make_energy(const VulkanDevice& device) {
+        GpuKernel::Source source{.spirv = bake_energy,
+                                 .push_bytes = sizeof(gpu::EnergyPush),
+                                 .constants = {{PRT_CONSTANT_ORDER, static_cast<std::uint32_t>(order)}}};
+        const auto of = [&](std::size_t place) -> GpuResources {
+            return {{{PRT_BINDING_GATHERED, &transfer[place]}, {PRT_BINDING_ENERGY, &energies}}};
+        };
+        source.take_bindings(of(0));
+        energy = GpuKernel(device, source);
+        for (const std::size_t place : {0u, 1u})
+            energy_bindings[place] = {device, energy, of(place)};
+    }
+
+    const GpuGather& owner_;
+};
+
+GpuGather::GpuGather(const VulkanDevice& device, GpuQueue& queue, const GatherOperator& gather,
+                     const GatherBlocks::Room& room)
+    : device_(device), queue_(queue), gather_(gather), blocks_(device, queue, gather, room),
+      reflectance_(upload_reflectance(device, queue, gather)) {}
+
+GpuGather::~GpuGather() {
+    queue_.wait_for_all();
+}
+
+GpuGather::Values& GpuGather::values(int order, bool with_total) {
+    if (!values_ || values_->order != order || (with_total && !values_->has_total)) {
+        queue_.wait_for_all();
+        values_.reset(); // before others take its memory
+        values_ = std::make_unique<Values>(*this, order, with_total);
+    }
+    return *values_;
+}
+
+void GpuGather::load(int order, std::span<const float> exit) {
+    with_vulkan_errors([&] {
+        Values& v = values(order, false);
+        std::ranges::copy(exit, v.sent.as<float>().begin());
+        queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+            copy(commands, v.sent, v.transfer[0], exit.size_bytes());
+        }));
+        bytes_moved_ += exit.size_bytes();
+    });
+}
+
+void GpuGather::apply(std::size_t first, std::span<float> to) {
+    with_vulkan_errors([&] {
+        const Values& v = *values_;
+        gather(first, first + to.size() / v.columns, 0, false, {});
+        queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+            copy(commands, v.transfer[1], v.received, to.size_bytes());
+            barrier_to_host(commands);
+        }));
+        std::ranges::copy(v.received.as<const float>().first(to.size()), to.begin());
+        bytes_moved_ += to.size_bytes();
+    });
+}
+
+void GpuGather::gather(std::size_t first, std::size_t end, std::size_t from, bool add,
+                       const Progress& progress) {
+    const Values& v = *values_;
+    const std::size_t rows_of_group = PRT_GATHER_THREADS / v.row_threads;
+    GpuQueue::Ticket before = 0;
+    double work_before = 0;
+    const auto measure = [&](GpuQueue::Ticket ticket, double work) {
+        queue_.wait(ticket);
+        if (const double took = queue_.seconds(ticket); ticket > 0 && took > 0)
+            work_per_second_ = 0.5 * (work_per_second_ + work / took);
+    };
+    for (std::size_t b = 0; b < blocks_.all().size(); ++b) {
+        const GatherBlocks::Block& block = blocks_.all()[b];
+        const std::size_t block_end = std::min(end, block.end());
+        if (std::max(first, block.first) < block_end && !block.resident) {
+            queue_.wait(before); // the shared place is read until then
+            blocks_.want(b);
+        }
+        const double work_of_row = static_cast<double>((block.entries / block.rows + 1) * v.columns);
+        for (std::size_t row = std::max(first, block.first); row < block_end;) {
+            progress.check();
+            const auto in_time = static_cast<std::size_t>(work_per_second_ * kGatherSeconds / work_of_row);
+            const std::size_t count =
+                std::min({block_end - row, std::max<std::size_t>(in_time, rows_of_group),
+                          kMostGatherGroups * rows_of_group});
+            const gpu::GatherPush push{.first_row = static_cast<std::uint32_t>(row - block.first),
+                                       .end_row = static_cast<std::uint32_t>(row - block.first + count),
+                                       .first_gathered = static_cast<std::uint32_t>(block.first - first),
+                                       .add = add ? 1u : 0u};
+            const GpuQueue::Ticket ticket = queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+                v.gather.dispatch(commands, v.gather_bindings[b][from].handle(), push,
+                                  (count + rows_of_group - 1) / rows_of_group);
+            });
+            measure(before, work_before);
+            before = ticket;
+            work_before = work_of_row * static_cast<double>(count);
+            row += count;
+        }
+    }
+    measure(before, work_before);
+}
+
+std::optional<BounceEnergy> GpuGather::bounce(Transfer& transfer, int bounces, const Progress& progress) {
+    return with_vulkan_errors([&]() -> std::optional<BounceEnergy> {
+        const std::size_t receivers = gather_.receivers();
+        try {
+            values(transfer.layout.order, true);
+        } catch (const GpuMemoryError&) {
+            return std::nullopt;
+        }
+        const Values& v = *values_;
+        load(transfer.layout.order, transfer.vectors);
+        queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+            copy(commands, v.transfer[0], v.total, std::span(transfer.vectors).size_bytes());
+            commands.fillBuffer(v.energies.handle(), 0, VK_WHOLE_SIZE, 0);
+        });
+        const auto vectors =
+            static_cast<std::uint32_t>(receivers * static_cast<std::size_t>(gather_.channels()));
+        const auto measure = [&](std::size_t place, std::uint32_t bounce) {
+            gpu::EnergyPush push{.first = 0, .end = vectors, .place = bounce};
+            constexpr std::uint32_t kAtOnce = kMostGatherGroups * PRT_GATHER_THREADS;
+            for (; push.first < vectors; push.first += kAtOnce)
+                queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+                    v.energy.dispatch(commands, v.energy_bindings[place].handle(), push,
+                                      (std::min(kAtOnce, vectors - push.first) + PRT_GATHER_THREADS - 1) /
+                                          PRT_GATHER_THREADS);
+                });
+        };
+        std::size_t from = 0;
+        for (int b = 0; b < bounces; ++b, from = 1 - from) {
+            if (b + 1 == bounces)
+                measure(from, 0);
+            gather(0, receivers, from, true, progress);
+            progress.update(static_cast<double>(b + 1) / bounces);
+        }
+        measure(from, 1);
+        const std::span<float> sums(transfer.vectors);
+        GpuBuffer energies(device_, v.energies.bytes(), GpuMemory::download, "energies");
+        queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+            copy(commands, v.total, v.received, sums.size_bytes());
+            copy(commands, v.energies, energies, energies.bytes());
+            barrier_to_host(commands);
+        }));
+        std::ranges::copy(v.received.as<const float>().first(sums.size()), sums.begin());
+        bytes_moved_ += sums.size_bytes();
+        const auto found = energies.as<const float>();
+        return BounceEnergy{.before_last = std::sqrt(static_cast<double>(found[0])),
+                            .last = std::sqrt(static_cast<double>(found[1]))};
+    });
+}
+
+} // namespace prt
