@@ -8,9 +8,17 @@ layout(std430, binding = PRT_BINDING_NODES) readonly buffer Nodes {
     WideNode nodes[];
 };
 
+struct BvhHit {
+    uint slot; // in the order of `corners`
+    float t;
+    vec2 uv;
+    float facing; // above 0: met from behind
+    float covered;
+};
+
 // By Plücker coordinates about the origin: neighbours agree on the side of a shared edge, so that no ray passes
 // between them.
-bool hit_triangle(TracedRay ray, uint slot, float t_min, float t_max, out RayHit hit) {
+bool hit_triangle(TracedRay ray, uint slot, float t_min, float t_max, out BvhHit hit) {
     precise vec3 a = corners[3u * slot].xyz - ray.origin;
     precise vec3 b = corners[3u * slot + 1u].xyz - ray.origin;
     precise vec3 c = corners[3u * slot + 2u].xyz - ray.origin;
@@ -63,7 +71,7 @@ uvec2 hit_children(WideNode node, TracedRay ray, vec3 inverse, uint last_slot, f
 
 // With `any` what is left of the ray's light in [t_min, t_max) goes to `left`, and the answer is whether that is less
 // than `least`; else whether there is a nearest triangle that stops some.
-bool trace_ray(TracedRay ray, float t_min, float t_max, bool any, float least, inout float left, out RayHit nearest) {
+bool trace_ray(TracedRay ray, float t_min, float t_max, bool any, float least, inout float left, out BvhHit nearest) {
     vec3 inverse = 1.0 / mix(ray.direction, vec3(1e-20), lessThan(abs(ray.direction), vec3(1e-20)));
     uint last_slot = (inverse.x < 0.0 ? 0u : 1u) | (inverse.y < 0.0 ? 0u : 2u) | (inverse.z < 0.0 ? 0u : 4u);
     nearest.t = t_max;
@@ -84,9 +92,9 @@ bool trace_ray(TracedRay ray, float t_min, float t_max, bool any, float least, i
         while (hits.x != 0u) {
             uint i = uint(findLSB(hits.x));
             hits.x &= hits.x - 1u;
-            RayHit hit;
+            BvhHit hit;
             if (hit_triangle(ray, node.first_triangle + i, t_min, nearest.t, hit)) {
-                hit.covered = covered_at(ray, hit.slot, hit.t, hit.uv);
+                hit.covered = covered_at(ray, hit.slot, hit.t, hit.uv, ray.direction);
                 left *= 1.0 - hit.covered;
                 if (any ? left < least : hit.covered > 0.0) {
                     nearest = hit;
@@ -109,13 +117,23 @@ bool trace_ray(TracedRay ray, float t_min, float t_max, bool any, float least, i
 
 // The nearest triangle in [t_min, t_max) that stops some light.
 bool nearest(TracedRay ray, float t_min, float t_max, out RayHit hit) {
+    BvhHit met;
     float left = 1.0;
-    return trace_ray(ray, t_min, t_max, false, 0.0, left, hit);
+    bool found = trace_ray(ray, t_min, t_max, false, 0.0, left, met);
+    if (found) {
+        hit.triangle = floatBitsToUint(corners[3u * met.slot].w);
+        hit.t = met.t;
+        hit.uv = met.uv;
+        hit.back = met.facing > 0.0;
+        hit.covered = met.covered;
+        hit.footprint = kTextured ? footprint_of(ray, met.slot, met.t, ray.direction) : 0.0;
+    }
+    return found;
 }
 
 // Share of light that passes as far as t_max; less than `least` is nothing.
 float transmittance(TracedRay ray, float t_max, float least) {
-    RayHit hit;
+    BvhHit hit;
     float left = 1.0;
     return trace_ray(ray, 0.0, t_max, true, least, left, hit) ? 0.0 : left;
 }

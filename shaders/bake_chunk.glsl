@@ -46,7 +46,5 @@ void aim(inout Chunk c, uint i) {
 }
 
 HitRecord record_of(Chunk c, RayHit hit, float weight) {
-    float footprint = kTextured ? footprint_of(c.ray, hit.slot, hit.t) : 0.0;
-    return HitRecord(triangle_of(hit.slot) | (hit.facing > 0.0 ? PRT_HIT_BACK : 0u), hit.uv.x, hit.uv.y, weight,
-                     footprint, c.row);
+    return HitRecord(hit.triangle | (hit.back ? PRT_HIT_BACK : 0u), hit.uv.x, hit.uv.y, weight, hit.footprint, c.row);
 }

@@ -3,9 +3,20 @@
 layout(binding = PRT_BINDING_NODES) uniform accelerationStructureEXT structure;
 layout(constant_id = PRT_CONSTANT_OPAQUE) const uint kOpaque = 0u; // triangles, which come before the others
 
+layout(std430, binding = PRT_BINDING_INSTANCES) readonly buffer Instances {
+    uvec2 instances[]; // first slot, and what its triangles' numbers are more than those in `corners`
+};
+
+#define PRT_INSTANCE(query, committed) instances[rayQueryGetIntersectionInstanceIdEXT(query, committed)]
+// Of instances that have both, opaque triangles come before the others.
 #define PRT_SLOT(query, committed)                                                                                     \
-    (uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, committed)) +                                                \
+    (PRT_INSTANCE(query, committed).x + uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, committed)) +             \
      (kAlpha && rayQueryGetIntersectionGeometryIndexEXT(query, committed) > 0 ? kOpaque : 0u))
+// Share of light that the triangle in question stops.
+#define PRT_COVERED(query, committed)                                                                                  \
+    covered_at(ray, PRT_SLOT(query, committed), rayQueryGetIntersectionTEXT(query, committed),                         \
+               rayQueryGetIntersectionBarycentricsEXT(query, committed),                                               \
+               rayQueryGetIntersectionObjectRayDirectionEXT(query, committed))
 
 // The nearest triangle in [t_min, t_max) that stops some light.
 bool nearest(TracedRay ray, float t_min, float t_max, out RayHit hit) {
@@ -13,19 +24,18 @@ bool nearest(TracedRay ray, float t_min, float t_max, out RayHit hit) {
     rayQueryInitializeEXT(query, structure, kAlpha ? gl_RayFlagsNoneEXT : gl_RayFlagsOpaqueEXT, 0xff, ray.origin, t_min,
                           ray.direction, t_max);
     while (rayQueryProceedEXT(query))
-        if (kAlpha) {
-            uint slot = PRT_SLOT(query, false);
-            if (covered_at(ray, slot, rayQueryGetIntersectionTEXT(query, false),
-                           rayQueryGetIntersectionBarycentricsEXT(query, false)) > 0.0)
-                rayQueryConfirmIntersectionEXT(query);
-        }
+        if (kAlpha && PRT_COVERED(query, false) > 0.0)
+            rayQueryConfirmIntersectionEXT(query);
     bool found = rayQueryGetIntersectionTypeEXT(query, true) != gl_RayQueryCommittedIntersectionNoneEXT;
     if (found) {
-        hit.slot = PRT_SLOT(query, true);
+        uint slot = PRT_SLOT(query, true);
+        vec3 direction = rayQueryGetIntersectionObjectRayDirectionEXT(query, true);
+        hit.triangle = floatBitsToUint(corners[3u * slot].w) + PRT_INSTANCE(query, true).y;
         hit.t = rayQueryGetIntersectionTEXT(query, true);
         hit.uv = rayQueryGetIntersectionBarycentricsEXT(query, true);
-        hit.facing = dot(area_vector(hit.slot), ray.direction);
-        hit.covered = covered_at(ray, hit.slot, hit.t, hit.uv);
+        hit.back = dot(area_vector(slot), direction) > 0.0;
+        hit.covered = PRT_COVERED(query, true);
+        hit.footprint = kTextured ? footprint_of(ray, slot, hit.t, direction) : 0.0;
     }
     return found;
 }
@@ -39,8 +49,7 @@ float transmittance(TracedRay ray, float t_max, float least) {
                           0xff, ray.origin, 0.0, ray.direction, t_max);
     while (rayQueryProceedEXT(query))
         if (kAlpha) {
-            left *= 1.0 - covered_at(ray, PRT_SLOT(query, false), rayQueryGetIntersectionTEXT(query, false),
-                                     rayQueryGetIntersectionBarycentricsEXT(query, false));
+            left *= 1.0 - PRT_COVERED(query, false);
             if (left < least)
                 rayQueryConfirmIntersectionEXT(query);
         }

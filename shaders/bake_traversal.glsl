@@ -6,11 +6,11 @@ layout(std430, binding = PRT_BINDING_CORNERS) readonly buffer Corners {
 };
 
 struct RayHit {
-    uint slot; // in the order of `corners`
+    uint triangle; // in the scene's order
     float t;
     vec2 uv;
-    float facing; // cosine to the area vector, times its length; above 0: met from behind
-    float covered;
+    bool back; // met from behind
+    float covered, footprint;
 };
 
 const float kFar = 3.402823e38;
@@ -21,10 +21,6 @@ struct TracedRay {
     float spread;
 };
 
-uint triangle_of(uint slot) {
-    return floatBitsToUint(corners[3u * slot].w);
-}
-
 #include "bake_alpha.glsl"
 
 vec3 area_vector(uint slot) {
@@ -32,17 +28,20 @@ vec3 area_vector(uint slot) {
     return cross(corners[3u * slot + 1u].xyz - a, corners[3u * slot + 2u].xyz - a);
 }
 
-float footprint_of(TracedRay ray, uint slot, float t) {
+// `direction`: that of the ray where the triangle's corners stand, which may be a copy of it, turned and scaled.
+float footprint_of(TracedRay ray, uint slot, float t, vec3 direction) {
     vec3 face = area_vector(slot);
-    return ray.spread * t * t * length(face) / abs(dot(face, ray.direction));
+    return ray.spread * t * t * length(face) * length(direction) / abs(dot(face, direction));
 }
 
 // Share of light that a triangle stops there.
-float covered_at(TracedRay ray, uint slot, float t, vec2 uv) {
+float covered_at(TracedRay ray, uint slot, float t, vec2 uv, vec3 direction) {
     uint alpha = floatBitsToUint(corners[3u * slot + 1u].w);
     if (!kAlpha || alpha == 0u)
         return 1.0;
-    return coverage(alpha, uv, ray.spread > 0.0 ? footprint_of(ray, slot, t) : 0.0);
+    // In the metres of the copy.
+    float footprint = ray.spread > 0.0 ? footprint_of(ray, slot, t, direction) * dot(direction, direction) : 0.0;
+    return coverage(alpha, uv, footprint);
 }
 
 // The next number above a distance: where a ray goes on behind what it met. GPUs may take smaller ones for 0.

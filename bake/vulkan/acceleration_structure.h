@@ -5,33 +5,49 @@
 #include "vulkan/gpu_buffer.h"
 #include "vulkan/gpu_queue.h"
 
+#include <glm/mat4x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <span>
+#include <vector>
 
 namespace prt {
 
 class AccelerationStructure {
 public:
-    /// Over `triangles` of `positions`: one level, below one instance. The first `opaque` triangles are its
-    /// first geometry, of which shaders are not asked; the others are its second. Throws `Error` where the
-    /// device has no room.
+    /// Triangles that stand side by side among all, the opaque ones first. Shaders are not asked about those;
+    /// where there are both, they are the first geometry and the others the second.
+    struct Mesh {
+        std::size_t first = 0, opaque = 0, others = 0;
+    };
+    struct Copy {
+        std::size_t mesh = 0;
+        glm::mat4x3 transform{1};
+    };
+
+    /// A bottom level for each of `meshes` over their `triangles` of `positions`, and a top level with
+    /// `copies`, which rays find by their place here. Throws `Error` where the device has no room.
     AccelerationStructure(const VulkanDevice& device, GpuQueue& queue, std::span<const glm::vec3> positions,
-                          std::span<const glm::uvec3> triangles, std::size_t opaque);
+                          std::span<const glm::uvec3> triangles, std::span<const Mesh> meshes,
+                          std::span<const Copy> copies);
 
     vk::AccelerationStructureKHR handle() const { return *top_.structure; }
-    std::size_t bytes() const { return bottom_.memory.bytes() + top_.memory.bytes(); }
+    std::size_t bytes() const;
 
 private:
     struct Level {
         GpuBuffer memory;
         vk::raii::AccelerationStructureKHR structure = nullptr;
     };
+    struct Input {
+        std::vector<vk::AccelerationStructureGeometryKHR> geometries;
+        std::vector<vk::AccelerationStructureBuildRangeInfoKHR> ranges;
+    };
     static Level build(const VulkanDevice& device, GpuQueue& queue, vk::AccelerationStructureTypeKHR type,
-                       std::span<const vk::AccelerationStructureGeometryKHR> geometries,
-                       std::span<const std::uint32_t> counts);
+                       const Input& input);
 
-    Level bottom_, top_;
+    std::vector<Level> bottom_; ///< [meshes]
+    Level top_;
 };
 
 } // namespace prt

@@ -29,7 +29,7 @@ namespace {
 using Words = std::span<const std::uint32_t>;
 using Constants = std::map<std::uint32_t, std::uint32_t>;
 
-constexpr std::uint32_t kMostBinding = 15;
+constexpr std::uint32_t kMostBinding = 16;
 
 struct Device {
     vk::raii::Context context;

@@ -5,6 +5,7 @@
 #include "prt/scene.h"
 #include "prt/texture.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace prt::test {
@@ -18,5 +19,10 @@ Texture dotted_texture();
 Scene under_glass(AlphaMode mode);
 /// Of that ceiling: two textures.
 std::vector<Texture> glass_textures();
+/// So many copies of a ball and of a dotted leaf over a floor, turned, scaled and moved; one of the balls is
+/// squeezed. `alone`: as if the file had each of them as a mesh of its own.
+Scene copies_over_floor(int copies, bool alone);
+/// Scattered triangles, among them points, lines, needles, doubles and far ones, over a floor.
+Scene degenerate_triangles(std::uint32_t seed);
 
 } // namespace prt::test

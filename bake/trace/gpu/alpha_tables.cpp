@@ -87,13 +87,13 @@ AlphaTriangle alpha_triangle(const AlphaLayer& layer, std::uint32_t index, const
 
 } // namespace
 
-AlphaTables make_alpha_tables(const TraceScene& trace_scene) {
+AlphaTables make_alpha_tables(const TraceScene& trace_scene, std::span<const std::uint32_t> triangles) {
     const Scene& scene = trace_scene.scene();
     const Surfaces& surfaces = trace_scene.surfaces();
     AlphaTables tables;
     tables.index.resize(surfaces.triangles());
     std::vector<std::uint32_t> material_of(scene.primitives.size(), PRT_NO_TEXELS); // of the first layer
-    for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
+    for (const std::uint32_t t : triangles) {
         if (surfaces.opaque(t))
             continue;
         const Primitive& primitive = scene.primitives[surfaces.primitive(t)];

@@ -18,7 +18,8 @@ struct AlphaTables {
     std::vector<std::uint8_t> texels;
 };
 
-AlphaTables make_alpha_tables(const TraceScene& scene);
+/// Of `triangles`; those of the others are 0.
+AlphaTables make_alpha_tables(const TraceScene& scene, std::span<const std::uint32_t> triangles);
 
 /// Those that cast shadows: the opaque ones, then the others.
 std::vector<std::uint32_t> shadowing_triangles(const TraceScene& scene);

@@ -14,24 +14,31 @@ namespace prt {
 
 class GpuScene {
 public:
-    /// Builds a hierarchy, by the device where it traverses itself, and uploads. Throws `Error` where the
-    /// scene does not fit.
+    /// Builds a hierarchy, by the device where it traverses itself, and uploads. Meshes that stand in the
+    /// scene several times are there once for the device's own. Throws `Error` where the scene does not fit.
     GpuScene(const VulkanDevice& device, GpuQueue& queue, const TraceScene& scene);
 
     bool has_alpha() const { return has_alpha_; }
     const AlphaTables& alpha() const { return alpha_; }
-    std::size_t bytes() const; ///< in the device's memory
+    std::size_t bytes() const;                     ///< in the device's memory
+    std::size_t copies() const { return copies_; } ///< of meshes that it has once, the first ones too
     /// What a kernel that traces has of it, beside what is its own.
     GpuResources resources() const;
-    /// Its specialisation constants, where `textured` asks for footprints.
+    /// Its specialisation constants.
     std::map<std::uint32_t, std::uint32_t> constants() const;
 
 private:
+    void build_structure(const VulkanDevice& device, GpuQueue& queue, const TraceScene& scene);
+    void build_nodes(const VulkanDevice& device, GpuQueue& queue, const TraceScene& scene);
+    void upload_tables(const VulkanDevice& device, GpuQueue& queue, const TraceScene& scene,
+                       std::span<const std::uint32_t> slots);
+
     bool has_alpha_, textured_;
     AlphaTables alpha_;
-    std::uint32_t opaque_ = 0;
+    std::uint32_t opaque_ = 0; ///< triangles before the others, of those that stand alone
     int levels_ = 0;
-    GpuBuffer nodes_, corners_, alpha_triangles_, alpha_materials_, alpha_texels_;
+    std::size_t copies_ = 0;
+    GpuBuffer nodes_, instances_, corners_, alpha_triangles_, alpha_materials_, alpha_texels_;
     std::optional<AccelerationStructure> structure_;
 };
 

@@ -8,8 +8,8 @@
 namespace prt {
 
 RasterScene::RasterScene(const TraceScene& scene) : has_alpha_(scene.surfaces().traits().alpha) {
-    const AlphaTables alpha = make_alpha_tables(scene);
     const std::vector<std::uint32_t> triangles = shadowing_triangles(scene);
+    const AlphaTables alpha = make_alpha_tables(scene, triangles);
     triangles_ = triangles.size();
     corners_ = storage_buffer(tagged_corners(scene, triangles, alpha), "the triangles");
     alpha_triangles_ = storage_buffer(alpha.triangles, "the cut-out triangles");

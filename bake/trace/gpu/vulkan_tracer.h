@@ -34,7 +34,8 @@ public:
     /// None where the device has no room.
     std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather) override;
     const VulkanDevice& vulkan() const { return device_; }
-    std::size_t scene_bytes() const { return scene_on_gpu_.bytes(); }
+    std::size_t scene_bytes() const { return scene_on_gpu_.bytes(); } ///< in the device's memory
+    std::size_t copies() const { return scene_on_gpu_.copies(); }     ///< of meshes that it has once
 
 private:
     struct Job;

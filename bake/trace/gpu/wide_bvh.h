@@ -11,9 +11,9 @@
 namespace prt {
 
 struct WideBvh {
-    std::vector<gpu::WideNode> nodes = {}; ///< the root is the first
+    std::vector<gpu::WideNode> nodes = {};     ///< the root is the first
     std::vector<std::uint32_t> triangles = {}; ///< in the order of the leaves: index in the scene's order
-    int depth = 0;                        ///< levels of nodes
+    int depth = 0;                             ///< levels of nodes
 };
 
 /// Built by Embree's builder. `positions` [receivers], `corners` [triangles]. Throws `Error` when memory runs

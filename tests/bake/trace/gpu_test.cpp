@@ -2,6 +2,7 @@
 
 #include "prt/bake.h"
 #include "prt/error_measures.h"
+#include "prt/sh_basis.h"
 #include "prt/support/error.h"
 #include "support/bounce_off_triangle.h"
 #include "support/gpu_scenes.h"
@@ -15,6 +16,7 @@
 
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <numeric>
 
 namespace prt {
@@ -168,6 +170,60 @@ TEST(GpuTrace, PassesGlassAsTheCpuDoes) {
         EXPECT_LT(pair.distance(cpu, pair.on_gpu(options)), kGrazing);
         Pair clay(under_a_ceiling(mode), glass_textures());
         EXPECT_GT(pair.distance(cpu, clay.on_cpu(options)), 0.02);
+    }
+}
+
+TEST(GpuTrace, HasCopiesOfAMeshOnce) {
+    const TraceOptions options{.order = 4, .rays = 256, .seed = 1};
+    constexpr int kCopies = 12;
+    Pair alone(copies_over_floor(kCopies, true), {dotted_texture()}),
+        shared(copies_over_floor(kCopies, false), {dotted_texture()});
+    EXPECT_LT(shared.difference(options), kGrazing);
+    EXPECT_EQ(alone.on_gpu(options).vectors.size(), shared.on_gpu(options).vectors.size());
+    const double hits = weight_of_hits(shared, shared.cpu(), options);
+    EXPECT_NEAR(weight_of_hits(shared, shared.gpu(), options), hits, 1e-3 * hits);
+    if (vulkan_choice().traversal == Traversal::device) {
+        EXPECT_EQ(alone.gpu().copies(), 0u);
+        EXPECT_EQ(shared.gpu().copies(), 2u * kCopies - 1); // the squeezed ball is another mesh
+        EXPECT_LT(shared.gpu().scene_bytes(), alone.gpu().scene_bytes());
+    }
+}
+
+TEST(GpuTrace, MeetsTheSameTrianglesOfCopies) {
+    Pair pair(copies_over_floor(6, false), {dotted_texture()});
+    const TraceOptions options{.order = 1, .rays = 128, .seed = 2};
+    const auto sums = [&](Tracer& tracer) {
+        std::map<std::pair<std::uint32_t, bool>, double> weights;
+        std::mutex lock;
+        pair.trace(tracer, options, [&](std::uint32_t, std::span<const Hit> hits) {
+            const std::lock_guard held(lock);
+            for (const Hit& hit : hits)
+                weights[{hit.triangle, hit.back}] += static_cast<double>(hit.weight * (1 + hit.footprint));
+        });
+        return weights;
+    };
+    const auto cpu = sums(pair.cpu()), gpu = sums(pair.gpu());
+    double different = 0, all = 0;
+    for (const auto& [key, weight] : cpu) {
+        all += weight;
+        different += std::abs(weight - (gpu.contains(key) ? gpu.at(key) : 0));
+    }
+    EXPECT_LT(different, 1e-3 * all);
+}
+
+TEST(GpuTrace, TakesDegenerateTrianglesAsTheCpuDoes) {
+    constexpr std::size_t kFloor = 36; // vertices, which stand before those of the triangles
+    for (std::uint32_t seed = 0; seed < 6; ++seed) {
+        Pair pair(degenerate_triangles(seed));
+        const TraceOptions options{.order = 1, .rays = 1024, .seed = seed};
+        const Transfer cpu = pair.on_cpu(options), gpu = pair.on_gpu(options);
+        double different = 0; // rays, about
+        for (std::size_t p = 0; p < kFloor; ++p)
+            different += 1024 * std::abs(static_cast<double>(cpu.vectors[p] - gpu.vectors[p])) / kY00;
+        // What rounding decides: edges, and triangles a kilometre long.
+        EXPECT_LT(different, 1e-3 * kFloor * 1024) << seed;
+        for (const float v : gpu.vectors)
+            EXPECT_TRUE(std::isfinite(v));
     }
 }
 

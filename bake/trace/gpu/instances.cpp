@@ -1,0 +1,124 @@
+// Finds copies by the numbers of the file's mesh, and the motion between them from four vertices; all others
+// tell whether it is that.
+
+#include "trace/gpu/instances.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_access.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <span>
+#include <tuple>
+
+namespace prt {
+namespace {
+
+/// Of the largest coordinate: how far a copy's vertex may be from where the motion takes it. Rounding of the
+/// positions is half a unit; a ray starts sixteen units off its surface.
+constexpr double kTolerance = 4 * static_cast<double>(std::numeric_limits<float>::epsilon());
+/// How much a scale may differ between axes: what rounding does to short sides.
+constexpr double kUneven = 1e-3;
+
+/// Three vertices far apart, which tell a motion of a shape that is flat, too.
+using Frame = std::array<std::size_t, 3>;
+
+std::optional<Frame> frame_of(std::span<const glm::vec3> positions) {
+    const auto farthest = [&](auto&& distance) {
+        return static_cast<std::size_t>(std::ranges::max_element(positions, {}, distance) -
+                                        positions.begin());
+    };
+    if (positions.size() < 3)
+        return std::nullopt;
+    const glm::dvec3 any(positions[0]);
+    const std::size_t a = farthest([&](const glm::vec3& p) { return glm::distance(glm::dvec3(p), any); });
+    const glm::dvec3 first(positions[a]);
+    const std::size_t b = farthest([&](const glm::vec3& p) { return glm::distance(glm::dvec3(p), first); });
+    const glm::dvec3 side = glm::dvec3(positions[b]) - first;
+    const auto off_side = [&](const glm::vec3& p) {
+        return glm::length(glm::cross(side, glm::dvec3(p) - first));
+    };
+    const std::size_t c = farthest(off_side);
+    if (!(off_side(positions[c]) > 1e-3 * glm::dot(side, side))) // a line, or nearly
+        return std::nullopt;
+    return Frame{a, b, c};
+}
+
+/// Sides of the frame and, as long as they are on the whole, its normal.
+glm::dmat3 axes_of(std::span<const glm::vec3> positions, const Frame& frame) {
+    const glm::dvec3 a(positions[frame[0]]), ab = glm::dvec3(positions[frame[1]]) - a,
+                                             ac = glm::dvec3(positions[frame[2]]) - a,
+                                             normal = glm::cross(ab, ac);
+    return {ab, ac, normal / std::sqrt(glm::length(normal))};
+}
+
+double largest_coordinate_of(std::span<const glm::vec3> positions) {
+    double largest = 0;
+    for (const glm::vec3& p : positions)
+        largest = std::max({largest, std::abs(static_cast<double>(p.x)), std::abs(static_cast<double>(p.y)),
+                            std::abs(static_cast<double>(p.z))});
+    return largest;
+}
+
+/// Whether it turns and scales, all axes alike, and does not mirror.
+bool is_even(const glm::dmat3& turn) {
+    const double volume = glm::determinant(turn);
+    if (!(volume > 0))
+        return false;
+    const glm::dmat3 unit = turn / std::cbrt(volume);
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (std::abs(glm::dot(unit[i], unit[j]) - (i == j ? 1 : 0)) > kUneven)
+                return false;
+    return true;
+}
+
+std::optional<glm::mat4x3> motion(std::span<const glm::vec3> from, std::span<const glm::vec3> to,
+                                  const Frame& frame) {
+    const glm::dmat3 turn = axes_of(to, frame) * glm::inverse(axes_of(from, frame));
+    if (!is_even(turn))
+        return std::nullopt;
+    const glm::dvec3 shift = glm::dvec3(to[frame[0]]) - turn * glm::dvec3(from[frame[0]]);
+    const double most = kTolerance * std::max(largest_coordinate_of(from), largest_coordinate_of(to));
+    for (std::size_t v = 0; v < from.size(); ++v)
+        if (!(glm::distance(turn * glm::dvec3(from[v]) + shift, glm::dvec3(to[v])) <= most))
+            return std::nullopt;
+    return glm::mat4x3(glm::vec3(turn[0]), glm::vec3(turn[1]), glm::vec3(turn[2]), glm::vec3(shift));
+}
+
+} // namespace
+
+std::vector<std::vector<Instance>> find_instances(const Scene& scene) {
+    std::map<std::tuple<int, int, std::size_t, bool>, std::vector<std::uint32_t>> alike;
+    for (std::uint32_t p = 0; p < scene.primitives.size(); ++p) {
+        const Primitive& primitive = scene.primitives[p];
+        alike[{primitive.mesh, primitive.primitive, primitive.material, primitive.mirrored}].push_back(p);
+    }
+    std::vector<std::vector<Instance>> meshes;
+    for (const auto& [key, members] : alike) {
+        const Primitive& first = scene.primitives[members.front()];
+        const std::span<const glm::vec3> positions = scene.vertex_arrays[first.vertices].positions;
+        const std::optional<Frame> frame = members.size() > 1 ? frame_of(positions) : std::nullopt;
+        if (!frame)
+            continue;
+        std::vector<Instance> instances{{members.front(), glm::mat4x3(1)}};
+        for (const std::uint32_t p : std::span(members).subspan(1)) {
+            const Primitive& other = scene.primitives[p];
+            const std::span<const glm::vec3> there = scene.vertex_arrays[other.vertices].positions;
+            if (there.size() != positions.size() || other.triangles != first.triangles)
+                continue;
+            if (const std::optional<glm::mat4x3> transform = motion(positions, there, *frame))
+                instances.push_back({p, *transform});
+        }
+        if (instances.size() > 1)
+            meshes.push_back(std::move(instances));
+    }
+    return meshes;
+}
+
+} // namespace prt
