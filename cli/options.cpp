@@ -95,7 +95,7 @@ CLI::Option* add_gpu(CLI::App* command, std::string& gpu) {
         ->add_option("--gpu", gpu,
                      "the GPU to bake on: its number, or a part of its name (bench --list-devices)")
         ->type_name("N|NAME")
-        ->check(named);
+        ->check([](const std::string& name) { return name.empty() ? "the name is empty" : ""; });
 }
 
 CLI::Option* add_backend(CLI::App* command, Backend& backend, const std::string& text) {

@@ -107,7 +107,7 @@ std::optional<std::size_t> as_number(const std::string& text) {
 std::string listed(std::span<const GpuDevice> devices) {
     std::string names;
     for (std::size_t i = 0; i < devices.size(); ++i)
-        names += fmt::format("{}{} \"{}\"", i == 0 ? "" : ", ", i, devices[i].name);
+        names += fmt::format("{}{} is \"{}\"", i == 0 ? "" : ", ", i, devices[i].name);
     return names;
 }
 
@@ -115,7 +115,7 @@ std::string listed(std::span<const GpuDevice> devices) {
 std::size_t named_device(std::span<const GpuDevice> devices, const std::string& which) {
     if (const std::optional<std::size_t> number = as_number(which)) {
         if (*number >= devices.size())
-            throw Error(fmt::format("there is no GPU {}: there are {}", *number, listed(devices)));
+            throw Error(fmt::format("there is no GPU {}: {}", *number, listed(devices)));
         return *number;
     }
     std::vector<std::size_t> fitting;
@@ -124,8 +124,8 @@ std::size_t named_device(std::span<const GpuDevice> devices, const std::string& 
             fitting.push_back(i);
     if (fitting.size() == 1)
         return fitting.front();
-    throw Error(fmt::format("{} GPU has \"{}\" in its name: there are {}",
-                            fitting.empty() ? "no" : "more than one", which, listed(devices)));
+    throw Error(fmt::format("{} GPU has \"{}\" in its name: {}", fitting.empty() ? "no" : "more than one",
+                            which, listed(devices)));
 }
 
 /// Of those that can, hardware before software, and then that with the most memory.

@@ -15,7 +15,8 @@ std::vector<ChartSeries> curves(const BenchResult& result, X&& x, Y&& y) {
             curve.points.push_back({x(run), y(run),
                                     fmt::format("{} per receiver: {:.4g} s, {:.3f} %", run.rays, run.seconds,
                                                 100 * run.relative_l2)});
-        all.push_back(std::move(curve));
+        if (!curve.points.empty())
+            all.push_back(std::move(curve));
     }
     return all;
 }

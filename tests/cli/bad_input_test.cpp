@@ -127,15 +127,47 @@ TEST_F(BadInput, UnsupportedExtensionIsNamed) {
               std::string::npos);
 }
 
-TEST_F(BadInput, NoOpenGlIsSaidUnlessTheBackendIsAutomatic) {
-    const auto without_opengl = [&](const char* backend) {
-        return run("env",
-                   {"-u", "DISPLAY", "-u", "WAYLAND_DISPLAY", "__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null",
-                    "ASAN_OPTIONS=detect_leaks=0", PRT_PROGRAM, "bake", good().string(), "-o", out, "--rays",
-                    "4", "--backend", backend});
+/// Where no driver of either kind is found.
+class WithoutGpu : public BadInput {
+protected:
+    Outcome bake(std::vector<std::string> options) {
+        std::vector<std::string> arguments{"-u",
+                                           "DISPLAY",
+                                           "-u",
+                                           "WAYLAND_DISPLAY",
+                                           "__EGL_VENDOR_LIBRARY_FILENAMES=/dev/null",
+                                           "VK_ICD_FILENAMES=/dev/null",
+                                           "ASAN_OPTIONS=detect_leaks=0",
+                                           PRT_PROGRAM,
+                                           "bake",
+                                           good().string(),
+                                           "-o",
+                                           out,
+                                           "--rays",
+                                           "4"};
+        std::ranges::move(options, std::back_inserter(arguments));
+        return run("env", arguments);
+    }
+};
+
+TEST_F(WithoutGpu, ThatIsSaidUnlessTheBackendIsAutomatic) {
+    expect_refused(bake({"--backend", "gpu"}), "no driver for Vulkan");
+    expect_refused(bake({"--gpu", "0"}), "there is no GPU");
+    expect_refused(bake({"--backend", "gpu", "--method", "raster"}), "OpenGL 4.5");
+    EXPECT_EQ(bake({"--backend", "auto"}).status, 0);
+}
+
+TEST_F(BadInput, GpusThatAreNotThereOrNotMeant) {
+    const auto refuse = [&](std::vector<std::string> options, const std::string& why) {
+        std::vector<std::string> arguments{"bake", good().string(), "-o", out};
+        std::ranges::move(options, std::back_inserter(arguments));
+        expect_refused(prt(arguments), why);
     };
-    expect_refused(without_opengl("gpu"), "OpenGL 4.5");
-    EXPECT_EQ(without_opengl("auto").status, 0);
+    refuse({"--gpu", "no such card"}, "no GPU has \"no such card\" in its name");
+    refuse({"--gpu", "999"}, "there is no GPU 999");
+    refuse({"--gpu", "0", "--backend", "cpu"}, "--backend cpu uses none");
+    refuse({"--gpu", "0", "--method", "raster"}, "depth maps");
+    EXPECT_EQ(prt({"bench", "--list-devices"}).status, 0);
 }
 
 TEST_F(BadInput, RasterWithBouncesOrOnTheCpu) {

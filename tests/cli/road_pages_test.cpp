@@ -83,7 +83,7 @@ TEST_F(Road, BenchMeasuresEveryBackendAndMethod) {
     EXPECT_EQ(count(drawn, "<svg"), 3u); // error at and between vertices over time, speed over rays
     EXPECT_EQ(count(drawn, "<td>cpu trace</td>"), 3u);
     EXPECT_EQ(count(drawn, "<td>cpu trace fitted</td>"), 3u);
-    EXPECT_EQ(count(drawn, "<polyline"), 12u); // and one has no ray queries
+    EXPECT_EQ(count(drawn, "<polyline"), 12u); // one way is missing: no ray queries
     EXPECT_EQ(drawn.find("NaN"), std::string::npos);
     // What a name holds is text, not markup.
     EXPECT_NE(drawn.find("a&lt;b&gt;&amp;.glb"), std::string::npos);

@@ -40,21 +40,21 @@ public:
           has_total(with_total), owner_(owner) {
         const VulkanDevice& device = owner.device_;
         const std::size_t receivers = owner.gather_.receivers(),
-                          rows = std::max(receivers, std::min(kRowsAtOnce, owner.gather_.rows()));
+                          most = std::max(receivers, std::min(kRowsAtOnce, owner.gather_.rows()));
         for (GpuBuffer& place : transfer)
-            place = {device, rows * columns * sizeof(float), GpuMemory::device, kTransfer};
+            place = {device, most * columns * sizeof(float), GpuMemory::device, kTransfer};
         total = {device, with_total ? receivers * columns * sizeof(float) : 0, GpuMemory::device, kTransfer};
         sent = {device, transfer[0].bytes(), GpuMemory::upload, kTransfer};
         received = {device, transfer[0].bytes(), GpuMemory::download, kTransfer};
-        energies = {device, 2 * sizeof(std::uint32_t), GpuMemory::device, "energies"};
+        energy.largest = {device, 2 * sizeof(std::uint32_t), GpuMemory::device, "energies"};
         make_gather(device);
         make_energy(device);
     }
 
-    GpuResources resources(const GatherBlocks::Buffers& rows, std::size_t from) const {
-        return {{{PRT_BINDING_ROW_ENDS, &rows.row_ends},
-                 {PRT_BINDING_SOURCES, &rows.sources},
-                 {PRT_BINDING_WEIGHTS, &rows.weights},
+    GpuResources resources(const GatherBlocks::Buffers& block, std::size_t from) const {
+        return {{{PRT_BINDING_ROW_ENDS, &block.row_ends},
+                 {PRT_BINDING_SOURCES, &block.sources},
+                 {PRT_BINDING_WEIGHTS, &block.weights},
                  {PRT_BINDING_REFLECTANCE, &owner_.reflectance_},
                  {PRT_BINDING_EXIT, &transfer[from]},
                  {PRT_BINDING_GATHERED, &transfer[1 - from]},
@@ -65,30 +65,39 @@ public:
     const std::size_t columns;
     const bool has_total;
     std::array<GpuBuffer, 2> transfer;
-    GpuBuffer total, sent, received, energies;
-    GpuKernel gather, energy;
-    std::uint32_t row_threads = 1;
-    std::vector<std::array<GpuBindings, 2>> gather_bindings; ///< [blocks], from either place to the other
-    std::array<GpuBindings, 2> energy_bindings;              ///< of either place
+    GpuBuffer total, sent, received;
+    struct Rows {
+        GpuKernel kernel;
+        std::uint32_t threads = 1;                        ///< of a row
+        std::vector<std::array<GpuBindings, 2>> bindings; ///< [blocks], from either place to the other
+    };
+    Rows rows;
+    struct Energy {
+        GpuKernel kernel;
+        GpuBuffer largest;
+        std::array<GpuBindings, 2> bindings; ///< of either place
+    };
+    Energy energy;
 
 private:
     void make_gather(const VulkanDevice& device) {
-        while (row_threads < columns && row_threads < PRT_GATHER_THREADS)
-            row_threads *= 2;
-        const GatherOperator& rows = owner_.gather_;
+        while (rows.threads < columns && rows.threads < PRT_GATHER_THREADS)
+            rows.threads *= 2;
+        const GatherOperator& of_rows = owner_.gather_;
         GpuKernel::Source source{
             .spirv = bake_gather,
             .push_bytes = sizeof(gpu::GatherPush),
             .constants = {{PRT_CONSTANT_ORDER, static_cast<std::uint32_t>(order)},
-                          {PRT_CONSTANT_CHANNELS, static_cast<std::uint32_t>(rows.channels())},
-                          {PRT_CONSTANT_ROW_THREADS, row_threads},
-                          {PRT_CONSTANT_SHARED, !rows.reflectance().empty()}}};
+                          {PRT_CONSTANT_CHANNELS, static_cast<std::uint32_t>(of_rows.channels())},
+                          {PRT_CONSTANT_ROW_THREADS, rows.threads},
+                          {PRT_CONSTANT_SHARED, !of_rows.reflectance().empty()}}};
         source.take_bindings(resources({}, 0));
-        gather = GpuKernel(device, source);
+        rows.kernel = GpuKernel(device, source);
         for (std::size_t i = 0; i < owner_.blocks_.all().size(); ++i) {
-            gather_bindings.emplace_back();
+            rows.bindings.emplace_back();
             for (const std::size_t from : {0u, 1u})
-                gather_bindings.back()[from] = {device, gather, resources(owner_.blocks_.buffers(i), from)};
+                rows.bindings.back()[from] = {device, rows.kernel,
+                                              resources(owner_.blocks_.buffers(i), from)};
         }
     }
 
@@ -97,12 +106,12 @@ private:
                                  .push_bytes = sizeof(gpu::EnergyPush),
                                  .constants = {{PRT_CONSTANT_ORDER, static_cast<std::uint32_t>(order)}}};
         const auto of = [&](std::size_t place) -> GpuResources {
-            return {{{PRT_BINDING_GATHERED, &transfer[place]}, {PRT_BINDING_ENERGY, &energies}}};
+            return {{{PRT_BINDING_GATHERED, &transfer[place]}, {PRT_BINDING_ENERGY, &energy.largest}}};
         };
         source.take_bindings(of(0));
-        energy = GpuKernel(device, source);
+        energy.kernel = GpuKernel(device, source);
         for (const std::size_t place : {0u, 1u})
-            energy_bindings[place] = {device, energy, of(place)};
+            energy.bindings[place] = {device, energy.kernel, of(place)};
     }
 
     const GpuGather& owner_;
@@ -153,7 +162,7 @@ void GpuGather::apply(std::size_t first, std::span<float> to) {
 void GpuGather::gather(std::size_t first, std::size_t end, std::size_t from, bool add,
                        const Progress& progress) {
     const Values& v = *values_;
-    const std::size_t rows_of_group = PRT_GATHER_THREADS / v.row_threads;
+    const std::size_t rows_of_group = PRT_GATHER_THREADS / v.rows.threads;
     GpuQueue::Ticket before = 0;
     double work_before = 0;
     const auto measure = [&](GpuQueue::Ticket ticket, double work) {
@@ -180,8 +189,8 @@ void GpuGather::gather(std::size_t first, std::size_t end, std::size_t from, boo
                                        .first_gathered = static_cast<std::uint32_t>(block.first - first),
                                        .add = add ? 1u : 0u};
             const GpuQueue::Ticket ticket = queue_.submit([&](const vk::raii::CommandBuffer& commands) {
-                v.gather.dispatch(commands, v.gather_bindings[b][from].handle(), push,
-                                  (count + rows_of_group - 1) / rows_of_group);
+                v.rows.kernel.dispatch(commands, v.rows.bindings[b][from].handle(), push,
+                                       (count + rows_of_group - 1) / rows_of_group);
             });
             measure(before, work_before);
             before = ticket;
@@ -204,7 +213,7 @@ std::optional<BounceEnergy> GpuGather::bounce(Transfer& transfer, int bounces, c
         load(transfer.layout.order, transfer.vectors);
         queue_.submit([&](const vk::raii::CommandBuffer& commands) {
             copy(commands, v.transfer[0], v.total, std::span(transfer.vectors).size_bytes());
-            commands.fillBuffer(v.energies.handle(), 0, VK_WHOLE_SIZE, 0);
+            commands.fillBuffer(v.energy.largest.handle(), 0, VK_WHOLE_SIZE, 0);
         });
         const auto vectors =
             static_cast<std::uint32_t>(receivers * static_cast<std::size_t>(gather_.channels()));
@@ -213,9 +222,10 @@ std::optional<BounceEnergy> GpuGather::bounce(Transfer& transfer, int bounces, c
             constexpr std::uint32_t kAtOnce = kMostGatherGroups * PRT_GATHER_THREADS;
             for (; push.first < vectors; push.first += kAtOnce)
                 queue_.submit([&](const vk::raii::CommandBuffer& commands) {
-                    v.energy.dispatch(commands, v.energy_bindings[place].handle(), push,
-                                      (std::min(kAtOnce, vectors - push.first) + PRT_GATHER_THREADS - 1) /
-                                          PRT_GATHER_THREADS);
+                    v.energy.kernel.dispatch(
+                        commands, v.energy.bindings[place].handle(), push,
+                        (std::min(kAtOnce, vectors - push.first) + PRT_GATHER_THREADS - 1) /
+                            PRT_GATHER_THREADS);
                 });
         };
         std::size_t from = 0;
@@ -227,10 +237,10 @@ std::optional<BounceEnergy> GpuGather::bounce(Transfer& transfer, int bounces, c
         }
         measure(from, 1);
         const std::span<float> sums(transfer.vectors);
-        GpuBuffer energies(device_, v.energies.bytes(), GpuMemory::download, "energies");
+        GpuBuffer energies(device_, v.energy.largest.bytes(), GpuMemory::download, "energies");
         queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
             copy(commands, v.total, v.received, sums.size_bytes());
-            copy(commands, v.energies, energies, energies.bytes());
+            copy(commands, v.energy.largest, energies, energies.bytes());
             barrier_to_host(commands);
         }));
         std::ranges::copy(v.received.as<const float>().first(sums.size()), sums.begin());

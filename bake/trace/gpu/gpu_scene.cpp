@@ -33,7 +33,7 @@ void GpuScene::build_structure(const VulkanDevice& device, GpuQueue& queue, cons
     const InstancedTriangles all(scene);
     opaque_ = static_cast<std::uint32_t>(all.meshes.front().opaque);
     structure_.emplace(device, queue, all.positions, all.corners, all.meshes, all.copies);
-    instances_ = upload(device, queue, all.instances, "the instances");
+    tables_.instances = upload(device, queue, all.instances, "the instances");
     copies_ = all.copies.size() - 1;
     upload_tables(device, queue, scene, all.slots);
     for (const InstancedTriangles::Share& share :
@@ -54,7 +54,7 @@ void GpuScene::build_nodes(const VulkanDevice& device, GpuQueue& queue, const Tr
     const WideBvh bvh = triangles.empty() ? WideBvh{.nodes = {gpu::WideNode{}}}
                                           : build_wide_bvh(positions, corners, scene.threads());
     levels_ = bvh.depth;
-    nodes_ = upload(device, queue, bvh.nodes, "the nodes");
+    tables_.nodes = upload(device, queue, bvh.nodes, "the nodes");
     std::vector<std::uint32_t> in_leaves;
     for (const std::uint32_t t : bvh.triangles)
         in_leaves.push_back(triangles[t]);
@@ -69,27 +69,28 @@ void GpuScene::upload_tables(const VulkanDevice& device, GpuQueue& queue, const 
         if (!scene.surfaces().opaque(t) && !scene.surfaces().material(t).casts_shadow)
             asked.push_back(t);
     alpha_ = make_alpha_tables(scene, asked);
-    corners_ = upload(device, queue, tagged_corners(scene, slots, alpha_), "the triangles");
-    alpha_triangles_ = upload(device, queue, alpha_.triangles, "the cut-out triangles");
-    alpha_materials_ = upload(device, queue, alpha_.materials, "the cut-out materials");
-    alpha_texels_ = upload(device, queue, alpha_.texels, "the cut-out textures");
+    tables_.corners = upload(device, queue, tagged_corners(scene, slots, alpha_), "the triangles");
+    tables_.alpha_triangles = upload(device, queue, alpha_.triangles, "the cut-out triangles");
+    tables_.alpha_materials = upload(device, queue, alpha_.materials, "the cut-out materials");
+    tables_.alpha_texels = upload(device, queue, alpha_.texels, "the cut-out textures");
 }
 
 std::size_t GpuScene::bytes() const {
-    return (structure_ ? structure_->bytes() + instances_.bytes() : nodes_.bytes()) + corners_.bytes() +
-           alpha_triangles_.bytes() + alpha_materials_.bytes() + alpha_texels_.bytes();
+    return (structure_ ? structure_->bytes() + tables_.instances.bytes() : tables_.nodes.bytes()) +
+           tables_.corners.bytes() + tables_.alpha_triangles.bytes() + tables_.alpha_materials.bytes() +
+           tables_.alpha_texels.bytes();
 }
 
 GpuResources GpuScene::resources() const {
-    GpuResources resources{{{PRT_BINDING_CORNERS, &corners_},
-                            {PRT_BINDING_ALPHA_TRIANGLES, &alpha_triangles_},
-                            {PRT_BINDING_ALPHA_MATERIALS, &alpha_materials_},
-                            {PRT_BINDING_ALPHA_TEXELS, &alpha_texels_}}};
+    GpuResources resources{{{PRT_BINDING_CORNERS, &tables_.corners},
+                            {PRT_BINDING_ALPHA_TRIANGLES, &tables_.alpha_triangles},
+                            {PRT_BINDING_ALPHA_MATERIALS, &tables_.alpha_materials},
+                            {PRT_BINDING_ALPHA_TEXELS, &tables_.alpha_texels}}};
     if (structure_) {
         resources.structures[PRT_BINDING_NODES] = structure_->handle();
-        resources.buffers[PRT_BINDING_INSTANCES] = &instances_;
+        resources.buffers[PRT_BINDING_INSTANCES] = &tables_.instances;
     } else {
-        resources.buffers[PRT_BINDING_NODES] = &nodes_;
+        resources.buffers[PRT_BINDING_NODES] = &tables_.nodes;
     }
     return resources;
 }

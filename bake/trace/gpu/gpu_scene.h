@@ -38,7 +38,10 @@ private:
     std::uint32_t opaque_ = 0; ///< triangles before the others, of those that stand alone
     int levels_ = 0;
     std::size_t copies_ = 0;
-    GpuBuffer nodes_, instances_, corners_, alpha_triangles_, alpha_materials_, alpha_texels_;
+    struct Tables {
+        GpuBuffer nodes, instances, corners, alpha_triangles, alpha_materials, alpha_texels;
+    };
+    Tables tables_;
     std::optional<AccelerationStructure> structure_;
 };
 
