@@ -26,7 +26,7 @@ std::unique_ptr<Tracer> make_rasterizer(const TraceScene& scene, const TracerCho
 std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice& choice) {
     if (choice.method == BakeMethod::raster && choice.backend != Backend::cpu)
         return make_rasterizer(scene, choice);
-    if (choice.backend == Backend::cpu)
+    if (choice.backend == Backend::cpu || (choice.backend == Backend::automatic && !may_have_hardware()))
         return std::make_unique<EmbreeTracer>(scene);
     if (choice.backend == Backend::gpu)
         return std::make_unique<VulkanTracer>(

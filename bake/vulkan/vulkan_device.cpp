@@ -5,12 +5,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <span>
+#include <system_error>
 
 namespace prt {
 namespace {
@@ -196,6 +199,19 @@ std::vector<GpuDevice> gpu_devices() {
         return {};
     }
     return devices;
+}
+
+bool may_have_hardware() {
+#ifdef __linux__
+    // DRM's (AMD, Intel, most others), NVIDIA's own, Windows' in WSL, Qualcomm's, Arm's, Imagination's.
+    std::error_code missing;
+    return std::ranges::any_of(
+        std::to_array<const char*>({"/dev/dri", "/dev/nvidiactl", "/dev/nvidia0", "/dev/dxg", "/dev/kgsl-3d0",
+                                    "/dev/mali0", "/dev/pvrsrvkm"}),
+        [&](const char* file) { return std::filesystem::exists(file, missing); });
+#else
+    return true;
+#endif
 }
 
 VulkanDevice::VulkanDevice(const VulkanChoice& choice)

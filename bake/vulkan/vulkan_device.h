@@ -4,7 +4,6 @@
 
 #include "prt/gpu_devices.h"
 #include "prt/gpu_failure.h"
-#include "prt/make_tracer.h"
 #include "prt/support/error.h"
 
 #include <vulkan/vulkan_raii.hpp>
@@ -23,6 +22,10 @@ struct VulkanChoice {
     Traversal traversal = Traversal::automatic;
     bool validate = false; ///< every call, by the layer for that: see complaints()
 };
+
+/// Whether this machine can have a hardware GPU: on Linux all have a file in /dev. Quick, where asking
+/// drivers takes a quarter of a second and what software ones load.
+bool may_have_hardware();
 
 /// Stays where it is.
 class VulkanDevice {

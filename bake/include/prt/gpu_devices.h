@@ -5,6 +5,13 @@
 
 namespace prt {
 
+/// How a GPU finds what a ray meets.
+enum class Traversal {
+    automatic, ///< by its own means where it has some, else by ours
+    device,    ///< by its own: ray queries
+    compute,   ///< through our hierarchy
+};
+
 /// A device that bakes could run on.
 struct GpuDevice {
     std::string name;         ///< as its driver calls it

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prt/gpu_devices.h"
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
 
@@ -7,13 +8,6 @@
 #include <string>
 
 namespace prt {
-
-/// How a GPU finds what a ray meets.
-enum class Traversal {
-    automatic, ///< by its own means where it has some, else by ours
-    device,    ///< by its own: ray queries
-    compute,   ///< through our hierarchy
-};
 
 /// Which tracer to use.
 struct TracerChoice {
