@@ -11,13 +11,14 @@
 namespace prt {
 namespace {
 
-using Use = vk::BufferUsageFlagBits;
-using Flag = vk::GeometryFlagBitsKHR;
+using BufferUse = vk::BufferUsageFlagBits;
+using GeometryFlag = vk::GeometryFlagBitsKHR;
 
 template <class T>
 GpuBuffer build_input(const VulkanDevice& device, std::span<const T> values, const char* what) {
     GpuBuffer buffer(device, values.size_bytes(), GpuMemory::upload, what,
-                     Use::eShaderDeviceAddress | Use::eAccelerationStructureBuildInputReadOnlyKHR);
+                     BufferUse::eShaderDeviceAddress |
+                         BufferUse::eAccelerationStructureBuildInputReadOnlyKHR);
     std::memcpy(buffer.data(), values.data(), values.size_bytes());
     return buffer;
 }
@@ -63,12 +64,12 @@ AccelerationStructure::Level AccelerationStructure::build(const VulkanDevice& de
                                                               info, counts);
     Level level;
     level.memory = GpuBuffer(device, sizes.accelerationStructureSize, GpuMemory::device, "the hierarchy",
-                             Use::eAccelerationStructureStorageKHR | Use::eShaderDeviceAddress);
+                             BufferUse::eAccelerationStructureStorageKHR | BufferUse::eShaderDeviceAddress);
     level.structure = device.handle().createAccelerationStructureKHR(
         {{}, level.memory.handle(), 0, sizes.accelerationStructureSize, type});
     const std::size_t alignment = device.traits().scratch_alignment;
     const GpuBuffer scratch(device, sizes.buildScratchSize + alignment, GpuMemory::device,
-                            "building the hierarchy", Use::eShaderDeviceAddress);
+                            "building the hierarchy", BufferUse::eShaderDeviceAddress);
     info.dstAccelerationStructure = *level.structure;
     info.scratchData.deviceAddress = (scratch.address(device) + alignment - 1) / alignment * alignment;
     queue.wait(queue.submit([&](const vk::raii::CommandBuffer& commands) {
@@ -96,15 +97,15 @@ AccelerationStructure::AccelerationStructure(const VulkanDevice& device, GpuQueu
         corners.address(device));
     for (const Mesh& mesh : meshes) {
         Input input;
-        const auto add = [&](std::size_t first, std::size_t count, Flag flag) {
-            if (count == 0 && !(input.geometries.empty() && flag != Flag::eOpaque))
+        const auto add = [&](std::size_t first, std::size_t count, GeometryFlag flag) {
+            if (count == 0 && !(input.geometries.empty() && flag != GeometryFlag::eOpaque))
                 return;
             input.geometries.emplace_back(vk::GeometryTypeKHR::eTriangles, data, flag);
             input.ranges.emplace_back(static_cast<std::uint32_t>(count),
                                       static_cast<std::uint32_t>(first * sizeof(glm::uvec3)), 0, 0);
         };
-        add(mesh.first, mesh.opaque, Flag::eOpaque);
-        add(mesh.first + mesh.opaque, mesh.others, Flag::eNoDuplicateAnyHitInvocation);
+        add(mesh.first, mesh.opaque, GeometryFlag::eOpaque);
+        add(mesh.first + mesh.opaque, mesh.others, GeometryFlag::eNoDuplicateAnyHitInvocation);
         bottom_.push_back(build(device, queue, vk::AccelerationStructureTypeKHR::eBottomLevel, input));
     }
 

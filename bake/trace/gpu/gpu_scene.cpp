@@ -14,8 +14,8 @@ namespace {
 constexpr int kLeastStack = 64;
 
 template <class T>
-GpuBuffer upload(const VulkanDevice& device, GpuQueue& queue, const std::vector<T>& values,
-                 const char* what) {
+GpuBuffer to_device(const VulkanDevice& device, GpuQueue& queue, const std::vector<T>& values,
+                    const char* what) {
     return uploaded(device, queue, std::as_bytes(std::span(values)), what);
 }
 
@@ -33,7 +33,7 @@ void GpuScene::build_structure(const VulkanDevice& device, GpuQueue& queue, cons
     const InstancedTriangles all(scene);
     opaque_ = static_cast<std::uint32_t>(all.meshes.front().opaque);
     structure_.emplace(device, queue, all.positions, all.corners, all.meshes, all.copies);
-    tables_.instances = upload(device, queue, all.instances, "the instances");
+    tables_.instances = to_device(device, queue, all.instances, "the instances");
     copies_ = all.copies.size() - 1;
     upload_tables(device, queue, scene, all.slots);
     for (const InstancedTriangles::Share& share :
@@ -54,7 +54,7 @@ void GpuScene::build_nodes(const VulkanDevice& device, GpuQueue& queue, const Tr
     const WideBvh bvh = triangles.empty() ? WideBvh{.nodes = {gpu::WideNode{}}}
                                           : build_wide_bvh(positions, corners, scene.threads());
     levels_ = bvh.depth;
-    tables_.nodes = upload(device, queue, bvh.nodes, "the nodes");
+    tables_.nodes = to_device(device, queue, bvh.nodes, "the nodes");
     std::vector<std::uint32_t> in_leaves;
     for (const std::uint32_t t : bvh.triangles)
         in_leaves.push_back(triangles[t]);
@@ -69,10 +69,10 @@ void GpuScene::upload_tables(const VulkanDevice& device, GpuQueue& queue, const 
         if (!scene.surfaces().opaque(t) && !scene.surfaces().material(t).casts_shadow)
             asked.push_back(t);
     alpha_ = make_alpha_tables(scene, asked);
-    tables_.corners = upload(device, queue, tagged_corners(scene, slots, alpha_), "the triangles");
-    tables_.alpha_triangles = upload(device, queue, alpha_.triangles, "the cut-out triangles");
-    tables_.alpha_materials = upload(device, queue, alpha_.materials, "the cut-out materials");
-    tables_.alpha_texels = upload(device, queue, alpha_.texels, "the cut-out textures");
+    tables_.corners = to_device(device, queue, tagged_corners(scene, slots, alpha_), "the triangles");
+    tables_.alpha_triangles = to_device(device, queue, alpha_.triangles, "the cut-out triangles");
+    tables_.alpha_materials = to_device(device, queue, alpha_.materials, "the cut-out materials");
+    tables_.alpha_texels = to_device(device, queue, alpha_.texels, "the cut-out textures");
 }
 
 std::size_t GpuScene::bytes() const {

@@ -28,8 +28,9 @@ std::vector<glm::vec4> sh_factors() {
     return factors;
 }
 
-GpuKernel::Source source(std::span<const std::uint32_t> spirv, std::vector<std::uint32_t> own,
-                         std::map<std::uint32_t, std::uint32_t> constants, const GpuResources& scene = {{}}) {
+GpuKernel::Source kernel_source(std::span<const std::uint32_t> spirv, std::vector<std::uint32_t> own,
+                                std::map<std::uint32_t, std::uint32_t> constants,
+                                const GpuResources& scene = {{}}) {
     GpuKernel::Source source{.spirv = spirv,
                              .buffers = std::move(own),
                              .push_bytes = sizeof(gpu::TracePush),
@@ -50,25 +51,27 @@ TraceKernels::TraceKernels(const VulkanDevice& device, GpuQueue& queue, const Gp
     const bool query = device.traits().ray_queries;
     std::map<std::uint32_t, std::uint32_t> constants = scene.constants();
     constants[PRT_CONSTANT_HITS] = hits;
-    trace_ = GpuKernel(
-        device, source(query ? std::span<const std::uint32_t>(bake_trace_query) : bake_trace,
-                       {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_BLOCKED, PRT_BINDING_SHARES,
-                        PRT_BINDING_HITS, PRT_BINDING_HIT_COUNT, PRT_BINDING_PROGRESS},
-                       constants, resources));
+    trace_ =
+        GpuKernel(device, kernel_source(query ? std::span<const std::uint32_t>(bake_trace_query) : bake_trace,
+                                        {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_BLOCKED,
+                                         PRT_BINDING_SHARES, PRT_BINDING_HITS, PRT_BINDING_HIT_COUNT,
+                                         PRT_BINDING_PROGRESS},
+                                        constants, resources));
     if (hits && !has_alpha_)
         count_blocked_ = GpuKernel(
-            device, source(query ? std::span<const std::uint32_t>(bake_blocked_query) : bake_blocked,
-                           {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_BLOCKED, PRT_BINDING_HITS,
-                            PRT_BINDING_BLOCKED_RAYS},
-                           constants, resources));
+            device, kernel_source(query ? std::span<const std::uint32_t>(bake_blocked_query) : bake_blocked,
+                                  {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_BLOCKED,
+                                   PRT_BINDING_HITS, PRT_BINDING_BLOCKED_RAYS},
+                                  constants, resources));
     const std::uint32_t subgroups =
         std::max(1u, PRT_BEAM / std::min<std::uint32_t>(PRT_BEAM, device.traits().subgroup_size));
-    accumulate_ = GpuKernel(device, source(bake_accumulate,
-                                           {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_SUMS,
-                                            PRT_BINDING_BLOCKED, PRT_BINDING_SHARES, PRT_BINDING_SH_FACTORS},
-                                           {{PRT_CONSTANT_ALPHA, has_alpha_},
-                                            {PRT_CONSTANT_ORDER, static_cast<std::uint32_t>(order)},
-                                            {PRT_CONSTANT_SUBGROUPS, subgroups}}));
+    accumulate_ =
+        GpuKernel(device, kernel_source(bake_accumulate,
+                                        {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_SUMS,
+                                         PRT_BINDING_BLOCKED, PRT_BINDING_SHARES, PRT_BINDING_SH_FACTORS},
+                                        {{PRT_CONSTANT_ALPHA, has_alpha_},
+                                         {PRT_CONSTANT_ORDER, static_cast<std::uint32_t>(order)},
+                                         {PRT_CONSTANT_SUBGROUPS, subgroups}}));
 }
 
 GpuResources TraceKernels::tables() const {

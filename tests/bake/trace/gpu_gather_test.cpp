@@ -1,6 +1,7 @@
 // Bounces on the GPU against those of the processor.
 
 #include "prt/sh_basis.h"
+#include "prt/trace_scene.h"
 #include "support/gpu_scenes.h"
 #include "support/scene_builder.h"
 #include "support/vulkan_choice.h"
