@@ -12,9 +12,9 @@ namespace prt {
 /// failed in and all that follow go to the CPU, and `device` says so.
 class LastingTracer final : public Tracer {
 public:
-    /// Keeps a reference to `scene`.
-    LastingTracer(std::unique_ptr<Tracer> gpu, const TraceScene& scene)
-        : tracer_(std::move(gpu)), scene_(scene) {}
+    /// Keeps a reference to `scene`. `lost`: what became of a GPU before.
+    LastingTracer(std::unique_ptr<Tracer> tracer, const TraceScene& scene, std::string lost = {})
+        : tracer_(std::move(tracer)), scene_(scene), lost_(std::move(lost)) {}
     Backend backend() const override { return tracer_->backend(); }
     std::string device() const override { return lost_ + tracer_->device(); }
     std::size_t batch_size(const TraceOptions& options) const override {

@@ -21,6 +21,11 @@ std::unique_ptr<Tracer> make_rasterizer(const TraceScene& scene, const TracerCho
     return std::make_unique<GlRasterizer>(std::move(context), scene, choice.raster_resolution);
 }
 
+/// Throws `Error` where there is no such device, and where the scene does not fit it.
+std::unique_ptr<Tracer> make_vulkan_tracer(const TraceScene& scene, const VulkanChoice& choice) {
+    return with_vulkan_errors([&] { return std::make_unique<VulkanTracer>(scene, choice); });
+}
+
 } // namespace
 
 std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice& choice) {
@@ -29,14 +34,14 @@ std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice&
     if (choice.backend == Backend::cpu || (choice.backend == Backend::automatic && !may_have_hardware()))
         return std::make_unique<EmbreeTracer>(scene);
     if (choice.backend == Backend::gpu)
-        return std::make_unique<VulkanTracer>(
-            scene, VulkanChoice{.device = choice.gpu, .traversal = choice.traversal});
+        return make_vulkan_tracer(scene, {.device = choice.gpu, .traversal = choice.traversal});
     try {
         return std::make_unique<LastingTracer>(
-            std::make_unique<VulkanTracer>(
-                scene, VulkanChoice{.hardware_only = true, .traversal = choice.traversal}),
-            scene);
-    } catch (const Error&) { // none, or too small for the scene
+            make_vulkan_tracer(scene, {.hardware_only = true, .traversal = choice.traversal}), scene);
+    } catch (const GpuFailure& failure) { // too small for the scene
+        return std::make_unique<LastingTracer>(std::make_unique<EmbreeTracer>(scene), scene,
+                                               std::string("(") + failure.what() + ") ");
+    } catch (const Error&) { // none
         return std::make_unique<EmbreeTracer>(scene);
     }
 }

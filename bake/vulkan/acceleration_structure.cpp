@@ -47,41 +47,86 @@ void check_limits(const VulkanDevice& device, std::size_t triangles, std::size_t
                         copies, device.traits().most_instances));
 }
 
+constexpr std::size_t kAlignment = 256; ///< of hierarchies in a buffer, by the specification
+constexpr std::size_t kBlock =
+    64 << 20; ///< bytes of a buffer that many share: devices give out some 4 000 in all
+
+std::size_t aligned(std::size_t bytes, std::size_t to) {
+    return (bytes + to - 1) / to * to;
+}
+
 } // namespace
 
-AccelerationStructure::Level AccelerationStructure::build(const VulkanDevice& device, GpuQueue& queue,
-                                                          vk::AccelerationStructureTypeKHR type,
-                                                          const Input& input) {
-    vk::AccelerationStructureBuildGeometryInfoKHR info(
-        type, vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace,
-        vk::BuildAccelerationStructureModeKHR::eBuild, {}, {},
-        static_cast<std::uint32_t>(input.geometries.size()), input.geometries.data());
-    std::vector<std::uint32_t> counts;
-    for (const vk::AccelerationStructureBuildRangeInfoKHR& range : input.ranges)
-        counts.push_back(range.primitiveCount);
-    const vk::AccelerationStructureBuildSizesInfoKHR sizes =
-        device.handle().getAccelerationStructureBuildSizesKHR(vk::AccelerationStructureBuildTypeKHR::eDevice,
-                                                              info, counts);
-    Level level;
-    level.memory = GpuBuffer(device, sizes.accelerationStructureSize, GpuMemory::device, "the hierarchy",
-                             BufferUse::eAccelerationStructureStorageKHR | BufferUse::eShaderDeviceAddress);
-    level.structure = device.handle().createAccelerationStructureKHR(
-        {{}, level.memory.handle(), 0, sizes.accelerationStructureSize, type});
+/// What a level is built of, and how much memory it takes.
+struct AccelerationStructure::LevelPlan {
+    vk::AccelerationStructureTypeKHR type;
+    std::vector<vk::AccelerationStructureGeometryKHR> geometries;
+    std::vector<vk::AccelerationStructureBuildRangeInfoKHR> ranges;
+    vk::AccelerationStructureBuildSizesInfoKHR sizes = {};
+
+    vk::AccelerationStructureBuildGeometryInfoKHR info() const {
+        return {type,
+                vk::BuildAccelerationStructureFlagBitsKHR::ePreferFastTrace,
+                vk::BuildAccelerationStructureModeKHR::eBuild,
+                {},
+                {},
+                static_cast<std::uint32_t>(geometries.size()),
+                geometries.data()};
+    }
+    void add(vk::GeometryTypeKHR kind, const vk::AccelerationStructureGeometryDataKHR& data,
+             GeometryFlag flag, std::size_t count, std::size_t offset) {
+        geometries.emplace_back(kind, data, flag);
+        ranges.emplace_back(static_cast<std::uint32_t>(count), static_cast<std::uint32_t>(offset), 0, 0);
+    }
+    void measure(const VulkanDevice& device) {
+        std::vector<std::uint32_t> counts;
+        for (const vk::AccelerationStructureBuildRangeInfoKHR& range : ranges)
+            counts.push_back(range.primitiveCount);
+        sizes = device.handle().getAccelerationStructureBuildSizesKHR(
+            vk::AccelerationStructureBuildTypeKHR::eDevice, info(), counts);
+    }
+};
+
+/// Builds levels one after the other, in the memory of as few buffers as do.
+void AccelerationStructure::build(const VulkanDevice& device, GpuQueue& queue, std::span<LevelPlan> plans) {
+    std::size_t scratch_bytes = 0, end = 0;
+    for (LevelPlan& plan : plans) {
+        plan.measure(device);
+        scratch_bytes = std::max<std::size_t>(scratch_bytes, plan.sizes.buildScratchSize);
+    }
     const std::size_t alignment = device.traits().scratch_alignment;
-    const GpuBuffer scratch(device, sizes.buildScratchSize + alignment, GpuMemory::device,
-                            "building the hierarchy", BufferUse::eShaderDeviceAddress);
-    info.dstAccelerationStructure = *level.structure;
-    info.scratchData.deviceAddress = (scratch.address(device) + alignment - 1) / alignment * alignment;
-    queue.wait(queue.submit([&](const vk::raii::CommandBuffer& commands) {
-        commands.buildAccelerationStructuresKHR(info, input.ranges.data());
-        const vk::MemoryBarrier built(vk::AccessFlagBits::eAccelerationStructureWriteKHR,
-                                      vk::AccessFlagBits::eAccelerationStructureReadKHR);
-        commands.pipelineBarrier(vk::PipelineStageFlagBits::eAccelerationStructureBuildKHR,
-                                 vk::PipelineStageFlagBits::eAccelerationStructureBuildKHR |
-                                     vk::PipelineStageFlagBits::eComputeShader,
-                                 {}, built, {}, {});
-    }));
-    return level;
+    const GpuBuffer scratch(device, scratch_bytes + alignment, GpuMemory::device, "building the hierarchy",
+                            BufferUse::eShaderDeviceAddress);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        const std::size_t bytes = plans[i].sizes.accelerationStructureSize;
+        if (i == 0 || end + bytes > memory_.back().bytes()) {
+            std::size_t together = 0;
+            for (std::size_t j = i; j < plans.size() && (j == i || together < kBlock); ++j)
+                together += aligned(plans[j].sizes.accelerationStructureSize, kAlignment);
+            memory_.emplace_back(device, together, GpuMemory::device, "the hierarchy",
+                                 BufferUse::eAccelerationStructureStorageKHR |
+                                     BufferUse::eShaderDeviceAddress);
+            end = 0;
+        }
+        levels_.push_back(device.handle().createAccelerationStructureKHR(
+            {{}, memory_.back().handle(), end, bytes, plans[i].type}));
+        end = aligned(end + bytes, kAlignment);
+        vk::AccelerationStructureBuildGeometryInfoKHR info = plans[i].info();
+        info.dstAccelerationStructure = *levels_.back();
+        info.scratchData.deviceAddress = aligned(scratch.address(device), alignment);
+        queue.submit([&](const vk::raii::CommandBuffer& commands) {
+            commands.buildAccelerationStructuresKHR(info, plans[i].ranges.data());
+            using Access = vk::AccessFlagBits;
+            using Stage = vk::PipelineStageFlagBits;
+            const vk::MemoryBarrier built(Access::eAccelerationStructureWriteKHR,
+                                          Access::eAccelerationStructureReadKHR |
+                                              Access::eAccelerationStructureWriteKHR);
+            commands.pipelineBarrier(Stage::eAccelerationStructureBuildKHR,
+                                     Stage::eAccelerationStructureBuildKHR | Stage::eComputeShader, {}, built,
+                                     {}, {});
+        });
+    }
+    queue.wait_for_all(); // scratch memory goes
 }
 
 AccelerationStructure::AccelerationStructure(const VulkanDevice& device, GpuQueue& queue,
@@ -95,19 +140,18 @@ AccelerationStructure::AccelerationStructure(const VulkanDevice& device, GpuQueu
         vk::Format::eR32G32B32Sfloat, vertices.address(device), sizeof(glm::vec3),
         static_cast<std::uint32_t>(std::max<std::size_t>(positions.size(), 1) - 1), vk::IndexType::eUint32,
         corners.address(device));
+    std::vector<LevelPlan> plans;
     for (const Mesh& mesh : meshes) {
-        Input input;
-        const auto add = [&](std::size_t first, std::size_t count, GeometryFlag flag) {
-            if (count == 0 && !(input.geometries.empty() && flag != GeometryFlag::eOpaque))
-                return;
-            input.geometries.emplace_back(vk::GeometryTypeKHR::eTriangles, data, flag);
-            input.ranges.emplace_back(static_cast<std::uint32_t>(count),
-                                      static_cast<std::uint32_t>(first * sizeof(glm::uvec3)), 0, 0);
-        };
-        add(mesh.first, mesh.opaque, GeometryFlag::eOpaque);
-        add(mesh.first + mesh.opaque, mesh.others, GeometryFlag::eNoDuplicateAnyHitInvocation);
-        bottom_.push_back(build(device, queue, vk::AccelerationStructureTypeKHR::eBottomLevel, input));
+        LevelPlan& plan =
+            plans.emplace_back(LevelPlan{vk::AccelerationStructureTypeKHR::eBottomLevel, {}, {}});
+        if (mesh.opaque > 0)
+            plan.add(vk::GeometryTypeKHR::eTriangles, data, GeometryFlag::eOpaque, mesh.opaque,
+                     mesh.first * sizeof(glm::uvec3));
+        if (mesh.others > 0 || mesh.opaque == 0)
+            plan.add(vk::GeometryTypeKHR::eTriangles, data, GeometryFlag::eNoDuplicateAnyHitInvocation,
+                     mesh.others, (mesh.first + mesh.opaque) * sizeof(glm::uvec3));
     }
+    build(device, queue, plans);
 
     std::vector<vk::AccelerationStructureInstanceKHR> instances;
     for (const Copy& copy : copies) {
@@ -115,22 +159,21 @@ AccelerationStructure::AccelerationStructure(const VulkanDevice& device, GpuQueu
         instance.transform = rows_of(copy.transform);
         instance.mask = 0xff;
         instance.accelerationStructureReference =
-            device.handle().getAccelerationStructureAddressKHR({*bottom_[copy.mesh].structure});
+            device.handle().getAccelerationStructureAddressKHR({*levels_[copy.mesh]});
     }
     const GpuBuffer placed = build_input(
         device, std::span<const vk::AccelerationStructureInstanceKHR>(instances), "the instances");
-    Input input;
-    input.geometries.emplace_back(
-        vk::GeometryTypeKHR::eInstances,
-        vk::AccelerationStructureGeometryInstancesDataKHR(false, placed.address(device)));
-    input.ranges.emplace_back(static_cast<std::uint32_t>(instances.size()), 0, 0, 0);
-    top_ = build(device, queue, vk::AccelerationStructureTypeKHR::eTopLevel, input);
+    LevelPlan top{vk::AccelerationStructureTypeKHR::eTopLevel, {}, {}};
+    top.add(vk::GeometryTypeKHR::eInstances,
+            vk::AccelerationStructureGeometryInstancesDataKHR(false, placed.address(device)),
+            GeometryFlag::eOpaque, instances.size(), 0);
+    build(device, queue, {&top, 1});
 }
 
 std::size_t AccelerationStructure::bytes() const {
-    std::size_t bytes = top_.memory.bytes();
-    for (const Level& level : bottom_)
-        bytes += level.memory.bytes();
+    std::size_t bytes = 0;
+    for (const GpuBuffer& buffer : memory_)
+        bytes += buffer.bytes();
     return bytes;
 }
 

@@ -31,23 +31,15 @@ public:
                           std::span<const glm::uvec3> triangles, std::span<const Mesh> meshes,
                           std::span<const Copy> copies);
 
-    vk::AccelerationStructureKHR handle() const { return *top_.structure; }
+    vk::AccelerationStructureKHR handle() const { return *levels_.back(); }
     std::size_t bytes() const;
 
 private:
-    struct Level {
-        GpuBuffer memory;
-        vk::raii::AccelerationStructureKHR structure = nullptr;
-    };
-    struct Input {
-        std::vector<vk::AccelerationStructureGeometryKHR> geometries;
-        std::vector<vk::AccelerationStructureBuildRangeInfoKHR> ranges;
-    };
-    static Level build(const VulkanDevice& device, GpuQueue& queue, vk::AccelerationStructureTypeKHR type,
-                       const Input& input);
+    struct LevelPlan;
+    void build(const VulkanDevice& device, GpuQueue& queue, std::span<LevelPlan> plans);
 
-    std::vector<Level> bottom_; ///< [meshes]
-    Level top_;
+    std::vector<GpuBuffer> memory_;
+    std::vector<vk::raii::AccelerationStructureKHR> levels_; ///< [meshes], and the top level
 };
 
 } // namespace prt

@@ -287,7 +287,15 @@ void VulkanDevice::make_device() {
     const auto& structures = properties.get<vk::PhysicalDeviceAccelerationStructurePropertiesKHR>();
     traits_.most_bytes = std::min<std::size_t>(limits.maxStorageBufferRange,
                                                static_cast<std::size_t>(eleven.maxMemoryAllocationSize));
-    traits_.subgroup_size = eleven.subgroupSize;
+    traits_.least_subgroup = eleven.subgroupSize;
+    if (has_extension(physical_,
+                      VK_EXT_SUBGROUP_SIZE_CONTROL_EXTENSION_NAME)) // some compilers choose by kernel
+        traits_.least_subgroup = std::min(
+            traits_.least_subgroup, physical_
+                                        .getProperties2<vk::PhysicalDeviceProperties2,
+                                                        vk::PhysicalDeviceSubgroupSizeControlProperties>()
+                                        .get<vk::PhysicalDeviceSubgroupSizeControlProperties>()
+                                        .minSubgroupSize);
     traits_.most_groups = limits.maxComputeWorkGroupCount[0];
     if (physical_.getQueueFamilyProperties()[family_].timestampValidBits == 64)
         traits_.clock_seconds = 1e-9 * static_cast<double>(limits.timestampPeriod);

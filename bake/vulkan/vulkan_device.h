@@ -37,9 +37,9 @@ public:
 
     struct Traits {
         GpuDevice about;
-        bool ray_queries = false;   ///< those that are used
-        std::size_t most_bytes = 0; ///< of a buffer
-        std::uint32_t subgroup_size = 0;
+        bool ray_queries = false;          ///< those that are used
+        std::size_t most_bytes = 0;        ///< of a buffer
+        std::uint32_t least_subgroup = 0;  ///< threads, at least
         double clock_seconds = 0;          ///< of a step of the device's clock; 0: it has none
         std::size_t scratch_alignment = 1; ///< where memory to build hierarchies in begins
         std::uint32_t most_groups = 65535; ///< of a dispatch, in x

@@ -64,7 +64,7 @@ TraceKernels::TraceKernels(const VulkanDevice& device, GpuQueue& queue, const Gp
                                    PRT_BINDING_HITS, PRT_BINDING_BLOCKED_RAYS},
                                   constants, resources));
     const std::uint32_t subgroups =
-        std::max(1u, PRT_BEAM / std::min<std::uint32_t>(PRT_BEAM, device.traits().subgroup_size));
+        std::max(1u, PRT_BEAM / std::min<std::uint32_t>(PRT_BEAM, device.traits().least_subgroup));
     accumulate_ =
         GpuKernel(device, kernel_source(bake_accumulate,
                                         {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_SUMS,

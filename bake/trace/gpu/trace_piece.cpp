@@ -94,6 +94,7 @@ void TracePiece::copy_hits(const vk::raii::CommandBuffer& commands) const {
 
 void TracePiece::start(GpuQueue& queue, const gpu::TracePush& push) {
     push_ = push;
+    seconds_ = 0;
     push_.hit_room = static_cast<std::uint32_t>(room_.hits);
     ticket_ = queue.submit([&](const vk::raii::CommandBuffer& commands) {
         copy(commands, buffers_.receivers.host, buffers_.receivers.device,
@@ -117,8 +118,13 @@ std::size_t TracePiece::wanted_hits() const {
     return buffers_.hit_count.host.as<const std::uint32_t>().front();
 }
 
+void TracePiece::wait(GpuQueue& queue, GpuQueue::Ticket ticket) {
+    queue.wait(ticket);
+    seconds_ += queue.seconds(ticket);
+}
+
 void TracePiece::finish(GpuQueue& queue, const TakeHits& take) {
-    queue.wait(ticket_);
+    wait(queue, ticket_);
     const std::span<const gpu::HitRecord> hits = buffers_.hits.host.as<const gpu::HitRecord>();
     if (!kernels_.notes_hits())
         return;
@@ -130,14 +136,14 @@ void TracePiece::finish(GpuQueue& queue, const TakeHits& take) {
     if (wanted_hits() <= room_.hits)
         return;
     while (wanted_hits() > room_.hits) {
-        queue.wait(queue.submit([&](const vk::raii::CommandBuffer& commands) {
+        wait(queue, queue.submit([&](const vk::raii::CommandBuffer& commands) {
             trace(commands);
             copy_hits(commands);
             barrier_to_host(commands);
         }));
         take(hits.first(std::min(room_.hits, wanted_hits())));
     }
-    queue.wait(queue.submit([&](const vk::raii::CommandBuffer& commands) {
+    wait(queue, queue.submit([&](const vk::raii::CommandBuffer& commands) {
         sum(commands);
         barrier_to_host(commands);
     }));

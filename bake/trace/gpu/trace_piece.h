@@ -32,8 +32,8 @@ public:
     void finish(GpuQueue& queue, const TakeHits& take);
 
     const gpu::TracePush& push() const { return push_; }
-    /// How long the device worked; 0 where it does not tell.
-    double seconds(const GpuQueue& queue) const { return queue.seconds(ticket_); }
+    /// How long the device worked on what has ended; 0 where it does not tell.
+    double seconds() const { return seconds_; }
     /// [receivers][order² + 1], as bake_accumulate.comp says.
     std::span<const float> sums() const { return buffers_.sums.host.as<const float>(); }
     /// [rows]: how many rays are blocked, where everything is opaque and hits are noted.
@@ -61,6 +61,7 @@ private:
     void trace(const vk::raii::CommandBuffer& commands) const;
     void sum(const vk::raii::CommandBuffer& commands) const;
     void copy_hits(const vk::raii::CommandBuffer& commands) const;
+    void wait(GpuQueue& queue, GpuQueue::Ticket ticket);
     std::size_t wanted_hits() const; ///< more than there is room for: threads have stopped
 
     const TraceKernels& kernels_;
@@ -69,6 +70,7 @@ private:
     Bindings bindings_;
     gpu::TracePush push_{};
     GpuQueue::Ticket ticket_ = 0;
+    double seconds_ = 0;
 };
 
 } // namespace prt

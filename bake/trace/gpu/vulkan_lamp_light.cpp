@@ -71,6 +71,10 @@ public:
         bindings_ = GpuBindings(device, kernel_, resources);
     }
 
+    ~LampKernel() { queue_.wait_for_all(); }
+    LampKernel(const LampKernel&) = delete;
+    LampKernel& operator=(const LampKernel&) = delete;
+
     void set_receivers(std::span<const std::uint32_t> indices) {
         count_ = indices.size();
         write_receivers(task_, indices, buffers_.staging.as<gpu::LampReceiver>());

@@ -31,6 +31,7 @@ struct VulkanTracer::Job {
     const TraceOptions& options;
     bool hits;
     SobolChunk whole, last; ///< all chunks but the last, and the last
+    TracePiece::Room room = {};
 
     Job(const Receivers& all, std::span<const std::uint32_t> some, const TraceOptions& trace, bool with_hits)
         : receivers(all), indices(some), options(trace), hits(with_hits), whole(kChunk, stride()),
@@ -179,7 +180,7 @@ TracePiece::Room VulkanTracer::room_for(const Job& job) const {
 
 VulkanTracer::Pieces& VulkanTracer::pieces_for(const Job& job) {
     const TraceKernels& wanted = kernels(job.options.order, job.hits);
-    const TracePiece::Room room = room_for(job);
+    const TracePiece::Room& room = job.room;
     for (std::unique_ptr<TracePiece>& piece : pieces_) {
         const bool fits = piece && of_pieces_ == &wanted && piece->room().receivers >= room.receivers &&
                           piece->room().rows >= room.rows && piece->room().hits >= room.hits;
@@ -195,7 +196,8 @@ VulkanTracer::Pieces& VulkanTracer::pieces_for(const Job& job) {
 /// As many chunks from there as the device traces in its time: of several receivers all chunks, or some of
 /// one.
 gpu::TracePush VulkanTracer::next(const Job& job, std::size_t receiver, std::size_t chunk) const {
-    const TracePiece::Room& room = pieces_[0]->room();
+    const TracePiece::Room& room =
+        job.room; // pieces of the job before may have more rows, but not hits for them
     const auto in_time = static_cast<std::size_t>(rays_per_second_ * kPieceSeconds / kChunk);
     const std::size_t rows = std::clamp<std::size_t>(in_time, 1, room.rows), chunks = job.chunks();
     const bool whole = chunk == 0 && rows >= chunks;
@@ -222,7 +224,8 @@ void VulkanTracer::trace(const Receivers& receivers, std::span<const std::uint32
     if (indices.empty())
         return;
     with_vulkan_errors([&] {
-        const Job job(receivers, indices, options, static_cast<bool>(sink));
+        Job job(receivers, indices, options, static_cast<bool>(sink));
+        job.room = room_for(job);
         const Stopwatch transfer;
         pieces_for(job);
         kernels(options.order, job.hits).set_samples(device_, queue_, job.samples());
@@ -249,7 +252,7 @@ void VulkanTracer::run(const Job& job, Results& results, const Progress& progres
             results.add_hits(work.at, piece, hits);
         });
         const double rays = static_cast<double>(piece.push().receivers) * piece.push().chunks * kChunk;
-        const double clock = piece.seconds(queue_), took = clock > 0 ? clock : work.watch.seconds();
+        const double clock = piece.seconds(), took = clock > 0 ? clock : work.watch.seconds();
         seconds_.trace += took;
         rays_per_second_ = 0.5 * (rays_per_second_ + rays / std::max(took, 1e-6));
         if (scene_on_gpu_.has_alpha())
