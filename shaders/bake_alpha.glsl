@@ -27,6 +27,8 @@ float bilinear_alpha(AlphaMaterial m, int level, vec2 uv) {
         height = max(1, height / 2);
     }
     vec2 at = uv * vec2(width, height) - 0.5, low = floor(at), f = at - low;
+    if (!(max(abs(at.x), abs(at.y)) < 1e9)) // coordinates that are no numbers: an opaque black
+        return m.mode == PRT_ALPHA_GLASS ? 0.0 : 1.0;
     uint wrap_u = PRT_WRAP_U(m.wrap), wrap_v = PRT_WRAP_V(m.wrap);
     int x0 = wrapped(int(low.x), width, wrap_u), x1 = wrapped(int(low.x) + 1, width, wrap_u);
     int y0 = wrapped(int(low.y), height, wrap_v), y1 = wrapped(int(low.y) + 1, height, wrap_v);

@@ -103,6 +103,7 @@ bool trace_ray(TracedRay ray, float t_min, float t_max, bool any, float least, i
                 }
             }
         }
+        cut_short = cut_short || hits.x != 0u;
         if (nodes_left.y < 1u << 24) {
             running = height > 0;
             if (running) {
@@ -112,6 +113,7 @@ bool trace_ray(TracedRay ray, float t_min, float t_max, bool any, float least, i
         }
         running = running && !(any && found);
     }
+    cut_short = cut_short || running;
     return found;
 }
 

@@ -1,8 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-// Light that receivers gather from others: rows of a sparse matrix times exit transfer (docs/math.md, section 7). Threads
-// side by side take coefficients side by side of the same row.
+// Light that receivers gather from others: rows of a sparse matrix times exit transfer (docs/math.md, section 7).
+// Threads side by side take coefficients side by side of the same row.
 
 #include "shared_bake.h"
 #include "shared_structs.h"
@@ -51,8 +51,8 @@ void main() {
         float sum = 0.0;
         for (uint e = begin; e < end; ++e) {
             uint source = sources[e];
-            float weight = kShared ? weights[e] * reflectance[source * kChannels + channel]
-                                   : weights[e * kChannels + channel];
+            float weight =
+                kShared ? weights[e] * reflectance[source * kChannels + channel] : weights[e * kChannels + channel];
             sum += weight * exit_transfer[source * kColumns + k];
         }
         uint place = (push.first_gathered + row) * kColumns + k;

@@ -177,6 +177,7 @@ vec4 light_of_triangles(LampReceiver receiver, uint seed) {
         }
         before = until;
     }
+    cut_short = cut_short || (all > 0.0 && ray < end);
     return sum;
 }
 
@@ -187,5 +188,7 @@ void main() {
     LampReceiver receiver = receivers[p];
     uint seed = pcg_hash(floatBitsToUint(receiver.origin.w) ^ push.scramble);
     vec4 sum = light_of_lights(receiver, seed) + light_of_triangles(receiver, seed);
+    if (cut_short)
+        sum.w = uintBitsToFloat(0x7fc00000u); // no number: nothing of it is right
     sums[p] = push.first_ray == 0u ? sum : sums[p] + sum;
 }

@@ -17,7 +17,8 @@ layout(std430, binding = PRT_BINDING_SHARES) writeonly buffer Shares {
     float shares[]; // [rows][PRT_CHUNK]: how much is blocked of each ray, where kAlpha
 };
 layout(std430, binding = PRT_BINDING_HIT_COUNT) buffer HitCount {
-    uint hit_count; // where kAlpha: more than there is room for were not noted, and their threads stopped
+    uint hit_count;       // where kAlpha: more than there is room for were not noted, and their threads stopped
+    uint loops_cut_short; // not 0: nothing here is right
 };
 layout(std430, binding = PRT_BINDING_PROGRESS) buffer Threads {
     ThreadProgress threads[]; // [rows][PRT_BEAM], where kAlpha
@@ -25,21 +26,22 @@ layout(std430, binding = PRT_BINDING_PROGRESS) buffer Threads {
 
 // Which rays are blocked.
 uint trace_visibility(Chunk c, uint lane) {
-    uint mask = 0u;
-    for (uint i = lane; i < c.count; i += uint(PRT_BEAM)) {
+    uint mask = 0u, i = lane;
+    for (; i < c.count; i += uint(PRT_BEAM)) {
         aim(c, i);
         float share = 1.0 - transmittance(c.ray, kFar, PRT_LEAST_TRANSMITTANCE);
         if (kAlpha)
             shares[c.row * uint(PRT_CHUNK) + i] = share;
         mask |= share > 0.0 ? 1u << (i / uint(PRT_BEAM)) : 0u;
     }
+    cut_short = cut_short || i < c.count;
     return mask;
 }
 
 // The same where everything is opaque and some rays are followed to what they meet.
 uint trace_some_hits(Chunk c, uint lane) {
-    uint mask = 0u, slots = c.row * (push.whole_followed + 1u);
-    for (uint i = lane; i < c.count; i += uint(PRT_BEAM)) {
+    uint mask = 0u, slots = c.row * (push.whole_followed + 1u), i = lane;
+    for (; i < c.count; i += uint(PRT_BEAM)) {
         aim(c, i);
         bool found;
         if (i < c.followed) {
@@ -51,6 +53,7 @@ uint trace_some_hits(Chunk c, uint lane) {
         }
         mask |= found ? 1u << (i / uint(PRT_BEAM)) : 0u;
     }
+    cut_short = cut_short || i < c.count;
     return mask;
 }
 
@@ -82,6 +85,7 @@ uint trace_through(Chunk c, uint lane) {
                 passing = running && left > 0.0;
             }
         }
+        cut_short = cut_short || passing;
         if (running) {
             shares[c.row * uint(PRT_CHUNK) + i] = 1.0 - left;
             mask |= left < 1.0 ? 1u << (i / uint(PRT_BEAM)) : 0u;
@@ -91,6 +95,7 @@ uint trace_through(Chunk c, uint lane) {
             running = i < c.count;
         }
     }
+    cut_short = cut_short || running;
     threads[place] = ThreadProgress(i + 1u, t, left);
     return mask;
 }
@@ -102,4 +107,6 @@ void main() {
     Chunk c = chunk_of(receiver, push.first_chunk + gl_WorkGroupID.y);
     uint mask = !kHits ? trace_visibility(c, lane) : kAlpha ? trace_through(c, lane) : trace_some_hits(c, lane);
     blocked[c.row * uint(PRT_BEAM) + lane] = mask;
+    if (cut_short)
+        loops_cut_short = 1u;
 }

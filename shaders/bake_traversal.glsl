@@ -15,6 +15,9 @@ struct RayHit {
 
 const float kFar = 3.402823e38;
 
+// Whether a loop ended before its time, as some software devices have them, so that all that follows is wrong.
+bool cut_short = false;
+
 // A ray, and what a texture must know: the area that it stands for is spread · t² over the cosine there.
 struct TracedRay {
     vec3 origin, direction; // unit

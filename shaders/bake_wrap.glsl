@@ -6,7 +6,8 @@ int wrapped(int i, int size, uint wrap) {
     if (wrap == PRT_WRAP_CLAMP)
         return clamp(i, 0, size - 1);
     int period = wrap == PRT_WRAP_MIRROR ? 2 * size : size;
-    int rest = i - period * int(floor(float(i) / float(period)));
+    int rest = i - period * (i / period); // which has the sign of i
+    rest = rest < 0 ? rest + period : rest;
     return rest < size ? rest : 2 * size - 1 - rest;
 }
 

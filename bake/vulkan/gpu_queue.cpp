@@ -73,9 +73,9 @@ double GpuQueue::seconds(Ticket ticket) const {
     const auto [result, clocks] = clocks_.getResults<std::uint64_t>(
         static_cast<std::uint32_t>(2 * (ticket % kAtOnce)), 2, 2 * sizeof(std::uint64_t),
         sizeof(std::uint64_t), vk::QueryResultFlagBits::e64);
-    return result == vk::Result::eSuccess && clocks[1] > clocks[0]
-               ? static_cast<double>(clocks[1] - clocks[0]) * device_.traits().clock_seconds
-               : 0;
+    const std::uint32_t unused = 64 - device_.traits().clock_bits;
+    const std::uint64_t steps = (clocks[1] - clocks[0]) << unused >> unused;
+    return result == vk::Result::eSuccess ? static_cast<double>(steps) * device_.traits().clock_seconds : 0;
 }
 
 GpuBuffer uploaded(const VulkanDevice& device, GpuQueue& queue, std::span<const std::byte> bytes,

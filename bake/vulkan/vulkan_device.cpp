@@ -19,6 +19,7 @@ namespace prt {
 namespace {
 
 constexpr std::uint32_t kVersion = VK_API_VERSION_1_2;
+constexpr std::uint32_t kMostBuffers = 13; ///< of a kernel
 constexpr const char* kValidation = "VK_LAYER_KHRONOS_validation";
 constexpr const char* kQueryExtensions[] = {VK_KHR_ACCELERATION_STRUCTURE_EXTENSION_NAME,
                                             VK_KHR_RAY_QUERY_EXTENSION_NAME,
@@ -60,6 +61,8 @@ std::string missing(const vk::raii::PhysicalDevice& device) {
         return "Vulkan 1.2";
     if (!compute_family(device))
         return "a queue that computes";
+    if (device.getProperties().limits.maxPerStageDescriptorStorageBuffers < kMostBuffers)
+        return fmt::format("{} buffers for a kernel", kMostBuffers);
     const auto features =
         device.getFeatures2<vk::PhysicalDeviceFeatures2, vk::PhysicalDeviceVulkan12Features>();
     if (!features.get<vk::PhysicalDeviceVulkan12Features>().timelineSemaphore)
@@ -116,19 +119,16 @@ std::string listed(std::span<const GpuDevice> devices) {
 
 /// The device of a number or of a part of a name. Throws `Error` where none or several have it.
 std::size_t named_device(std::span<const GpuDevice> devices, const std::string& which) {
-    if (const std::optional<std::size_t> number = as_number(which)) {
-        if (*number >= devices.size())
-            throw Error(fmt::format("there is no GPU {}: {}", *number, listed(devices)));
+    if (const std::optional<std::size_t> number = as_number(which); number && *number < devices.size())
         return *number;
-    }
     std::vector<std::size_t> fitting;
     for (std::size_t i = 0; i < devices.size(); ++i)
         if (lower(devices[i].name).find(lower(which)) != std::string::npos)
             fitting.push_back(i);
     if (fitting.size() == 1)
         return fitting.front();
-    throw Error(fmt::format("{} GPU has \"{}\" in its name: {}", fitting.empty() ? "no" : "more than one",
-                            which, listed(devices)));
+    throw Error(fmt::format("{} GPU has \"{}\" as its number or in its name: {}",
+                            fitting.empty() ? "no" : "more than one", which, listed(devices)));
 }
 
 /// Of those that can, hardware before software, and then that with the most memory.
@@ -297,7 +297,8 @@ void VulkanDevice::make_device() {
                                         .get<vk::PhysicalDeviceSubgroupSizeControlProperties>()
                                         .minSubgroupSize);
     traits_.most_groups = limits.maxComputeWorkGroupCount[0];
-    if (physical_.getQueueFamilyProperties()[family_].timestampValidBits == 64)
+    traits_.clock_bits = physical_.getQueueFamilyProperties()[family_].timestampValidBits;
+    if (traits_.clock_bits > 0)
         traits_.clock_seconds = 1e-9 * static_cast<double>(limits.timestampPeriod);
     if (traits_.ray_queries) {
         traits_.scratch_alignment = structures.minAccelerationStructureScratchOffsetAlignment;

@@ -41,6 +41,7 @@ public:
         std::size_t most_bytes = 0;        ///< of a buffer
         std::uint32_t least_subgroup = 0;  ///< threads, at least
         double clock_seconds = 0;          ///< of a step of the device's clock; 0: it has none
+        std::uint32_t clock_bits = 0;      ///< after which it begins anew
         std::size_t scratch_alignment = 1; ///< where memory to build hierarchies in begins
         std::uint32_t most_groups = 65535; ///< of a dispatch, in x
         std::uint64_t most_instances = 0, most_triangles = 0; ///< of a hierarchy of the device

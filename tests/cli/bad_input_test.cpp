@@ -163,8 +163,8 @@ TEST_F(BadInput, GpusThatAreNotThereOrNotMeant) {
         std::ranges::move(options, std::back_inserter(arguments));
         expect_refused(prt(arguments), why);
     };
-    refuse({"--gpu", "no such card"}, "no GPU has \"no such card\" in its name");
-    refuse({"--gpu", "999"}, "there is no GPU 999");
+    refuse({"--gpu", "no such card"}, "no GPU has \"no such card\" as its number or in its name");
+    refuse({"--gpu", "999"}, "no GPU has \"999\"");
     refuse({"--gpu", "0", "--backend", "cpu"}, "--backend cpu uses none");
     refuse({"--gpu", "0", "--method", "raster"}, "depth maps");
     EXPECT_EQ(prt({"bench", "--list-devices"}).status, 0);

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -37,8 +39,31 @@ std::vector<AlphaLayer> alpha_layers(const Material& m) {
     return layers;
 }
 
+/// Channels of images as bytes, each once however many materials use it.
+class AlphaTexels {
+public:
+    explicit AlphaTexels(const std::vector<Texture>& textures) : textures_(textures) {}
+
+    /// Where all levels begin.
+    std::uint32_t first(int image, int channel) {
+        const auto [found, is_new] =
+            first_.try_emplace({image, channel}, static_cast<std::uint32_t>(texels.size()));
+        if (is_new)
+            for (const Image8& level : textures_[static_cast<std::size_t>(image)].levels)
+                for (const glm::u8vec4& texel : level.pixels)
+                    texels.push_back(texel[channel]);
+        return found->second;
+    }
+
+    std::vector<std::uint8_t> texels;
+
+private:
+    const std::vector<Texture>& textures_;
+    std::map<std::pair<int, int>, std::uint32_t> first_; ///< of image and channel
+};
+
 AlphaMaterial alpha_material(const AlphaLayer& layer, const Surfaces& surfaces, const VertexArray& vertices,
-                             const std::vector<Texture>& textures, std::vector<std::uint8_t>& texels) {
+                             const std::vector<Texture>& textures, AlphaTexels& texels) {
     const TextureUse& use = *layer.use;
     AlphaMaterial result{
         .mode = layer.mode,
@@ -52,13 +77,10 @@ AlphaMaterial alpha_material(const AlphaLayer& layer, const Surfaces& surfaces, 
     if (!surfaces.has_texture(vertices, use))
         return result;
     const Texture& texture = textures[static_cast<std::size_t>(use.image)];
-    result.texels = static_cast<std::uint32_t>(texels.size());
+    result.texels = texels.first(use.image, layer.channel);
     result.width = texture.levels[0].width;
     result.height = texture.levels[0].height;
     result.levels = static_cast<std::int32_t>(texture.levels.size());
-    for (const Image8& level : texture.levels)
-        for (const glm::u8vec4& texel : level.pixels)
-            texels.push_back(texel[layer.channel]);
     return result;
 }
 
@@ -91,6 +113,7 @@ AlphaTables make_alpha_tables(const TraceScene& trace_scene, std::span<const std
     const Scene& scene = trace_scene.scene();
     const Surfaces& surfaces = trace_scene.surfaces();
     AlphaTables tables;
+    AlphaTexels texels(trace_scene.textures());
     tables.index.resize(surfaces.triangles());
     std::vector<std::uint32_t> material_of(scene.primitives.size(), PRT_NO_TEXELS); // of the first layer
     for (const std::uint32_t t : triangles) {
@@ -104,7 +127,7 @@ AlphaTables make_alpha_tables(const TraceScene& trace_scene, std::span<const std
             first = static_cast<std::uint32_t>(tables.materials.size());
             for (const AlphaLayer& layer : layers)
                 tables.materials.push_back(
-                    alpha_material(layer, surfaces, vertices, trace_scene.textures(), tables.texels));
+                    alpha_material(layer, surfaces, vertices, trace_scene.textures(), texels));
         }
         const glm::uvec3 corners = surfaces.corners(t) - static_cast<unsigned>(vertices.first_receiver);
         tables.index[t] = static_cast<std::uint32_t>(tables.triangles.size()) + 1;
@@ -115,6 +138,7 @@ AlphaTables make_alpha_tables(const TraceScene& trace_scene, std::span<const std
                 tables.triangles.back().next = static_cast<std::uint32_t>(tables.triangles.size()) + 1;
         }
     }
+    tables.texels = std::move(texels.texels);
     tables.texels.resize((tables.texels.size() + 3) / 4 * 4);
     return tables;
 }

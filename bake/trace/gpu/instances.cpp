@@ -19,8 +19,9 @@
 namespace prt {
 namespace {
 
-/// Of the largest coordinate: how far a copy's vertex may be from where the motion takes it. Rounding of the
-/// positions is half a unit; a ray starts sixteen units off its surface.
+/// Of the copy's largest coordinate: how far a vertex may be from where the motion takes it. Rounding of the
+/// positions is half a unit of that, and less of the first copy's, which is the nearest to the origin; a ray
+/// starts sixteen units off its surface.
 constexpr double kTolerance = 4 * static_cast<double>(std::numeric_limits<float>::epsilon());
 /// How much a scale may differ between axes: what rounding does to short sides.
 constexpr double kUneven = 1e-3;
@@ -84,11 +85,14 @@ std::optional<glm::mat4x3> motion(std::span<const glm::vec3> from, std::span<con
     if (!is_even(turn))
         return std::nullopt;
     const glm::dvec3 shift = glm::dvec3(to[frame[0]]) - turn * glm::dvec3(from[frame[0]]);
-    const double most = kTolerance * std::max(largest_coordinate_of(from), largest_coordinate_of(to));
+    // As the device has it.
+    const glm::mat4x3 transform{glm::vec3(turn[0]), glm::vec3(turn[1]), glm::vec3(turn[2]), glm::vec3(shift)};
+    const glm::dmat4x3 rounded(transform);
+    const double most = kTolerance * largest_coordinate_of(to);
     for (std::size_t v = 0; v < from.size(); ++v)
-        if (!(glm::distance(turn * glm::dvec3(from[v]) + shift, glm::dvec3(to[v])) <= most))
+        if (!(glm::distance(rounded * glm::dvec4(glm::dvec3(from[v]), 1), glm::dvec3(to[v])) <= most))
             return std::nullopt;
-    return glm::mat4x3(glm::vec3(turn[0]), glm::vec3(turn[1]), glm::vec3(turn[2]), glm::vec3(shift));
+    return transform;
 }
 
 } // namespace
@@ -100,7 +104,11 @@ std::vector<std::vector<Instance>> find_instances(const Scene& scene) {
         alike[{primitive.mesh, primitive.primitive, primitive.material, primitive.mirrored}].push_back(p);
     }
     std::vector<std::vector<Instance>> meshes;
-    for (const auto& [key, members] : alike) {
+    const auto reach = [&](std::uint32_t p) {
+        return largest_coordinate_of(scene.vertex_arrays[scene.primitives[p].vertices].positions);
+    };
+    for (auto& [key, members] : alike) {
+        std::iter_swap(members.begin(), std::ranges::min_element(members, {}, reach));
         const Primitive& first = scene.primitives[members.front()];
         const std::span<const glm::vec3> positions = scene.vertex_arrays[first.vertices].positions;
         const std::optional<Frame> frame = members.size() > 1 ? frame_of(positions) : std::nullopt;

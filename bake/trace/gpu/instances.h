@@ -18,7 +18,7 @@ struct Instance {
 };
 
 /// Primitives of the same geometry, each within what rounding does to positions: [meshes][instances], the
-/// first copy before the others. Those that stand alone are left out.
+/// copy that is nearest to the origin first. Those that stand alone are left out.
 std::vector<std::vector<Instance>> find_instances(const Scene& scene);
 
 } // namespace prt

@@ -22,7 +22,7 @@ TracePiece::TracePiece(const VulkanDevice& device, const GpuScene& scene, const 
         .sums = mirrored(room.receivers * sums * sizeof(float), GpuMemory::download, "the sums over rays"),
         .hits =
             mirrored(hits ? room.hits * sizeof(gpu::HitRecord) : 0, GpuMemory::download, "what rays meet"),
-        .hit_count = mirrored(sizeof(std::uint32_t), GpuMemory::download, "the number of hits"),
+        .state = mirrored(2 * sizeof(std::uint32_t), GpuMemory::download, "the number of hits"),
         .blocked_rays = mirrored(room.rows * sizeof(std::uint32_t), GpuMemory::download, "the blocked rays"),
         .blocked = {device, room.rows * PRT_BEAM * sizeof(std::uint32_t), GpuMemory::device,
                     "the blocked rays"},
@@ -48,7 +48,7 @@ void TracePiece::bind(const VulkanDevice& device, const GpuScene& scene) {
     }
     tracing.buffers.merge(
         std::map<std::uint32_t, const GpuBuffer*>{{PRT_BINDING_SHARES, &buffers_.shares},
-                                                  {PRT_BINDING_HIT_COUNT, &buffers_.hit_count.device},
+                                                  {PRT_BINDING_HIT_COUNT, &buffers_.state.device},
                                                   {PRT_BINDING_PROGRESS, &buffers_.threads}});
     bindings_.trace = {device, kernels_.trace(), tracing};
     GpuResources summing = tables;
@@ -66,12 +66,12 @@ std::size_t TracePiece::sums_bytes() const {
 }
 
 void TracePiece::trace(const vk::raii::CommandBuffer& commands) const {
-    if (hits_in_any_order())
-        commands.fillBuffer(buffers_.hit_count.device.handle(), 0, VK_WHOLE_SIZE, 0);
+    commands.fillBuffer(buffers_.state.device.handle(), 0, VK_WHOLE_SIZE, 0);
     barrier(commands);
     kernels_.trace().dispatch(commands, bindings_.trace.handle(), push_,
                               (push_.receivers + PRT_BEAMS - 1) / PRT_BEAMS, push_.chunks);
     barrier(commands);
+    copy(commands, buffers_.state.device, buffers_.state.host, buffers_.state.host.bytes());
 }
 
 void TracePiece::sum(const vk::raii::CommandBuffer& commands) const {
@@ -85,9 +85,7 @@ void TracePiece::sum(const vk::raii::CommandBuffer& commands) const {
 void TracePiece::copy_hits(const vk::raii::CommandBuffer& commands) const {
     const std::size_t hits = kernels_.has_alpha() ? room_.hits : rows() * (push_.whole_followed + 1);
     copy(commands, buffers_.hits.device, buffers_.hits.host, hits * sizeof(gpu::HitRecord));
-    if (kernels_.has_alpha())
-        copy(commands, buffers_.hit_count.device, buffers_.hit_count.host, sizeof(std::uint32_t));
-    else
+    if (!kernels_.has_alpha())
         copy(commands, buffers_.blocked_rays.device, buffers_.blocked_rays.host,
              rows() * sizeof(std::uint32_t));
 }
@@ -115,11 +113,19 @@ void TracePiece::start(GpuQueue& queue, const gpu::TracePush& push) {
 }
 
 std::size_t TracePiece::wanted_hits() const {
-    return buffers_.hit_count.host.as<const std::uint32_t>().front();
+    return buffers_.state.host.as<const std::uint32_t>()[0];
+}
+
+void TracePiece::check_loops() const {
+    if (buffers_.state.host.as<const std::uint32_t>()[1] != 0)
+        throw GpuFailure(
+            "the GPU ends long loops before their time, so that what it computes is wrong (software "
+            "devices of older drivers do): bake on the CPU");
 }
 
 void TracePiece::wait(GpuQueue& queue, GpuQueue::Ticket ticket) {
     queue.wait(ticket);
+    check_loops();
     seconds_ += queue.seconds(ticket);
 }
 

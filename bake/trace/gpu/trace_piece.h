@@ -47,7 +47,7 @@ private:
         GpuBuffer device, host;
     };
     struct Buffers {
-        Mirrored receivers, sums, hits, hit_count, blocked_rays;
+        Mirrored receivers, sums, hits, state, blocked_rays;
         GpuBuffer blocked, shares, threads;
     };
     struct Bindings {
@@ -62,6 +62,7 @@ private:
     void sum(const vk::raii::CommandBuffer& commands) const;
     void copy_hits(const vk::raii::CommandBuffer& commands) const;
     void wait(GpuQueue& queue, GpuQueue::Ticket ticket);
+    void check_loops() const;
     std::size_t wanted_hits() const; ///< more than there is room for: threads have stopped
 
     const TraceKernels& kernels_;

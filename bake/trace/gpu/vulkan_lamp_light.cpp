@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
 
 namespace prt {
@@ -186,6 +187,10 @@ LampLight lamp_light_on_gpu(const VulkanDevice& device, GpuQueue& queue, const G
                             static_cast<double>(indices.size()));
             const std::span<const glm::vec4> sums = kernel.trace(k, progress);
             for (std::size_t i = 0; i < batch.size(); ++i) {
+                if (!std::isfinite(sums[i].w))
+                    throw GpuFailure(
+                        "the GPU ends long loops before their time, so that what it computes is wrong "
+                        "(software devices of older drivers do): bake on the CPU");
                 put_irradiance(task, batch[i], k, glm::dvec3(sums[i]), light);
                 light.rays += static_cast<std::size_t>(sums[i].w);
             }

@@ -76,6 +76,9 @@ public:
     void add_sums(Place at, const TracePiece& piece, int threads) {
         const gpu::TracePush& push = piece.push();
         const std::size_t coefficients = vectors_.size() / job_.indices.size();
+        if (!std::ranges::all_of(piece.sums().first(push.receivers * (coefficients + 1)),
+                                 [](float v) { return std::isfinite(v); }))
+            throw GpuFailure("the GPU computes numbers that are none: its driver fails on this scene");
         parallel_for(push.receivers, 64, threads, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const float* const sums = &piece.sums()[i * (coefficients + 1)];
@@ -181,8 +184,9 @@ TracePiece::Room VulkanTracer::room_for(const Job& job) const {
 VulkanTracer::Pieces& VulkanTracer::pieces_for(const Job& job) {
     const TraceKernels& wanted = kernels(job.options.order, job.hits);
     const TracePiece::Room& room = job.room;
+    const bool same = std::exchange(of_pieces_, nullptr) == &wanted;
     for (std::unique_ptr<TracePiece>& piece : pieces_) {
-        const bool fits = piece && of_pieces_ == &wanted && piece->room().receivers >= room.receivers &&
+        const bool fits = piece && same && piece->room().receivers >= room.receivers &&
                           piece->room().rows >= room.rows && piece->room().hits >= room.hits;
         if (!fits) {
             piece.reset(); // before another takes its memory
@@ -285,9 +289,7 @@ void VulkanTracer::run(const Job& job, Results& results, const Progress& progres
         for (UnderWay* work : {&under_way[n % 2], &under_way[(n + 1) % 2]}) // the older one first
             end(*work);
     } catch (...) {
-        for (const UnderWay& work : under_way) // the device still writes to them
-            if (work.piece)
-                queue_.wait_for_all();
+        queue_.wait_for_all(); // the device still writes to pieces
         throw;
     }
 }
