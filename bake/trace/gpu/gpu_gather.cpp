@@ -177,7 +177,9 @@ void GpuGather::gather(std::size_t first, std::size_t end, std::size_t from, boo
             queue_.wait(before); // the shared place is read until then
             blocks_.want(b);
         }
-        const double work_of_row = static_cast<double>((block.entries / block.rows + 1) * v.columns);
+        const double work_of_row =
+            (static_cast<double>(block.entries) / static_cast<double>(block.rows) + 1) *
+            static_cast<double>(v.columns);
         for (std::size_t row = std::max(first, block.first); row < block_end;) {
             progress.check();
             const auto in_time = static_cast<std::size_t>(work_per_second_ * kGatherSeconds / work_of_row);

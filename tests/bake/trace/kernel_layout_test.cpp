@@ -53,24 +53,36 @@ std::map<std::string, std::uint32_t> layout_of(std::span<const std::uint32_t> sp
     return layout;
 }
 
-#define PRT_EXPECT_AT(layout, type, member)                                                                  \
-    EXPECT_EQ(layout[#type "." #member], offsetof(gpu::type, member)) << #type "." #member;                  \
-    EXPECT_EQ(layout[#type], sizeof(gpu::type)) << #type
-
 TEST(GpuStructs, LieInMemoryAsKernelsReadThem) {
-    std::map<std::string, std::uint32_t> trace = layout_of(bake_trace), lamps = layout_of(bake_lamps);
-    PRT_EXPECT_AT(trace, Receiver, normal);
-    PRT_EXPECT_AT(trace, HitRecord, row);
-    PRT_EXPECT_AT(trace, ThreadProgress, left);
-    PRT_EXPECT_AT(trace, AlphaTriangle, next);
-    PRT_EXPECT_AT(trace, AlphaMaterial, wrap);
-    PRT_EXPECT_AT(trace, WideNode, high);
-    PRT_EXPECT_AT(lamps, LampReceiver, position);
-    PRT_EXPECT_AT(lamps, PunctualLight, outer_cosine);
-    PRT_EXPECT_AT(lamps, ShiningTriangle, image);
-    PRT_EXPECT_AT(lamps, EmissionImage, linear);
-    EXPECT_EQ(trace["TracePush.spread"], offsetof(gpu::TracePush, spread));
-    EXPECT_EQ(lamps["LampPush.nearest"], offsetof(gpu::LampPush, nearest));
+    const std::map<std::string, std::uint32_t> trace = layout_of(bake_trace), lamps = layout_of(bake_lamps);
+    const std::map<std::string, std::size_t> in_trace = {
+        {"Receiver", sizeof(gpu::Receiver)},
+        {"Receiver.normal", offsetof(gpu::Receiver, normal)},
+        {"HitRecord", sizeof(gpu::HitRecord)},
+        {"HitRecord.row", offsetof(gpu::HitRecord, row)},
+        {"ThreadProgress", sizeof(gpu::ThreadProgress)},
+        {"ThreadProgress.left", offsetof(gpu::ThreadProgress, left)},
+        {"AlphaTriangle", sizeof(gpu::AlphaTriangle)},
+        {"AlphaTriangle.next", offsetof(gpu::AlphaTriangle, next)},
+        {"AlphaMaterial", sizeof(gpu::AlphaMaterial)},
+        {"AlphaMaterial.wrap", offsetof(gpu::AlphaMaterial, wrap)},
+        {"WideNode", sizeof(gpu::WideNode)},
+        {"WideNode.high", offsetof(gpu::WideNode, high)},
+        {"TracePush.spread", offsetof(gpu::TracePush, spread)}};
+    const std::map<std::string, std::size_t> in_lamps = {
+        {"LampReceiver", sizeof(gpu::LampReceiver)},
+        {"LampReceiver.position", offsetof(gpu::LampReceiver, position)},
+        {"PunctualLight", sizeof(gpu::PunctualLight)},
+        {"PunctualLight.outer_cosine", offsetof(gpu::PunctualLight, outer_cosine)},
+        {"ShiningTriangle", sizeof(gpu::ShiningTriangle)},
+        {"ShiningTriangle.image", offsetof(gpu::ShiningTriangle, image)},
+        {"EmissionImage", sizeof(gpu::EmissionImage)},
+        {"EmissionImage.linear", offsetof(gpu::EmissionImage, linear)},
+        {"LampPush.nearest", offsetof(gpu::LampPush, nearest)}};
+    for (const auto& [what, place] : in_trace)
+        EXPECT_EQ(trace.at(what), place) << what;
+    for (const auto& [what, place] : in_lamps)
+        EXPECT_EQ(lamps.at(what), place) << what;
 }
 
 } // namespace
