@@ -11,6 +11,9 @@
 
 namespace prt {
 
+/// Workgroups that every device takes in one direction.
+inline constexpr std::size_t kMostGroups = 65535;
+
 /// What a kernel works on, by binding. The buffers stay where they are.
 struct GpuResources {
     std::map<std::uint32_t, const GpuBuffer*> buffers;

@@ -15,5 +15,11 @@ struct GpuLost : GpuFailure {
 struct GpuMemoryError : GpuFailure {
     using GpuFailure::GpuFailure;
 };
+/// A device cuts long loops short, so that what it computes is wrong.
+struct GpuLoopsCutShort : GpuFailure {
+    GpuLoopsCutShort()
+        : GpuFailure("the GPU ends long loops before their time, so that what it computes is wrong (software "
+                     "devices of older drivers do): bake on the CPU") {}
+};
 
 } // namespace prt

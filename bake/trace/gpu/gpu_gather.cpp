@@ -17,7 +17,6 @@ namespace prt {
 namespace {
 
 constexpr double kGatherSeconds = 0.05;            ///< of a dispatch
-constexpr std::size_t kMostGatherGroups = 65535;   ///< that every device takes
 constexpr std::size_t kRowsAtOnce = 1 << 14;       ///< that are asked for where they are no receivers
 constexpr const char* kTransfer = "exit transfer"; ///< what buffers hold
 
@@ -185,7 +184,7 @@ void GpuGather::gather(std::size_t first, std::size_t end, std::size_t from, boo
             const auto in_time = static_cast<std::size_t>(work_per_second_ * kGatherSeconds / work_of_row);
             const std::size_t count =
                 std::min({block_end - row, std::max<std::size_t>(in_time, rows_of_group),
-                          kMostGatherGroups * rows_of_group});
+                          kMostGroups * rows_of_group});
             const gpu::GatherPush push{.first_row = static_cast<std::uint32_t>(row - block.first),
                                        .end_row = static_cast<std::uint32_t>(row - block.first + count),
                                        .first_gathered = static_cast<std::uint32_t>(block.first - first),
@@ -221,7 +220,7 @@ std::optional<BounceEnergy> GpuGather::bounce(Transfer& transfer, int bounces, c
             static_cast<std::uint32_t>(receivers * static_cast<std::size_t>(gather_.channels()));
         const auto measure = [&](std::size_t place, std::uint32_t bounce) {
             gpu::EnergyPush push{.first = 0, .end = vectors, .place = bounce};
-            constexpr std::uint32_t kAtOnce = kMostGatherGroups * PRT_GATHER_THREADS;
+            constexpr std::uint32_t kAtOnce = kMostGroups * PRT_GATHER_THREADS;
             for (; push.first < vectors; push.first += kAtOnce)
                 queue_.submit([&](const vk::raii::CommandBuffer& commands) {
                     v.energy.kernel.dispatch(

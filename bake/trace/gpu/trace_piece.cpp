@@ -118,9 +118,7 @@ std::size_t TracePiece::wanted_hits() const {
 
 void TracePiece::check_loops() const {
     if (buffers_.state.host.as<const std::uint32_t>()[1] != 0)
-        throw GpuFailure(
-            "the GPU ends long loops before their time, so that what it computes is wrong (software "
-            "devices of older drivers do): bake on the CPU");
+        throw GpuLoopsCutShort();
 }
 
 void TracePiece::wait(GpuQueue& queue, GpuQueue::Ticket ticket) {

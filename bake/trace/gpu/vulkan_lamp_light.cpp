@@ -138,7 +138,7 @@ private:
             push.first_receiver = static_cast<std::uint32_t>(begin);
             const Stopwatch watch;
             const std::size_t groups =
-                std::min<std::size_t>((size + PRT_LAMP_THREADS - 1) / PRT_LAMP_THREADS, kMostLampGroups);
+                std::min<std::size_t>((size + PRT_LAMP_THREADS - 1) / PRT_LAMP_THREADS, kMostGroups);
             const std::size_t done = std::min(count_ - begin, groups * PRT_LAMP_THREADS);
             push.receivers = static_cast<std::uint32_t>(begin + done);
             const GpuQueue::Ticket ticket = queue_.submit([&](const vk::raii::CommandBuffer& commands) {
@@ -157,7 +157,6 @@ private:
         queue_.wait(before);
     }
 
-    static constexpr std::size_t kMostLampGroups = 65535;
     const LampTask& task_;
     GpuQueue& queue_;
     LampTables tables_;
@@ -188,9 +187,7 @@ LampLight lamp_light_on_gpu(const VulkanDevice& device, GpuQueue& queue, const G
             const std::span<const glm::vec4> sums = kernel.trace(k, progress);
             for (std::size_t i = 0; i < batch.size(); ++i) {
                 if (!std::isfinite(sums[i].w))
-                    throw GpuFailure(
-                        "the GPU ends long loops before their time, so that what it computes is wrong "
-                        "(software devices of older drivers do): bake on the CPU");
+                    throw GpuLoopsCutShort();
                 put_irradiance(task, batch[i], k, glm::dvec3(sums[i]), light);
                 light.rays += static_cast<std::size_t>(sums[i].w);
             }

@@ -207,11 +207,10 @@ gpu::TracePush VulkanTracer::next(const Job& job, std::size_t receiver, std::siz
     const bool whole = chunk == 0 && rows >= chunks;
     const std::size_t receivers =
         whole ? std::min({rows / chunks, room.receivers, job.indices.size() - receiver}) : 1;
-    constexpr std::size_t kMostChunks = 65535; // workgroups that every device takes in y
     gpu::TracePush push{};
     push.receivers = static_cast<std::uint32_t>(receivers);
     push.first_chunk = static_cast<std::uint32_t>(chunk);
-    push.chunks = static_cast<std::uint32_t>(std::min({whole ? chunks : rows, chunks - chunk, kMostChunks}));
+    push.chunks = static_cast<std::uint32_t>(std::min({whole ? chunks : rows, chunks - chunk, kMostGroups}));
     push.all_chunks = static_cast<std::uint32_t>(chunks);
     push.last_rays = static_cast<std::uint32_t>(job.last.rays);
     push.first_ray = job.options.first_ray;

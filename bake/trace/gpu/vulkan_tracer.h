@@ -46,7 +46,6 @@ private:
     TracePiece::Room room_for(const Job& job) const;
     Pieces& pieces_for(const Job& job);
     gpu::TracePush next(const Job& job, std::size_t receiver, std::size_t chunk) const;
-    void finish(TracePiece& piece, Results& results);
     void run(const Job& job, Results& results, const Progress& progress);
 
     VulkanDevice device_;
