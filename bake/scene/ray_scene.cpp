@@ -8,6 +8,7 @@
 #include <embree3/rtcore.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,6 +25,12 @@ constexpr float kOffset = 32 * std::numeric_limits<float>::epsilon() / 2;
 
 float largest_coordinate(const glm::vec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// Whether a box comes as near to `position` on every axis.
+bool reaches(const glm::vec3& low, const glm::vec3& high, const glm::vec3& position, float distance) {
+    return glm::all(glm::lessThanEqual(low - distance, position)) &&
+           glm::all(glm::greaterThanEqual(high + distance, position));
 }
 
 RTCRay embree_ray(const Ray& ray) {
@@ -170,19 +177,23 @@ glm::vec3 RayScene::way_off_surfaces(const glm::vec3& position, const glm::vec3&
     glm::dvec3 way(0), largest(-2);
     visit_near(position, 2 * unit, [&](unsigned id) {
         const glm::uvec3& t = corners_[id];
-        const glm::dvec3 a(positions_[t.x]), b(positions_[t.y]), c(positions_[t.z]);
+        const glm::vec3 &p = positions_[t.x], &q = positions_[t.y], &r = positions_[t.z];
+        if (!reaches(glm::min(p, glm::min(q, r)), glm::max(p, glm::max(q, r)), position, 2 * unit))
+            return; // its leaf does
+        const glm::dvec3 a(p), b(q), c(r);
         const glm::dvec3 area = glm::cross(b - a, c - a);
-        const double doubled = glm::length(area);
-        if (!(doubled > 0))
+        const double squared = glm::dot(area, area),
+                     along = glm::dot(area, point - a) / static_cast<double>(unit);
+        if (!(along * along < kOnIt * kOnIt * squared))
             return;
+        const bool above_it = glm::dot(glm::cross(b - a, point - a), area) >= 0 &&
+                              glm::dot(glm::cross(c - b, point - b), area) >= 0 &&
+                              glm::dot(glm::cross(a - c, point - c), area) >= 0;
+        if (!above_it)
+            return;
+        const double doubled = std::sqrt(squared);
         const glm::dvec3 normal = area / doubled;
-        const double height = glm::dot(normal, point - a) / static_cast<double>(unit);
-        const bool above_it = glm::dot(glm::cross(b - a, point - a), normal) >= 0 &&
-                              glm::dot(glm::cross(c - b, point - b), normal) >= 0 &&
-                              glm::dot(glm::cross(a - c, point - c), normal) >= 0;
-        if (!above_it || std::abs(height) >= kOnIt)
-            return;
-        way += normal * (kAway - height);
+        way += normal * (kAway - along / doubled);
         if (std::tie(largest.x, largest.y, largest.z) < std::tie(normal.x, normal.y, normal.z))
             largest = normal;
     });

@@ -68,7 +68,7 @@ std::shared_ptr<const prt::Transfer> repeated(Channel& channel, const BudgetSubj
         return subject.repeated;
     channel.enter(Stage::baking, "baking with another seed");
     const LoadedModel& loaded = subject.loaded;
-    const auto repeated = std::make_shared<const prt::Transfer>(prt::repeated_bake(
+    auto repeated = std::make_shared<const prt::Transfer>(prt::repeated_bake(
         loaded.model->scene, *loaded.raw, loaded.record, threads_beside_drawing(), channel.progress()));
     channel.post(RepeatedBake{loaded.raw, repeated});
     return repeated;
