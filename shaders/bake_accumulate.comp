@@ -7,6 +7,7 @@
 
 #include "bake_kernel.glsl"
 #include "bake_samples.glsl"
+#include "bake_sums.glsl"
 
 layout(constant_id = PRT_CONSTANT_ORDER) const int kOrder = 6;
 layout(constant_id = PRT_CONSTANT_SUBGROUPS) const uint kSubgroups = 8; // of a workgroup, at most
@@ -17,7 +18,12 @@ layout(std430, binding = PRT_BINDING_RECEIVERS) readonly buffer Receivers {
     Receiver receivers[];
 };
 layout(std430, binding = PRT_BINDING_SUMS) buffer Sums {
-    float sums[]; // per receiver: sum of open minus blocked, [order²], and the rays that use the control variate
+    // Per receiver: sum of open minus blocked, [order²], and the rays that use the control variate; where kSummed the
+    // first coefficient of the vector.
+    float sums[];
+};
+layout(std430, binding = PRT_BINDING_SIGNED_SUMS) buffer SignedSums {
+    int signed_sums[]; // as the others
 };
 layout(std430, binding = PRT_BINDING_BLOCKED) readonly buffer Blocked {
     uint blocked[];
@@ -26,7 +32,8 @@ layout(std430, binding = PRT_BINDING_SHARES) readonly buffer Shares {
     float shares[];
 };
 layout(std430, binding = PRT_BINDING_SH_FACTORS) readonly buffer ShFactors {
-    vec4 sh_factors[PRT_MOST_COEFFICIENTS]; // at PRT_SH_FACTOR(l, m): a_lm, b_lm, and where l = m the sectoral factor
+    vec4 sh_factors[PRT_MOST_COEFFICIENTS]; // at PRT_SH_FACTOR(l, m): a_lm, b_lm, where l = m the sectoral factor,
+                                            // lobe's
 };
 layout(push_constant) uniform Push {
     TracePush push;
@@ -43,16 +50,17 @@ float total[PRT_MOST_COEFFICIENTS];
     STEP(m, 0) STEP(m, 1) STEP(m, 2) STEP(m, 3) STEP(m, 4) STEP(m, 5) STEP(m, 6) STEP(m, 7) STEP(m, 8) STEP(m, 9)
 #define PRT_EVERY_DEGREE(WORK) WORK(0) WORK(1) WORK(2) WORK(3) WORK(4) WORK(5) WORK(6) WORK(7) WORK(8) WORK(9)
 
-// Band l of degree m by the recurrence from the bands before (docs/math.md, eq. 3).
+// Band l of degree m by the recurrence from the bands before (docs/math.md, eq. 3), for a lobe of it times its factor.
 #define PRT_ADD_BAND(m, l)                                                                                             \
     if (l >= m && l < kOrder) {                                                                                        \
         vec4 factors = sh_factors[PRT_SH_FACTOR(l, m)];                                                                \
         float next = l == m ? factors.z : factors.x * (d.z * legendre) - factors.y * before;                           \
         before = l == m ? 0.0 : legendre;                                                                              \
         legendre = next;                                                                                               \
-        total[l * (l + 1) + m] += legendre * cosine;                                                                   \
+        float value = lobe ? legendre * factors.w : legendre;                                                          \
+        total[l * (l + 1) + m] += value * cosine;                                                                      \
         if (m > 0)                                                                                                     \
-            total[max(l * (l + 1) - m, 0)] += legendre * sine;                                                         \
+            total[max(l * (l + 1) - m, 0)] += value * sine;                                                            \
     }
 #define PRT_ADD_DEGREE(m)                                                                                              \
     if (m < kOrder) {                                                                                                  \
@@ -63,8 +71,8 @@ float total[PRT_MOST_COEFFICIENTS];
         cosine = turned;                                                                                               \
     }
 
-// Adds weight times the basis to `total`.
-void add_basis(vec3 d, float weight) {
+// Adds weight times the basis to `total`, or times the clamped cosine lobe.
+void add_basis(vec3 d, float weight, const bool lobe) {
     float cosine = weight, sine = 0.0;
     PRT_EVERY_DEGREE(PRT_ADD_DEGREE)
 }
@@ -104,6 +112,20 @@ float sum_of_group(float mine) {
     return sum;
 }
 
+// Of this part of the receiver's rays.
+void add_to_sums(uint receiver, uint k, float coefficient) {
+    SumRow row = sum_rows[receiver];
+    for (uint i = 0u; i < 3u; ++i)
+        if (row.sums[i] != PRT_NO_SUM) {
+            int value = fixed_point(row.shares[i] * coefficient);
+            uint place = row.sums[i] * uint(kCoefficients) + k;
+            atomicAdd(fixed_sums[place], value);
+            atomicAdd(signed_sums[place], row.sign < 0.0 ? -value : value);
+        }
+    if (k == 0u)
+        sums[receiver] += coefficient;
+}
+
 void main() {
     uint receiver = gl_WorkGroupID.x, lane = gl_LocalInvocationID.x;
     uint seed = floatBitsToUint(receivers[receiver].origin.w);
@@ -132,18 +154,24 @@ void main() {
             uint k = uint(findLSB(wanted)), i = k * uint(PRT_BEAM) + lane;
             wanted &= wanted - 1u;
             float share = kAlpha ? shares[row * uint(PRT_CHUNK) + i] : mostly_open ? 1.0 : 0.0;
-            add_basis(ray_direction(sobol[table + i] ^ offset, seed, frame), mostly_open ? -share : 1.0 - share);
+            add_basis(ray_direction(sobol[table + i] ^ offset, seed, frame), mostly_open ? -share : 1.0 - share, false);
         }
     }
+    if (kSummed && lane == 0u)
+        add_basis(receivers[receiver].normal.xyz, control, true);
     PRT_EVERY_DEGREE(PRT_SUM_DEGREE)
     barrier();
+    float rays = float((push.all_chunks - 1u) * uint(PRT_CHUNK) + push.last_rays);
     uint first = receiver * uint(kCoefficients + 1);
     for (uint k = lane; k < uint(kCoefficients); k += uint(PRT_BEAM)) {
         float sum = 0.0;
         for (uint i = 0u; i < gl_NumSubgroups; ++i)
             sum += partial[i * uint(kCoefficients) + k];
-        sums[first + k] += sum;
+        if (kSummed)
+            add_to_sums(receiver, k, sum / rays);
+        else
+            sums[first + k] += sum;
     }
-    if (lane == 0u)
+    if (!kSummed && lane == 0u)
         sums[first + uint(kCoefficients)] += control;
 }

@@ -6,6 +6,7 @@
 
 #include "shared_bake.h"
 #include "shared_structs.h"
+#include "bake_sums.glsl"
 
 layout(local_size_x = PRT_GATHER_THREADS) in;
 layout(constant_id = PRT_CONSTANT_ORDER) const uint kOrder = 6u;
@@ -30,7 +31,7 @@ layout(std430, binding = PRT_BINDING_EXIT) readonly buffer Exit {
     float exit_transfer[]; // [receivers][kChannels][kOrder²]
 };
 layout(std430, binding = PRT_BINDING_GATHERED) writeonly buffer Gathered {
-    float gathered[]; // of rows, the same
+    float gathered[]; // of rows, the same; not where kSummed
 };
 layout(std430, binding = PRT_BINDING_TOTAL) buffer Total {
     float total[]; // the same, to which what is gathered is added, where push.add
@@ -38,6 +39,13 @@ layout(std430, binding = PRT_BINDING_TOTAL) buffer Total {
 layout(push_constant) uniform Push {
     GatherPush push;
 };
+
+void add_to_sums(uint row, uint columns, uint k, float value) {
+    SumRow to = sum_rows[row];
+    for (uint i = 0u; i < 3u; ++i)
+        if (to.sums[i] != PRT_NO_SUM)
+            atomicAdd(fixed_sums[to.sums[i] * columns + k], fixed_point(to.shares[i] * value / push.largest));
+}
 
 void main() {
     const uint kCoefficients = kOrder * kOrder, kColumns = kChannels * kCoefficients;
@@ -56,7 +64,10 @@ void main() {
             sum += weight * exit_transfer[source * kColumns + k];
         }
         uint place = (push.first_gathered + row) * kColumns + k;
-        gathered[place] = sum;
+        if (kSummed)
+            add_to_sums(push.first_sum_row + row, kColumns, k, sum);
+        else
+            gathered[place] = sum;
         if (push.add != 0u)
             total[place] += sum;
     }

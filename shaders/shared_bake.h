@@ -36,6 +36,9 @@
 #define PRT_BINDING_PROGRESS 14
 #define PRT_BINDING_BLOCKED_RAYS 15
 #define PRT_BINDING_INSTANCES 16
+#define PRT_BINDING_SUM_ROWS 17
+#define PRT_BINDING_FIXED_SUMS 18
+#define PRT_BINDING_SIGNED_SUMS 19
 // Those of the gather.
 #define PRT_BINDING_ROW_ENDS 1
 #define PRT_BINDING_SOURCES 2
@@ -56,6 +59,7 @@
 #define PRT_CONSTANT_CHANNELS 7
 #define PRT_CONSTANT_ROW_THREADS 8
 #define PRT_CONSTANT_SHARED 9
+#define PRT_CONSTANT_SUMMED 10
 // Texture units.
 #define PRT_UNIT_OPAQUE_DEPTH 2
 #define PRT_UNIT_LAST_DEPTH 3
@@ -79,6 +83,9 @@
 #define PRT_CHUNK 1024
 #define PRT_BEAM 32
 #define PRT_BEAMS 2
+// Sums of vectors in fixed point: what 1 is there, and what a sum and all that is added to it is less than.
+#define PRT_FIXED_ONE 536870912.0
+#define PRT_FIXED_LIMIT 3.9
 // Threads of a workgroup that gathers.
 #define PRT_GATHER_THREADS 64
 // Receivers of a workgroup whose rays to lamps are traced together.

@@ -21,11 +21,21 @@ struct TracePush {
     float spread; // that of TracedRay, times the cosine to the normal
 };
 
+// What a vector is added to: three sums, and what it is of the weights of each in all.
+struct SumRow {
+    uint sums[3]; // or PRT_NO_SUM
+    float shares[3];
+    float sign; // with which it goes to the signed sums, too
+};
+#define PRT_NO_SUM 0xffffffffu
+
 // Which rows of a block a dispatch gathers.
 struct GatherPush {
     uint first_row, end_row; // of the block
     uint first_gathered;     // where row 0 of the block is written
     uint add;                // whether to the total, too
+    uint first_sum_row;      // of row 0 of the block
+    float largest;           // of the values of exit transfer, where rows are summed
 };
 struct EnergyPush {
     uint first, end; // vectors

@@ -74,4 +74,18 @@ FitEquations fit_equations(const Surfaces& surfaces, const TransportReceivers& r
     return equations;
 }
 
+SumRow sum_row(const FitRow& row) {
+    static_assert(kNoReceiver == kNoSum);
+    return {row.unknowns, {row.area * row.shares[0], row.area * row.shares[1], row.area * row.shares[2]}};
+}
+
+std::vector<float> unknown_weights(const FitEquations& equations) {
+    std::vector<float> weights(equations.unknowns);
+    for (const FitRow& row : equations.rows)
+        for (std::size_t i = 0; i < row.unknowns.size(); ++i)
+            if (row.unknowns[i] != kNoReceiver)
+                weights[row.unknowns[i]] += row.area * row.shares[i];
+    return weights;
+}
+
 } // namespace prt

@@ -5,6 +5,7 @@
 
 #include "surface/smoothness.h"
 #include "surface/surface_samples.h"
+#include "trace/vector_sums.h"
 
 #include <array>
 #include <cstdint>
@@ -30,6 +31,12 @@ struct FitEquations {
 };
 FitEquations fit_equations(const Surfaces& surfaces, const TransportReceivers& receivers,
                            const SurfaceSamples& samples);
+
+/// What a sample is added to in b, of positive sign.
+SumRow sum_row(const FitRow& row);
+
+/// How much weight the samples have in all that are added to each of b: [unknowns].
+std::vector<float> unknown_weights(const FitEquations& equations);
 
 /// Adds a_s φ_i(s) T_s to b [unknowns][stride], for T of the samples from `first` on, [some][stride].
 template <class Value>

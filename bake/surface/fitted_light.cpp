@@ -2,12 +2,14 @@
 
 #include "surface/fitted_light.h"
 
+#include "prt/gpu_failure.h"
 #include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
 #include "surface/bend_weights.h"
 #include "trace/sample_sequence.h"
 #include "trace/scrambles.h"
+#include "trace/vector_sums.h"
 #include "trace_gather.h"
 
 #include <algorithm>
@@ -39,10 +41,15 @@ public:
 
     SampleSums trace(DirectLight& direct, const Progress& progress) {
         SampleSums sums;
-        sums.b.resize(equations_.unknowns * stride_);
-        sums.signed_b.resize(sums.b.size());
-        for (std::size_t k = 0; k < samples_.layers; ++k)
-            trace_layer(k, direct, sums, progress.part(share(k), share(k + 1)));
+        try {
+            sums = trace_layers(direct, progress);
+        } catch (const GpuFailure&) {
+            if (tracer_.backend() == Backend::gpu)
+                throw;
+            direct.gather.reset(); // what the GPU had summed is gone
+            direct.rays = 0;
+            sums = trace_layers(direct, progress);
+        }
         std::sort(sums.dark.begin(), sums.dark.end());
         if (direct.gather && direct.gather->entries() == 0) {
             direct.gather.reset();
@@ -71,6 +78,19 @@ private:
         return static_cast<double>(layer) / static_cast<double>(samples_.layers);
     }
 
+    SampleSums trace_layers(DirectLight& direct, const Progress& progress) {
+        SampleSums sums;
+        sums.b.resize(equations_.unknowns * stride_);
+        sums.signed_b.resize(sums.b.size());
+        const std::unique_ptr<VectorSums> on_device =
+            tracer_.vector_sums(plan_.options.order, unknown_weights(equations_));
+        for (std::size_t k = 0; k < samples_.layers; ++k)
+            trace_layer(k, direct, sums, on_device.get(), progress.part(share(k), share(k + 1)));
+        if (on_device)
+            on_device->read(sums.b, sums.signed_b);
+        return sums;
+    }
+
     void add(std::size_t sample, float sign, std::span<const float> vector, std::span<float> b) const {
         const FitRow& row = equations_.rows[sample];
         for (std::size_t i = 0; i < 3; ++i)
@@ -80,7 +100,8 @@ private:
     }
 
     /// Each layer takes a part of its own of its receivers' nets.
-    void trace_layer(std::size_t k, DirectLight& direct, SampleSums& sums, const Progress& progress) {
+    void trace_layer(std::size_t k, DirectLight& direct, SampleSums& sums, VectorSums* on_device,
+                     const Progress& progress) {
         const Receivers layer = samples_.layer(k);
         const std::vector<std::uint32_t> indices = receivers_on_surfaces(layer);
         const auto sample = [&](std::uint32_t g) { return g * samples_.layers + k; };
@@ -101,15 +122,33 @@ private:
         } else {
             options.hit_stride = 1;
         }
-        trace_receivers(
-            tracer_, layer, indices, options,
-            [&](std::uint32_t g, std::span<const float> vector) {
-                add(sample(g), 1, vector, sums.b);
-                add(sample(g), sign_of_group(g, plan_.options.seed), vector, sums.signed_b);
-                if (vector[0] <= 0)
-                    sums.dark.push_back(static_cast<std::uint32_t>(sample(g)));
-            },
-            progress, sink);
+        const auto note_dark = [&](std::uint32_t g, float first) {
+            if (first <= 0)
+                sums.dark.push_back(static_cast<std::uint32_t>(sample(g)));
+        };
+        if (on_device)
+            in_batches(tracer_, indices, options, progress,
+                       [&](std::span<const std::uint32_t> batch, const Progress& of_batch) {
+                           std::vector<SumRow> rows;
+                           for (const std::uint32_t g : batch) {
+                               rows.push_back(sum_row(equations_.rows[sample(g)]));
+                               rows.back().sign = sign_of_group(g, plan_.options.seed);
+                           }
+                           std::vector<float> first(batch.size());
+                           on_device->trace(layer, batch, options, rows, first, sink_of(batch, sink),
+                                            of_batch);
+                           for (std::size_t i = 0; i < batch.size(); ++i)
+                               note_dark(batch[i], first[i]);
+                       });
+        else
+            trace_receivers(
+                tracer_, layer, indices, options,
+                [&](std::uint32_t g, std::span<const float> vector) {
+                    add(sample(g), 1, vector, sums.b);
+                    add(sample(g), sign_of_group(g, plan_.options.seed), vector, sums.signed_b);
+                    note_dark(g, vector[0]);
+                },
+                progress, sink);
         direct.rays += indices.size() * static_cast<std::size_t>(rays_);
     }
 

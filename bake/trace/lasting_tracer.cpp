@@ -5,6 +5,7 @@
 #include "lamps/lamp_light.h"
 #include "prt/gpu_failure.h"
 #include "trace/embree_tracer.h"
+#include "trace/vector_sums.h"
 #include "transport/gather.h"
 #include "transport/gather_product.h"
 
@@ -33,6 +34,11 @@ public:
             gather_.reflect(order_, reflected_, threads_);
         }
         gather_.apply(order_, reflected_, first, to, threads_);
+    }
+    bool apply_to_sums(const SumRows& to, std::span<float> sums) override {
+        bool done = false;
+        while_it_lasts([&] { done = gpu_->apply_to_sums(to, sums); });
+        return done;
     }
     std::optional<BounceEnergy> bounce(Transfer& transfer, int bounces, const Progress& progress) override {
         std::optional<BounceEnergy> energy;
@@ -63,32 +69,67 @@ private:
 } // namespace
 
 template <class Work>
-auto LastingTracer::lasting(const Work& work) {
-    const auto counted = [&] {
-        const TraceSeconds before = tracer_->seconds();
-        const auto count = [&] {
-            const TraceSeconds after = tracer_->seconds();
-            seconds_.trace += after.trace - before.trace;
-            seconds_.accumulate += after.accumulate - before.accumulate;
-            seconds_.transfer += after.transfer - before.transfer;
-        };
-        if constexpr (std::is_void_v<decltype(work())>) {
-            work();
-            count();
-        } else {
-            auto result = work();
-            count();
-            return result;
-        }
+auto LastingTracer::counted(const Work& work) {
+    const TraceSeconds before = tracer_->seconds();
+    const auto count = [&] {
+        const TraceSeconds after = tracer_->seconds();
+        seconds_.trace += after.trace - before.trace;
+        seconds_.accumulate += after.accumulate - before.accumulate;
+        seconds_.transfer += after.transfer - before.transfer;
     };
-    try {
-        return counted();
-    } catch (const GpuFailure& failure) {
-        lost_ = fmt::format("{}, then ({}) ", tracer_->device(), failure.what());
-        tracer_ = std::make_unique<EmbreeTracer>(scene_);
-        return counted();
+    if constexpr (std::is_void_v<decltype(work())>) {
+        work();
+        count();
+    } else {
+        auto result = work();
+        count();
+        return result;
     }
 }
+
+template <class Work>
+auto LastingTracer::lasting(const Work& work) {
+    try {
+        return counted(work);
+    } catch (const GpuFailure& failure) {
+        go_on_with_cpu(failure);
+        return counted(work);
+    }
+}
+
+void LastingTracer::go_on_with_cpu(const GpuFailure& failure) {
+    lost_ = fmt::format("{}, then ({}) ", tracer_->device(), failure.what());
+    tracer_ = std::make_unique<EmbreeTracer>(scene_);
+}
+
+class LastingTracer::Sums final : public VectorSums {
+public:
+    Sums(LastingTracer& tracer, std::unique_ptr<VectorSums> gpu) : tracer_(tracer), gpu_(std::move(gpu)) {}
+
+    void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
+               const TraceOptions& options, std::span<const SumRow> rows, std::span<float> first,
+               const HitSink& sink, const Progress& progress) override {
+        while_it_lasts([&] { gpu_->trace(receivers, indices, options, rows, first, sink, progress); });
+    }
+    void read(std::span<float> sums, std::span<float> signed_sums) override {
+        while_it_lasts([&] { gpu_->read(sums, signed_sums); });
+    }
+
+private:
+    template <class Work>
+    void while_it_lasts(const Work& work) {
+        try {
+            tracer_.counted(work);
+        } catch (const GpuFailure& failure) {
+            gpu_.reset(); // before the device that it is on
+            tracer_.go_on_with_cpu(failure);
+            throw;
+        }
+    }
+
+    LastingTracer& tracer_;
+    std::unique_ptr<VectorSums> gpu_;
+};
 
 void LastingTracer::trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
                           const TraceOptions& options, std::span<float> vectors, const HitSink& sink,
@@ -103,6 +144,11 @@ LampLight LastingTracer::lamp_light(const LampTask& task, const Progress& progre
 std::unique_ptr<GatherProduct> LastingTracer::gather_product(const GatherOperator& gather) {
     std::unique_ptr<GatherProduct> product = lasting([&] { return tracer_->gather_product(gather); });
     return product ? std::make_unique<LastingProduct>(std::move(product), gather, scene_.threads()) : nullptr;
+}
+
+std::unique_ptr<VectorSums> LastingTracer::vector_sums(int order, std::span<const float> weights) {
+    std::unique_ptr<VectorSums> sums = lasting([&] { return tracer_->vector_sums(order, weights); });
+    return sums ? std::make_unique<Sums>(*this, std::move(sums)) : nullptr;
 }
 
 } // namespace prt

@@ -8,6 +8,8 @@
 
 namespace prt {
 
+struct GpuFailure;
+
 /// Traces on a GPU while that lasts: where it is lost or runs out of memory on the way, the call that it
 /// failed in and all that follow go to the CPU, and `device` says so.
 class LastingTracer final : public Tracer {
@@ -27,8 +29,15 @@ public:
     LampLight lamp_light(const LampTask& task, const Progress& progress) override;
     /// Products go on with the processor, too.
     std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather) override;
+    /// Sums that were there go with a GPU: they throw `GpuFailure`, and `backend` is the CPU from then on.
+    std::unique_ptr<VectorSums> vector_sums(int order, std::span<const float> weights) override;
 
 private:
+    class Sums;
+    void go_on_with_cpu(const GpuFailure& failure);
+    /// Calls `work`, and adds up the time that the tracer took.
+    template <class Work>
+    auto counted(const Work& work);
     /// Calls `work`, and once more on the CPU where the GPU fails.
     template <class Work>
     auto lasting(const Work& work);

@@ -3,6 +3,7 @@
 #include "prt/trace_receivers.h"
 
 #include "prt/sh_basis.h"
+#include "trace/vector_sums.h"
 #include "transport/gather_product.h"
 
 #include <algorithm>
@@ -14,30 +15,45 @@ std::unique_ptr<GatherProduct> Tracer::gather_product(const GatherOperator&) {
     return nullptr;
 }
 
-void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
-                     const TraceOptions& options, const VectorSink& take, const Progress& progress,
-                     const ReceiverSink& sink) {
-    assert(!sink || tracer.notes_hits());
+std::unique_ptr<VectorSums> Tracer::vector_sums(int, std::span<const float>) {
+    return nullptr;
+}
+
+HitSink sink_of(std::span<const std::uint32_t> batch, const ReceiverSink& sink) {
+    if (!sink)
+        return {};
+    return [batch, &sink](std::size_t i, std::span<const Hit> hits) { sink(batch[i], hits); };
+}
+
+void in_batches(const Tracer& tracer, std::span<const std::uint32_t> indices, const TraceOptions& options,
+                const Progress& progress,
+                const std::function<void(std::span<const std::uint32_t>, const Progress&)>& work) {
     const auto share = [&](std::size_t done) {
         return static_cast<double>(done) / static_cast<double>(indices.size());
     };
-    const auto dimension = static_cast<std::size_t>(coefficient_count(options.order));
-    std::vector<float> vectors;
     for (std::size_t begin = 0; begin < indices.size();) {
         progress.update(share(begin));
         const auto part =
             indices.subspan(begin, std::min(tracer.batch_size(options), indices.size() - begin));
-        vectors.resize(part.size() * dimension);
-        HitSink batch_sink;
-        if (sink)
-            batch_sink = [&](std::size_t i, std::span<const Hit> hits) { sink(part[i], hits); };
-        tracer.trace(receivers, part, options, vectors, batch_sink,
-                     progress.part(share(begin), share(begin + part.size())));
-        for (std::size_t i = 0; i < part.size(); ++i)
-            take(part[i], std::span<const float>(&vectors[i * dimension], dimension));
+        work(part, progress.part(share(begin), share(begin + part.size())));
         begin += part.size();
     }
     progress.update(1);
+}
+
+void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
+                     const TraceOptions& options, const VectorSink& take, const Progress& progress,
+                     const ReceiverSink& sink) {
+    assert(!sink || tracer.notes_hits());
+    const auto dimension = static_cast<std::size_t>(coefficient_count(options.order));
+    std::vector<float> vectors;
+    in_batches(tracer, indices, options, progress,
+               [&](std::span<const std::uint32_t> part, const Progress& part_progress) {
+                   vectors.resize(part.size() * dimension);
+                   tracer.trace(receivers, part, options, vectors, sink_of(part, sink), part_progress);
+                   for (std::size_t i = 0; i < part.size(); ++i)
+                       take(part[i], std::span<const float>(&vectors[i * dimension], dimension));
+               });
 }
 
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,

@@ -11,6 +11,8 @@
 
 namespace prt {
 
+struct SumRows;
+
 /// What the last bounce began with and what it leaves: the largest norm of a receiver's vector of one
 /// channel.
 struct BounceEnergy {
@@ -24,6 +26,9 @@ public:
     virtual void load(int order, std::span<const float> exit) = 0;
     /// Writes F exit for the rows from `first` on, as many as `to` [rows][channels][order²] has.
     virtual void apply(std::size_t first, std::span<float> to) = 0;
+    /// Adds F exit of all rows to sums of them, [sums][channels][order²]. `to` stays the same as long as this
+    /// is there. False: the device has no room for it.
+    virtual bool apply_to_sums(const SumRows& to, std::span<float> sums) = 0;
     /// Adds `bounces` bounces to `transfer`, where rows are receivers and nothing happens between bounces;
     /// nothing moves but it, there and back. Nothing: the device has no room for it, and `transfer` is what
     /// it was.

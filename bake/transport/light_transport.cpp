@@ -54,6 +54,22 @@ void incident_from_rows(const TransportOperators& operators, std::size_t stride,
     spread_unknowns(equations, std::span<const Value>(x), stride, incident);
 }
 
+/// The same where the device has the samples, and room to sum them.
+bool incident_from_device(const TransportOperators& operators, std::size_t stride, std::span<float> incident,
+                          int threads) {
+    if (!operators.product || !operators.fit)
+        return false;
+    const FitEquations& equations = operators.fit->equations;
+    const std::vector<float> weights = unknown_weights(equations);
+    std::vector<float> x(equations.unknowns * stride);
+    if (!operators.product->apply_to_sums(
+            {equations.rows.size(), [&](std::size_t s) { return sum_row(equations.rows[s]); }, weights}, x))
+        return false;
+    operators.fit->solver.solve(x, stride, threads);
+    spread_unknowns(equations, std::span<const float>(x), stride, incident);
+    return true;
+}
+
 /// One bounce: exit transfer from exit transfer.
 ColumnOperator bounce_operator(const TransportOperators& operators, int order, int channels, int threads) {
     const auto stride = static_cast<std::size_t>(channels * coefficient_count(order));
@@ -63,12 +79,13 @@ ColumnOperator bounce_operator(const TransportOperators& operators, int order, i
             operators.product->load(order, from);
         else
             operators.gather->reflect(order, from, threads);
-        incident_from_rows(operators, stride, to, threads, [&](std::size_t first, std::span<float> rows) {
-            if (operators.product)
-                operators.product->apply(first, rows);
-            else
-                operators.gather->apply(order, from, first, rows, threads);
-        });
+        if (!incident_from_device(operators, stride, to, threads))
+            incident_from_rows(operators, stride, to, threads, [&](std::size_t first, std::span<float> rows) {
+                if (operators.product)
+                    operators.product->apply(first, rows);
+                else
+                    operators.gather->apply(order, from, first, rows, threads);
+            });
         exit_from_incident(operators, order, channels, to, threads);
     };
     const auto residual = [&operators, order, stride, threads](std::span<const float> b,

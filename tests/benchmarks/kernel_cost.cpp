@@ -29,7 +29,7 @@ namespace {
 using Words = std::span<const std::uint32_t>;
 using Constants = std::map<std::uint32_t, std::uint32_t>;
 
-constexpr std::uint32_t kMostBinding = 16;
+constexpr std::uint32_t kMostBinding = PRT_BINDING_SIGNED_SUMS;
 
 struct Device {
     vk::raii::Context context;

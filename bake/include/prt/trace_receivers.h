@@ -16,6 +16,14 @@ void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const
                      const TraceOptions& options, const VectorSink& vectors, const Progress& progress = {},
                      const ReceiverSink& sink = {});
 
+/// The sink of a batch, which outlives neither `batch` nor `sink`.
+HitSink sink_of(std::span<const std::uint32_t> batch, const ReceiverSink& sink);
+
+/// Works on receivers[indices] in the batches that `tracer` likes, each with its part of the progress.
+void in_batches(const Tracer& tracer, std::span<const std::uint32_t> indices, const TraceOptions& options,
+                const Progress& progress,
+                const std::function<void(std::span<const std::uint32_t>, const Progress&)>& work);
+
 /// Replaces the transfer of receivers[indices] in `transfer`, of one channel.
 void trace_receivers(Tracer& tracer, const Receivers& receivers, std::span<const std::uint32_t> indices,
                      const TraceOptions& options, Transfer& transfer, const Progress& progress = {},

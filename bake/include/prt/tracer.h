@@ -14,6 +14,7 @@ namespace prt {
 
 class GatherOperator;
 class GatherProduct;
+class VectorSums;
 struct LampLight;
 struct LampTask;
 
@@ -73,6 +74,9 @@ public:
     /// The products of bounces (bake/transport/gather_product.h), on a device that keeps a reference to
     /// `gather`; null where the processor is as good.
     virtual std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather);
+    /// Sums of vectors (bake/trace/vector_sums.h) on a device, as many as there are `weights`: what is added
+    /// to each has so much weight in all. Null where the processor is as good, or the device has no room.
+    virtual std::unique_ptr<VectorSums> vector_sums(int order, std::span<const float> weights);
     TraceSeconds seconds() const { return seconds_; }
 
 protected:

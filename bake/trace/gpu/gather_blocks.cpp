@@ -2,53 +2,15 @@
 
 #include "trace/gpu/gather_blocks.h"
 
+#include "vulkan/staged_writes.h"
+
 #include <algorithm>
 
 namespace prt {
-namespace {
-
-constexpr std::size_t kStagingBytes = 16 << 20;
-
-/// Writes what is appended to a buffer of the device, as much at a time as the staging buffer holds.
-class StagedWrites {
-public:
-    StagedWrites(GpuQueue& queue, const GpuBuffer& staging, const GpuBuffer& to)
-        : queue_(queue), staging_(staging), to_(to) {}
-
-    template <class T>
-    void append(std::span<const T> values) {
-        for (std::span<const std::byte> rest = std::as_bytes(values); !rest.empty();) {
-            const std::size_t now = std::min(rest.size(), staging_.bytes() - held_);
-            std::copy_n(rest.data(), now, staging_.data() + held_);
-            held_ += now;
-            rest = rest.subspan(now);
-            if (held_ == staging_.bytes())
-                flush();
-        }
-    }
-    void flush() {
-        if (held_ == 0)
-            return;
-        queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
-            commands.copyBuffer(staging_.handle(), to_.handle(), vk::BufferCopy(0, done_, held_));
-        }));
-        done_ += held_;
-        held_ = 0;
-    }
-
-private:
-    GpuQueue& queue_;
-    const GpuBuffer& staging_;
-    const GpuBuffer& to_;
-    std::size_t held_ = 0, done_ = 0;
-};
-
-} // namespace
-
 GatherBlocks::GatherBlocks(const VulkanDevice& device, GpuQueue& queue, const GatherOperator& gather,
                            const Room& room)
     : device_(device), queue_(queue), gather_(gather),
-      staging_(device, kStagingBytes, GpuMemory::upload, "rows on their way") {
+      staging_(device, StagedWrites::kBytes, GpuMemory::upload, "rows on their way") {
     cut(room.block);
     std::size_t bytes = 0;
     for (Block& block : blocks_) {

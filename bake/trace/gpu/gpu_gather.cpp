@@ -5,6 +5,8 @@
 #include "prt/sh_basis.h"
 #include "prt/support/stopwatch.h"
 #include "trace/gpu/gpu_structs.h"
+#include "trace/gpu/gpu_sum_row.h"
+#include "vulkan/staged_writes.h"
 
 #include "kernels/bake_energy.h"
 #include "kernels/bake_gather.h"
@@ -12,6 +14,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 namespace prt {
 namespace {
@@ -19,6 +22,7 @@ namespace {
 constexpr double kGatherSeconds = 0.05;            ///< of a dispatch
 constexpr std::size_t kRowsAtOnce = 1 << 14;       ///< that are asked for where they are no receivers
 constexpr const char* kTransfer = "exit transfer"; ///< what buffers hold
+constexpr const char* kNoRows = "no rows";
 
 GpuBuffer upload_reflectance(const VulkanDevice& device, GpuQueue& queue, const GatherOperator& gather) {
     std::vector<float> values;
@@ -29,6 +33,12 @@ GpuBuffer upload_reflectance(const VulkanDevice& device, GpuQueue& queue, const 
 }
 
 } // namespace
+
+struct GpuGather::Kernel {
+    GpuKernel kernel;
+    std::uint32_t threads = 1;                        ///< of a row
+    std::vector<std::array<GpuBindings, 2>> bindings; ///< [blocks], from either place to the other
+};
 
 /// What depends on the order: kernels, and exit transfer in two places and in sum.
 class GpuGather::Values {
@@ -46,7 +56,8 @@ public:
         sent = {device, transfer[0].bytes(), GpuMemory::upload, kTransfer};
         received = {device, transfer[0].bytes(), GpuMemory::download, kTransfer};
         energy.largest = {device, 2 * sizeof(std::uint32_t), GpuMemory::device, "energies"};
-        make_gather(device);
+        sums = {device, 0, GpuMemory::device, "no sums"};
+        rows = make_gather(false);
         make_energy(device);
     }
 
@@ -57,20 +68,18 @@ public:
                  {PRT_BINDING_REFLECTANCE, &owner_.reflectance_},
                  {PRT_BINDING_EXIT, &transfer[from]},
                  {PRT_BINDING_GATHERED, &transfer[1 - from]},
-                 {PRT_BINDING_TOTAL, &total}}};
+                 {PRT_BINDING_TOTAL, &total},
+                 {PRT_BINDING_SUM_ROWS, &owner_.sum_rows_},
+                 {PRT_BINDING_FIXED_SUMS, &sums}}};
     }
 
     const int order;
     const std::size_t columns;
     const bool has_total;
     std::array<GpuBuffer, 2> transfer;
-    GpuBuffer total, sent, received;
-    struct Rows {
-        GpuKernel kernel;
-        std::uint32_t threads = 1;                        ///< of a row
-        std::vector<std::array<GpuBindings, 2>> bindings; ///< [blocks], from either place to the other
-    };
-    Rows rows;
+    GpuBuffer total, sent, received, sums;
+    Kernel rows;                  ///< that are kept
+    std::optional<Kernel> summed; ///< that are added to `sums`
     struct Energy {
         GpuKernel kernel;
         GpuBuffer largest;
@@ -78,26 +87,35 @@ public:
     };
     Energy energy;
 
+    void make_summed(std::size_t count) {
+        sums = {owner_.device_, count * columns * sizeof(std::int32_t), GpuMemory::device, "sums of rows"};
+        summed = make_gather(true);
+    }
+
 private:
-    void make_gather(const VulkanDevice& device) {
-        while (rows.threads < columns && rows.threads < PRT_GATHER_THREADS)
-            rows.threads *= 2;
+    Kernel make_gather(bool to_sums) const {
+        const VulkanDevice& device = owner_.device_;
+        Kernel made;
+        while (made.threads < columns && made.threads < PRT_GATHER_THREADS)
+            made.threads *= 2;
         const GatherOperator& of_rows = owner_.gather_;
         GpuKernel::Source source{
             .spirv = bake_gather,
             .push_bytes = sizeof(gpu::GatherPush),
             .constants = {{PRT_CONSTANT_ORDER, static_cast<std::uint32_t>(order)},
                           {PRT_CONSTANT_CHANNELS, static_cast<std::uint32_t>(of_rows.channels())},
-                          {PRT_CONSTANT_ROW_THREADS, rows.threads},
+                          {PRT_CONSTANT_ROW_THREADS, made.threads},
+                          {PRT_CONSTANT_SUMMED, to_sums},
                           {PRT_CONSTANT_SHARED, !of_rows.reflectance().empty()}}};
         source.take_bindings(resources({}, 0));
-        rows.kernel = GpuKernel(device, source);
+        made.kernel = GpuKernel(device, source);
         for (std::size_t i = 0; i < owner_.blocks_.all().size(); ++i) {
-            rows.bindings.emplace_back();
+            made.bindings.emplace_back();
             for (const std::size_t from : {0u, 1u})
-                rows.bindings.back()[from] = {device, rows.kernel,
+                made.bindings.back()[from] = {device, made.kernel,
                                               resources(owner_.blocks_.buffers(i), from)};
         }
+        return made;
     }
 
     void make_energy(const VulkanDevice& device) {
@@ -119,7 +137,8 @@ private:
 GpuGather::GpuGather(const VulkanDevice& device, GpuQueue& queue, const GatherOperator& gather,
                      const GatherBlocks::Room& room)
     : device_(device), queue_(queue), gather_(gather), blocks_(device, queue, gather, room),
-      reflectance_(upload_reflectance(device, queue, gather)) {}
+      reflectance_(upload_reflectance(device, queue, gather)),
+      sum_rows_(device, 0, GpuMemory::device, kNoRows) {}
 
 GpuGather::~GpuGather() {
     queue_.wait_for_all();
@@ -138,6 +157,9 @@ void GpuGather::load(int order, std::span<const float> exit) {
     with_vulkan_errors([&] {
         Values& v = values(order, false);
         std::ranges::copy(exit, v.sent.as<float>().begin());
+        largest_ = 0;
+        for (const float value : exit)
+            largest_ = std::max(largest_, std::abs(value));
         queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
             copy(commands, v.sent, v.transfer[0], exit.size_bytes());
         }));
@@ -148,7 +170,7 @@ void GpuGather::load(int order, std::span<const float> exit) {
 void GpuGather::apply(std::size_t first, std::span<float> to) {
     with_vulkan_errors([&] {
         const Values& v = *values_;
-        gather(first, first + to.size() / v.columns, 0, false, {});
+        gather(v.rows, {.first = first, .end = first + to.size() / v.columns}, {});
         queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
             copy(commands, v.transfer[1], v.received, to.size_bytes());
             barrier_to_host(commands);
@@ -158,10 +180,51 @@ void GpuGather::apply(std::size_t first, std::span<float> to) {
     });
 }
 
-void GpuGather::gather(std::size_t first, std::size_t end, std::size_t from, bool add,
-                       const Progress& progress) {
+void GpuGather::upload_sum_rows(const SumRows& rows) {
+    sum_rows_ = {device_, rows.count * sizeof(gpu::SumRow), GpuMemory::device, "sums of rows"};
+    const GpuBuffer staging(device_, StagedWrites::kBytes, GpuMemory::upload, "sums of rows");
+    StagedWrites writes(queue_, staging, sum_rows_);
+    for (std::size_t r = 0; r < rows.count; ++r) {
+        const gpu::SumRow row = gpu_sum_row(rows.row(r), rows.weights);
+        writes.append(std::span(&row, 1));
+    }
+    writes.flush();
+    bytes_moved_ += rows.count * sizeof(gpu::SumRow);
+}
+
+bool GpuGather::apply_to_sums(const SumRows& to, std::span<float> sums) {
+    try {
+        with_vulkan_errors([&] {
+            Values& v = *values_;
+            if (sum_rows_.bytes() < to.count * sizeof(gpu::SumRow))
+                upload_sum_rows(to);
+            if (!v.summed)
+                v.make_summed(to.weights.size());
+            const std::size_t bytes = sums.size() * sizeof(std::int32_t);
+            const GpuBuffer host(device_, bytes, GpuMemory::download, "sums of rows");
+            queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+                commands.fillBuffer(v.sums.handle(), 0, VK_WHOLE_SIZE, 0);
+            });
+            gather(*v.summed, {.first = 0, .end = to.count}, {});
+            queue_.wait(queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+                copy(commands, v.sums, host, bytes);
+                barrier_to_host(commands);
+            }));
+            for (std::size_t i = 0; i < sums.size(); ++i)
+                sums[i] +=
+                    from_fixed_point(host.as<const std::int32_t>()[i], to.weights[i / v.columns], largest_);
+            bytes_moved_ += bytes;
+        });
+    } catch (const GpuMemoryError&) {
+        return false;
+    }
+    return true;
+}
+
+void GpuGather::gather(const Kernel& kernel, const Task& task, const Progress& progress) {
+    const auto [first, end, from, add] = task;
     const Values& v = *values_;
-    const std::size_t rows_of_group = PRT_GATHER_THREADS / v.rows.threads;
+    const std::size_t rows_of_group = PRT_GATHER_THREADS / kernel.threads;
     GpuQueue::Ticket before = 0;
     double work_before = 0;
     const auto measure = [&](GpuQueue::Ticket ticket, double work) {
@@ -188,9 +251,11 @@ void GpuGather::gather(std::size_t first, std::size_t end, std::size_t from, boo
             const gpu::GatherPush push{.first_row = static_cast<std::uint32_t>(row - block.first),
                                        .end_row = static_cast<std::uint32_t>(row - block.first + count),
                                        .first_gathered = static_cast<std::uint32_t>(block.first - first),
-                                       .add = add ? 1u : 0u};
+                                       .add = add ? 1u : 0u,
+                                       .first_sum_row = static_cast<std::uint32_t>(block.first),
+                                       .largest = std::max(largest_, std::numeric_limits<float>::min())};
             const GpuQueue::Ticket ticket = queue_.submit([&](const vk::raii::CommandBuffer& commands) {
-                v.rows.kernel.dispatch(commands, v.rows.bindings[b][from].handle(), push,
+                kernel.kernel.dispatch(commands, kernel.bindings[b][from].handle(), push,
                                        (count + rows_of_group - 1) / rows_of_group);
             });
             measure(before, work_before);
@@ -233,7 +298,7 @@ std::optional<BounceEnergy> GpuGather::bounce(Transfer& transfer, int bounces, c
         for (int b = 0; b < bounces; ++b, from = 1 - from) {
             if (b + 1 == bounces)
                 measure(from, 0);
-            gather(0, receivers, from, true, progress);
+            gather(v.rows, {.first = 0, .end = receivers, .from = from, .add = true}, progress);
             progress.update(static_cast<double>(b + 1) / bounces);
         }
         measure(from, 1);

@@ -23,24 +23,33 @@ public:
 
     void load(int order, std::span<const float> exit) override;
     void apply(std::size_t first, std::span<float> to) override;
+    /// In fixed point, so that sums do not depend on the order.
+    bool apply_to_sums(const SumRows& to, std::span<float> sums) override;
     std::optional<BounceEnergy> bounce(Transfer& transfer, int bounces, const Progress& progress) override;
     std::size_t bytes_moved() const override { return bytes_moved_ + blocks_.bytes_moved(); }
     const GatherBlocks& blocks() const { return blocks_; }
 
 private:
     class Values;
+    struct Kernel;
+    /// Rows [first, end) from the values at `from` to those at the other place, row `first` to the beginning
+    /// there; or to sums.
+    struct Task {
+        std::size_t first, end, from = 0;
+        bool add = false; ///< to the total, too
+    };
 
     Values& values(int order, bool with_total);
-    /// Rows [first, end) from the values at `from` to those at the other place, row `first` to the beginning
-    /// there.
-    void gather(std::size_t first, std::size_t end, std::size_t from, bool add, const Progress& progress);
+    void gather(const Kernel& kernel, const Task& task, const Progress& progress);
+    void upload_sum_rows(const SumRows& rows);
 
     const VulkanDevice& device_;
     GpuQueue& queue_;
     const GatherOperator& gather_;
     GatherBlocks blocks_;
-    GpuBuffer reflectance_;
+    GpuBuffer reflectance_, sum_rows_;
     std::unique_ptr<Values> values_;
+    float largest_ = 0;            ///< of exit transfer
     double work_per_second_ = 1e8; ///< products, until measured those of a software device
     std::size_t bytes_moved_ = 0;  ///< of transfer
 };

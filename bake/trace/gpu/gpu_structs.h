@@ -65,7 +65,11 @@ static_assert(sizeof(TracePush) == 40);
 PRT_AT(TracePush, receivers, 0);
 PRT_AT(TracePush, spread, 36);
 
-static_assert(sizeof(GatherPush) == 16);
+static_assert(sizeof(SumRow) == 28);
+PRT_AT(SumRow, shares, 12);
+PRT_AT(SumRow, sign, 24);
+
+static_assert(sizeof(GatherPush) == 24);
 static_assert(sizeof(EnergyPush) == 12);
 
 static_assert(sizeof(HitRecord) == 24);

@@ -24,6 +24,8 @@ std::vector<glm::vec4> sh_factors() {
             factors[PRT_SH_FACTOR(l, m)].x = static_cast<float>(k.a[l][m]);
             factors[PRT_SH_FACTOR(l, m)].y = static_cast<float>(k.b[l][m]);
         }
+        for (std::size_t l = m; l < kMaxOrder; ++l)
+            factors[PRT_SH_FACTOR(l, m)].w = static_cast<float>(clamped_cosine_factor(static_cast<int>(l)));
     }
     return factors;
 }
@@ -41,23 +43,23 @@ GpuKernel::Source kernel_source(std::span<const std::uint32_t> spirv, std::vecto
 
 } // namespace
 
-TraceKernels::TraceKernels(const VulkanDevice& device, GpuQueue& queue, const GpuScene& scene, int order,
-                           bool hits)
-    : order_(order), notes_hits_(hits), has_alpha_(scene.has_alpha()),
+TraceKernels::TraceKernels(const VulkanDevice& device, GpuQueue& queue, const GpuScene& scene,
+                           const Kind& kind)
+    : kind_(kind), has_alpha_(scene.has_alpha()),
       samples_(device, 2 * PRT_CHUNK * sizeof(glm::uvec2), GpuMemory::device, "the samples") {
     const std::vector<glm::vec4> factors = sh_factors();
     sh_factors_ = uploaded(device, queue, std::as_bytes(std::span(factors)), "the factors of the basis");
     const GpuResources resources = scene.resources();
     const bool query = device.traits().ray_queries;
     std::map<std::uint32_t, std::uint32_t> constants = scene.constants();
-    constants[PRT_CONSTANT_HITS] = hits;
+    constants[PRT_CONSTANT_HITS] = kind.hits;
     trace_ =
         GpuKernel(device, kernel_source(query ? std::span<const std::uint32_t>(bake_trace_query) : bake_trace,
                                         {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_BLOCKED,
                                          PRT_BINDING_SHARES, PRT_BINDING_HITS, PRT_BINDING_HIT_COUNT,
                                          PRT_BINDING_PROGRESS},
                                         constants, resources));
-    if (hits && !has_alpha_)
+    if (kind.hits && !has_alpha_)
         count_blocked_ = GpuKernel(
             device, kernel_source(query ? std::span<const std::uint32_t>(bake_blocked_query) : bake_blocked,
                                   {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_BLOCKED,
@@ -65,13 +67,19 @@ TraceKernels::TraceKernels(const VulkanDevice& device, GpuQueue& queue, const Gp
                                   constants, resources));
     const std::uint32_t subgroups =
         std::max(1u, PRT_BEAM / std::min<std::uint32_t>(PRT_BEAM, device.traits().least_subgroup));
-    accumulate_ =
-        GpuKernel(device, kernel_source(bake_accumulate,
-                                        {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_SUMS,
-                                         PRT_BINDING_BLOCKED, PRT_BINDING_SHARES, PRT_BINDING_SH_FACTORS},
-                                        {{PRT_CONSTANT_ALPHA, has_alpha_},
-                                         {PRT_CONSTANT_ORDER, static_cast<std::uint32_t>(order)},
-                                         {PRT_CONSTANT_SUBGROUPS, subgroups}}));
+    accumulate_ = GpuKernel(
+        device, kernel_source(bake_accumulate,
+                              {PRT_BINDING_SAMPLES, PRT_BINDING_RECEIVERS, PRT_BINDING_SUMS,
+                               PRT_BINDING_BLOCKED, PRT_BINDING_SHARES, PRT_BINDING_SH_FACTORS,
+                               PRT_BINDING_SUM_ROWS, PRT_BINDING_FIXED_SUMS, PRT_BINDING_SIGNED_SUMS},
+                              {{PRT_CONSTANT_ALPHA, has_alpha_},
+                               {PRT_CONSTANT_ORDER, static_cast<std::uint32_t>(kind.order)},
+                               {PRT_CONSTANT_SUMMED, kind.summed},
+                               {PRT_CONSTANT_SUBGROUPS, subgroups}}));
+}
+
+std::size_t TraceKernels::numbers() const {
+    return kind_.summed ? 1 : static_cast<std::size_t>(coefficient_count(kind_.order)) + 1;
 }
 
 GpuResources TraceKernels::tables() const {

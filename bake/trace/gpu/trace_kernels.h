@@ -1,22 +1,31 @@
 #pragma once
 
-// The kernels that trace receivers, for one order and with or without hits, and the tables that they read.
+// The kernels that trace receivers, for one kind of results, and the tables that they read.
 
 #include "trace/gpu/gpu_scene.h"
 
 #include <glm/vec2.hpp>
 
+#include <compare>
 #include <span>
 
 namespace prt {
 
 class TraceKernels {
 public:
+    /// What comes of rays.
+    struct Kind {
+        int order = 0;
+        bool hits = false;   ///< are noted
+        bool summed = false; ///< vectors are added to sums, and not kept
+        auto operator<=>(const Kind&) const = default;
+    };
     /// Throws `Error` where the device does not take them.
-    TraceKernels(const VulkanDevice& device, GpuQueue& queue, const GpuScene& scene, int order, bool hits);
+    TraceKernels(const VulkanDevice& device, GpuQueue& queue, const GpuScene& scene, const Kind& kind);
 
-    int order() const { return order_; }
-    bool notes_hits() const { return notes_hits_; }
+    const Kind& kind() const { return kind_; }
+    /// Floats that come back for a receiver.
+    std::size_t numbers() const;
     bool has_alpha() const { return has_alpha_; }
     const GpuKernel& trace() const { return trace_; }
     const GpuKernel& count_blocked() const { return count_blocked_; }
@@ -27,8 +36,8 @@ public:
     void set_samples(const VulkanDevice& device, GpuQueue& queue, std::span<const glm::uvec2> points);
 
 private:
-    int order_;
-    bool notes_hits_, has_alpha_;
+    Kind kind_;
+    bool has_alpha_;
     GpuKernel trace_, count_blocked_, accumulate_;
     GpuBuffer sh_factors_, samples_;
 };

@@ -2,24 +2,24 @@
 
 #include "trace/gpu/trace_piece.h"
 
-#include "prt/sh_basis.h"
-
 #include <algorithm>
 
 namespace prt {
 
 TracePiece::TracePiece(const VulkanDevice& device, const GpuScene& scene, const TraceKernels& kernels,
-                       const Room& room)
+                       const Room& room, const Sums* sums)
     : kernels_(kernels), room_(room) {
     const auto mirrored = [&](std::size_t bytes, GpuMemory host, const char* what) -> Mirrored {
         return {{device, bytes, GpuMemory::device, what}, {device, bytes, host, what}};
     };
-    const bool alpha = kernels.has_alpha(), hits = kernels.notes_hits();
-    const std::size_t sums = static_cast<std::size_t>(coefficient_count(kernels.order())) + 1;
+    const bool alpha = kernels.has_alpha(), hits = notes_hits();
     const std::size_t rows_of_alpha = alpha ? room.rows : 0, threads = hits ? rows_of_alpha * PRT_BEAM : 0;
     buffers_ = {
         .receivers = mirrored(room.receivers * sizeof(gpu::Receiver), GpuMemory::upload, "the receivers"),
-        .sums = mirrored(room.receivers * sums * sizeof(float), GpuMemory::download, "the sums over rays"),
+        .sum_rows = mirrored(sums ? room.receivers * sizeof(gpu::SumRow) : 0, GpuMemory::upload,
+                             "what receivers are added to"),
+        .sums = mirrored(room.receivers * kernels.numbers() * sizeof(float), GpuMemory::download,
+                         "the sums over rays"),
         .hits =
             mirrored(hits ? room.hits * sizeof(gpu::HitRecord) : 0, GpuMemory::download, "what rays meet"),
         .state = mirrored(2 * sizeof(std::uint32_t), GpuMemory::download, "the number of hits"),
@@ -29,11 +29,12 @@ TracePiece::TracePiece(const VulkanDevice& device, const GpuScene& scene, const 
         .shares = {device, rows_of_alpha * PRT_CHUNK * sizeof(float), GpuMemory::device,
                    "the shares of rays"},
         .threads = {device, threads * sizeof(gpu::ThreadProgress), GpuMemory::device,
-                    "the progress of threads"}};
-    bind(device, scene);
+                    "the progress of threads"},
+        .no_sums = {device, 0, GpuMemory::device, "no sums"}};
+    bind(device, scene, sums ? *sums : Sums{buffers_.no_sums, buffers_.no_sums});
 }
 
-void TracePiece::bind(const VulkanDevice& device, const GpuScene& scene) {
+void TracePiece::bind(const VulkanDevice& device, const GpuScene& scene, const Sums& sums) {
     const GpuResources tables = kernels_.tables();
     GpuResources tracing = scene.resources();
     tracing.buffers.merge(std::map<std::uint32_t, const GpuBuffer*>{
@@ -41,7 +42,7 @@ void TracePiece::bind(const VulkanDevice& device, const GpuScene& scene) {
         {PRT_BINDING_RECEIVERS, &buffers_.receivers.device},
         {PRT_BINDING_BLOCKED, &buffers_.blocked},
         {PRT_BINDING_HITS, &buffers_.hits.device}});
-    if (kernels_.notes_hits() && !kernels_.has_alpha()) {
+    if (notes_hits() && !kernels_.has_alpha()) {
         GpuResources counting = tracing;
         counting.buffers[PRT_BINDING_BLOCKED_RAYS] = &buffers_.blocked_rays.device;
         bindings_.count_blocked = {device, kernels_.count_blocked(), counting};
@@ -56,13 +57,11 @@ void TracePiece::bind(const VulkanDevice& device, const GpuScene& scene) {
         std::map<std::uint32_t, const GpuBuffer*>{{PRT_BINDING_RECEIVERS, &buffers_.receivers.device},
                                                   {PRT_BINDING_SUMS, &buffers_.sums.device},
                                                   {PRT_BINDING_BLOCKED, &buffers_.blocked},
-                                                  {PRT_BINDING_SHARES, &buffers_.shares}});
+                                                  {PRT_BINDING_SHARES, &buffers_.shares},
+                                                  {PRT_BINDING_SUM_ROWS, &buffers_.sum_rows.device},
+                                                  {PRT_BINDING_FIXED_SUMS, &sums.plain},
+                                                  {PRT_BINDING_SIGNED_SUMS, &sums.with_signs}});
     bindings_.accumulate = {device, kernels_.accumulate(), summing};
-}
-
-std::size_t TracePiece::sums_bytes() const {
-    return push_.receivers * (static_cast<std::size_t>(coefficient_count(kernels_.order())) + 1) *
-           sizeof(float);
 }
 
 void TracePiece::trace(const vk::raii::CommandBuffer& commands) const {
@@ -79,7 +78,8 @@ void TracePiece::sum(const vk::raii::CommandBuffer& commands) const {
     barrier(commands);
     kernels_.accumulate().dispatch(commands, bindings_.accumulate.handle(), push_, push_.receivers);
     barrier(commands);
-    copy(commands, buffers_.sums.device, buffers_.sums.host, sums_bytes());
+    copy(commands, buffers_.sums.device, buffers_.sums.host,
+         push_.receivers * kernels_.numbers() * sizeof(float));
 }
 
 void TracePiece::copy_hits(const vk::raii::CommandBuffer& commands) const {
@@ -97,16 +97,20 @@ void TracePiece::start(GpuQueue& queue, const gpu::TracePush& push) {
     ticket_ = queue.submit([&](const vk::raii::CommandBuffer& commands) {
         copy(commands, buffers_.receivers.host, buffers_.receivers.device,
              push_.receivers * sizeof(gpu::Receiver));
+        if (kernels_.kind().summed)
+            copy(commands, buffers_.sum_rows.host, buffers_.sum_rows.device,
+                 push_.receivers * sizeof(gpu::SumRow));
         if (hits_in_any_order())
             commands.fillBuffer(buffers_.threads.handle(), 0, VK_WHOLE_SIZE, 0);
         trace(commands);
-        if (kernels_.notes_hits() && !kernels_.has_alpha()) {
+        if (notes_hits() && !kernels_.has_alpha()) {
             constexpr std::size_t kThreads = PRT_BEAM * PRT_BEAMS;
             kernels_.count_blocked().dispatch(commands, bindings_.count_blocked.handle(), push_,
                                               (rows() + kThreads - 1) / kThreads);
         }
-        sum(commands);
-        if (kernels_.notes_hits())
+        if (!sums_at_the_end())
+            sum(commands);
+        if (notes_hits())
             copy_hits(commands);
         barrier_to_host(commands);
     });
@@ -130,15 +134,14 @@ void TracePiece::wait(GpuQueue& queue, GpuQueue::Ticket ticket) {
 void TracePiece::finish(GpuQueue& queue, const TakeHits& take) {
     wait(queue, ticket_);
     const std::span<const gpu::HitRecord> hits = buffers_.hits.host.as<const gpu::HitRecord>();
-    if (!kernels_.notes_hits())
+    if (!notes_hits())
         return;
     if (!kernels_.has_alpha()) {
         take(hits.first(rows() * (push_.whole_followed + 1)));
         return;
     }
     take(hits.first(std::min(room_.hits, wanted_hits())));
-    if (wanted_hits() <= room_.hits)
-        return;
+    const bool sums_anew = wanted_hits() > room_.hits;
     while (wanted_hits() > room_.hits) {
         wait(queue, queue.submit([&](const vk::raii::CommandBuffer& commands) {
             trace(commands);
@@ -147,10 +150,11 @@ void TracePiece::finish(GpuQueue& queue, const TakeHits& take) {
         }));
         take(hits.first(std::min(room_.hits, wanted_hits())));
     }
-    wait(queue, queue.submit([&](const vk::raii::CommandBuffer& commands) {
-        sum(commands);
-        barrier_to_host(commands);
-    }));
+    if (sums_anew || sums_at_the_end())
+        wait(queue, queue.submit([&](const vk::raii::CommandBuffer& commands) {
+            sum(commands);
+            barrier_to_host(commands);
+        }));
 }
 
 } // namespace prt

@@ -16,16 +16,23 @@ public:
     struct Room {
         std::size_t receivers = 0, rows = 0, hits = 0;
     };
+    /// Where vectors are added to: [sums][order²] in fixed point, and those with signs.
+    struct Sums {
+        const GpuBuffer &plain, &with_signs;
+    };
     /// Takes what rays met, row by row or, of scenes with alpha, in any order.
     using TakeHits = std::function<void(std::span<const gpu::HitRecord>)>;
 
-    /// Keeps a reference to `kernels`. Throws `GpuMemoryError` where the device has no such room.
+    /// Keeps a reference to `kernels`, and to what is in `sums`, which is there where they sum. Throws
+    /// `GpuMemoryError` where the device has no such room.
     TracePiece(const VulkanDevice& device, const GpuScene& scene, const TraceKernels& kernels,
-               const Room& room);
+               const Room& room, const Sums* sums = nullptr);
 
     const Room& room() const { return room_; }
     /// Where receivers go before `start`.
     std::span<gpu::Receiver> receivers() const { return buffers_.receivers.host.as<gpu::Receiver>(); }
+    /// The same of what their vectors are added to.
+    std::span<gpu::SumRow> sum_rows() const { return buffers_.sum_rows.host.as<gpu::SumRow>(); }
     /// Traces the rays that `push` says, and has the device copy back what is asked of it.
     void start(GpuQueue& queue, const gpu::TracePush& push);
     /// Waits. Rays whose hits had no room are traced on, and so none is traced twice.
@@ -34,7 +41,7 @@ public:
     const gpu::TracePush& push() const { return push_; }
     /// How long the device worked on what has ended; 0 where it does not tell.
     double seconds() const { return seconds_; }
-    /// [receivers][order² + 1], as bake_accumulate.comp says.
+    /// [receivers][TraceKernels::numbers], as bake_accumulate.comp says.
     std::span<const float> sums() const { return buffers_.sums.host.as<const float>(); }
     /// [rows]: how many rays are blocked, where everything is opaque and hits are noted.
     std::span<const std::uint32_t> blocked_rays() const {
@@ -47,17 +54,19 @@ private:
         GpuBuffer device, host;
     };
     struct Buffers {
-        Mirrored receivers, sums, hits, state, blocked_rays;
-        GpuBuffer blocked, shares, threads;
+        Mirrored receivers, sum_rows, sums, hits, state, blocked_rays;
+        GpuBuffer blocked, shares, threads, no_sums;
     };
     struct Bindings {
         GpuBindings trace, count_blocked, accumulate;
     };
 
-    void bind(const VulkanDevice& device, const GpuScene& scene);
+    void bind(const VulkanDevice& device, const GpuScene& scene, const Sums& sums);
     std::size_t rows() const { return static_cast<std::size_t>(push_.receivers) * push_.chunks; }
-    std::size_t sums_bytes() const;
-    bool hits_in_any_order() const { return kernels_.notes_hits() && kernels_.has_alpha(); }
+    bool notes_hits() const { return kernels_.kind().hits; }
+    bool hits_in_any_order() const { return notes_hits() && kernels_.has_alpha(); }
+    /// Once no thread stops any more: what is added to sums of many cannot be taken back.
+    bool sums_at_the_end() const { return hits_in_any_order() && kernels_.kind().summed; }
     void trace(const vk::raii::CommandBuffer& commands) const;
     void sum(const vk::raii::CommandBuffer& commands) const;
     void copy_hits(const vk::raii::CommandBuffer& commands) const;

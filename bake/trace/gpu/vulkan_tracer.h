@@ -3,15 +3,13 @@
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
 #include "trace/gpu/gpu_scene.h"
+#include "trace/gpu/trace_job.h"
 #include "trace/gpu/trace_kernels.h"
-#include "trace/gpu/trace_piece.h"
 #include "vulkan/gpu_queue.h"
 
 #include <array>
 #include <map>
 #include <memory>
-#include <optional>
-#include <utility>
 
 namespace prt {
 
@@ -33,29 +31,35 @@ public:
     LampLight lamp_light(const LampTask& task, const Progress& progress) override;
     /// None where the device has no room.
     std::unique_ptr<GatherProduct> gather_product(const GatherOperator& gather) override;
+    /// Sums in fixed point, which do not depend on the order.
+    std::unique_ptr<VectorSums> vector_sums(int order, std::span<const float> weights) override;
     const VulkanDevice& vulkan() const { return device_; }
     std::size_t scene_bytes() const { return scene_on_gpu_.bytes(); } ///< in the device's memory
     std::size_t copies() const { return scene_on_gpu_.copies(); }     ///< of meshes that it has once
 
 private:
-    struct Job;
-    class Results;
-    using Pieces = std::array<std::unique_ptr<TracePiece>, 2>;
+    class Sums;
+    /// Two that take turns, and what they were made for.
+    struct Pieces {
+        std::array<std::unique_ptr<TracePiece>, 2> two;
+        const TraceKernels* kernels = nullptr;
+    };
 
-    TraceKernels& kernels(int order, bool hits);
-    TracePiece::Room room_for(const Job& job) const;
-    Pieces& pieces_for(const Job& job);
-    gpu::TracePush next(const Job& job, std::size_t receiver, std::size_t chunk) const;
-    void run(const Job& job, Results& results, const Progress& progress);
+    TraceKernels& kernels(const TraceKernels::Kind& kind);
+    TracePiece::Room room_for(const TraceJob& job) const;
+    void trace(TraceJob& job, Pieces& pieces, const TracePiece::Sums* sums, TraceResults results,
+               const Progress& progress);
+    void prepare(const TraceJob& job, Pieces& pieces, const TracePiece::Sums* sums);
+    gpu::TracePush next(const TraceJob& job, std::size_t receiver, std::size_t chunk) const;
+    void run(const TraceJob& job, const Pieces& pieces, TraceResults& results, const Progress& progress);
 
     VulkanDevice device_;
     GpuQueue queue_;
     const TraceScene& scene_;
     GpuScene scene_on_gpu_;
     std::size_t piece_bytes_;
-    std::map<std::pair<int, bool>, TraceKernels> kernels_; ///< by order, and whether hits are noted
+    std::map<TraceKernels::Kind, TraceKernels> kernels_;
     Pieces pieces_;
-    const TraceKernels* of_pieces_ = nullptr;
     double rays_per_second_ = 1e6; ///< until measured, that of a software device
     double hits_per_ray_ = 1;      ///< through blended surfaces, a quarter more than measured
 };

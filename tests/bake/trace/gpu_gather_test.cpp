@@ -6,6 +6,7 @@
 #include "support/scene_builder.h"
 #include "support/vulkan_choice.h"
 #include "trace/gpu/gpu_gather.h"
+#include "trace/vector_sums.h"
 
 #include <gtest/gtest.h>
 
@@ -106,6 +107,46 @@ TEST(GpuGather, IsTheProcessors) {
             gpu.load(c.order, exit.vectors);
             gpu.apply(first, found);
             EXPECT_LT(relative_difference(expected, found), 1e-6) << c.order << " " << first;
+        }
+    }
+    test::expect_valid(device);
+}
+
+TEST(GpuGather, AddsRowsToSums) {
+    const VulkanDevice device(test::vulkan_choice());
+    constexpr std::size_t kSums = 5;
+    const auto row = [](std::size_t r) -> SumRow {
+        const auto s = static_cast<std::uint32_t>(r % kSums);
+        return {{s, r % 3 == 0 ? kNoSum : (s + 2) % 5, 4}, {0.5f, 2, 0.1f * static_cast<float>(r % 4)}};
+    };
+    for (const Case& c : kCases) {
+        const RandomGather random(c.channels, c.varies);
+        GpuQueue queue(device);
+        GpuGather gpu(device, queue, random.gather, c.room);
+        Transfer exit = random_exit(random.gather, c.order);
+        std::vector<float> weights(kSums);
+        for (std::size_t r = 0; r < random.gather.rows(); ++r)
+            for (std::size_t i = 0; i < 3; ++i)
+                if (row(r).sums[i] != kNoSum)
+                    weights[row(r).sums[i]] += row(r).weights[i];
+        const std::size_t stride = exit.dimension();
+        for (const float scale : {1.0f, 1e6f, 0.0f}) { // light of lamps has any unit
+            for (float& v : exit.vectors)
+                v *= scale;
+            Transfer reflected = exit;
+            random.gather.reflect(c.order, reflected.vectors, 1);
+            std::vector<float> rows(random.gather.rows() * stride), expected(kSums * stride, 3.0f),
+                found = expected; // to which they are added
+            random.gather.apply(c.order, reflected.vectors, 0, rows, 1);
+            for (std::size_t r = 0; r < random.gather.rows(); ++r)
+                for (std::size_t i = 0; i < 3; ++i)
+                    for (std::size_t k = 0; row(r).sums[i] != kNoSum && k < stride; ++k)
+                        expected[row(r).sums[i] * stride + k] += row(r).weights[i] * rows[r * stride + k];
+            gpu.load(c.order, exit.vectors);
+            EXPECT_TRUE(gpu.apply_to_sums({random.gather.rows(), row, weights}, found));
+            // An addition rounds to 2^-30 of the largest value, some 4.5; the sum of 40 that cancel is 0.01
+            // of the weight: 1.4e-8 of 0.01, and as much again for what else differs.
+            EXPECT_LT(relative_difference(expected, found), 1e-5) << c.order << " " << scale;
         }
     }
     test::expect_valid(device);

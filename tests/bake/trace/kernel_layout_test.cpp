@@ -2,6 +2,8 @@
 
 #include "trace/gpu/gpu_structs.h"
 
+#include "kernels/bake_accumulate.h"
+#include "kernels/bake_gather.h"
 #include "kernels/bake_lamps.h"
 #include "kernels/bake_trace.h"
 
@@ -79,6 +81,16 @@ TEST(GpuStructs, LieInMemoryAsKernelsReadThem) {
         {"EmissionImage", sizeof(gpu::EmissionImage)},
         {"EmissionImage.linear", offsetof(gpu::EmissionImage, linear)},
         {"LampPush.nearest", offsetof(gpu::LampPush, nearest)}};
+    const std::map<std::string, std::size_t> in_sums = {{"SumRow", sizeof(gpu::SumRow)},
+                                                        {"SumRow.shares", offsetof(gpu::SumRow, shares)},
+                                                        {"SumRow.sign", offsetof(gpu::SumRow, sign)}};
+    const std::map<std::string, std::uint32_t> accumulate = layout_of(bake_accumulate),
+                                               gather = layout_of(bake_gather);
+    for (const auto& [what, place] : in_sums) {
+        EXPECT_EQ(accumulate.at(what), place) << what;
+        EXPECT_EQ(gather.at(what), place) << what;
+    }
+    EXPECT_EQ(gather.at("GatherPush.largest"), offsetof(gpu::GatherPush, largest));
     for (const auto& [what, place] : in_trace)
         EXPECT_EQ(trace.at(what), place) << what;
     for (const auto& [what, place] : in_lamps)

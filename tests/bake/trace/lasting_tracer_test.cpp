@@ -3,11 +3,15 @@
 #include "trace/lasting_tracer.h"
 
 #include "lamps/lamp_light.h"
+#include "plan.h"
 #include "prt/gpu_failure.h"
+#include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
 #include "support/scene_builder.h"
 #include "support/traced.h"
+#include "surface/fitted_light.h"
 #include "trace/embree_tracer.h"
+#include "trace/vector_sums.h"
 
 #include <gtest/gtest.h>
 
@@ -30,9 +34,53 @@ public:
     }
     LampLight lamp_light(const LampTask&, const Progress&) override { throw GpuLost("it was taken away"); }
 
+    std::unique_ptr<VectorSums> vector_sums(int, std::span<const float>) override {
+        return std::make_unique<FailingSums>(*this);
+    }
+
 private:
+    /// Of which nothing is left.
+    class FailingSums final : public VectorSums {
+    public:
+        explicit FailingSums(FailingTracer& tracer) : tracer_(tracer) {}
+        void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
+                   const TraceOptions& options, std::span<const SumRow>, std::span<float> first,
+                   const HitSink& sink, const Progress& progress) override {
+            std::vector<float> vectors(indices.size() *
+                                       static_cast<std::size_t>(coefficient_count(options.order)));
+            tracer_.trace(receivers, indices, options, vectors, sink, progress);
+            std::ranges::fill(first, 1.0f);
+        }
+        void read(std::span<float>, std::span<float>) override { throw GpuLost("it was taken away"); }
+
+    private:
+        FailingTracer& tracer_;
+    };
+
     EmbreeTracer tracer_;
     int batches_;
+};
+
+/// Light fitted to a surface over a plan of its own.
+class Fitted {
+public:
+    const TraceScene& traced() const { return traced_; }
+    FittedLight of(Tracer& tracer) const { return trace_fitted(plan_, tracer, 2, {}); }
+
+private:
+    static BakeOptions some_options() {
+        BakeOptions options;
+        options.order = 3;
+        options.rays = 64;
+        options.bounces = 1;
+        return options;
+    }
+
+    Scene scene_ = test::SceneBuilder().floor({0, 0, 0}, 2, 6).sphere({0, 1, 0}, 0.5f, 8).build();
+    BakeOptions options_ = some_options();
+    Media media_ = choose_media(scene_, options_);
+    TraceScene traced_{scene_};
+    BakePlan plan_ = plan_bake(traced_, media_, options_);
 };
 
 TEST(LastingTracer, GoesOnWithTheCpu) {
@@ -53,6 +101,23 @@ TEST(LastingTracer, GoesOnWithTheCpu) {
     EXPECT_EQ(lit.lamp_light({.scene = traced, .receivers = receivers, .lamps = {}, .options = {}}, {}).rays,
               0u);
     EXPECT_EQ(lit.backend(), Backend::cpu);
+}
+
+TEST(LastingTracer, SumsAnewWhereSumsAreLost) {
+    const Fitted fitted;
+    EmbreeTracer cpu(fitted.traced());
+    const FittedLight expected = fitted.of(cpu);
+    for (const int batches : {0, 3, 1000}) { // in the middle of tracing, and when sums are read
+        LastingTracer tracer(std::make_unique<FailingTracer>(fitted.traced(), batches), fitted.traced());
+        const FittedLight found = fitted.of(tracer);
+        EXPECT_EQ(tracer.backend(), Backend::cpu);
+        EXPECT_EQ(found.direct.transfer.vectors, expected.direct.transfer.vectors);
+        EXPECT_EQ(found.direct.gather->entries(), expected.direct.gather->entries());
+        EXPECT_EQ(found.direct.rays, expected.direct.rays);
+        EXPECT_EQ(found.sealed.rays, expected.sealed.rays);
+    }
+    FailingTracer alone(fitted.traced(), 0); // nobody goes on
+    EXPECT_THROW(fitted.of(alone), GpuLost);
 }
 
 } // namespace

@@ -1,0 +1,73 @@
+// Sums of vectors on the device: what is traced is added there, and sums alone come back.
+
+#include "prt/sh_basis.h"
+#include "trace/gpu/gpu_sum_row.h"
+#include "trace/gpu/vulkan_tracer.h"
+
+#include <algorithm>
+
+namespace prt {
+
+class VulkanTracer::Sums final : public VectorSums {
+public:
+    Sums(VulkanTracer& tracer, int order, std::span<const float> weights)
+        : tracer_(tracer), order_(order), weights_(weights.begin(), weights.end()) {
+        const std::size_t bytes =
+            weights.size() * static_cast<std::size_t>(coefficient_count(order)) * sizeof(std::int32_t);
+        for (GpuBuffer* buffer : {&plain_, &with_signs_})
+            *buffer = {tracer.device_, bytes, GpuMemory::device, "sums of vectors"};
+        tracer.queue_.wait(tracer.queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+            for (const GpuBuffer* buffer : {&plain_, &with_signs_})
+                commands.fillBuffer(buffer->handle(), 0, VK_WHOLE_SIZE, 0);
+        }));
+    }
+    ~Sums() override { tracer_.queue_.wait_for_all(); }
+    Sums(const Sums&) = delete;
+    Sums& operator=(const Sums&) = delete;
+
+    void trace(const Receivers& receivers, std::span<const std::uint32_t> indices,
+               const TraceOptions& options, std::span<const SumRow> rows, std::span<float> first,
+               const HitSink& sink, const Progress& progress) override {
+        if (indices.empty())
+            return;
+        TraceJob job(receivers, indices, options, static_cast<bool>(sink), rows, weights_);
+        const TracePiece::Sums sums{plain_, with_signs_};
+        tracer_.trace(job, pieces_, &sums, TraceResults(job, first, sink, tracer_.scene_on_gpu_.has_alpha()),
+                      progress);
+    }
+
+    void read(std::span<float> sums, std::span<float> signed_sums) override {
+        with_vulkan_errors([&] {
+            pieces_ = {}; // what they take is wanted now
+            const GpuBuffer host(tracer_.device_, plain_.bytes(), GpuMemory::download, "sums of vectors");
+            const auto stride = static_cast<std::size_t>(coefficient_count(order_));
+            for (const auto& [from, to] : {std::pair(&plain_, sums), std::pair(&with_signs_, signed_sums)}) {
+                tracer_.queue_.wait(tracer_.queue_.submit([&](const vk::raii::CommandBuffer& commands) {
+                    copy(commands, *from, host, host.bytes());
+                    barrier_to_host(commands);
+                }));
+                const auto fixed = host.as<const std::int32_t>();
+                for (std::size_t i = 0; i < to.size(); ++i)
+                    to[i] = from_fixed_point(fixed[i], weights_[i / stride]);
+            }
+        });
+    }
+
+private:
+    VulkanTracer& tracer_;
+    int order_;
+    std::vector<float> weights_; ///< [sums]
+    GpuBuffer plain_, with_signs_;
+    Pieces pieces_;
+};
+
+std::unique_ptr<VectorSums> VulkanTracer::vector_sums(int order, std::span<const float> weights) {
+    pieces_ = {}; // their place is wanted now
+    try {
+        return with_vulkan_errors([&] { return std::make_unique<Sums>(*this, order, weights); });
+    } catch (const GpuMemoryError&) {
+        return nullptr;
+    }
+}
+
+} // namespace prt
