@@ -117,8 +117,12 @@ int main() {
         add("count blocked", bake_blocked, bake_blocked_query, traced(0, 1));
         add("lamps", bake_lamps, bake_lamps_query, traced(0, 0));
         for (const std::uint32_t order : {3u, 6u, 10u})
-            all["accumulate, order " + std::to_string(order)] =
-                cost(d, bake_accumulate, false, {{PRT_CONSTANT_ORDER, order}, {PRT_CONSTANT_SUBGROUPS, 1}});
+            for (const std::uint32_t summed : {0u, 1u})
+                all[(summed ? "accumulate to sums, order " : "accumulate, order ") + std::to_string(order)] =
+                    cost(d, bake_accumulate, false,
+                         {{PRT_CONSTANT_ORDER, order},
+                          {PRT_CONSTANT_SUBGROUPS, 1},
+                          {PRT_CONSTANT_SUMMED, summed}});
         std::puts(all.dump(1).c_str());
         std::fflush(stdout);
         _exit(0); // hardware that is not there does not tear down well
