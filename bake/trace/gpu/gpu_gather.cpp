@@ -222,7 +222,7 @@ bool GpuGather::apply_to_sums(const SumRows& to, std::span<float> sums) {
 }
 
 void GpuGather::gather(const Kernel& kernel, const Task& task, const Progress& progress) {
-    const auto [first, end, from, add] = task;
+    const std::size_t first = task.first, end = task.end;
     const Values& v = *values_;
     const std::size_t rows_of_group = PRT_GATHER_THREADS / kernel.threads;
     GpuQueue::Ticket before = 0;
@@ -251,11 +251,11 @@ void GpuGather::gather(const Kernel& kernel, const Task& task, const Progress& p
             const gpu::GatherPush push{.first_row = static_cast<std::uint32_t>(row - block.first),
                                        .end_row = static_cast<std::uint32_t>(row - block.first + count),
                                        .first_gathered = static_cast<std::uint32_t>(block.first - first),
-                                       .add = add ? 1u : 0u,
+                                       .add = task.add ? 1u : 0u,
                                        .first_sum_row = static_cast<std::uint32_t>(block.first),
                                        .largest = std::max(largest_, std::numeric_limits<float>::min())};
             const GpuQueue::Ticket ticket = queue_.submit([&](const vk::raii::CommandBuffer& commands) {
-                kernel.kernel.dispatch(commands, kernel.bindings[b][from].handle(), push,
+                kernel.kernel.dispatch(commands, kernel.bindings[b][task.from].handle(), push,
                                        (count + rows_of_group - 1) / rows_of_group);
             });
             measure(before, work_before);
