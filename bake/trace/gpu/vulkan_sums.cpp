@@ -41,15 +41,17 @@ public:
             pieces_ = {}; // what they take is wanted now
             const GpuBuffer host(tracer_.device_, plain_.bytes(), GpuMemory::download, "sums of vectors");
             const auto stride = static_cast<std::size_t>(coefficient_count(order_));
-            for (const auto& [from, to] : {std::pair(&plain_, sums), std::pair(&with_signs_, signed_sums)}) {
+            const auto read_one = [&](const GpuBuffer& from, std::span<float> to) {
                 tracer_.queue_.wait(tracer_.queue_.submit([&](const vk::raii::CommandBuffer& commands) {
-                    copy(commands, *from, host, host.bytes());
+                    copy(commands, from, host, host.bytes());
                     barrier_to_host(commands);
                 }));
                 const auto fixed = host.as<const std::int32_t>();
                 for (std::size_t i = 0; i < to.size(); ++i)
                     to[i] = from_fixed_point(fixed[i], weights_[i / stride]);
-            }
+            };
+            read_one(plain_, sums);
+            read_one(with_signs_, signed_sums);
         });
     }
 
