@@ -2,6 +2,7 @@
 
 #include "prt/bake.h"
 
+#include "bake_options.h"
 #include "lamps/lamp_light.h"
 #include "memory.h"
 #include "parts.h"
@@ -21,41 +22,6 @@
 
 namespace prt {
 namespace {
-
-void check_raster_options(const BakeOptions& options) {
-    if (options.tracer.backend == Backend::cpu)
-        throw Error("method raster draws on the GPU: it has no CPU backend");
-    if (options.bounces != 0)
-        throw Error("method raster finds direct light only: use method trace for bounces");
-    if (options.target_error)
-        throw Error(
-            "method raster takes the same directions everywhere: use method trace for an error to reach");
-    if (options.fit == FitMode::surface)
-        throw Error("method raster takes the same directions everywhere: use method trace for --fit surface");
-    if (options.tracer.raster_resolution < 16 || options.tracer.raster_resolution > 16384)
-        throw Error("the resolution of depth maps must lie in 16..16384");
-}
-
-void check_options(const BakeOptions& options) {
-    check_order(options.order);
-    if (options.rays < 1 || options.rays > kMostRays)
-        throw Error(fmt::format("rays per receiver must lie in 1..{}, not {}", kMostRays, options.rays));
-    if (options.bounces != kEndlessBounces && (options.bounces < 0 || options.bounces > kMostBounces))
-        throw Error(
-            fmt::format("bounces must lie in 0..{} or be endless, not {}", kMostBounces, options.bounces));
-    if (!(options.lamps.radius >= 0 && std::isfinite(options.lamps.radius)))
-        throw Error("the radius of lamps must be finite and not negative");
-    if (options.lamps.rays < 1 || options.lamps.rays > kMostRays)
-        throw Error(fmt::format("rays to lamps must lie in 1..{}, not {}", kMostRays, options.lamps.rays));
-    if (options.target_error && !(*options.target_error > 0 && std::isfinite(*options.target_error)))
-        throw Error("the error to reach must be finite and above 0");
-    if (options.target_error && options.fit == FitMode::surface)
-        throw Error("an error to reach is one of vertices: leave out the fit to the surface");
-    if (!(options.subsurface.metres_per_unit > 0 && std::isfinite(options.subsurface.metres_per_unit)))
-        throw Error("metres per unit must be finite and above 0");
-    if (options.tracer.method == BakeMethod::raster)
-        check_raster_options(options);
-}
 
 /// Receivers that are sealed in take the light of their neighbours, where they shall.
 SealedIn find_sealed_in(const BakePlan& plan, Tracer& tracer, const Transfer& direct,
@@ -214,7 +180,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const Stopwatch all;
     const BakePlan plan = plan_bake(traced, media, options);
     check_memory(plan);
-    const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
+    const std::unique_ptr<Tracer> tracer = make_bake_tracer(traced, options);
     seconds.build = all.seconds();
 
     const double traced_sky = plan.bounces != 0 ? 0.85 : 0.95,

@@ -17,17 +17,6 @@ TextureNeeds texture_needs(const BakeOptions& options) {
     return options.bounces != 0 ? TextureNeeds::all : TextureNeeds::visibility;
 }
 
-std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOptions& options) {
-    std::vector<std::string> notices;
-    for (const auto& [image, encoding] : needed_images(scene.scene(), texture_needs(options)))
-        if (scene.textures()[static_cast<std::size_t>(image)].levels.empty())
-            notices.push_back(fmt::format(
-                "image {} is missing or damaged: the factors of its materials are used alone", image));
-    for (std::string& notice : material_notices(scene.scene(), options.bounces != 0))
-        notices.push_back(std::move(notice));
-    return notices;
-}
-
 /// One operator for each medium of each node.
 std::vector<DiffusionOperator> make_diffusion(const Scene& scene, const Media& media,
                                               const Receivers& receivers) {
@@ -103,6 +92,17 @@ TraceScene trace_scene(const Scene& scene, const Media& media, const BakeOptions
         solid.push_back(medium.has_value());
     return TraceScene(scene, load_textures(scene, options.repairs.bad_textures, texture_needs(options)),
                       {.solid = std::move(solid), .threads = options.threads});
+}
+
+std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOptions& options) {
+    std::vector<std::string> notices;
+    for (const auto& [image, encoding] : needed_images(scene.scene(), texture_needs(options)))
+        if (scene.textures()[static_cast<std::size_t>(image)].levels.empty())
+            notices.push_back(fmt::format(
+                "image {} is missing or damaged: the factors of its materials are used alone", image));
+    for (std::string& notice : material_notices(scene.scene(), options.bounces != 0))
+        notices.push_back(std::move(notice));
+    return notices;
 }
 
 BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOptions& options) {

@@ -48,6 +48,9 @@ struct BakePlan {
     std::span<const float> areas() const { return std::span(receivers().areas).first(transport->fronts); }
 };
 
+/// What materials have that a bake leaves out, a line each.
+std::vector<std::string> scene_notices(const TraceScene& scene, const BakeOptions& options);
+
 /// Keeps references to `scene` and `options`.
 BakePlan plan_bake(const TraceScene& scene, const Media& media, const BakeOptions& options);
 

@@ -32,6 +32,7 @@ void add_commands(CLI::App& app, Session& session) {
     app.set_version_flag("--version", "prt " PRTKIT_VERSION);
     app.require_subcommand(1);
     add_make(app, session);
+    add_ao(app, session);
     add_bake(app, session);
     add_bench(app, session);
     add_compress(app, session);

@@ -12,6 +12,8 @@ namespace {
 
 const std::map<std::string, Backend> kBackends = {
     {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
+const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
+                                                         {"ignore", BadTextures::ignore}};
 const std::map<std::string, Window> kWindows = {{"none", Window::none},
                                                 {"hann", Window::hann},
                                                 {"lanczos", Window::lanczos},
@@ -100,6 +102,23 @@ CLI::Option* add_gpu(CLI::App* command, std::string& gpu) {
 
 CLI::Option* add_backend(CLI::App* command, Backend& backend, const std::string& text) {
     return choice(command, "--backend", backend, kBackends, text, "auto");
+}
+
+void choose_gpu(TracerChoice& tracer) {
+    if (tracer.gpu.empty())
+        return;
+    if (tracer.backend == Backend::cpu)
+        throw Error("--gpu names a GPU, and --backend cpu uses none");
+    if (tracer.method == BakeMethod::raster)
+        throw Error("--gpu names a GPU for rays: depth maps are drawn where OpenGL is");
+    tracer.backend = Backend::gpu;
+}
+
+void add_bad_textures(CLI::App* command, BadTextures& bad_textures) {
+    choice(command, "--bad-textures", bad_textures, kBadTextures,
+           "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
+           "use the factors of their materials alone",
+           "error");
 }
 
 void add_light_options(CLI::App* command, LightOptions& options) {

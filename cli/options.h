@@ -57,6 +57,9 @@ void add_reports(CLI::App* command, ReportFiles& files);
 CLI::Option* add_backend(CLI::App* command, Backend& backend, const std::string& text);
 /// --gpu, of commands that bake on one.
 CLI::Option* add_gpu(CLI::App* command, std::string& gpu);
+/// Makes a GPU that is named the one to bake on. Throws `Error` where none is used.
+void choose_gpu(TracerChoice& tracer);
+void add_bad_textures(CLI::App* command, BadTextures& bad_textures);
 void add_light_options(CLI::App* command, LightOptions& options);
 
 /// What `text` says, all of it, in any notation of C; nothing where that is no number.

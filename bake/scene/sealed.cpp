@@ -16,7 +16,8 @@ namespace {
 constexpr double kLeastBacks = 0.98; ///< of all rays; among loose sheets nine of ten may be
 constexpr int kMostProbes = 1024;
 
-/// Whether the hits of so many rays are all of them, and nearly all backs of single-sided surfaces.
+} // namespace
+
 bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays) {
     constexpr double kRounding = 1e-3; // of the weights, in rays
     double ended = 0, backs = 0;
@@ -29,8 +30,6 @@ bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays)
     const double by_chance = rays < kMostProbes ? 3 * std::sqrt((1 - kLeastBacks) * rays) : 0;
     return ended > rays - kRounding && backs >= kLeastBacks * rays - by_chance;
 }
-
-} // namespace
 
 Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& receivers,
                    std::vector<std::uint32_t> dark, std::uint64_t seed, const std::stop_token& stop) {

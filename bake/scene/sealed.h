@@ -9,9 +9,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace prt {
+
+/// Whether the hits of so many rays are all of them, and nearly all backs of single-sided surfaces.
+bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays);
 
 struct Sealed {
     std::vector<bool> receivers; ///< [receivers]

@@ -40,13 +40,13 @@ void incident_from_rows(const TransportOperators& operators, std::size_t stride,
         gather(0, incident);
         return;
     }
-    constexpr std::size_t kBlock = 1 << 14; // samples at a time
+    constexpr std::size_t kSamplesAtOnce = 1 << 14; // samples at a time
     const FitEquations& equations = operators.fit->equations;
     std::vector<Value> x(equations.unknowns * stride),
-        some(std::min(kBlock, operators.gather->rows()) * stride);
-    for (std::size_t first = 0; first < operators.gather->rows(); first += kBlock) {
+        some(std::min(kSamplesAtOnce, operators.gather->rows()) * stride);
+    for (std::size_t first = 0; first < operators.gather->rows(); first += kSamplesAtOnce) {
         const std::span<Value> block(some.data(),
-                                     std::min(kBlock, operators.gather->rows() - first) * stride);
+                                     std::min(kSamplesAtOnce, operators.gather->rows() - first) * stride);
         gather(first, block);
         add_samples(equations, first, std::span<const Value>(block), stride, std::span(x));
     }

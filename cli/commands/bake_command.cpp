@@ -38,8 +38,6 @@ const std::map<std::string, std::optional<TransferStorage>> kStorages = {
     {"auto", std::nullopt}, {"float32", TransferStorage::float32}, {"float16", TransferStorage::float16}};
 const std::map<std::string, LampMode> kLampModes = {
     {"all", LampMode::all}, {"indirect", LampMode::indirect}, {"none", LampMode::none}};
-const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
-                                                         {"ignore", BadTextures::ignore}};
 
 int parse_bounces(const std::string& text) {
     if (text == "inf")
@@ -114,10 +112,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
                      "size of the scene's unit, where it is not glTF's metre; only media care")
         ->capture_default_str()
         ->check(real_in(1e-9, 1e9));
-    choice(command, "--bad-textures", options.repairs.bad_textures, kBadTextures,
-           "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
-           "use the factors of their materials alone",
-           "error");
+    add_bad_textures(command, options.repairs.bad_textures);
     command
         ->add_option_function<std::uint64_t>(
             "--memory-limit",
@@ -247,17 +242,6 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
     ProgressBar bar = session.progress_bar("baking");
     baked.result = bake(scene, options, bar.progress());
     return baked;
-}
-
-/// A GPU that is named is the one to bake on.
-void choose_gpu(TracerChoice& tracer) {
-    if (tracer.gpu.empty())
-        return;
-    if (tracer.backend == Backend::cpu)
-        throw Error("--gpu names a GPU, and --backend cpu uses none");
-    if (tracer.method == BakeMethod::raster)
-        throw Error("--gpu names a GPU for rays: depth maps are drawn where OpenGL is");
-    tracer.backend = Backend::gpu;
 }
 
 void run(BakeArguments a, Session& session) {

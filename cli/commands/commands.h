@@ -10,6 +10,7 @@ class Session;
 
 // Each declares one command: its options, and what it does with them once they are parsed. A command throws
 // `Error` when it cannot do its work, and `CLI::ParseError` for options that do not go together.
+void add_ao(CLI::App& app, Session& session);
 void add_bake(CLI::App& app, Session& session);
 void add_bench(CLI::App& app, Session& session);
 void add_compress(CLI::App& app, Session& session);

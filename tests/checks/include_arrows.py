@@ -19,7 +19,7 @@ PARTS = {
     "c": ("runtime/c", "runtime shader image scene", "glm"),
     "render": ("runtime/render", "runtime image scene", "glm"),
     "gl": ("runtime/render/gl", "runtime scene render shader shaders", "glm epoxy glfw"),
-    "bake": ("bake", "runtime scene render shaders", "glm fmt embree Eigen"),
+    "bake": ("bake", "runtime scene render shaders", "glm fmt embree Eigen stb"),
     "vulkan": ("bake/vulkan", "runtime bake", "glm fmt vulkan"),
     "bake_gpu": ("bake/trace/gpu", "runtime scene gl bake vulkan shaders", "glm embree epoxy"),
     "compress": ("compress", "runtime scene", "glm Eigen"),

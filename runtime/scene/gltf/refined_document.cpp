@@ -5,9 +5,9 @@
 #include "gltf/gathered_accessor.h"
 #include "gltf/midpoint_accessor.h"
 #include "gltf/midpoint_joints.h"
+#include "gltf/reread.h"
 #include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
-#include "prt/encode_glb.h"
 
 #include <map>
 #include <optional>
@@ -16,15 +16,6 @@
 
 namespace prt {
 namespace {
-
-/// The same document, read anew: its model knows what was changed.
-GltfDocument reread(const GltfDocument& document) {
-    // What could be read of images is inside by now.
-    GltfDocument again =
-        parse_gltf(encode_glb(document), document.contents().path, {.missing_images = MissingImages::ignore});
-    again.contents().notices = document.contents().notices;
-    return again;
-}
 
 bool is_skinning(std::string_view name) {
     return name.starts_with("JOINTS_") || name.starts_with("WEIGHTS_");

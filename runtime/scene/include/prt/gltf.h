@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace prt {
 
@@ -68,6 +69,28 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
 /// Writes `colors` [receivers] as COLOR_0, float32, in the place of vertex colors that are there: what any
 /// viewer shows.
 void write_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> colors);
+
+/// Multiplies COLOR_0 by `factors` [receivers], or makes it: float32.
+void shade_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const float> factors);
+
+/// Writes an attribute, float32: `values` [receivers][components, 1 to 4].
+void write_vertex_attribute(GltfDocument& document, const Scene& scene, const std::string& name,
+                            std::span<const float> values, int components);
+
+/// A texture that some primitives have to themselves, of PNG files.
+struct SurfaceTexture {
+    std::vector<std::size_t> primitives; ///< indices into Scene::primitives
+    int texcoord = 1;
+    bool repeats = false;                ///< else filters end at its border
+    std::vector<std::byte> occlusion;    ///< in red
+    std::vector<std::byte> bent_normals; ///< n / 2 + 1/2 of the scene's frame; empty: none
+};
+
+/// Writes occlusionTexture of materials, instead of those that are there, and bent normals as
+/// extras.prtkit.bentNormalTexture beside it. A material that primitives of several textures have, or others,
+/// gets a copy for each.
+void write_surface_textures(GltfDocument& document, const Scene& scene,
+                            std::span<const SurfaceTexture> textures);
 
 /// Takes all transfer out of the document, and its memory with it.
 void discard_transfer(GltfDocument& document);

@@ -1,0 +1,73 @@
+// Measures the texels of atlases, fills what lies between charts, and closes seams.
+
+#include "prt/occlusion_maps.h"
+
+#include "occlusion/occlusion_scene.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
+#include "texels/gutters.h"
+#include "texels/seams.h"
+#include "texels/texel_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+constexpr std::size_t kStride = 4; ///< of transfer of order 2
+
+/// The largest jump of the first coefficient across seams.
+double largest_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::span<const float> vectors) {
+    double largest = 0;
+    for (const SeamPoint& point : seams) {
+        double jump = 0;
+        for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
+            const Bilinear filter = bilinear_at(atlas, place);
+            for (std::size_t i = 0; i < 4; ++i)
+                jump += sign * filter.weights[i] * static_cast<double>(vectors[filter.texels[i] * kStride]);
+        }
+        largest = std::max(largest, std::abs(jump));
+    }
+    return largest / kY00;
+}
+
+OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
+    OcclusionMap map{.atlas = atlas, .openness = {}, .measured = light.measured};
+    const auto lit = static_cast<std::size_t>(std::ranges::count(light.lit, true));
+    map.sealed = light.measured - lit;
+    fill_gutters(atlas, light.lit, light.vectors, kStride);
+    const std::vector<SeamPoint> seams = seam_points(scene, atlas);
+    map.seam_before = largest_jump(atlas, seams, light.vectors);
+    stitch_seams(atlas, seams, light.lit, light.vectors, kStride);
+    map.seam = largest_jump(atlas, seams, light.vectors);
+    Transfer transfer = zero_transfer(2, 1, 0);
+    transfer.vectors = std::move(light.vectors);
+    map.openness = openness_of(transfer, light.normals);
+    return map;
+}
+
+} // namespace
+
+OcclusionMapsResult occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
+                                   const OcclusionOptions& options, const Progress& progress) {
+    const Stopwatch watch;
+    const OcclusionScene traced(scene, options);
+    OcclusionMapsResult result;
+    result.notices = traced.notices();
+    for (std::size_t i = 0; i < atlases.size(); ++i) {
+        const Progress part = progress.part(static_cast<double>(i) / static_cast<double>(atlases.size()),
+                                            static_cast<double>(i + 1) / static_cast<double>(atlases.size()));
+        const TexelSamples samples = sample_texels(chart_triangles(scene, atlases[i]), atlases[i]);
+        TexelLight light = trace_texels(traced.tracer(), traced.scene(), atlases[i], samples.samples,
+                                        {.order = 2, .rays = options.rays, .seed = options.seed + i}, part);
+        result.rays += light.rays;
+        result.maps.push_back(map_of(atlases[i], std::move(light), scene));
+    }
+    result.device = traced.tracer().device();
+    result.seconds = watch.seconds();
+    progress.update(1);
+    return result;
+}
+
+} // namespace prt

@@ -1,0 +1,106 @@
+// Decides which surfaces share a texture, and how large it is.
+
+#include "prt/support/error.h"
+#include "texels/texel_samples.h"
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace prt {
+namespace {
+
+/// Charts that are packed side by side touch, and programs round: so much of them may lie in two.
+constexpr double kMostOverlap = 1e-3;
+
+/// Texels along a side so that a metre has so many in the mean.
+int side_of(const Scene& scene, const Atlas& atlas, double per_metre) {
+    Atlas unit = atlas;
+    unit.width = unit.height = 1;
+    double in_texture = 0, on_surfaces = 0;
+    for (const ChartTriangle& t : chart_triangles(scene, unit)) {
+        const glm::dvec2 a = t.corners[1] - t.corners[0], b = t.corners[2] - t.corners[0];
+        in_texture += std::abs(a.x * b.y - a.y * b.x) / 2;
+    }
+    for (const std::size_t p : atlas.primitives) {
+        const auto& positions = scene.vertex_arrays[scene.primitives[p].vertices].positions;
+        for (const glm::uvec3& t : scene.primitives[p].triangles) {
+            const glm::dvec3 a(positions[t.x]), b(positions[t.y]), c(positions[t.z]);
+            on_surfaces += glm::length(glm::cross(b - a, c - a)) / 2;
+        }
+    }
+    if (!(in_texture > 0))
+        throw Error(fmt::format("TEXCOORD_{} of mesh {} is a line or a point: it has no place in a texture",
+                                atlas.uv_set, scene.primitives[atlas.primitives.front()].mesh));
+    const double side = std::ceil(per_metre * std::sqrt(on_surfaces / in_texture));
+    if (!(side <= kMostTexels))
+        throw Error(
+            fmt::format("{:.3g} texels a metre need a texture of {:.3g} texels along a side, more than {}: "
+                        "give fewer, or each object a texture of its own",
+                        per_metre, side, kMostTexels));
+    return std::max(4, static_cast<int>(side));
+}
+
+Atlas sized(const Scene& scene, Atlas atlas, const TexelOptions& options) {
+    atlas.uv_set = options.uv_set;
+    atlas.repeats = repeats(scene, atlas);
+    atlas.width = atlas.height = options.size > 0 ? options.size : side_of(scene, atlas, options.per_metre);
+    return atlas;
+}
+
+std::vector<Atlas> of_each_object(const Scene& scene, const TexelOptions& options) {
+    std::map<int, Atlas> by_node;
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p)
+        by_node[scene.primitives[p].node].primitives.push_back(p);
+    std::vector<Atlas> atlases;
+    for (const auto& [node, atlas] : by_node)
+        atlases.push_back(sized(scene, atlas, options));
+    return atlases;
+}
+
+Atlas of_all(const Scene& scene, const TexelOptions& options) {
+    Atlas atlas;
+    atlas.primitives.resize(scene.primitives.size());
+    std::iota(atlas.primitives.begin(), atlas.primitives.end(), std::size_t{0});
+    return sized(scene, std::move(atlas), options);
+}
+
+double overlap(const Scene& scene, const Atlas& atlas) {
+    return sample_texels(chart_triangles(scene, atlas), atlas).overlapping;
+}
+
+} // namespace
+
+std::vector<Atlas> plan_atlases(const Scene& scene, const TexelOptions& options) {
+    if (options.size > kMostTexels || options.size < 0)
+        throw Error(
+            fmt::format("a texture has 1 to {} texels along a side, not {}", kMostTexels, options.size));
+    if (options.size == 0 && !(options.per_metre > 0 && std::isfinite(options.per_metre)))
+        throw Error("the number of texels a metre must be finite and above 0");
+    if (options.atlases != AtlasMode::each) {
+        Atlas all = of_all(scene, options);
+        const double share = overlap(scene, all);
+        if (share <= kMostOverlap)
+            return {std::move(all)};
+        if (options.atlases == AtlasMode::one)
+            throw Error(fmt::format(
+                "{:.1f} % of what the charts of TEXCOORD_{} cover lies in two of them: a texture for "
+                "all needs a place for each",
+                100 * share, options.uv_set));
+    }
+    std::vector<Atlas> atlases = of_each_object(scene, options);
+    for (const Atlas& atlas : atlases)
+        if (const double share = overlap(scene, atlas); share > kMostOverlap) {
+            const Primitive& primitive = scene.primitives[atlas.primitives.front()];
+            throw Error(fmt::format(
+                "charts of mesh {} (node {}) overlap: {:.1f} % of what its TEXCOORD_{} covers lies in two "
+                "of them, and both cannot have light of their own",
+                primitive.mesh, primitive.node, 100 * share, options.uv_set));
+        }
+    return atlases;
+}
+
+} // namespace prt

@@ -1,0 +1,218 @@
+// Gives every face an axis, smooths borders, and takes apart what would overlap.
+
+#include "unwrap/surface_charts.h"
+
+#include "texels/texel_samples.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace prt {
+namespace {
+
+constexpr int kDirections = 6;      ///< +x, -x, +y, -y, +z, -z
+constexpr double kSharp = 0.7;      ///< cosine between normals across an edge that charts end at
+constexpr double kSteepest = 0.3;   ///< cosine to its axis that a face has at least, but for needles
+constexpr int kOverlapTexels = 256; ///< along the longer side of a chart that is looked through for overlaps
+
+double along(const glm::dvec3& normal, int direction) {
+    return (direction % 2 == 0 ? 1 : -1) * normal[direction / 2];
+}
+
+int steepest_direction(const glm::dvec3& normal) {
+    int best = 0;
+    for (int d = 1; d < kDirections; ++d)
+        if (along(normal, d) > along(normal, best))
+            best = d;
+    return best;
+}
+
+using Place = std::array<float, 3>;
+
+/// Faces that share an edge which is not sharp: [faces].
+std::vector<std::vector<std::uint32_t>> neighbours(const Scene& scene, std::span<const ChartFace> faces) {
+    struct EdgeSide {
+        std::uint32_t face;
+        glm::vec3 first, second; // normals
+    };
+    std::map<std::pair<std::size_t, std::pair<Place, Place>>, std::vector<EdgeSide>> edges;
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        const Primitive& primitive = scene.primitives[faces[f].primitive];
+        const VertexArray& vertices = scene.vertex_arrays[primitive.vertices];
+        const glm::uvec3& t = primitive.triangles[faces[f].triangle];
+        for (int i = 0; i < 3; ++i) {
+            const auto place = [&](std::uint32_t v) {
+                const glm::vec3& p = vertices.positions[v];
+                return Place{p.x, p.y, p.z};
+            };
+            std::uint32_t a = t[i], b = t[(i + 1) % 3];
+            if (place(b) < place(a))
+                std::swap(a, b);
+            edges[{faces[f].primitive, {place(a), place(b)}}].push_back(
+                {f, vertices.normals[a], vertices.normals[b]});
+        }
+    }
+    std::vector<std::vector<std::uint32_t>> result(faces.size());
+    for (const auto& [edge, sides] : edges)
+        for (std::size_t i = 1; i < sides.size(); ++i) {
+            const EdgeSide &one = sides[i - 1], &other = sides[i];
+            if (static_cast<double>(glm::dot(one.first, other.first)) > kSharp &&
+                static_cast<double>(glm::dot(one.second, other.second)) > kSharp) {
+                result[one.face].push_back(other.face);
+                result[other.face].push_back(one.face);
+            }
+        }
+    return result;
+}
+
+/// The direction of each face: that of its normal, unless most of its neighbours have another that it can
+/// have, too.
+std::vector<int> directions(std::span<const ChartFace> faces,
+                            const std::vector<std::vector<std::uint32_t>>& beside) {
+    constexpr int kPasses = 32;
+    constexpr double kOfNeighbours = 0.6; // against the cosine
+    std::vector<int> direction;
+    for (const ChartFace& face : faces)
+        direction.push_back(steepest_direction(face.normal));
+    for (int pass = 0, changed = 1; pass < kPasses && changed > 0; ++pass) {
+        changed = 0;
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            std::array<double, kDirections> score{};
+            for (int d = 0; d < kDirections; ++d)
+                score[static_cast<std::size_t>(d)] = along(faces[f].normal, d);
+            for (const std::uint32_t n : beside[f])
+                score[static_cast<std::size_t>(direction[n])] +=
+                    kOfNeighbours / static_cast<double>(beside[f].size());
+            int best = direction[f];
+            for (int d = 0; d < kDirections; ++d)
+                if (score[static_cast<std::size_t>(d)] > score[static_cast<std::size_t>(best)] &&
+                    (along(faces[f].normal, d) >= kSteepest || faces[f].normal == glm::dvec3(0)))
+                    best = d;
+            changed += best != direction[f];
+            direction[f] = best;
+        }
+    }
+    return direction;
+}
+
+/// Takes a chart apart where it does not hang together.
+template <class SameChart>
+std::vector<std::vector<std::uint32_t>> connected(std::span<const std::uint32_t> faces,
+                                                  const std::vector<std::vector<std::uint32_t>>& beside,
+                                                  std::vector<int>& part, const SameChart& same) {
+    std::vector<std::vector<std::uint32_t>> parts;
+    for (const std::uint32_t f : faces)
+        part[f] = -1;
+    for (const std::uint32_t seed : faces) {
+        if (part[seed] >= 0)
+            continue;
+        const auto number = static_cast<int>(parts.size());
+        std::vector<std::uint32_t>& members = parts.emplace_back(1, seed);
+        part[seed] = number;
+        for (std::size_t i = 0; i < members.size(); ++i)
+            for (const std::uint32_t n : beside[members[i]])
+                if (part[n] == -1 && same(seed, n)) {
+                    part[n] = number;
+                    members.push_back(n);
+                }
+    }
+    for (const std::uint32_t f : faces)
+        part[f] = -2; // of no chart that is taken apart
+    return parts;
+}
+
+bool overlaps(std::span<const ChartFace> faces, const SurfaceChart& chart) {
+    glm::dvec2 low(projected(faces[chart.faces.front()].corners[0], chart.axis)), high = low;
+    for (const std::uint32_t f : chart.faces)
+        for (const glm::dvec3& corner : faces[f].corners) {
+            low = glm::min(low, projected(corner, chart.axis));
+            high = glm::max(high, projected(corner, chart.axis));
+        }
+    const double longer = std::max(high.x - low.x, high.y - low.y);
+    if (!(longer > 0))
+        return false;
+    const double scale = kOverlapTexels / longer;
+    Atlas atlas;
+    atlas.width = std::max(1, static_cast<int>(std::ceil((high.x - low.x) * scale)));
+    atlas.height = std::max(1, static_cast<int>(std::ceil((high.y - low.y) * scale)));
+    std::vector<ChartTriangle> flat;
+    for (const std::uint32_t f : chart.faces) {
+        ChartTriangle& t = flat.emplace_back(ChartTriangle{f, {}});
+        for (std::size_t i = 0; i < 3; ++i)
+            t.corners[i] = (projected(faces[f].corners[i], chart.axis) - low) * scale;
+    }
+    return sample_texels(flat, atlas).overlapping > 0;
+}
+
+/// The halves of a chart that lies over itself: nearer and farther along its axis.
+std::array<std::vector<std::uint32_t>, 2> halves(std::span<const ChartFace> faces,
+                                                 const SurfaceChart& chart) {
+    const auto depth = [&](std::uint32_t f) {
+        return faces[f].corners[0][chart.axis] + faces[f].corners[1][chart.axis] +
+               faces[f].corners[2][chart.axis];
+    };
+    std::vector<std::uint32_t> sorted = chart.faces;
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return depth(a) < depth(b); });
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    return {{{sorted.begin(), middle}, {middle, sorted.end()}}};
+}
+
+} // namespace
+
+glm::dvec2 projected(const glm::dvec3& position, int axis) {
+    return {position[(axis + 1) % 3], position[(axis + 2) % 3]};
+}
+
+std::vector<ChartFace> chart_faces(const Scene& scene, std::span<const std::size_t> primitives) {
+    std::vector<ChartFace> faces;
+    for (const std::size_t p : primitives) {
+        const Primitive& primitive = scene.primitives[p];
+        const auto& positions = scene.vertex_arrays[primitive.vertices].positions;
+        for (std::size_t t = 0; t < primitive.triangles.size(); ++t) {
+            ChartFace face{p, t, {}};
+            for (int i = 0; i < 3; ++i)
+                face.corners[i] = glm::dvec3(positions[primitive.triangles[t][i]]);
+            const glm::dvec3 normal =
+                glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
+            const double length = glm::length(normal);
+            face.normal = length > 0 ? normal / length : glm::dvec3(0);
+            faces.push_back(face);
+        }
+    }
+    return faces;
+}
+
+std::vector<SurfaceChart> cut_into_charts(const Scene& scene, std::span<const ChartFace> faces) {
+    const std::vector<std::vector<std::uint32_t>> beside = neighbours(scene, faces);
+    const std::vector<int> direction = directions(faces, beside);
+    std::vector<int> part(faces.size(), -2);
+    std::vector<std::uint32_t> all(faces.size());
+    for (std::uint32_t f = 0; f < faces.size(); ++f)
+        all[f] = f;
+    std::vector<SurfaceChart> waiting, done;
+    const auto wait = [&](std::span<const std::uint32_t> some) {
+        const auto same = [&](std::uint32_t a, std::uint32_t b) { return direction[a] == direction[b]; };
+        for (std::vector<std::uint32_t>& members : connected(some, beside, part, same))
+            waiting.push_back({direction[members.front()] / 2, std::move(members)});
+    };
+    wait(all);
+    while (!waiting.empty()) {
+        SurfaceChart chart = std::move(waiting.back());
+        waiting.pop_back();
+        if (chart.faces.size() == 1 || !overlaps(faces, chart))
+            done.push_back(std::move(chart));
+        else
+            for (const std::vector<std::uint32_t>& half : halves(faces, chart))
+                wait(half);
+    }
+    return done;
+}
+
+} // namespace prt

@@ -1,0 +1,157 @@
+// Cuts, packs, and splits vertices where charts end.
+
+#include "prt/unwrap.h"
+
+#include "prt/support/error.h"
+#include "unwrap/chart_packing.h"
+#include "unwrap/surface_charts.h"
+
+#include <fmt/core.h>
+#include <glm/common.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace prt {
+namespace {
+
+constexpr int kApart = 2; ///< texels on every side of a chart
+
+struct FlatBox {
+    glm::dvec2 low, size; ///< metres
+};
+
+std::vector<FlatBox> flat_boxes(std::span<const ChartFace> faces, std::span<const SurfaceChart> charts) {
+    std::vector<FlatBox> boxes;
+    for (const SurfaceChart& chart : charts) {
+        glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
+        for (const std::uint32_t f : chart.faces)
+            for (const glm::dvec3& corner : faces[f].corners) {
+                low = glm::min(low, projected(corner, chart.axis));
+                high = glm::max(high, projected(corner, chart.axis));
+            }
+        boxes.push_back({low, high - low});
+    }
+    return boxes;
+}
+
+/// Where charts lie in a texture.
+struct Packed {
+    std::vector<glm::ivec2> corners;
+    int side = 0;
+    double density = 0; ///< texels a metre
+};
+
+std::optional<Packed> pack(std::span<const FlatBox> boxes, int side, double density) {
+    std::vector<glm::ivec2> sizes;
+    for (const FlatBox& box : boxes) {
+        const glm::dvec2 size = glm::ceil(box.size * density) + 1.0 + 2.0 * kApart;
+        if (!(size.x <= side && size.y <= side))
+            return std::nullopt;
+        sizes.emplace_back(size);
+    }
+    std::optional<std::vector<glm::ivec2>> corners = pack_rectangles(sizes, side);
+    if (!corners)
+        return std::nullopt;
+    return Packed{std::move(*corners), side, density};
+}
+
+double area_of(std::span<const FlatBox> boxes) {
+    return std::accumulate(boxes.begin(), boxes.end(), 0.0,
+                           [](double sum, const FlatBox& box) { return sum + box.size.x * box.size.y; });
+}
+
+/// As many texels a metre as fit.
+Packed pack_into(std::span<const FlatBox> boxes, int side) {
+    constexpr double kStep = 0.95;
+    constexpr int kMostSteps = 200;
+    double density = side / std::sqrt(std::max(area_of(boxes), std::numeric_limits<double>::min()));
+    for (int step = 0; step < kMostSteps; ++step, density *= kStep)
+        if (std::optional<Packed> packed = pack(boxes, side, density))
+            return std::move(*packed);
+    throw Error(fmt::format("a texture of {0} x {0} texels is too small for {1} charts", side, boxes.size()));
+}
+
+/// The smallest texture with so many texels a metre.
+Packed pack_by_density(std::span<const FlatBox> boxes, double density) {
+    constexpr double kStep = 1.06;
+    double side = std::max(4.0, std::sqrt(area_of(boxes)) * density);
+    for (; side <= kMostTexels; side = std::ceil(side * kStep))
+        if (std::optional<Packed> packed = pack(boxes, static_cast<int>(side), density))
+            return std::move(*packed);
+    throw Error(fmt::format(
+        "{:.3g} texels a metre need a texture of more than {} texels along a side: give fewer, or "
+        "each object a texture of its own",
+        density, kMostTexels));
+}
+
+/// Writes the charts of one texture.
+class ChartWriter {
+public:
+    ChartWriter(const Scene& scene, std::vector<VertexSplit>& splits) : scene_(scene), splits_(splits) {}
+
+    void write(std::span<const ChartFace> faces, const SurfaceChart& chart, const FlatBox& box,
+               const glm::ivec2& corner, const Packed& packed) {
+        std::map<std::pair<std::size_t, std::uint32_t>, std::uint32_t> vertices; // of this chart
+        for (const std::uint32_t f : chart.faces) {
+            const ChartFace& face = faces[f];
+            VertexSplit& split = splits_[face.primitive];
+            const glm::uvec3& t = scene_.primitives[face.primitive].triangles[face.triangle];
+            for (int i = 0; i < 3; ++i) {
+                const auto next = static_cast<std::uint32_t>(split.source.size());
+                const auto [found, is_new] = vertices.try_emplace({face.primitive, t[i]}, next);
+                if (is_new) {
+                    const glm::dvec2 at = (projected(face.corners[i], chart.axis) - box.low) * packed.density;
+                    split.source.push_back(t[i]);
+                    split.uv.emplace_back((glm::dvec2(corner) + 0.5 + static_cast<double>(kApart) + at) /
+                                          static_cast<double>(packed.side));
+                }
+                split.triangles[face.triangle][i] = found->second;
+            }
+        }
+    }
+
+private:
+    const Scene& scene_;
+    std::vector<VertexSplit>& splits_;
+};
+
+/// The primitives that share each texture.
+std::vector<std::vector<std::size_t>> groups(const Scene& scene, AtlasMode mode) {
+    std::map<int, std::vector<std::size_t>> by_node;
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p)
+        by_node[mode == AtlasMode::each ? scene.primitives[p].node : 0].push_back(p);
+    std::vector<std::vector<std::size_t>> result;
+    for (auto& [node, primitives] : by_node)
+        result.push_back(std::move(primitives));
+    return result;
+}
+
+} // namespace
+
+Unwrapping unwrap(const Scene& scene, const TexelOptions& options) {
+    Unwrapping result;
+    for (const Primitive& primitive : scene.primitives)
+        result.primitives.emplace_back().triangles.resize(primitive.triangles.size());
+    result.texels_per_metre = std::numeric_limits<double>::infinity();
+    ChartWriter writer(scene, result.primitives);
+    for (const std::vector<std::size_t>& primitives : groups(scene, options.atlases)) {
+        const std::vector<ChartFace> faces = chart_faces(scene, primitives);
+        const std::vector<SurfaceChart> charts = cut_into_charts(scene, faces);
+        const std::vector<FlatBox> boxes = flat_boxes(faces, charts);
+        const Packed packed =
+            options.size > 0 ? pack_into(boxes, options.size) : pack_by_density(boxes, options.per_metre);
+        for (std::size_t c = 0; c < charts.size(); ++c)
+            writer.write(faces, charts[c], boxes[c], packed.corners[c], packed);
+        result.charts += charts.size();
+        result.size = std::max(result.size, packed.side);
+        result.texels_per_metre = std::min(result.texels_per_metre, packed.density);
+    }
+    return result;
+}
+
+} // namespace prt

@@ -1,0 +1,305 @@
+#include "commands/commands.h"
+
+#include "no_shadow.h"
+#include "options.h"
+#include "outputs.h"
+#include "prt/encode_glb.h"
+#include "prt/image_file.h"
+#include "prt/occlusion_maps.h"
+#include "prt/support/stopwatch.h"
+#include "prt/unwrap.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt::cli {
+namespace {
+
+struct AoArguments {
+    Path scene, output, json;
+    std::vector<std::string> no_shadow; ///< names of materials
+    std::string attribute = "COLOR_0";
+    TexelOptions texels;
+    OcclusionOptions options;
+    bool bent_normals = false, unwrap = false;
+    GltfOptions reading;
+
+    bool in_textures() const { return texels.size > 0 || texels.per_metre > 0; }
+};
+
+const std::map<std::string, FitMode> kOcclusionFits = {
+    {"auto", FitMode::automatic}, {"vertex", FitMode::vertex}, {"surface", FitMode::surface}};
+const std::map<std::string, AtlasMode> kAtlasModes = {
+    {"auto", AtlasMode::automatic}, {"one", AtlasMode::one}, {"each", AtlasMode::each}};
+
+/// "64/m" or "64".
+double parse_density(const std::string& text) {
+    const std::string number = text.ends_with("/m") ? text.substr(0, text.size() - 2) : text;
+    const std::optional<double> density = real_number(number);
+    if (!density || !(*density > 0) || !std::isfinite(*density))
+        throw CLI::ValidationError("--texels", "'" + text + "' is no number of texels a metre, as 64/m");
+    return *density;
+}
+
+/// DISTANCE[:SHARE]
+Falloff::Term parse_term(const std::string& text) {
+    const std::size_t colon = text.find(':');
+    const std::optional<double> distance = real_number(text.substr(0, colon)),
+                                share =
+                                    colon == std::string::npos ? 1.0 : real_number(text.substr(colon + 1));
+    if (!distance || !share || !(*distance > 0) || !(*share >= 0) || !std::isfinite(*distance) ||
+        !std::isfinite(*share))
+        throw CLI::ValidationError("--falloff", "'" + text + "' is not DISTANCE[:SHARE], as 2:97");
+    return {*distance, *share};
+}
+
+std::vector<std::byte> grey_png(const Atlas& atlas, std::span<const float> values) {
+    std::vector<glm::u8vec3> pixels;
+    for (const float v : values)
+        pixels.emplace_back(static_cast<std::uint8_t>(std::lround(255 * v)));
+    return encode_png(atlas.width, atlas.height, pixels);
+}
+
+std::vector<std::byte> normal_png(const Atlas& atlas, std::span<const glm::vec3> normals) {
+    std::vector<glm::u8vec3> pixels;
+    for (const glm::vec3& n : normals)
+        pixels.emplace_back(glm::vec3(0.5f) + 127.5f * (n + 1.0f));
+    return encode_png(atlas.width, atlas.height, pixels);
+}
+
+/// The mean, of vertices by their areas.
+double mean_of(std::span<const float> values, std::span<const float> weights) {
+    double sum = 0, all = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        sum += static_cast<double>(weights[i]) * static_cast<double>(values[i]);
+        all += static_cast<double>(weights[i]);
+    }
+    return all > 0 ? sum / all : 0;
+}
+
+void add_notices(Report& report, const std::vector<std::string>& notices) {
+    Json all = Json::array();
+    for (const std::string& notice : notices) {
+        report.sentences.push_back(fmt::format("{{notices/{}}}", all.size()));
+        all.push_back(notice);
+    }
+    add_figures(report, {{"notices", all}});
+}
+
+Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& scene,
+                     const Progress& progress) {
+    const OcclusionResult result = ambient_occlusion(scene, a.options, progress);
+    const BakeStatistics& s = result.statistics;
+    if (a.attribute == "COLOR_0")
+        shade_vertex_colors(document, scene, result.openness.ambient);
+    else
+        write_vertex_attribute(document, scene, a.attribute, result.openness.ambient, 1);
+    if (a.bent_normals) {
+        const auto& normals = result.openness.bent_normals;
+        write_vertex_attribute(document, scene, "_BENT_NORMAL",
+                               {reinterpret_cast<const float*>(normals.data()), 3 * normals.size()}, 3);
+    }
+    Report report;
+    add_figures(report, {{"receivers", s.receivers.all},
+                         {"receivers_sealed", s.receivers.sealed},
+                         {"rays", s.rays},
+                         {"rays_per_receiver", a.options.rays},
+                         {"device", s.device},
+                         {"fit", s.fit.samples > 0 ? "surface" : "vertex"},
+                         {"sampling_error_relative_l2", s.sampling_error},
+                         {"mean_ambient", mean_of(result.openness.ambient, receiver_areas(scene))}});
+    report.sentences = {
+        fmt::format("{{output}}: occlusion of {{receivers}} vertices in {}, {{rays_per_receiver}} rays "
+                    "each, on {{device}}",
+                    a.attribute == "COLOR_0" ? "COLOR_0, times the colors that are there" : a.attribute),
+        s.fit.samples > 0 ? "fitted to the surface between vertices" : "measured at vertices"};
+    add_notices(report, {});
+    return report;
+}
+
+Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& scene,
+                     const Progress& progress) {
+    const OcclusionMapsResult result =
+        occlusion_maps(scene, plan_atlases(scene, a.texels), a.options, progress);
+    std::vector<SurfaceTexture> textures;
+    Json maps = Json::array();
+    std::size_t lit = 0, measured = 0;
+    for (const OcclusionMap& map : result.maps) {
+        textures.push_back({.primitives = map.atlas.primitives,
+                            .texcoord = map.atlas.uv_set,
+                            .repeats = map.atlas.repeats,
+                            .occlusion = grey_png(map.atlas, map.openness.ambient),
+                            .bent_normals = a.bent_normals ? normal_png(map.atlas, map.openness.bent_normals)
+                                                           : std::vector<std::byte>()});
+        maps.push_back({{"width", map.atlas.width},
+                        {"height", map.atlas.height},
+                        {"primitives", map.atlas.primitives.size()},
+                        {"texels_measured", map.measured},
+                        {"texels_sealed", map.sealed},
+                        {"seam_before", map.seam_before},
+                        {"seam", map.seam}});
+        lit += map.measured - map.sealed;
+        measured += map.measured;
+    }
+    write_surface_textures(document, scene, textures);
+    Report report;
+    add_figures(report, {{"textures", maps.size()},
+                         {"texels", measured},
+                         {"texels_sealed", measured - lit},
+                         {"rays", result.rays},
+                         {"rays_per_texel", a.options.rays},
+                         {"rays_per_second", static_cast<double>(result.rays) / result.seconds},
+                         {"device", result.device},
+                         {"maps", maps}});
+    report.sentences = {
+        "{output}: occlusion of {texels} texels in {textures} textures, {rays_per_texel} rays each, on "
+        "{device}; {rays_per_second:.2fM} million rays/s"};
+    for (std::size_t i = 0; i < maps.size(); ++i)
+        report.sentences.push_back(
+            fmt::format("texture {0}: {{maps/{0}/width}} x {{maps/{0}/height}}, jumps across "
+                        "seams of {{maps/{0}/seam_before:.3f}} at most are now "
+                        "{{maps/{0}/seam:.4f}}",
+                        i));
+    add_notices(report, result.notices);
+    return report;
+}
+
+/// Gives the scene coordinates of its own, where some part of it has none.
+void unwrap_if_needed(AoArguments& a, GltfDocument& document, Scene& scene) {
+    const auto set = static_cast<std::size_t>(a.texels.uv_set);
+    const bool whole = std::ranges::all_of(scene.primitives, [&](const Primitive& primitive) {
+        const auto& sets = scene.vertex_arrays[primitive.vertices].texcoords;
+        return primitive.triangles.empty() || (set < sets.size() && !sets[set].empty());
+    });
+    if (whole) {
+        print_notices(a.scene.string(), {fmt::format("has TEXCOORD_{} already, which is kept", set)});
+        return;
+    }
+    const Unwrapping unwrapping = unwrap(scene, a.texels);
+    a.texels.uv_set = free_texcoord(scene);
+    document = with_texcoords(std::move(document), scene, unwrapping.primitives, a.texels.uv_set);
+    scene = extract_scene(document);
+    a.texels.size = unwrapping.size;
+    print_notices(a.scene.string(),
+                  {fmt::format("{} charts are TEXCOORD_{} now, {:.4g} texels a metre", unwrapping.charts,
+                               a.texels.uv_set, unwrapping.texels_per_metre)});
+}
+
+void run(AoArguments a, Session& session) {
+    choose_gpu(a.options.tracer);
+    a.reading.outputs =
+        check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.scene});
+    if (a.attribute != "COLOR_0" && !a.attribute.starts_with("_"))
+        throw Error("--attribute: glTF wants names of own attributes to begin with _, as _AO");
+    if (a.unwrap && !a.in_textures())
+        throw Error("--unwrap makes room in textures: give --size or --texels");
+    if (a.options.repairs.bad_textures == BadTextures::ignore)
+        a.reading.missing_images = MissingImages::ignore;
+    const Stopwatch watch;
+    GltfDocument document = load_gltf(a.scene, a.reading);
+    Scene scene = extract_scene(document);
+    print_notices(a.scene.string(), scene.notices);
+    if (a.unwrap)
+        about(a.scene, [&] { unwrap_if_needed(a, document, scene); });
+    leave_out_shadows(scene, a.no_shadow);
+    Report report;
+    {
+        ProgressBar bar = session.progress_bar("occlusion");
+        report = about(a.scene, [&] {
+            return a.in_textures() ? bake_textures(a, document, scene, bar.progress())
+                                   : bake_vertices(a, document, scene, bar.progress());
+        });
+    }
+    const std::vector<std::byte> file = about(a.scene, [&] { return encode_glb(document); });
+    add_figures(report, {{"output", a.output.string()},
+                         {"bytes_file", session.write(a.output, file)},
+                         {"seconds", watch.seconds()}});
+    report.sentences.push_back("{bytes_file} bytes on disk; {seconds:.2f} s");
+    publish(report, a.json, session);
+}
+
+void add_places(CLI::App* command, AoArguments& a) {
+    CLI::Option* density =
+        command
+            ->add_option_function<std::string>(
+                "--texels", [&a](const std::string& text) { a.texels.per_metre = parse_density(text); },
+                "into textures instead of vertices, with so many texels a metre in the mean")
+            ->type_name("N/m");
+    CLI::Option* size =
+        command->add_option("--size", a.texels.size, "into textures with so many texels along each side")
+            ->check(CLI::Range(1, kMostTexels))
+            ->excludes(density);
+    command->add_option("--uv", a.texels.uv_set, "coordinates that textures use: TEXCOORD_n")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 7));
+    command->add_flag(
+        "--unwrap", a.unwrap,
+        "where the scene lacks these coordinates: cut it into charts, and write them as a set of "
+        "their own");
+    choice(command, "--atlas", a.texels.atlases, kAtlasModes,
+           "a texture for all, or for each object; auto: for all where their charts do not overlap", "auto");
+    command
+        ->add_option(
+            "--attribute", a.attribute,
+            "attribute of vertices to write instead of COLOR_0, which is multiplied: its name begins with _")
+        ->capture_default_str()
+        ->excludes(density)
+        ->excludes(size);
+    command->add_flag("--bent-normals", a.bent_normals,
+                      "where light comes from on average, too: the attribute _BENT_NORMAL, or a texture that "
+                      "extras.prtkit of materials names; in the frame of the scene");
+}
+
+void add_falloff(CLI::App* command, Falloff& falloff) {
+    command
+        ->add_option_function<std::vector<std::string>>(
+            "--falloff",
+            [&falloff](const std::vector<std::string>& texts) {
+                for (const std::string& text : texts)
+                    falloff.terms.push_back(parse_term(text));
+            },
+            "obscurance: surfaces at this distance, metres, let half of the light pass; several with their "
+            "shares, as "
+            "2:97,300:3")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("DISTANCE[:SHARE],...");
+    command->add_option("--distance", falloff.farthest, "surfaces farther than this, metres, do not block")
+        ->check(above_zero());
+}
+
+} // namespace
+
+void add_ao(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand(
+        "ao", "Write ambient occlusion and bent normals at vertices or in textures, for any engine");
+    auto& a =
+        arguments_for<AoArguments>(command, [&session](const AoArguments& given) { run(given, session); });
+    command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
+    add_output(command, a.output, "model to write, .glb");
+    add_places(command, a);
+    add_falloff(command, a.options.falloff);
+    command->add_option("--rays", a.options.rays, "rays per vertex or texel")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMostRays));
+    choice(
+        command, "--fit", a.options.fit, kOcclusionFits,
+        "of vertices: measured there; fitted to the surface between them; auto: as points between vertices "
+        "tell",
+        "auto");
+    add_no_shadow(command, a.no_shadow);
+    add_backend(command, a.options.tracer.backend,
+                "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
+    add_gpu(command, a.options.tracer.gpu);
+    add_bad_textures(command, a.options.repairs.bad_textures);
+    command->add_option("--seed", a.options.seed, "seed of the samples")
+        ->capture_default_str()
+        ->check(seed());
+    add_reading(command, a.reading);
+    add_threads(command, a.options.threads);
+    add_json(command, a.json);
+}
+
+} // namespace prt::cli

@@ -1,0 +1,88 @@
+// Writes primitives anew with vertices that are split for new texture coordinates.
+
+#include "prt/vertex_splits.h"
+
+#include "gltf/gathered_accessor.h"
+#include "gltf/reread.h"
+#include "gltf/transfer_json.h"
+#include "gltf/unshare.h"
+
+#include <algorithm>
+#include <set>
+
+namespace prt {
+namespace {
+
+class SplitWriter {
+public:
+    explicit SplitWriter(GltfContents& contents) : contents_(contents) {}
+
+    void write(Json& primitive, const VertexSplit& split, int set, bool mirrored) {
+        gather(primitive["attributes"], split.source);
+        if (primitive.contains("targets"))
+            for (Json& target : primitive["targets"])
+                gather(target, split.source);
+        const std::size_t view =
+            contents_.add_buffer_view(std::as_bytes(std::span(split.uv)), sizeof(glm::vec2), true);
+        const std::size_t accessor = contents_.add_accessor({{"bufferView", view},
+                                                             {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
+                                                             {"count", split.uv.size()},
+                                                             {"type", "VEC2"}});
+        for (int s = 0; s <= set; ++s) {
+            const std::string name = "TEXCOORD_" + std::to_string(s);
+            if (s == set || !primitive["attributes"].contains(name))
+                primitive["attributes"][name] = accessor;
+        }
+        std::vector<std::uint32_t> indices;
+        for (const glm::uvec3& t : split.triangles)
+            indices.insert(indices.end(), {t.x, mirrored ? t.z : t.y, mirrored ? t.y : t.z});
+        if (primitive.contains("indices"))
+            replaced_.insert(primitive["indices"].get<std::size_t>());
+        primitive["indices"] = add_index_accessor(contents_, indices);
+        primitive.erase("mode");
+    }
+    void finish() { contents_.remove_unused(std::move(replaced_)); }
+
+private:
+    void gather(Json& attributes, const std::vector<std::uint32_t>& source) {
+        for (auto it = attributes.begin(); it != attributes.end(); ++it) {
+            replaced_.insert(it->get<std::size_t>());
+            *it = add_gathered_accessor(contents_, *it, source);
+        }
+    }
+
+    GltfContents& contents_;
+    std::set<std::size_t> replaced_; ///< accessors
+};
+
+} // namespace
+
+int free_texcoord(const Scene& scene) {
+    std::size_t sets = 0;
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        sets = std::max(sets, vertices.texcoords.size());
+    return static_cast<int>(sets);
+}
+
+GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span<const VertexSplit> splits,
+                            int set) {
+    named(document, [&](GltfContents& contents) {
+        unshare(contents, scene);
+        contents.remove_transfer();
+    });
+    document = reread(document);
+    named(document, [&](GltfContents& contents) {
+        SplitWriter writer(contents);
+        for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
+            const Primitive& primitive = scene.primitives[p];
+            const auto mesh = contents.json["nodes"][static_cast<std::size_t>(primitive.node)]["mesh"];
+            writer.write(contents.json["meshes"][mesh.get<std::size_t>()]["primitives"]
+                                      [static_cast<std::size_t>(primitive.primitive)],
+                         splits[p], set, primitive.mirrored);
+        }
+        writer.finish();
+    });
+    return reread(document);
+}
+
+} // namespace prt
