@@ -27,12 +27,6 @@ float largest_coordinate(const glm::vec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// Whether a box comes as near to `position` on every axis.
-bool reaches(const glm::vec3& low, const glm::vec3& high, const glm::vec3& position, float distance) {
-    return glm::all(glm::lessThanEqual(low - distance, position)) &&
-           glm::all(glm::greaterThanEqual(high + distance, position));
-}
-
 RTCRay embree_ray(const Ray& ray) {
     const glm::vec3 &o = ray.origin, &d = ray.direction;
     return {o.x, o.y, o.z, ray.from, d.x, d.y, d.z, 0, ray.to, ~0u, 0, 0};
@@ -148,10 +142,20 @@ void RayScene::visit_near(const glm::vec3& position, float distance, Visit&& vis
         &visit);
 }
 
+bool RayScene::triangle_reaches(unsigned id, const glm::vec3& position, float distance) const {
+    const glm::uvec3& t = corners_[id];
+    const glm::vec3 &a = positions_[t.x], &b = positions_[t.y], &c = positions_[t.z];
+    return glm::all(glm::lessThanEqual(glm::min(a, glm::min(b, c)) - distance, position)) &&
+           glm::all(glm::greaterThanEqual(glm::max(a, glm::max(b, c)) + distance, position));
+}
+
 float RayScene::surface_offset(const glm::vec3& position) const {
     float largest = largest_coordinate(position);
-    visit_near(position, std::max(largest * 1e-6f, std::numeric_limits<float>::min()),
-               [&](unsigned id) { largest = std::max(largest, extents_[id]); });
+    const float near = std::max(largest * 1e-6f, std::numeric_limits<float>::min());
+    visit_near(position, near, [&](unsigned id) {
+        if (extents_[id] > largest && triangle_reaches(id, position, near))
+            largest = extents_[id];
+    });
     return kOffset * largest;
 }
 
@@ -177,10 +181,9 @@ glm::vec3 RayScene::way_off_surfaces(const glm::vec3& position, const glm::vec3&
     glm::dvec3 way(0), largest(-2);
     visit_near(position, 2 * unit, [&](unsigned id) {
         const glm::uvec3& t = corners_[id];
-        const glm::vec3 &p = positions_[t.x], &q = positions_[t.y], &r = positions_[t.z];
-        if (!reaches(glm::min(p, glm::min(q, r)), glm::max(p, glm::max(q, r)), position, 2 * unit))
+        if (!triangle_reaches(id, position, 2 * unit))
             return; // its leaf does
-        const glm::dvec3 a(p), b(q), c(r);
+        const glm::dvec3 a(positions_[t.x]), b(positions_[t.y]), c(positions_[t.z]);
         const glm::dvec3 area = glm::cross(b - a, c - a);
         const double squared = glm::dot(area, area),
                      along = glm::dot(area, point - a) / static_cast<double>(unit);

@@ -73,6 +73,9 @@ public:
 private:
     /// In units, zero where `start` (in units from `position`) lies on no surface.
     glm::vec3 way_off_surfaces(const glm::vec3& position, const glm::vec3& start, float unit) const;
+    /// Whether the box of triangle `id` comes as near to `position` on every axis.
+    bool triangle_reaches(unsigned id, const glm::vec3& position, float distance) const;
+    /// All triangles whose boxes come as near, and others that share leaves of the tree with them.
     template <class Visit>
     void visit_near(const glm::vec3& position, float distance, Visit&& visit) const;
 

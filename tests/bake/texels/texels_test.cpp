@@ -1,0 +1,296 @@
+// Texels as receivers: where they lie, what lies between charts, and seams.
+
+#include "prt/occlusion_maps.h"
+#include "prt/support/error.h"
+#include "support/scene_builder.h"
+#include "texels/gutters.h"
+#include "texels/seams.h"
+#include "texels/texel_samples.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+namespace prt {
+namespace {
+
+using test::SceneBuilder;
+
+/// `scene` with coordinates that `place` gives of positions.
+Scene mapped(Scene scene, const std::function<glm::vec2(const glm::vec3&)>& place) {
+    for (VertexArray& vertices : scene.vertex_arrays) {
+        vertices.texcoords.assign(1, {});
+        for (const glm::vec3& p : vertices.positions)
+            vertices.texcoords[0].push_back(place(p));
+    }
+    return scene;
+}
+
+/// A floor of two metres that fills `size` of the texture from `corner` on.
+Scene floor_at(const glm::vec2& corner, float size, int cells = 1) {
+    return mapped(SceneBuilder().floor({0, 0, 0}, 1, cells).build(),
+                  [&](const glm::vec3& p) { return corner + size * (glm::vec2(p.x, p.z) + 1.0f) / 2.0f; });
+}
+
+Atlas atlas_of(const Scene& scene, int size) {
+    return plan_atlases(scene, {.size = size, .uv_set = 0}).front();
+}
+
+std::vector<TexelSample> samples_of(const Scene& scene, const Atlas& atlas) {
+    return sample_texels(chart_triangles(scene, atlas), atlas).samples;
+}
+
+/// Position of a sample.
+glm::vec3 place_of_sample(const Scene& scene, const TexelSample& sample) {
+    const glm::uvec3& t = scene.primitives[0].triangles[sample.triangle];
+    const auto& p = scene.vertex_arrays[0].positions;
+    return p[t.x] * (1 - sample.uv.x - sample.uv.y) + p[t.y] * sample.uv.x + p[t.z] * sample.uv.y;
+}
+
+TEST(Texels, LieWhereTheirCoordinatesSay) {
+    const Scene scene = floor_at({0, 0}, 1);
+    const Atlas atlas = atlas_of(scene, 8);
+    const std::vector<TexelSample> samples = samples_of(scene, atlas);
+    EXPECT_EQ(samples.size(), 8 * 8 * kSamplesOfTexel);
+    for (const TexelSample& sample : samples) {
+        const glm::vec3 p = place_of_sample(scene, sample);
+        EXPECT_EQ(static_cast<int>((p.x + 1) / 2 * 8), static_cast<int>(sample.texel % 8));
+        EXPECT_EQ(static_cast<int>((p.z + 1) / 2 * 8), static_cast<int>(sample.texel / 8));
+    }
+}
+
+TEST(Texels, ThatAChartTouchesHaveAPlaceOnIt) {
+    // Smaller than the points of a texel are apart, thinner than a texel, a line, a point; at the border.
+    const struct {
+        glm::vec2 corner, size;
+        std::size_t texels;
+    } cases[] = {{{0.51f, 0.51f}, {0.01f, 0.01f}, 1},
+                 {{0.02f, 0.3f}, {0.9f, 0.005f}, 8},
+                 {{0.3f, 0.3f}, {0, 0}, 1},
+                 {{0, 0}, {1e-3f, 1}, 8},
+                 {{0.999f, 0.999f}, {1e-3f, 1e-3f}, 1}};
+    for (const auto& c : cases) {
+        const Scene scene = mapped(SceneBuilder().floor({0, 0, 0}, 1).build(), [&](const glm::vec3& p) {
+            return c.corner + c.size * (glm::vec2(p.x, p.z) + 1.0f) / 2.0f;
+        });
+        const Atlas atlas = atlas_of(scene, 8);
+        std::set<std::uint32_t> texels;
+        for (const TexelSample& sample : samples_of(scene, atlas)) {
+            texels.insert(sample.texel);
+            const glm::vec3 p = place_of_sample(scene, sample);
+            EXPECT_LE(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}), 1.0001f);
+        }
+        EXPECT_EQ(texels.size(), c.texels) << c.corner.x << " " << c.size.x;
+    }
+}
+
+TEST(Texels, OfMirroredChartsAndOtherTilesAreFound) {
+    const Scene mirrored = mapped(SceneBuilder().floor({0, 0, 0}, 1).build(), [](const glm::vec3& p) {
+        return glm::vec2(1 - p.x, p.z + 1) / 2.0f + glm::vec2(3, -2);
+    });
+    const Atlas atlas = atlas_of(mirrored, 4);
+    EXPECT_TRUE(atlas.repeats);
+    EXPECT_EQ(samples_of(mirrored, atlas).size(), 16 * kSamplesOfTexel);
+    EXPECT_FALSE(atlas_of(floor_at({0, 0}, 1), 4).repeats);
+}
+
+TEST(Texels, WithoutAPlaceOfTheirOwnAreRefused) {
+    const auto refused = [](const Scene& scene, const TexelOptions& options, const std::string& why) {
+        try {
+            plan_atlases(scene, options);
+            ADD_FAILURE() << why;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+        }
+    };
+    const Scene good = floor_at({0, 0}, 1);
+    refused(good, {.size = 8, .uv_set = 1}, "has no TEXCOORD_1");
+    refused(floor_at({0.5f, 0}, 1), {.size = 8, .uv_set = 0}, "crosses the border");
+    refused(floor_at({0.5f, 0.5f}, 0), {.per_metre = 8, .uv_set = 0}, "is a line or a point");
+    refused(good, {.per_metre = 1e5, .uv_set = 0}, "more than 8192");
+    refused(good, {.per_metre = 0, .uv_set = 0}, "finite and above 0");
+    Scene twice = test::join({good, good});
+    twice.primitives[1].node = twice.primitives[0].node;
+    refused(twice, {.size = 8, .uv_set = 0, .atlases = AtlasMode::one}, "100.0 %");
+    refused(twice, {.size = 8, .uv_set = 0}, "overlap");
+}
+
+TEST(Texels, OfObjectsThatOverlapHaveTexturesOfTheirOwn) {
+    Scene twice = test::join({floor_at({0, 0}, 1), floor_at({0, 0}, 1)});
+    twice.primitives[1].node = 1;
+    EXPECT_EQ(plan_atlases(twice, {.size = 8, .uv_set = 0}).size(), 2u);
+    Scene beside = test::join({floor_at({0, 0}, 0.5f), floor_at({0.5f, 0.5f}, 0.5f)});
+    beside.primitives[1].node = 1;
+    EXPECT_EQ(plan_atlases(beside, {.size = 8, .uv_set = 0}).size(), 1u);
+    // Half of the texture along each side for two metres: 64 texels are 16 a metre.
+    EXPECT_EQ(plan_atlases(beside, {.per_metre = 16, .uv_set = 0}).front().width, 64);
+}
+
+TEST(Gutters, HaveWhatIsNearest) {
+    Atlas atlas;
+    atlas.width = 9;
+    atlas.height = 7;
+    std::vector<float> values(atlas.texels() * 2, -1);
+    std::vector<bool> filled(atlas.texels());
+    const auto fill = [&](std::size_t texel, float value) {
+        filled[texel] = true;
+        values[2 * texel] = value;
+        values[2 * texel + 1] = 10 * value;
+    };
+    fill(0, 1);
+    fill(62, 3);
+    fill_gutters(atlas, filled, values, 2);
+    EXPECT_EQ(values[0], 1);
+    EXPECT_EQ(values[2 * 10], 1); // beside the first
+    EXPECT_EQ(values[2 * 52 + 1], 30);
+    for (std::size_t t = 0; t < atlas.texels(); ++t) {
+        EXPECT_GE(values[2 * t], 1) << t;
+        EXPECT_LE(values[2 * t], 3) << t;
+        EXPECT_NEAR(values[2 * t + 1], 10 * values[2 * t], 1e-4);
+    }
+    fill_gutters(atlas, std::vector<bool>(atlas.texels()), values, 2); // nothing to fill from
+}
+
+/// Two halves of a floor whose charts lie apart, one of them turned.
+Scene cut_floor() {
+    Scene scene = SceneBuilder().floor({0, 0, 0}, 1, 8).build();
+    VertexArray& vertices = scene.vertex_arrays[0];
+    Primitive& primitive = scene.primitives[0];
+    vertices.texcoords.assign(1, std::vector<glm::vec2>(vertices.size()));
+    const auto left = [](const glm::vec3& p) {
+        return glm::vec2(0.03f + 0.2f * (p.x + 1), 0.03f + 0.2f * (p.z + 1));
+    };
+    const auto right = [](const glm::vec3& p) {
+        return glm::vec2(0.53f + 0.2f * (p.z + 1), 0.97f - 0.2f * p.x);
+    };
+    std::map<std::uint32_t, std::uint32_t> copies;
+    for (glm::uvec3& t : primitive.triangles) {
+        const float middle =
+            (vertices.positions[t.x].x + vertices.positions[t.y].x + vertices.positions[t.z].x) / 3;
+        for (int i = 0; i < 3; ++i) {
+            const glm::vec3 p = vertices.positions[t[i]];
+            if (middle < 0) {
+                vertices.texcoords[0][t[i]] = left(p);
+                continue;
+            }
+            const auto [found, is_new] =
+                copies.try_emplace(t[i], static_cast<std::uint32_t>(vertices.positions.size()));
+            if (is_new) {
+                vertices.positions.push_back(p);
+                vertices.normals.push_back(vertices.normals[t[i]]);
+                vertices.texcoords[0].push_back(right(p));
+            }
+            t[i] = found->second;
+        }
+    }
+    return scene;
+}
+
+double jump(const Atlas& atlas, const SeamPoint& point, std::span<const float> values) {
+    double sum = 0;
+    for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
+        const Bilinear filter = bilinear_at(atlas, place);
+        for (std::size_t i = 0; i < 4; ++i)
+            sum += sign * filter.weights[i] * static_cast<double>(values[filter.texels[i]]);
+    }
+    return std::abs(sum);
+}
+
+TEST(Seams, AreClosedAndNothingElseChanges) {
+    const Scene scene = cut_floor();
+    const Atlas atlas = atlas_of(scene, 64);
+    const std::vector<SeamPoint> seams = seam_points(scene, atlas);
+    ASSERT_GE(seams.size(), 50u); // two a texel
+    std::vector<bool> measured(atlas.texels());
+    std::vector<float> values(atlas.texels());
+    for (const TexelSample& sample : samples_of(scene, atlas)) {
+        const glm::vec3 p = place_of_sample(scene, sample);
+        measured[sample.texel] = true;
+        values[sample.texel] = 0.5f + 0.3f * std::sin(7 * p.x) * std::cos(5 * p.z) + (p.x > 0 ? 0.1f : 0.0f);
+    }
+    fill_gutters(atlas, measured, values, 1);
+    const std::vector<float> before = values;
+    stitch_seams(atlas, seams, measured, values, 1);
+    double largest = 0, moved = 0, squared = 0;
+    for (const SeamPoint& point : seams)
+        largest = std::max(largest, jump(atlas, point, values));
+    for (std::size_t t = 0; t < values.size(); ++t)
+        if (measured[t]) {
+            const double change = std::abs(static_cast<double>(values[t] - before[t]));
+            moved = std::max(moved, change);
+            squared += change * change;
+        }
+    EXPECT_LT(largest, 0.5 / 255);
+    EXPECT_LT(moved, 0.12);
+    EXPECT_LT(std::sqrt(squared / static_cast<double>(std::ranges::count(measured, true))), 0.03);
+}
+
+TEST(Seams, EndWhereNormalsDiffer) {
+    // A floor and a wall that share an edge: light differs there.
+    Scene scene = SceneBuilder()
+                      .quad({-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1})
+                      .quad({-1, 0, -1}, {1, 0, -1}, {1, 2, -1}, {-1, 2, -1})
+                      .build();
+    VertexArray& vertices = scene.vertex_arrays[0];
+    vertices.texcoords.assign(1, {});
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        const glm::vec3& p = vertices.positions[v];
+        vertices.texcoords[0].push_back(vertices.normals[v].y > 0.5f ? glm::vec2(p.x + 1, p.z + 4) / 6.0f
+                                                                     : glm::vec2(p.x + 1, p.y) / 6.0f);
+    }
+    EXPECT_TRUE(seam_points(scene, atlas_of(scene, 64)).empty());
+}
+
+TEST(OcclusionMaps, ConvergeToThePointsThatTheyAreOf) {
+    const Scene disc = SceneBuilder().disc({0, 0.6f, 0}, {0, -1, 0}, 0.8f, 256).build();
+    Scene scene = test::join({floor_at({0, 0}, 1, 4), disc});
+    scene.vertex_arrays[1].texcoords.assign(1, std::vector<glm::vec2>(scene.vertex_arrays[1].size()));
+    scene.primitives[1].node = 1;
+    OcclusionOptions options;
+    options.rays = 4096;
+    const double expected = 1 - 0.64 / (0.64 + 0.36); // the form factor of the disc, on its axis
+    double error = 1;
+    for (const int size : {5, 21}) { // odd: a texel lies about the middle
+        Atlas atlas;
+        atlas.primitives = {0};
+        atlas.uv_set = 0;
+        atlas.width = atlas.height = size;
+        const OcclusionMapsResult result = occlusion_maps(scene, {atlas}, options);
+        const OcclusionMap& map = result.maps.front();
+        EXPECT_EQ(map.measured, atlas.texels());
+        EXPECT_EQ(map.sealed, 0u);
+        const std::size_t middle = atlas.texels() / 2;
+        const double now = std::abs(static_cast<double>(map.openness.ambient[middle]) - expected);
+        EXPECT_LT(now, error);
+        error = now;
+        EXPECT_NEAR(map.openness.bent_normals[middle].y, 1, 0.01);
+        // Symmetric, and more open at the border, to where light leans outwards.
+        EXPECT_GT(map.openness.ambient[0], map.openness.ambient[middle] + 0.2f);
+        EXPECT_LT(map.openness.bent_normals[0].x, -0.05f);
+    }
+    EXPECT_LT(error, 0.01);
+}
+
+TEST(OcclusionMaps, LeaveOutWhatIsInsideSolids) {
+    const Scene block = SceneBuilder().sphere({0, 0, 0}, 0.5f, 24).build();
+    Scene scene = test::join({floor_at({0, 0}, 1, 4), block});
+    Atlas atlas;
+    atlas.primitives = {0};
+    atlas.uv_set = 0;
+    atlas.width = atlas.height = 32;
+    OcclusionOptions options;
+    options.rays = 256;
+    const OcclusionMap map = occlusion_maps(scene, {atlas}, options).maps.front();
+    const double inside = 3.14159 * 0.25 / 4 * 32 * 32;
+    EXPECT_NEAR(static_cast<double>(map.sealed), inside, 0.15 * inside);
+    EXPECT_GT(*std::ranges::min_element(map.openness.ambient), 0.3f); // and none is black
+}
+
+} // namespace
+} // namespace prt
