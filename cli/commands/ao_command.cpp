@@ -92,15 +92,17 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
                      const Progress& progress) {
     const OcclusionResult result = ambient_occlusion(scene, a.options, progress);
     const BakeStatistics& s = result.statistics;
+    std::vector<VertexAttribute> attributes;
     if (a.attribute == "COLOR_0")
-        shade_vertex_colors(document, scene, result.openness.ambient);
+        attributes.push_back(shaded_vertex_colors(scene, result.openness.ambient));
     else
-        write_vertex_attribute(document, scene, a.attribute, result.openness.ambient, 1);
+        attributes.push_back({a.attribute, 1, result.openness.ambient});
     if (a.bent_normals) {
-        const auto& normals = result.openness.bent_normals;
-        write_vertex_attribute(document, scene, "_BENT_NORMAL",
-                               {reinterpret_cast<const float*>(normals.data()), 3 * normals.size()}, 3);
+        VertexAttribute& bent = attributes.emplace_back(VertexAttribute{"_BENT_NORMAL", 3, {}});
+        for (const glm::vec3& n : result.openness.bent_normals)
+            bent.values.insert(bent.values.end(), {n.x, n.y, n.z});
     }
+    write_vertex_attributes(document, scene, attributes);
     Report report;
     add_figures(report, {{"receivers", s.receivers.all},
                          {"receivers_sealed", s.receivers.sealed},

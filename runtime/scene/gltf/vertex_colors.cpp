@@ -5,64 +5,63 @@
 #include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
 
+#include <algorithm>
+
 namespace prt {
 namespace {
 
 constexpr const char* kTypes[] = {"SCALAR", "VEC2", "VEC3", "VEC4"};
 
-std::size_t add_floats(GltfContents& contents, std::span<const float> values, std::size_t components) {
-    const std::size_t view =
-        contents.add_buffer_view(std::as_bytes(values), components * sizeof(float), true);
+/// Of the vertices of one array.
+std::size_t add_attribute(GltfContents& contents, const VertexArray& vertices,
+                          const VertexAttribute& attribute) {
+    const auto width = static_cast<std::size_t>(attribute.components);
+    const auto own =
+        std::span(attribute.values).subspan(vertices.first_receiver * width, vertices.size() * width);
+    const std::size_t view = contents.add_buffer_view(std::as_bytes(own), width * sizeof(float), true);
     return contents.add_accessor({{"bufferView", view},
                                   {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
-                                  {"count", values.size() / components},
-                                  {"type", kTypes[components - 1]}});
-}
-
-/// `add(contents, vertices)` gives the accessor of a vertex array.
-template <class Add>
-void write_attribute(GltfDocument& document, const Scene& scene, const std::string& name, const Add& add) {
-    named(document, [&](GltfContents& contents) {
-        const std::vector<Json*> primitives = unshare(contents, scene);
-        std::vector<std::size_t> accessors;
-        for (const VertexArray& vertices : scene.vertex_arrays)
-            accessors.push_back(add(contents, vertices));
-        for (std::size_t i = 0; i < primitives.size(); ++i)
-            (*primitives[i])["attributes"][name] = accessors[scene.primitives[i].vertices];
-    });
+                                  {"count", vertices.size()},
+                                  {"type", kTypes[width - 1]}});
 }
 
 } // namespace
 
-void write_vertex_attribute(GltfDocument& document, const Scene& scene, const std::string& name,
-                            std::span<const float> values, int components) {
-    const auto width = static_cast<std::size_t>(components);
-    write_attribute(document, scene, name, [&](GltfContents& contents, const VertexArray& vertices) {
-        return add_floats(contents, values.subspan(vertices.first_receiver * width, vertices.size() * width),
-                          width);
+void write_vertex_attributes(GltfDocument& document, const Scene& scene,
+                             std::span<const VertexAttribute> attributes) {
+    named(document, [&](GltfContents& contents) {
+        const std::vector<Json*> primitives = unshare(contents, scene);
+        for (const VertexAttribute& attribute : attributes) {
+            std::vector<std::size_t> accessors;
+            for (const VertexArray& vertices : scene.vertex_arrays)
+                accessors.push_back(add_attribute(contents, vertices, attribute));
+            for (std::size_t i = 0; i < primitives.size(); ++i)
+                (*primitives[i])["attributes"][attribute.name] = accessors[scene.primitives[i].vertices];
+        }
     });
+}
+
+VertexAttribute shaded_vertex_colors(const Scene& scene, std::span<const float> factors) {
+    const bool colored =
+        std::ranges::any_of(scene.vertex_arrays, [](const VertexArray& v) { return !v.colors.empty(); });
+    VertexAttribute attribute{"COLOR_0", colored ? 4 : 3, {}};
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            const glm::vec4 color = vertices.colors.empty() ? glm::vec4(1) : vertices.colors[v];
+            const float factor = factors[vertices.first_receiver + v];
+            attribute.values.insert(attribute.values.end(),
+                                    {factor * color.r, factor * color.g, factor * color.b});
+            if (colored)
+                attribute.values.push_back(color.a);
+        }
+    return attribute;
 }
 
 void write_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> colors) {
-    static_assert(sizeof(glm::vec3) == 3 * sizeof(float));
-    write_vertex_attribute(document, scene, "COLOR_0",
-                           {reinterpret_cast<const float*>(colors.data()), 3 * colors.size()}, 3);
-}
-
-void shade_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const float> factors) {
-    write_attribute(document, scene, "COLOR_0", [&](GltfContents& contents, const VertexArray& vertices) {
-        const std::span<const float> own = factors.subspan(vertices.first_receiver, vertices.size());
-        const std::size_t width = vertices.colors.empty() ? 3 : 4;
-        std::vector<float> values;
-        values.reserve(width * own.size());
-        for (std::size_t v = 0; v < own.size(); ++v) {
-            const glm::vec4 color = vertices.colors.empty() ? glm::vec4(1) : vertices.colors[v];
-            values.insert(values.end(), {own[v] * color.r, own[v] * color.g, own[v] * color.b});
-            if (width == 4)
-                values.push_back(color.a);
-        }
-        return add_floats(contents, values, width);
-    });
+    VertexAttribute attribute{"COLOR_0", 3, {}};
+    for (const glm::vec3& color : colors)
+        attribute.values.insert(attribute.values.end(), {color.r, color.g, color.b});
+    write_vertex_attributes(document, scene, std::span(&attribute, 1));
 }
 
 } // namespace prt

@@ -70,12 +70,20 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
 /// viewer shows.
 void write_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> colors);
 
-/// Multiplies COLOR_0 by `factors` [receivers], or makes it: float32.
-void shade_vertex_colors(GltfDocument& document, const Scene& scene, std::span<const float> factors);
+/// float32, for all vertices.
+struct VertexAttribute {
+    std::string name;
+    int components = 1;        ///< 1 to 4
+    std::vector<float> values; ///< [receivers][components]
+};
 
-/// Writes an attribute, float32: `values` [receivers][components, 1 to 4].
-void write_vertex_attribute(GltfDocument& document, const Scene& scene, const std::string& name,
-                            std::span<const float> values, int components);
+/// COLOR_0 of the scene times `factors` [receivers]; with alpha where some vertices have colors.
+VertexAttribute shaded_vertex_colors(const Scene& scene, std::span<const float> factors);
+
+/// Writes them in the place of those of the same name. Like all that writes data of vertices, once for a
+/// scene that was extracted.
+void write_vertex_attributes(GltfDocument& document, const Scene& scene,
+                             std::span<const VertexAttribute> attributes);
 
 /// A texture that some primitives have to themselves, of PNG files.
 struct SurfaceTexture {
