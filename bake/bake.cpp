@@ -180,7 +180,7 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
     const Stopwatch all;
     const BakePlan plan = plan_bake(traced, media, options);
     check_memory(plan);
-    const std::unique_ptr<Tracer> tracer = make_bake_tracer(traced, options);
+    const std::unique_ptr<Tracer> tracer = make_tracer(traced, options.tracer);
     seconds.build = all.seconds();
 
     const double traced_sky = plan.bounces != 0 ? 0.85 : 0.95,

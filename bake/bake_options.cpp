@@ -2,7 +2,6 @@
 
 #include "bake_options.h"
 
-#include "occlusion/falloff_tracer.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 
@@ -14,7 +13,7 @@ namespace prt {
 namespace {
 
 void check_raster_options(const BakeOptions& options) {
-    if (!options.falloff.blocks_everywhere())
+    if (!options.tracer.falloff.blocks_everywhere())
         throw Error("method raster does not tell how far away surfaces are: use method trace for a fall-off");
     if (options.tracer.backend == Backend::cpu)
         throw Error("method raster draws on the GPU: it has no CPU backend");
@@ -48,18 +47,11 @@ void check_options(const BakeOptions& options) {
         throw Error("an error to reach is one of vertices: leave out the fit to the surface");
     if (!(options.subsurface.metres_per_unit > 0 && std::isfinite(options.subsurface.metres_per_unit)))
         throw Error("metres per unit must be finite and above 0");
-    check_falloff(options.falloff);
-    if (!options.falloff.blocks_everywhere() && options.bounces != 0)
+    check_falloff(options.tracer.falloff);
+    if (!options.tracer.falloff.blocks_everywhere() && options.bounces != 0)
         throw Error("light that bounces does not fall off: leave out bounces or the fall-off");
     if (options.tracer.method == BakeMethod::raster)
         check_raster_options(options);
-}
-
-std::unique_ptr<Tracer> make_bake_tracer(const TraceScene& scene, const BakeOptions& options) {
-    std::unique_ptr<Tracer> tracer = make_tracer(scene, options.tracer);
-    if (options.falloff.blocks_everywhere())
-        return tracer;
-    return std::make_unique<FalloffTracer>(std::move(tracer), scene, options.falloff);
 }
 
 } // namespace prt

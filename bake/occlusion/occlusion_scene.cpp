@@ -19,7 +19,6 @@ BakeOptions bake_options(const OcclusionOptions& options) {
     result.rays = options.rays;
     result.target_error = options.target_error;
     result.fit = options.fit;
-    result.falloff = options.falloff;
     result.tracer = options.tracer;
     result.lamps.mode = LampMode::none;
     result.repairs = options.repairs;
@@ -33,6 +32,6 @@ BakeOptions bake_options(const OcclusionOptions& options) {
 OcclusionScene::OcclusionScene(const Scene& scene, const OcclusionOptions& options)
     : options_(checked(bake_options(options))),
       scene_(trace_scene(scene, choose_media(scene, options_), options_)),
-      tracer_(make_bake_tracer(scene_, options_)), notices_(scene_notices(scene_, options_)) {}
+      tracer_(make_tracer(scene_, options_.tracer)), notices_(scene_notices(scene_, options_)) {}
 
 } // namespace prt

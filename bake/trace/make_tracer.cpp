@@ -2,6 +2,7 @@
 
 #include "prt/make_tracer.h"
 
+#include "occlusion/falloff_tracer.h"
 #include "prt/support/error.h"
 #include "trace/embree_tracer.h"
 #include "trace/gpu/gl_rasterizer.h"
@@ -26,11 +27,7 @@ std::unique_ptr<Tracer> make_vulkan_tracer(const TraceScene& scene, const Vulkan
     return with_vulkan_errors([&] { return std::make_unique<VulkanTracer>(scene, choice); });
 }
 
-} // namespace
-
-std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice& choice) {
-    if (choice.method == BakeMethod::raster && choice.backend != Backend::cpu)
-        return make_rasterizer(scene, choice);
+std::unique_ptr<Tracer> make_ray_tracer(const TraceScene& scene, const TracerChoice& choice) {
     if (choice.backend == Backend::cpu || (choice.backend == Backend::automatic && !may_have_hardware()))
         return std::make_unique<EmbreeTracer>(scene);
     if (choice.backend == Backend::gpu)
@@ -44,6 +41,17 @@ std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice&
     } catch (const Error&) { // none
         return std::make_unique<EmbreeTracer>(scene);
     }
+}
+
+} // namespace
+
+std::unique_ptr<Tracer> make_tracer(const TraceScene& scene, const TracerChoice& choice) {
+    if (choice.method == BakeMethod::raster && choice.backend != Backend::cpu)
+        return make_rasterizer(scene, choice);
+    std::unique_ptr<Tracer> tracer = make_ray_tracer(scene, choice);
+    if (choice.falloff.blocks_everywhere())
+        return tracer;
+    return std::make_unique<FalloffTracer>(std::move(tracer), scene, choice.falloff);
 }
 
 } // namespace prt

@@ -282,7 +282,7 @@ void add_ao(CLI::App& app, Session& session) {
     command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
     add_output(command, a.output, "model to write, .glb");
     add_places(command, a);
-    add_falloff(command, a.options.falloff);
+    add_falloff(command, a.options.tracer.falloff);
     command->add_option("--rays", a.options.rays, "rays per vertex or texel")
         ->capture_default_str()
         ->check(CLI::Range(1, kMostRays));

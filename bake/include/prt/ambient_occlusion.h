@@ -4,7 +4,6 @@
 // Experimental.
 
 #include "prt/bake.h"
-#include "prt/falloff.h"
 
 #include <glm/vec3.hpp>
 
@@ -16,8 +15,7 @@ struct OcclusionOptions {
     int rays = 1024;                    ///< per receiver
     std::optional<double> target_error; ///< as of BakeOptions
     FitMode fit = FitMode::automatic;   ///< of vertices
-    Falloff falloff;
-    TracerChoice tracer;
+    TracerChoice tracer;                ///< with the fall-off
     Repairs repairs;
     BakeMemory memory;
     int threads = 0; ///< 0: all

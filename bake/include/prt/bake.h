@@ -3,7 +3,6 @@
 // The baker: transfer vectors of every receiver of a scene.
 
 #include "prt/baked_transfer.h"
-#include "prt/falloff.h"
 #include "prt/make_tracer.h"
 #include "prt/scene.h"
 #include "prt/subsurface.h"
@@ -84,7 +83,6 @@ struct BakeOptions {
     std::optional<double> target_error; ///< relative L2 to reach, with as many rays as each receiver needs
     FitMode fit = FitMode::vertex;
     int bounces = 0; ///< or kEndlessBounces
-    Falloff falloff; ///< of what blocks, where there are no bounces
     TracerChoice tracer;
     SubsurfaceOptions subsurface;
     LampOptions lamps;

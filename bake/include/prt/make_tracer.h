@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prt/falloff.h"
 #include "prt/gpu_devices.h"
 #include "prt/trace_scene.h"
 #include "prt/tracer.h"
@@ -17,6 +18,7 @@ struct TracerChoice {
     /// The GPU to trace on: its number among gpu_devices(), or a part of its name; empty: the best.
     std::string gpu = {};
     Traversal traversal = Traversal::automatic;
+    Falloff falloff = {}; ///< of what blocks; for rays alone
 };
 
 /// The tracer that `choice` asks for: on a hardware GPU where the backend is automatic and there is one that

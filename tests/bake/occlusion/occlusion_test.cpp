@@ -100,7 +100,7 @@ TEST(Obscurance, UnderAPlaneIsTheIntegralOfTheFalloff) {
                                    Falloff{.terms = {{0.5, 1}}, .farthest = 4}})
         for (const float height : {0.1f, 1.5f}) {
             OcclusionOptions options = at_vertices();
-            options.falloff = falloff;
+            options.tracer.falloff = falloff;
             const OcclusionResult result = ambient_occlusion(under_a_wide_plane(height), options);
             EXPECT_NEAR(result.openness.ambient[0], under_a_plane(falloff, static_cast<double>(height)), 3e-3)
                 << height;
@@ -114,7 +114,7 @@ TEST(Obscurance, OfAClosedRoomIsNotBlack) {
     Scene room = SceneBuilder().bowl({0, 0, 0}, 2, 12, 0).build();
     EXPECT_EQ(ambient_occlusion(room, at_vertices(64)).openness.ambient[20], 0);
     OcclusionOptions options = at_vertices(4096);
-    options.falloff.terms = {{2, 1}};
+    options.tracer.falloff.terms = {{2, 1}};
     // From a place on a sphere, what is met under θ is 2 R cos θ away.
     double expected = 0;
     constexpr int kSteps = 10000;
@@ -134,7 +134,7 @@ TEST(Obscurance, InsideSolidsIsThatOfNeighbours) {
     Scene floor = SceneBuilder().floor({0, 0, 0}, 2, 8).build(),
           block = SceneBuilder().sphere({0, 0, 0}, 0.8f, 16).build();
     OcclusionOptions options = at_vertices(1024);
-    options.falloff.terms = {{5, 1}};
+    options.tracer.falloff.terms = {{5, 1}};
     const OcclusionResult result = ambient_occlusion(test::join({floor, block}), options);
     EXPECT_GT(result.statistics.receivers.sealed, 0u);
     const std::vector<glm::vec3>& positions = floor.vertex_arrays[0].positions;
@@ -160,7 +160,7 @@ TEST(Falloff, RefusesDistancesThatAreNone) {
                                Falloff{.terms = {}, .farthest = 0}, Falloff{.terms = {}, .farthest = nan}})
         EXPECT_THROW(check_falloff(bad), Error);
     BakeOptions options;
-    options.falloff.terms = {{2, 1}};
+    options.tracer.falloff.terms = {{2, 1}};
     options.bounces = 1;
     EXPECT_THROW(bake(spot(), options), Error);
 }
