@@ -50,16 +50,21 @@ OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
 } // namespace
 
 OcclusionMapsResult occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
-                                   const OcclusionOptions& options, const Progress& progress) {
+                                   const OcclusionOptions& options, const FinerModel& finer,
+                                   const Progress& progress) {
+    if (finer.scene && !(finer.reach > 0 && std::isfinite(finer.reach)))
+        throw Error("how far a finer model may lie off must be finite and above 0");
     const Stopwatch watch;
-    const OcclusionScene traced(scene, options);
+    const OcclusionScene traced(finer.scene ? *finer.scene : scene, options);
+    const Casters casters{traced.scene(), finer.reach};
+    const TexelPlaces places(scene, finer.scene ? &casters : nullptr);
     OcclusionMapsResult result;
     result.notices = traced.notices();
     for (std::size_t i = 0; i < atlases.size(); ++i) {
         const Progress part = progress.part(static_cast<double>(i) / static_cast<double>(atlases.size()),
                                             static_cast<double>(i + 1) / static_cast<double>(atlases.size()));
         const TexelSamples samples = sample_texels(chart_triangles(scene, atlases[i]), atlases[i]);
-        TexelLight light = trace_texels(traced.tracer(), traced.scene(), atlases[i], samples.samples,
+        TexelLight light = trace_texels(traced.tracer(), traced.scene(), places, atlases[i], samples.samples,
                                         {.order = 2, .rays = options.rays, .seed = options.seed + i}, part);
         result.rays += light.rays;
         result.maps.push_back(map_of(atlases[i], std::move(light), scene));

@@ -4,14 +4,9 @@
 
 #include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
-#include "prt/trace_scene.h"
 #include "scene/sealed.h"
-#include "transport/transport_receivers.h"
-
-#include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 namespace prt {
@@ -39,8 +34,9 @@ std::vector<TexelGroup> by_texel(std::span<const TexelSample> samples) {
 
 class TexelTracer {
 public:
-    TexelTracer(Tracer& tracer, const TraceScene& scene, const TraceOptions& options)
-        : tracer_(tracer), scene_(scene), options_(options), vertices_(vertex_receivers(scene.scene())),
+    TexelTracer(Tracer& tracer, const TraceScene& scene, const TexelPlaces& places,
+                const TraceOptions& options)
+        : tracer_(tracer), scene_(scene), places_(places), options_(options),
           stride_(static_cast<std::size_t>(coefficient_count(options.order))) {
         options_.rays = std::max(1, options.rays / static_cast<int>(kSamplesOfTexel));
     }
@@ -67,21 +63,7 @@ private:
         Receivers receivers;
         for (const TexelGroup& group : groups) {
             const bool there = k < group.samples.size();
-            const TexelSample& sample = group.samples[there ? k : 0];
-            const glm::uvec3& c = scene_.surfaces().corners(sample.triangle);
-            const auto mixed = [&](const std::vector<glm::vec3>& of) {
-                return of[c.x] * (1 - sample.uv.x - sample.uv.y) + of[c.y] * sample.uv.x +
-                       of[c.z] * sample.uv.y;
-            };
-            const glm::vec3 face = glm::cross(vertices_.positions[c.y] - vertices_.positions[c.x],
-                                              vertices_.positions[c.z] - vertices_.positions[c.x]);
-            const float doubled = glm::length(face);
-            const glm::vec3 smooth = mixed(vertices_.normals);
-            const glm::vec3 plane = doubled > 0 ? face / doubled : glm::vec3(0);
-            receivers.positions.push_back(mixed(vertices_.positions));
-            receivers.normals.push_back(glm::length(smooth) > 0 ? glm::normalize(smooth) : plane);
-            receivers.starts.push_back(doubled > 0 ? plane : receivers.normals.back());
-            receivers.areas.push_back(there ? 1.0f : 0.0f);
+            places_.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f, receivers);
         }
         return receivers;
     }
@@ -115,22 +97,22 @@ private:
 
     Tracer& tracer_;
     const TraceScene& scene_;
+    const TexelPlaces& places_;
     TraceOptions options_;
-    Receivers vertices_;
     std::size_t stride_;
 };
 
 } // namespace
 
-TexelLight trace_texels(Tracer& tracer, const TraceScene& scene, const Atlas& atlas,
-                        std::span<const TexelSample> samples, const TraceOptions& options,
+TexelLight trace_texels(Tracer& tracer, const TraceScene& scene, const TexelPlaces& places,
+                        const Atlas& atlas, std::span<const TexelSample> samples, const TraceOptions& options,
                         const Progress& progress) {
     const std::vector<TexelGroup> groups = by_texel(samples);
     TexelLight light{
         std::vector<float>(atlas.texels() * static_cast<std::size_t>(coefficient_count(options.order))),
         std::vector<bool>(atlas.texels()), std::vector<glm::vec3>(atlas.texels(), {0, 1, 0})};
     light.measured = groups.size();
-    TexelTracer texels(tracer, scene, options);
+    TexelTracer texels(tracer, scene, places, options);
     for (std::size_t first = 0; first < groups.size(); first += kTexelsAtOnce) {
         const std::size_t count = std::min(kTexelsAtOnce, groups.size() - first);
         const auto share = [&](std::size_t done) {

@@ -3,7 +3,7 @@
 // Transfer of texels.
 
 #include "prt/tracer.h"
-#include "texels/texel_samples.h"
+#include "texels/texel_places.h"
 
 #include <cstdint>
 #include <functional>
@@ -12,8 +12,6 @@
 
 namespace prt {
 
-class TraceScene;
-
 struct TexelLight {
     std::vector<float> vectors; ///< [texels][order²], zero where nothing was measured
     std::vector<bool> lit;      ///< [texels]: measured, and not sealed in
@@ -21,10 +19,10 @@ struct TexelLight {
     std::size_t measured = 0, rays = 0;
 };
 
-/// The mean over the samples of each texel, which share its rays: each takes a part of one net. Samples that
-/// are sealed in tell nothing.
-TexelLight trace_texels(Tracer& tracer, const TraceScene& scene, const Atlas& atlas,
-                        std::span<const TexelSample> samples, const TraceOptions& options,
+/// `scene` is what is traced. The mean over the samples of each texel, which share its rays: each takes a
+/// part of one net. Samples that are sealed in tell nothing.
+TexelLight trace_texels(Tracer& tracer, const TraceScene& scene, const TexelPlaces& places,
+                        const Atlas& atlas, std::span<const TexelSample> samples, const TraceOptions& options,
                         const Progress& progress);
 
 } // namespace prt

@@ -10,6 +10,7 @@
 #include "prt/unwrap.h"
 
 #include <fmt/core.h>
+#include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +19,8 @@ namespace prt::cli {
 namespace {
 
 struct AoArguments {
-    Path scene, output, json;
+    Path scene, output, json, casters;
+    std::optional<double> reach;        ///< metres
     std::vector<std::string> no_shadow; ///< names of materials
     std::string attribute = "COLOR_0";
     TexelOptions texels;
@@ -121,10 +123,29 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
     return report;
 }
 
+/// A finer model, and how far off it may lie: a fiftieth of the scene's extent where that is not said.
+struct Finer {
+    std::optional<Scene> scene;
+    double reach = 0;
+};
+
+Finer load_finer(const AoArguments& a, const Scene& scene) {
+    Finer finer;
+    if (a.casters.empty())
+        return finer;
+    finer.scene = extract_scene(load_gltf(a.casters, a.reading));
+    print_notices(a.casters.string(), finer.scene->notices);
+    const Bounds box = bounds(scene);
+    finer.reach = a.reach.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
+    return finer;
+}
+
 Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& scene,
                      const Progress& progress) {
+    const Finer finer = load_finer(a, scene);
     const OcclusionMapsResult result =
-        occlusion_maps(scene, plan_atlases(scene, a.texels), a.options, progress);
+        occlusion_maps(scene, plan_atlases(scene, a.texels), a.options,
+                       {finer.scene ? &*finer.scene : nullptr, finer.reach}, progress);
     std::vector<SurfaceTexture> textures;
     Json maps = Json::array();
     std::size_t lit = 0, measured = 0;
@@ -191,10 +212,12 @@ void unwrap_if_needed(AoArguments& a, GltfDocument& document, Scene& scene) {
 
 void run(AoArguments a, Session& session) {
     choose_gpu(a.options.tracer);
-    a.reading.outputs =
-        check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.scene});
+    a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
+                                      {a.scene, a.casters});
     if (a.attribute != "COLOR_0" && !a.attribute.starts_with("_"))
         throw Error("--attribute: glTF wants names of own attributes to begin with _, as _AO");
+    if (!a.casters.empty() && !a.in_textures())
+        throw Error("--casters is for textures, which are finer than vertices: give --size or --texels");
     if (a.unwrap && !a.in_textures())
         throw Error("--unwrap makes room in textures: give --size or --texels");
     if (a.options.repairs.bad_textures == BadTextures::ignore)
@@ -282,6 +305,20 @@ void add_ao(CLI::App& app, Session& session) {
     command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
     add_output(command, a.output, "model to write, .glb");
     add_places(command, a);
+    CLI::Option* casters =
+        command
+            ->add_option(
+                "--casters", a.casters,
+                "a finer model of the same, that blocks in the place of the scene: texels have what arrives "
+                "at its surface")
+            ->check(named)
+            ->type_name("FILE");
+    command
+        ->add_option(
+            "--reach", a.reach,
+            "how far the finer surface may lie off, metres; otherwise a fiftieth of the scene's extent")
+        ->check(above_zero())
+        ->needs(casters);
     add_falloff(command, a.options.tracer.falloff);
     command->add_option("--rays", a.options.rays, "rays per vertex or texel")
         ->capture_default_str()

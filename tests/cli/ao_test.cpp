@@ -122,6 +122,11 @@ TEST_F(Occlusion, IsTheSameWhateverTheThreads) {
     EXPECT_EQ(bytes("1"), bytes("3"));
 }
 
+TEST_F(Occlusion, TakesAFinerModel) {
+    EXPECT_EQ(ao({"--size", "32", "--unwrap", "--casters", at("d.glb"), "--reach", "0.1"}).status, 0);
+    written();
+}
+
 TEST_F(Occlusion, RefusesWhatItCannotDo) {
     triangle_file().write(folder / "t.glb");
     const struct {
@@ -130,6 +135,9 @@ TEST_F(Occlusion, RefusesWhatItCannotDo) {
         std::string why;
     } cases[] = {{{"--size", "16"}, 1, "has no TEXCOORD_1"},
                  {{"--size", "16", "--uv", "0"}, 1, "has no TEXCOORD_0"},
+                 {{"--casters", at("t.glb")}, 1, "is for textures"},
+                 {{"--size", "16", "--unwrap", "--casters", at("missing.glb")}, 1, "missing.glb"},
+                 {{"--reach", "1"}, 2, "--casters"},
                  {{"--unwrap"}, 1, "give --size or --texels"},
                  {{"--size", "3", "--unwrap"}, 1, "too small"},
                  {{"--texels", "1e6/m", "--unwrap"}, 1, "more than 8192"},

@@ -27,9 +27,17 @@ struct OcclusionMapsResult {
     std::vector<std::string> notices;
 };
 
+/// A finer model that casts in the place of the scene.
+struct FinerModel {
+    const Scene* scene = nullptr; ///< null: the scene casts itself
+    double reach = 0;             ///< metres, that its surface may lie off that of the scene
+};
+
 /// Of the textures of `atlases` (plan_atlases): a texel has the mean over its part of the surface, with
-/// options.rays in all. Throws as `bake` does.
+/// options.rays in all. Where a finer model has a surface over or under it, a texel has what arrives there.
+/// Throws as `bake` does.
 OcclusionMapsResult occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
-                                   const OcclusionOptions& options, const Progress& progress = {});
+                                   const OcclusionOptions& options, const FinerModel& finer = {},
+                                   const Progress& progress = {});
 
 } // namespace prt

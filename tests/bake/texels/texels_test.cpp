@@ -277,6 +277,43 @@ TEST(OcclusionMaps, ConvergeToThePointsThatTheyAreOf) {
     EXPECT_LT(error, 0.01);
 }
 
+TEST(OcclusionMaps, HaveWhatArrivesAtAFinerModel) {
+    // A plate for a floor with a pit in the middle, elsewhere in the file's world.
+    const Scene plate = floor_at({0, 0}, 1);
+    Scene fine =
+        SceneBuilder()
+            .quad({-1, 0, -1}, {-1, 0, 1}, {-0.5f, 0, 1}, {-0.5f, 0, -1})
+            .quad({0.5f, 0, -1}, {0.5f, 0, 1}, {1, 0, 1}, {1, 0, -1})
+            .quad({-0.5f, 0, -1}, {-0.5f, 0, -0.5f}, {0.5f, 0, -0.5f}, {0.5f, 0, -1})
+            .quad({-0.5f, 0, 0.5f}, {-0.5f, 0, 1}, {0.5f, 0, 1}, {0.5f, 0, 0.5f})
+            .quad({-0.5f, -0.2f, -0.5f}, {-0.5f, -0.2f, 0.5f}, {0.5f, -0.2f, 0.5f}, {0.5f, -0.2f, -0.5f})
+            .quad({-0.5f, -0.2f, -0.5f}, {0.5f, -0.2f, -0.5f}, {0.5f, 0, -0.5f}, {-0.5f, 0, -0.5f})
+            .quad({0.5f, -0.2f, 0.5f}, {-0.5f, -0.2f, 0.5f}, {-0.5f, 0, 0.5f}, {0.5f, 0, 0.5f})
+            .quad({0.5f, -0.2f, -0.5f}, {0.5f, -0.2f, 0.5f}, {0.5f, 0, 0.5f}, {0.5f, 0, -0.5f})
+            .quad({-0.5f, -0.2f, 0.5f}, {-0.5f, -0.2f, -0.5f}, {-0.5f, 0, -0.5f}, {-0.5f, 0, 0.5f})
+            .build();
+    fine.origin = {0, 5, 0}; // both are of one place in the world
+    for (glm::vec3& p : fine.vertex_arrays[0].positions)
+        p.y -= 5;
+    Atlas atlas;
+    atlas.primitives = {0};
+    atlas.uv_set = 0;
+    atlas.width = atlas.height = 16;
+    OcclusionOptions options;
+    options.rays = 1024;
+    const auto at = [&](double reach, std::size_t column, std::size_t row) {
+        const auto maps = occlusion_maps(plate, {atlas}, options, {&fine, reach}).maps;
+        return static_cast<double>(maps.front().openness.ambient[row * 16 + column]);
+    };
+    EXPECT_NEAR(at(0.5, 1, 1), 1, 1e-3); // beside the pit
+    // In its middle: what is open is a square of 1 m, 0.2 m above; of a quarter of it, by the closed form of
+    // parallel rectangles over a corner.
+    const double x = 0.5 / 0.2, y = x, a = std::sqrt(1 + x * x);
+    const double open = 4 / (2 * 3.14159265) * (x / a * std::atan(y / a) + y / a * std::atan(x / a));
+    EXPECT_NEAR(at(0.5, 8, 8), open, 0.02);
+    EXPECT_NEAR(at(0.1, 8, 8), 1, 1e-3); // out of reach: the plate itself
+}
+
 TEST(OcclusionMaps, LeaveOutWhatIsInsideSolids) {
     const Scene block = SceneBuilder().sphere({0, 0, 0}, 0.5f, 24).build();
     Scene scene = test::join({floor_at({0, 0}, 1, 4), block});
