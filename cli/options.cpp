@@ -12,6 +12,7 @@ namespace {
 
 const std::map<std::string, Backend> kBackends = {
     {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
+const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
 const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
                                                          {"ignore", BadTextures::ignore}};
 const std::map<std::string, Window> kWindows = {{"none", Window::none},
@@ -119,6 +120,13 @@ void add_bad_textures(CLI::App* command, BadTextures& bad_textures) {
            "textures that are missing, damaged or of a format that is not read: stop where one is needed, or "
            "use the factors of their materials alone",
            "error");
+}
+
+void add_inside(CLI::App* command, Inside& inside) {
+    choice(command, "--inside", inside, kInsides,
+           "vertices that lie inside solid geometry, where no light comes: they take the light of their "
+           "neighbours, or stay dark",
+           "refill");
 }
 
 void add_light_options(CLI::App* command, LightOptions& options) {

@@ -60,6 +60,7 @@ CLI::Option* add_gpu(CLI::App* command, std::string& gpu);
 /// Makes a GPU that is named the one to bake on. Throws `Error` where none is used.
 void choose_gpu(TracerChoice& tracer);
 void add_bad_textures(CLI::App* command, BadTextures& bad_textures);
+void add_inside(CLI::App* command, Inside& inside);
 void add_light_options(CLI::App* command, LightOptions& options);
 
 /// What `text` says, all of it, in any notation of C; nothing where that is no number.

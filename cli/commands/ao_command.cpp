@@ -332,6 +332,7 @@ void add_ao(CLI::App& app, Session& session) {
     add_backend(command, a.options.tracer.backend,
                 "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
     add_gpu(command, a.options.tracer.gpu);
+    add_inside(command, a.options.repairs.inside);
     add_bad_textures(command, a.options.repairs.bad_textures);
     command->add_option("--seed", a.options.seed, "seed of the samples")
         ->capture_default_str()

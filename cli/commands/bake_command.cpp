@@ -27,7 +27,6 @@ struct BakeArguments {
     GltfOptions reading;
 };
 
-const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
 const std::map<std::string, Traversal> kTraversals = {
     {"auto", Traversal::automatic}, {"device", Traversal::device}, {"compute", Traversal::compute}};
 const std::map<std::string, FitMode> kFits = {
@@ -124,11 +123,7 @@ void add_transport(CLI::App* command, BakeOptions& options) {
             "bytes that the bake may take; otherwise what the machine or its container has")
         ->transform(CLI::AsSizeValue(true))
         ->type_name("SIZE, as 8GB");
-    choice(command, "--inside", options.repairs.inside, kInsides,
-           "vertices that lie inside solid geometry, where no light comes: they take the light of their "
-           "neighbours, "
-           "or stay dark",
-           "refill");
+    add_inside(command, options.repairs.inside);
 }
 
 /// NAME=PATTERN
