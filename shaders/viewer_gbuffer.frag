@@ -3,6 +3,7 @@
 // normal, octahedral (Meyer et al. 2010).
 
 #include "viewer_lighting.glsl"
+#include "prt_dithered.glsl"
 #include "shared_viewer.h"
 
 layout(location = 0) out vec4 target_base;
@@ -10,16 +11,6 @@ layout(location = 1) out vec2 target_normal;
 layout(location = 2) out vec4 target_radiance;
 
 uniform bool dithered;
-
-// Ordered dithering (Bayer 1973), 8 x 8: thresholds in (0, 1), each once.
-float bayer_threshold(uvec2 p) {
-    uint value = 0u;
-    for (uint bit = 0u; bit < 3u; ++bit) {
-        uint x = (p.x >> bit) & 1u, y = (p.y >> bit) & 1u;
-        value |= (((x ^ y) << 1) | y) << (4u - 2u * bit);
-    }
-    return (float(value) + 0.5) / 64.0;
-}
 
 vec2 octahedral(vec3 n) {
     n /= abs(n.x) + abs(n.y) + abs(n.z);
@@ -35,9 +26,8 @@ void main() {
     target_radiance =
         vec4(min(max(radiance, vec3(0.0)) * base.rgb + light_beside_the_sky(base.rgb), vec3(65000.0)), 1.0);
 #else
-    float threshold = dithered ? bayer_threshold(uvec2(gl_FragCoord.xy) & 7u) : 0.5;
-    float levels = float(PRT_AO_LEVELS);
-    float level = min(floor(occlusion() * levels + threshold), levels);
+    float threshold = dithered ? prt_bayer_threshold(uvec2(gl_FragCoord.xy)) : 0.5;
+    float level = prt_dithered_level(occlusion(), float(PRT_AO_LEVELS), threshold);
     target_base = vec4(base.rgb, 8.0 * level / 255.0);
     target_normal = octahedral(facing_normal());
     target_radiance = vec4(min(light_beside_the_sky(base.rgb), vec3(65000.0)), 1.0);

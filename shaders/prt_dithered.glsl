@@ -1,0 +1,18 @@
+// A value in a few bits of a G-buffer, as ambient occlusion in five: ordered dithering (Bayer 1973) keeps it right on
+// average. For every GLSL from 330 and ESSL 300 on.
+
+// Thresholds in (0, 1), each once in 8 x 8 pixels.
+float prt_bayer_threshold(uvec2 pixel) {
+    uint value = 0u;
+    for (uint bit = 0u; bit < 3u; ++bit) {
+        uint x = (pixel.x >> bit) & 1u, y = (pixel.y >> bit) & 1u;
+        value |= (((x ^ y) << 1u) | y) << (4u - 2u * bit);
+    }
+    return (float(value) + 0.5) / 64.0;
+}
+
+// The level, 0 to `levels` (31.0 of five bits), of a value in 0..1; divided by `levels` it is the value again. `threshold`:
+// prt_bayer_threshold(uvec2(gl_FragCoord.xy)), or 0.5 to round.
+float prt_dithered_level(float value, float levels, float threshold) {
+    return clamp(floor(value * levels + threshold), 0.0, levels);
+}
