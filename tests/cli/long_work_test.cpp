@@ -26,6 +26,15 @@ INSTANTIATE_TEST_SUITE_P(Phases, LongWork,
                                          std::vector<const char*>{"--rays", "1", "--subsurface",
                                                                   "1,1,1,0,0,0", "--bounces", "inf"}));
 
+/// Whether the process has said what becomes of SIGINT.
+bool minds_interrupts(pid_t process) {
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    for (std::string line; std::getline(status, line);)
+        if (line.starts_with("SigCgt:"))
+            return std::stoull(line.substr(7), nullptr, 16) & std::uint64_t{1} << (SIGINT - 1);
+    return false;
+}
+
 TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
     ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "room"}).status, 0);
     const std::size_t before = folder.files();
@@ -40,6 +49,9 @@ TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
         execv(PRT_PROGRAM, const_cast<char**>(arguments.data()));
         _exit(127);
     }
+    for (int waited = 0; waited < 3000 && !minds_interrupts(child);
+         ++waited) // a busy machine takes seconds to begin
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     kill(child, SIGINT);
     int status = 0;
