@@ -1,9 +1,9 @@
 // Directional lights of three, each shaded as the material has it where it arrives; diffusely through thin sheets
-// (docs/math.md, eq. 38). Included into the fragment shader of three's materials, behind its own lights.
+// (docs/math.md, eq. 38). Included into the fragment shader of three's materials, behind its own lights; prtFace: the
+// unit normal of the triangle, on the side that shows.
 #if defined(PRT_SUNS) && NUM_DIR_LIGHTS > 0
 
 if (prtSunsApart) {
-  vec3 prtFace = normalize(cross(dFdx(vViewPosition), dFdy(vViewPosition))); // on the side that shows
   vec3 worldFace = prtFace * mat3(viewMatrix);
   vec3 prtDirect;
   float prtCosine, towardsSun;

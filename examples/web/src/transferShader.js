@@ -50,7 +50,8 @@ const OCCLUSION = replaced(ShaderChunk.aomap_fragment, "reflectedLight.indirectD
 
 // A vertex without a normal has that of its triangle.
 const FACE_NORMAL = `
-  if ( ! ( dot( normal, normal ) > 0.5 ) ) normal = normalize( cross( dFdx( vViewPosition ), dFdy( vViewPosition ) ) );`;
+  vec3 prtFace = normalize( cross( dFdx( vViewPosition ), dFdy( vViewPosition ) ) ); // on the side that shows
+  if ( ! ( dot( normal, normal ) > 0.5 ) ) normal = prtFace;`;
 
 /** Adds transfer to the shaders of MeshStandardMaterial, MeshPhysicalMaterial or MeshLambertMaterial. */
 export function addTransfer(shader) {
