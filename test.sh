@@ -50,6 +50,7 @@ optimised() {
         rm -rf "$PRTKIT_WEB"
         "${web[@]}" run build
         node examples/web/test/e2e.mjs
+        node examples/web/test/installed.mjs
     )
     ctest --preset check
 }

@@ -42,8 +42,8 @@ const std::vector<glm::vec2>& coordinates(const Scene& scene, const Primitive& p
     const auto& sets = scene.vertex_arrays[primitive.vertices].texcoords;
     const auto set = static_cast<std::size_t>(uv_set);
     if (set >= sets.size() || sets[set].empty())
-        throw Error(fmt::format("mesh {} primitive {} has no TEXCOORD_{}", primitive.mesh,
-                                primitive.primitive, uv_set));
+        throw Error(fmt::format("mesh {} primitive {} has no TEXCOORD_{}: take another set, or unwrap it",
+                                primitive.mesh, primitive.primitive, uv_set));
     return sets[set];
 }
 

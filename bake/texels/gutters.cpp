@@ -8,11 +8,14 @@ namespace {
 
 template <class Visit>
 void for_neighbours(const Atlas& atlas, std::uint32_t texel, Visit&& visit) {
-    const int width = atlas.width, i = static_cast<int>(texel) % width, j = static_cast<int>(texel) / width;
-    for (int y = std::max(0, j - 1); y <= std::min(atlas.height - 1, j + 1); ++y)
-        for (int x = std::max(0, i - 1); x <= std::min(width - 1, i + 1); ++x)
-            if (x != i || y != j)
-                visit(static_cast<std::uint32_t>(y * width + x));
+    const int width = atlas.width, height = atlas.height, i = static_cast<int>(texel) % width,
+              j = static_cast<int>(texel) / width;
+    for (int y = j - 1; y <= j + 1; ++y)
+        for (int x = i - 1; x <= i + 1; ++x) {
+            const bool inside = x >= 0 && x < width && y >= 0 && y < height;
+            if ((x != i || y != j) && (inside || atlas.repeats))
+                visit(static_cast<std::uint32_t>((y + height) % height * width + (x + width) % width));
+        }
 }
 
 } // namespace

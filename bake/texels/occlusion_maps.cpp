@@ -2,12 +2,15 @@
 
 #include "prt/occlusion_maps.h"
 
+#include "available_memory.h"
 #include "occlusion/occlusion_scene.h"
 #include "prt/support/error.h"
 #include "prt/support/stopwatch.h"
 #include "texels/gutters.h"
 #include "texels/seams.h"
 #include "texels/texel_light.h"
+
+#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
@@ -32,6 +35,18 @@ double largest_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::s
     return largest / kY00;
 }
 
+/// A texture that does not fit would be killed at its end. Measured: 70 bytes a texel.
+void check_room(const std::vector<Atlas>& atlases, double limit) {
+    constexpr double kBytesOfTexel = 80;
+    const double there = limit > 0 ? limit : available_memory();
+    for (const Atlas& atlas : atlases)
+        if (const double needed = kBytesOfTexel * static_cast<double>(atlas.texels());
+            there > 0 && needed > there)
+            throw Error(fmt::format(
+                "a texture of {} x {} texels needs about {:.2g} GB of memory, and there are {:.2g} GB",
+                atlas.width, atlas.height, needed * 1e-9, there * 1e-9));
+}
+
 OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
     OcclusionMap map{.atlas = atlas, .openness = {}, .measured = light.measured};
     const auto lit = static_cast<std::size_t>(std::ranges::count(light.lit, true));
@@ -43,22 +58,24 @@ OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
     map.seam = largest_jump(atlas, seams, light.vectors);
     Transfer transfer = zero_transfer(2, 1, 0);
     transfer.vectors = std::move(light.vectors);
-    map.openness = openness_of(transfer, light.normals);
+    map.openness = openness_of(transfer);
     return map;
 }
 
 } // namespace
 
-OcclusionMapsResult occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
-                                   const OcclusionOptions& options, const FinerModel& finer,
-                                   const Progress& progress) {
+OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
+                                       const OcclusionOptions& options,
+                                       const std::function<void(OcclusionMap)>& take, const FinerModel& finer,
+                                       const Progress& progress) {
     if (finer.scene && !(finer.reach > 0 && std::isfinite(finer.reach)))
         throw Error("how far a finer model may lie off must be finite and above 0");
+    check_room(atlases, options.memory.limit);
     const Stopwatch watch;
     const OcclusionScene traced(finer.scene ? *finer.scene : scene, options);
     const Casters casters{traced.scene(), finer.reach};
     const TexelPlaces places(scene, finer.scene ? &casters : nullptr);
-    OcclusionMapsResult result;
+    OcclusionMapsStatistics result;
     result.notices = traced.notices();
     for (std::size_t i = 0; i < atlases.size(); ++i) {
         const Progress part = progress.part(static_cast<double>(i) / static_cast<double>(atlases.size()),
@@ -67,7 +84,7 @@ OcclusionMapsResult occlusion_maps(const Scene& scene, const std::vector<Atlas>&
         TexelLight light = trace_texels(traced.tracer(), traced.scene(), places, atlases[i], samples.samples,
                                         {.order = 2, .rays = options.rays, .seed = options.seed + i}, part);
         result.rays += light.rays;
-        result.maps.push_back(map_of(atlases[i], std::move(light), scene));
+        take(map_of(atlases[i], std::move(light), scene));
     }
     result.device = traced.tracer().device();
     result.seconds = watch.seconds();

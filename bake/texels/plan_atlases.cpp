@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -16,38 +17,46 @@ namespace {
 /// Charts that are packed side by side touch, and programs round: so much of them may lie in two.
 constexpr double kMostOverlap = 1e-3;
 
-/// Texels along a side so that a metre has so many in the mean.
-int side_of(const Scene& scene, const Atlas& atlas, double per_metre) {
+/// Of a texture with one texel along a side. Throws where the coordinates have no area.
+double area_in_texture(const Scene& scene, const Atlas& atlas) {
     Atlas unit = atlas;
     unit.width = unit.height = 1;
-    double in_texture = 0, on_surfaces = 0;
+    double area = 0;
     for (const ChartTriangle& t : chart_triangles(scene, unit)) {
         const glm::dvec2 a = t.corners[1] - t.corners[0], b = t.corners[2] - t.corners[0];
-        in_texture += std::abs(a.x * b.y - a.y * b.x) / 2;
+        area += std::abs(a.x * b.y - a.y * b.x) / 2;
     }
+    if (!(area > 0))
+        throw Error(fmt::format("TEXCOORD_{} of mesh {} is a line or a point: it has no place in a texture",
+                                atlas.uv_set, scene.primitives[atlas.primitives.front()].mesh));
+    return area;
+}
+
+double area_on_surfaces(const Scene& scene, const Atlas& atlas) {
+    double area = 0;
     for (const std::size_t p : atlas.primitives) {
         const auto& positions = scene.vertex_arrays[scene.primitives[p].vertices].positions;
         for (const glm::uvec3& t : scene.primitives[p].triangles) {
             const glm::dvec3 a(positions[t.x]), b(positions[t.y]), c(positions[t.z]);
-            on_surfaces += glm::length(glm::cross(b - a, c - a)) / 2;
+            area += glm::length(glm::cross(b - a, c - a)) / 2;
         }
     }
-    if (!(in_texture > 0))
-        throw Error(fmt::format("TEXCOORD_{} of mesh {} is a line or a point: it has no place in a texture",
-                                atlas.uv_set, scene.primitives[atlas.primitives.front()].mesh));
-    const double side = std::ceil(per_metre * std::sqrt(on_surfaces / in_texture));
-    if (!(side <= kMostTexels))
-        throw Error(
-            fmt::format("{:.3g} texels a metre need a texture of {:.3g} texels along a side, more than {}: "
-                        "give fewer, or each object a texture of its own",
-                        per_metre, side, kMostTexels));
-    return std::max(4, static_cast<int>(side));
+    return area;
 }
 
 Atlas sized(const Scene& scene, Atlas atlas, const TexelOptions& options) {
     atlas.uv_set = options.uv_set;
     atlas.repeats = repeats(scene, atlas);
-    atlas.width = atlas.height = options.size > 0 ? options.size : side_of(scene, atlas, options.per_metre);
+    const double in_texture = area_in_texture(scene, atlas);
+    double side = options.size;
+    if (options.size == 0) // so that a metre has so many in the mean
+        side = std::ceil(options.per_metre * std::sqrt(area_on_surfaces(scene, atlas) / in_texture));
+    if (!(side <= kMostTexels))
+        throw Error(
+            fmt::format("{:.3g} texels a metre need a texture of {:.3g} texels along a side, more than "
+                        "{}: give fewer, or each object a texture of its own",
+                        options.per_metre, side, kMostTexels));
+    atlas.width = atlas.height = options.size > 0 ? options.size : std::max(4, static_cast<int>(side));
     return atlas;
 }
 

@@ -18,8 +18,12 @@
 namespace prt {
 namespace {
 
-/// What a squared jump costs against squared changes of texels that were measured, and of others.
-constexpr double kJump = 1e4, kFree = 0.01;
+/// What a squared jump costs at most and at least, against squared changes of texels that were measured, and
+/// of others.
+constexpr double kJump = 1e4, kLeastJump = 0.1, kFree = 0.01;
+/// How much of the jumps texels may change by, root mean squares: each side of a seam goes half of the way.
+/// Where charts have hardly a texel, seams that close would flatten them.
+constexpr double kMostChange = 0.75;
 
 using SeamCorner = std::array<float, 6>; ///< position and normal
 
@@ -40,7 +44,8 @@ std::map<std::pair<SeamCorner, SeamCorner>, std::vector<SeamSide>> sides_of_edge
             return SeamCorner{at.x, at.y, at.z, n.x, n.y, n.z};
         };
         for (const glm::uvec3& t : scene.primitives[p].triangles) {
-            for (int i = 0; i < 3; ++i) {
+            const bool flat = in_triangle(*chart, chart->corners[0]).depth < 0; // without an area
+            for (int i = 0; i < 3 && !flat; ++i) {
                 const int j = (i + 1) % 3;
                 const SeamCorner a = corner_of(t[i]), b = corner_of(t[j]);
                 const SeamSide side{chart->corners[static_cast<std::size_t>(i)],
@@ -80,34 +85,56 @@ public:
             ++row;
         }
         const auto size = static_cast<int>(texels_.size());
-        Eigen::SparseMatrix<double> jumps(row, size);
-        jumps.setFromTriplets(entries.begin(), entries.end());
+        jumps_.resize(row, size);
+        jumps_.setFromTriplets(entries.begin(), entries.end());
         weights_.resize(size);
         for (int i = 0; i < size; ++i)
             weights_[i] = measured[texels_[static_cast<std::size_t>(i)]] ? 1 : kFree;
-        Eigen::SparseMatrix<double> matrix = kJump * (jumps.transpose() * jumps);
-        for (int i = 0; i < size; ++i)
-            matrix.coeffRef(i, i) += weights_[i];
-        solver_.compute(matrix);
+        squares_ = jumps_.transpose() * jumps_;
     }
 
-    void solve(std::span<float> values, std::size_t stride) const {
-        for (std::size_t k = 0; k < stride; ++k) {
-            Eigen::VectorXd b(weights_.size());
-            for (std::size_t i = 0; i < texels_.size(); ++i)
-                b[static_cast<int>(i)] =
-                    weights_[static_cast<int>(i)] * static_cast<double>(values[texels_[i] * stride + k]);
-            const Eigen::VectorXd x = solver_.solve(b);
-            for (std::size_t i = 0; i < texels_.size(); ++i)
-                values[texels_[i] * stride + k] = static_cast<float>(x[static_cast<int>(i)]);
+    /// Closes seams as far as texels may change for it.
+    void solve(std::span<float> values, std::size_t stride) {
+        Eigen::MatrixXd before(weights_.size(), static_cast<int>(stride));
+        for (std::size_t i = 0; i < texels_.size(); ++i)
+            for (std::size_t k = 0; k < stride; ++k)
+                before(static_cast<int>(i), static_cast<int>(k)) =
+                    static_cast<double>(values[texels_[i] * stride + k]);
+        const double jump = rms(jumps_ * before);
+        Eigen::MatrixXd after = before;
+        for (double price = kJump; price > kLeastJump; price /= 10) {
+            Eigen::SparseMatrix<double> matrix = price * squares_;
+            for (int i = 0; i < weights_.size(); ++i)
+                matrix.coeffRef(i, i) += weights_[i];
+            solver_.compute(matrix);
+            const Eigen::MatrixXd solved = solver_.solve(weights_.asDiagonal() * before);
+            const Eigen::VectorXd measured = (weights_.array() == 1).cast<double>();
+            if (rms(measured.asDiagonal() * (solved - before)) <= kMostChange * jump) {
+                after = solved;
+                break;
+            }
         }
+        for (std::size_t i = 0; i < texels_.size(); ++i)
+            for (std::size_t k = 0; k < stride; ++k)
+                values[texels_[i] * stride + k] =
+                    static_cast<float>(after(static_cast<int>(i), static_cast<int>(k)));
     }
 
 private:
+    static double rms(const Eigen::MatrixXd& m) {
+        return m.rows() > 0 ? m.norm() / std::sqrt(static_cast<double>(m.rows())) : 0;
+    }
+
     std::vector<std::uint32_t> texels_; ///< [unknowns]
+    Eigen::SparseMatrix<double> jumps_, squares_;
     Eigen::VectorXd weights_;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
 };
+
+/// The texel that a filter reads for the i-th.
+double in_texture(double i, int size, bool repeats) {
+    return repeats ? i - size * std::floor(i / size) : std::clamp(i, 0.0, size - 1.0);
+}
 
 } // namespace
 
@@ -115,8 +142,8 @@ Bilinear bilinear_at(const Atlas& atlas, const glm::dvec2& place) {
     const glm::dvec2 at = place - 0.5;
     const double left = std::floor(at.x), top = std::floor(at.y), x = at.x - left, y = at.y - top;
     const auto texel = [&](double i, double j) {
-        const double column = std::clamp(i, 0.0, atlas.width - 1.0),
-                     row = std::clamp(j, 0.0, atlas.height - 1.0);
+        const double column = in_texture(i, atlas.width, atlas.repeats),
+                     row = in_texture(j, atlas.height, atlas.repeats);
         return static_cast<std::uint32_t>(row * atlas.width + column);
     };
     return {{texel(left, top), texel(left + 1, top), texel(left, top + 1), texel(left + 1, top + 1)},

@@ -89,7 +89,6 @@ private:
                 continue;
             ++lit[g];
             const std::uint32_t texel = groups[g].texel;
-            light.normals[texel] = receivers.normals[g];
             for (std::size_t c = 0; c < stride_; ++c)
                 light.vectors[texel * stride_ + c] += traced.vector(g)[c];
         }
@@ -110,7 +109,7 @@ TexelLight trace_texels(Tracer& tracer, const TraceScene& scene, const TexelPlac
     const std::vector<TexelGroup> groups = by_texel(samples);
     TexelLight light{
         std::vector<float>(atlas.texels() * static_cast<std::size_t>(coefficient_count(options.order))),
-        std::vector<bool>(atlas.texels()), std::vector<glm::vec3>(atlas.texels(), {0, 1, 0})};
+        std::vector<bool>(atlas.texels())};
     light.measured = groups.size();
     TexelTracer texels(tracer, scene, places, options);
     for (std::size_t first = 0; first < groups.size(); first += kTexelsAtOnce) {

@@ -15,7 +15,6 @@ namespace prt {
 struct TexelLight {
     std::vector<float> vectors; ///< [texels][order²], zero where nothing was measured
     std::vector<bool> lit;      ///< [texels]: measured, and not sealed in
-    std::vector<glm::vec3> normals;
     std::size_t measured = 0, rays = 0;
 };
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
+#include <limits>
+#include <map>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -14,28 +16,44 @@ namespace {
 constexpr std::array<glm::dvec2, kSamplesOfTexel> kPoints = {
     {{0.125, 0.625}, {0.375, 0.125}, {0.625, 0.875}, {0.875, 0.375}}};
 constexpr std::uint32_t kNobody = ~0u;
-constexpr double kEdge = 0.01; ///< texels: nearer to an edge, two triangles may both have a point
+constexpr double kEdge = 1e-4; ///< texels: nearer to an edge, two triangles may both have a point
 
-/// Texels that the box of a triangle touches.
-struct TexelBox {
-    int left, top, right, bottom; ///< ends are outside
-};
-
-TexelBox texel_box(const ChartTriangle& t, const Atlas& atlas) {
-    const auto [left, right] = std::minmax({t.corners[0].x, t.corners[1].x, t.corners[2].x});
-    const auto [top, bottom] = std::minmax({t.corners[0].y, t.corners[1].y, t.corners[2].y});
-    const auto first = [](double at, int size) { return std::clamp(static_cast<int>(at), 0, size - 1); };
-    return {first(left, atlas.width), first(top, atlas.height), first(right, atlas.width) + 1,
-            first(bottom, atlas.height) + 1};
+/// What part of a row of texels a triangle touches: its extent in x. False where it does not.
+bool extent_in_row(const ChartTriangle& t, int row, double& low, double& high) {
+    low = std::numeric_limits<double>::infinity();
+    high = -low;
+    for (std::size_t i = 0; i < 3; ++i) {
+        glm::dvec2 a = t.corners[i], b = t.corners[(i + 1) % 3];
+        if (a.y > b.y)
+            std::swap(a, b);
+        if (b.y < row || a.y > row + 1)
+            continue;
+        const auto at = [&](double y) {
+            return b.y > a.y ? a.x + (b.x - a.x) * (y - a.y) / (b.y - a.y) : a.x;
+        };
+        const double x[] = {a.y < row ? at(row) : a.x, b.y > row + 1 ? at(row + 1) : b.x};
+        low = std::min({low, x[0], x[1]});
+        high = std::max({high, x[0], x[1]});
+    }
+    return low <= high;
 }
 
+int texel_of(double at, int size) {
+    return std::clamp(static_cast<int>(at), 0, size - 1);
+}
+
+/// Calls `visit` with all texels that a triangle touches, and with few others.
 template <class Visit>
-void for_texels(const TexelBox& box, const Atlas& atlas, Visit&& visit) {
-    for (int j = box.top; j < box.bottom; ++j)
-        for (int i = box.left; i < box.right; ++i)
-            visit(static_cast<std::size_t>(j) * static_cast<std::size_t>(atlas.width) +
-                      static_cast<std::size_t>(i),
-                  glm::dvec2(i, j));
+void for_texels(const ChartTriangle& t, const Atlas& atlas, Visit&& visit) {
+    const auto [top, bottom] = std::minmax({t.corners[0].y, t.corners[1].y, t.corners[2].y});
+    for (int j = texel_of(top, atlas.height); j <= texel_of(bottom, atlas.height); ++j) {
+        double low = 0, high = 0;
+        if (extent_in_row(t, j, low, high))
+            for (int i = texel_of(low, atlas.width); i <= texel_of(high, atlas.width); ++i)
+                visit(static_cast<std::size_t>(j) * static_cast<std::size_t>(atlas.width) +
+                          static_cast<std::size_t>(i),
+                      glm::dvec2(i, j));
+    }
 }
 
 /// Which triangle each point of each texel lies in.
@@ -47,7 +65,7 @@ struct Owners {
 Owners find_owners(std::span<const ChartTriangle> triangles, const Atlas& atlas) {
     Owners owners{std::vector<std::uint32_t>(atlas.texels() * kSamplesOfTexel, kNobody)};
     for (std::uint32_t t = 0; t < triangles.size(); ++t)
-        for_texels(texel_box(triangles[t], atlas), atlas, [&](std::size_t texel, const glm::dvec2& corner) {
+        for_texels(triangles[t], atlas, [&](std::size_t texel, const glm::dvec2& corner) {
             for (std::size_t s = 0; s < kSamplesOfTexel; ++s) {
                 const glm::dvec2 point = corner + kPoints[s];
                 const double depth = in_triangle(triangles[t], point).depth;
@@ -65,35 +83,28 @@ Owners find_owners(std::span<const ChartTriangle> triangles, const Atlas& atlas)
     return owners;
 }
 
-struct Nearest {
-    std::uint32_t texel;
-    double distance;
-    TexelSample sample;
-};
-
-/// Of texels that charts touch and no point of which lies in one: the nearest place.
+/// Of texels that charts touch and no point of which lies in one: the nearest place, by texel.
 std::vector<TexelSample> touched(std::span<const ChartTriangle> triangles, const Atlas& atlas,
                                  const Owners& owners) {
-    std::vector<Nearest> found;
+    std::map<std::uint32_t, std::pair<double, TexelSample>> nearest;
     for (const ChartTriangle& t : triangles)
-        for_texels(texel_box(t, atlas), atlas, [&](std::size_t texel, const glm::dvec2& corner) {
+        for_texels(t, atlas, [&](std::size_t texel, const glm::dvec2& corner) {
             const auto own = std::span(owners.of).subspan(texel * kSamplesOfTexel, kSamplesOfTexel);
             if (std::ranges::any_of(own, [](std::uint32_t o) { return o != kNobody; }))
                 return;
             const glm::dvec2 middle = corner + 0.5, uv = nearest_in_triangle(t, middle),
                              way = place_of(t, uv) - middle;
-            if (std::max(std::abs(way.x), std::abs(way.y)) <= 0.5)
-                found.push_back({static_cast<std::uint32_t>(texel),
-                                 std::hypot(way.x, way.y),
-                                 {static_cast<std::uint32_t>(texel), t.triangle, glm::vec2(uv)}});
+            if (std::max(std::abs(way.x), std::abs(way.y)) > 0.5)
+                return;
+            const auto number = static_cast<std::uint32_t>(texel);
+            const std::pair here(std::hypot(way.x, way.y), TexelSample{number, t.triangle, glm::vec2(uv)});
+            const auto [found, is_new] = nearest.try_emplace(number, here);
+            if (!is_new && here.first < found->second.first)
+                found->second = here;
         });
-    std::stable_sort(found.begin(), found.end(), [](const Nearest& a, const Nearest& b) {
-        return std::tie(a.texel, a.distance) < std::tie(b.texel, b.distance);
-    });
     std::vector<TexelSample> samples;
-    for (const Nearest& n : found)
-        if (samples.empty() || samples.back().texel != n.texel)
-            samples.push_back(n.sample);
+    for (const auto& [texel, place] : nearest)
+        samples.push_back(place.second);
     return samples;
 }
 

@@ -148,7 +148,7 @@ Unwrapping unwrap(const Scene& scene, const TexelOptions& options) {
         for (std::size_t c = 0; c < charts.size(); ++c)
             writer.write(faces, charts[c], boxes[c], packed.corners[c], packed);
         result.charts += charts.size();
-        result.size = std::max(result.size, packed.side);
+        result.atlases.push_back({.primitives = primitives, .width = packed.side, .height = packed.side});
         result.texels_per_metre = std::min(result.texels_per_metre, packed.density);
     }
     return result;

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace prt::cli {
 namespace {
@@ -23,6 +24,8 @@ struct AoArguments {
     std::optional<double> reach;        ///< metres
     std::vector<std::string> no_shadow; ///< names of materials
     std::string attribute = "COLOR_0";
+    std::optional<int> uv_set; ///< for textures alone, as what follows
+    std::optional<AtlasMode> atlas;
     TexelOptions texels;
     OcclusionOptions options;
     bool bent_normals = false, unwrap = false;
@@ -31,6 +34,7 @@ struct AoArguments {
     bool in_textures() const { return texels.size > 0 || texels.per_metre > 0; }
 };
 
+constexpr const char* kBentNormal = "_BENT_NORMAL"; ///< attribute
 const std::map<std::string, FitMode> kOcclusionFits = {
     {"auto", FitMode::automatic}, {"vertex", FitMode::vertex}, {"surface", FitMode::surface}};
 const std::map<std::string, AtlasMode> kAtlasModes = {
@@ -100,7 +104,7 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
     else
         attributes.push_back({a.attribute, 1, result.openness.ambient});
     if (a.bent_normals) {
-        VertexAttribute& bent = attributes.emplace_back(VertexAttribute{"_BENT_NORMAL", 3, {}});
+        VertexAttribute& bent = attributes.emplace_back(VertexAttribute{kBentNormal, 3, {}});
         for (const glm::vec3& n : result.openness.bent_normals)
             bent.values.insert(bent.values.end(), {n.x, n.y, n.z});
     }
@@ -141,15 +145,12 @@ Finer load_finer(const AoArguments& a, const Scene& scene) {
 }
 
 Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& scene,
-                     const Progress& progress) {
+                     const std::vector<Atlas>& atlases, const Progress& progress) {
     const Finer finer = load_finer(a, scene);
-    const OcclusionMapsResult result =
-        occlusion_maps(scene, plan_atlases(scene, a.texels), a.options,
-                       {finer.scene ? &*finer.scene : nullptr, finer.reach}, progress);
     std::vector<SurfaceTexture> textures;
     Json maps = Json::array();
     std::size_t lit = 0, measured = 0;
-    for (const OcclusionMap& map : result.maps) {
+    const auto take = [&](const OcclusionMap& map) {
         textures.push_back({.primitives = map.atlas.primitives,
                             .texcoord = map.atlas.uv_set,
                             .repeats = map.atlas.repeats,
@@ -165,8 +166,11 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
                         {"seam", map.seam}});
         lit += map.measured - map.sealed;
         measured += map.measured;
-    }
-    write_surface_textures(document, scene, textures);
+    };
+    OcclusionMapsStatistics result = occlusion_maps(
+        scene, atlases, a.options, take, {finer.scene ? &*finer.scene : nullptr, finer.reach}, progress);
+    if (const std::size_t replaced = write_surface_textures(document, scene, textures); replaced > 0)
+        result.notices.push_back(fmt::format("occlusion textures of {} materials are replaced", replaced));
     Report report;
     add_figures(report, {{"textures", maps.size()},
                          {"texels", measured},
@@ -177,7 +181,7 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
                          {"device", result.device},
                          {"maps", maps}});
     report.sentences = {
-        "{output}: occlusion of {texels} texels in {textures} textures, {rays_per_texel} rays each, on "
+        "{output}: occlusion of {texels} texels in {textures} textures, up to {rays_per_texel} rays each, on "
         "{device}; {rays_per_second:.2fM} million rays/s"};
     for (std::size_t i = 0; i < maps.size(); ++i)
         report.sentences.push_back(
@@ -189,55 +193,84 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
     return report;
 }
 
-/// Gives the scene coordinates of its own, where some part of it has none.
-void unwrap_if_needed(AoArguments& a, GltfDocument& document, Scene& scene) {
-    const auto set = static_cast<std::size_t>(a.texels.uv_set);
-    const bool whole = std::ranges::all_of(scene.primitives, [&](const Primitive& primitive) {
-        const auto& sets = scene.vertex_arrays[primitive.vertices].texcoords;
-        return primitive.triangles.empty() || (set < sets.size() && !sets[set].empty());
-    });
-    if (whole) {
-        print_notices(a.scene.string(), {fmt::format("has TEXCOORD_{} already, which is kept", set)});
-        return;
-    }
-    const Unwrapping unwrapping = unwrap(scene, a.texels);
-    a.texels.uv_set = free_texcoord(scene);
-    document = with_texcoords(std::move(document), scene, unwrapping.primitives, a.texels.uv_set);
+/// Textures for the scene, and what was done for room in them.
+struct Room {
+    std::vector<Atlas> atlases;
+    Json figures = Json::object();
+};
+
+/// Gives the scene coordinates of its own.
+Room unwrapped(const AoArguments& a, GltfDocument& document, Scene& scene) {
+    Unwrapping unwrapping = unwrap(scene, a.texels);
+    const int set = free_texcoord(scene);
+    document = with_texcoords(std::move(document), scene, unwrapping.primitives, set);
     scene = extract_scene(document);
-    a.texels.size = unwrapping.size;
-    print_notices(a.scene.string(),
-                  {fmt::format("{} charts are TEXCOORD_{} now, {:.4g} texels a metre", unwrapping.charts,
-                               a.texels.uv_set, unwrapping.texels_per_metre)});
+    for (Atlas& atlas : unwrapping.atlases)
+        atlas.uv_set = set;
+    print_notices(
+        a.scene.string(),
+        {fmt::format("TEXCOORD_{} has {} now, {:.4g} texels a metre", set,
+                     unwrapping.charts == 1 ? "one chart" : fmt::format("{} charts", unwrapping.charts),
+                     unwrapping.texels_per_metre)});
+    return {std::move(unwrapping.atlases),
+            {{"charts", unwrapping.charts}, {"texels_per_metre", unwrapping.texels_per_metre}}};
+}
+
+/// With --unwrap coordinates that have a place for everything are kept.
+Room make_room(const AoArguments& a, GltfDocument& document, Scene& scene) {
+    if (!a.unwrap)
+        return {plan_atlases(scene, a.texels)};
+    try {
+        Room room{plan_atlases(scene, a.texels)};
+        print_notices(a.scene.string(),
+                      {fmt::format("has TEXCOORD_{} already, which is kept", a.texels.uv_set)});
+        return room;
+    } catch (const Error&) { // that is why
+        return unwrapped(a, document, scene);
+    }
+}
+
+void check_arguments(const AoArguments& a) {
+    if (a.attribute != "COLOR_0" && !a.attribute.starts_with("_"))
+        throw Error("--attribute: glTF wants names of own attributes to begin with _, as _AO");
+    if (a.attribute == kBentNormal && a.bent_normals)
+        throw Error("--attribute: _BENT_NORMAL is where --bent-normals go");
+    if (a.in_textures())
+        return;
+    for (const auto& [given, option] : {std::pair(a.unwrap, "--unwrap"),
+                                        {a.uv_set.has_value(), "--uv"},
+                                        {a.atlas.has_value(), "--atlas"},
+                                        {!a.casters.empty(), "--casters"}})
+        if (given)
+            throw Error(std::string(option) + " is for textures: give --size or --texels");
 }
 
 void run(AoArguments a, Session& session) {
     choose_gpu(a.options.tracer);
+    check_arguments(a);
+    a.texels.uv_set = a.uv_set.value_or(a.texels.uv_set);
+    a.texels.atlases = a.atlas.value_or(a.texels.atlases);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
                                       {a.scene, a.casters});
-    if (a.attribute != "COLOR_0" && !a.attribute.starts_with("_"))
-        throw Error("--attribute: glTF wants names of own attributes to begin with _, as _AO");
-    if (!a.casters.empty() && !a.in_textures())
-        throw Error("--casters is for textures, which are finer than vertices: give --size or --texels");
-    if (a.unwrap && !a.in_textures())
-        throw Error("--unwrap makes room in textures: give --size or --texels");
     if (a.options.repairs.bad_textures == BadTextures::ignore)
         a.reading.missing_images = MissingImages::ignore;
     const Stopwatch watch;
     GltfDocument document = load_gltf(a.scene, a.reading);
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
-    if (a.unwrap)
-        about(a.scene, [&] { unwrap_if_needed(a, document, scene); });
+    const Room room =
+        a.in_textures() ? about(a.scene, [&] { return make_room(a, document, scene); }) : Room{};
     leave_out_shadows(scene, a.no_shadow);
     Report report;
     {
         ProgressBar bar = session.progress_bar("occlusion");
         report = about(a.scene, [&] {
-            return a.in_textures() ? bake_textures(a, document, scene, bar.progress())
+            return a.in_textures() ? bake_textures(a, document, scene, room.atlases, bar.progress())
                                    : bake_vertices(a, document, scene, bar.progress());
         });
     }
     const std::vector<std::byte> file = about(a.scene, [&] { return encode_glb(document); });
+    add_figures(report, room.figures);
     add_figures(report, {{"output", a.output.string()},
                          {"bytes_file", session.write(a.output, file)},
                          {"seconds", watch.seconds()}});
@@ -256,14 +289,14 @@ void add_places(CLI::App* command, AoArguments& a) {
         command->add_option("--size", a.texels.size, "into textures with so many texels along each side")
             ->check(CLI::Range(1, kMostTexels))
             ->excludes(density);
-    command->add_option("--uv", a.texels.uv_set, "coordinates that textures use: TEXCOORD_n")
-        ->capture_default_str()
+    command->add_option("--uv", a.uv_set, "coordinates that textures use: TEXCOORD_n")
+        ->default_str("1")
         ->check(CLI::Range(0, 7));
     command->add_flag(
         "--unwrap", a.unwrap,
-        "where the scene lacks these coordinates: cut it into charts, and write them as a set of "
-        "their own");
-    choice(command, "--atlas", a.texels.atlases, kAtlasModes,
+        "where these coordinates have no place for every surface: cut the scene into charts, and write them "
+        "as a set of their own");
+    choice(command, "--atlas", a.atlas, kAtlasModes,
            "a texture for all, or for each object; auto: for all where their charts do not overlap", "auto");
     command
         ->add_option(

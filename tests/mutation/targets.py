@@ -47,7 +47,7 @@ SUITES = {
     "shaders/": [RENDER, GPU],
     "shaders/viewer_": [Suite("viewer_tests")],
     # Of the web page the package alone: the rest is seen in Chromium.
-    **{f"examples/web/src/{name}.js": [Suite("node")] for name in ("PrtkitLoader", "clusteredPca", "sphericalHarmonics")},
+    **{f"examples/web/src/{name}.js": [Suite("node")] for name in ("PrtkitLoader", "PrtkitModel", "clusteredPca", "sphericalHarmonics", "turns")},
 }
 
 

@@ -25,12 +25,12 @@ struct OcclusionOptions {
 /// Of receivers.
 struct Openness {
     std::vector<float> ambient;          ///< 0..1: how much of a uniform sky arrives, by the cosine law
-    std::vector<glm::vec3> bent_normals; ///< unit, where that light comes from on average; where none does,
-                                         ///< up from the surface
+    std::vector<glm::vec3> bent_normals; ///< unit, where that light comes from on average
 };
 
-/// What transfer of order 2 and one channel says of `receivers`.
-Openness openness_of(const Transfer& transfer, std::span<const glm::vec3> normals);
+/// What transfer of order 2 and one channel says. Where no light comes in, `normals` stand for where from, or +Y
+/// where there are none.
+Openness openness_of(const Transfer& transfer, std::span<const glm::vec3> normals = {});
 
 struct OcclusionResult {
     Openness openness; ///< [receivers]

@@ -5,6 +5,7 @@
 #include "prt/ambient_occlusion.h"
 #include "prt/texels.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,8 +20,7 @@ struct OcclusionMap {
     double seam_before = 0, seam = 0; ///< the largest jump of `ambient` across seams, before and after
 };
 
-struct OcclusionMapsResult {
-    std::vector<OcclusionMap> maps;
+struct OcclusionMapsStatistics {
     std::size_t rays = 0;
     std::string device;
     double seconds = 0;
@@ -33,11 +33,12 @@ struct FinerModel {
     double reach = 0;             ///< metres, that its surface may lie off that of the scene
 };
 
-/// Of the textures of `atlases` (plan_atlases): a texel has the mean over its part of the surface, with
-/// options.rays in all. Where a finer model has a surface over or under it, a texel has what arrives there.
-/// Throws as `bake` does.
-OcclusionMapsResult occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
-                                   const OcclusionOptions& options, const FinerModel& finer = {},
-                                   const Progress& progress = {});
+/// Gives `take` the maps of `atlases` (plan_atlases, or those of an unwrapping), one after the other: a texel has the
+/// mean over its part of the surface, with options.rays at most. Where a finer model has a surface over or under
+/// it, it has what arrives there. Throws as `bake` does.
+OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
+                                       const OcclusionOptions& options,
+                                       const std::function<void(OcclusionMap)>& take,
+                                       const FinerModel& finer = {}, const Progress& progress = {});
 
 } // namespace prt

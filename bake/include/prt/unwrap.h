@@ -13,8 +13,8 @@ namespace prt {
 
 struct Unwrapping {
     std::vector<VertexSplit> primitives; ///< [scene's primitives]
+    std::vector<Atlas> atlases;          ///< whose set of coordinates is the caller's to say
     std::size_t charts = 0;
-    int size = 0;                ///< texels along a side that it was made for
     double texels_per_metre = 0; ///< the least of all textures
 };
 

@@ -1,4 +1,4 @@
-import type { Box3, DataTexture, DirectionalLight, Group, Object3D } from "three";
+import type { Box3, DataTexture, DirectionalLight, Group, LightProbe, Object3D, Scene } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 
 /** Lighting as spherical harmonics that turns about +Y. */
@@ -11,6 +11,9 @@ export class ShLight {
   static fromCoefficients(order: number, coefficients: ArrayLike<number>): ShLight;
   /** RGB coefficients [order²][3] in prtkit's convention, turned about +Y by `angle` radians. */
   coefficients(angle?: number): Float64Array;
+  /** This light turned or mirrored by `matrix`, nine numbers by columns (as of three's Matrix3): what comes from d comes
+   * from `matrix` times d. */
+  rotated(matrix: ArrayLike<number>): ShLight;
   /** This light and `other` together, in the bands that both have. */
   plus(other: ShLight): ShLight;
   /** This light so many times as strong. */
@@ -23,6 +26,15 @@ export class ShLight {
 
 /** By name what a lamp is dimmed or coloured by: a number, or red, green and blue. */
 export type LampStrengths = Record<string, number | ArrayLike<number>>;
+
+/** What `setSky` takes beside the light. */
+export interface SkyOptions {
+  /** As of setLight: what the scene's directional lights (SunLights, which `follow` the scene) add. */
+  suns?: ShLight | null;
+  lamps?: LampStrengths;
+  /** Suns that shine by the keys of a light set, in the place of `suns`. Throws a RangeError where the model has none. */
+  keyed?: Sun[];
+}
 
 /** The compressed transfer of one file: `gltf.userData.prtkit`. */
 export class PrtkitModel {
@@ -45,9 +57,14 @@ export class PrtkitModel {
    * keys do not. Throws a RangeError for a
    * light of fewer bands than `order`, for lamps that are not there, and for strengths below zero. */
   setLight(light: ShLight, angle?: number, suns?: ShLight | null, lamps?: LampStrengths): void;
+  /** Lights all meshes of the file by `light` as `scene` shows it, from frame to frame: turned by its environmentRotation and
+   * times its environmentIntensity, or by those of the background where it has no environment; and as `gltf.scene` is turned
+   * itself. Until `setLight` or `setSky` is called again. Throws as setLight does. */
+  setSky(light: ShLight, scene: Scene, options?: SkyOptions): void;
   /** Strengths of the keys by which `suns` shine without a shadow map, for `lamps` of `setLight` with the same angle; the
    * suns are then left out of its light. Throws a RangeError where the model has no keys. */
   strengthsOfSuns(suns: Sun[], angle?: number): Record<string, [number, number, number]>;
+  /** Frees the tables on the device; materials and geometries are disposed of as all of three's. */
   dispose(): void;
 }
 
@@ -83,6 +100,8 @@ export class SunLights extends Group {
   fit(object: Object3D | Box3): this;
   /** Turns the suns about +Y by `angle` radians, as `setLight` does the light. */
   turn(angle: number): this;
+  /** Turns and dims the suns in every frame as `scene` does its environment: as `setSky` does the light. */
+  follow(scene: Scene): this;
   /** Makes the suns so many times as strong as they were at first. */
   dim(factor: number): this;
   dispose(): void;
@@ -102,7 +121,16 @@ export interface EquirectangularLayout {
 export function projectEquirectangular(texture: DataTexture, order?: number, layout?: EquirectangularLayout): ShLight;
 
 /**
- * A copy in half floats for `scene.background` and `scene.environment`, cut off at 65504: a brighter texel would turn
- * materials that are lit by the environment black.
+ * The same, by a worker: rejects with what projectEquirectangular throws, and with an Error where the worker does not start.
+ * Where there are no workers, as in node, the caller does it.
  */
-export function halfFloatSky(texture: DataTexture): DataTexture;
+export function projectInWorker(texture: DataTexture, order?: number, layout?: EquirectangularLayout): Promise<ShLight>;
+
+/** The light of a LightProbe of three, times its intensity: three bands, the others zero up to `order`. */
+export function lightFromProbe(probe: Pick<LightProbe, "sh"> & { intensity?: number }, order?: number): ShLight;
+
+/**
+ * A copy in half floats for `scene.background` and `scene.environment`, cut off at 65504: a brighter texel would turn
+ * materials that are lit by the environment black. `center: "z"`: turned, so that three shows it where it lights.
+ */
+export function halfFloatSky(texture: DataTexture, layout?: EquirectangularLayout): DataTexture;

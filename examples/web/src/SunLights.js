@@ -1,6 +1,7 @@
 // The suns of a light file as three's own directional lights, with shadow maps that are fitted to what they shine on.
 
 import { Box3, DirectionalLight, Group, Vector3 } from "three";
+import { environmentTurn, shownBy, turnedBy } from "./turns.js";
 
 const RADIUS_AT = 0.1; // sunLight.glsl has the same
 const MARGIN = 2; // texels of a map beyond what it is fitted to
@@ -23,7 +24,9 @@ export class SunLights extends Group {
   constructor(suns, { mapSize = 2048 } = {}) {
     super();
     this.suns = suns;
-    this.angle = 0;
+    this.rotated = [1, 0, 0, 0, 1, 0, 0, 0, 1];
+    this.scene = null; // of follow
+    this.shown = "";
     this.box = new Box3(new Vector3(-1, -1, -1), new Vector3(1, 1, 1));
     this.lights = suns.map((sun) => lightOf(sun, mapSize));
     for (const light of this.lights) this.add(light, light.target);
@@ -41,9 +44,35 @@ export class SunLights extends Group {
 
   /** Turns the suns about +Y by `angle` radians, as `setLight` does the light. */
   turn(angle) {
-    this.angle = angle;
+    const [c, s] = [Math.cos(angle), Math.sin(angle)];
+    this.scene = null;
+    this.rotated = [c, 0, -s, 0, 1, 0, s, 0, c];
     this.place();
     return this;
+  }
+
+  /** Turns and dims the suns, in every frame, as `scene` does its environment: as `setSky` does the light. */
+  follow(scene) {
+    this.scene = scene;
+    this.shown = "";
+    this.followScene();
+    return this;
+  }
+
+  followScene() {
+    const { euler, strength } = shownBy(this.scene);
+    const now = [euler.x, euler.y, euler.z, euler.order, strength].join();
+    if (now === this.shown) return;
+    this.shown = now;
+    this.rotated = environmentTurn(euler);
+    this.dim(strength);
+    this.place();
+  }
+
+  /** Three calls this before it draws shadow maps. */
+  updateMatrixWorld(force) {
+    if (this.scene) this.followScene();
+    super.updateMatrixWorld(force);
   }
 
   /** Makes the suns so many times as strong as they were at first. */
@@ -58,7 +87,7 @@ export class SunLights extends Group {
     this.lights.forEach((light, i) => {
       const { towards, halfAngle } = this.suns[i];
       light.target.position.copy(centre);
-      light.position.fromArray(towards).applyAxisAngle(new Vector3(0, 1, 0), this.angle);
+      light.position.fromArray(turnedBy(this.rotated, towards));
       light.position.multiplyScalar(2 * radius).add(centre);
       fitShadow(light.shadow, light.position, this.box, Math.tan(Math.min(halfAngle, 1.5)));
     });

@@ -1,6 +1,7 @@
 // The page: the panel, the pointer, what the address asks for.
-//   ?model=knot&quality=0&sky=0&suns=1&window=auto&angle=40&camera=x,y,z&target=x,y,z&fov=35&panel=0
+//   ?model=knot&quality=0&sky=0&suns=1&window=auto&angle=40&exposure=0&shine=0&split=0.5&camera=x,y,z&target=x,y,z&fov=35&panel=0
 
+import { addressOf, vectorOf } from "./address.js";
 import { Picture } from "./picture.js";
 import { WINDOWS } from "./windows.js";
 
@@ -8,20 +9,26 @@ const element = (id) => document.getElementById(id);
 const canvas = element("view");
 const asked = new URLSearchParams(location.search);
 
-const loads = new Set(); // what is under way
+const loads = new Map(); // what is under way, and which share of it is there
 
 function showLoads() {
-  element("loading").textContent = `Loading ${[...loads].join(", ")} …`;
+  const shares = [...loads.values()];
+  element("loads").textContent = `Loading ${[...loads.keys()].join(", ")} …`;
+  element("share").value = shares.reduce((sum, share) => sum + share, 0) / Math.max(1, shares.length);
   element("loading").hidden = loads.size === 0;
 }
 
-/** Says that `what` is loading until `work` is at an end; first waits for the browser to show it. */
+/** Says that `what` is loading until `work` is at an end; first waits for the browser to show it. `work` is given what tells how
+ * far it is. */
 async function loading(what, work) {
-  loads.add(what);
+  loads.set(what, 0);
   showLoads();
   await new Promise((shown) => requestAnimationFrame(() => setTimeout(shown)));
   try {
-    return await work();
+    return await work(({ loaded, total }) => {
+      if (total > 0) loads.set(what, Math.min(1, loaded / total));
+      showLoads();
+    });
   } finally {
     loads.delete(what);
     showLoads();
@@ -93,9 +100,8 @@ async function start() {
   const quality = () => model().levels[element("quality").selectedIndex];
   const sky = () => skies[element("sky").selectedIndex];
 
-  const vector = (name) => asked.get(name)?.split(",").map(Number);
-  const askedCamera = asked.has("camera")
-    ? { position: vector("camera"), target: vector("target"), fieldOfView: Number(asked.get("fov") ?? 35) }
+  let askedCamera = asked.has("camera")
+    ? { position: vectorOf(asked, "camera"), target: vectorOf(asked, "target"), fieldOfView: Number(asked.get("fov") ?? 35) }
     : undefined;
 
   function showFigures({ bytesPerVertexWithBases, litRms, fileBytes }, milliseconds) {
@@ -115,20 +121,54 @@ async function start() {
   async function showModel(keepCamera) {
     const level = quality();
     const camera = keepCamera ? undefined : askedCamera ?? model().camera;
+    askedCamera = undefined; // another model has a place of its own
     const began = performance.now();
     try {
-      await loading(model().title, () => picture.setModel(level.file, { keepCamera, camera }));
+      await loading(model().title, (progress) => picture.setModel(level.file, { keepCamera, camera, progress }));
     } catch (error) {
       throw new Error(`${model().title}: ${error.message}`);
     }
     showFigures(level, performance.now() - began);
     showSuns();
     showLamps();
+    await showBefore();
   }
 
   async function showSky() {
-    await loading(sky().title, () => picture.setSky(sky()));
+    await loading(sky().title, (progress) => picture.setSky(sky(), progress));
     showSuns();
+    showAddress();
+  }
+
+  /** The model before it was compressed, beside what is shown, where that is chosen and there is one. */
+  async function showBefore() {
+    const { before } = model();
+    element("compare").disabled = !before;
+    element("lossless").textContent = before
+      ? `left: ${before.bytes} bytes a vertex, ${(100 * before.litRms).toFixed(2)} % off the bake; right: as chosen`
+      : "";
+    const comparing = Boolean(before) && element("compare").checked;
+    element("split").hidden = element("lossless").hidden = !comparing;
+    if (comparing) await loading(`${model().title} before compression`, (progress) => picture.setBefore(before.file, progress));
+    else await picture.setBefore(null);
+    showAddress();
+  }
+
+  /** A link to what is shown is in the address of the page, from a moment after anything has changed. */
+  function showAddress() {
+    clearTimeout(showAddress.waiting);
+    showAddress.waiting = setTimeout(() => {
+      const isServed = (entry, file) => file && !file.startsWith("blob:") && entry !== undefined;
+      const { selectedIndex } = element("sky");
+      const names = {
+        model: isServed(model(), quality()?.file) ? model().name : undefined,
+        quality: element("quality").selectedIndex,
+        sky: isServed(sky(), sky()?.file) ? selectedIndex : undefined,
+        comparing: !element("split").hidden,
+        panel: asked.get("panel"),
+      };
+      history.replaceState(null, "", addressOf(picture, names));
+    }, 200);
   }
 
   /** A slider for each lamp, and for the daylight beside them; nothing for a model without lamps. */
@@ -162,13 +202,14 @@ async function start() {
     const url = URL.createObjectURL(file);
     const level = { title: "as in the file", file: url, fileBytes: file.size };
     const began = performance.now();
-    await loading(file.name, () => picture.setModel(url));
+    await loading(file.name, (progress) => picture.setModel(url, { progress }));
     models.push({ name: file.name, title: file.name, levels: [level] });
     fillModels(models.length - 1);
     fillQualities(0);
     showFigures(level, performance.now() - began);
     showSuns();
     showLamps();
+    await showBefore();
   }
 
   /** `image`, `light`: a sky and its light file, or one of both. */
@@ -176,10 +217,11 @@ async function start() {
     const entry = { title: (image ?? light).name };
     if (image) Object.assign(entry, { file: URL.createObjectURL(image), exr: /\.exr$/i.test(image.name) });
     if (light) entry.light = URL.createObjectURL(light);
-    await loading(entry.title, () => picture.setSky(entry));
+    await loading(entry.title, (progress) => picture.setSky(entry, progress));
     skies.push(entry);
     fillSkies(skies.length - 1);
     showSuns();
+    showAddress();
   }
 
   /** Files of the user's: shown, and added to their lists where that works. A light file goes with the sky of its name. */
@@ -200,6 +242,11 @@ async function start() {
       }
   }
 
+  const linked = (change) => (event) => {
+    change(event);
+    showAddress();
+  };
+
   const guarded = (work) => async (event) => {
     try {
       say("");
@@ -216,6 +263,10 @@ async function start() {
   fill(element("window"), Object.values(WINDOWS).map((w) => w.title), windows.indexOf(asked.get("window")));
   picture.window = windows[element("window").selectedIndex];
   element("suns").checked = picture.sunsApart = asked.get("suns") !== "0";
+  picture.setShine((element("shine").checked = asked.get("shine") === "1"));
+  picture.setExposure(Number((element("exposure").value = asked.get("exposure") ?? 0)));
+  element("compare").checked = asked.has("split");
+  picture.setSplit(Number((element("split").value = asked.get("split") ?? 0.5)));
   if (asked.get("panel") === "0") element("panel").classList.add("hidden");
   element("panel").open = !matchMedia("(max-width: 600px)").matches;
 
@@ -225,10 +276,21 @@ async function start() {
   });
   element("quality").onchange = guarded(() => showModel(true));
   element("sky").onchange = guarded(showSky);
-  element("window").onchange = () => picture.setWindow(windows[element("window").selectedIndex]);
-  element("suns").onchange = () => picture.setSunsApart(element("suns").checked);
-  element("angle").oninput = () => picture.setAngle((Number(element("angle").value) * Math.PI) / 180);
-  element("exposure").oninput = () => picture.setExposure(Number(element("exposure").value));
+  element("window").onchange = linked(() => picture.setWindow(windows[element("window").selectedIndex]));
+  element("suns").onchange = linked(() => picture.setSunsApart(element("suns").checked));
+  element("shine").onchange = linked(() => picture.setShine(element("shine").checked));
+  element("angle").oninput = linked(() => picture.setAngle((Number(element("angle").value) * Math.PI) / 180));
+  element("exposure").oninput = linked(() => picture.setExposure(Number(element("exposure").value)));
+  element("split").oninput = linked(() => picture.setSplit(Number(element("split").value)));
+  element("compare").onchange = guarded(showBefore);
+  picture.controls.addEventListener("end", showAddress);
+  canvas.addEventListener("pointerup", showAddress);
+  element("turning").addEventListener("change", showAddress);
+  element("link").onclick = guarded(async () => {
+    await navigator.clipboard.writeText(location.href);
+    element("link").textContent = "Copied";
+    setTimeout(() => (element("link").textContent = "Copy a link to this"), 2000);
+  });
   element("files").onchange = guarded(() => openFiles([...element("files").files]));
 
   addEventListener("dragover", (event) => {

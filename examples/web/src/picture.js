@@ -22,7 +22,7 @@ import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
-import { lightOfSuns, PrtkitPlugin, projectEquirectangular, readLightFile, SunLights } from "./PrtkitLoader.js";
+import { halfFloatSky, lightOfSuns, PrtkitPlugin, projectInWorker, readLightFile, SunLights } from "./PrtkitLoader.js";
 import { skyImage } from "./skyImage.js";
 import { truncated, WINDOWS } from "./windows.js";
 import { ExposureMeter } from "./exposureMeter.js";
@@ -42,6 +42,28 @@ async function loadLightFile(url) {
   const response = await fetch(url);
   if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
   return readLightFile(await response.json());
+}
+
+/** A model and its transfer; throws where it has none that is compressed. `progress`: of three's loaders. */
+async function loadModel(url, progress) {
+  const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).register((parser) => new PrtkitPlugin(parser));
+  const gltf = await loader.loadAsync(url, progress);
+  if (gltf.userData.prtkit) return gltf;
+  disposeOf(gltf);
+  throw new Error(
+    gltf.parser.json.extensions?.PRTKIT_transfer
+      ? "holds transfer as it was baked: run prt compress"
+      : "is not baked, and holds no transfer: run prt bake and prt compress, or prt make",
+  );
+}
+
+function disposeOf(gltf) {
+  gltf.scene.traverse(({ geometry, material }) => {
+    geometry?.dispose();
+    for (const value of Object.values(material ?? {})) if (value?.isTexture) value.dispose();
+    material?.dispose();
+  });
+  gltf.userData.prtkit?.dispose();
 }
 
 export class Picture {
@@ -73,8 +95,11 @@ export class Picture {
     this.background.visible = false;
     this.scene.add(this.background);
     this.gltf = null;
+    this.before = null; // the same model before it was compressed
+    this.split = 0.5; // before it on the left, as a share of the width
+    this.shine = false; // whether materials reflect the sky
     this.light = null; // of the sky with its suns, all bands
-    this.split = null; // the sky without its suns, and these, where a light file says them
+    this.sunny = null; // the sky without its suns, and these, where a light file says them
     this.sunLights = null;
     this.shadowMapSize = shadowMapSize;
     this.sunsApart = true; // where there are suns, and the model can have them apart
@@ -89,15 +114,8 @@ export class Picture {
   }
 
   /** Shows the model at `url`; the camera stays where a model was shown before and `keepCamera` is set. */
-  async setModel(url, { keepCamera = false, camera } = {}) {
-    const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder).register((parser) => new PrtkitPlugin(parser));
-    const gltf = await loader.loadAsync(url);
-    if (!gltf.userData.prtkit)
-      throw new Error(
-        gltf.parser.json.extensions?.PRTKIT_transfer
-          ? "holds transfer as it was baked: run prt compress"
-          : "holds no compressed transfer: run prt bake and prt compress",
-      );
+  async setModel(url, { keepCamera = false, camera, progress } = {}) {
+    const gltf = await loadModel(url, progress);
     this.removeModel();
     this.gltf = gltf;
     this.lamps = {};
@@ -106,16 +124,33 @@ export class Picture {
     this.formLight();
   }
 
+  /** Shows the model at `url`, the same one before it was compressed, left of `split`; null: no longer. */
+  async setBefore(url, progress) {
+    const gltf = url ? await loadModel(url, progress) : null;
+    this.removeBefore();
+    this.before = gltf;
+    if (gltf) this.scene.add(gltf.scene);
+    this.relight();
+  }
+
+  /** As a share of the width. */
+  setSplit(share) {
+    this.split = share;
+    this.draw();
+  }
+
+  removeBefore() {
+    if (!this.before) return;
+    this.scene.remove(this.before.scene);
+    disposeOf(this.before);
+    this.before = null;
+  }
+
   removeModel() {
+    this.removeBefore();
     if (!this.gltf) return;
     this.scene.remove(this.gltf.scene);
-    this.gltf.scene.traverse((object) => {
-      object.geometry?.dispose();
-      object.material?.map?.dispose();
-      object.material?.emissiveMap?.dispose();
-      object.material?.dispose();
-    });
-    this.gltf.userData.prtkit.dispose();
+    disposeOf(this.gltf);
     this.gltf = null;
   }
 
@@ -123,13 +158,13 @@ export class Picture {
    * `file`: a lat-long sky; `center` says which axis its middle looks at: "x" as three has it, "z" as OpenEXR has it.
    * `light`: its light file, which has its suns. One of both is enough.
    */
-  async setSky({ file, exr = /\.exr(\?|$)/.test(file), center = "x", light }) {
+  async setSky({ file, exr = /\.exr(\?|$)/.test(file), center = "x", light }, progress) {
     const [image, split] = await Promise.all([
-      file ? (exr ? new EXRLoader() : new HDRLoader()).setDataType(FloatType).loadAsync(file) : null,
+      file ? (exr ? new EXRLoader() : new HDRLoader()).setDataType(FloatType).loadAsync(file, progress) : null,
       light ? loadLightFile(light) : null,
     ]);
     this.light = image
-      ? projectEquirectangular(image, undefined, { center })
+      ? await projectInWorker(image, undefined, { center })
       : split.sky.plus(lightOfSuns(split.suns, split.sky.order));
     this.showSky(image ?? skyImage(split.sky.deringed()), image ? center : "z");
     this.setSuns(split);
@@ -145,8 +180,19 @@ export class Picture {
     const { environment, middle } = this.background.material.uniforms;
     environment.value?.dispose();
     environment.value = texture;
+    this.center = center;
+    this.setShine(this.shine);
     middle.value = center === "x" ? 0.75 : 0.5;
     this.background.visible = true;
+  }
+
+  /** Whether materials reflect the sky as three has it; what they scatter is transfer's either way. */
+  setShine(shine) {
+    this.shine = shine;
+    this.scene.environment?.dispose();
+    const { value: sky } = this.background.material.uniforms.environment;
+    this.scene.environment = shine && sky ? halfFloatSky(sky, { center: this.center }) : null;
+    this.draw();
   }
 
   /** `split`: what a light file says, or null. */
@@ -154,8 +200,8 @@ export class Picture {
     this.sunLights?.removeFromParent();
     this.sunLights?.dispose();
     this.sunLights = null;
-    this.split = split?.suns.length > 0 ? split : null;
-    if (!this.split) return;
+    this.sunny = split?.suns.length > 0 ? split : null;
+    if (!this.sunny) return;
     this.sunLights = new SunLights(split.suns, { mapSize: this.shadowMapSize });
     for (const { shadow } of this.sunLights.lights) shadow.autoUpdate = false; // nothing moves but they do
     this.scene.add(this.sunLights);
@@ -171,7 +217,7 @@ export class Picture {
   get canSunsBeApart() {
     const model = this.gltf?.userData.prtkit;
     const apart = model?.directApart || model?.keys.length > 0;
-    return Boolean(this.split && apart && this.split.sky.order >= model.order);
+    return Boolean(this.sunny && apart && this.sunny.sky.order >= model.order);
   }
 
   /** One of WINDOWS. */
@@ -186,8 +232,8 @@ export class Picture {
     if (this.light && order) {
       const apart = this.sunsApart && this.canSunsBeApart;
       const byMaps = apart && keys.length === 0; // a light set is there so that none are drawn
-      const sky = WINDOWS[this.window].apply(truncated(apart ? this.split.sky : this.light, order));
-      this.lit = { sky, suns: byMaps ? lightOfSuns(this.split.suns, order) : null, keyed: apart && !byMaps };
+      const sky = WINDOWS[this.window].apply(truncated(apart ? this.sunny.sky : this.light, order));
+      this.lit = { sky, suns: byMaps ? lightOfSuns(this.sunny.suns, order) : null, keyed: apart && !byMaps };
       if (this.sunLights) this.sunLights.visible = byMaps;
       if (byMaps) this.sunLights.fit(this.gltf.scene);
     }
@@ -220,11 +266,13 @@ export class Picture {
     const { uniforms } = this.background.material;
     uniforms.angle.value = this.angle;
     uniforms.strength.value = this.daylight;
+    this.scene.environmentRotation.y = this.angle;
+    this.scene.environmentIntensity = this.daylight;
     if (this.gltf && this.lit) {
       const { sky, suns } = this.lit;
-      const { prtkit } = this.gltf.userData;
       const strengths = { ...this.keyStrengths(), ...this.lamps };
-      prtkit.setLight(sky.times(this.daylight), this.angle, suns?.times(this.daylight) ?? null, strengths);
+      for (const { userData } of this.before ? [this.gltf, this.before] : [this.gltf])
+        userData.prtkit.setLight(sky.times(this.daylight), this.angle, suns?.times(this.daylight) ?? null, strengths);
     }
     this.sunLights?.turn(this.angle).dim(this.daylight);
     this.draw();
@@ -233,7 +281,7 @@ export class Picture {
   /** Of the model's light set, where suns shine by it. */
   keyStrengths() {
     if (!this.lit.keyed) return {};
-    const suns = this.split.suns.map((sun) => ({ ...sun, irradiance: sun.irradiance.map((value) => value * this.daylight) }));
+    const suns = this.sunny.suns.map((sun) => ({ ...sun, irradiance: sun.irradiance.map((value) => value * this.daylight) }));
     return this.gltf.userData.prtkit.strengthsOfSuns(suns, this.angle);
   }
 
@@ -279,6 +327,7 @@ export class Picture {
   expose() {
     const { visible } = this.background;
     this.background.visible = false;
+    if (this.before) [this.before.scene.visible, this.gltf.scene.visible] = [false, true];
     const metered = this.meter.exposure(this.scene, this.camera);
     this.background.visible = visible;
     this.renderer.toneMappingExposure = (metered ?? 0.25 / this.light.meanLuminance()) * 2 ** this.stops;
@@ -291,8 +340,23 @@ export class Picture {
     requestAnimationFrame(() => {
       this.pending = false;
       if (this.gltf && this.light) this.expose();
-      this.renderer.render(this.scene, this.camera);
+      this.render();
       if (this.gltf && this.light) ++this.drawn;
     });
+  }
+
+  /** All of the picture, or the model before it was compressed on the left and after on the right. */
+  render() {
+    const { renderer, before, gltf } = this;
+    if (!before || !gltf) return renderer.render(this.scene, this.camera);
+    const [width, height] = [renderer.domElement.clientWidth, renderer.domElement.clientHeight];
+    const middle = Math.round(this.split * width);
+    renderer.setScissorTest(true);
+    for (const [shown, hidden, x, columns] of [[before, gltf, 0, middle], [gltf, before, middle, width - middle]]) {
+      [shown.scene.visible, hidden.scene.visible] = [true, false];
+      renderer.setScissor(x, 0, columns, height);
+      renderer.render(this.scene, this.camera);
+    }
+    renderer.setScissorTest(false);
   }
 }

@@ -150,6 +150,32 @@ export class ShLight {
     return result;
   }
 
+  /**
+   * This light turned by any rotation, or mirrored: what comes from d comes from `matrix` times d, [9] by columns. By a
+   * quadrature that is exact for the bands that there are.
+   */
+  rotated(matrix) {
+    const { order } = this;
+    const [a, b, c, d, e, f, g, h, k] = matrix;
+    const before = this.coefficients();
+    const after = new Float64Array(before.length);
+    const rings = gaussLegendre(order);
+    const basis = new Float64Array(order * order);
+    for (let r = 0; r < order; ++r)
+      for (let turn = 0; turn < 2 * order; ++turn) {
+        const z = rings.nodes[r];
+        const phi = (Math.PI * turn) / order;
+        const [x, y] = [Math.sqrt(1 - z * z) * Math.cos(phi), Math.sqrt(1 - z * z) * Math.sin(phi)];
+        const weight = (rings.weights[r] * Math.PI) / order;
+        const radiance = [0, 0, 0];
+        evaluateSh(order, a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + k * z, basis);
+        basis.forEach((value, i) => radiance.forEach((_, rgb) => (radiance[rgb] += weight * value * before[3 * i + rgb])));
+        evaluateSh(order, x, y, z, basis);
+        basis.forEach((value, i) => radiance.forEach((sum, rgb) => (after[3 * i + rgb] += value * sum)));
+      }
+    return ShLight.fromCoefficients(order, after);
+  }
+
   /** This light and `other` together, in the bands that both have. */
   plus(other) {
     const order = Math.min(this.order, other.order);

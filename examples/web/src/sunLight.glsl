@@ -1,7 +1,6 @@
-// What three's directional lights add to a surface that transfer lights from the sky: Lambertian on the side that
-// shows, diffusely through thin sheets (docs/math.md, eq. 38). Included into the fragment shader of
-// MeshLambertMaterial. Names without prt are three's own. Define PRT_PACKED_SHADOW_MAPS where three packs depths into
-// colors.
+// How much of three's directional lights arrives at a surface that transfer lights from the sky. Included into the
+// fragment shader of three's materials, before main; sunLoop.glsl shades by it. Names without prt are three's own.
+// Define PRT_PACKED_SHADOW_MAPS where three packs depths into colors.
 
 uniform bool prtSunsApart;
 uniform vec4 prtTransmission; // color of what passes a thin sheet, and how much
@@ -115,32 +114,5 @@ float prtVisibility(sampler2D map, mat4 toMap, DirectionalLightShadow sun, vec3 
 
 #endif
 #endif
-
-// `normal`: unit, in the view's axes, on the side that shows.
-vec3 prtSunRadiance(vec3 base, vec3 normal) {
-  vec3 face = normalize(cross(dFdx(vViewPosition), dFdy(vViewPosition)));
-  vec3 facing = dot(normal, normal) > 0.5 ? normal : face; // not where a vertex has none
-  vec3 worldFace = face * mat3(viewMatrix);
-  vec3 reflected = base * (1.0 - prtTransmission.a), transmitted = prtTransmission.rgb * prtTransmission.a;
-  vec3 sum = vec3(0.0);
-  float cosine, towardsSun, visible;
-  vec3 share;
-#pragma unroll_loop_start
-  for (int i = 0; i < NUM_DIR_LIGHTS; i++) {
-
-    cosine = dot(facing, directionalLights[i].direction);
-    towardsSun = sign(dot(face, directionalLights[i].direction));
-    share = cosine > 0.0 ? reflected : transmitted;
-    // On a side that the triangle turns away from the sun it shadows itself.
-    visible = cosine * towardsSun > 0.0 && share != vec3(0.0) ? 1.0 : 0.0;
-#if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
-    if (visible > 0.0 && receiveShadow)
-      visible = PRT_VISIBILITY(UNROLLED_LOOP_INDEX);
-#endif
-    sum += directionalLights[i].color * share * (RECIPROCAL_PI * abs(cosine) * visible);
-  }
-#pragma unroll_loop_end
-  return sum;
-}
 
 #endif

@@ -10,6 +10,8 @@ import {
   HalfFloatType,
   DataUtils,
   Mesh,
+  MeshBasicMaterial,
+  MeshPhysicalMaterial,
   MeshStandardMaterial,
   RGBAFormat,
   DoubleSide,
@@ -83,7 +85,7 @@ test("packed weights become words, and the material keeps its colour", async () 
   await new PrtkitPlugin(parser).afterRoot(gltf);
   assert.deepEqual([...mesh.geometry.getAttribute("prt_words_0").array], [0x04030201, 0x800000fa]);
   assert.equal(mesh.geometry.getAttribute("_prt_weights_0"), undefined);
-  assert.equal(mesh.material.type, "MeshLambertMaterial");
+  assert.equal(mesh.material.type, "MeshStandardMaterial");
   assert.equal(mesh.material.color.getHex(), 0xff0000);
   assert.equal(mesh.material.alphaTest, 0.25);
   assert.deepEqual(mesh.material.defines.PRT_PACKED_WORDS, 1);
@@ -163,25 +165,81 @@ test("a light of fewer bands than the model is refused", async () => {
 });
 
 /** What three compiles of a material. */
-function compiled({ onBeforeCompile }) {
-  const { vertexShader, fragmentShader } = ShaderLib.lambert;
+function compiled({ onBeforeCompile, isMeshLambertMaterial }) {
+  const { vertexShader, fragmentShader } = isMeshLambertMaterial ? ShaderLib.lambert : ShaderLib.physical;
   const shader = { uniforms: {}, vertexShader, fragmentShader };
   onBeforeCompile(shader);
   return shader;
 }
 
-test("the shader is that of the runtime", async () => {
+test("the shader is that of the runtime, and the material three's", async () => {
   const bytes = new BufferAttribute(new Uint8Array(8), 4);
   const { gltf, parser, mesh } = scene({ _prt_weights_0: bytes }, packed);
   await new PrtkitPlugin(parser).afterRoot(gltf);
   const shader = compiled(mesh.material);
   assert.match(shader.vertexShader, /vec3 prt_exit_radiance\(vec3 position, vec3 normal\)/);
-  assert.match(shader.vertexShader, /prtRadiance = prt_exit_radiance\( prtBakedPlace\(\), prtBakedNormal\(\) \);/);
+  assert.match(shader.vertexShader, /prtRadiance = prt_exit_radiance\(prtBakedPlace\(\), prtBakedNormal\(\)\);/);
   assert.doesNotMatch(shader.vertexShader, /#include "/);
-  assert.match(shader.fragmentShader, /max\( prtRadiance, vec3\( 0.0 \) \) \* diffuseColor.rgb/);
-  // No light of three's but what suns add: it has ambient lights and probes in these.
-  assert.doesNotMatch(shader.fragmentShader, /#include <lights_(?!pars_begin)/);
-  assert.match(shader.fragmentShader, /prtSunRadiance\(/);
+  // Behind skins and morph targets, which move where a pixel is looked for in a shadow map.
+  assert.match(shader.vertexShader, /#include <skinning_vertex>[^]*prtLight\( transformed \);/);
+  // No light of three's but what suns add, and no ambient light.
+  assert.doesNotMatch(shader.fragmentShader, /#if \( NUM_\w+_LIGHTS > 0 \) && defined\( RE_Direct/);
+  assert.doesNotMatch(shader.fragmentShader, /getAmbientLightIrradiance/);
+  assert.doesNotMatch(shader.fragmentShader, /indirectDiffuse \*= ambientOcclusion/);
+  assert.match(shader.fragmentShader, /directLight\.color \*= PRT_VISIBILITY/);
+  for (const chunk of ["normal_fragment_maps", "lights_fragment_maps", "lights_fragment_end", "fog_fragment", "tonemapping_fragment"])
+    assert.ok(shader.fragmentShader.includes(`#include <${chunk}>`), chunk);
+});
+
+test("a clone of a material is lit as it is, and has its own colour", async () => {
+  const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, packed);
+  await new PrtkitPlugin(parser).afterRoot(gltf);
+  const clone = mesh.material.clone().clone();
+  assert.notEqual(clone, mesh.material);
+  clone.color.set(0x00ff00);
+  assert.equal(mesh.material.color.getHex(), 0xff0000);
+  assert.deepEqual(clone.defines, mesh.material.defines);
+  assert.equal(clone.customProgramCacheKey(), mesh.material.customProgramCacheKey());
+  assert.equal(compiled(clone).uniforms.prt_constants, compiled(mesh.material).uniforms.prt_constants);
+  assert.equal(clone.onBeforeRender, mesh.material.onBeforeRender);
+  assert.equal(gltf.scene.clone().children[0].material, mesh.material);
+});
+
+test("materials keep what three shades by; unlit ones are matte", async () => {
+  for (const [material, type] of [
+    [new MeshPhysicalMaterial({ clearcoat: 0.5, roughness: 0.3 }), "MeshPhysicalMaterial"],
+    [new MeshBasicMaterial({ color: 0x0000ff }), "MeshLambertMaterial"],
+  ]) {
+    const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, packed);
+    mesh.material = material;
+    await new PrtkitPlugin(parser).afterRoot(gltf);
+    assert.equal(mesh.material.type, type);
+    assert.equal(mesh.material.clearcoat, material.clearcoat);
+    assert.equal(mesh.material.roughness, material.roughness);
+    assert.deepEqual(mesh.material.color, material.color);
+    assert.match(compiled(mesh.material).fragmentShader, /prtRadiance/);
+  }
+});
+
+test("what is disposed of frees its tables", async () => {
+  const { gltf, parser } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, packed);
+  await new PrtkitPlugin(parser).afterRoot(gltf);
+  const freed = [];
+  for (const name of ["constantsTexture", "clustersTexture"])
+    gltf.userData.prtkit[name].addEventListener("dispose", () => freed.push(name));
+  gltf.userData.prtkit.dispose();
+  assert.deepEqual(freed, ["constantsTexture", "clustersTexture"]);
+});
+
+test("two models have each its own light", async () => {
+  const models = [];
+  for (const factor of [1, 3]) {
+    const { gltf, parser, mesh } = scene({ _prt_weights_0: new BufferAttribute(new Uint8Array(8), 4) }, packed);
+    await new PrtkitPlugin(parser).afterRoot(gltf);
+    gltf.userData.prtkit.setLight(white().times(factor));
+    models.push(compiled(mesh.material).uniforms.prt_constants.value.image.data[0]);
+  }
+  assert.ok(Math.abs(models[1] / models[0] - 3) < 1e-6);
 });
 
 test("guides are given the frame of the bake, by each mesh's node", async () => {
@@ -344,8 +402,8 @@ function threeTexel([x, y, z], width, height) {
 }
 
 /** A texture as HDRLoader makes it, black but for the texel that three shows in `direction`. */
-function brightTowards(direction, value = 1000) {
-  const [width, height] = [128, 64];
+function brightTowards(direction, value = 1000, width = 128) {
+  const height = 64;
   const data = new Float32Array(4 * width * height);
   const [x, y] = threeTexel(direction, width, height);
   data.set([value, value, value, 1], 4 * (y * width + x));
@@ -388,4 +446,13 @@ test("a sky for three's own materials is finite in half floats", () => {
   const dim = projectEquirectangular(halfFloatSky(brightTowards(unit([0.3, 0.5, -0.8]), 100)), 4).polar;
   projectEquirectangular(brightTowards(unit([0.3, 0.5, -0.8]), 100), 4).polar.forEach((value, i) =>
     assert.ok(Math.abs(value - dim[i]) < 1e-6));
+});
+
+test("a sky of OpenEXR's layout is shown where it lights", () => {
+  for (const width of [128, 126]) {
+    const texture = brightTowards([1, 0, 0], 100, width); // in the middle
+    const lit = mainDirection(projectEquirectangular(texture, 4, { center: "z" }));
+    const shown = mainDirection(projectEquirectangular(halfFloatSky(texture, { center: "z" }), 4));
+    lit.forEach((value, i) => assert.ok(Math.abs(value - shown[i]) < 0.01, `${width}: ${shown} is not ${lit}`));
+  }
 });

@@ -1,5 +1,5 @@
 // The built page in headless Chromium: its pictures against those of `prt render`, its controls, its messages.
-//   node test/e2e.mjs [FOLDER for screenshots]
+//   node test/e2e.mjs [FOLDER for screenshots] [PATTERN of the names of checks, else all]
 // Needs `npm run build`, a chromium (CHROMIUM, else /usr/bin/chromium), and prt (PRT, else build/release).
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -13,7 +13,7 @@ import { distFolder } from "../tools/folders.mjs";
 
 const web = fileURLToPath(new URL("../", import.meta.url));
 const prt = process.env.PRT ?? join(web, "../../build/release/cli/prt");
-const screenshots = process.argv[2];
+const [, , screenshots, pattern = ""] = process.argv;
 if (screenshots) mkdirSync(screenshots, { recursive: true });
 const work = mkdtempSync(join(tmpdir(), "prtkit-web-"));
 const [width, height] = [640, 360];
@@ -35,6 +35,7 @@ const browser = await chromium.launch({
 
 let failed = 0;
 async function check(name, body) {
+  if (!new RegExp(pattern).test(name)) return;
   const page = await browser.newPage({ viewport: { width, height } });
   page.setDefaultTimeout(120_000); // a busy machine is not a fault of the page
   const errors = [];
@@ -200,6 +201,28 @@ const radianceAgainst = (page, colors) =>
     return { rms: Math.sqrt(differences / squares), ratio: meanShown / sum, even: even / covered };
   }, colors);
 
+/**
+ * Takes out what suns reflect specularly, which three adds to Lambert's law and prt has none of: by a further change before
+ * compiling, as programs make them.
+ */
+async function matte(page) {
+  const count = await drawn(page);
+  await page.evaluate(() => {
+    globalThis.prtkitPicture.gltf.scene.traverse(({ material }) => {
+      if (!material) return;
+      const { onBeforeCompile } = material;
+      material.onBeforeCompile = (shader, renderer) => {
+        onBeforeCompile(shader, renderer);
+        shader.fragmentShader = shader.fragmentShader.replace("reflectedLight.directSpecular + reflectedLight.indirectSpecular", "vec3( 0.0 )");
+      };
+      material.customProgramCacheKey = ((key) => () => `matte:${key()}`)(material.customProgramCacheKey);
+      material.needsUpdate = true;
+    });
+    globalThis.prtkitPicture.draw();
+  });
+  await picture(page, count);
+}
+
 for (const [i, model] of models.entries())
   for (const angle of [25 + 40 * i, 200])
     await check(`${model.name}, turned by ${angle}: suns light as prt relight does by rays`, async (page, errors) => {
@@ -208,6 +231,7 @@ for (const [i, model] of models.entries())
       await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
       await picture(page);
       assert.equal(await page.evaluate(() => globalThis.prtkitPicture.canSunsBeApart), true);
+      await matte(page);
       const lit = join(work, "lit.glb");
       execFileSync(prt, ["relight", join(distFolder, file), "--env", join(distFolder, skies[0].light), "-o", lit, "--albedo",
         "--window", "auto", "--rotate", String(angle)], { stdio: "ignore" });
@@ -240,6 +264,7 @@ for (const [i, model] of models.entries())
     const angle = 15 + 50 * i;
     await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
     await picture(page);
+    await matte(page);
     const shown = await canvas(page);
     const expected = await render(page, model.levels[1].file, angle, view, { suns: "auto" });
     const d = await difference(page, shown, expected);
@@ -638,11 +663,75 @@ await check("says that it is loading, and what", async (page) => {
     await held;
     await route.continue();
   });
+  await page.addInitScript(() => {
+    globalThis.shares = [];
+    const look = () => {
+      const bar = document.getElementById("share");
+      if (bar?.checkVisibility()) globalThis.shares.push(bar.value);
+      requestAnimationFrame(look);
+    };
+    look();
+  });
   await page.goto(url({ model: "knot" }));
   await page.waitForFunction(() => /knot/.test(document.querySelector("#loading:not([hidden])")?.innerText ?? ""));
   release();
   await picture(page);
   await page.waitForSelector("#loading", { state: "hidden" });
+  const shares = await page.evaluate(() => globalThis.shares);
+  assert.ok(shares[0] === 0 && Math.max(...shares) > 0.4, `the bar is at ${[...new Set(shares)]}`);
+});
+
+await check("before and after compression lie side by side", async (page, errors) => {
+  const view = { model: "knot", quality: 0, angle: 30, ...query(standardCamera) };
+  const shownAt = async (more) => {
+    await page.goto(url({ ...view, ...more }));
+    await picture(page);
+    await page.waitForSelector("#loading", { state: "hidden" });
+    const count = await drawn(page);
+    await page.evaluate(() => globalThis.prtkitPicture.draw());
+    await picture(page, count);
+    return canvas(page);
+  };
+  const after = await shownAt({});
+  assert.ok((await difference(page, after, await shownAt({ split: 0 }))).mean < 0.01);
+  const before = await shownAt({ split: 1 });
+  if (screenshots) await page.screenshot({ path: join(screenshots, "compare.png") });
+  const apart = (await difference(page, after, before)).mean;
+  const d = await difference(page, before, await render(page, models[0].before.file, 30, standardCamera));
+  const half = await difference(page, before, await shownAt({ split: 0.5 }));
+  console.log(`  before and after ${apart.toFixed(3)} of 255 apart, half of each ${half.mean.toFixed(3)}`);
+  assert.ok(apart > 0.05 && half.mean > 0.2 * apart && half.mean < 0.8 * apart, `${half.mean} of ${apart}`);
+  assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
+  assert.deepEqual(errors, []);
+});
+
+await check("the address is a link to what is shown", async (page, errors) => {
+  await page.goto(url({ model: "tree", panel: 1 }));
+  await picture(page);
+  await page.waitForSelector("#loading", { state: "hidden" });
+  const before = await canvas(page);
+  await page.selectOption("#quality", { index: 1 });
+  await page.selectOption("#window", { index: 2 });
+  await page.locator("#suns").uncheck();
+  await page.locator("#shine").check();
+  await page.locator("#angle").fill("77");
+  await page.locator("#exposure").fill("-1");
+  await page.evaluate(() => {
+    globalThis.prtkitPicture.controls.object.position.x += 1;
+    globalThis.prtkitPicture.controls.update();
+    globalThis.prtkitPicture.controls.dispatchEvent({ type: "end" });
+  });
+  await page.waitForFunction(() => /shine=1/.test(location.search) && /angle=77/.test(location.search) && /exposure=-1/.test(location.search));
+  await page.waitForTimeout(1000);
+  const [address, shown] = [await page.evaluate(() => location.href), await canvas(page)];
+  await page.goto("about:blank");
+  await page.goto(address);
+  await picture(page);
+  await page.waitForSelector("#loading", { state: "hidden" });
+  await page.waitForTimeout(1000);
+  assert.ok((await difference(page, shown, await canvas(page))).mean < 0.1, address);
+  assert.ok((await difference(page, shown, before)).mean > 1);
+  assert.deepEqual(errors, []);
 });
 
 await check("a model that is missing gives a message", async (page) => {
@@ -661,7 +750,7 @@ await check("a model without transfer gives a message", async (page) => {
   await page.route("**/*.glb", (route) => route.fulfill({ body: Buffer.concat([head, text]) }));
   await page.goto(url({ model: "knot" }));
   await page.waitForSelector("#message:not([hidden])");
-  assert.match(await page.locator("#message").innerText(), /prt bake/);
+  assert.match(await page.locator("#message").innerText(), /is not baked.*prt bake/);
 });
 
 await browser.close();

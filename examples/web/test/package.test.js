@@ -1,32 +1,55 @@
-// What `npm pack` makes, installed elsewhere.
+// What `npm pack` makes, installed elsewhere. installed.mjs draws with it.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { dirname, join, normalize } from "node:path";
 import { fileURLToPath } from "node:url";
 import { test } from "node:test";
 
 const web = fileURLToPath(new URL("../", import.meta.url));
+const { exports, files: listed } = JSON.parse(readFileSync(join(web, "package.json"), "utf8"));
 
-test("the package loads where it is installed", () => {
+/** Paths in the package that a module imports, or starts as a worker. */
+function importsOf(path) {
+  const text = readFileSync(join(web, path), "utf8");
+  const found = [...text.matchAll(/(?:from|import)\s*\(?\s*"(\.[^"]+)"|new URL\("(\.[^"]+)", import\.meta\.url\)/g)];
+  return found.map(([, imported, url]) => normalize(join(dirname(path), imported ?? url)).replaceAll("\\", "/"));
+}
+
+test("the package has what its modules import, and nothing else", () => {
+  const reached = new Set();
+  const visit = (path) => {
+    if (reached.has(path)) return;
+    reached.add(path);
+    importsOf(path).forEach(visit);
+  };
+  visit(normalize(exports["."].default));
+  assert.ok(reached.has("src/projectionWorker.js"), "workers are found");
+  assert.deepEqual(listed.filter((path) => !path.endsWith(".d.ts")).sort(), [...reached].sort());
+  assert.ok(listed.includes(normalize(exports["."].types)));
+});
+
+test("the package loads where it is installed, and is small", () => {
   const folder = mkdtempSync(join(tmpdir(), "prtkit-package-"));
   try {
     const npm = (...options) => execFileSync("npm", options, { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] });
-    const [{ filename, files }] = JSON.parse(npm("pack", web, "--json", "--ignore-scripts"));
+    const [{ filename, files, size }] = JSON.parse(npm("pack", web, "--json", "--ignore-scripts"));
     // Without the page, the tests and the models.
-    for (const { path } of files) assert.match(path, /^(src\/\w+(\.\w+)*\.(js|d\.ts)|package\.json|README\.md)$/);
+    assert.deepEqual(files.map(({ path }) => path).sort(), [...listed, "README.md", "package.json"].sort());
+    assert.ok(size < 60_000, `${size} bytes`);
     writeFileSync(join(folder, "package.json"), JSON.stringify({ name: "game", version: "1.0.0", type: "module" }));
     npm("install", "--offline", "--legacy-peer-deps", "--no-audit", "--no-fund", `./${filename}`);
     mkdirSync(join(folder, "node_modules"), { recursive: true });
     symlinkSync(join(web, "node_modules/three"), join(folder, "node_modules/three"), "dir"); // the game's own
+    const names = [...readFileSync(join(web, exports["."].types), "utf8").matchAll(/^export (?:class|function) (\w+)/gm)].map(([, name]) => name);
+    assert.ok(names.includes("PrtkitPlugin"));
     writeFileSync(
       join(folder, "game.js"),
       `import * as prtkit from "prtkit-web";
-       const names = ["PrtkitPlugin", "projectEquirectangular", "halfFloatSky", "ShLight", "SunLights", "readLightFile", "lightOfSuns"];
-       console.log(names.map((name) => prtkit[name]).every((f) => typeof f === "function"));`,
+       console.log(Object.keys(prtkit).sort().join());`,
     );
-    assert.equal(execFileSync("node", ["game.js"], { cwd: folder, encoding: "utf8" }), "true\n");
+    assert.equal(execFileSync("node", ["game.js"], { cwd: folder, encoding: "utf8" }), `${names.sort().join()}\n`);
   } finally {
     rmSync(folder, { recursive: true });
   }

@@ -5,6 +5,8 @@ import { deringFactors, evaluateSh, gaussLegendre, projectLatLong, ShLight } fro
 const near = (actual, expected, tolerance, what = "") =>
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what} ${actual} is not within ${tolerance} of ${expected}`);
 
+const unit = (v) => v.map((x) => x / Math.hypot(...v));
+
 /** Calls `sum` with directions and weights of a quadrature over the sphere that is exact for degree 2 n - 1. */
 function overSphere(n, sum) {
   const { nodes, weights } = gaussLegendre(n);
@@ -191,4 +193,24 @@ test("a channel without a mean to speak of is left out of dering", () => {
     const odd = white.map((v, i) => (i === 0 ? mean : v));
     assert.deepEqual(deringFactors(3, odd), factors, `${mean}`);
   }
+});
+
+test("a turned light is what its directions say, whatever the rotation", () => {
+  const [a, b, c] = [unit([1, 2, -2]), unit([2, 1, 2]), unit([-2, 2, 1])]; // columns
+  for (const matrix of [[...a, ...b, ...c], [...a, ...b, ...c.map((value) => -value)]]) {
+    const light = new ShLight(7, Float64Array.from({ length: 147 }, (_, i) => Math.sin(i * i)));
+    const [before, after] = [light.coefficients(), light.rotated(matrix).coefficients()];
+    const radiance = (coefficients, d) => evaluateSh(7, ...d).reduce((sum, y, i) => sum + y * coefficients[3 * i + 1], 0);
+    for (const d of [[0.36, -0.48, 0.8], [0, 0, -1], [-0.6, 0, 0.8]]) {
+      const turned = [0, 1, 2].map((row) => matrix[row] * d[0] + matrix[3 + row] * d[1] + matrix[6 + row] * d[2]);
+      near(radiance(after, turned), radiance(before, d), 1e-12);
+    }
+  }
+});
+
+test("a turn about +Y is the same by its matrix as by its angle", () => {
+  const light = new ShLight(4, Float64Array.from({ length: 48 }, (_, i) => Math.cos(i * i)));
+  const [cosine, sine] = [Math.cos(0.7), Math.sin(0.7)];
+  const turned = light.rotated([cosine, 0, -sine, 0, 1, 0, sine, 0, cosine]).coefficients();
+  light.coefficients(0.7).forEach((value, i) => near(turned[i], value, 1e-12));
 });

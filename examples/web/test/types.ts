@@ -1,13 +1,15 @@
 // Compiled, never run: the declarations fit three's.
-import { FloatType, Scene } from "three";
+import { FloatType, LightProbe, Scene } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import {
   halfFloatSky,
+  lightFromProbe,
   lightOfSuns,
   PrtkitModel,
   PrtkitPlugin,
   projectEquirectangular,
+  projectInWorker,
   readLightFile,
   ShLight,
   SunLights,
@@ -21,7 +23,7 @@ export async function show(scene: Scene): Promise<number> {
   projectEquirectangular(sky, 6, { center: "z" });
   // @ts-expect-error there is no third layout
   projectEquirectangular(sky, 6, { center: "y" });
-  scene.background = scene.environment = halfFloatSky(sky);
+  scene.background = scene.environment = halfFloatSky(sky, { center: "z" });
   const model: PrtkitModel = gltf.userData.prtkit;
   model.setLight(light, Math.PI / 2);
   // @ts-expect-error a light is not an angle
@@ -32,6 +34,8 @@ export async function show(scene: Scene): Promise<number> {
   scene.add(suns);
   model.setLight(lighting.sky.deringed(), 1, lightOfSuns(lighting.suns, model.order));
   model.setLight(lighting.sky, 1, null, { [model.lamps[0]]: 0.5, Sign: [1, 0.5, 0] });
-  suns.lights[0].shadow.autoUpdate = false;
+  model.setSky(await projectInWorker(sky, 6, { center: "z" }), scene, { suns: lightOfSuns(lighting.suns), keyed: [] });
+  model.setSky(lightFromProbe(new LightProbe()).rotated([1, 0, 0, 0, 1, 0, 0, 0, 1]), scene);
+  suns.follow(scene).lights[0].shadow.autoUpdate = false;
   return model.bytesPerVertex * model.vertices;
 }

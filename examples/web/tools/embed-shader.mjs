@@ -1,5 +1,5 @@
 // Makes GLSL JavaScript modules, with what it includes: shaders/prt_exit_radiance.glsl, of which there is one source, and
-// src/sunLight.glsl.
+// what stands in src/.
 import { readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
@@ -15,4 +15,4 @@ function embed(folder, name) {
 }
 
 embed("shaders/", "prt_exit_radiance.glsl");
-embed("examples/web/src/", "sunLight.glsl");
+for (const name of ["sunLight", "sunLoop", "transferVertex"]) embed("examples/web/src/", `${name}.glsl`);

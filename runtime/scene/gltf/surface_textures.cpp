@@ -48,14 +48,28 @@ Json& own_extras(Json& material, std::size_t m) {
     return *at;
 }
 
+/// Calls `visit` with all that may name a material of a primitive: itself, and the mappings of its variants.
+template <class AnyJson, class Visit>
+void for_each_choice(AnyJson& primitive, Visit&& visit) {
+    visit(primitive);
+    if (!primitive.contains("extensions") || !primitive["extensions"].contains("KHR_materials_variants"))
+        return;
+    auto& variants = primitive["extensions"]["KHR_materials_variants"];
+    if (variants.contains("mappings"))
+        for (auto& mapping : variants["mappings"])
+            visit(mapping);
+}
+
 /// Gives the primitives of a texture materials that no others have.
 class OwnMaterials {
 public:
     OwnMaterials(Json& json, const std::vector<Json*>& primitives, std::span<const SurfaceTexture> textures)
         : json_(json), primitives_(primitives) {
-        for_each_primitive(json, [&](const Json& primitive) {
-            if (primitive.contains("material"))
-                users_[primitive["material"].get<std::size_t>()].insert(&primitive);
+        for_each_primitive(json, [&](Json& primitive) {
+            for_each_choice(primitive, [&](const Json& choice) {
+                if (choice.contains("material"))
+                    ++users_[choice["material"].get<std::size_t>()];
+            });
         });
         for (const SurfaceTexture& texture : textures)
             take(texture);
@@ -65,24 +79,23 @@ public:
 
 private:
     void take(const SurfaceTexture& texture) {
-        std::map<std::size_t, std::set<const Json*>> mine;
+        std::map<std::size_t, std::vector<Json*>> mine;
         std::vector<Json*> without;
-        for (const std::size_t p : texture.primitives) {
-            Json& primitive = *primitives_[p];
-            if (primitive.contains("material"))
-                mine[primitive["material"].get<std::size_t>()].insert(&primitive);
-            else
-                without.push_back(&primitive);
-        }
+        for (const std::size_t p : texture.primitives)
+            for_each_choice(*primitives_[p], [&](Json& choice) {
+                if (choice.contains("material"))
+                    mine[choice["material"].get<std::size_t>()].push_back(&choice);
+                else if (&choice == primitives_[p])
+                    without.push_back(&choice);
+            });
         std::set<std::size_t>& own = own_.emplace_back();
-        for (const auto& [material, of_mine] : mine) {
-            const bool alone = users_[material].size() == of_mine.size();
+        for (const auto& [material, choices] : mine) {
+            const bool alone = users_[material] == choices.size();
             Json copy = json_["materials"][material];
             const std::size_t now = alone ? material : append(json_, "materials", std::move(copy));
             own.insert(now);
-            for (const std::size_t p : texture.primitives)
-                if (of_mine.contains(primitives_[p]))
-                    (*primitives_[p])["material"] = now;
+            for (Json* const choice : choices)
+                (*choice)["material"] = now;
         }
         if (without.empty())
             return;
@@ -94,14 +107,15 @@ private:
 
     Json& json_;
     const std::vector<Json*>& primitives_;
-    std::map<std::size_t, std::set<const Json*>> users_; ///< of materials, as the file has them
-    std::vector<std::set<std::size_t>> own_;             ///< [textures] materials
+    std::map<std::size_t, std::size_t> users_; ///< of materials, as the file has them
+    std::vector<std::set<std::size_t>> own_;   ///< [textures] materials
 };
 
 } // namespace
 
-void write_surface_textures(GltfDocument& document, const Scene& scene,
+std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
                             std::span<const SurfaceTexture> textures) {
+    std::size_t replaced = 0;
     named(document, [&](GltfContents& contents) {
         Json& json = contents.json;
         const std::vector<Json*> primitives = unshare(contents, scene);
@@ -116,6 +130,7 @@ void write_surface_textures(GltfDocument& document, const Scene& scene,
                     : add_texture(contents, texture.bent_normals, texture.repeats, "bent normals");
             for (const std::size_t m : materials.of(i)) {
                 Json& material = json["materials"][m];
+                replaced += material.contains("occlusionTexture");
                 material["occlusionTexture"] = {{"index", occlusion}, {"texCoord", texture.texcoord}};
                 if (!texture.bent_normals.empty())
                     own_extras(material, m)["bentNormalTexture"] = {{"index", bent},
@@ -123,6 +138,7 @@ void write_surface_textures(GltfDocument& document, const Scene& scene,
             }
         }
     });
+    return replaced;
 }
 
 } // namespace prt

@@ -28,11 +28,10 @@ public:
                                                              {"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT},
                                                              {"count", split.uv.size()},
                                                              {"type", "VEC2"}});
-        for (int s = 0; s <= set; ++s) {
-            const std::string name = "TEXCOORD_" + std::to_string(s);
-            if (s == set || !primitive["attributes"].contains(name))
-                primitive["attributes"][name] = accessor;
-        }
+        primitive["attributes"]["TEXCOORD_" + std::to_string(set)] = accessor;
+        for (int s = 0; s < set; ++s)
+            if (const std::string name = "TEXCOORD_" + std::to_string(s); !primitive["attributes"].contains(name))
+                primitive["attributes"][name] = add_zeros(split.uv.size());
         std::vector<std::uint32_t> indices;
         for (const glm::uvec3& t : split.triangles)
             indices.insert(indices.end(), {t.x, mirrored ? t.z : t.y, mirrored ? t.y : t.z});
@@ -44,6 +43,12 @@ public:
     void finish() { contents_.remove_unused(std::move(replaced_)); }
 
 private:
+    /// What is read where coordinates are missing; it takes no bytes.
+    std::size_t add_zeros(std::size_t count) {
+        return contents_.add_accessor(
+            {{"componentType", TINYGLTF_COMPONENT_TYPE_FLOAT}, {"count", count}, {"type", "VEC2"}});
+    }
+
     void gather(Json& attributes, const std::vector<std::uint32_t>& source) {
         for (auto it = attributes.begin(); it != attributes.end(); ++it) {
             replaced_.insert(it->get<std::size_t>());

@@ -2,6 +2,7 @@
 
 #include "prt/occlusion_maps.h"
 #include "prt/support/error.h"
+#include "prt/unwrap.h"
 #include "support/scene_builder.h"
 #include "texels/gutters.h"
 #include "texels/seams.h"
@@ -79,7 +80,10 @@ TEST(Texels, ThatAChartTouchesHaveAPlaceOnIt) {
         const Scene scene = mapped(SceneBuilder().floor({0, 0, 0}, 1).build(), [&](const glm::vec3& p) {
             return c.corner + c.size * (glm::vec2(p.x, p.z) + 1.0f) / 2.0f;
         });
-        const Atlas atlas = atlas_of(scene, 8);
+        Atlas atlas; // of coordinates that planning refuses, too
+        atlas.primitives = {0};
+        atlas.uv_set = 0;
+        atlas.width = atlas.height = 8;
         std::set<std::uint32_t> texels;
         for (const TexelSample& sample : samples_of(scene, atlas)) {
             texels.insert(sample.texel);
@@ -112,7 +116,11 @@ TEST(Texels, WithoutAPlaceOfTheirOwnAreRefused) {
     const Scene good = floor_at({0, 0}, 1);
     refused(good, {.size = 8, .uv_set = 1}, "has no TEXCOORD_1");
     refused(floor_at({0.5f, 0}, 1), {.size = 8, .uv_set = 0}, "crosses the border");
-    refused(floor_at({0.5f, 0.5f}, 0), {.per_metre = 8, .uv_set = 0}, "is a line or a point");
+    for (const TexelOptions& options : {TexelOptions{.per_metre = 8, .uv_set = 0}, {.size = 8, .uv_set = 0}})
+        refused(floor_at({0.5f, 0.5f}, 0), options, "is a line or a point");
+    // Two layers of triangles far smaller than a texel.
+    const Scene fine = floor_at({0, 0}, 1, 200);
+    refused(test::join({fine, fine}), {.size = 8, .uv_set = 0, .atlases = AtlasMode::one}, "lies in two of them");
     refused(good, {.per_metre = 1e5, .uv_set = 0}, "more than 8192");
     refused(good, {.per_metre = 0, .uv_set = 0}, "finite and above 0");
     Scene twice = test::join({good, good});
@@ -130,6 +138,34 @@ TEST(Texels, OfObjectsThatOverlapHaveTexturesOfTheirOwn) {
     EXPECT_EQ(plan_atlases(beside, {.size = 8, .uv_set = 0}).size(), 1u);
     // Half of the texture along each side for two metres: 64 texels are 16 a metre.
     EXPECT_EQ(plan_atlases(beside, {.per_metre = 16, .uv_set = 0}).front().width, 64);
+}
+
+TEST(Texels, OfNeedlesAcrossTheTextureAreFew) {
+    // Lines from corner to corner: only what they touch is looked at.
+    const Scene scene = mapped(SceneBuilder().floor({0, 0, 0}, 1, 30).build(),
+                               [](const glm::vec3& p) { return glm::vec2(0.5f + 0.45f * p.x); });
+    Atlas atlas;
+    atlas.primitives = {0};
+    atlas.uv_set = 0;
+    atlas.width = atlas.height = 256;
+    const TexelSamples samples = sample_texels(chart_triangles(scene, atlas), atlas);
+    EXPECT_GE(samples.samples.size(), 230u);
+    EXPECT_LE(samples.samples.size(), 3u * 256);
+    EXPECT_TRUE(seam_points(scene, atlas).empty());
+}
+
+TEST(Gutters, GoOnWhereTheTextureRepeats) {
+    Atlas atlas;
+    atlas.width = atlas.height = 9;
+    atlas.repeats = true;
+    std::vector<float> values(atlas.texels());
+    std::vector<bool> filled(atlas.texels());
+    filled[0] = filled[40] = true; // a corner, and the middle
+    values[0] = 1;
+    fill_gutters(atlas, filled, values, 1);
+    EXPECT_EQ(values[80], 1); // the corner across
+    EXPECT_EQ(values[8], 1);
+    EXPECT_EQ(bilinear_at(atlas, {0, 4.5}).texels[0] % 9, 8u);
 }
 
 TEST(Gutters, HaveWhatIsNearest) {
@@ -231,6 +267,39 @@ TEST(Seams, AreClosedAndNothingElseChanges) {
     EXPECT_LT(std::sqrt(squared / static_cast<double>(std::ranges::count(measured, true))), 0.03);
 }
 
+TEST(Seams, AreNotClosedWhereThatWouldFlattenCharts) {
+    // A ball over a plane in charts of a few texels each: truth is (1 + n.y) / 2.
+    Scene scene = SceneBuilder().sphere({0, 0, 0}, 1, 12).build();
+    const Unwrapping unwrapping = unwrap(scene, {.size = 26});
+    const VertexSplit& split = unwrapping.primitives[0];
+    VertexArray& vertices = scene.vertex_arrays[0];
+    std::vector<glm::vec3> positions, normals;
+    for (const std::uint32_t v : split.source) {
+        positions.push_back(vertices.positions[v]);
+        normals.push_back(vertices.normals[v]);
+    }
+    vertices.positions = positions;
+    vertices.normals = normals;
+    vertices.texcoords = {split.uv};
+    scene.primitives[0].triangles = split.triangles;
+    Atlas atlas = unwrapping.atlases.front();
+    atlas.uv_set = 0;
+    std::vector<bool> measured(atlas.texels());
+    std::vector<float> truth(atlas.texels());
+    for (const TexelSample& sample : samples_of(scene, atlas)) {
+        measured[sample.texel] = true;
+        truth[sample.texel] = 0.5f + 0.5f * place_of_sample(scene, sample).y;
+    }
+    std::vector<float> values = truth;
+    fill_gutters(atlas, measured, values, 1);
+    stitch_seams(atlas, seam_points(scene, atlas), measured, values, 1);
+    double error = 0;
+    for (std::size_t t = 0; t < values.size(); ++t)
+        if (measured[t])
+            error += std::abs(static_cast<double>(values[t] - truth[t]));
+    EXPECT_LT(error / static_cast<double>(std::ranges::count(measured, true)), 0.06);
+}
+
 TEST(Seams, EndWhereNormalsDiffer) {
     // A floor and a wall that share an edge: light differs there.
     Scene scene = SceneBuilder()
@@ -247,6 +316,14 @@ TEST(Seams, EndWhereNormalsDiffer) {
     EXPECT_TRUE(seam_points(scene, atlas_of(scene, 64)).empty());
 }
 
+OcclusionMap map_of(const Scene& scene, const Atlas& atlas, const OcclusionOptions& options,
+                    const FinerModel& finer = {}) {
+    OcclusionMap found;
+    occlusion_maps(
+        scene, {atlas}, options, [&](OcclusionMap map) { found = std::move(map); }, finer);
+    return found;
+}
+
 TEST(OcclusionMaps, ConvergeToThePointsThatTheyAreOf) {
     const Scene disc = SceneBuilder().disc({0, 0.6f, 0}, {0, -1, 0}, 0.8f, 256).build();
     Scene scene = test::join({floor_at({0, 0}, 1, 4), disc});
@@ -261,8 +338,7 @@ TEST(OcclusionMaps, ConvergeToThePointsThatTheyAreOf) {
         atlas.primitives = {0};
         atlas.uv_set = 0;
         atlas.width = atlas.height = size;
-        const OcclusionMapsResult result = occlusion_maps(scene, {atlas}, options);
-        const OcclusionMap& map = result.maps.front();
+        const OcclusionMap map = map_of(scene, atlas, options);
         EXPECT_EQ(map.measured, atlas.texels());
         EXPECT_EQ(map.sealed, 0u);
         const std::size_t middle = atlas.texels() / 2;
@@ -302,8 +378,8 @@ TEST(OcclusionMaps, HaveWhatArrivesAtAFinerModel) {
     OcclusionOptions options;
     options.rays = 1024;
     const auto at = [&](double reach, std::size_t column, std::size_t row) {
-        const auto maps = occlusion_maps(plate, {atlas}, options, {&fine, reach}).maps;
-        return static_cast<double>(maps.front().openness.ambient[row * 16 + column]);
+        const OcclusionMap map = map_of(plate, atlas, options, {&fine, reach});
+        return static_cast<double>(map.openness.ambient[row * 16 + column]);
     };
     EXPECT_NEAR(at(0.5, 1, 1), 1, 1e-3); // beside the pit
     // In its middle: what is open is a square of 1 m, 0.2 m above; of a quarter of it, by the closed form of
@@ -323,7 +399,7 @@ TEST(OcclusionMaps, LeaveOutWhatIsInsideSolids) {
     atlas.width = atlas.height = 32;
     OcclusionOptions options;
     options.rays = 256;
-    const OcclusionMap map = occlusion_maps(scene, {atlas}, options).maps.front();
+    const OcclusionMap map = map_of(scene, atlas, options);
     const double inside = 3.14159 * 0.25 / 4 * 32 * 32;
     EXPECT_NEAR(static_cast<double>(map.sealed), inside, 0.15 * inside);
     EXPECT_GT(*std::ranges::min_element(map.openness.ambient), 0.3f); // and none is black

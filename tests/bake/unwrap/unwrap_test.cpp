@@ -129,11 +129,21 @@ TEST(Unwrap, MakesTexturesAsFineAsAsked) {
     const Unwrapping unwrapping = unwrap(floor, {.per_metre = 32});
     EXPECT_EQ(unwrapping.charts, 1u);
     EXPECT_DOUBLE_EQ(unwrapping.texels_per_metre, 32);
-    EXPECT_GE(unwrapping.size, 64 + 5);
-    EXPECT_LE(unwrapping.size, 80);
+    EXPECT_GE(unwrapping.atlases.at(0).width, 64 + 5);
+    EXPECT_LE(unwrapping.atlases[0].width, 80);
     EXPECT_EQ(unwrapping.primitives[0].source.size(), floor.vertex_arrays[0].size()); // none is split
     EXPECT_THROW(unwrap(floor, {.per_metre = 1e5}), Error);
     EXPECT_THROW(unwrap(crumpled(1), {.size = 8}), Error);
+}
+
+TEST(Unwrap, GivesEachObjectATextureOfItsSize) {
+    Scene scene = test::join(
+        {SceneBuilder().floor({0, 0, 0}, 8).build(), SceneBuilder().floor({0, 1, 0}, 0.25f).build()});
+    scene.primitives[1].node = 1;
+    const Unwrapping unwrapping = unwrap(scene, {.per_metre = 8, .atlases = AtlasMode::each});
+    ASSERT_EQ(unwrapping.atlases.size(), 2u);
+    EXPECT_GE(unwrapping.atlases[0].width, 128);
+    EXPECT_LE(unwrapping.atlases[1].width, 16);
 }
 
 TEST(Unwrap, PacksRectanglesBesideEachOther) {

@@ -82,6 +82,37 @@ TEST(SurfaceTextures, GiveEveryTextureAMaterial) {
     EXPECT_EQ(sampler(b)["wrapT"], 10497);
 }
 
+TEST(SurfaceTextures, AreThoseOfVariantsToo) {
+    GlbFile given = shared_material();
+    given.json["meshes"][1]["primitives"].erase(1);
+    given.json["materials"].push_back({{"name", "other"}, {"occlusionTexture", {{"index", 0}}}});
+    given.json["images"] = {{{"mimeType", "image/png"}, {"bufferView", given.view(some_png())}}};
+    given.json["textures"] = {{{"source", 0}}};
+    given.json["extensionsUsed"] = {"KHR_materials_variants"};
+    given.json["extensions"]["KHR_materials_variants"]["variants"] = {{{"name", "v"}}};
+    for (auto& mesh : given.json["meshes"])
+        mesh["primitives"][0]["extensions"]["KHR_materials_variants"]["mappings"] = {
+            {{"material", 1}, {"variants", {0}}}};
+    Written written(given);
+    const std::size_t replaced =
+        write_surface_textures(written.document, written.scene,
+                               std::vector{SurfaceTexture{{0}, 0, false, some_png(), {}},
+                                           SurfaceTexture{{1}, 0, false, some_png(), {}}});
+    EXPECT_EQ(replaced, 2u);
+    const GlbFile file = written.saved();
+    std::vector<std::size_t> textures;
+    for (const auto& mesh : file.json["meshes"]) {
+        const auto& primitive = mesh["primitives"][0];
+        const auto texture = [&](const auto& choice) {
+            return file.json["materials"][choice["material"].template get<std::size_t>()]["occlusionTexture"]["index"]
+                .template get<std::size_t>();
+        };
+        textures.push_back(texture(primitive));
+        EXPECT_EQ(texture(primitive["extensions"]["KHR_materials_variants"]["mappings"][0]), textures.back());
+    }
+    EXPECT_NE(textures[0], textures[1]);
+}
+
 TEST(SurfaceTextures, StayInTheMaterialThatNobodyElseHas) {
     GlbFile given = shared_material();
     given.json["meshes"][1]["primitives"].erase(1);
@@ -144,7 +175,7 @@ TEST(VertexSplits, TakeAllThatVerticesHaveAlong) {
                           &before = written.scene.vertex_arrays[written.scene.primitives[p].vertices];
         ASSERT_EQ(now.texcoords.size(), 2u); // both sets, since glTF counts without gaps
         EXPECT_EQ(now.texcoords[1], split.uv);
-        EXPECT_EQ(now.texcoords[0], split.uv);
+        EXPECT_EQ(now.texcoords[0], std::vector<glm::vec2>(4, glm::vec2(0)));
         ASSERT_EQ(now.size(), 4u);
         for (std::size_t v = 0; v < 4; ++v)
             EXPECT_EQ(now.positions[v], before.positions[split.source[v]]);

@@ -96,8 +96,8 @@ struct SurfaceTexture {
 
 /// Writes occlusionTexture of materials, instead of those that are there, and bent normals as
 /// extras.prtkit.bentNormalTexture beside it. A material that primitives of several textures have, or others,
-/// gets a copy for each.
-void write_surface_textures(GltfDocument& document, const Scene& scene,
+/// gets a copy for each, and so do those of KHR_materials_variants. Returns how many had an occlusionTexture.
+std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
                             std::span<const SurfaceTexture> textures);
 
 /// Takes all transfer out of the document, and its memory with it.

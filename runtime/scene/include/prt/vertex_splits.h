@@ -25,7 +25,7 @@ int free_texcoord(const Scene& scene);
 
 /// The file with these coordinates as TEXCOORD_`set`, from which `scene` was extracted: every node has a mesh
 /// of its own, and all else that the file says of vertices goes with them. Lower sets that a primitive lacks
-/// are the same, since glTF counts sets without gaps.
+/// are zero, since glTF counts sets without gaps.
 GltfDocument with_texcoords(GltfDocument document, const Scene& scene, std::span<const VertexSplit> splits,
                             int set);
 

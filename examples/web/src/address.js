@@ -1,0 +1,31 @@
+// What the page shows, in its address: a link to it shows the same.
+
+/** Numbers of the address, or undefined. */
+export function vectorOf(asked, name) {
+  return asked.get(name)?.split(",").map(Number);
+}
+
+const rounded = (values) => values.map((value) => Number(value.toFixed(3))).join(",");
+
+/**
+ * The address of what is shown. `names`: of the model and the sky; a file of the user's has none, and is not in a link.
+ */
+export function addressOf(picture, { model, quality, sky, comparing, panel }) {
+  const { camera, controls } = picture;
+  const degrees = (picture.angle * 180) / Math.PI;
+  const settings = {
+    ...(model === undefined ? {} : { model, quality }),
+    ...(sky === undefined ? {} : { sky }),
+    suns: Number(picture.sunsApart),
+    window: picture.window,
+    angle: Number((degrees - 360 * Math.round(degrees / 360)).toFixed(2)),
+    exposure: picture.stops,
+    shine: Number(picture.shine),
+    ...(comparing ? { split: Number(picture.split.toFixed(2)) } : {}),
+    camera: rounded(camera.position.toArray()),
+    target: rounded(controls.target.toArray()),
+    fov: picture.fieldOfView,
+    ...(panel === null ? {} : { panel }),
+  };
+  return `${location.pathname}?${Object.entries(settings).map(([name, value]) => `${name}=${encodeURIComponent(value).replaceAll("%2C", ",")}`).join("&")}`;
+}

@@ -1,0 +1,63 @@
+// Equirectangular textures of HDRLoader and EXRLoader: how they light, and how three shows them.
+
+import {
+  DataTexture,
+  DataUtils,
+  EquirectangularReflectionMapping,
+  HalfFloatType,
+  LinearFilter,
+  RGBAFormat,
+} from "three";
+import { MAX_ORDER, projectLatLong } from "./sphericalHarmonics.js";
+
+/** How the texels of an equirectangular texture are stored. */
+export function texels(texture) {
+  const { width, height, data } = texture.image;
+  const stride = texture.format === RGBAFormat ? 4 : data.length / (width * height);
+  if (stride < 3) throw new Error("the environment has fewer than three channels");
+  const value = texture.type === HalfFloatType ? DataUtils.fromHalfFloat : (v) => v;
+  // HDRLoader stores the top row first and asks for a flip, EXRLoader has it flipped already.
+  return { width, height, data, stride, topFirst: texture.flipY, value };
+}
+
+/**
+ * The lighting of an equirectangular texture, from the directions where three shows it as `scene.background`: +Y on top, the
+ * centre column looks at +X. `center: "z"` is for images of OpenEXR's layout, which `halfFloatSky` turns for three. Load the
+ * texture with setDataType(FloatType): half floats cut off a sun.
+ */
+export function projectEquirectangular(texture, order = MAX_ORDER, { center = "x" } = {}) {
+  return projectLatLong({ ...texels(texture), center }, order);
+}
+
+const LARGEST_HALF = 65504;
+
+/**
+ * A copy of an equirectangular texture for `scene.background` and `scene.environment`, in half floats, where a sun above
+ * 65504 is cut off: three keeps environments in half floats, and one infinite texel turns all its materials black. With
+ * `center: "z"` its columns are moved by a quarter of the width, so that three shows at +Z what was in the middle.
+ */
+export function halfFloatSky(texture, { center = "x" } = {}) {
+  const { width, height, data, stride, value } = texels(texture);
+  const moved = center === "z" ? width / 4 : 0;
+  const [whole, part] = [Math.floor(moved), moved % 1];
+  const halves = new Uint16Array(4 * width * height);
+  const finite = (v) => Math.min(Math.max(v, 0), LARGEST_HALF);
+  for (let y = 0; y < height; ++y)
+    for (let x = 0; x < width; ++x) {
+      const at = 4 * (y * width + x);
+      const right = (y * width + ((x - whole + width) % width)) * stride;
+      const left = (y * width + ((x - whole - 1 + width) % width)) * stride;
+      for (let c = 0; c < 3; ++c) {
+        // Widths that are no multiple of four: between two columns.
+        const here = finite(value(data[right + c]));
+        halves[at + c] = DataUtils.toHalfFloat(part === 0 ? here : (1 - part) * here + part * finite(value(data[left + c])));
+      }
+      halves[at + 3] = DataUtils.toHalfFloat(1);
+    }
+  const sky = new DataTexture(halves, width, height, RGBAFormat, HalfFloatType, EquirectangularReflectionMapping);
+  sky.minFilter = sky.magFilter = LinearFilter;
+  sky.colorSpace = texture.colorSpace;
+  sky.flipY = texture.flipY;
+  sky.needsUpdate = true;
+  return sky;
+}

@@ -1,0 +1,37 @@
+// Directional lights of three, each shaded as the material has it where it arrives; diffusely through thin sheets
+// (docs/math.md, eq. 38). Included into the fragment shader of three's materials, behind its own lights; prtFace: the
+// unit normal of the triangle, on the side that shows.
+#if defined(PRT_SUNS) && NUM_DIR_LIGHTS > 0
+
+if (prtSunsApart) {
+  vec3 worldFace = prtFace * mat3(viewMatrix);
+  vec3 prtDirect;
+  float prtCosine, towardsSun;
+#pragma unroll_loop_start
+  for (int i = 0; i < NUM_DIR_LIGHTS; i++) {
+
+    directLight.direction = directionalLights[i].direction;
+    directLight.color = directionalLights[i].color;
+    directLight.visible = true;
+    prtCosine = dot(geometryNormal, directLight.direction);
+    towardsSun = sign(dot(prtFace, directLight.direction));
+    // On a side that the triangle turns away from the sun it shadows itself.
+    if (prtCosine * towardsSun > 0.0 && (prtCosine > 0.0 || prtTransmission.a > 0.0)) {
+#if defined(USE_SHADOWMAP) && (UNROLLED_LOOP_INDEX < NUM_DIR_LIGHT_SHADOWS)
+      if (receiveShadow)
+        directLight.color *= PRT_VISIBILITY(UNROLLED_LOOP_INDEX);
+#endif
+      prtDirect = reflectedLight.directDiffuse;
+      if (prtCosine > 0.0)
+        RE_Direct(directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material,
+                  reflectedLight);
+      reflectedLight.directDiffuse = mix(reflectedLight.directDiffuse, prtDirect, prtTransmission.a);
+      if (prtCosine < 0.0)
+        reflectedLight.directDiffuse -=
+            directLight.color * prtTransmission.rgb * (prtTransmission.a * RECIPROCAL_PI * prtCosine);
+    }
+  }
+#pragma unroll_loop_end
+}
+
+#endif

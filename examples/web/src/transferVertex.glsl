@@ -1,0 +1,43 @@
+// From the attributes of a mesh to the frame of the bake, in which guides are; the place is seen from their origin.
+// Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl. Attributes and matrices without
+// prt are three's.
+#if !defined(PRT_GUIDE_NORMAL) && !defined(PRT_GUIDE_POSITION)
+vec3 prtBakedPlace() {
+  return vec3(0.0);
+}
+vec3 prtBakedNormal() {
+  return vec3(0.0);
+}
+#elif defined(PRT_BAKED_ATTRIBUTES)
+in vec3 prt_place, prt_normal;
+vec3 prtBakedPlace() {
+  return prt_place;
+}
+vec3 prtBakedNormal() {
+  return prt_normal;
+}
+#else
+uniform mat4 prtToBake;
+uniform mat3 prtNormalToBake;
+vec3 prtBakedPlace() {
+  return (prtToBake * vec4(position, 1.0)).xyz;
+}
+vec3 prtBakedNormal() {
+  vec3 turned = prtNormalToBake * normal;
+  float squared = dot(turned, turned);
+  return squared > 0.0 ? turned * inversesqrt(squared) : vec3(0.0);
+}
+#endif
+
+out vec3 prtRadiance;       // of a receiver of albedo 1
+centroid out vec3 prtPlace; // in the world
+
+// `transformed`: the vertex as its skin and its morph targets have moved it.
+void prtLight(vec3 transformed) {
+  prtRadiance = prt_exit_radiance(prtBakedPlace(), prtBakedNormal());
+  vec4 place = vec4(transformed, 1.0);
+#ifdef USE_INSTANCING
+  place = instanceMatrix * place;
+#endif
+  prtPlace = (modelMatrix * place).xyz;
+}

@@ -1,0 +1,198 @@
+// What turns and dims the light by itself, and where light may come from.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import {
+  Color,
+  DataTexture,
+  DataUtils,
+  Euler,
+  FloatType,
+  HalfFloatType,
+  LightProbe,
+  Object3D,
+  Quaternion,
+  RGBAFormat,
+  Scene,
+  ShaderChunk,
+  SphericalHarmonics3,
+  Texture,
+  Vector3,
+} from "three";
+import { lightFromProbe, PrtkitModel, projectEquirectangular, projectInWorker, SunLights } from "../src/PrtkitLoader.js";
+import { halfFloat } from "../src/halfFloat.js";
+import { evaluateSh, ShLight } from "../src/sphericalHarmonics.js";
+import { environmentTurn, turnedBy } from "../src/turns.js";
+
+const near = (actual, expected, tolerance, what = "") =>
+  assert.ok(Math.abs(actual - expected) <= tolerance, `${what} ${actual} is not within ${tolerance} of ${expected}`);
+const allNear = (actual, expected, tolerance, what) => expected.forEach((value, i) => near(actual[i], value, tolerance, `${what}, ${i}:`));
+
+/** A model of one cluster without components whose mean is that of an open receiver in a light of order 2 that looks at +X. */
+function modelTowardsX(root) {
+  const values = [0.25, 0, 0, -0.3];
+  const extension = { version: 6, order: 2, parts: [{ kind: "whole", channels: 1 }], components: [0], bases: { bufferView: 0 } };
+  return new PrtkitModel(extension, () => new Uint8Array(new Float32Array(values).buffer), root);
+}
+
+const redOf = (model) => model.constantsTexture.image.data[0];
+/** Of white light from one direction d: 0.25 Y_0 + 0.3 * 0.4886 x. */
+const expectedRed = (x) => 0.25 * 0.282094791774 + 0.3 * 0.488602511903 * x;
+
+/** Light from one direction, in all three channels. */
+function lightFrom(d, order = 2) {
+  const basis = evaluateSh(order, ...d);
+  return ShLight.fromCoefficients(order, Float64Array.from({ length: 3 * order * order }, (_, i) => basis[Math.floor(i / 3)]));
+}
+
+test("a turn of the environment about +Y is the angle of setLight, in all releases of three", () => {
+  for (const revision of [180, 187]) {
+    const turned = turnedBy(environmentTurn(new Euler(0, Math.PI / 2, 0), revision), [0, 0, 1]);
+    allNear(turned, [1, 0, 0], 1e-12, revision);
+  }
+});
+
+test("three looks up environments as is counted on", () => {
+  // The lookup is a matrix times the direction; what the matrix is has changed with release 184, and is seen in e2e.mjs.
+  assert.match(ShaderChunk.envmap_physical_pars_fragment, /envMapRotation \* worldNormal/);
+  const euler = new Euler(0.4, -0.7, 1.1);
+  const d = [0.36, 0.48, 0.8];
+  const later = turnedBy(environmentTurn(euler, 187), d);
+  allNear(new Vector3(...d).applyEuler(euler).toArray(), later, 1e-12, "release 187");
+  const lookup = new Vector3(...turnedBy(environmentTurn(euler, 180), d)).applyEuler(new Euler(-0.4, 0.7, -1.1));
+  allNear(lookup.toArray(), d, 1e-12, "release 180");
+});
+
+test("a sky turns and dims with its scene, by itself", () => {
+  const root = new Object3D();
+  const model = modelTowardsX(root);
+  const scene = new Scene();
+  model.setSky(lightFrom([0, 0, 1]), scene);
+  near(redOf(model), expectedRed(0), 1e-6);
+  scene.backgroundRotation.y = Math.PI / 2;
+  model.beforeRender();
+  near(redOf(model), expectedRed(1), 1e-6, "turned");
+  scene.environment = new Texture(); // which has a rotation of its own
+  model.beforeRender();
+  near(redOf(model), expectedRed(0), 1e-6, "environment");
+  scene.environmentRotation.y = -Math.PI / 2;
+  scene.environmentIntensity = 3;
+  model.beforeRender();
+  near(redOf(model), 3 * expectedRed(-1), 1e-6, "dimmed");
+  const { version } = model.constantsTexture;
+  model.beforeRender();
+  assert.equal(model.constantsTexture.version, version, "nothing has changed, and it was formed again");
+  model.setLight(lightFrom([1, 0, 0])); // ends it
+  scene.environmentRotation.y = 1;
+  model.beforeRender();
+  near(redOf(model), expectedRed(1), 1e-6, "by hand");
+});
+
+test("a model that is turned sees the sky turned back", () => {
+  const root = new Object3D();
+  const model = modelTowardsX(root);
+  model.setSky(lightFrom([0, 1, 0]), new Scene());
+  near(redOf(model), expectedRed(0), 1e-6);
+  root.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(1, 0, 0), new Vector3(0, 1, 0)));
+  root.scale.set(2, 5, 3);
+  root.position.set(7, 8, 9);
+  root.updateMatrixWorld();
+  model.beforeRender();
+  near(redOf(model), expectedRed(1), 1e-6);
+});
+
+test("suns follow the scene as the light does", () => {
+  const scene = new Scene();
+  scene.environment = new Texture();
+  const towards = [0.48, 0.6, -0.64];
+  const suns = new SunLights([{ towards, irradiance: [3, 2, 1], halfAngle: 0 }]).follow(scene);
+  scene.add(suns);
+  scene.environmentRotation.set(0.3, 1, -0.5);
+  scene.environmentIntensity = 0.5;
+  scene.updateMatrixWorld();
+  const [light] = suns.lights;
+  const direction = light.position.clone().sub(light.target.position).normalize().toArray();
+  allNear(direction, turnedBy(environmentTurn(scene.environmentRotation), towards), 1e-9, "direction");
+  near(light.intensity, 1.5, 1e-12);
+});
+
+test("suns by the keys of a light set follow, too", () => {
+  const key = { kind: "lamp", channels: 1, name: "key", towards: [1, 0, 0] };
+  const extension = { version: 6, order: 1, parts: [{ kind: "direct", channels: 1 }, key], components: [0], bases: { bufferView: 0 } };
+  const model = new PrtkitModel(extension, () => new Uint8Array(new Float32Array([0, 5]).buffer), new Object3D());
+  const scene = new Scene();
+  scene.backgroundIntensity = 2;
+  model.setSky(lightFrom([0, 1, 0], 1), scene, { keyed: [{ towards: [0, 0, 1], irradiance: [1, 2, 3], halfAngle: 0 }] });
+  allNear(model.constantsTexture.image.data, [10, 20, 30], 1e-5, "keys");
+  assert.throws(() => modelTowardsX(new Object3D()).setSky(lightFrom([0, 1, 0]), scene, { keyed: [{}] }), RangeError);
+});
+
+test("a light probe lights by the radiance that three has in it", () => {
+  const probe = new LightProbe(new SphericalHarmonics3(), 2);
+  probe.sh.coefficients.forEach((c, i) => c.set(Math.sin(i + 1), Math.cos(i), 0.1 * i));
+  const light = lightFromProbe(probe);
+  assert.equal(light.order, 10);
+  const coefficients = light.coefficients();
+  for (const d of [[0.36, -0.48, 0.8], [-0.6, 0.8, 0], [0, 0, -1]]) {
+    const radiance = probe.sh.getAt(new Vector3(...d), new Vector3()).toArray(); // three's own evaluation
+    const basis = evaluateSh(10, ...d);
+    for (let c = 0; c < 3; ++c)
+      near(basis.reduce((sum, y, i) => sum + y * coefficients[3 * i + c], 0), 2 * radiance[c], 1e-5, `${d}`);
+  }
+});
+
+test("a probe of one colour is a sky of that colour", () => {
+  const probe = new LightProbe();
+  probe.sh.coefficients[0].set(1, 2, 3).multiplyScalar(Math.sqrt(4 * Math.PI)); // radiance 1, 2, 3
+  const light = lightFromProbe(probe, 1);
+  near(light.meanLuminance(), new Color(1, 2, 3).toArray().reduce((sum, v, c) => sum + v * [0.2126, 0.7152, 0.0722][c], 0), 1e-9);
+});
+
+test("half floats of a worker are those of three", () => {
+  for (let bits = 0; bits < 65536; bits += 7)
+    if (((bits >> 10) & 31) !== 31) assert.equal(halfFloat(bits), DataUtils.fromHalfFloat(bits), `${bits}`);
+  assert.equal(halfFloat(0xfc00), -Infinity);
+  assert.ok(Number.isNaN(halfFloat(0x7e00)));
+});
+
+/** A Worker that runs src/projectionWorker.js here, with messages that are copied as those of a browser. */
+async function withWorker(body) {
+  await import("../src/projectionWorker.js");
+  const { onmessage } = globalThis;
+  const seen = [];
+  globalThis.Worker = class {
+    constructor(url, options) {
+      seen.push(url.pathname, options.type);
+    }
+    postMessage(message) {
+      globalThis.postMessage = (answer) => this.onmessage({ data: structuredClone(answer) });
+      onmessage({ data: structuredClone(message) });
+    }
+    terminate() {
+      seen.push("terminated");
+    }
+  };
+  try {
+    await body(seen);
+  } finally {
+    delete globalThis.Worker;
+    delete globalThis.postMessage;
+    delete globalThis.onmessage;
+  }
+}
+
+test("a worker projects as the caller does, where there is one", async () => {
+  const values = [1, 2, 3, 1, 5, 4, 3, 1];
+  const textures = [
+    new DataTexture(new Float32Array(values), 2, 1, RGBAFormat, FloatType),
+    new DataTexture(new Uint16Array(values.map(DataUtils.toHalfFloat)), 2, 1, RGBAFormat, HalfFloatType),
+  ];
+  const expected = projectEquirectangular(textures[0], 3, { center: "z" }).polar;
+  allNear((await projectInWorker(textures[0], 3, { center: "z" })).polar, [...expected], 1e-12, "without");
+  await withWorker(async (seen) => {
+    for (const texture of textures)
+      allNear((await projectInWorker(texture, 3, { center: "z" })).polar, [...expected], 1e-12, "with");
+    assert.ok(seen[0].endsWith("/projectionWorker.js"));
+    assert.deepEqual(seen.slice(1, 3), ["module", "terminated"]);
+    await assert.rejects(projectInWorker(textures[0], 11), RangeError);
+  });
+});
