@@ -11,8 +11,8 @@ float prt_bayer_threshold(uvec2 pixel) {
     return (float(value) + 0.5) / 64.0;
 }
 
-// The level, 0 to `levels` (31.0 of five bits), of a value in 0..1; divided by `levels` it is the value again. `threshold`:
-// prt_bayer_threshold(uvec2(gl_FragCoord.xy)), or 0.5 to round.
+// The level, 0 to `levels` (31.0 of five bits), of a value in 0..1; divided by `levels` it is the value again.
+// `threshold`: prt_bayer_threshold(uvec2(gl_FragCoord.xy)), or 0.5 to round.
 float prt_dithered_level(float value, float levels, float threshold) {
     return clamp(floor(value * levels + threshold), 0.0, levels);
 }

@@ -19,7 +19,9 @@ Openness openness_of(const Transfer& transfer, std::span<const glm::vec3> normal
         openness.ambient.push_back(std::clamp(t[0] / static_cast<float>(kY00), 0.0f, 1.0f));
         const glm::vec3 towards(-t[3], -t[1], t[2]); // Y1-1 is -y, Y10 z, Y11 -x
         const float length = glm::length(towards);
-        openness.bent_normals.push_back(t[0] > 0 && length > 0 ? towards / length : normals.empty() ? kUp : normals[p]);
+        openness.bent_normals.push_back(t[0] > 0 && length > 0 ? towards / length
+                                        : normals.empty()      ? kUp
+                                                               : normals[p]);
     }
     return openness;
 }

@@ -19,19 +19,26 @@
 namespace prt::cli {
 namespace {
 
+/// Of textures alone.
+struct TextureArguments {
+    TexelOptions texels;
+    std::optional<int> uv_set;
+    std::optional<AtlasMode> atlas;
+    bool unwrap = false;
+    Path casters;
+    std::optional<double> reach; ///< metres
+};
+
 struct AoArguments {
-    Path scene, output, json, casters;
-    std::optional<double> reach;        ///< metres
+    Path scene, output, json;
     std::vector<std::string> no_shadow; ///< names of materials
     std::string attribute = "COLOR_0";
-    std::optional<int> uv_set; ///< for textures alone, as what follows
-    std::optional<AtlasMode> atlas;
-    TexelOptions texels;
+    TextureArguments textures;
     OcclusionOptions options;
-    bool bent_normals = false, unwrap = false;
+    bool bent_normals = false;
     GltfOptions reading;
 
-    bool in_textures() const { return texels.size > 0 || texels.per_metre > 0; }
+    bool in_textures() const { return textures.texels.size > 0 || textures.texels.per_metre > 0; }
 };
 
 constexpr const char* kBentNormal = "_BENT_NORMAL"; ///< attribute
@@ -135,12 +142,12 @@ struct Finer {
 
 Finer load_finer(const AoArguments& a, const Scene& scene) {
     Finer finer;
-    if (a.casters.empty())
+    if (a.textures.casters.empty())
         return finer;
-    finer.scene = extract_scene(load_gltf(a.casters, a.reading));
-    print_notices(a.casters.string(), finer.scene->notices);
+    finer.scene = extract_scene(load_gltf(a.textures.casters, a.reading));
+    print_notices(a.textures.casters.string(), finer.scene->notices);
     const Bounds box = bounds(scene);
-    finer.reach = a.reach.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
+    finer.reach = a.textures.reach.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
     return finer;
 }
 
@@ -201,7 +208,7 @@ struct Room {
 
 /// Gives the scene coordinates of its own.
 Room unwrapped(const AoArguments& a, GltfDocument& document, Scene& scene) {
-    Unwrapping unwrapping = unwrap(scene, a.texels);
+    Unwrapping unwrapping = unwrap(scene, a.textures.texels);
     const int set = free_texcoord(scene);
     document = with_texcoords(std::move(document), scene, unwrapping.primitives, set);
     scene = extract_scene(document);
@@ -218,12 +225,12 @@ Room unwrapped(const AoArguments& a, GltfDocument& document, Scene& scene) {
 
 /// With --unwrap coordinates that have a place for everything are kept.
 Room make_room(const AoArguments& a, GltfDocument& document, Scene& scene) {
-    if (!a.unwrap)
-        return {plan_atlases(scene, a.texels)};
+    if (!a.textures.unwrap)
+        return {plan_atlases(scene, a.textures.texels)};
     try {
-        Room room{plan_atlases(scene, a.texels)};
+        Room room{plan_atlases(scene, a.textures.texels)};
         print_notices(a.scene.string(),
-                      {fmt::format("has TEXCOORD_{} already, which is kept", a.texels.uv_set)});
+                      {fmt::format("has TEXCOORD_{} already, which is kept", a.textures.texels.uv_set)});
         return room;
     } catch (const Error&) { // that is why
         return unwrapped(a, document, scene);
@@ -237,10 +244,10 @@ void check_arguments(const AoArguments& a) {
         throw Error("--attribute: _BENT_NORMAL is where --bent-normals go");
     if (a.in_textures())
         return;
-    for (const auto& [given, option] : {std::pair(a.unwrap, "--unwrap"),
-                                        {a.uv_set.has_value(), "--uv"},
-                                        {a.atlas.has_value(), "--atlas"},
-                                        {!a.casters.empty(), "--casters"}})
+    for (const auto& [given, option] : {std::pair(a.textures.unwrap, "--unwrap"),
+                                        {a.textures.uv_set.has_value(), "--uv"},
+                                        {a.textures.atlas.has_value(), "--atlas"},
+                                        {!a.textures.casters.empty(), "--casters"}})
         if (given)
             throw Error(std::string(option) + " is for textures: give --size or --texels");
 }
@@ -248,10 +255,10 @@ void check_arguments(const AoArguments& a) {
 void run(AoArguments a, Session& session) {
     choose_gpu(a.options.tracer);
     check_arguments(a);
-    a.texels.uv_set = a.uv_set.value_or(a.texels.uv_set);
-    a.texels.atlases = a.atlas.value_or(a.texels.atlases);
+    a.textures.texels.uv_set = a.textures.uv_set.value_or(a.textures.texels.uv_set);
+    a.textures.texels.atlases = a.textures.atlas.value_or(a.textures.texels.atlases);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
-                                      {a.scene, a.casters});
+                                      {a.scene, a.textures.casters});
     if (a.options.repairs.bad_textures == BadTextures::ignore)
         a.reading.missing_images = MissingImages::ignore;
     const Stopwatch watch;
@@ -282,21 +289,23 @@ void add_places(CLI::App* command, AoArguments& a) {
     CLI::Option* density =
         command
             ->add_option_function<std::string>(
-                "--texels", [&a](const std::string& text) { a.texels.per_metre = parse_density(text); },
+                "--texels",
+                [&a](const std::string& text) { a.textures.texels.per_metre = parse_density(text); },
                 "into textures instead of vertices, with so many texels a metre in the mean")
             ->type_name("N/m");
-    CLI::Option* size =
-        command->add_option("--size", a.texels.size, "into textures with so many texels along each side")
-            ->check(CLI::Range(1, kMostTexels))
-            ->excludes(density);
-    command->add_option("--uv", a.uv_set, "coordinates that textures use: TEXCOORD_n")
+    CLI::Option* size = command
+                            ->add_option("--size", a.textures.texels.size,
+                                         "into textures with so many texels along each side")
+                            ->check(CLI::Range(1, kMostTexels))
+                            ->excludes(density);
+    command->add_option("--uv", a.textures.uv_set, "coordinates that textures use: TEXCOORD_n")
         ->default_str("1")
         ->check(CLI::Range(0, 7));
     command->add_flag(
-        "--unwrap", a.unwrap,
+        "--unwrap", a.textures.unwrap,
         "where these coordinates have no place for every surface: cut the scene into charts, and write them "
         "as a set of their own");
-    choice(command, "--atlas", a.atlas, kAtlasModes,
+    choice(command, "--atlas", a.textures.atlas, kAtlasModes,
            "a texture for all, or for each object; auto: for all where their charts do not overlap", "auto");
     command
         ->add_option(
@@ -341,14 +350,14 @@ void add_ao(CLI::App& app, Session& session) {
     CLI::Option* casters =
         command
             ->add_option(
-                "--casters", a.casters,
+                "--casters", a.textures.casters,
                 "a finer model of the same, that blocks in the place of the scene: texels have what arrives "
                 "at its surface")
             ->check(named)
             ->type_name("FILE");
     command
         ->add_option(
-            "--reach", a.reach,
+            "--reach", a.textures.reach,
             "how far the finer surface may lie off, metres; otherwise a fiftieth of the scene's extent")
         ->check(above_zero())
         ->needs(casters);

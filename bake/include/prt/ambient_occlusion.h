@@ -28,8 +28,8 @@ struct Openness {
     std::vector<glm::vec3> bent_normals; ///< unit, where that light comes from on average
 };
 
-/// What transfer of order 2 and one channel says. Where no light comes in, `normals` stand for where from, or +Y
-/// where there are none.
+/// What transfer of order 2 and one channel says. Where no light comes in, `normals` stand for where from, or
+/// +Y where there are none.
 Openness openness_of(const Transfer& transfer, std::span<const glm::vec3> normals = {});
 
 struct OcclusionResult {

@@ -114,7 +114,7 @@ private:
 } // namespace
 
 std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
-                            std::span<const SurfaceTexture> textures) {
+                                   std::span<const SurfaceTexture> textures) {
     std::size_t replaced = 0;
     named(document, [&](GltfContents& contents) {
         Json& json = contents.json;

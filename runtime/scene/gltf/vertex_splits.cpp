@@ -30,7 +30,8 @@ public:
                                                              {"type", "VEC2"}});
         primitive["attributes"]["TEXCOORD_" + std::to_string(set)] = accessor;
         for (int s = 0; s < set; ++s)
-            if (const std::string name = "TEXCOORD_" + std::to_string(s); !primitive["attributes"].contains(name))
+            if (const std::string name = "TEXCOORD_" + std::to_string(s);
+                !primitive["attributes"].contains(name))
                 primitive["attributes"][name] = add_zeros(split.uv.size());
         std::vector<std::uint32_t> indices;
         for (const glm::uvec3& t : split.triangles)

@@ -120,7 +120,8 @@ TEST(Texels, WithoutAPlaceOfTheirOwnAreRefused) {
         refused(floor_at({0.5f, 0.5f}, 0), options, "is a line or a point");
     // Two layers of triangles far smaller than a texel.
     const Scene fine = floor_at({0, 0}, 1, 200);
-    refused(test::join({fine, fine}), {.size = 8, .uv_set = 0, .atlases = AtlasMode::one}, "lies in two of them");
+    refused(test::join({fine, fine}), {.size = 8, .uv_set = 0, .atlases = AtlasMode::one},
+            "lies in two of them");
     refused(good, {.per_metre = 1e5, .uv_set = 0}, "more than 8192");
     refused(good, {.per_metre = 0, .uv_set = 0}, "finite and above 0");
     Scene twice = test::join({good, good});

@@ -104,7 +104,9 @@ TEST(SurfaceTextures, AreThoseOfVariantsToo) {
     for (const auto& mesh : file.json["meshes"]) {
         const auto& primitive = mesh["primitives"][0];
         const auto texture = [&](const auto& choice) {
-            return file.json["materials"][choice["material"].template get<std::size_t>()]["occlusionTexture"]["index"]
+            return file
+                .json["materials"][choice["material"].template get<std::size_t>()]["occlusionTexture"]
+                     ["index"]
                 .template get<std::size_t>();
         };
         textures.push_back(texture(primitive));

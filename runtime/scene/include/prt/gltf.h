@@ -98,7 +98,7 @@ struct SurfaceTexture {
 /// extras.prtkit.bentNormalTexture beside it. A material that primitives of several textures have, or others,
 /// gets a copy for each, and so do those of KHR_materials_variants. Returns how many had an occlusionTexture.
 std::size_t write_surface_textures(GltfDocument& document, const Scene& scene,
-                            std::span<const SurfaceTexture> textures);
+                                   std::span<const SurfaceTexture> textures);
 
 /// Takes all transfer out of the document, and its memory with it.
 void discard_transfer(GltfDocument& document);
