@@ -20,9 +20,9 @@ namespace {
 
 constexpr std::size_t kStride = 4; ///< of transfer of order 2
 
-/// The largest jump of the first coefficient across seams.
-double largest_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::span<const float> vectors) {
-    double largest = 0;
+/// Jumps of the first coefficient across seams, root mean square.
+double rms_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::span<const float> vectors) {
+    double sum = 0;
     for (const SeamPoint& point : seams) {
         double jump = 0;
         for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
@@ -30,9 +30,9 @@ double largest_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::s
             for (std::size_t i = 0; i < 4; ++i)
                 jump += sign * filter.weights[i] * static_cast<double>(vectors[filter.texels[i] * kStride]);
         }
-        largest = std::max(largest, std::abs(jump));
+        sum += jump * jump;
     }
-    return largest / kY00;
+    return seams.empty() ? 0 : std::sqrt(sum / static_cast<double>(seams.size())) / kY00;
 }
 
 /// A texture that does not fit would be killed at its end. Measured: 70 bytes a texel.
@@ -53,9 +53,9 @@ OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
     map.sealed = light.measured - lit;
     fill_gutters(atlas, light.lit, light.vectors, kStride);
     const std::vector<SeamPoint> seams = seam_points(scene, atlas);
-    map.seam_before = largest_jump(atlas, seams, light.vectors);
+    map.seam_before = rms_jump(atlas, seams, light.vectors);
     stitch_seams(atlas, seams, light.lit, light.vectors, kStride);
-    map.seam = largest_jump(atlas, seams, light.vectors);
+    map.seam = rms_jump(atlas, seams, light.vectors);
     Transfer transfer = zero_transfer(2, 1, 0);
     transfer.vectors = std::move(light.vectors);
     map.openness = openness_of(transfer);

@@ -18,12 +18,10 @@
 namespace prt {
 namespace {
 
-/// What a squared jump costs at most and at least, against squared changes of texels that were measured, and
-/// of others.
-constexpr double kJump = 1e4, kLeastJump = 0.1, kFree = 0.01;
-/// How much of the jumps texels may change by, root mean squares: each side of a seam goes half of the way.
-/// Where charts have hardly a texel, seams that close would flatten them.
-constexpr double kMostChange = 0.75;
+/// What a squared jump costs against squared changes of texels that were measured, and of others.
+constexpr double kJump = 1e4, kFree = 0.01;
+/// A chart of fewer texels is mostly seam: to close it would flatten what it shows.
+constexpr double kTexelsOfChart = 64;
 
 using SeamCorner = std::array<float, 6>; ///< position and normal
 
@@ -63,10 +61,41 @@ std::map<std::pair<SeamCorner, SeamCorner>, std::vector<SeamSide>> sides_of_edge
     return edges;
 }
 
+/// How many measured texels hang together with each by their sides; 0: not measured.
+std::vector<std::uint32_t> chart_sizes(const Atlas& atlas, const std::vector<bool>& measured) {
+    std::vector<std::uint32_t> sizes(atlas.texels());
+    std::vector<std::uint32_t> chart;
+    const auto width = static_cast<std::uint32_t>(atlas.width);
+    std::vector<bool> seen(atlas.texels());
+    for (std::uint32_t seed = 0; seed < atlas.texels(); ++seed) {
+        if (!measured[seed] || seen[seed])
+            continue;
+        chart.assign(1, seed);
+        seen[seed] = true;
+        for (std::size_t i = 0; i < chart.size(); ++i) {
+            const std::uint32_t t = chart[i];
+            const auto visit = [&](bool inside, std::uint32_t next) {
+                if (inside && measured[next] && !seen[next]) {
+                    seen[next] = true;
+                    chart.push_back(next);
+                }
+            };
+            visit(t % width > 0, t - 1);
+            visit(t % width + 1 < width, t + 1);
+            visit(t >= width, t - width);
+            visit(t + width < atlas.texels(), t + width);
+        }
+        for (const std::uint32_t t : chart)
+            sizes[t] = static_cast<std::uint32_t>(chart.size());
+    }
+    return sizes;
+}
+
 /// The unknowns of a least-squares problem: texels that filters read at seams.
 class SeamProblem {
 public:
     SeamProblem(const Atlas& atlas, std::span<const SeamPoint> seams, const std::vector<bool>& measured) {
+        const std::vector<std::uint32_t> sizes = chart_sizes(atlas, measured);
         std::map<std::uint32_t, int> number;
         std::vector<Eigen::Triplet<double>> entries;
         const auto unknown = [&](std::uint32_t texel) {
@@ -77,56 +106,51 @@ public:
         };
         int row = 0;
         for (const SeamPoint& point : seams) {
-            for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
-                const Bilinear filter = bilinear_at(atlas, place);
+            const Bilinear here = bilinear_at(atlas, point.here), there = bilinear_at(atlas, point.there);
+            const double price = std::min(price_of(here, sizes), price_of(there, sizes));
+            for (const auto& [filter, sign] : {std::pair(&here, 1.0), std::pair(&there, -1.0)})
                 for (std::size_t i = 0; i < 4; ++i)
-                    entries.emplace_back(row, unknown(filter.texels[i]), sign * filter.weights[i]);
-            }
+                    entries.emplace_back(row, unknown(filter->texels[i]),
+                                         std::sqrt(price) * sign * filter->weights[i]);
             ++row;
         }
         const auto size = static_cast<int>(texels_.size());
-        jumps_.resize(row, size);
-        jumps_.setFromTriplets(entries.begin(), entries.end());
+        Eigen::SparseMatrix<double> jumps(row, size);
+        jumps.setFromTriplets(entries.begin(), entries.end());
         weights_.resize(size);
         for (int i = 0; i < size; ++i)
             weights_[i] = measured[texels_[static_cast<std::size_t>(i)]] ? 1 : kFree;
-        squares_ = jumps_.transpose() * jumps_;
+        Eigen::SparseMatrix<double> matrix = jumps.transpose() * jumps;
+        for (int i = 0; i < size; ++i)
+            matrix.coeffRef(i, i) += weights_[i];
+        solver_.compute(matrix);
     }
 
-    /// Closes seams as far as texels may change for it.
-    void solve(std::span<float> values, std::size_t stride) {
-        Eigen::MatrixXd before(weights_.size(), static_cast<int>(stride));
-        for (std::size_t i = 0; i < texels_.size(); ++i)
-            for (std::size_t k = 0; k < stride; ++k)
-                before(static_cast<int>(i), static_cast<int>(k)) =
-                    static_cast<double>(values[texels_[i] * stride + k]);
-        const double jump = rms(jumps_ * before);
-        Eigen::MatrixXd after = before;
-        for (double price = kJump; price > kLeastJump; price /= 10) {
-            Eigen::SparseMatrix<double> matrix = price * squares_;
-            for (int i = 0; i < weights_.size(); ++i)
-                matrix.coeffRef(i, i) += weights_[i];
-            solver_.compute(matrix);
-            const Eigen::MatrixXd solved = solver_.solve(weights_.asDiagonal() * before);
-            const Eigen::VectorXd measured = (weights_.array() == 1).cast<double>();
-            if (rms(measured.asDiagonal() * (solved - before)) <= kMostChange * jump) {
-                after = solved;
-                break;
-            }
+    void solve(std::span<float> values, std::size_t stride) const {
+        for (std::size_t k = 0; k < stride; ++k) {
+            Eigen::VectorXd b(weights_.size());
+            for (std::size_t i = 0; i < texels_.size(); ++i)
+                b[static_cast<int>(i)] =
+                    weights_[static_cast<int>(i)] * static_cast<double>(values[texels_[i] * stride + k]);
+            const Eigen::VectorXd x = solver_.solve(b);
+            for (std::size_t i = 0; i < texels_.size(); ++i)
+                values[texels_[i] * stride + k] = static_cast<float>(x[static_cast<int>(i)]);
         }
-        for (std::size_t i = 0; i < texels_.size(); ++i)
-            for (std::size_t k = 0; k < stride; ++k)
-                values[texels_[i] * stride + k] =
-                    static_cast<float>(after(static_cast<int>(i), static_cast<int>(k)));
     }
 
 private:
-    static double rms(const Eigen::MatrixXd& m) {
-        return m.rows() > 0 ? m.norm() / std::sqrt(static_cast<double>(m.rows())) : 0;
+    /// By the chart that a filter reads most of.
+    static double price_of(const Bilinear& filter, std::span<const std::uint32_t> sizes) {
+        double texels = 0, most = -1;
+        for (std::size_t i = 0; i < 4; ++i)
+            if (const std::uint32_t size = sizes[filter.texels[i]]; size > 0 && filter.weights[i] > most) {
+                most = filter.weights[i];
+                texels = size;
+            }
+        return kJump * std::pow(std::min(1.0, texels / kTexelsOfChart), 8);
     }
 
     std::vector<std::uint32_t> texels_; ///< [unknowns]
-    Eigen::SparseMatrix<double> jumps_, squares_;
     Eigen::VectorXd weights_;
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
 };

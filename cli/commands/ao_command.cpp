@@ -169,8 +169,8 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
                         {"primitives", map.atlas.primitives.size()},
                         {"texels_measured", map.measured},
                         {"texels_sealed", map.sealed},
-                        {"seam_before", map.seam_before},
-                        {"seam", map.seam}});
+                        {"seam_before_rms", map.seam_before},
+                        {"seam_rms", map.seam}});
         lit += map.measured - map.sealed;
         measured += map.measured;
     };
@@ -191,11 +191,10 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
         "{output}: occlusion of {texels} texels in {textures} textures, up to {rays_per_texel} rays each, on "
         "{device}; {rays_per_second:.2fM} million rays/s"};
     for (std::size_t i = 0; i < maps.size(); ++i)
-        report.sentences.push_back(
-            fmt::format("texture {0}: {{maps/{0}/width}} x {{maps/{0}/height}}, jumps across "
-                        "seams of {{maps/{0}/seam_before:.3f}} at most are now "
-                        "{{maps/{0}/seam:.4f}}",
-                        i));
+        report.sentences.push_back(fmt::format(
+            "texture {0}: {{maps/{0}/width}} x {{maps/{0}/height}}, jumps across seams of "
+            "{{maps/{0}/seam_before_rms:.3f}} are now {{maps/{0}/seam_rms:.4f}}, root mean square",
+            i));
     add_notices(report, result.notices);
     return report;
 }

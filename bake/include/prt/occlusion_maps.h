@@ -17,7 +17,7 @@ struct OcclusionMap {
     Openness openness;                ///< [texels]; between charts that of texels beside them
     std::size_t measured = 0;         ///< texels that lie on surfaces
     std::size_t sealed = 0;           ///< of those: inside geometry, as between charts
-    double seam_before = 0, seam = 0; ///< the largest jump of `ambient` across seams, before and after
+    double seam_before = 0, seam = 0; ///< jumps of `ambient` across seams, root mean square, before and after
 };
 
 struct OcclusionMapsStatistics {
