@@ -13,6 +13,8 @@ namespace {
 const std::map<std::string, Backend> kBackends = {
     {"auto", Backend::automatic}, {"cpu", Backend::cpu}, {"gpu", Backend::gpu}};
 const std::map<std::string, Inside> kInsides = {{"refill", Inside::refill}, {"keep", Inside::keep}};
+const std::map<std::string, FitMode> kFits = {
+    {"auto", FitMode::automatic}, {"vertex", FitMode::vertex}, {"surface", FitMode::surface}};
 const std::map<std::string, BadTextures> kBadTextures = {{"error", BadTextures::error},
                                                          {"ignore", BadTextures::ignore}};
 const std::map<std::string, Window> kWindows = {{"none", Window::none},
@@ -127,6 +129,11 @@ void add_inside(CLI::App* command, Inside& inside) {
            "vertices that lie inside solid geometry, where no light comes: they take the light of their "
            "neighbours, or stay dark",
            "refill");
+}
+
+void add_fit(CLI::App* command, FitMode& fit, const std::string& text) {
+    fit = FitMode::automatic;
+    choice(command, "--fit", fit, kFits, text, "auto");
 }
 
 void add_light_options(CLI::App* command, LightOptions& options) {

@@ -61,6 +61,8 @@ CLI::Option* add_gpu(CLI::App* command, std::string& gpu);
 void choose_gpu(TracerChoice& tracer);
 void add_bad_textures(CLI::App* command, BadTextures& bad_textures);
 void add_inside(CLI::App* command, Inside& inside);
+/// --fit, which is automatic where it is not given.
+void add_fit(CLI::App* command, FitMode& fit, const std::string& text);
 void add_light_options(CLI::App* command, LightOptions& options);
 
 /// What `text` says, all of it, in any notation of C; nothing where that is no number.

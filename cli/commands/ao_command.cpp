@@ -42,8 +42,6 @@ struct AoArguments {
 };
 
 constexpr const char* kBentNormal = "_BENT_NORMAL"; ///< attribute
-const std::map<std::string, FitMode> kOcclusionFits = {
-    {"auto", FitMode::automatic}, {"vertex", FitMode::vertex}, {"surface", FitMode::surface}};
 const std::map<std::string, AtlasMode> kAtlasModes = {
     {"auto", AtlasMode::automatic}, {"one", AtlasMode::one}, {"each", AtlasMode::each}};
 
@@ -364,11 +362,10 @@ void add_ao(CLI::App& app, Session& session) {
     command->add_option("--rays", a.options.rays, "rays per vertex or texel")
         ->capture_default_str()
         ->check(CLI::Range(1, kMostRays));
-    choice(
-        command, "--fit", a.options.fit, kOcclusionFits,
+    add_fit(
+        command, a.options.fit,
         "of vertices: measured there; fitted to the surface between them; auto: as points between vertices "
-        "tell",
-        "auto");
+        "tell");
     add_no_shadow(command, a.no_shadow);
     add_backend(command, a.options.tracer.backend,
                 "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");

@@ -29,8 +29,6 @@ struct BakeArguments {
 
 const std::map<std::string, Traversal> kTraversals = {
     {"auto", Traversal::automatic}, {"device", Traversal::device}, {"compute", Traversal::compute}};
-const std::map<std::string, FitMode> kFits = {
-    {"auto", FitMode::automatic}, {"vertex", FitMode::vertex}, {"surface", FitMode::surface}};
 const std::map<std::string, BakeMethod> kBakeMethods = {{"trace", BakeMethod::trace},
                                                         {"raster", BakeMethod::raster}};
 const std::map<std::string, std::optional<TransferStorage>> kStorages = {
@@ -167,11 +165,9 @@ void add_method(CLI::App* command, BakeOptions& options) {
            "how a GPU finds what rays meet: device: its ray queries; compute: a hierarchy of our own; auto: "
            "ray queries where it has some",
            "auto");
-    options.fit = FitMode::automatic;
-    choice(command, "--fit", options.fit, kFits,
-           "where light is measured: at vertices; over the surface between them, so that the values of "
-           "vertices come nearest to it where they are interpolated; auto: as points between vertices tell",
-           "auto");
+    add_fit(command, options.fit,
+            "where light is measured: at vertices; over the surface between them, so that the values of "
+            "vertices come nearest to it where they are interpolated; auto: as points between vertices tell");
     choice(command, "--method", options.tracer.method, kBakeMethods,
            "trace: rays; raster: depth maps from many directions, direct light only, on the GPU", "trace");
     command

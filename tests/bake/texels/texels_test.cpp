@@ -43,6 +43,15 @@ Atlas atlas_of(const Scene& scene, int size) {
     return plan_atlases(scene, {.size = size, .uv_set = 0}).front();
 }
 
+/// Of the first primitive, unplanned.
+Atlas first_primitive(int size) {
+    Atlas atlas;
+    atlas.primitives = {0};
+    atlas.uv_set = 0;
+    atlas.width = atlas.height = size;
+    return atlas;
+}
+
 std::vector<TexelSample> samples_of(const Scene& scene, const Atlas& atlas) {
     return sample_texels(chart_triangles(scene, atlas), atlas).samples;
 }
@@ -80,10 +89,7 @@ TEST(Texels, ThatAChartTouchesHaveAPlaceOnIt) {
         const Scene scene = mapped(SceneBuilder().floor({0, 0, 0}, 1).build(), [&](const glm::vec3& p) {
             return c.corner + c.size * (glm::vec2(p.x, p.z) + 1.0f) / 2.0f;
         });
-        Atlas atlas; // of coordinates that planning refuses, too
-        atlas.primitives = {0};
-        atlas.uv_set = 0;
-        atlas.width = atlas.height = 8;
+        const Atlas atlas = first_primitive(8); // of coordinates that planning refuses, too
         std::set<std::uint32_t> texels;
         for (const TexelSample& sample : samples_of(scene, atlas)) {
             texels.insert(sample.texel);
@@ -145,10 +151,7 @@ TEST(Texels, OfNeedlesAcrossTheTextureAreFew) {
     // Lines from corner to corner: only what they touch is looked at.
     const Scene scene = mapped(SceneBuilder().floor({0, 0, 0}, 1, 30).build(),
                                [](const glm::vec3& p) { return glm::vec2(0.5f + 0.45f * p.x); });
-    Atlas atlas;
-    atlas.primitives = {0};
-    atlas.uv_set = 0;
-    atlas.width = atlas.height = 256;
+    const Atlas atlas = first_primitive(256);
     const TexelSamples samples = sample_texels(chart_triangles(scene, atlas), atlas);
     EXPECT_GE(samples.samples.size(), 230u);
     EXPECT_LE(samples.samples.size(), 3u * 256);
@@ -335,10 +338,7 @@ TEST(OcclusionMaps, ConvergeToThePointsThatTheyAreOf) {
     const double expected = 1 - 0.64 / (0.64 + 0.36); // the form factor of the disc, on its axis
     double error = 1;
     for (const int size : {5, 21}) { // odd: a texel lies about the middle
-        Atlas atlas;
-        atlas.primitives = {0};
-        atlas.uv_set = 0;
-        atlas.width = atlas.height = size;
+        const Atlas atlas = first_primitive(size);
         const OcclusionMap map = map_of(scene, atlas, options);
         EXPECT_EQ(map.measured, atlas.texels());
         EXPECT_EQ(map.sealed, 0u);
@@ -372,10 +372,7 @@ TEST(OcclusionMaps, HaveWhatArrivesAtAFinerModel) {
     fine.origin = {0, 5, 0}; // both are of one place in the world
     for (glm::vec3& p : fine.vertex_arrays[0].positions)
         p.y -= 5;
-    Atlas atlas;
-    atlas.primitives = {0};
-    atlas.uv_set = 0;
-    atlas.width = atlas.height = 16;
+    const Atlas atlas = first_primitive(16);
     OcclusionOptions options;
     options.rays = 1024;
     const auto at = [&](double reach, std::size_t column, std::size_t row) {
@@ -394,10 +391,7 @@ TEST(OcclusionMaps, HaveWhatArrivesAtAFinerModel) {
 TEST(OcclusionMaps, LeaveOutWhatIsInsideSolids) {
     const Scene block = SceneBuilder().sphere({0, 0, 0}, 0.5f, 24).build();
     Scene scene = test::join({floor_at({0, 0}, 1, 4), block});
-    Atlas atlas;
-    atlas.primitives = {0};
-    atlas.uv_set = 0;
-    atlas.width = atlas.height = 32;
+    const Atlas atlas = first_primitive(32);
     OcclusionOptions options;
     options.rays = 256;
     const OcclusionMap map = map_of(scene, atlas, options);
