@@ -51,28 +51,37 @@ Propagated propagate_all(const BakePlan& plan, Transfer direct, const TransportO
     return exit;
 }
 
-Propagated propagate_lamps(const BakePlan& plan, Transfer light, const TransportOperators& operators,
-                           const Progress& progress) {
+Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
+                                         const TransportOperators& operators, int bounces,
+                                         const Progress& progress) {
+    const int threads = plan.options.threads;
+    Propagated all;
     if (plan.channels == 1 && light.layout.channels() == 3) { // colors one after the other
-        Propagated all;
         Transfer colors[3];
         for (int c = 0; c < 3; ++c) {
-            Propagated one = propagate_lamps(plan, one_channel(light, c), operators, progress);
+            Propagated one = propagate(one_channel(light, c), operators, bounces, threads, progress);
             colors[c] = std::move(one.transfer);
             all.bounces = std::max(all.bounces, one.bounces);
             all.remaining = std::max(all.remaining, one.remaining);
+            all.converged = all.converged && one.converged;
         }
         all.transfer = in_color(colors[0], colors[1], colors[2]);
-        return all;
+    } else {
+        all = propagate(std::move(light), operators, bounces, threads, progress);
     }
+    check_has_an_end(all);
+    return all;
+}
+
+Propagated propagate_lamps(const BakePlan& plan, Transfer light, const TransportOperators& operators,
+                           const Progress& progress) {
     Transfer unbounced;
     if (plan.options.lamps.mode == LampMode::indirect) {
         unbounced = exit_without_bounces(plan, light, operators.refill);
         leave_back_sides(plan, unbounced);
     }
-    Propagated exit = propagate(std::move(light), operators, plan.bounces, plan.options.threads, progress);
+    Propagated exit = propagate_lamps_on_both_sides(plan, std::move(light), operators, plan.bounces, progress);
     leave_back_sides(plan, exit.transfer);
-    check_has_an_end(exit);
     const std::size_t stride = static_cast<std::size_t>(coefficient_count(unbounced.layout.order));
     for (std::size_t i = 0; i < unbounced.vectors.size(); ++i)
         if (const std::size_t k = i % stride; k < plan.lamps.size() && !plan.lamps[k].towards)

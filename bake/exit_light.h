@@ -11,6 +11,12 @@ namespace prt {
 Propagated propagate_all(const BakePlan& plan, Transfer direct, const TransportOperators& operators,
                          const Progress& progress);
 
+/// Exit light of lamps of all receivers of the plan, on both sides of surfaces, with so many bounces. Throws
+/// `Error` where it has no end.
+Propagated propagate_lamps_on_both_sides(const BakePlan& plan, Transfer light,
+                                         const TransportOperators& operators, int bounces,
+                                         const Progress& progress);
+
 /// Exit light of lamps, with all bounces, from what they give without: of the scene's receivers. Throws
 /// `Error` where it has no end.
 Propagated propagate_lamps(const BakePlan& plan, Transfer light, const TransportOperators& operators,

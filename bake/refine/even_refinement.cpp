@@ -1,0 +1,36 @@
+#include "refine/even_refinement.h"
+
+#include "refine/bisection.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace prt {
+
+EvenScene with_short_edges(const Scene& scene, double longest) {
+    EvenScene even{scene, std::vector<std::uint32_t>(scene.triangles())};
+    std::iota(even.whole.begin(), even.whole.end(), 0u);
+    const Bounds box = bounds(scene);
+    const glm::vec3 size = box.high - box.low;
+    const double shortest = kLeastEdge * 0.5 * static_cast<double>(std::max({size.x, size.y, size.z}));
+    longest = std::max(longest, 2 * shortest);
+    while (true) {
+        const WeldedEdges edges = welded_edges(even.scene);
+        EdgeMarks marks(edges);
+        for (std::uint32_t t = 0; t < edges.of_triangle.size(); ++t) {
+            const std::uint32_t edge = edges.of_triangle[t][edges.longest[t]];
+            if (edge != kNoEdge && edges.lengths[edge] > longest)
+                marks.mark(edge);
+        }
+        if (marks.vertices() == 0)
+            return even;
+        const Bisection bisection = bisect(even.scene, edges, marks);
+        std::vector<std::uint32_t> whole;
+        for (const Part& part : bisection.parts)
+            whole.push_back(even.whole[part.whole]);
+        even.whole = std::move(whole);
+        even.scene = refined(even.scene, bisection.refinement);
+    }
+}
+
+} // namespace prt
