@@ -7,6 +7,8 @@
 // where all clusters are divided alike, which makes a loop and the table of clusters needless:
 //     PRT_CLUSTER_ROWS n     the rows of a cluster, and
 //     PRT_SAME_WEIGHTS       PRT_ADD(j, weight) for every weight j, which is PRT_BITS(position, width) where packed,
+// where they are not attributes of a vertex, but variables that the shader sets (prt_lightmap.frag):
+//     PRT_WORDS_OF_TEXEL     packed words only,
 // what clusters know of a vertex beside its weights, its guides:
 //     PRT_GUIDE_NORMAL       its normal,
 //     PRT_GUIDE_POSITION     its position seen from PRT_GUIDE_ORIGIN, a vec3: numbers, or the name of a uniform,
@@ -103,9 +105,13 @@ vec3 prt_guided(uint first, vec3 position, vec3 normal) {
 // What a vertex has: its cluster, and its weights.
 
 #ifdef PRT_PACKED_WORDS
+#ifdef PRT_WORDS_OF_TEXEL
+uvec4 prt_words_0, prt_words_1;
+#else
 layout(location = PRT_LOCATION_WEIGHTS) in uvec4 prt_words_0;
 #if PRT_PACKED_WORDS > 4
 layout(location = PRT_LOCATION_WEIGHTS_1) in uvec4 prt_words_1;
+#endif
 #endif
 
 uint prt_word(uint index) {

@@ -42,6 +42,7 @@
 #define PRT_CLUSTER_WIDTHS 2
 
 // Texture units.
+#define PRT_UNIT_WORD_IMAGES 2 // and the following ones, one for each word of a texel; beside constants and clusters
 #define PRT_UNIT_BASE_COLOR 0
 #define PRT_UNIT_BACKGROUND 1
 #define PRT_UNIT_EMISSION 7

@@ -51,6 +51,11 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" "${packed[@]}" "${guides[@]}"
             compiles "$file" "${packed[@]}" "${alike[@]}"
             ;;
+        prt_lightmap.frag)
+            compiles "$file" "${packed[@]}"
+            compiles "$file" "${packed[@]}" "${alike[@]}"
+            compiles "$file" PRT_NORMALIZED_WORDS PRT_CONSTANTS_TEXTURE "PRT_TEXTURE_WIDTH 256" "PRT_PACKED_WORDS 1" "PRT_CLUSTER_BITS 8"
+            ;;
         scene.vert | viewer_*)
             compiles "$file"
             compiles "$file" "${packed[@]}"
