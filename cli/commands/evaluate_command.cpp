@@ -8,6 +8,7 @@
 #include "outputs.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
+#include "report/of_texels.h"
 #include "report/sweep_report.h"
 #include "residual_vq.h"
 
@@ -39,7 +40,11 @@ Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::v
     options.threads = a.threads;
     ProgressBar bar = session.progress_bar("sweeping");
     const Transfer& transfer = baked.baked->transfer;
-    return sweep(transfer, SceneSurface(baked.scene).view(), all, options,
+    const std::optional<SceneSurface> vertices =
+        baked.lightmap ? std::nullopt : std::optional<SceneSurface>(baked.scene);
+    const ReceiverSurface surface =
+        vertices ? vertices->view() : ReceiverSurface{baked.lightmap->areas, baked.lightmap->edges};
+    return sweep(transfer, surface, all, options,
                  residual_vq_candidates(transfer, options.seed), bar.progress());
 }
 
@@ -97,6 +102,8 @@ void run(EvaluateArguments a, Session& session) {
     SceneFile baked = load_scene_file(a.baked, a.reading);
     if (!baked.baked)
         throw Error(a.baked.string() + ": holds no raw transfer; the first file is the output of prt bake");
+    if (a.budget)
+        check_of_vertices(baked, a.baked, "--budget takes the error of vertices apart");
     const std::vector<SplitLight> lights = lights_of(a, baked.baked->transfer.layout.order);
     Report report = empty_report(a, session);
     if (!a.shipped.empty())
@@ -121,6 +128,8 @@ void run(EvaluateArguments a, Session& session) {
                    baked, report, session);
     if (a.sweep)
         add_sweep(run_sweep(a, baked, lights, session), report);
+    if (baked.lightmap)
+        say_texels(report);
     publish(report, a.files, session);
 }
 

@@ -127,8 +127,7 @@ CompressedLightmap spread_over_maps(const BakedLightmap& baked, ClusteredTransfe
     return lightmap;
 }
 
-ClusteredTransfer picked_texels(const CompressedLightmap& lightmap, std::span<const std::uint32_t> texels) {
-    const ClusteredTransfer& all = lightmap.compressed.transfer;
+ClusteredTransfer picked_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels) {
     ClusteredTransfer picked{all.bases, room_for(texels.size(), all.receivers)};
     for (std::size_t i = 0; i < texels.size(); ++i)
         copy_receiver(all.receivers, texels[i], picked.receivers, i);

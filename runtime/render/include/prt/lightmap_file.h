@@ -22,8 +22,8 @@ std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& d
 /// near them.
 CompressedLightmap spread_over_maps(const BakedLightmap& baked, ClusteredTransfer compressed);
 
-/// The receivers `texels` of a lightmap, in their order.
-ClusteredTransfer picked_texels(const CompressedLightmap& lightmap, std::span<const std::uint32_t> texels);
+/// The receivers `texels` of all texels of a lightmap, in their order.
+ClusteredTransfer picked_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels);
 
 /// Word `word` of every texel of map `map`, row by row: the texels of an R32UI texture.
 std::vector<std::uint32_t> words_of_map(const CompressedLightmap& lightmap, std::size_t map, int word);
