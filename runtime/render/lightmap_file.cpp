@@ -105,26 +105,43 @@ ClusteredReceivers room_for(std::size_t count, const ClusteredReceivers& like) {
     return receivers;
 }
 
-} // namespace
-
-CompressedLightmap spread_over_maps(const BakedLightmap& baked, ClusteredTransfer compressed) {
-    const std::vector<std::size_t> first = baked.layout.first_texels();
-    CompressedLightmap lightmap{baked.layout, {{std::move(compressed.bases), {}}, baked.baked.record}};
-    ClusteredReceivers& all = lightmap.compressed.transfer.receivers =
-        room_for(first.back(), compressed.receivers);
-    auto begin = baked.texels.begin();
-    for (std::size_t m = 0; m < baked.layout.maps.size(); ++m) {
-        const auto end = std::lower_bound(begin, baked.texels.end(), first[m + 1]);
+/// Calls `visit` with every texel and the receiver, by its place in `texels`, that it is or that lies near it. A
+/// map without receivers is left out.
+template <class Visit>
+void for_each_texel(const LightmapLayout& layout, std::span<const std::uint32_t> texels, Visit&& visit) {
+    const std::vector<std::size_t> first = layout.first_texels();
+    auto begin = texels.begin();
+    for (std::size_t m = 0; m < layout.maps.size(); ++m) {
+        const auto end = std::lower_bound(begin, texels.end(), first[m + 1]);
         std::vector<std::uint32_t> of_map(begin, end);
         for (std::uint32_t& texel : of_map)
             texel -= static_cast<std::uint32_t>(first[m]);
-        const std::vector<std::uint32_t> nearest = nearest_receivers(baked.layout.maps[m], of_map);
-        const auto offset = static_cast<std::size_t>(begin - baked.texels.begin());
+        const std::vector<std::uint32_t> nearest = nearest_receivers(layout.maps[m], of_map);
+        const auto offset = static_cast<std::size_t>(begin - texels.begin());
         for (std::size_t t = 0; t < nearest.size() && !of_map.empty(); ++t)
-            copy_receiver(compressed.receivers, offset + nearest[t], all, first[m] + t);
+            visit(first[m] + t, offset + nearest[t]);
         begin = end;
     }
+}
+
+} // namespace
+
+CompressedLightmap spread_over_maps(const BakedLightmap& baked, ClusteredTransfer compressed) {
+    CompressedLightmap lightmap{baked.layout, {{std::move(compressed.bases), {}}, baked.baked.record}};
+    ClusteredReceivers& all = lightmap.compressed.transfer.receivers =
+        room_for(baked.layout.texels(), compressed.receivers);
+    for_each_texel(baked.layout, baked.texels, [&](std::size_t texel, std::size_t receiver) {
+        copy_receiver(compressed.receivers, receiver, all, texel);
+    });
     return lightmap;
+}
+
+std::vector<glm::vec3> spread_over_maps(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
+                                        std::span<const glm::vec3> values) {
+    std::vector<glm::vec3> all(layout.texels());
+    for_each_texel(layout, texels,
+                   [&](std::size_t texel, std::size_t receiver) { all[texel] = values[receiver]; });
+    return all;
 }
 
 ClusteredTransfer picked_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels) {

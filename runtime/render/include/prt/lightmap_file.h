@@ -4,6 +4,8 @@
 
 #include "prt/lightmap_gltf.h"
 
+#include <glm/vec3.hpp>
+
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,6 +23,10 @@ std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& d
 /// `compressed` receivers of `baked` as a game loads them: all texels, those that are no receivers as one
 /// near them.
 CompressedLightmap spread_over_maps(const BakedLightmap& baked, ClusteredTransfer compressed);
+
+/// `values` [texels] of some texels as those of all, others as one near them.
+std::vector<glm::vec3> spread_over_maps(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
+                                        std::span<const glm::vec3> values);
 
 /// The receivers `texels` of all texels of a lightmap, in their order.
 ClusteredTransfer picked_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels);

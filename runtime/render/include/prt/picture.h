@@ -6,6 +6,7 @@
 #include "prt/camera.h"
 #include "prt/clustered_transfer.h"
 #include "prt/environment.h"
+#include "prt/lightmap.h"
 #include "prt/scene.h"
 #include "prt/sun_disc.h"
 #include "prt/texture.h"
@@ -28,6 +29,15 @@ struct LitInShader {
     const Lighting* lighting = nullptr;
 };
 
+/// Lightmaps that light surfaces in the place of their vertices.
+struct PictureLightmaps {
+    const LightmapLayout* layout = nullptr; ///< null: there are none
+    std::span<const glm::vec3> radiance;    ///< [texels of the layout] exit radiance for albedo 1, or a color
+    /// Where set, OpenGL forms it on the GPU, lit by `lighting`.
+    const CompressedLightmap* on_gpu = nullptr;
+    const Lighting* lighting = nullptr;
+};
+
 struct Picture {
     const Scene* scene = nullptr;
     std::span<const Texture> textures; ///< load_textures(*scene)
@@ -36,6 +46,7 @@ struct Picture {
     std::span<const glm::vec3> radiance;
     /// Where set, OpenGL forms the exit radiance in the vertex shader from it instead of `radiance`.
     LitInShader in_shader;
+    PictureLightmaps lightmaps;
     /// Their light is not in the radiance above but is added at each pixel, sharply shadowed.
     std::span<const SunDisc> suns = {};
 
