@@ -102,8 +102,6 @@ void run(EvaluateArguments a, Session& session) {
     SceneFile baked = load_scene_file(a.baked, a.reading);
     if (!baked.baked)
         throw Error(a.baked.string() + ": holds no raw transfer; the first file is the output of prt bake");
-    if (a.budget)
-        check_of_vertices(baked, a.baked, "--budget takes the error of vertices apart");
     const std::vector<SplitLight> lights = lights_of(a, baked.baked->transfer.layout.order);
     Report report = empty_report(a, session);
     if (!a.shipped.empty())

@@ -18,6 +18,11 @@ std::string of_texels(std::string text) {
     return text;
 }
 
+/// "vertices" as a number, and as a cause of errors.
+std::string title_of_texels(std::string title) {
+    return title == "vertices" ? "texels" : of_texels(std::move(title));
+}
+
 /// Keys alone.
 Json of_texels(const Json& json) {
     if (json.is_array()) {
@@ -39,9 +44,12 @@ Json of_texels(const Json& json) {
 void say_texels(Report& report) {
     for (Figure& figure : report.figures) {
         figure.column.key = of_texels(std::move(figure.column.key));
-        figure.column.title = of_texels(std::move(figure.column.title));
+        figure.column.title = title_of_texels(std::move(figure.column.title));
         figure.value = of_texels(figure.value);
     }
+    for (Table& table : report.tables)
+        for (Column& column : table.columns)
+            column.title = title_of_texels(std::move(column.title));
     report.verdict = of_texels(std::move(report.verdict));
     for (std::string& sentence : report.sentences)
         sentence = of_texels(std::move(sentence));
