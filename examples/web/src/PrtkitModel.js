@@ -1,7 +1,7 @@
 // The compressed transfer of one file, shared by its meshes, and what lights it.
 
 import { DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, UnsignedIntType, Vector3 } from "three";
-import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "./clusteredPca.js";
+import { clusterTable, formConstants, lightColumns, shaderRows } from "./clusteredPca.js";
 import { strengthsOfSuns } from "./lightSet.js";
 import { shownBy, turnForModel, turnedBy } from "./turns.js";
 
@@ -21,10 +21,10 @@ function tableTexture(count, data, format, type, internalFormat) {
 }
 
 export class PrtkitModel {
-  /** `root`: the scene of the file, by whose turn in the world `setSky` lights. */
-  constructor(extension, view, root = null) {
+  /** `clusters`: of decodeClusters; `root`: the scene of the file, by whose turn in the world `setSky` lights. */
+  constructor(clusters, root = null) {
     this.root = root;
-    this.clusters = decodeClusters(extension, view);
+    this.clusters = clusters;
     this.rows = shaderRows(this.clusters);
     const { rowCount, components } = this.clusters;
     this.constantsTexture = tableTexture(rowCount, new Float32Array(4 * rowCount), RGBAFormat, FloatType, "RGBA32F");
@@ -53,8 +53,14 @@ export class PrtkitModel {
     };
     this.vertices = 0;
     this.bytesPerVertex = 0;
+    this.texels = 0;
+    this.bytesPerTexel = 0;
+    this.maps = null; // RelitMaps, where texels have the transfer
     this.sky = null; // of setSky
-    this.beforeRender = () => this.followSky();
+    this.beforeRender = (renderer) => {
+      this.followSky();
+      this.maps?.form(renderer, this.constantsTexture.version);
+    };
   }
 
   /**
@@ -152,6 +158,7 @@ export class PrtkitModel {
   /** Frees the tables. Materials and geometries are disposed of as three's are. */
   dispose() {
     this.sky = null;
+    this.maps?.dispose();
     this.constantsTexture.dispose();
     this.clustersTexture.dispose();
   }

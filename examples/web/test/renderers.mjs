@@ -1,0 +1,86 @@
+// Made-up models in headless Chromium: what the plug-in computes on the device against plain numbers, and WebGPURenderer
+// against WebGLRenderer.
+//   node test/renderers.mjs [PATTERN of the names of checks, else all]
+// Needs a chromium (CHROMIUM, else /usr/bin/chromium).
+import assert from "node:assert/strict";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+import { DataUtils } from "three";
+import { createServer } from "vite";
+import { clustersOf, lightColumns } from "../src/clusteredPca.js";
+import { bakedModel, MAPS, texelWords } from "./bakedModel.js";
+import { extensionOf } from "./glb.js";
+import { radianceOfWords } from "./wordRadiance.js";
+
+const [, , pattern = ""] = process.argv;
+const web = fileURLToPath(new URL("../", import.meta.url));
+const server = await createServer({ root: web, server: { port: 0, host: "127.0.0.1" }, logLevel: "error" });
+await server.listen();
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking",
+    "--disable-component-update", "--disable-sync", "--no-first-run"],
+});
+const errors = [];
+const page = await browser.newPage({ viewport: { width: 320, height: 240 } });
+page.setDefaultTimeout(120_000); // a busy machine is not a fault of the page
+page.on("pageerror", (error) => errors.push(error.message));
+page.on("console", (line) => ["error", "warning"].includes(line.type()) && !/GPU stall|WebGPU is not available/.test(line.text()) && errors.push(line.text()));
+const models = { "vertices.glb": bakedModel("vertices"), "texels.glb": bakedModel("texels") };
+await page.route("**/*.glb", (route) => route.fulfill({ body: models[new URL(route.request().url()).pathname.split("/").pop()] }));
+await page.goto(`http://127.0.0.1:${server.httpServer.address().port}/test/pictures/`);
+await page.waitForFunction(() => globalThis.pictures);
+const ask = (what, options) => page.evaluate(([name, given]) => globalThis.pictures[name](given), [what, options]);
+
+let failed = 0;
+async function check(name, body) {
+  if (!new RegExp(pattern).test(name)) return;
+  errors.length = 0;
+  try {
+    console.log(`ok - ${name}: ${(await body()) ?? ""}`);
+    assert.deepEqual(errors, []);
+  } catch (error) {
+    ++failed;
+    console.log(`not ok - ${name}\n  ${error.message}\n  ${errors.join("\n  ")}`);
+  }
+}
+
+const light = [3, 2.5, 2, 0.4, 0.2, -0.3, -0.2, 0.5, 0.1, 0.6, -0.4, 0.3];
+
+await check("texels have the radiance of their words, drawn once for every light", async () => {
+  const lamps = { Lantern: [0.5, 0.25, 2] };
+  const found = await ask("texels", { model: "texels.glb", light, lamps });
+  const { extension, view } = extensionOf(models["texels.glb"], "PRTKIT_lightmap");
+  const columns = lightColumns(clustersOf(extension, view), light, null, lamps.Lantern);
+  const clusters = clustersOf(extension, view);
+  let [most, mostHalf, seen] = [0, 0, new Set()];
+  for (const { i, bytes, halves, floats } of found.maps)
+    for (let y = 0; y < MAPS[i].height; ++y)
+      for (let x = 0; x < MAPS[i].width; ++x) {
+        const at = 4 * (y * MAPS[i].width + x);
+        const words = texelWords(i, x, y);
+        words.forEach((word, j) => {
+          const expected = [word & 255, (word >> 8) & 255, (word >> 16) & 255, word >>> 24];
+          assert.deepEqual(bytes[j].slice(at, at + 4), expected, `map ${i}, texel ${x}, ${y}, word ${j}`);
+          if (expected[3] === 0) seen.add(`clear ${expected[0]}`);
+          expected.forEach((byte, c) => seen.add(`${c}: ${byte}`));
+        });
+        radianceOfWords(clusters, columns, words).forEach((value, c) => {
+          most = Math.max(most, Math.abs(floats[at + c] - value) / Math.max(Math.abs(value), 0.1));
+          mostHalf = Math.max(mostHalf, Math.abs(DataUtils.fromHalfFloat(halves[at + c]) - value) / Math.max(Math.abs(value), 0.1));
+        });
+      }
+  assert.ok(most < 1e-5 && mostHalf < 2 ** -10, `${most}, ${mostHalf}`);
+  assert.ok(seen.size > 4 * 250, `${seen.size} values of bytes`);
+  const first = DataUtils.fromHalfFloat(found.doubled[0]);
+  assert.ok(first !== DataUtils.fromHalfFloat(found.maps[0].halves[0]), "another light is drawn");
+  assert.deepEqual([found.targets, found.once, found.unchanged, found.afterChange >= 6], [3, 3, 3, true]);
+  assert.ok(found.same, "the first picture is the second");
+  assert.ok(found.again, "what is disposed of is made again");
+  return `${most.toExponential(1)} off in floats, ${mostHalf.toExponential(1)} in half floats`;
+});
+
+await browser.close();
+await server.close();
+console.log(failed === 0 ? "all passed" : `${failed} failed`);
+process.exit(failed === 0 ? 0 : 1);
