@@ -23,7 +23,7 @@ export function sunTraits(gltfMaterial) {
 }
 
 /** What has no shading of its own, an unlit material, is matte. */
-function matte(source) {
+export function matte(source) {
   return new MeshLambertMaterial({
     name: source.name,
     color: source.color,

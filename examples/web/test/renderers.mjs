@@ -1,15 +1,17 @@
 // Made-up models in headless Chromium: what the plug-in computes on the device against plain numbers, and WebGPURenderer
 // against WebGLRenderer.
-//   node test/renderers.mjs [PATTERN of the names of checks, else all]
+//   node test/renderers.mjs [PATTERN of the names of checks, else all]      PICTURES=FOLDER keeps what is compared
 // Needs a chromium (CHROMIUM, else /usr/bin/chromium).
 import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { DataUtils } from "three";
 import { createServer } from "vite";
 import { clustersOf, lightColumns } from "../src/clusteredPca.js";
 import { bakedModel, MAPS, texelWords } from "./bakedModel.js";
-import { extensionOf } from "./glb.js";
+import { extensionOf, png } from "./glb.js";
 import { radianceOfWords } from "./wordRadiance.js";
 
 const [, , pattern = ""] = process.argv;
@@ -19,7 +21,7 @@ await server.listen();
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
   args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking",
-    "--disable-component-update", "--disable-sync", "--no-first-run"],
+    "--disable-component-update", "--disable-sync", "--no-first-run", "--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"],
 });
 const errors = [];
 const page = await browser.newPage({ viewport: { width: 320, height: 240 } });
@@ -31,6 +33,12 @@ await page.route("**/*.glb", (route) => route.fulfill({ body: models[new URL(rou
 await page.goto(`http://127.0.0.1:${server.httpServer.address().port}/test/pictures/`);
 await page.waitForFunction(() => globalThis.pictures);
 const ask = (what, options) => page.evaluate(([name, given]) => globalThis.pictures[name](given), [what, options]);
+
+/** Both pictures above each other, in the folder PICTURES. */
+function savePicture(name, ...pictures) {
+  const bytes = Uint8Array.from(pictures.flat());
+  writeFileSync(join(process.env.PICTURES, `${name.replace(/\W+/g, "_")}.png`), png(320, 240 * pictures.length, bytes));
+}
 
 let failed = 0;
 async function check(name, body) {
@@ -53,7 +61,8 @@ await check("texels have the radiance of their words, drawn once for every light
   const { extension, view } = extensionOf(models["texels.glb"], "PRTKIT_lightmap");
   const columns = lightColumns(clustersOf(extension, view), light, null, lamps.Lantern);
   const clusters = clustersOf(extension, view);
-  let [most, mostHalf, seen] = [0, 0, new Set()];
+  let [most, mostHalf] = [0, 0];
+  const seen = new Set();
   for (const { i, bytes, halves, floats } of found.maps)
     for (let y = 0; y < MAPS[i].height; ++y)
       for (let x = 0; x < MAPS[i].width; ++x) {
@@ -79,6 +88,44 @@ await check("texels have the radiance of their words, drawn once for every light
   assert.ok(found.again, "what is disposed of is made again");
   return `${most.toExponential(1)} off in floats, ${mostHalf.toExponential(1)} in half floats`;
 });
+
+/** Mean difference of channels, of 255, and the largest. */
+function compared(a, b) {
+  let [sum, most, lit] = [0, 0, 0];
+  a.forEach((value, i) => {
+    if (i % 4 === 3) return;
+    const off = Math.abs(value - b[i]);
+    sum += off;
+    most = Math.max(most, off);
+    lit += value > 20 ? 1 : 0;
+  });
+  const share = lit / (0.75 * a.length);
+  assert.ok(share > 0.2, `only ${share} of the picture shows anything`);
+  return { mean: sum / (0.75 * a.length), most };
+}
+
+const cases = {
+  "a sky": {},
+  "a reflected environment": { environment: true },
+  "suns": { suns: true },
+  "suns with shadows, an environment and fog": { suns: true, shadows: true, environment: true, fog: true },
+  "other lights, which add nothing": { others: true },
+  "cloned materials": { change: "clone", environment: true },
+  "metals": { change: "metal" },
+};
+for (const by of ["vertices", "texels"])
+  for (const [what, options] of Object.entries(cases))
+    for (const api of ["nodes", "webgpu"])
+      await check(`${by}, ${what}: ${api === "webgpu" ? "WebGPU" : "WebGPURenderer on WebGL"} draws what WebGLRenderer draws`, async () => {
+        const asked = { model: `${by}.glb`, light, ...options };
+        const expected = await ask("picture", { api: "webgl", ...asked });
+        const shown = await ask("picture", { api, ...asked });
+        assert.equal(shown.backend, api === "webgpu" ? "WebGPU" : "WebGL");
+        if (process.env.PICTURES) savePicture(`${by}.${what}.${api}`, expected.pixels, shown.pixels);
+        const { mean, most } = compared(expected.pixels, shown.pixels);
+        assert.ok(mean <= 0.5, `mean ${mean} of 255`);
+        return `mean ${mean.toFixed(3)} of 255, at most ${most}`;
+      });
 
 await browser.close();
 await server.close();

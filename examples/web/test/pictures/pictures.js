@@ -1,7 +1,25 @@
-// Draws test models by WebGLRenderer, and reads back what the plug-in draws beside the picture: renderers.mjs asks.
-import { FloatType, PerspectiveCamera, Scene, WebGLRenderer, WebGLRenderTarget } from "three";
+// Draws test models by WebGLRenderer and by WebGPURenderer, and reads back what the plug-in draws beside the picture:
+// renderers.mjs asks.
+import {
+  ACESFilmicToneMapping,
+  AmbientLight,
+  DataTexture,
+  DirectionalLight,
+  EquirectangularReflectionMapping,
+  FloatType,
+  Fog,
+  PCFShadowMap,
+  PerspectiveCamera,
+  PointLight,
+  RGBAFormat,
+  Scene,
+  WebGLRenderer,
+  WebGLRenderTarget,
+} from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
-import { PrtkitPlugin, ShLight } from "../../src/PrtkitLoader.js";
+import { WebGPURenderer } from "three/webgpu";
+import { halfFloatSky, PrtkitPlugin, ShLight } from "../../src/PrtkitLoader.js";
+import { PrtkitPlugin as NodePlugin } from "../../src/webgpu.js";
 
 const renderer = new WebGLRenderer({ antialias: false });
 renderer.setSize(64, 48, false);
@@ -77,4 +95,73 @@ async function texels({ model, light, lamps }) {
   };
 }
 
-globalThis.pictures = { texels };
+const [columns, rows] = [320, 240];
+const renderers = new Map();
+
+/** By WebGLRenderer ("webgl"), or WebGPURenderer on WebGL ("nodes") or on WebGPU ("webgpu"). */
+async function rendererOf(api) {
+  if (!renderers.has(api)) {
+    const made = api === "webgl" ? new WebGLRenderer({ antialias: false }) : new WebGPURenderer({ antialias: false, forceWebGL: api === "nodes" });
+    await made.init?.();
+    made.setSize(columns, rows, false);
+    made.toneMapping = ACESFilmicToneMapping;
+    made.shadowMap.enabled = true;
+    made.shadowMap.type = PCFShadowMap;
+    renderers.set(api, made);
+  }
+  return renderers.get(api);
+}
+
+function evenSky() {
+  const data = new Float32Array(4 * 64 * 32);
+  for (let y = 0; y < 32; ++y)
+    for (let x = 0; x < 64; ++x) {
+      const value = 1 + 0.5 * Math.sin((2 * Math.PI * x) / 64) * Math.sin((Math.PI * (y + 0.5)) / 32);
+      data.set([value, 0.8 * value, 0.6 * value, 1], 4 * (y * 64 + x));
+    }
+  const texture = new DataTexture(data, 64, 32, RGBAFormat, FloatType, EquirectangularReflectionMapping);
+  texture.flipY = true;
+  return halfFloatSky(texture);
+}
+
+/** A scene with the model in the light that is asked for. */
+async function sceneOf(api, { model, light, environment, suns, shadows, fog, others, change }) {
+  const Plugin = api === "webgl" ? PrtkitPlugin : NodePlugin;
+  const gltf = await new GLTFLoader().register((parser) => new Plugin(parser)).loadAsync(model);
+  const scene = new Scene().add(gltf.scene);
+  if (environment) scene.environment = evenSky();
+  if (fog) scene.fog = new Fog(0x8090a0, 3, 9);
+  if (others) scene.add(new AmbientLight(0xffffff, 2), new PointLight(0xffffff, 40).translateY(3));
+  if (suns) {
+    const sun = new DirectionalLight(0xffeedd, 2);
+    sun.position.set(2, 4, 1.5);
+    sun.castShadow = Boolean(shadows);
+    Object.assign(sun.shadow.camera, { left: -4, right: 4, bottom: -4, top: 4, near: 0.1, far: 12 });
+    sun.shadow.mapSize.set(512, 512);
+    sun.shadow.bias = -0.002;
+    sun.shadow.normalBias = 0.02;
+    scene.add(sun);
+  }
+  const { prtkit } = gltf.userData;
+  const sky = ShLight.fromCoefficients(prtkit.order, light);
+  prtkit.setLight(sky, 0.3, suns ? sky.times(0.1) : null);
+  if (change === "clone") gltf.scene.traverse((object) => object.isMesh && (object.material = object.material.clone()));
+  if (change === "metal") gltf.scene.traverse((object) => object.isMesh && (object.material.metalness = 1));
+  return { scene, prtkit };
+}
+
+/** The pixels of the canvas, red, green, blue and alpha. */
+async function picture({ api, ...asked }) {
+  const drawing = await rendererOf(api);
+  const { scene, prtkit } = await sceneOf(api, asked);
+  const seen = camera();
+  if (api === "webgl") drawing.render(scene, seen);
+  else await drawing.renderAsync(scene, seen);
+  const sheet = new OffscreenCanvas(columns, rows).getContext("2d");
+  sheet.drawImage(drawing.domElement, 0, 0);
+  const { data } = sheet.getImageData(0, 0, columns, rows);
+  prtkit.dispose();
+  return { pixels: [...data], backend: drawing.backend?.isWebGPUBackend ? "WebGPU" : "WebGL" };
+}
+
+globalThis.pictures = { texels, picture };
