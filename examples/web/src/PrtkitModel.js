@@ -9,12 +9,11 @@ const TEXTURE_WIDTH = 256;
 /** Of the shader: where its tables are. */
 export const TABLES = { PRT_CONSTANTS_TEXTURE: 1, PRT_TEXTURE_WIDTH: TEXTURE_WIDTH };
 
-function tableTexture(count, data, format, type, internalFormat) {
+function tableTexture(count, data, format, type) {
   const height = Math.max(1, Math.ceil(count / TEXTURE_WIDTH));
   const padded = new data.constructor(4 * TEXTURE_WIDTH * height);
   padded.set(data);
   const texture = new DataTexture(padded, TEXTURE_WIDTH, height, format, type);
-  texture.internalFormat = internalFormat;
   texture.minFilter = texture.magFilter = NearestFilter;
   texture.needsUpdate = true;
   return texture;
@@ -27,13 +26,12 @@ export class PrtkitModel {
     this.clusters = clusters;
     this.rows = shaderRows(this.clusters);
     const { rowCount, components } = this.clusters;
-    this.constantsTexture = tableTexture(rowCount, new Float32Array(4 * rowCount), RGBAFormat, FloatType, "RGBA32F");
+    this.constantsTexture = tableTexture(rowCount, new Float32Array(4 * rowCount), RGBAFormat, FloatType);
     this.clustersTexture = tableTexture(
       components.length,
       clusterTable(this.clusters),
       RGBAIntegerFormat,
       UnsignedIntType,
-      "RGBA32UI",
     );
     this.order = this.clusters.order;
     this.channels = Math.max(...this.clusters.parts.map((part) => part.channels));

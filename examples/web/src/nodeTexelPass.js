@@ -23,8 +23,8 @@ export class NodeTexelPass {
   material(map) {
     if (!this.materials.has(map)) {
       const material = new NodeMaterial();
-      const texel = ivec2(screenCoordinate.xy);
-      const radiance = radianceOfWords(this.model, map.words.map((image) => wordOf(image, texel)), this.clusterBits);
+      const words = () => map.words.map((image) => wordOf(image, ivec2(screenCoordinate.xy)));
+      const radiance = radianceOfWords(this.model, words, this.clusterBits);
       material.fragmentNode = vec4(radiance.clamp(-LARGEST_HALF, LARGEST_HALF), float(1));
       Object.assign(material, { blending: NoBlending, depthTest: false, depthWrite: false, fog: false });
       this.materials.set(map, material);

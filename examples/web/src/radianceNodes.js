@@ -39,12 +39,12 @@ function bitsOf(words) {
 const NO_GUIDES = { rows: 0, of: null };
 
 /**
- * Radiance of what has packed `words`. `guides`: { rows, of }, how many rows of a cluster they take and, given its first
+ * Radiance of what has the packed `words()`. `guides`: { rows, of }, how many rows of a cluster they take and, given its first
  * row, what they add to its mean.
  */
 export function radianceOfWords({ constantsTexture, clustersTexture }, words, clusterBits, guides = NO_GUIDES) {
   return Fn(() => {
-    const bits = bitsOf(words);
+    const bits = bitsOf(words());
     const cluster = entry(clustersTexture, bits(uint(0), uint(clusterBits))).toVar();
     const first = cluster.x;
     const radiance = vec3(entry(constantsTexture, first).rgb).toVar();
@@ -119,7 +119,7 @@ export function radianceOfVertices(model, defines) {
   const packed = defines.PRT_PACKED_WORDS;
   return varying(
     packed
-      ? radianceOfWords(model, wordsOfVertex(packed), defines.PRT_CLUSTER_BITS, guides)
+      ? radianceOfWords(model, () => wordsOfVertex(packed), defines.PRT_CLUSTER_BITS, guides)
       : radianceOfWeights(model, defines.PRT_WEIGHT_VECTORS, guides),
     "prtRadiance",
   );

@@ -46,11 +46,13 @@ function bytesOf(texture, { width, height }) {
   return [...bytes];
 }
 
-function pixelsOf(target, { width, height }) {
-  const pixels = new (target.texture.type === FloatType ? Float32Array : Uint16Array)(4 * width * height);
-  renderer.readRenderTargetPixels(target, 0, 0, width, height, pixels);
+function pixelsBy(drawing, target) {
+  const { width, height, texture } = target;
+  const pixels = new (texture.type === FloatType ? Float32Array : Uint16Array)(4 * width * height);
+  drawing.readRenderTargetPixels(target, 0, 0, width, height, pixels);
   return [...pixels];
 }
+const pixelsOf = (target) => pixelsBy(renderer, target);
 
 /** Of a model with lightmaps: the bytes of its words, and the radiance of its texels, in half floats and in floats. */
 async function texels({ model, light, lamps }) {
@@ -67,7 +69,7 @@ async function texels({ model, light, lamps }) {
     renderer.setRenderTarget(target);
     renderer.render(shown, camera());
     renderer.setRenderTarget(null);
-    return pixelsOf(target, target);
+    return pixelsOf(target);
   };
   const first = picture();
   const [once, second] = [drawn, picture()];
@@ -75,12 +77,12 @@ async function texels({ model, light, lamps }) {
     const { target } = [...prtkit.maps.targets.values()].find((other) => other.map === map);
     const floats = new WebGLRenderTarget(map.width, map.height, { type: FloatType, depthBuffer: false });
     draw(renderer, floats, map);
-    return { i, bytes: map.words.map((texture) => bytesOf(texture, map)), halves: pixelsOf(target, map), floats: pixelsOf(floats, map) };
+    return { i, bytes: map.words.map((texture) => bytesOf(texture, map)), halves: pixelsOf(target), floats: pixelsOf(floats) };
   });
   const unchanged = drawn;
   prtkit.setLight(ShLight.fromCoefficients(prtkit.order, light.map((value) => 2 * value)), 0, null, lamps);
   picture();
-  const doubled = pixelsOf([...prtkit.maps.targets.values()][0].target, maps[0].i === 0 ? prtkit.maps.maps[0] : null);
+  const doubled = pixelsOf([...prtkit.maps.targets.values()][0].target);
   prtkit.dispose();
   const again = picture(); // what was disposed of is made again
   return {
@@ -105,6 +107,7 @@ async function rendererOf(api) {
     await made.init?.();
     made.setSize(columns, rows, false);
     made.toneMapping = ACESFilmicToneMapping;
+    made.toneMappingExposure = 0.5;
     made.shadowMap.enabled = true;
     made.shadowMap.type = PCFShadowMap;
     renderers.set(api, made);
@@ -154,14 +157,51 @@ async function sceneOf(api, { model, light, environment, suns, shadows, fog, oth
 async function picture({ api, ...asked }) {
   const drawing = await rendererOf(api);
   const { scene, prtkit } = await sceneOf(api, asked);
-  const seen = camera();
-  if (api === "webgl") drawing.render(scene, seen);
-  else await drawing.renderAsync(scene, seen);
+  drawing.render(scene, camera());
   const sheet = new OffscreenCanvas(columns, rows).getContext("2d");
   sheet.drawImage(drawing.domElement, 0, 0);
-  const { data } = sheet.getImageData(0, 0, columns, rows);
   prtkit.dispose();
-  return { pixels: [...data], backend: drawing.backend?.isWebGPUBackend ? "WebGPU" : "WebGL" };
+  return [...sheet.getImageData(0, 0, columns, rows).data];
 }
 
-globalThis.pictures = { texels, picture };
+/** The same as radiance without a tone curve, in sRGB of 0 to 255, and without a canvas. */
+async function radiance({ api, ...asked }) {
+  const drawing = await rendererOf(api);
+  const { scene, prtkit } = await sceneOf(api, asked);
+  const target = new WebGLRenderTarget(columns, rows, { type: FloatType });
+  drawing.setRenderTarget(target);
+  drawing.render(scene, camera());
+  const floats = drawing.isWebGLRenderer
+    ? pixelsBy(drawing, target)
+    : await drawing.readRenderTargetPixelsAsync(target, 0, 0, columns, rows);
+  drawing.setRenderTarget(null);
+  prtkit.dispose();
+  const row = (y) => (api === "webgpu" ? y : rows - 1 - y); // OpenGL has the last row first
+  const encoded = (v) => 255 * Math.min(1, v <= 0.0031308 ? 12.92 * v : 1.055 * v ** (1 / 2.4) - 0.055);
+  return Array.from({ length: 4 * columns * rows }, (_, i) => {
+    const [y, rest] = [Math.floor(i / (4 * columns)), i % (4 * columns)];
+    return i % 4 === 3 ? 255 : encoded(0.5 * floats[row(y) * 4 * columns + rest]);
+  });
+}
+
+/** The half floats of the maps of a model, as WebGPURenderer has them after its first picture. */
+async function nodeTexels({ api, ...asked }) {
+  const drawing = await rendererOf(api);
+  const { scene, prtkit } = await sceneOf(api, asked);
+  let drawn = 0;
+  const { pass } = prtkit.maps;
+  const draw = pass.draw.bind(pass);
+  pass.draw = (...options) => (++drawn, draw(...options));
+  drawing.setRenderTarget(new WebGLRenderTarget(columns, rows));
+  for (let i = 0; i < 2; ++i) drawing.render(scene, camera());
+  drawing.setRenderTarget(null);
+  const maps = [];
+  for (const [i, map] of prtkit.maps.maps.entries()) {
+    const { target } = [...prtkit.maps.targets.values()].find((other) => other.map === map);
+    maps.push({ i, halves: [...(await drawing.readRenderTargetPixelsAsync(target, 0, 0, map.width, map.height))] });
+  }
+  prtkit.dispose();
+  return { maps, drawn };
+}
+
+globalThis.pictures = { texels, picture, radiance, nodeTexels };
