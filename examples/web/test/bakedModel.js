@@ -96,11 +96,44 @@ const MATERIALS = [
   },
 ];
 
-/** The file. `by`: "vertices" or "texels"; `change(json)` may make it another one. */
+/** Cluster and weights of a vertex from its words. */
+function unpacked([low, high]) {
+  const bits = (BigInt(high) << 32n) | BigInt(low);
+  const cluster = low & (2 ** CLUSTER_BITS - 1);
+  let at = CLUSTER_BITS;
+  const weights = WIDTHS[cluster].map((width) => {
+    const most = 2 ** width - 1;
+    const q = Number((bits >> BigInt(at)) & BigInt(most));
+    at += width;
+    return (2 * q - most) / most;
+  });
+  return { cluster, weights: [...weights, 0, 0, 0, 0].slice(0, 4) };
+}
+
+/** Attributes of what is not packed. */
+function weightAttributes(binary, words) {
+  const vertices = words.map(unpacked);
+  const clusters = new Uint8Array(4 * vertices.length); // each in four bytes
+  vertices.forEach(({ cluster }, v) => (clusters[4 * v] = cluster));
+  binary.accessors.push({ bufferView: binary.view(clusters, { byteStride: 4 }), componentType: 5121, count: vertices.length, type: "SCALAR" });
+  return {
+    _PRT_CLUSTER: binary.accessors.length - 1,
+    _PRT_WEIGHTS_0: binary.accessor(new Float32Array(vertices.flatMap(({ weights }) => weights)), "VEC4"),
+  };
+}
+
+const MAPPED = "texels";
+/** How vertices have it: the guides beside, and how weights lie. */
+const GUIDES = {
+  vertices: [{ kind: "normal", scale: [1, 1, 1] }],
+  weights: [{ kind: "normal", scale: [1, 1, 1] }, { kind: "position", origin: [0.1, 0.2, -0.1], scale: [0.3, 0.3, 0.3] }],
+};
+
+/** The file. `by`: "vertices", "weights" (of vertices, not packed) or "texels"; `change(json, binary)` may make it another one. */
 export function bakedModel(by, change = () => {}) {
   const binary = new Binary();
   const shapes = [new PlaneGeometry(4, 4, 24, 24).rotateX(-Math.PI / 2), new SphereGeometry(0.7, 40, 24).translate(-0.5, 1, 0), new SphereGeometry(0.35, 24, 16).translate(0.9, 0.5, 0.6)];
-  const isMapped = by === "texels";
+  const isMapped = by === MAPPED;
   const json = { extensionsUsed: [], scene: 0, scenes: [{ nodes: [0, 1, 2] }], nodes: [{ mesh: 0 }, { mesh: 1 }, { mesh: 2 }], materials: MATERIALS };
   json.images = [{ bufferView: binary.view(normalMap()), mimeType: "image/png" }];
   json.textures = [{ source: 0 }];
@@ -116,9 +149,11 @@ export function bakedModel(by, change = () => {}) {
       attributes.TEXCOORD_1 = binary.accessor(new Float32Array(uv.array), "VEC2");
       primitive.extensions = { PRTKIT_lightmap: { map: i % 2, texCoord: i === 2 ? 0 : 1 } };
     } else {
-      const words = Array.from({ length: WORDS }, () => new Uint32Array(position.count));
-      for (let v = 0; v < position.count; ++v) wordsAt(uv.getX(v), uv.getY(v), i).forEach((word, j) => (words[j][v] = word));
-      words.forEach((list, j) => (attributes[`_PRT_WEIGHTS_${j}`] = binary.accessor(new Uint8Array(list.buffer), "VEC4")));
+      const words = Array.from({ length: position.count }, (_, v) => wordsAt(uv.getX(v), uv.getY(v), i));
+      if (by === "weights") Object.assign(attributes, weightAttributes(binary, words));
+      else
+        for (let j = 0; j < WORDS; ++j)
+          attributes[`_PRT_WEIGHTS_${j}`] = binary.accessor(new Uint8Array(Uint32Array.from(words, (own) => own[j]).buffer), "VEC4");
     }
     return { primitives: [primitive] };
   });
@@ -130,9 +165,12 @@ export function bakedModel(by, change = () => {}) {
     });
     json.extensions = { PRTKIT_lightmap: { version: 1, ...clusters(binary, 0), maps } };
   } else {
-    const centers = { bufferView: binary.view(encodedRows([0, 0, 0], COMPONENTS.map(() => [0, [0, 0, 0]]))), drops: [0, 0, 0] };
-    const guides = [{ kind: "normal", scale: [1, 1, 1] }];
-    json.extensions = { PRTKIT_clustered_pca: { version: 6, ...clusters(binary, 3), guides, centers } };
+    const guides = GUIDES[by];
+    const rows = 3 * guides.length;
+    const none = new Array(rows).fill(0);
+    const centers = { bufferView: binary.view(encodedRows(none, COMPONENTS.map(() => [0, none]))), drops: none };
+    const { packing, ...rest } = clusters(binary, rows);
+    json.extensions = { PRTKIT_clustered_pca: { version: 6, ...rest, ...(by === "weights" ? {} : { packing }), guides, centers } };
   }
   change(json, binary);
   return binary.file(json);

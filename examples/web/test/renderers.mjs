@@ -19,7 +19,15 @@ const web = fileURLToPath(new URL("../", import.meta.url));
 const server = await createServer({ root: web, server: { port: 0, host: "127.0.0.1" }, logLevel: "error" });
 await server.listen();
 const errors = [];
-const models = { "vertices.glb": bakedModel("vertices"), "texels.glb": bakedModel("texels") };
+/** A floor that light passes, and a ball that is unlit. */
+function leafy(json) {
+  json.materials = structuredClone(json.materials);
+  json.materials[0].extensions = { KHR_materials_diffuse_transmission: { diffuseTransmissionFactor: 0.4, diffuseTransmissionColorFactor: [0.5, 1, 0.4] } };
+  json.materials[0].doubleSided = true;
+  json.materials[1].extensions = { KHR_materials_unlit: {} };
+}
+const models = Object.fromEntries(["vertices", "weights", "texels"].map((by) => [`${by}.glb`, bakedModel(by)]));
+for (const by of ["vertices", "texels"]) models[`leaf_${by}.glb`] = bakedModel(by, leafy);
 
 /** A page of a browser of its own: where WebGPU in software gives up, it takes the process of all pages along. */
 async function opened(...options) {
@@ -117,22 +125,55 @@ const cases = {
   "a sky": {},
   "a reflected environment": { environment: true },
   "suns": { suns: true },
-  "suns with shadows, an environment and fog": { suns: true, shadows: true, environment: true, fog: true },
+  "suns with shadows, and an environment": { suns: true, shadows: true, environment: true },
+  "suns through sheets from below, and an unlit ball": { suns: "from below", model: "leaf" },
+  "fog": { suns: true, fog: true, picture: "radiance" }, // three mixes it in before or behind the tone curve
   "other lights, which add nothing": { others: true },
   "cloned materials": { change: "clone", environment: true },
   "metals": { change: "metal" },
+  "instances": { copies: "instances", suns: true },
+  "clones": { copies: "clones" },
+  "a light probe": { probed: true },
+  "another model with its own light": { besides: true },
 };
+const other = { vertices: "texels.glb", texels: "vertices.glb" };
+const given = (by, { model, besides, ...options }) => ({
+  ...options,
+  model: `${model ? `${model}_` : ""}${by}.glb`,
+  besides: besides && other[by],
+  light,
+});
+
+const agree = (a, b) => {
+  const { mean, most } = compared(a, b);
+  assert.ok(mean <= 0.5, `mean ${mean} of 255`);
+  return `mean ${mean.toFixed(3)} of 255, at most ${most.toFixed(0)}`;
+};
+
+async function checkRenderers(by, what, options) {
+  for (const [api, { ask: askThere }, usual] of [["nodes", onWebgl, "picture"], ["webgpu", onWebgpu, "radiance"]])
+    await check(`${by}, ${what}: WebGPURenderer on ${api === "webgpu" ? "WebGPU" : "WebGL"} draws what WebGLRenderer draws`, async () => {
+      const picture = options.picture ?? usual;
+      const asked = given(by, options);
+      const [expected, shown] = [await ask(picture, { api: "webgl", ...asked }), await askThere(picture, { api, ...asked })];
+      if (process.env.PICTURES) savePicture(`${by}.${what}.${api}`, expected, shown);
+      return agree(expected, shown);
+    });
+}
+
+for (const by of ["vertices", "texels"]) for (const [what, options] of Object.entries(cases)) await checkRenderers(by, what, options);
+await checkRenderers("weights", "guides of places, too", { suns: true });
+
 for (const by of ["vertices", "texels"])
-  for (const [what, options] of Object.entries(cases))
-    for (const [api, page, picture] of [["nodes", onWebgl, "picture"], ["webgpu", onWebgpu, "radiance"]])
-      await check(`${by}, ${what}: WebGPURenderer on ${api === "webgpu" ? "WebGPU" : "WebGL"} draws what WebGLRenderer draws`, async () => {
-        const asked = { model: `${by}.glb`, light, ...options };
-        const [expected, shown] = [await ask(picture, { api: "webgl", ...asked }), await page.ask(picture, { api, ...asked })];
-        if (process.env.PICTURES) savePicture(`${by}.${what}.${api}`, expected, shown);
-        const { mean, most } = compared(expected, shown);
-        assert.ok(mean <= 0.5, `mean ${mean} of 255`);
-        return `mean ${mean.toFixed(3)} of 255, at most ${most.toFixed(0)}`;
-      });
+  for (const api of ["webgl", "nodes"])
+    await check(`${by}, ${api}: instances are lit as clones are`, async () => {
+      const [instances, clones] = [await ask("picture", { api, ...given(by, { copies: "instances", suns: true }) }),
+        await ask("picture", { api, ...given(by, { copies: "clones", suns: true }) })];
+      return agree(instances, clones);
+    });
+
+await check("texels: without an environment, the picture is that of three's own light map", async () =>
+  agree(await ask("picture", { api: "webgl", ...given("texels", { change: "matte" }) }), await ask("picture", { api: "webgl", ...given("texels", { change: "three's own" }) })));
 
 await onWebgl.close();
 await onWebgpu.close();

@@ -8,17 +8,22 @@ import {
   EquirectangularReflectionMapping,
   FloatType,
   Fog,
+  InstancedMesh,
+  LightProbe,
+  Matrix4,
+  MeshStandardMaterial,
   PCFShadowMap,
   PerspectiveCamera,
   PointLight,
   RGBAFormat,
   Scene,
+  SphericalHarmonics3,
   WebGLRenderer,
   WebGLRenderTarget,
 } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { WebGPURenderer } from "three/webgpu";
-import { halfFloatSky, PrtkitPlugin, ShLight } from "../../src/PrtkitLoader.js";
+import { halfFloatSky, lightFromProbe, PrtkitPlugin, ShLight } from "../../src/PrtkitLoader.js";
 import { PrtkitPlugin as NodePlugin } from "../../src/webgpu.js";
 
 const renderer = new WebGLRenderer({ antialias: false });
@@ -105,6 +110,7 @@ async function rendererOf(api) {
   if (!renderers.has(api)) {
     const made = api === "webgl" ? new WebGLRenderer({ antialias: false }) : new WebGPURenderer({ antialias: false, forceWebGL: api === "nodes" });
     await made.init?.();
+    if (api === "webgpu" && !made.backend.isWebGPUBackend) throw new Error("there is no WebGPU");
     made.setSize(columns, rows, false);
     made.toneMapping = ACESFilmicToneMapping;
     made.toneMappingExposure = 0.5;
@@ -127,17 +133,57 @@ function evenSky() {
   return halfFloatSky(texture);
 }
 
+const PLACES = [[-0.6, 0, -0.5], [0.9, 0.3, 0.6]];
+
+/** Instances of all meshes, at each of the places. */
+function instancesOf(root) {
+  const instances = [];
+  root.updateMatrixWorld(true);
+  root.traverse((mesh) => {
+    if (!mesh.isMesh) return;
+    const copy = new InstancedMesh(mesh.geometry, mesh.material, PLACES.length);
+    PLACES.forEach((place, i) => copy.setMatrixAt(i, new Matrix4().makeTranslation(...place).multiply(mesh.matrixWorld)));
+    instances.push(Object.assign(copy, { castShadow: mesh.castShadow, receiveShadow: mesh.receiveShadow }));
+  });
+  return instances;
+}
+
+const clonesOf = (root) =>
+  PLACES.map((place) => {
+    const clone = root.clone();
+    clone.position.set(...place);
+    clone.traverse((object) => object.isMesh && (object.material = object.material.clone()));
+    return clone;
+  });
+
+function probe() {
+  const made = new LightProbe(new SphericalHarmonics3(), 0.8);
+  made.sh.coefficients.forEach((coefficient, i) => coefficient.set(1 / (1 + i), 0.8 / (1 + i), 0.5));
+  return made;
+}
+
 /** A scene with the model in the light that is asked for. */
-async function sceneOf(api, { model, light, environment, suns, shadows, fog, others, change }) {
+async function sceneOf(api, { model, light, environment, suns, shadows, fog, others, change, copies, besides, probed }) {
   const Plugin = api === "webgl" ? PrtkitPlugin : NodePlugin;
-  const gltf = await new GLTFLoader().register((parser) => new Plugin(parser)).loadAsync(model);
-  const scene = new Scene().add(gltf.scene);
+  const load = (url) => new GLTFLoader().register((parser) => new Plugin(parser)).loadAsync(url);
+  const gltf = await load(model);
+  const scene = new Scene();
+  if (copies === "instances") scene.add(...instancesOf(gltf.scene));
+  else if (copies === "clones") scene.add(...clonesOf(gltf.scene));
+  else scene.add(gltf.scene);
+  if (besides) {
+    const other = await load(besides);
+    other.scene.position.set(0.3, 1, 0.2);
+    other.scene.scale.setScalar(0.5);
+    other.userData.prtkit.setLight(ShLight.fromCoefficients(2, light.map((value, i) => (i % 3 === 0 ? 0.2 : 0.6) * value)));
+    scene.add(other.scene);
+  }
   if (environment) scene.environment = evenSky();
   if (fog) scene.fog = new Fog(0x8090a0, 3, 9);
   if (others) scene.add(new AmbientLight(0xffffff, 2), new PointLight(0xffffff, 40).translateY(3));
   if (suns) {
     const sun = new DirectionalLight(0xffeedd, 2);
-    sun.position.set(2, 4, 1.5);
+    sun.position.set(2, suns === "from below" ? -4 : 4, 1.5);
     sun.castShadow = Boolean(shadows);
     Object.assign(sun.shadow.camera, { left: -4, right: 4, bottom: -4, top: 4, near: 0.1, far: 12 });
     sun.shadow.mapSize.set(512, 512);
@@ -147,8 +193,19 @@ async function sceneOf(api, { model, light, environment, suns, shadows, fog, oth
   }
   const { prtkit } = gltf.userData;
   const sky = ShLight.fromCoefficients(prtkit.order, light);
-  prtkit.setLight(sky, 0.3, suns ? sky.times(0.1) : null);
+  if (probed) {
+    scene.environmentRotation.y = scene.backgroundRotation.y = 0.7;
+    prtkit.setSky(lightFromProbe(probe(), prtkit.order), scene);
+  } else prtkit.setLight(sky, 0.3, suns ? sky.times(0.1) : null, besides ? { Lantern: 0 } : {});
   if (change === "clone") gltf.scene.traverse((object) => object.isMesh && (object.material = object.material.clone()));
+  if (change === "three's own")
+    gltf.scene.traverse((object) => {
+      if (!object.isMesh) return;
+      const { color, lightMap, lightMapIntensity } = object.material;
+      object.onBeforeRender = prtkit.beforeRender;
+      object.material = new MeshStandardMaterial({ color, lightMap, lightMapIntensity, metalness: 0 });
+    });
+  if (change === "matte") gltf.scene.traverse((object) => object.isMesh && Object.assign(object.material, { metalness: 0, clearcoat: 0 }).emissive.set(0));
   if (change === "metal") gltf.scene.traverse((object) => object.isMesh && (object.material.metalness = 1));
   return { scene, prtkit };
 }
