@@ -52,8 +52,9 @@ public:
 
 private:
     glm::vec3 exit_radiance_at(const SeenSurface& surface) const {
-        return lightmaps_ ? lightmaps_->look_up(surface.triangle, surface.barycentrics, picture_.lightmaps.radiance)
-                          : at_corners(picture_, surface);
+        return lightmaps_
+                   ? lightmaps_->look_up(surface.triangle, surface.barycentrics, picture_.lightmaps.radiance)
+                   : at_corners(picture_, surface);
     }
 
     int samples() const { return picture_.samples * picture_.samples; }

@@ -88,7 +88,8 @@ Transfer repeated_lightmap(const Scene& scene, const BakedLightmap& lightmap, in
     options.fit = FitMode::automatic; // of vertices that light bounces between
     std::vector<Atlas> atlases;
     for (const LightmapSize& map : lightmap.layout.maps)
-        atlases.push_back({.primitives = {}, .width = map.width, .height = map.height, .repeats = map.repeats});
+        atlases.push_back(
+            {.primitives = {}, .width = map.width, .height = map.height, .repeats = map.repeats});
     for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
         Atlas& atlas = atlases[lightmap.layout.places[p].map];
         atlas.primitives.push_back(p);

@@ -1,5 +1,5 @@
-// Bakes texels: light is bounced between vertices, then gathered by every texel with the rays of its own direct
-// light.
+// Bakes texels: light is bounced between vertices, then gathered by every texel with the rays of its own
+// direct light.
 
 #include "prt/lightmap_bake.h"
 
@@ -31,8 +31,8 @@
 namespace prt {
 namespace {
 
-/// Vertices that light bounces between lie at most so many texels apart. Measured on the room, 256², 3 bounces,
-/// 1 024 rays, against 2: see docs/math.md, section 15.
+/// Vertices that light bounces between lie at most so many texels apart. Measured on the room, 256², 3
+/// bounces, 1 024 rays, against 2: see docs/math.md, section 15.
 constexpr double kTexelsBetweenSources = 8;
 /// Rows of the gather that are there at a time take about so many bytes at most.
 constexpr double kBytesOfRows = 1e9;
@@ -76,12 +76,13 @@ void check_room(const std::vector<Atlas>& atlases, std::size_t numbers, double l
         largest = std::max(largest, static_cast<double>(atlas.texels()));
         all += static_cast<double>(atlas.texels());
     }
-    const double value = sizeof(float) * static_cast<double>(numbers), needed = value * (1.1 * largest + 3.2 * all),
-                 there = limit > 0 ? limit : available_memory();
+    const double value = sizeof(float) * static_cast<double>(numbers),
+                 needed = value * (1.1 * largest + 3.2 * all), there = limit > 0 ? limit : available_memory();
     if (there > 0 && needed > there)
-        throw Error(fmt::format("maps of {:.3g} texels with {} numbers each need about {:.2g} GB of memory, and "
-                                "there are {:.2g} GB: give fewer texels or a lower order",
-                                all, numbers, needed * 1e-9, there * 1e-9));
+        throw Error(
+            fmt::format("maps of {:.3g} texels with {} numbers each need about {:.2g} GB of memory, and "
+                        "there are {:.2g} GB: give fewer texels or a lower order",
+                        all, numbers, needed * 1e-9, there * 1e-9));
 }
 
 /// Jumps of the first coefficient across seams, squared and summed.
@@ -170,7 +171,8 @@ private:
             measured.direct.gather ? tracer.gather_product(*measured.direct.gather) : nullptr;
         const TransportOperators operators{.refill = measured.sealed.refill,
                                            .diffusion = plan.diffusion,
-                                           .gather = measured.direct.gather ? &*measured.direct.gather : nullptr,
+                                           .gather =
+                                               measured.direct.gather ? &*measured.direct.gather : nullptr,
                                            .product = product.get(),
                                            .fit = measured.fit ? &*measured.fit : nullptr};
         const int before = plan.bounces == kEndlessBounces ? kEndlessBounces : plan.bounces - 1;
@@ -181,7 +183,8 @@ private:
         sources.sky = std::move(lit.transfer);
         if (!plan.lamps.empty())
             sources.lamps =
-                propagate_lamps_on_both_sides(plan, std::move(lamps.transfer), operators, before, {}).transfer;
+                propagate_lamps_on_both_sides(plan, std::move(lamps.transfer), operators, before, {})
+                    .transfer;
         return sources;
     }
 
@@ -196,14 +199,13 @@ private:
                 progress.part(static_cast<double>(a) / static_cast<double>(atlases_.size()),
                               static_cast<double>(a + 1) / static_cast<double>(atlases_.size()));
             const TexelSamples samples = sample_texels(charts_[a], atlases_[a]);
-            const TexelTask task{.tracer = tracer,
-                                 .scene = plan.scene,
-                                 .places = places,
-                                 .options = {.order = options_.order,
-                                             .rays = options_.rays,
-                                             .seed = options_.seed + a},
-                                 .inside = options_.repairs.inside,
-                                 .transport = &transport};
+            const TexelTask task{
+                .tracer = tracer,
+                .scene = plan.scene,
+                .places = places,
+                .options = {.order = options_.order, .rays = options_.rays, .seed = options_.seed + a},
+                .inside = options_.repairs.inside,
+                .transport = &transport};
             TexelLight light = trace_texels(task, atlases_[a], samples.samples, part);
             statistics().rays += light.rays;
             take(a, first, places, samples.samples, std::move(light), transport);
@@ -212,8 +214,8 @@ private:
     }
 
     /// Fills and stitches the light of a map and keeps what filters read.
-    void take(std::size_t a, std::size_t first, const TexelPlaces& places, std::span<const TexelSample> samples,
-              TexelLight light, const TexelTransport& transport) {
+    void take(std::size_t a, std::size_t first, const TexelPlaces& places,
+              std::span<const TexelSample> samples, TexelLight light, const TexelTransport& transport) {
         const Atlas& atlas = atlases_[a];
         statistics().texels.measured += light.measured;
         statistics().texels.sealed +=
@@ -240,7 +242,8 @@ private:
         for (const std::uint32_t texel : areas.texels) {
             map.texels.push_back(static_cast<std::uint32_t>(first + texel));
             const auto append = [&](const std::vector<float>& from, std::size_t stride, Transfer& to) {
-                to.vectors.insert(to.vectors.end(), from.begin() + static_cast<std::ptrdiff_t>(texel * stride),
+                to.vectors.insert(to.vectors.end(),
+                                  from.begin() + static_cast<std::ptrdiff_t>(texel * stride),
                                   from.begin() + static_cast<std::ptrdiff_t>((texel + 1) * stride));
             };
             append(light.direct, order2, direct_);
@@ -250,8 +253,10 @@ private:
         map.areas.insert(map.areas.end(), areas.areas.begin(), areas.areas.end());
         for (const SeamPoint& point : seams) {
             const auto receiver_at = [&](const glm::dvec2& place) {
-                const auto found = std::ranges::lower_bound(areas.texels, most_read(bilinear_at(atlas, place)));
-                return static_cast<std::uint32_t>(begin + static_cast<std::size_t>(found - areas.texels.begin()));
+                const auto found =
+                    std::ranges::lower_bound(areas.texels, most_read(bilinear_at(atlas, place)));
+                return static_cast<std::uint32_t>(begin +
+                                                  static_cast<std::size_t>(found - areas.texels.begin()));
             };
             map.seams.push_back({receiver_at(point.here), receiver_at(point.there)});
         }

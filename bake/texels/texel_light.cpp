@@ -84,8 +84,8 @@ private:
         Layer layer;
         for (const TexelGroup& group : groups) {
             const bool there = k < group.samples.size();
-            layer.triangles.push_back(task_.places.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f,
-                                                          layer.receivers));
+            layer.triangles.push_back(
+                task_.places.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f, layer.receivers));
         }
         layer.indices = receivers_on_surfaces(layer.receivers);
         return layer;
@@ -125,9 +125,8 @@ private:
         add(more, task_.transport->sky_stride(), light.sky);
         more.assign(groups.size() * task_.transport->lamp_stride(), 0.0f);
         if (!more.empty())
-            light.rays += task_.transport->light_of_lamps(task_.tracer, layer.receivers,
-                                                          lamp_seed(groups, k), more,
-                                                          progress.part(0.9, 1));
+            light.rays += task_.transport->light_of_lamps(task_.tracer, layer.receivers, lamp_seed(groups, k),
+                                                          more, progress.part(0.9, 1));
         add(more, task_.transport->lamp_stride(), light.lamps);
     }
 

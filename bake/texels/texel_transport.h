@@ -12,8 +12,8 @@
 
 namespace prt {
 
-/// Exit transfer of all receivers of a plan, on both sides of surfaces, before the last bounce; of no receivers
-/// where there is no such light.
+/// Exit transfer of all receivers of a plan, on both sides of surfaces, before the last bounce; of no
+/// receivers where there is no such light.
 struct BouncedSources {
     Transfer sky, lamps;
 };
@@ -50,8 +50,9 @@ private:
     std::span<const std::uint32_t> whole_;
     GatherOperator gather_;
     int sky_order_ = 0;
-    std::vector<float> sky_;                ///< reflected
-    std::vector<std::vector<float>> lamps_; ///< the same; each color apart where surfaces are grey and lamps not
+    std::vector<float> sky_; ///< reflected
+    std::vector<std::vector<float>>
+        lamps_; ///< the same; each color apart where surfaces are grey and lamps not
     TransferLayout lamp_layout_;
 };
 

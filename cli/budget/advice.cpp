@@ -129,7 +129,8 @@ private:
         const Progress quiet{{}, progress_.stop};
         if (const std::optional<LightmapOfFile>& lightmap = s_.baked.lightmap) {
             options.guides = GuideChoice::none;
-            return compress(baked, {.areas = lightmap->areas, .edges = lightmap->edges}, options, quiet).transfer;
+            return compress(baked, {.areas = lightmap->areas, .edges = lightmap->edges}, options, quiet)
+                .transfer;
         }
         const SceneSurface surface(s_.baked.scene);
         return compress(baked, surface.view(), options, quiet).transfer;

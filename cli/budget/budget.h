@@ -55,7 +55,8 @@ struct BudgetStages {
     const Transfer* shipped = nullptr; ///< null: not compressed
     int bounces = 0;                   ///< or kEndlessBounces
     bool alike = true;                 ///< both bakes have as many rays
-    /// Null: their receivers are vertices, and their values are interpolated; else texels, which are filtered.
+    /// Null: their receivers are vertices, and their values are interpolated; else texels, which are
+    /// filtered.
     const LightmapOfFile* lightmap = nullptr;
 };
 

@@ -30,8 +30,8 @@ Transfer repeat(const SceneFile& baked, int threads, const Progress& progress) {
     if (!baked.lightmap)
         return repeated_bake(baked.scene, baked.baked->transfer, *baked.record(), threads, progress);
     const LightmapOfFile& lightmap = *baked.lightmap;
-    return repeated_lightmap(baked.scene, {lightmap.layout, lightmap.texels, lightmap.areas, {}, *baked.baked},
-                             threads, progress);
+    return repeated_lightmap(
+        baked.scene, {lightmap.layout, lightmap.texels, lightmap.areas, {}, *baked.baked}, threads, progress);
 }
 
 void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFile* shipped, Report& report,

@@ -254,9 +254,11 @@ Outcome run_compressor(const CompressArguments& a, const TransferView& transfer,
 }
 
 /// The bake's file with the result, in the order that is asked for.
-std::vector<std::byte> encoded(const CompressArguments& a, Bake bake, Scene& scene, ClusteredTransfer compressed) {
+std::vector<std::byte> encoded(const CompressArguments& a, Bake bake, Scene& scene,
+                               ClusteredTransfer compressed) {
     GltfDocument& document = bake.document;
-    const BufferCompression buffers = a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none;
+    const BufferCompression buffers =
+        a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none;
     if (bake.lightmap) {
         bake.lightmap->baked.record = bake.stored.record;
         write_lightmap(document, scene, spread_over_maps(*bake.lightmap, std::move(compressed)));
@@ -452,8 +454,9 @@ void run(CompressArguments a, Session& session) {
     Scene scene = extract_scene(bake.document);
     const VertexReuse reuse_before = vertex_reuse(scene);
     const std::optional<BakedLightmap> texels = bake.lightmap;
-    std::vector<std::byte> file = about(
-        a.baked, [&] { return encoded(a, bake_without_transfer(bake), scene, std::move(outcome.result.transfer)); });
+    std::vector<std::byte> file = about(a.baked, [&] {
+        return encoded(a, bake_without_transfer(bake), scene, std::move(outcome.result.transfer));
+    });
     if (!a.writing.reorder)
         scene = {}; // vertices are where they were
     const Written result = written(a, std::move(file), texels, session);

@@ -44,8 +44,8 @@ Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::v
         baked.lightmap ? std::nullopt : std::optional<SceneSurface>(baked.scene);
     const ReceiverSurface surface =
         vertices ? vertices->view() : ReceiverSurface{baked.lightmap->areas, baked.lightmap->edges};
-    return sweep(transfer, surface, all, options,
-                 residual_vq_candidates(transfer, options.seed), bar.progress());
+    return sweep(transfer, surface, all, options, residual_vq_candidates(transfer, options.seed),
+                 bar.progress());
 }
 
 /// Those that were named, turned as asked, or the default ones.

@@ -185,8 +185,8 @@ Lighting lighting_of(const RenderArguments& a, const SceneFile& model, SplitLigh
     return lighting;
 }
 
-/// Exit radiance for albedo 1 of the receivers, texels or vertices: compressed, baked, or unshadowed, whatever
-/// the model holds.
+/// Exit radiance for albedo 1 of the receivers, texels or vertices: compressed, baked, or unshadowed,
+/// whatever the model holds.
 std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighting, int threads) {
     if (model.compressed)
         return exit_radiance(model.compressed->transfer, lighting, threads);
@@ -196,8 +196,8 @@ std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighti
 }
 
 /// Of all texels of a shipped lightmap, against those that its bake has.
-std::vector<glm::vec3> lightmap_errors(const SceneFile& baked, const SceneFile& model, const Lighting& lighting,
-                                       int threads) {
+std::vector<glm::vec3> lightmap_errors(const SceneFile& baked, const SceneFile& model,
+                                       const Lighting& lighting, int threads) {
     const LightmapOfFile& lightmap = *baked.lightmap;
     const std::vector<glm::vec3> shipped =
         model.compressed

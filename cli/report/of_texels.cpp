@@ -13,7 +13,8 @@ void replace_all(std::string& text, std::string_view word, std::string_view by) 
 }
 
 std::string of_texels(std::string text) {
-    for (const auto& [word, by] : {std::pair("per vertex", "per texel"), {"per_vertex", "per_texel"}, {"a vertex", "a texel"}})
+    for (const auto& [word, by] :
+         {std::pair("per vertex", "per texel"), {"per_vertex", "per_texel"}, {"a vertex", "a texel"}})
         replace_all(text, word, by);
     return text;
 }

@@ -190,7 +190,7 @@ template <WeightFormat Format>
 
 PRT_TARGET_CLONES
 void evaluate_in_lanes(const ClusteredReceivers& receivers, const ClusterLayout* layouts,
-                    const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
+                       const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
     switch (receivers.format) {
     case WeightFormat::snorm8:
         return evaluate_format<WeightFormat::snorm8>(receivers, layouts, constants, begin, end, radiance);

@@ -43,13 +43,14 @@ private:
 };
 
 /// Textures of `radiance` [layout.texels()], with all levels.
-std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout, std::span<const glm::vec3> radiance);
+std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout,
+                                             std::span<const glm::vec3> radiance);
 
 /// The radiance that the compute shader writes at full precision, read back: [texels of the layout].
 std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, const Lighting& lighting,
                                             const GlContext& context);
 /// The same by `shaders/prt_lightmap.frag`, drawn over maps.
-std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap, const Lighting& lighting,
-                                                      const GlContext& context);
+std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap,
+                                                      const Lighting& lighting, const GlContext& context);
 
 } // namespace prt
