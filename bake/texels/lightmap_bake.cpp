@@ -190,9 +190,9 @@ private:
 
     void trace(const BakePlan& plan, Tracer& tracer, const TexelPlaces& places, TexelTransport& transport,
                const Progress& progress) {
-        direct_.layout = layout_of_one(options_.order, 1, PartKind::direct);
-        rest_.layout = layout_of_one(options_.order, plan.channels, PartKind::indirect);
-        lamps_.layout = transport.lamp_layout();
+        light_.direct.layout = layout_of_one(options_.order, 1, PartKind::direct);
+        light_.rest.layout = layout_of_one(options_.order, plan.channels, PartKind::indirect);
+        light_.lamps.layout = transport.lamp_layout();
         std::size_t first = 0;
         for (std::size_t a = 0; a < atlases_.size(); ++a) {
             const Progress part =
@@ -221,7 +221,7 @@ private:
         statistics().texels.sealed +=
             light.measured - static_cast<std::size_t>(std::ranges::count(light.lit, true));
         const std::vector<SeamPoint> seams = seam_points(scene_, atlas);
-        const auto order2 = direct_.dimension();
+        const auto order2 = light_.direct.dimension();
         const auto close = [&](std::vector<float>& values, std::size_t stride) {
             if (stride == 0)
                 return;
@@ -229,10 +229,10 @@ private:
             stitch_seams(atlas, seams, light.lit, values, stride);
         };
         fill_gutters(atlas, light.lit, light.direct, order2);
-        jumps_before_ += squared_jumps(atlas, seams, light.direct, order2);
+        jumps_.before += squared_jumps(atlas, seams, light.direct, order2);
         stitch_seams(atlas, seams, light.lit, light.direct, order2);
-        jumps_ += squared_jumps(atlas, seams, light.direct, order2);
-        seam_points_ += seams.size();
+        jumps_.after += squared_jumps(atlas, seams, light.direct, order2);
+        jumps_.points += seams.size();
         close(light.sky, transport.sky_stride());
         close(light.lamps, transport.lamp_stride());
 
@@ -246,9 +246,9 @@ private:
                                   from.begin() + static_cast<std::ptrdiff_t>(texel * stride),
                                   from.begin() + static_cast<std::ptrdiff_t>((texel + 1) * stride));
             };
-            append(light.direct, order2, direct_);
-            append(light.sky, transport.sky_stride(), rest_);
-            append(light.lamps, transport.lamp_stride(), lamps_);
+            append(light.direct, order2, light_.direct);
+            append(light.sky, transport.sky_stride(), light_.rest);
+            append(light.lamps, transport.lamp_stride(), light_.lamps);
         }
         map.areas.insert(map.areas.end(), areas.areas.begin(), areas.areas.end());
         for (const SeamPoint& point : seams) {
@@ -291,12 +291,13 @@ private:
             for (const std::size_t p : atlases_[a].primitives)
                 map.layout.places[p] = {a, atlases_[a].uv_set};
         }
-        s.mean_visibility = mean_visibility(direct_, map.areas);
+        s.mean_visibility = mean_visibility(light_.direct, map.areas);
         estimate_error(tracer, places);
         BakedTransfer& baked = map.baked;
-        baked.transfer = plan.bounces != 0 ? joined(direct_, narrowed(std::move(rest_))) : std::move(direct_);
+        baked.transfer = plan.bounces != 0 ? joined(light_.direct, narrowed(std::move(light_.rest)))
+                                           : std::move(light_.direct);
         if (!plan.lamps.empty())
-            baked.transfer = with_lamps(baked.transfer, lamps_, plan.lamps);
+            baked.transfer = with_lamps(baked.transfer, light_.lamps, plan.lamps);
         baked.record = {.bounces = bounces_done_,
                         .endless = plan.bounces == kEndlessBounces,
                         .rays = options_.rays,
@@ -312,10 +313,10 @@ private:
         s.texels.receivers = map.texels.size();
         s.device = tracer.device();
         const auto rms = [&](double sum) {
-            return seam_points_ > 0 ? std::sqrt(sum / static_cast<double>(seam_points_)) : 0;
+            return jumps_.points > 0 ? std::sqrt(sum / static_cast<double>(jumps_.points)) : 0;
         };
-        s.seam_before = rms(jumps_before_);
-        s.seam = rms(jumps_);
+        s.seam_before = rms(jumps_.before);
+        s.seam = rms(jumps_.after);
         if (s.texels.sealed > 0)
             s.notices.push_back(fmt::format(
                 "{} texels are sealed in by backs of faces: they take the light of texels beside them",
@@ -330,10 +331,14 @@ private:
     const FinerModel& finer_;
     Media media_;
     std::vector<std::vector<ChartTriangle>> charts_; ///< [atlases]
-    Transfer direct_, rest_, lamps_;                 ///< of the receivers so far
+    struct Parts {
+        Transfer direct, rest, lamps;
+    } light_; ///< of the receivers so far
+    struct Jumps {
+        double before = 0, after = 0; ///< squared
+        std::size_t points = 0;
+    } jumps_;
     int bounces_done_ = 0;
-    double jumps_before_ = 0, jumps_ = 0;
-    std::size_t seam_points_ = 0;
     LightmapBake result_;
 };
 

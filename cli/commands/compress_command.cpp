@@ -331,7 +331,7 @@ std::string guides_in_words(const ClusteredBases& bases) {
 
 /// The errors are those of what is written, against `transfer` in its order.
 Json result_json(const CompressStatistics& s, const CompressOptions& options, const TransferView& transfer,
-                 const ErrorMoments& moments, const Written& written) {
+                 const Written& written) {
     const std::vector<float>& areas = written.areas;
     const std::vector<Edge>& edges = written.edges;
     const std::size_t receivers = transfer.receivers();
@@ -346,7 +346,6 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
             {"components_mean", s.mean_components},
             {"guides", guides_in_words(bases)},
             {"shader_operations", s.operations()},
-            {"lit_rms", expected_lit_rms(moments, *options.metric)},
             {"jump_across_clusters",
              jump_across_clusters(transfer, written.transfer, written.transfer.receivers.clusters,
                                   {areas, edges}, *options.metric, options.threads)},
@@ -403,6 +402,22 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
             "{vertex_overfetch_before:.2f}");
     list.emplace_back("{bytes_file} bytes on disk; {seconds:.2f} s");
     return list;
+}
+
+/// All but errors under skies.
+Report report_of(const CompressArguments& a, const SearchOptions& options, const TransferView& transfer,
+                 const Outcome& outcome, const Written& result) {
+    const CompressStatistics& s = outcome.result.statistics;
+    Report report;
+    add_figures(report, {{"output", a.output.string()}});
+    add_figures(report, result_json(s, options.compress, transfer, result));
+    add_figures(
+        report,
+        {{"bytes_file", result.bytes}, {"trials", trials_json(outcome.trials)}, {"seconds", s.seconds}});
+    report.sentences = sentences(a, a.preset && !outcome.trials.empty());
+    if (outcome.best)
+        add_promises(options.budget, *outcome.best, report);
+    return report;
 }
 
 /// What texels cannot be: a pass over a map knows no normals, and its words are packed.
@@ -464,26 +479,17 @@ void run(CompressArguments a, Session& session) {
         transfer = in_order(std::move(transfer), matching_receivers(result.scene, scene));
         scene = {};
     }
-    const CompressStatistics& s = outcome.result.statistics;
-    Report report;
-    add_figures(report, {{"output", a.output.string()}});
+    Report report = report_of(a, options, transfer, outcome, result);
+    add_figures(report, reuse_json(reuse_before, vertex_reuse(result.scene)));
     const ErrorMoments moments =
         error_moments(transfer, result.transfer, result.areas, options.compress.threads);
-    add_figures(report, result_json(s, options.compress, transfer, moments, result));
-    add_figures(report, reuse_json(reuse_before, vertex_reuse(result.scene)));
-    add_figures(
-        report,
-        {{"bytes_file", result.bytes}, {"trials", trials_json(outcome.trials)}, {"seconds", s.seconds}});
-    report.sentences = sentences(a, a.preset && !outcome.trials.empty());
-    if (outcome.best)
-        add_promises(options.budget, *outcome.best, report);
+    add_figures(report, {{"lit_rms", expected_lit_rms(moments, *options.compress.metric)}});
     std::ranges::move(standard_skies(transfer.layout().order), std::back_inserter(skies));
     add_sky_errors(moments, skies, report);
     if (texels)
         say_texels(report);
     publish(report, a.reports.json, session);
 }
-
 } // namespace
 
 void add_compress(CLI::App& app, Session& session) {
