@@ -122,8 +122,8 @@ public:
         const TexelPlaces plain(scene_, nullptr);
         const double spacing =
             options_.bounces != 0 ? kTexelsBetweenSources * texel_size(plain, charts_) : HUGE_VAL;
-        const EvenScene even = with_short_edges(traced_scene(), spacing);
-        const TraceScene traced = trace_scene(even.scene, media_, options_);
+        const Scene even = with_short_edges(traced_scene(), spacing);
+        const TraceScene traced = trace_scene(even, media_, options_);
         const BakePlan plan = plan_bake(traced, media_, options_);
         check_memory(plan);
         check_room(atlases_, plan.numbers(), options_.memory.limit);
@@ -132,8 +132,8 @@ public:
         const double share = plan.bounces != 0 || !plan.lamps.empty() ? 0.2 : 0;
         BouncedSources sources = bounce(plan, *tracer, progress.part(0, share));
         statistics().seconds.sources = watch.seconds();
-        TexelTransport transport(plan, std::move(sources), even.whole, rows_at_once());
-        const Casters casters{traced, finer_.reach, even.whole};
+        TexelTransport transport(plan, std::move(sources), rows_at_once());
+        const Casters casters{traced, finer_.reach};
         const TexelPlaces places(scene_, finer_.scene ? &casters : nullptr);
         trace(plan, *tracer, places, transport, progress.part(share, 1));
         finish(plan, *tracer, places, watch);

@@ -37,8 +37,7 @@ std::vector<TexelGroup> by_texel(std::span<const TexelSample> samples) {
 /// One sample of each of some texels.
 struct Layer {
     Receivers receivers;
-    std::vector<std::uint32_t> triangles; ///< [receivers] that they lie on
-    std::vector<std::uint32_t> indices;   ///< of those that are there
+    std::vector<std::uint32_t> indices; ///< of those that are there
 };
 
 class TexelTracer {
@@ -84,8 +83,7 @@ private:
         Layer layer;
         for (const TexelGroup& group : groups) {
             const bool there = k < group.samples.size();
-            layer.triangles.push_back(
-                task_.places.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f, layer.receivers));
+            task_.places.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f, layer.receivers);
         }
         layer.indices = receivers_on_surfaces(layer.receivers);
         return layer;
@@ -102,7 +100,7 @@ private:
         if (task_.transport && task_.transport->bounces()) {
             task_.transport->clear();
             sink = [&](std::uint32_t g, std::span<const Hit> hits) {
-                task_.transport->set_row(g, hits, options.rays, layer.triangles[g]);
+                task_.transport->set_row(g, hits, options.rays);
             };
         }
         trace_receivers(task_.tracer, layer.receivers, layer.indices, options, traced, progress.part(0, 0.9),
