@@ -121,13 +121,13 @@ const lit = (Base) =>
     }
 
     /** Three's own lights are left out but for suns: they are in the sky, or lamps of the transfer. */
-    setupLights(builder) {
+    setupLighting(builder) {
       const { lightsNode } = this;
       const { model, traits } = this._transfer;
       const suns = traits?.lit ? (lightsNode ?? builder.lightsNode).getLights().filter(({ isDirectionalLight }) => isDirectionalLight) : [];
       this.lightsNode = builder.renderer.lighting.createNode([...suns, new LightNode(model)]);
       try {
-        return super.setupLights(builder);
+        return super.setupLighting(builder);
       } finally {
         this.lightsNode = lightsNode;
       }

@@ -2,6 +2,8 @@
 
 export const VERTICES = "PRTKIT_clustered_pca";
 export const TEXELS = "PRTKIT_lightmap";
+/** What is wrong with a file that is not compressed. */
+export const AS_BAKED = "holds transfer as it was baked; make it one to ship: prt compress baked.glb -o shipped.glb";
 
 /** Throws an Error that says `what` is wrong with the file, unless `holds`. `name`: of the extension that it is wrong with. */
 export function expect(holds, what, name = VERTICES) {
@@ -121,7 +123,7 @@ export function checkLightmap(extension, images) {
   holds(isObject(extension), "the extension is no object");
   const { version, raw, guides, packing, maps } = extension;
   holds(version === 1, `version ${version} is not known, only 1; compress the model again`);
-  holds(raw === undefined, "holds transfer as it was baked: run prt compress");
+  holds(raw === undefined, AS_BAKED);
   ofTexels(() => checkClusters(extension));
   holds(guides === undefined, "texels have no guides");
   holds(packing !== undefined, "the weights of texels are not packed");

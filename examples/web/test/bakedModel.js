@@ -113,9 +113,9 @@ function unpacked([low, high]) {
 /** Attributes of what is not packed. */
 function weightAttributes(binary, words) {
   const vertices = words.map(unpacked);
-  const clusters = new Uint8Array(4 * vertices.length); // each in four bytes
-  vertices.forEach(({ cluster }, v) => (clusters[4 * v] = cluster));
-  binary.accessors.push({ bufferView: binary.view(clusters, { byteStride: 4 }), componentType: 5121, count: vertices.length, type: "SCALAR" });
+  const bytes = new Uint8Array(4 * vertices.length); // each cluster in four
+  vertices.forEach(({ cluster }, v) => (bytes[4 * v] = cluster));
+  binary.accessors.push({ bufferView: binary.view(bytes, { byteStride: 4 }), componentType: 5121, count: vertices.length, type: "SCALAR" });
   return {
     _PRT_CLUSTER: binary.accessors.length - 1,
     _PRT_WEIGHTS_0: binary.accessor(new Float32Array(vertices.flatMap(({ weights }) => weights)), "VEC4"),
@@ -134,7 +134,7 @@ export function bakedModel(by, change = () => {}) {
   const binary = new Binary();
   const shapes = [new PlaneGeometry(4, 4, 24, 24).rotateX(-Math.PI / 2), new SphereGeometry(0.7, 40, 24).translate(-0.5, 1, 0), new SphereGeometry(0.35, 24, 16).translate(0.9, 0.5, 0.6)];
   const isMapped = by === MAPPED;
-  const json = { extensionsUsed: [], scene: 0, scenes: [{ nodes: [0, 1, 2] }], nodes: [{ mesh: 0 }, { mesh: 1 }, { mesh: 2 }], materials: MATERIALS };
+  const json = { extensionsUsed: ["KHR_materials_clearcoat", "KHR_materials_unlit"], scene: 0, scenes: [{ nodes: [0, 1, 2] }], nodes: [{ mesh: 0 }, { mesh: 1 }, { mesh: 2 }], materials: MATERIALS };
   json.images = [{ bufferView: binary.view(normalMap()), mimeType: "image/png" }];
   json.textures = [{ source: 0 }];
   json.meshes = shapes.map(({ attributes: { position, normal, uv }, index }, i) => {

@@ -29,7 +29,7 @@ import { PrtkitPlugin as NodePlugin } from "../../src/webgpu.js";
 const renderer = new WebGLRenderer({ antialias: false });
 renderer.setSize(64, 48, false);
 
-const load = (url) => new GLTFLoader().register((parser) => new PrtkitPlugin(parser)).loadAsync(url);
+const load = (url, Plugin = PrtkitPlugin) => new GLTFLoader().register((parser) => new Plugin(parser)).loadAsync(url);
 
 function camera() {
   const seen = new PerspectiveCamera(40, 4 / 3, 0.1, 20);
@@ -69,15 +69,15 @@ async function texels({ model, light, lamps }) {
   pass.draw = (...options) => (++drawn, draw(...options));
   prtkit.setLight(ShLight.fromCoefficients(prtkit.order, light), 0, null, lamps);
   const shown = new Scene().add(scene);
-  const picture = () => {
+  const drawnOnce = () => {
     const target = new WebGLRenderTarget(64, 48, { type: FloatType });
     renderer.setRenderTarget(target);
     renderer.render(shown, camera());
     renderer.setRenderTarget(null);
     return pixelsOf(target);
   };
-  const first = picture();
-  const [once, second] = [drawn, picture()];
+  const first = drawnOnce();
+  const [once, second] = [drawn, drawnOnce()];
   const maps = prtkit.maps.maps.map((map, i) => {
     const { target } = [...prtkit.maps.targets.values()].find((other) => other.map === map);
     const floats = new WebGLRenderTarget(map.width, map.height, { type: FloatType, depthBuffer: false });
@@ -86,10 +86,10 @@ async function texels({ model, light, lamps }) {
   });
   const unchanged = drawn;
   prtkit.setLight(ShLight.fromCoefficients(prtkit.order, light.map((value) => 2 * value)), 0, null, lamps);
-  picture();
+  drawnOnce();
   const doubled = pixelsOf([...prtkit.maps.targets.values()][0].target);
   prtkit.dispose();
-  const again = picture(); // what was disposed of is made again
+  const again = drawnOnce(); // what was disposed of is made again
   return {
     targets: prtkit.maps.targets.size,
     once,
@@ -165,14 +165,13 @@ function probe() {
 /** A scene with the model in the light that is asked for. */
 async function sceneOf(api, { model, light, environment, suns, shadows, fog, others, change, copies, besides, probed }) {
   const Plugin = api === "webgl" ? PrtkitPlugin : NodePlugin;
-  const load = (url) => new GLTFLoader().register((parser) => new Plugin(parser)).loadAsync(url);
-  const gltf = await load(model);
+  const gltf = await load(model, Plugin);
   const scene = new Scene();
   if (copies === "instances") scene.add(...instancesOf(gltf.scene));
   else if (copies === "clones") scene.add(...clonesOf(gltf.scene));
   else scene.add(gltf.scene);
   if (besides) {
-    const other = await load(besides);
+    const other = await load(besides, Plugin);
     other.scene.position.set(0.3, 1, 0.2);
     other.scene.scale.setScalar(0.5);
     other.userData.prtkit.setLight(ShLight.fromCoefficients(2, light.map((value, i) => (i % 3 === 0 ? 0.2 : 0.6) * value)));
@@ -186,6 +185,7 @@ async function sceneOf(api, { model, light, environment, suns, shadows, fog, oth
     sun.position.set(2, suns === "from below" ? -4 : 4, 1.5);
     sun.castShadow = Boolean(shadows);
     Object.assign(sun.shadow.camera, { left: -4, right: 4, bottom: -4, top: 4, near: 0.1, far: 12 });
+    sun.shadow.camera.updateProjectionMatrix();
     sun.shadow.mapSize.set(512, 512);
     sun.shadow.bias = -0.002;
     sun.shadow.normalBias = 0.02;
