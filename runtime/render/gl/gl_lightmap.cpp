@@ -136,6 +136,13 @@ std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout,
     return maps;
 }
 
+std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout) {
+    std::vector<GlObject> maps;
+    for (const LightmapSize& size : layout.maps)
+        maps.push_back(make_map(size, GL_RGBA16F));
+    return maps;
+}
+
 std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, const Lighting& lighting,
                                             const GlContext&) {
     const ClusteredTransfer& transfer = lightmap.compressed.transfer;

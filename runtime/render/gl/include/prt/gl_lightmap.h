@@ -45,6 +45,8 @@ private:
 /// Textures of `radiance` [layout.texels()], with all levels.
 std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout,
                                              std::span<const glm::vec3> radiance);
+/// The same without radiance, RGBA16F: for shaders that write it.
+std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout);
 
 /// The radiance that the compute shader writes at full precision, read back: [texels of the layout].
 std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, const Lighting& lighting,
