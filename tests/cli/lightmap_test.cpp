@@ -68,6 +68,29 @@ TEST_F(Lightmaps, GoAllTheRoad) {
             0);
 }
 
+TEST_F(Lightmaps, HaveShadersThatCompile) {
+    ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
+    ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb")}).status, 0);
+    const struct {
+        const char *language, *file;
+        bool fragment;
+    } cases[] = {{"glsl450", "a.comp", false}, {"vulkan", "b.comp", false},  {"glsl450", "c.frag", true},
+                 {"glsl330", "d.frag", false}, {"essl300", "e.frag", false}, {"vulkan", "f.frag", true}};
+    for (const auto& c : cases) {
+        std::vector<std::string> arguments = {"shader",   at("shipped.glb"), "-o",
+                                              at(c.file), "--language",      c.language};
+        if (c.fragment)
+            arguments.emplace_back("--fragment");
+        ASSERT_EQ(prt(arguments).status, 0) << c.language;
+        if (const std::string glslang = PRT_GLSLANG; !glslang.empty()) {
+            const Outcome outcome = c.language == std::string("vulkan")
+                                        ? run(glslang, {"-V", "-o", at("s.spv"), at(c.file)})
+                                        : run(glslang, {at(c.file)});
+            EXPECT_EQ(outcome.status, 0) << c.language << " " << c.file << ": " << outcome.out;
+        }
+    }
+}
+
 TEST_F(Lightmaps, LeaveNothingBehindWhereVerticesAreBakedAgain) {
     ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
     ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb")}).status, 0);
