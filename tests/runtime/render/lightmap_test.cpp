@@ -26,10 +26,10 @@ float largest_difference(const std::vector<glm::vec3>& a, const std::vector<glm:
     return largest;
 }
 
-class LightmapPass : public testing::TestWithParam<std::tuple<int, bool>> {};
-INSTANTIATE_TEST_SUITE_P(Words, LightmapPass, testing::Combine(testing::Values(1, 2), testing::Bool()));
+class LightmapPasses : public testing::TestWithParam<std::tuple<int, bool>> {};
+INSTANTIATE_TEST_SUITE_P(Words, LightmapPasses, testing::Combine(testing::Values(1, 2), testing::Bool()));
 
-TEST_P(LightmapPass, OfComputeAndFragmentsIsThatOfCpp) {
+TEST_P(LightmapPasses, OfComputeAndFragmentsIsThatOfCpp) {
     const auto context = GlContext::create(GlDevice::any);
     ASSERT_TRUE(context);
     std::mt19937 random(4);
