@@ -67,7 +67,8 @@ TEST(LightmapBake, OfALampFallsWithTheSquareOfTheDistance) {
     ASSERT_EQ(layout.lamps(), 1u);
     for (std::size_t t = 0; t < baked.lightmap.texels.size(); ++t) {
         const std::uint32_t texel = baked.lightmap.texels[t];
-        const glm::dvec3 place((texel % 32 + 0.5) / 16 - 1, 0, (texel / 32 + 0.5) / 16 - 1);
+        const std::uint32_t row = texel / 32;
+        const glm::dvec3 place((texel % 32 + 0.5) / 16 - 1, 0, (row + 0.5) / 16 - 1);
         const glm::dvec3 way = glm::dvec3(0.3, 0.7, -0.2) - place;
         const double squared = glm::dot(way, way);
         const double radiance = 3 * way.y / (squared * std::sqrt(squared)) / std::numbers::pi;

@@ -80,8 +80,9 @@ TEST(LightmapLookup, FindsWhatTexelsOfAPlaceHold) {
         scene.vertex_arrays[0].texcoords[0].emplace_back((p.x + 1) / 2, (p.z + 1) / 2);
     const LightmapLayout layout{{{2, 2}, {16, 16}}, {{1, 0}}}; // in the second map
     std::vector<glm::vec3> values(4, glm::vec3(99));
-    for (int i = 0; i < 256; ++i)
-        values.emplace_back(static_cast<float>(i % 16) + 0.5f, static_cast<float>(i / 16) + 0.5f, 0);
+    for (float y = 0.5f; y < 16; ++y)
+        for (float x = 0.5f; x < 16; ++x)
+            values.emplace_back(x, y, 0);
     const LightmapLookup lookup(scene, layout);
     const auto& t = scene.primitives[0].triangles[0];
     const auto& uv = scene.vertex_arrays[0].texcoords[0];

@@ -24,7 +24,8 @@ TEST(BilinearTexels, SumToOneAndGiveLinearFunctionsBack) {
             const BilinearTexels filter = bilinear_texels(size, x, y);
             double sum = 0, value = 0;
             for (std::size_t i = 0; i < 4; ++i) {
-                const double column = filter.texels[i] % 7 + 0.5, row = filter.texels[i] / 7 + 0.5;
+                const std::uint32_t column_index = filter.texels[i] % 7, row_index = filter.texels[i] / 7;
+                const double column = column_index + 0.5, row = row_index + 0.5;
                 sum += filter.weights[i];
                 value += filter.weights[i] * (3 * column - 2 * row);
             }
