@@ -21,8 +21,7 @@ struct BudgetSubject {
 void find_budget(Channel& channel, const BudgetSubject& subject);
 
 /// Why there is no budget where only a lightmap is open.
-inline constexpr const char* kMeasuredOfVertices =
-    "the error over the surface is measured of vertices; open the model without its lightmap, too";
+inline constexpr const char* kMeasuredOfVertices = "measured of vertices alone; open these, too";
 
 /// The total of `SurfaceBudget` that is white in its picture, as relative L2.
 inline constexpr double kWhiteSurfaceError = 0.3;

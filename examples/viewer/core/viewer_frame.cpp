@@ -146,8 +146,8 @@ Viewer::Shown Viewer::shown(const SidePicture& wanted) const {
 }
 
 void Viewer::draw_sides(const std::array<SidePicture, 2>& pictures, const FrameView& view) {
-    DrawSettings drawing = settings.drawing;
-    drawing.texel_grid = drawing.texel_grid && !settings.difference; // it would be one
+    const LoadedModel* const lightmap = document_.lightmap();
+    const bool grid = settings.drawing.texel_grid && lightmap && !settings.difference; // it would be one
 
     const int width = seen_.size.x,
               split = static_cast<int>(std::lround(settings.split * static_cast<float>(width)));
@@ -157,10 +157,14 @@ void Viewer::draw_sides(const std::array<SidePicture, 2>& pictures, const FrameV
         const SidePicture& picture = pictures[static_cast<std::size_t>(side)];
         if (first >= last)
             continue;
-        if (picture.kind == PictureKind::reference)
+        if (picture.kind == PictureKind::reference) {
             show_reference(side, view);
-        else
-            gpu_->renderer.draw(side, picture.kind, gpu_model(picture), drawing, view, {first, last});
+            continue;
+        }
+        gpu_->renderer.draw(side, picture.kind, gpu_model(picture), settings.drawing, view, {first, last});
+        if (grid)
+            gpu_->renderer.draw_texel_grid(side, picture.kind, *gpu_model(lightmap->model.get()),
+                                           settings.drawing, view, {first, last});
     }
     if (!wants(PictureKind::reference))
         reference_.stop();

@@ -17,7 +17,7 @@ namespace viewer {
 namespace {
 
 /// As it is seen: neither base colours nor heat nor most lights have it.
-constexpr glm::vec3 kGridColor(0.02f, 0.6f, 0.75f);
+constexpr glm::vec3 kGridColor(0.0f, 0.3f, 0.55f);
 
 prt::GlObject make_target(GLenum format, int width, int height) {
     prt::GlObject texture = prt::make_texture_2d(1, format, width, height);
@@ -113,13 +113,17 @@ GeometryPass FrameRenderer::geometry_pass(const GpuModel& model, const DrawSetti
             .dithered = settings.dithered};
 }
 
+void FrameRenderer::scissor(const Columns& columns) const {
+    glScissor(columns.first * size_.samples, 0, std::max(0, columns.last - columns.first) * size_.samples,
+              size_.height * size_.samples);
+    glEnable(GL_SCISSOR_TEST);
+}
+
 /// Leaves the scissor on at `columns`.
 void FrameRenderer::clear(const Side& side, PictureKind kind, const Columns& columns) const {
     constexpr float kNothing[4] = {0, 0, 0, 0}, kFar = 1;
     glViewport(0, 0, size_.width * size_.samples, size_.height * size_.samples);
-    glScissor(columns.first * size_.samples, 0, std::max(0, columns.last - columns.first) * size_.samples,
-              size_.height * size_.samples);
-    glEnable(GL_SCISSOR_TEST);
+    scissor(columns);
     glClearNamedFramebufferfv(side.framebuffer.name(), GL_COLOR, 0, kNothing);
     if (is_ssao(kind)) // looks beyond the columns that are asked for
         glDisable(GL_SCISSOR_TEST);
@@ -148,8 +152,18 @@ void FrameRenderer::draw(int index, PictureKind kind, GpuModel& model, const Dra
     model.draw_blended(kind, pass);
     if (settings.wireframe)
         model.draw_wires(pass, glm::vec3(numbers ? 0.1f : 0.15f / view.exposure));
-    if (settings.texel_grid)
-        model.draw_texel_grid(pass, kGridColor / (numbers ? 1.0f : view.exposure), size_.samples);
+    glDisable(GL_SCISSOR_TEST);
+    prt::check_gl("drawing");
+}
+
+void FrameRenderer::draw_texel_grid(int index, PictureKind kind, GpuModel& model,
+                                    const DrawSettings& settings, const FrameView& view,
+                                    const Columns& columns) {
+    glBindFramebuffer(GL_FRAMEBUFFER, sides_[static_cast<std::size_t>(index)].framebuffer.name());
+    scissor(columns);
+    glEnable(GL_DEPTH_TEST);
+    model.draw_texel_grid(geometry_pass(model, settings, view),
+                          kGridColor / (shows_numbers(kind) ? 1.0f : view.exposure), size_.samples);
     glDisable(GL_SCISSOR_TEST);
     prt::check_gl("drawing");
 }

@@ -48,6 +48,9 @@ public:
     /// Draws into side 0 (left) or 1 (right). Only `columns` need be right. `kind` is not the reference.
     void draw(int side, PictureKind kind, GpuModel& model, const DrawSettings& settings,
               const FrameView& view, const Columns& columns);
+    /// Over a side as it was drawn last: the texels of the lightmap that `model` has, of the same surface.
+    void draw_texel_grid(int side, PictureKind kind, GpuModel& model, const DrawSettings& settings,
+                         const FrameView& view, const Columns& columns);
     /// Side `side` shows this image instead, of any size; `surfaces` goes to alpha.
     void show(int side, const prt::Image& image, const std::vector<bool>& surfaces);
     /// The vertex stage alone: nothing is rasterised.
@@ -89,6 +92,7 @@ private:
     const prt::GlObject& program(Pass pass) const { return programs_[static_cast<std::size_t>(pass)]; }
     GeometryPass geometry_pass(const GpuModel& model, const DrawSettings& settings,
                                const FrameView& view) const;
+    void scissor(const Columns& columns) const;
     void clear(const Side& side, PictureKind kind, const Columns& columns) const;
     void draw_background(const Side& side, const FrameView& view) const;
     void draw_deferred(int side, PictureKind kind, GpuModel& model, const DrawSettings& settings,

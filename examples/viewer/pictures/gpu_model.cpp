@@ -15,7 +15,7 @@ namespace viewer {
 namespace {
 
 /// Of the lines over what is below them.
-constexpr float kGridShare = 0.7f;
+constexpr float kGridShare = 0.85f;
 
 void set_matrix(const prt::GlObject& program, const glm::mat4& matrix) {
     glUniformMatrix4fv(prt::uniform(program, "view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));

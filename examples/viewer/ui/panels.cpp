@@ -53,9 +53,9 @@ void picture_panel(Viewer& viewer) {
     line("metered", fmt::format("{:+.2f} stops", viewer.lighting().meter.stops()),
          "What exposure 0 stands for: prt render --exposure takes the sum.");
     controls(s, {"background", "textured"});
-    ImGui::SameLine();
-    choose_texel_grid(viewer);
     controls(s, {"deferred", "dithered", "culling"});
+    choose_texel_grid(viewer);
+    ImGui::SameLine();
     if (ImGui::SmallButton("reset camera"))
         viewer.reset_camera();
     tip("The whole model, from where it was first seen. Key R.");

@@ -1,0 +1,30 @@
+#pragma once
+
+// A ball on a floor in files: as it is, baked at vertices, and baked at texels of places of its own.
+
+#include "pictures/model.h"
+
+#include "support/temporary_folder.h"
+
+#include <filesystem>
+
+namespace viewer {
+
+class LightmapFiles {
+public:
+    LightmapFiles();
+
+    std::filesystem::path unbaked() const { return folder_ / "ball.glb"; }
+    /// Raw transfer of vertices.
+    std::filesystem::path vertices() const;
+    /// Raw transfer of a map with `size` texels along its sides.
+    std::filesystem::path raw(int size = 64) const;
+    /// The same, compressed.
+    std::filesystem::path shipped(int size = 64) const;
+    const prt::test::TemporaryFolder& folder() const { return folder_; }
+
+private:
+    prt::test::TemporaryFolder folder_;
+};
+
+} // namespace viewer
