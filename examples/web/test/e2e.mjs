@@ -10,6 +10,7 @@ import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { preview } from "vite";
 import { distFolder } from "../tools/folders.mjs";
+import { bakedModel } from "./bakedModel.js";
 
 const web = fileURLToPath(new URL("../", import.meta.url));
 const prt = process.env.PRT ?? join(web, "../../build/release/cli/prt");
@@ -752,6 +753,44 @@ await check("a model without transfer gives a message", async (page) => {
   await page.waitForSelector("#message:not([hidden])");
   assert.match(await page.locator("#message").innerText(), /is not baked.*prt bake/);
 });
+
+await check("a model with lightmaps is dropped, on a phone, too", async (page, errors) => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  const lightmaps = join(work, "lightmaps.glb");
+  writeFileSync(lightmaps, bakedModel("texels"));
+  await page.goto(url({ model: "knot", suns: 0 }));
+  await picture(page);
+  const count = await drawn(page);
+  await dropped(page, { "lightmaps.glb": lightmaps });
+  await page.waitForFunction(() => document.querySelector("#model").selectedOptions[0].text === "lightmaps.glb");
+  await picture(page, count);
+  await page.locator("#panel summary").click();
+  const [names, values] = await Promise.all(["dt", "dd"].map((part) => page.locator(`#figures ${part}`).allInnerTexts()));
+  assert.deepEqual(names.slice(0, 2), ["texels", "bytes per texel"]);
+  assert.deepEqual(values.slice(0, 2), ["8,384", "8"]);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390), "nothing hangs over the side");
+  if (screenshots) await page.screenshot({ path: join(screenshots, "phone-lightmaps.png") });
+  const before = await canvas(page);
+  const next = await drawn(page);
+  await page.evaluate(() => globalThis.prtkitPicture.setAngle(2));
+  await picture(page, next);
+  assert.ok((await difference(page, before, await canvas(page))).mean > 0.3, "light turns");
+  assert.deepEqual(errors, []);
+});
+
+for (const [name, extensions] of Object.entries({
+  PRTKIT_transfer: { PRTKIT_transfer: { version: 4 } },
+  PRTKIT_lightmap: { PRTKIT_lightmap: { version: 1, raw: {} } },
+}))
+  await check(`a raw bake with ${name} gives the command that ships it`, async (page) => {
+    const raw = join(work, "raw.glb");
+    writeFileSync(raw, bakedModel("vertices", (json) => (json.extensions = extensions)));
+    await page.goto(url({ model: "knot" }));
+    await picture(page);
+    await dropped(page, { "raw.glb": raw });
+    await page.waitForSelector("#message:not([hidden])");
+    assert.match(await page.locator("#message").innerText(), new RegExp(`^raw.glb: ${name}: .*prt compress baked.glb -o shipped.glb`));
+  });
 
 await browser.close();
 server.httpServer.close();
