@@ -67,7 +67,10 @@ Transfer exit_without_bounces(const BakePlan& plan, Transfer incident, const Ref
 }
 
 Transfer in_parts(const Transfer& direct, const Transfer& all) {
-    Transfer rest = narrowed(rest_of(direct, all));
+    return joined(direct, narrowed(rest_of(direct, all)));
+}
+
+Transfer joined(const Transfer& direct, const Transfer& rest) {
     if (is_zero(rest))
         return direct;
     if (is_zero(direct))

@@ -15,6 +15,9 @@ Transfer exit_without_bounces(const BakePlan& plan, Transfer incident, const Ref
 /// beside another. Both of the same receivers; `direct` may have one channel where `all` has three.
 Transfer in_parts(const Transfer& direct, const Transfer& all);
 
+/// The part `direct` and the part `rest`, but for one that is nothing beside another.
+Transfer joined(const Transfer& direct, const Transfer& rest);
+
 /// `sky` transfer with a part for each of `lamps` behind, whose light is coefficient k of `light`; of as many
 /// channels as it needs. Throws `Error` where floats of a file do not hold it.
 Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vector<Lamp>& lamps);

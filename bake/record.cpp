@@ -11,22 +11,6 @@
 namespace prt {
 namespace {
 
-/// Relative L2 error of `transfer` rounded to float16.
-double float16_rounding_error(const Transfer& transfer, std::span<const float> areas) {
-    double error = 0, norm = 0;
-    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
-        double point_error = 0, point_norm = 0;
-        for (const float value : transfer.vector(p)) {
-            const auto lost = static_cast<double>(value - glm::unpackHalf1x16(glm::packHalf1x16(value)));
-            point_error += lost * lost;
-            point_norm += static_cast<double>(value * value);
-        }
-        error += static_cast<double>(areas[p]) * point_error;
-        norm += static_cast<double>(areas[p]) * point_norm;
-    }
-    return norm > 0 ? std::sqrt(error / norm) : 0;
-}
-
 /// Receivers of the scene that rays were traced from.
 std::size_t traced_fronts(const BakePlan& plan) {
     const std::vector<std::uint32_t> indices = receivers_on_surfaces(plan.receivers());
@@ -73,17 +57,31 @@ BakeStatistics statistics_of(const BakePlan& plan, const DirectLight& direct, co
     return s;
 }
 
-/// Float16 where its rounding is lost in the noise.
-TransferStorage choose_storage(BakeStatistics& s) {
-    if (!(s.rounding_error < 0.1 * s.sampling_error))
-        return TransferStorage::float32;
-    s.notices.push_back(fmt::format(
-        "stored as float16: its rounding, {:.2g} %, is below a tenth of the sampling error, {:.2g} %",
-        100 * s.rounding_error, 100 * s.sampling_error));
-    return TransferStorage::float16;
+} // namespace
+
+double float16_rounding_error(const Transfer& transfer, std::span<const float> areas) {
+    double error = 0, norm = 0;
+    for (std::size_t p = 0; p < transfer.receivers(); ++p) {
+        double point_error = 0, point_norm = 0;
+        for (const float value : transfer.vector(p)) {
+            const auto lost = static_cast<double>(value - glm::unpackHalf1x16(glm::packHalf1x16(value)));
+            point_error += lost * lost;
+            point_norm += static_cast<double>(value * value);
+        }
+        error += static_cast<double>(areas[p]) * point_error;
+        norm += static_cast<double>(areas[p]) * point_norm;
+    }
+    return norm > 0 ? std::sqrt(error / norm) : 0;
 }
 
-} // namespace
+TransferStorage storage_for(const StorageErrors& errors, std::vector<std::string>& notices) {
+    if (!(errors.rounding < 0.1 * errors.sampling))
+        return TransferStorage::float32;
+    notices.push_back(fmt::format(
+        "stored as float16: its rounding, {:.2g} %, is below a tenth of the sampling error, {:.2g} %",
+        100 * errors.rounding, 100 * errors.sampling));
+    return TransferStorage::float16;
+}
 
 BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight& direct,
                   const SealedIn& sealed, Propagated exit) {
@@ -91,8 +89,11 @@ BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight&
     result.statistics = statistics_of(plan, direct, sealed, exit);
     result.statistics.device = tracer.device();
     BakedTransfer& baked = result.baked;
+    BakeStatistics& s = result.statistics;
     baked.storage =
-        plan.options.memory.storage ? *plan.options.memory.storage : choose_storage(result.statistics);
+        plan.options.memory.storage
+            ? *plan.options.memory.storage
+            : storage_for({.rounding = s.rounding_error, .sampling = s.sampling_error}, s.notices);
     baked.record = {.bounces = exit.bounces,
                     .endless = plan.bounces == kEndlessBounces,
                     .rays = direct.mean_rays,

@@ -19,4 +19,15 @@ struct SealedIn {
 BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight& direct,
                   const SealedIn& sealed, Propagated exit);
 
+/// Relative L2 error of `transfer` rounded to float16.
+double float16_rounding_error(const Transfer& transfer, std::span<const float> areas);
+
+/// Relative L2.
+struct StorageErrors {
+    double rounding, sampling; ///< of float16; of the rays
+};
+
+/// Float16 where its rounding is lost in the noise, with a notice.
+TransferStorage storage_for(const StorageErrors& errors, std::vector<std::string>& notices);
+
 } // namespace prt

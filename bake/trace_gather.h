@@ -12,6 +12,11 @@
 
 namespace prt {
 
+/// One ray of so many is followed for the bounces. Measured on the room with columns, 3 bounces, 1 024 rays:
+/// relative L2 2.32 % in 1.53 s and 190 MB with every ray, 2.86 % in 1.04 s and 59 MB with every fourth (0.74
+/// s without bounces); more rays would buy that error back in the time that was saved.
+inline constexpr int kHitStride = 4;
+
 /// Receivers by their number of rays.
 using ByRays = std::map<std::uint32_t, std::vector<std::uint32_t>>;
 

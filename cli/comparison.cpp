@@ -4,6 +4,7 @@
 #include "evaluation_lights.h"
 #include "prt/dering.h"
 #include "prt/error_measures.h"
+#include "prt/lightmap_file.h"
 #include "prt/mesh_edges.h"
 #include "prt/ray_renderer.h"
 #include "prt/receiver_colors.h"
@@ -61,7 +62,20 @@ struct Evaluation {
     double relative_l2 = 0;
 };
 
-std::string place_of(const Scene& scene, std::uint32_t receiver) {
+/// Its texel and map.
+std::string place_of(const LightmapOfFile& lightmap, std::uint32_t receiver) {
+    const std::vector<std::size_t> first = lightmap.layout.first_texels();
+    const std::size_t texel = lightmap.texels[receiver];
+    const auto map = static_cast<std::size_t>(std::ranges::upper_bound(first, texel) - first.begin()) - 1;
+    const auto width = static_cast<std::size_t>(lightmap.layout.maps[map].width);
+    return fmt::format("map {} texel {} {}", map, (texel - first[map]) % width, (texel - first[map]) / width);
+}
+
+/// Where it lies in the world, metres.
+std::string place_of(const SceneFile& baked, std::uint32_t receiver) {
+    if (baked.lightmap)
+        return place_of(*baked.lightmap, receiver);
+    const Scene& scene = baked.scene;
     for (const VertexArray& vertices : scene.vertex_arrays)
         if (receiver >= vertices.first_receiver && receiver < vertices.first_receiver + vertices.size()) {
             const glm::dvec3 p = scene.world(vertices.positions[receiver - vertices.first_receiver]);
@@ -93,7 +107,7 @@ std::string about_lights(const Evaluation& evaluation) {
                 : "");
 }
 
-Table lights_table(const Evaluation& evaluation, const Scene& scene) {
+Table lights_table(const Evaluation& evaluation, const SceneFile& baked) {
     Table table{"lights", "Errors by light", about_lights(evaluation), {}, {}};
     const Unit share = Unit::percent;
     table.columns = {{"light", "light"},
@@ -113,7 +127,7 @@ Table lights_table(const Evaluation& evaluation, const Scene& scene) {
             table.rows.push_back(
                 {name, e.rms, e.max, e.percentile_999, e.darker_half_rms, e.crossing.max,
                  e.crossing.percentile_99, e.inner.percentile_99, e.mean, e.crossing.edges, e.crossing.rms,
-                 e.crossing.edges > 0 ? Json(place_of(scene, e.crossing.worst.first)) : Json(), e.inner.edges,
+                 e.crossing.edges > 0 ? Json(place_of(baked, e.crossing.worst.first)) : Json(), e.inner.edges,
                  e.inner.rms, e.inner.max, suns, judged});
     return table;
 }
@@ -137,11 +151,10 @@ class Comparison {
 public:
     Comparison(const ComparisonOptions& a, SceneFile& baked)
         : a_(a), baked_(baked), model_(load_scene_file(a.shipped, a.reading)),
-          shipped_(candidate(model_, a.shipped)) {
-        check_belong_together(baked, a.baked, model_, a.shipped);
+          shipped_(candidate(matched(model_, baked, a), a.shipped)) {
         put_in_order_of(model_.scene, baked);
-        areas_ = receiver_areas(baked.scene);
-        edges_ = mesh_edges(baked.scene);
+        areas_ = baked.lightmap ? baked.lightmap->areas : receiver_areas(baked.scene);
+        edges_ = baked.lightmap ? baked.lightmap->edges : mesh_edges(baked.scene);
     }
 
     Evaluation measure(const std::vector<SplitLight>& lights) const {
@@ -238,6 +251,14 @@ public:
     }
 
 private:
+    /// With the receivers of `baked`, where texels that are none were filled.
+    static const SceneFile& matched(SceneFile& model, const SceneFile& baked, const ComparisonOptions& a) {
+        check_belong_together(baked, a.baked, model, a.shipped);
+        if (baked.lightmap && model.compressed)
+            model.compressed->transfer = picked_texels(model.compressed->transfer, baked.lightmap->texels);
+        return model;
+    }
+
     const Transfer& reference() const { return baked_.baked->transfer; }
     /// Whether the renderer can shadow its suns.
     bool suns_apart(const SplitLight& light) const {
@@ -399,10 +420,12 @@ void add_comparison(const ComparisonOptions& options, SceneFile& baked, const st
                evaluation.relative_l2);
     add_figure(report, {"worst_directional_light"}, evaluation.worst_sun);
     comparison.add_sizes(report);
-    report.tables.push_back(lights_table(evaluation, baked.scene));
+    report.tables.push_back(lights_table(evaluation, baked));
     if (!evaluation.clusters.empty())
         report.tables.push_back(clusters_table(evaluation));
-    if (options.pictures)
+    if (options.pictures && baked.lightmap)
+        report.notes.emplace_back("pictures of lightmaps: prt render draws them");
+    else if (options.pictures)
         comparison.add_pictures(worst_of(evaluation, lights), report);
 }
 

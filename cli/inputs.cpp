@@ -2,6 +2,7 @@
 
 #include "light_file.h"
 #include "outputs.h"
+#include "prt/lightmap_file.h"
 #include "prt/reorder.h"
 #include "prt/support/error.h"
 
@@ -32,7 +33,10 @@ void check_belong_together(const SceneFile& baked, const Path& baked_path, const
     for (const auto& [model, path] : {std::pair(&baked, &baked_path), std::pair(&shipped, &shipped_path)})
         if (!model->record())
             throw Error(path->string() + ": holds no transfer; run prt bake first");
-    if (baked.record()->receivers != shipped.record()->receivers ||
+    const bool same_places = baked.lightmap && shipped.lightmap
+                                 ? baked.lightmap->layout == shipped.lightmap->layout
+                                 : !baked.lightmap && !shipped.lightmap;
+    if (!same_places || baked.record()->receivers != shipped.record()->receivers ||
         baked.scene.receivers() != shipped.scene.receivers())
         throw Error(shipped_path.string() + ": does not belong to " + baked_path.string() +
                     ": their receivers differ");
@@ -41,11 +45,18 @@ void check_belong_together(const SceneFile& baked, const Path& baked_path, const
                                 baked_path.string(), baked.order()));
 }
 
+void check_of_vertices(const SceneFile& model, const Path& path, const std::string& command) {
+    if (model.lightmap)
+        throw Error(path.string() + ": holds a lightmap; " + command);
+}
+
 const TransferLayout& layout_of(const SceneFile& model) {
     return model.compressed ? model.compressed->transfer.bases.layout : model.baked->transfer.layout;
 }
 
 void put_in_order_of(const Scene& scene, SceneFile& baked) {
+    if (baked.lightmap)
+        return; // texels stay where they are
     baked.baked->transfer = in_order_of(scene, baked.scene, baked.baked->transfer);
     baked.scene = scene;
 }
@@ -58,9 +69,20 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
     Scene scene = extract_scene(document);
     auto baked = read_transfer(document, scene);
     auto compressed = read_clustered(document, scene);
+    std::optional<LightmapOfFile> lightmap;
+    if (std::optional<BakedLightmap> raw = read_lightmap(document, scene)) {
+        std::vector<Edge> edges = lightmap_edges(raw->layout, raw->texels, raw->seams);
+        lightmap = {std::move(raw->layout), std::move(raw->texels), std::move(raw->areas), std::move(edges)};
+        baked = std::move(raw->baked);
+    } else if (std::optional<CompressedLightmap> shipped =
+                   about(path, [&] { return read_compressed_lightmap(document, scene); })) {
+        lightmap = {std::move(shipped->layout)};
+        compressed = std::move(shipped->compressed);
+    }
     if (!baked && !compressed) // else they were given when it was baked
         print_notices(path.string(), scene.notices);
-    return {std::move(document), std::move(scene), std::move(baked), std::move(compressed)};
+    return {std::move(document), std::move(scene), std::move(baked), std::move(compressed),
+            std::move(lightmap)};
 }
 
 Environment load_environment_map(const Path& path, const EnvironmentOptions& options) {

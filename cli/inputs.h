@@ -5,6 +5,7 @@
 #include "prt/gltf.h"
 #include "prt/image_file.h"
 #include "prt/light.h"
+#include "prt/lightmap.h"
 #include "prt/support/error.h"
 #include "session.h"
 
@@ -21,12 +22,23 @@ struct LightOptions {
     double rotation_degrees = 0;
 };
 
+/// What a file says of texels beside their transfer.
+struct LightmapOfFile {
+    LightmapLayout layout;
+    /// Of a bake; a compressed file has transfer of all texels.
+    std::vector<std::uint32_t> texels = {};
+    std::vector<float> areas = {};
+    std::vector<Edge> edges = {};
+};
+
 /// A scene file with whatever transfer it holds. Notices go to stderr.
 struct SceneFile {
     GltfDocument document;
     Scene scene;
     std::optional<BakedTransfer> baked;
     std::optional<CompressedTransfer> compressed;
+    /// Set where receivers of the transfer are texels; else they are vertices.
+    std::optional<LightmapOfFile> lightmap = {};
 
     /// Order of the transfer, 0 where there is none.
     int order() const;
@@ -38,6 +50,9 @@ const TransferLayout& layout_of(const SceneFile& model);
 SceneFile load_scene_file(const Path& path, const GltfOptions& options = {});
 /// The same of a document that was read from `path`.
 SceneFile scene_file_of(GltfDocument document, const Path& path);
+
+/// Throws `Error` where transfer is of texels, which `command` does not do.
+void check_of_vertices(const SceneFile& model, const Path& path, const std::string& command);
 
 /// Calls `work`, whose errors are about `file`: they name it, once.
 template <class Work>

@@ -1,5 +1,5 @@
-// Vertices of the scene. Define PRT_COMPRESSED to form the exit radiance here, from compressed transfer, PRT_SUNS
-// for a fragment shader that adds suns.
+// Vertices of the scene. Define PRT_COMPRESSED to form the exit radiance here, from compressed transfer, PRT_LIGHTMAP
+// where the fragment shader looks it up, PRT_SUNS for a fragment shader that adds suns.
 
 #include "shared_layout.h"
 
@@ -7,7 +7,9 @@
 #ifdef PRT_SUNS
 #include "sun_vertex.glsl"
 #endif
-#ifdef PRT_COMPRESSED
+#if defined(PRT_LIGHTMAP)
+#include "lightmap_vertex.glsl"
+#elif defined(PRT_COMPRESSED)
 #include "prt_exit_radiance.glsl"
 #else
 layout(location = PRT_LOCATION_RADIANCE) in vec3 vertex_radiance;
@@ -24,12 +26,16 @@ const vec3 normal = vec3(0.0);
 
 uniform mat4 view_projection;
 
+#ifndef PRT_LIGHTMAP
 out vec3 radiance;
+#endif
 out vec2 surface_texcoord;
 out vec4 surface_color;
 
 void main() {
-#ifdef PRT_COMPRESSED
+#if defined(PRT_LIGHTMAP)
+    take_for_lightmap();
+#elif defined(PRT_COMPRESSED)
     radiance = prt_exit_radiance(position, normal);
 #else
     radiance = vertex_radiance;

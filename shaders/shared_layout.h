@@ -20,8 +20,9 @@
 #define PRT_LOCATION_WEIGHTS_9 13
 #define PRT_LOCATION_WEIGHTS_10 14
 #define PRT_LOCATION_WEIGHTS_11 15
-#define PRT_LOCATION_AO 4      // where there are no weights
-#define PRT_LOCATION_NORMAL 15 // shares its place with the last weights, which no model with guides has
+#define PRT_LOCATION_AO 4       // where there are no weights
+#define PRT_LOCATION_LIGHTMAP 4 // the same
+#define PRT_LOCATION_NORMAL 15  // shares its place with the last weights, which no model with guides has
 
 // Storage buffers.
 #define PRT_BINDING_CONSTANTS 0
@@ -46,5 +47,9 @@
 #define PRT_UNIT_BASE_COLOR 0
 #define PRT_UNIT_BACKGROUND 1
 #define PRT_UNIT_EMISSION 7
+#define PRT_UNIT_LIGHTMAP 14
+
+// Images.
+#define PRT_IMAGE_LIGHTMAP 0
 
 #endif

@@ -2,9 +2,11 @@
 #ifndef PRT_SHARED_VIEWER_H
 #define PRT_SHARED_VIEWER_H
 
-// Storage buffers: exit radiance of transfer that is not compressed, and the sums of two pictures' difference.
+// Storage buffers: exit radiance of transfer that is not compressed, the sums of two pictures' difference, and, which
+// shares its place, for each texel of a map the receiver whose radiance it takes.
 #define PRT_BINDING_RAW_RADIANCE 4
 #define PRT_BINDING_DIFFERENCE 5
+#define PRT_BINDING_TEXEL_RECEIVERS 5
 
 // Texture units.
 #define PRT_UNIT_GBUFFER_BASE 2

@@ -7,9 +7,16 @@
 #include "sun_light.glsl"
 #endif
 
-#if defined(PRT_COMPRESSED) || defined(PRT_VERTEX_RADIANCE)
+#if defined(PRT_LIGHTMAP)
+#define PRT_RADIANCE_GIVEN
+#include "lightmap.glsl"
+#elif defined(PRT_COMPRESSED) || defined(PRT_VERTEX_RADIANCE)
 #define PRT_RADIANCE_GIVEN
 in vec3 radiance;
+
+vec3 given_radiance() {
+    return radiance;
+}
 #else
 in vec3 normal;
 in float ao;

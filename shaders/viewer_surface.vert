@@ -1,6 +1,6 @@
 // Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or from a PRT_VERTEX_RADIANCE
-// attribute; with neither, the fragment shader finds it from the normal and an ambient occlusion. PRT_SUNS: for suns
-// apart. What a surface gives off comes on top of all.
+// attribute, or from a PRT_LIGHTMAP; with none of these, the fragment shader finds it from the normal and an ambient
+// occlusion. PRT_SUNS: for suns apart. What a surface gives off comes on top of all.
 
 #include "shared_layout.h"
 
@@ -12,7 +12,9 @@ layout(location = PRT_LOCATION_COLOR) in vec4 color;
 #ifdef PRT_SUNS
 #include "sun_vertex.glsl"
 #endif
-#if defined(PRT_COMPRESSED)
+#if defined(PRT_LIGHTMAP)
+#include "lightmap_vertex.glsl"
+#elif defined(PRT_COMPRESSED)
 #include "prt_exit_radiance.glsl"
 #ifdef PRT_GUIDE_NORMAL
 layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;
@@ -36,7 +38,9 @@ out vec2 surface_texcoord;
 out vec4 surface_color;
 
 void main() {
-#if defined(PRT_COMPRESSED)
+#if defined(PRT_LIGHTMAP)
+    take_for_lightmap();
+#elif defined(PRT_COMPRESSED)
     radiance = prt_exit_radiance(position, vertex_normal);
 #elif defined(PRT_VERTEX_RADIANCE)
     radiance = vertex_radiance;

@@ -3,6 +3,7 @@
 #include "prt/ray_renderer.h"
 
 #include "pictures/sun_light.h"
+#include "prt/lightmap_lookup.h"
 #include "prt/support/parallel.h"
 
 #include <glm/common.hpp>
@@ -10,11 +11,12 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace prt {
 namespace {
 
-glm::vec3 exit_radiance_at(const Picture& picture, const SeenSurface& surface) {
+glm::vec3 at_corners(const Picture& picture, const SeenSurface& surface) {
     const glm::vec2& uv = surface.barycentrics;
     return picture.radiance[surface.receivers.x] * (1 - uv.x - uv.y) +
            picture.radiance[surface.receivers.y] * uv.x + picture.radiance[surface.receivers.z] * uv.y;
@@ -26,7 +28,10 @@ public:
         : picture_(picture),
           rays_(picture, scene.rays(), picture.width * picture.samples, picture.height * picture.samples),
           // As many for each sample of a pixel.
-          suns_(picture, scene, (sun_rays + samples() - 1) / samples() * samples()) {}
+          suns_(picture, scene, (sun_rays + samples() - 1) / samples() * samples()) {
+        if (picture.in_shader.lightmaps.layout)
+            lightmaps_.emplace(*picture.scene, *picture.in_shader.lightmaps.layout);
+    }
 
     int columns() const { return rays_.columns(); }
     int rows() const { return rays_.rows(); }
@@ -34,7 +39,7 @@ public:
     glm::vec3 sample(int x, int y) const {
         glm::vec3 sum(0);
         const float left = rays_.walk(x, y, [&](const SeenSurface& surface, float transmittance) {
-            const glm::vec3 radiance = glm::max(exit_radiance_at(picture_, surface), glm::vec3(0));
+            const glm::vec3 radiance = glm::max(exit_radiance_at(surface), glm::vec3(0));
             sum += transmittance * surface.base.a * (radiance * glm::vec3(surface.base) + surface.emission);
             if (!suns_.none())
                 sum += transmittance * surface.base.a *
@@ -46,6 +51,12 @@ public:
     }
 
 private:
+    glm::vec3 exit_radiance_at(const SeenSurface& surface) const {
+        return lightmaps_ ? lightmaps_->look_up(surface.triangle, surface.barycentrics,
+                                                picture_.in_shader.lightmaps.radiance)
+                          : at_corners(picture_, surface);
+    }
+
     int samples() const { return picture_.samples * picture_.samples; }
 
     /// The samples of a pixel share out the discs, which it turns by interleaved gradient noise: pixels side
@@ -61,6 +72,7 @@ private:
 
     const Picture& picture_;
     PrimaryRays rays_;
+    std::optional<LightmapLookup> lightmaps_;
     SunLight suns_;
 };
 

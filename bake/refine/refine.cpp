@@ -26,9 +26,6 @@ constexpr double kShareOfRound = 0.5;
 /// What one bisection takes off the squared error of a triangle: half where a step of light crosses it, 3/4
 /// where it bends alike along and across.
 constexpr double kTakenOff = 0.7;
-/// Corners are rounded to 2^-24 of the scene's half extent, or less: over edges of 2^-13 of it triangles lean
-/// by 2^-11 at most, and rays still leave them 30 roundings off.
-constexpr double kLeastEdge = 1.0 / 8192;
 void check_options(const BakeOptions& options, const RefineOptions& how) {
     check_order(options.order);
     if (!(how.target > 0 && std::isfinite(how.target)))

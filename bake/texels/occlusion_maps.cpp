@@ -26,7 +26,7 @@ double rms_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::span<
     for (const SeamPoint& point : seams) {
         double jump = 0;
         for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
-            const Bilinear filter = bilinear_at(atlas, place);
+            const BilinearTexels filter = bilinear_at(atlas, place);
             for (std::size_t i = 0; i < 4; ++i)
                 jump += sign * filter.weights[i] * static_cast<double>(vectors[filter.texels[i] * kStride]);
         }
@@ -51,25 +51,29 @@ OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
     OcclusionMap map{.atlas = atlas, .openness = {}, .measured = light.measured};
     const auto lit = static_cast<std::size_t>(std::ranges::count(light.lit, true));
     map.sealed = light.measured - lit;
-    fill_gutters(atlas, light.lit, light.vectors, kStride);
+    fill_gutters(atlas, light.lit, light.direct, kStride);
     const std::vector<SeamPoint> seams = seam_points(scene, atlas);
-    map.seam_before = rms_jump(atlas, seams, light.vectors);
-    stitch_seams(atlas, seams, light.lit, light.vectors, kStride);
-    map.seam = rms_jump(atlas, seams, light.vectors);
+    map.seam_before = rms_jump(atlas, seams, light.direct);
+    stitch_seams(atlas, seams, light.lit, light.direct, kStride);
+    map.seam = rms_jump(atlas, seams, light.direct);
     Transfer transfer = zero_transfer(2, 1, 0);
-    transfer.vectors = std::move(light.vectors);
+    transfer.vectors = std::move(light.direct);
     map.openness = openness_of(transfer);
     return map;
 }
 
 } // namespace
 
+void check_finer(const FinerModel& finer) {
+    if (finer.scene && !(finer.reach > 0 && std::isfinite(finer.reach)))
+        throw Error("how far a finer model may lie off must be finite and above 0");
+}
+
 OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
                                        const OcclusionOptions& options,
                                        const std::function<void(OcclusionMap)>& take, const FinerModel& finer,
                                        const Progress& progress) {
-    if (finer.scene && !(finer.reach > 0 && std::isfinite(finer.reach)))
-        throw Error("how far a finer model may lie off must be finite and above 0");
+    check_finer(finer);
     check_room(atlases, options.memory.limit);
     const Stopwatch watch;
     const OcclusionScene traced(finer.scene ? *finer.scene : scene, options);
@@ -81,8 +85,12 @@ OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atl
         const Progress part = progress.part(static_cast<double>(i) / static_cast<double>(atlases.size()),
                                             static_cast<double>(i + 1) / static_cast<double>(atlases.size()));
         const TexelSamples samples = sample_texels(chart_triangles(scene, atlases[i]), atlases[i]);
-        TexelLight light = trace_texels(traced.tracer(), traced.scene(), places, atlases[i], samples.samples,
-                                        {.order = 2, .rays = options.rays, .seed = options.seed + i}, part);
+        const TexelTask task{.tracer = traced.tracer(),
+                             .scene = traced.scene(),
+                             .places = places,
+                             .options = {.order = 2, .rays = options.rays, .seed = options.seed + i},
+                             .inside = options.repairs.inside};
+        TexelLight light = trace_texels(task, atlases[i], samples.samples, part);
         result.rays += light.rays;
         take(map_of(atlases[i], std::move(light), scene));
     }

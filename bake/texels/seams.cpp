@@ -106,7 +106,8 @@ public:
         };
         int row = 0;
         for (const SeamPoint& point : seams) {
-            const Bilinear here = bilinear_at(atlas, point.here), there = bilinear_at(atlas, point.there);
+            const BilinearTexels here = bilinear_at(atlas, point.here),
+                                 there = bilinear_at(atlas, point.there);
             const double price = std::min(price_of(here, sizes), price_of(there, sizes));
             for (const auto& [filter, sign] : {std::pair(&here, 1.0), std::pair(&there, -1.0)})
                 for (std::size_t i = 0; i < 4; ++i)
@@ -140,7 +141,7 @@ public:
 
 private:
     /// By the chart that a filter reads most of.
-    static double price_of(const Bilinear& filter, std::span<const std::uint32_t> sizes) {
+    static double price_of(const BilinearTexels& filter, std::span<const std::uint32_t> sizes) {
         double texels = 0, most = -1;
         for (std::size_t i = 0; i < 4; ++i)
             if (const std::uint32_t size = sizes[filter.texels[i]]; size > 0 && filter.weights[i] > most) {
@@ -155,24 +156,7 @@ private:
     Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
 };
 
-/// The texel that a filter reads for the i-th.
-double in_texture(double i, int size, bool repeats) {
-    return repeats ? i - size * std::floor(i / size) : std::clamp(i, 0.0, size - 1.0);
-}
-
 } // namespace
-
-Bilinear bilinear_at(const Atlas& atlas, const glm::dvec2& place) {
-    const glm::dvec2 at = place - 0.5;
-    const double left = std::floor(at.x), top = std::floor(at.y), x = at.x - left, y = at.y - top;
-    const auto texel = [&](double i, double j) {
-        const double column = in_texture(i, atlas.width, atlas.repeats),
-                     row = in_texture(j, atlas.height, atlas.repeats);
-        return static_cast<std::uint32_t>(row * atlas.width + column);
-    };
-    return {{texel(left, top), texel(left + 1, top), texel(left, top + 1), texel(left + 1, top + 1)},
-            {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y}};
-}
 
 std::vector<SeamPoint> seam_points(const Scene& scene, const Atlas& atlas) {
     constexpr double kApart = 1e-3, kPointsPerTexel = 2; // texels

@@ -25,11 +25,9 @@ std::vector<SeamPoint> seam_points(const Scene& scene, const Atlas& atlas);
 void stitch_seams(const Atlas& atlas, std::span<const SeamPoint> seams, const std::vector<bool>& measured,
                   std::span<float> values, std::size_t stride);
 
-/// What a bilinear filter reads at a place, clamped to the edge.
-struct Bilinear {
-    std::uint32_t texels[4];
-    double weights[4];
-};
-Bilinear bilinear_at(const Atlas& atlas, const glm::dvec2& place);
+/// What a bilinear filter reads at a place.
+inline BilinearTexels bilinear_at(const Atlas& atlas, const glm::dvec2& place) {
+    return bilinear_texels(size_of(atlas), place.x, place.y);
+}
 
 } // namespace prt

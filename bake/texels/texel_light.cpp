@@ -5,6 +5,8 @@
 #include "prt/sh_basis.h"
 #include "prt/trace_receivers.h"
 #include "scene/sealed.h"
+#include "trace/scrambles.h"
+#include "trace_gather.h"
 
 #include <algorithm>
 #include <bit>
@@ -32,13 +34,24 @@ std::vector<TexelGroup> by_texel(std::span<const TexelSample> samples) {
     return groups;
 }
 
+/// One sample of each of some texels.
+struct Layer {
+    Receivers receivers;
+    std::vector<std::uint32_t> indices; ///< of those that are there
+};
+
 class TexelTracer {
 public:
-    TexelTracer(Tracer& tracer, const TraceScene& scene, const TexelPlaces& places,
-                const TraceOptions& options)
-        : tracer_(tracer), scene_(scene), places_(places), options_(options),
-          stride_(static_cast<std::size_t>(coefficient_count(options.order))) {
-        options_.rays = std::max(1, options.rays / static_cast<int>(kSamplesOfTexel));
+    explicit TexelTracer(const TexelTask& task)
+        : task_(task), options_(task.options),
+          stride_(static_cast<std::size_t>(coefficient_count(task.options.order))) {
+        options_.rays = std::max(1, options_.rays / static_cast<int>(kSamplesOfTexel));
+        if (task.transport && task.transport->bounces())
+            options_.hit_stride = kHitStride;
+    }
+
+    std::size_t texels_at_once() const {
+        return task_.transport && task_.transport->bounces() ? task_.transport->rows() : kTexelsAtOnce;
     }
 
     void trace(std::span<const TexelGroup> groups, TexelLight& light, const Progress& progress) {
@@ -51,69 +64,109 @@ public:
         for (std::size_t g = 0; g < groups.size(); ++g) {
             const std::uint32_t texel = groups[g].texel;
             light.lit[texel] = lit[g] > 0;
-            for (std::size_t c = 0; lit[g] > 0 && c < stride_; ++c)
-                light.vectors[texel * stride_ + c] /= static_cast<float>(lit[g]);
+            const auto divide = [&](std::vector<float>& values, std::size_t stride) {
+                for (std::size_t c = 0; lit[g] > 0 && c < stride; ++c)
+                    values[texel * stride + c] /= static_cast<float>(lit[g]);
+            };
+            divide(light.direct, stride_);
+            if (task_.transport) {
+                divide(light.sky, task_.transport->sky_stride());
+                divide(light.lamps, task_.transport->lamp_stride());
+            }
         }
     }
 
 private:
     /// The k-th sample of every texel that has so many: a receiver each, so that a texel's samples share a
     /// net.
-    Receivers layer(std::span<const TexelGroup> groups, std::size_t k) const {
-        Receivers receivers;
+    Layer layer(std::span<const TexelGroup> groups, std::size_t k) const {
+        Layer layer;
         for (const TexelGroup& group : groups) {
             const bool there = k < group.samples.size();
-            places_.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f, receivers);
+            task_.places.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f, layer.receivers);
         }
-        return receivers;
+        layer.indices = receivers_on_surfaces(layer.receivers);
+        return layer;
     }
 
     void trace_layer(std::span<const TexelGroup> groups, std::size_t k, std::vector<int>& lit,
                      TexelLight& light, const Progress& progress) {
-        const Receivers receivers = layer(groups, k);
-        const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
+        const Layer layer = this->layer(groups, k);
         TraceOptions options = options_;
         options.first_ray =
             static_cast<std::uint32_t>(k) * std::bit_ceil(static_cast<std::uint32_t>(options.rays));
-        Transfer traced = zero_transfer(options.order, 1, receivers.size());
-        trace_receivers(tracer_, receivers, indices, options, traced, progress);
-        light.rays += indices.size() * static_cast<std::size_t>(options.rays);
-        std::vector<std::uint32_t> dark;
-        std::ranges::copy_if(indices, std::back_inserter(dark),
-                             [&](std::uint32_t g) { return traced.vector(g)[0] <= 0; });
-        const Sealed sealed =
-            find_sealed(tracer_, scene_, receivers, std::move(dark), options.seed, progress.stop);
-        light.rays += sealed.rays;
-        for (const std::uint32_t g : indices) {
-            if (sealed.receivers[g])
-                continue;
-            ++lit[g];
-            const std::uint32_t texel = groups[g].texel;
-            for (std::size_t c = 0; c < stride_; ++c)
-                light.vectors[texel * stride_ + c] += traced.vector(g)[c];
+        Transfer traced = zero_transfer(options.order, 1, layer.receivers.size());
+        ReceiverSink sink;
+        if (task_.transport && task_.transport->bounces()) {
+            task_.transport->clear();
+            sink = [&](std::uint32_t g, std::span<const Hit> hits) {
+                task_.transport->set_row(g, hits, options.rays);
+            };
         }
+        trace_receivers(task_.tracer, layer.receivers, layer.indices, options, traced, progress.part(0, 0.9),
+                        sink);
+        light.rays += layer.indices.size() * static_cast<std::size_t>(options.rays);
+        const std::vector<bool> sealed = sealed_of(layer, traced, light, progress.stop);
+        const auto add = [&](std::span<const float> values, std::size_t stride, std::vector<float>& to) {
+            for (const std::uint32_t g : layer.indices)
+                for (std::size_t c = 0; !sealed[g] && c < stride; ++c)
+                    to[groups[g].texel * stride + c] += values[g * stride + c];
+        };
+        for (const std::uint32_t g : layer.indices)
+            lit[g] += sealed[g] ? 0 : 1;
+        add(traced.vectors, stride_, light.direct);
+        if (!task_.transport)
+            return;
+        std::vector<float> more(groups.size() * task_.transport->sky_stride());
+        if (!more.empty())
+            task_.transport->gather_sky(more);
+        add(more, task_.transport->sky_stride(), light.sky);
+        more.assign(groups.size() * task_.transport->lamp_stride(), 0.0f);
+        if (!more.empty())
+            light.rays += task_.transport->light_of_lamps(task_.tracer, layer.receivers, lamp_seed(groups, k),
+                                                          more, progress.part(0.9, 1));
+        add(more, task_.transport->lamp_stride(), light.lamps);
     }
 
-    Tracer& tracer_;
-    const TraceScene& scene_;
-    const TexelPlaces& places_;
+    /// Places of a texel, and texels that are traced after each other, see lamps by samples of their own.
+    std::uint64_t lamp_seed(std::span<const TexelGroup> groups, std::size_t k) const {
+        return options_.seed + 7 * kSecondScramble + groups.front().texel * kSamplesOfTexel + k;
+    }
+
+    std::vector<bool> sealed_of(const Layer& layer, const Transfer& traced, TexelLight& light,
+                                const std::stop_token& stop) {
+        if (task_.inside == Inside::keep)
+            return std::vector<bool>(layer.receivers.size());
+        std::vector<std::uint32_t> dark;
+        std::ranges::copy_if(layer.indices, std::back_inserter(dark),
+                             [&](std::uint32_t g) { return traced.vector(g)[0] <= 0; });
+        Sealed sealed =
+            find_sealed(task_.tracer, task_.scene, layer.receivers, std::move(dark), options_.seed, stop);
+        light.rays += sealed.rays;
+        return std::move(sealed.receivers);
+    }
+
+    const TexelTask& task_;
     TraceOptions options_;
     std::size_t stride_;
 };
 
 } // namespace
 
-TexelLight trace_texels(Tracer& tracer, const TraceScene& scene, const TexelPlaces& places,
-                        const Atlas& atlas, std::span<const TexelSample> samples, const TraceOptions& options,
+TexelLight trace_texels(const TexelTask& task, const Atlas& atlas, std::span<const TexelSample> samples,
                         const Progress& progress) {
     const std::vector<TexelGroup> groups = by_texel(samples);
-    TexelLight light{
-        std::vector<float>(atlas.texels() * static_cast<std::size_t>(coefficient_count(options.order))),
-        std::vector<bool>(atlas.texels())};
+    TexelLight light;
+    light.direct.resize(atlas.texels() * static_cast<std::size_t>(coefficient_count(task.options.order)));
+    if (task.transport) {
+        light.sky.resize(atlas.texels() * task.transport->sky_stride());
+        light.lamps.resize(atlas.texels() * task.transport->lamp_stride());
+    }
+    light.lit.resize(atlas.texels());
     light.measured = groups.size();
-    TexelTracer texels(tracer, scene, places, options);
-    for (std::size_t first = 0; first < groups.size(); first += kTexelsAtOnce) {
-        const std::size_t count = std::min(kTexelsAtOnce, groups.size() - first);
+    TexelTracer texels(task);
+    for (std::size_t first = 0; first < groups.size(); first += texels.texels_at_once()) {
+        const std::size_t count = std::min(texels.texels_at_once(), groups.size() - first);
         const auto share = [&](std::size_t done) {
             return static_cast<double>(done) / static_cast<double>(groups.size());
         };

@@ -2,8 +2,10 @@
 
 // Transfer of texels.
 
+#include "prt/bake.h"
 #include "prt/tracer.h"
 #include "texels/texel_places.h"
+#include "texels/texel_transport.h"
 
 #include <cstdint>
 #include <functional>
@@ -12,16 +14,27 @@
 
 namespace prt {
 
+struct TexelTask {
+    Tracer& tracer;
+    const TraceScene& scene; ///< what is traced
+    const TexelPlaces& places;
+    TraceOptions options;
+    Inside inside = Inside::refill;
+    TexelTransport* transport = nullptr; ///< null: direct light alone
+};
+
+/// Light of the texels of an atlas, zero where nothing was measured.
 struct TexelLight {
-    std::vector<float> vectors; ///< [texels][order²], zero where nothing was measured
-    std::vector<bool> lit;      ///< [texels]: measured, and not sealed in
+    std::vector<float> direct; ///< [texels][order²]
+    std::vector<float> sky;    ///< [texels][sky_stride()], bounced
+    std::vector<float> lamps;  ///< [texels][lamp_stride()]
+    std::vector<bool> lit;     ///< [texels]: measured, and not sealed in unless that is kept
     std::size_t measured = 0, rays = 0;
 };
 
-/// `scene` is what is traced. The mean over the samples of each texel, which share its rays: each takes a
-/// part of one net. Samples that are sealed in tell nothing.
-TexelLight trace_texels(Tracer& tracer, const TraceScene& scene, const TexelPlaces& places,
-                        const Atlas& atlas, std::span<const TexelSample> samples, const TraceOptions& options,
+/// The mean over the samples of each texel, which share its rays: each takes a part of one net. Samples that
+/// are sealed in tell nothing.
+TexelLight trace_texels(const TexelTask& task, const Atlas& atlas, std::span<const TexelSample> samples,
                         const Progress& progress);
 
 } // namespace prt

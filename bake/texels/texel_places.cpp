@@ -55,6 +55,13 @@ void TexelPlaces::move_to_casters(Place& place) const {
     place.normal = unit_or(at_place(of_casters_.normals, c, hit->uv), place.plane);
 }
 
+double TexelPlaces::area(std::uint32_t triangle) const {
+    const glm::uvec3& c = corners_[triangle];
+    const auto& positions = vertices_.positions;
+    const glm::dvec3 a(positions[c.x]);
+    return glm::length(glm::cross(glm::dvec3(positions[c.y]) - a, glm::dvec3(positions[c.z]) - a)) / 2;
+}
+
 void TexelPlaces::append(const TexelSample& sample, float area, Receivers& receivers) const {
     const glm::uvec3& c = corners_[sample.triangle];
     Place place{at_place(vertices_.positions, c, sample.uv), {}, plane_of(vertices_.positions, c)};

@@ -6,6 +6,7 @@
 #include "prt/trace_scene.h"
 #include "texels/texel_samples.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace prt {
@@ -24,6 +25,8 @@ public:
     TexelPlaces(const Scene& scene, const Casters* casters);
     /// Appends a receiver of that area.
     void append(const TexelSample& sample, float area, Receivers& receivers) const;
+    /// Area of a triangle of the scene, m².
+    double area(std::uint32_t triangle) const;
 
 private:
     struct Place {

@@ -7,7 +7,7 @@
 #include "prt/image_file.h"
 #include "prt/occlusion_maps.h"
 #include "prt/support/stopwatch.h"
-#include "prt/unwrap.h"
+#include "texel_arguments.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -19,41 +19,19 @@
 namespace prt::cli {
 namespace {
 
-/// Of textures alone.
-struct TextureArguments {
-    TexelOptions texels;
-    std::optional<int> uv_set;
-    std::optional<AtlasMode> atlas;
-    bool unwrap = false;
-    Path casters;
-    std::optional<double> reach; ///< metres
-};
-
 struct AoArguments {
     Path scene, output, json;
     std::vector<std::string> no_shadow; ///< names of materials
     std::string attribute = "COLOR_0";
-    TextureArguments textures;
+    TexelArguments textures;
     OcclusionOptions options;
     bool bent_normals = false;
     GltfOptions reading;
 
-    bool in_textures() const { return textures.texels.size > 0 || textures.texels.per_metre > 0; }
+    bool in_textures() const { return textures.given(); }
 };
 
 constexpr const char* kBentNormal = "_BENT_NORMAL"; ///< attribute
-const std::map<std::string, AtlasMode> kAtlasModes = {
-    {"auto", AtlasMode::automatic}, {"one", AtlasMode::one}, {"each", AtlasMode::each}};
-
-/// "64/m" or "64".
-double parse_density(const std::string& text) {
-    const std::string number = text.ends_with("/m") ? text.substr(0, text.size() - 2) : text;
-    const std::optional<double> density = real_number(number);
-    if (!density || !(*density > 0) || !std::isfinite(*density))
-        throw CLI::ValidationError("--texels", "'" + text + "' is no number of texels a metre, as 64/m");
-    return *density;
-}
-
 /// DISTANCE[:SHARE]
 Falloff::Term parse_term(const std::string& text) {
     const std::size_t colon = text.find(':');
@@ -132,26 +110,9 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
     return report;
 }
 
-/// A finer model, and how far off it may lie: a fiftieth of the scene's extent where that is not said.
-struct Finer {
-    std::optional<Scene> scene;
-    double reach = 0;
-};
-
-Finer load_finer(const AoArguments& a, const Scene& scene) {
-    Finer finer;
-    if (a.textures.casters.empty())
-        return finer;
-    finer.scene = extract_scene(load_gltf(a.textures.casters, a.reading));
-    print_notices(a.textures.casters.string(), finer.scene->notices);
-    const Bounds box = bounds(scene);
-    finer.reach = a.textures.reach.value_or(static_cast<double>(glm::distance(box.low, box.high)) / 50);
-    return finer;
-}
-
 Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& scene,
                      const std::vector<Atlas>& atlases, const Progress& progress) {
-    const Finer finer = load_finer(a, scene);
+    const Finer finer = load_finer(a.textures, a.reading, scene);
     std::vector<SurfaceTexture> textures;
     Json maps = Json::array();
     std::size_t lit = 0, measured = 0;
@@ -172,8 +133,7 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
         lit += map.measured - map.sealed;
         measured += map.measured;
     };
-    OcclusionMapsStatistics result = occlusion_maps(
-        scene, atlases, a.options, take, {finer.scene ? &*finer.scene : nullptr, finer.reach}, progress);
+    OcclusionMapsStatistics result = occlusion_maps(scene, atlases, a.options, take, finer.model(), progress);
     if (const std::size_t replaced = write_surface_textures(document, scene, textures); replaced > 0)
         result.notices.push_back(fmt::format("occlusion textures of {} materials are replaced", replaced));
     Report report;
@@ -197,63 +157,17 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
     return report;
 }
 
-/// Textures for the scene, and what was done for room in them.
-struct Room {
-    std::vector<Atlas> atlases;
-    Json figures = Json::object();
-};
-
-/// Gives the scene coordinates of its own.
-Room unwrapped(const AoArguments& a, GltfDocument& document, Scene& scene) {
-    Unwrapping unwrapping = unwrap(scene, a.textures.texels);
-    const int set = free_texcoord(scene);
-    document = with_texcoords(std::move(document), scene, unwrapping.primitives, set);
-    scene = extract_scene(document);
-    for (Atlas& atlas : unwrapping.atlases)
-        atlas.uv_set = set;
-    print_notices(
-        a.scene.string(),
-        {fmt::format("TEXCOORD_{} has {} now, {:.4g} texels a metre", set,
-                     unwrapping.charts == 1 ? "one chart" : fmt::format("{} charts", unwrapping.charts),
-                     unwrapping.texels_per_metre)});
-    return {std::move(unwrapping.atlases),
-            {{"charts", unwrapping.charts}, {"texels_per_metre", unwrapping.texels_per_metre}}};
-}
-
-/// With --unwrap coordinates that have a place for everything are kept.
-Room make_room(const AoArguments& a, GltfDocument& document, Scene& scene) {
-    if (!a.textures.unwrap)
-        return {plan_atlases(scene, a.textures.texels)};
-    try {
-        Room room{plan_atlases(scene, a.textures.texels)};
-        print_notices(a.scene.string(),
-                      {fmt::format("has TEXCOORD_{} already, which is kept", a.textures.texels.uv_set)});
-        return room;
-    } catch (const Error&) { // that is why
-        return unwrapped(a, document, scene);
-    }
-}
-
 void check_arguments(const AoArguments& a) {
     if (a.attribute != "COLOR_0" && !a.attribute.starts_with("_"))
         throw Error("--attribute: glTF wants names of own attributes to begin with _, as _AO");
     if (a.attribute == kBentNormal && a.bent_normals)
         throw Error("--attribute: _BENT_NORMAL is where --bent-normals go");
-    if (a.in_textures())
-        return;
-    for (const auto& [given, option] : {std::pair(a.textures.unwrap, "--unwrap"),
-                                        {a.textures.uv_set.has_value(), "--uv"},
-                                        {a.textures.atlas.has_value(), "--atlas"},
-                                        {!a.textures.casters.empty(), "--casters"}})
-        if (given)
-            throw Error(std::string(option) + " is for textures: give --size or --texels");
+    check_texels(a.textures);
 }
 
 void run(AoArguments a, Session& session) {
     choose_gpu(a.options.tracer);
     check_arguments(a);
-    a.textures.texels.uv_set = a.textures.uv_set.value_or(a.textures.texels.uv_set);
-    a.textures.texels.atlases = a.textures.atlas.value_or(a.textures.texels.atlases);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
                                       {a.scene, a.textures.casters});
     if (a.options.repairs.bad_textures == BadTextures::ignore)
@@ -262,8 +176,9 @@ void run(AoArguments a, Session& session) {
     GltfDocument document = load_gltf(a.scene, a.reading);
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
-    const Room room =
-        a.in_textures() ? about(a.scene, [&] { return make_room(a, document, scene); }) : Room{};
+    const TexelRoom room =
+        a.in_textures() ? about(a.scene, [&] { return make_room(a.textures, a.scene, document, scene); })
+                        : TexelRoom{};
     leave_out_shadows(scene, a.no_shadow);
     Report report;
     {
@@ -283,34 +198,14 @@ void run(AoArguments a, Session& session) {
 }
 
 void add_places(CLI::App* command, AoArguments& a) {
-    CLI::Option* density =
-        command
-            ->add_option_function<std::string>(
-                "--texels",
-                [&a](const std::string& text) { a.textures.texels.per_metre = parse_density(text); },
-                "into textures instead of vertices, with so many texels a metre in the mean")
-            ->type_name("N/m");
-    CLI::Option* size = command
-                            ->add_option("--size", a.textures.texels.size,
-                                         "into textures with so many texels along each side")
-                            ->check(CLI::Range(1, kMostTexels))
-                            ->excludes(density);
-    command->add_option("--uv", a.textures.uv_set, "coordinates that textures use: TEXCOORD_n")
-        ->default_str("1")
-        ->check(CLI::Range(0, 7));
-    command->add_flag(
-        "--unwrap", a.textures.unwrap,
-        "where these coordinates have no place for every surface: cut the scene into charts, and write them "
-        "as a set of their own");
-    choice(command, "--atlas", a.textures.atlas, kAtlasModes,
-           "a texture for all, or for each object; auto: for all where their charts do not overlap", "auto");
+    const TexelSizeOptions in = add_texels(command, a.textures, "into textures instead of vertices");
     command
         ->add_option(
             "--attribute", a.attribute,
             "attribute of vertices to write instead of COLOR_0, which is multiplied: its name begins with _")
         ->capture_default_str()
-        ->excludes(density)
-        ->excludes(size);
+        ->excludes(in.density)
+        ->excludes(in.size);
     command->add_flag("--bent-normals", a.bent_normals,
                       "where light comes from on average, too: the attribute _BENT_NORMAL, or a texture that "
                       "extras.prtkit of materials names; in the frame of the scene");
@@ -344,20 +239,6 @@ void add_ao(CLI::App& app, Session& session) {
     command->add_option("scene", a.scene, "glTF 2.0 scene, .gltf or .glb")->required()->check(named);
     add_output(command, a.output, "model to write, .glb");
     add_places(command, a);
-    CLI::Option* casters =
-        command
-            ->add_option(
-                "--casters", a.textures.casters,
-                "a finer model of the same, that blocks in the place of the scene: texels have what arrives "
-                "at its surface")
-            ->check(named)
-            ->type_name("FILE");
-    command
-        ->add_option(
-            "--reach", a.textures.reach,
-            "how far the finer surface may lie off, metres; otherwise a fiftieth of the scene's extent")
-        ->check(above_zero())
-        ->needs(casters);
     add_falloff(command, a.options.tracer.falloff);
     command->add_option("--rays", a.options.rays, "rays per vertex or texel")
         ->capture_default_str()

@@ -5,10 +5,14 @@
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
+#include "prt/lightmap_bake.h"
+#include "prt/lightmap_gltf.h"
 #include "prt/refine.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "report/bake_report.h"
+#include "report/lightmap_report.h"
+#include "texel_arguments.h"
 
 #include <fmt/core.h>
 
@@ -23,6 +27,7 @@ struct BakeArguments {
     std::vector<std::string> no_shadow; ///< names of materials
     std::optional<double> refine;       ///< relative L2 over the surface to split triangles for
     std::size_t most_vertices = 0;      ///< of a refined scene; 0: as many as `refine` allows
+    TexelArguments texels;              ///< given: instead of vertices
     BakeOptions options;
     GltfOptions reading;
 };
@@ -193,12 +198,9 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
         ->needs(refine);
 }
 
-/// The scene of a document, as the options want it baked.
-Scene scene_of(const GltfDocument& document, const BakeArguments& a) {
-    Scene scene = extract_scene(document);
+void add_light_set(const BakeArguments& a, Scene& scene) {
     if (!a.light_set.empty())
         std::ranges::move(read_light_set(a.light_set), std::back_inserter(scene.lights));
-    return scene;
 }
 
 /// Puts the finer document and scene in the place of these.
@@ -209,7 +211,8 @@ RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& s
     if (result.statistics.rounds == 0)
         return result.statistics;
     document = refined(std::move(document), scene, result.refinement);
-    Scene finer = scene_of(document, a);
+    Scene finer = extract_scene(document);
+    add_light_set(a, finer);
     leave_out_shadows(finer, a.no_shadow);
     finer.notices = std::move(scene.notices); // of the file that was given
     scene = std::move(finer);
@@ -235,16 +238,7 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
     return baked;
 }
 
-void run(BakeArguments a, Session& session) {
-    choose_gpu(a.options.tracer);
-    a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
-                                      {a.scene, a.light_set});
-    GltfOptions reading = a.reading;
-    reading.missing_images =
-        a.options.repairs.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
-    GltfDocument document = load_gltf(a.scene, reading);
-    Scene scene = scene_of(document, a);
-    print_notices(a.scene.string(), scene.notices);
+void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
     const std::vector<std::byte> file = about(a.scene, [&] {
         write_transfer(document, scene, baked.result.baked);
@@ -259,6 +253,51 @@ void run(BakeArguments a, Session& session) {
                          .refine_target = a.refine.value_or(0),
                          .bytes = session.write(a.output, file)}),
             a.json, session);
+}
+
+void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, const TexelRoom& room,
+                Session& session) {
+    const Finer finer = load_finer(a.texels, a.reading, scene);
+    leave_out_shadows(scene, a.no_shadow);
+    const LightmapBake baked = about(a.scene, [&] {
+        ProgressBar bar = session.progress_bar("baking");
+        return bake_lightmap(scene, room.atlases, a.options, finer.model(), bar.progress());
+    });
+    const std::vector<std::byte> file = about(a.scene, [&] {
+        write_lightmap(document, scene, baked.lightmap);
+        return encode_glb(document);
+    });
+    Report report = lightmap_report(
+        {.output = a.output.string(), .scene = scene, .bake = baked, .bytes = session.write(a.output, file)});
+    add_figures(report, room.figures);
+    publish(report, a.json, session);
+}
+
+void check_arguments(const BakeArguments& a) {
+    check_texels(a.texels);
+    if (a.texels.given() && a.refine)
+        throw Error("--refine is for vertices: texels are as fine as --texels or --size says");
+}
+
+void run(BakeArguments a, Session& session) {
+    choose_gpu(a.options.tracer);
+    check_arguments(a);
+    a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
+                                      {a.scene, a.light_set, a.texels.casters});
+    GltfOptions reading = a.reading;
+    reading.missing_images =
+        a.options.repairs.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
+    GltfDocument document = load_gltf(a.scene, reading);
+    Scene scene = extract_scene(document);
+    print_notices(a.scene.string(), scene.notices);
+    TexelRoom room;
+    if (a.texels.given())
+        room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
+    add_light_set(a, scene);
+    if (a.texels.given())
+        run_texels(a, document, scene, room, session);
+    else
+        run_vertices(a, document, scene, session);
 }
 
 } // namespace
@@ -293,6 +332,7 @@ void add_bake(CLI::App& app, Session& session) {
     add_no_shadow(command, a.no_shadow);
     add_method(command, a.options);
     add_refinement(command, a);
+    add_texels(command, a.texels, "into a lightmap instead of vertices");
     choice(command, "--storage", a.options.memory.storage, kStorages,
            "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
     command->add_option("--seed", a.options.seed, "seed of the samples")

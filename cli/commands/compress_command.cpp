@@ -6,11 +6,14 @@
 #include "prt/encode_glb.h"
 #include "prt/error_measures.h"
 #include "prt/jumps.h"
+#include "prt/lightmap_file.h"
+#include "prt/mesh_edges.h"
 #include "prt/reorder.h"
 #include "prt/search.h"
 #include "prt/sh.h"
 #include "prt/stored_transfer.h"
 #include "prt/support/error.h"
+#include "report/of_texels.h"
 #include "report/trace_lines.h"
 #include "sky_errors.h"
 
@@ -29,7 +32,7 @@ struct CompressArguments {
     } reports;
     SearchOptions options; ///< without a budget `options.compress` says it all
     MetricArguments metric;
-    bool components_given = false;
+    bool components_given = false, guides_given = false;
     bool preset = false; ///< `options.compress` is one, to be fitted to the mesh
     bool best_effort = false;
     struct Writing {
@@ -120,7 +123,7 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
         ->type_name("FLOAT|none")
         ->default_str(fmt::format("{} with --max-error alone", kUnseenJump));
     command
-        ->add_option("--bytes-per-vertex", o.budget.bytes_per_vertex,
+        ->add_option("--bytes-per-vertex,--bytes-per-texel", o.budget.bytes_per_vertex,
                      "the best of at most this size: whole 32-bit words, as a game binds them, and bases")
         ->check(above_zero());
     command
@@ -138,6 +141,7 @@ void resolve(const CLI::App& command, CompressArguments& a) {
     if (preset && (sizes || o.budget.any()))
         throw CLI::ValidationError("--preset", "presets fix what other sizes and budgets would choose");
     a.components_given = given("--components");
+    a.guides_given = given("--guides");
     a.preset = preset || (!o.budget.any() && !sizes && !given("--preset"));
     if (o.budget.max_error && !given("--max-jump") && !o.budget.bytes_per_vertex && !o.budget.operations)
         o.budget.max_jump = kUnseenJump;
@@ -189,11 +193,23 @@ struct Outcome {
 struct Bake {
     GltfDocument document;
     StoredBake stored;
+    std::optional<BakedLightmap> lightmap = {}; ///< of texels; its transfer is in `stored`
 };
+
+Bake of_lightmap(GltfDocument document, BakedLightmap lightmap) {
+    BakedTransfer& baked = lightmap.baked;
+    StoredBake stored{{baked.transfer.layout, std::move(baked.transfer.vectors), {}}, baked.record};
+    return {std::move(document), std::move(stored), std::move(lightmap)};
+}
 
 Bake load_bake(const Path& path, const GltfOptions& reading) {
     GltfDocument document = load_gltf(path, reading);
-    std::optional<StoredBake> stored = read_stored_transfer(document, extract_scene(document));
+    const Scene scene = extract_scene(document);
+    if (std::optional<BakedLightmap> lightmap = read_lightmap(document, scene)) {
+        discard_transfer(document);
+        return of_lightmap(std::move(document), std::move(*lightmap));
+    }
+    std::optional<StoredBake> stored = read_stored_transfer(document, scene);
     if (!stored)
         throw Error(path.string() + (scene_file_of(std::move(document), path).compressed
                                          ? ": is compressed already; compress the bake it came from"
@@ -204,6 +220,12 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
 
 /// What the compressor may look at.
 SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
+    if (bake.lightmap) {
+        SceneSurface surface;
+        surface.areas = bake.lightmap->areas;
+        surface.edges = lightmap_edges(bake.lightmap->layout, bake.lightmap->texels, bake.lightmap->seams);
+        return surface;
+    }
     SceneSurface surface(extract_scene(bake.document));
     const bool chooses = options.budget.any() && options.choose_guides;
     if (!chooses && options.compress.guides != GuideChoice::normal_and_position)
@@ -232,8 +254,17 @@ Outcome run_compressor(const CompressArguments& a, const TransferView& transfer,
 }
 
 /// The bake's file with the result, in the order that is asked for.
-std::vector<std::byte> encoded(const CompressArguments& a, GltfDocument document, Scene& scene,
-                               CompressedTransfer result) {
+std::vector<std::byte> encoded(const CompressArguments& a, Bake bake, Scene& scene,
+                               ClusteredTransfer compressed) {
+    GltfDocument& document = bake.document;
+    const BufferCompression buffers =
+        a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none;
+    if (bake.lightmap) {
+        bake.lightmap->baked.record = bake.stored.record;
+        write_lightmap(document, scene, spread_over_maps(*bake.lightmap, std::move(compressed)));
+        return encode_glb(document, buffers);
+    }
+    CompressedTransfer result{std::move(compressed), bake.stored.record};
     if (a.writing.reorder) {
         const std::vector<std::uint32_t> order = order_by_cluster(scene, result.transfer.receivers);
         reorder_vertices(document, scene, order);
@@ -243,12 +274,14 @@ std::vector<std::byte> encoded(const CompressArguments& a, GltfDocument document
     result = {}; // what is in the document makes room for the file
     for (Primitive& primitive : scene.primitives)
         primitive.triangles = {}; // vertices alone are compared with what is written
-    return encode_glb(document, a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none);
+    return encode_glb(document, buffers);
 }
 
 struct Written {
     Scene scene;
-    ClusteredTransfer transfer;
+    ClusteredTransfer transfer; ///< of the bake's receivers, in the order of the file
+    std::vector<float> areas;
+    std::vector<Edge> edges;
     std::uintmax_t bytes; ///< of the file
 };
 
@@ -263,12 +296,19 @@ auto readable(const CompressArguments& a, Read&& read) {
 }
 
 /// Stages the file and reads it back; its bytes stay in memory no longer than it takes to parse them.
-Written written(const CompressArguments& a, std::vector<std::byte> file, Session& session) {
+Written written(const CompressArguments& a, std::vector<std::byte> file,
+                const std::optional<BakedLightmap>& lightmap, Session& session) {
     GltfDocument document = readable(a, [&] { return parse_gltf(file, a.output); });
     const std::uintmax_t bytes = session.write(a.output, file);
     file = {};
     SceneFile read = readable(a, [&] { return scene_file_of(std::move(document), a.output); });
-    return {std::move(read.scene), std::move(read.compressed->transfer), bytes};
+    ClusteredTransfer& transfer = read.compressed->transfer;
+    if (lightmap)
+        return {std::move(read.scene), picked_texels(transfer, lightmap->texels), lightmap->areas,
+                lightmap_edges(lightmap->layout, lightmap->texels, lightmap->seams), bytes};
+    std::vector<float> areas = receiver_areas(read.scene);
+    std::vector<Edge> edges = mesh_edges(read.scene);
+    return {std::move(read.scene), std::move(transfer), std::move(areas), std::move(edges), bytes};
 }
 
 Json trials_json(const std::vector<SearchTrial>& trials) {
@@ -291,9 +331,9 @@ std::string guides_in_words(const ClusteredBases& bases) {
 
 /// The errors are those of what is written, against `transfer` in its order.
 Json result_json(const CompressStatistics& s, const CompressOptions& options, const TransferView& transfer,
-                 const ErrorMoments& moments, const Written& written) {
-    const std::vector<float> areas = receiver_areas(written.scene);
-    const std::vector<Edge> edges = mesh_edges(written.scene);
+                 const Written& written) {
+    const std::vector<float>& areas = written.areas;
+    const std::vector<Edge>& edges = written.edges;
     const std::size_t receivers = transfer.receivers();
     const std::size_t uncompressed = transfer.dimension() * sizeof(float);
     const ClusteredBases& bases = written.transfer.bases;
@@ -306,7 +346,6 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
             {"components_mean", s.mean_components},
             {"guides", guides_in_words(bases)},
             {"shader_operations", s.operations()},
-            {"lit_rms", expected_lit_rms(moments, *options.metric)},
             {"jump_across_clusters",
              jump_across_clusters(transfer, written.transfer, written.transfer.receivers.clusters,
                                   {areas, edges}, *options.metric, options.threads)},
@@ -365,6 +404,39 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
     return list;
 }
 
+/// All but errors under skies.
+Report report_of(const CompressArguments& a, const SearchOptions& options, const TransferView& transfer,
+                 const Outcome& outcome, const Written& result) {
+    const CompressStatistics& s = outcome.result.statistics;
+    Report report;
+    add_figures(report, {{"output", a.output.string()}});
+    add_figures(report, result_json(s, options.compress, transfer, result));
+    add_figures(
+        report,
+        {{"bytes_file", result.bytes}, {"trials", trials_json(outcome.trials)}, {"seconds", s.seconds}});
+    report.sentences = sentences(a, a.preset && !outcome.trials.empty());
+    if (outcome.best)
+        add_promises(options.budget, *outcome.best, report);
+    return report;
+}
+
+/// What texels cannot be: a pass over a map knows no normals, and its words are packed.
+void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
+    if (a.guides_given && options.compress.guides != GuideChoice::none)
+        throw Error("--guides: texels know neither normals nor positions; leave it out, or say none");
+    if (options.compress.coding.format != WeightFormat::packed)
+        throw Error("--weights: those of texels are words of images; leave it out, or say packed");
+    if (a.writing.reorder)
+        throw Error("--reorder is for vertices: texels stay where they are");
+    options.compress.guides = GuideChoice::none;
+    options.choose_guides = false;
+}
+
+/// What a file is written from; its transfer stays where it is read.
+Bake bake_without_transfer(Bake& bake) {
+    return {std::move(bake.document), {{}, bake.stored.record}, bake.lightmap};
+}
+
 void run(CompressArguments a, Session& session) {
     std::vector<Path> inputs = a.metric.lights;
     inputs.push_back(a.baked);
@@ -377,6 +449,8 @@ void run(CompressArguments a, Session& session) {
     if (a.writing.whole)
         transfer = as_whole(std::move(transfer));
     SearchOptions options = a.options;
+    if (bake.lightmap)
+        choose_for_texels(a, options);
     std::optional<SceneSurface> surface = surface_of(bake, options);
     std::vector<NamedLighting> skies = given_lights(a.metric, transfer.layout(), options.compress.threads);
     ErrorTerms terms = error_terms(a.metric, skies, transfer, surface->areas, options.compress.threads);
@@ -394,35 +468,28 @@ void run(CompressArguments a, Session& session) {
     session.write(a.reports.trace, trace);
     Scene scene = extract_scene(bake.document);
     const VertexReuse reuse_before = vertex_reuse(scene);
+    const std::optional<BakedLightmap> texels = bake.lightmap;
     std::vector<std::byte> file = about(a.baked, [&] {
-        return encoded(a, std::move(bake.document), scene,
-                       {std::move(outcome.result.transfer), bake.stored.record});
+        return encoded(a, bake_without_transfer(bake), scene, std::move(outcome.result.transfer));
     });
     if (!a.writing.reorder)
         scene = {}; // vertices are where they were
-    const Written result = written(a, std::move(file), session);
+    const Written result = written(a, std::move(file), texels, session);
     if (a.writing.reorder) {
         transfer = in_order(std::move(transfer), matching_receivers(result.scene, scene));
         scene = {};
     }
-    const CompressStatistics& s = outcome.result.statistics;
-    Report report;
-    add_figures(report, {{"output", a.output.string()}});
-    const ErrorMoments moments =
-        error_moments(transfer, result.transfer, receiver_areas(result.scene), options.compress.threads);
-    add_figures(report, result_json(s, options.compress, transfer, moments, result));
+    Report report = report_of(a, options, transfer, outcome, result);
     add_figures(report, reuse_json(reuse_before, vertex_reuse(result.scene)));
-    add_figures(
-        report,
-        {{"bytes_file", result.bytes}, {"trials", trials_json(outcome.trials)}, {"seconds", s.seconds}});
-    report.sentences = sentences(a, a.preset && !outcome.trials.empty());
-    if (outcome.best)
-        add_promises(options.budget, *outcome.best, report);
+    const ErrorMoments moments =
+        error_moments(transfer, result.transfer, result.areas, options.compress.threads);
+    add_figures(report, {{"lit_rms", expected_lit_rms(moments, *options.compress.metric)}});
     std::ranges::move(standard_skies(transfer.layout().order), std::back_inserter(skies));
     add_sky_errors(moments, skies, report);
+    if (texels)
+        say_texels(report);
     publish(report, a.reports.json, session);
 }
-
 } // namespace
 
 void add_compress(CLI::App& app, Session& session) {

@@ -8,6 +8,7 @@
 #include "outputs.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
+#include "report/of_texels.h"
 #include "report/sweep_report.h"
 #include "residual_vq.h"
 
@@ -39,8 +40,12 @@ Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::v
     options.threads = a.threads;
     ProgressBar bar = session.progress_bar("sweeping");
     const Transfer& transfer = baked.baked->transfer;
-    return sweep(transfer, SceneSurface(baked.scene).view(), all, options,
-                 residual_vq_candidates(transfer, options.seed), bar.progress());
+    const std::optional<SceneSurface> vertices =
+        baked.lightmap ? std::nullopt : std::optional<SceneSurface>(baked.scene);
+    const ReceiverSurface surface =
+        vertices ? vertices->view() : ReceiverSurface{baked.lightmap->areas, baked.lightmap->edges};
+    return sweep(transfer, surface, all, options, residual_vq_candidates(transfer, options.seed),
+                 bar.progress());
 }
 
 /// Those that were named, turned as asked, or the default ones.
@@ -121,6 +126,8 @@ void run(EvaluateArguments a, Session& session) {
                    baked, report, session);
     if (a.sweep)
         add_sweep(run_sweep(a, baked, lights, session), report);
+    if (baked.lightmap)
+        say_texels(report);
     publish(report, a.files, session);
 }
 

@@ -2,6 +2,8 @@
 
 #include "options.h"
 #include "outputs.h"
+#include "report/lightmap_report.h"
+#include "report/of_texels.h"
 
 #include <fmt/ranges.h>
 
@@ -118,17 +120,27 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     report.sentences.push_back(record_sentence(own + "bake", compressed.record));
 }
 
+void add_lightmap(const SceneFile& model, Report& report) {
+    const LightmapLayout& layout = model.lightmap->layout;
+    add_figures(report, {{"lightmap", {{"maps", maps_figures(layout)}, {"texels", layout.texels()}}}});
+    report.sentences.push_back("lightmap: " + maps_in_words(layout) + ", {lightmap/texels} texels");
+}
+
 void run(InfoArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.json, "--json", {".json"}}}, {a.file});
     const SceneFile model = load_scene_file(a.file, a.reading);
     Report report;
     add_scene(a.file, model.scene, report);
+    if (model.lightmap)
+        add_lightmap(model, report);
     if (model.baked)
         add_baked(*model.baked, report);
     if (model.compressed)
         add_compressed(*model.compressed, report);
     if (!model.record())
         report.sentences.emplace_back("no transfer");
+    if (model.lightmap)
+        say_texels(report);
     publish(report, a.json, session);
 }
 

@@ -69,6 +69,7 @@ bool is_together(const RelightArguments& a, const SceneFile& model) {
 void check_model(const RelightArguments& a, const SceneFile& model) {
     if (!model.record())
         throw Error(a.model.string() + ": holds no transfer; run prt bake first");
+    check_of_vertices(model, a.model, "relight writes colors of vertices: prt render shows it");
     if (a.environment.empty() && layout_of(model).lamps() == 0)
         throw Error(a.model.string() + ": has no lamps, and without --env nothing lights it");
     if (is_together(a, model)) {

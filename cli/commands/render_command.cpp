@@ -6,6 +6,8 @@
 #include "prt/gl_renderer.h"
 #include "prt/light_meter.h"
 #include "prt/light_passing.h"
+#include "prt/lightmap_file.h"
+#include "prt/lightmap_lookup.h"
 #include "prt/ray_renderer.h"
 #include "prt/receiver_colors.h"
 #include "prt/receivers.h"
@@ -183,13 +185,27 @@ Lighting lighting_of(const RenderArguments& a, const SceneFile& model, SplitLigh
     return lighting;
 }
 
-/// Exit radiance for albedo 1: compressed, baked, or unshadowed, whatever the model holds.
+/// Exit radiance for albedo 1 of the receivers, texels or vertices: compressed, baked, or unshadowed,
+/// whatever the model holds.
 std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighting, int threads) {
     if (model.compressed)
         return exit_radiance(model.compressed->transfer, lighting, threads);
     if (model.baked)
         return exit_radiance(model.baked->transfer, lighting, threads);
     return exit_radiance(unshadowed_transfer(model.scene, lighting.sky.order), lighting, threads);
+}
+
+/// Of all texels of a shipped lightmap, against those that its bake has.
+std::vector<glm::vec3> lightmap_errors(const SceneFile& baked, const SceneFile& model,
+                                       const Lighting& lighting, int threads) {
+    const LightmapOfFile& lightmap = *baked.lightmap;
+    const std::vector<glm::vec3> shipped =
+        model.compressed
+            ? exit_radiance(picked_texels(model.compressed->transfer, lightmap.texels), lighting, threads)
+            : lit_colors(model, lighting, threads);
+    const std::vector<glm::vec3> errors =
+        error_colors(exit_radiance(baked.baked->transfer, lighting, threads), shipped, lightmap.areas);
+    return model.compressed ? spread_over_maps(lightmap.layout, lightmap.texels, errors) : errors;
 }
 
 std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile& model,
@@ -210,6 +226,8 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile&
             throw Error(a.baked.string() + ": holds no raw transfer; --baked is the output of prt bake");
         check_belong_together(baked, a.baked, model, a.model);
         put_in_order_of(model.scene, baked);
+        if (model.lightmap)
+            return lightmap_errors(baked, model, lighting, a.threads);
         return error_colors(exit_radiance(baked.baked->transfer, lighting, a.threads),
                             lit_colors(model, lighting, a.threads), receiver_areas(baked.scene));
     }
@@ -217,6 +235,19 @@ std::vector<glm::vec3> colors_to_show(const RenderArguments& a, const SceneFile&
         break;
     }
     return lit_colors(model, lighting, a.threads);
+}
+
+/// Colors of all texels, and what a meter looks at.
+struct LitMaps {
+    std::vector<glm::vec3> texels, at_vertices;
+};
+
+/// `colors` are those of the receivers: of a bake some texels, others take that of one close by.
+LitMaps lit_maps(const SceneFile& model, const std::vector<glm::vec3>& colors) {
+    const LightmapOfFile& lightmap = *model.lightmap;
+    LitMaps lit{model.baked ? spread_over_maps(lightmap.layout, lightmap.texels, colors) : colors, {}};
+    lit.at_vertices = at_vertices(model.scene, lightmap.layout, lit.texels);
+    return lit;
 }
 
 Camera choose_camera(const View& view, const Scene& scene) {
@@ -261,11 +292,12 @@ Picture empty_picture(const RenderArguments& a, const Scene& scene) {
 /// Lets OpenGL light what is compressed in the vertex shader, where it fits.
 void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lighting& lighting,
                      Picture& picture) {
-    if (a.look.show != Show::lit || !model.compressed)
+    if (a.look.show != Show::lit || !model.compressed || model.lightmap)
         return;
     const ClusteredBases& bases = model.compressed->transfer.bases;
     if (bases.max_components() <= most_vertex_components(bases)) {
-        picture.in_shader = {&model.compressed->transfer, &lighting};
+        picture.in_shader.transfer = &model.compressed->transfer;
+        picture.in_shader.lighting = &lighting;
     } else {
         print_notices(
             a.model.string(),
@@ -359,7 +391,12 @@ void run(RenderArguments a, Session& session) {
     const std::vector<glm::vec3> colors = colors_to_show(a, model, lighting);
     Picture picture = empty_picture(a, model.scene);
     picture.textures = scene.textures();
-    picture.radiance = colors;
+    LitMaps maps;
+    if (model.lightmap)
+        maps = lit_maps(model, colors);
+    picture.radiance = model.lightmap ? maps.at_vertices : colors;
+    if (model.lightmap)
+        picture.in_shader.lightmaps = {.layout = &model.lightmap->layout, .radiance = maps.texels};
     if (suns)
         picture.suns = light.split.suns;
     const std::vector<glm::vec3> emission =
@@ -373,8 +410,14 @@ void run(RenderArguments a, Session& session) {
     }
     const std::unique_ptr<GlContext> context = choose_backend(
         a.backend, suns && (picture.suns.size() > kMostShadowedSuns || has_unnamed_media(model, solid)));
+    std::optional<CompressedLightmap> on_gpu;
     if (context)
         light_in_shader(a, model, lighting, picture);
+    if (context && model.lightmap && model.compressed && a.look.show == Show::lit) {
+        on_gpu = {model.lightmap->layout, *model.compressed};
+        picture.in_shader.lightmaps.on_gpu = &*on_gpu;
+        picture.in_shader.lightmaps.lighting = &lighting;
+    }
     const Light all_light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;
     const Rendered rendered = render(a, picture, scene, all_light, context.get());
     write_picture(a, rendered, session);

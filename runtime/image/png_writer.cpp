@@ -38,17 +38,29 @@ unsigned char* packed_by_zlib(unsigned char* data, int size, int* packed_size,
 
 namespace prt {
 
-std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec3> pixels) {
+namespace {
+
+std::vector<std::byte> encode_channels(int width, int height, int channels, const void* pixels) {
     struct Free {
         void operator()(unsigned char* bytes) const { std::free(bytes); }
     };
     int size = 0;
     const std::unique_ptr<unsigned char, Free> file(stbi_write_png_to_mem(
-        reinterpret_cast<const unsigned char*>(pixels.data()), 3 * width, width, height, 3, &size));
+        static_cast<const unsigned char*>(pixels), channels * width, width, height, channels, &size));
     if (!file)
         throw Error("the image could not be encoded: there is not enough memory");
     const auto* begin = reinterpret_cast<const std::byte*>(file.get());
     return {begin, begin + size};
+}
+
+} // namespace
+
+std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec3> pixels) {
+    return encode_channels(width, height, 3, pixels.data());
+}
+
+std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec4> pixels) {
+    return encode_channels(width, height, 4, pixels.data());
 }
 
 void write_png(const std::filesystem::path& path, int width, int height,

@@ -2,6 +2,7 @@
 #include "prt/clustered_transfer.h"
 #include "prt/support/parallel.h"
 #include "prt/support/vector_lanes.h"
+#include "transfer/evaluate_range.h"
 #include "transfer/packed_weights.h"
 
 #include <algorithm>
@@ -188,8 +189,8 @@ template <WeightFormat Format>
 }
 
 PRT_TARGET_CLONES
-void evaluate_range(const ClusteredReceivers& receivers, const ClusterLayout* layouts,
-                    const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
+void evaluate_in_lanes(const ClusteredReceivers& receivers, const ClusterLayout* layouts,
+                       const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
     switch (receivers.format) {
     case WeightFormat::snorm8:
         return evaluate_format<WeightFormat::snorm8>(receivers, layouts, constants, begin, end, radiance);
@@ -203,6 +204,11 @@ void evaluate_range(const ClusteredReceivers& receivers, const ClusterLayout* la
 }
 
 } // namespace
+
+void evaluate_range(const ClusteredReceivers& receivers, const ClusterLayout* layouts,
+                    const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
+    evaluate_in_lanes(receivers, layouts, constants, begin, end, radiance);
+}
 
 void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> constants,
               std::span<glm::vec3> radiance, int threads) {

@@ -4,6 +4,7 @@
 #include "prt/constant_former.h"
 #include "prt/dering.h"
 #include "prt/environment.h"
+#include "prt/lightmap_former.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
 #include "prt/sh_vector.h"
@@ -182,6 +183,51 @@ void evaluate_vertices(State& state) {
     state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(kVertices * (2 + 8 + 12)));
 }
 BENCHMARK(evaluate_vertices)->ArgName("run")->Arg(4000)->Arg(4);
+
+/// A map of 1 024² texels, two words each, in squares of `side` texels of one cluster.
+CompressedLightmap lightmap_of(int side) {
+    constexpr int kSide = 1024;
+    CompressedLightmap lightmap{{{{kSide, kSide}}, {}}, {}};
+    ClusteredTransfer& t = lightmap.compressed.transfer;
+    t = clustered(256, 8, layout_of_one(kOrder, 1), 1, 1);
+    t.bases.bits.assign(256 * 8, 7);
+    t.receivers = {.format = WeightFormat::packed,
+                   .cluster_bits = 8,
+                   .words = 2,
+                   .clusters = {},
+                   .weights = {},
+                   .guides = {}};
+    std::mt19937 random(1);
+    std::vector<std::uint32_t> words;
+    for (int i = 0; i < kSide * kSide; ++i) {
+        const int x = i % kSide / side, y = i / kSide / side;
+        t.receivers.clusters.push_back(static_cast<std::uint16_t>((x * 131 + y * 71) % 256));
+        words.push_back((static_cast<std::uint32_t>(random()) & ~255u) | t.receivers.clusters.back());
+        words.push_back(static_cast<std::uint32_t>(random()));
+    }
+    t.receivers.weights.resize(words.size() * 4);
+    std::memcpy(t.receivers.weights.data(), words.data(), t.receivers.weights.size());
+    return lightmap;
+}
+
+/// All levels, from formed constants.
+void relight_lightmap(State& state) {
+    const CompressedLightmap lightmap = lightmap_of(static_cast<int>(state.range(0)));
+    const ConstantFormer constants(lightmap.compressed.transfer);
+    std::vector<glm::vec4> formed(constants.rows());
+    constants.form(random_light(), formed);
+    const LightmapFormer former(lightmap, static_cast<LightmapFormat>(state.range(2)));
+    std::vector<std::byte> texels(former.bytes(0));
+    for (auto _ : state) {
+        former.form(0, formed, texels, static_cast<int>(state.range(1)));
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(relight_lightmap)
+    ->ArgNames({"square", "threads", "format"})
+    ->ArgsProduct({{1, 8, 64}, {1, 2}, {0, 1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 /// What memory can do: a copy that no cache holds, bytes read and written.
 void plain_copy(State& state) {

@@ -33,6 +33,9 @@ struct FinerModel {
     double reach = 0;             ///< metres, that its surface may lie off that of the scene
 };
 
+/// Throws `Error` where a finer model lies off by no length.
+void check_finer(const FinerModel& finer);
+
 /// Gives `take` the maps of `atlases` (plan_atlases, or those of an unwrapping), one after the other: a texel
 /// has the mean over its part of the surface, with options.rays at most. Where a finer model has a surface
 /// over or under it, it has what arrives there. Throws as `bake` does.

@@ -2,6 +2,7 @@
 
 // Textures over the surfaces of a scene, whose texels are receivers. Experimental.
 
+#include "prt/lightmap.h"
 #include "prt/scene.h"
 #include "prt/support/progress.h"
 
@@ -35,6 +36,10 @@ struct Atlas {
 
     std::size_t texels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
+
+inline LightmapSize size_of(const Atlas& atlas) {
+    return {atlas.width, atlas.height, atlas.repeats};
+}
 
 /// Throws `Error` where coordinates are missing or cross a border, where charts of one texture overlap, and
 /// where a texture would be too large.

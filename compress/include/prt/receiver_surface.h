@@ -27,6 +27,7 @@ struct SceneSurface {
     std::vector<Edge> edges;
     std::vector<glm::vec3> normals, positions;
 
+    SceneSurface() = default;
     explicit SceneSurface(const Scene& scene);
     ReceiverSurface view() const { return {areas, edges, normals, positions}; }
 };

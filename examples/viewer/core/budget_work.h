@@ -20,6 +20,10 @@ struct BudgetSubject {
 /// Throws `prt::Error` for what path tracing cannot be a reference for.
 void find_budget(Channel& channel, const BudgetSubject& subject);
 
+/// Why there is no budget where only a lightmap is open.
+inline constexpr const char* kMeasuredOfVertices =
+    "the error over the surface is measured of vertices; open the model without its lightmap, too";
+
 /// The total of `SurfaceBudget` that is white in its picture, as relative L2.
 inline constexpr double kWhiteSurfaceError = 0.3;
 

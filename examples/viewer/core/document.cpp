@@ -6,21 +6,32 @@
 
 namespace viewer {
 
+const LoadedModel& Document::shown_by(const SidePicture& picture) const {
+    return has_both() && picture.receivers == Receivers::texels && shows_transfer(picture.kind) ? beside
+                                                                                                : loaded;
+}
+
 int Document::light_order() const {
-    return std::max({3, raw_order(), compressed() ? compressed()->bases.layout.order : 0});
+    int order = 3;
+    for (const prt::TransferLayout* layout : layouts())
+        order = std::max(order, layout->order);
+    return order;
 }
 
 std::vector<const prt::TransferLayout*> Document::layouts() const {
     std::vector<const prt::TransferLayout*> layouts;
-    if (raw())
-        layouts.push_back(&raw()->layout);
-    if (compressed())
-        layouts.push_back(&compressed()->bases.layout);
+    for (const LoadedModel* model : {&loaded, &beside}) {
+        if (model->raw)
+            layouts.push_back(&model->raw->layout);
+        if (model->compressed)
+            layouts.push_back(&model->compressed->bases.layout);
+    }
     return layouts;
 }
 
-void Document::open(const LoadedModel& model) {
-    loaded = model;
+void Document::open(const OpenModels& models) {
+    loaded = models.first;
+    beside = models.beside;
     occlusion = nullptr;
     repeated = {};
     budget.reset();
@@ -42,9 +53,14 @@ void Document::set(const Baked& baked) {
     ++transfer_version;
 }
 
-void Document::set(const Compressed& compressed) {
-    loaded.compressed = compressed.transfer;
-    compressed_as = compressed.how;
+void Document::set(const Compressed& found) {
+    LoadedModel& model = found.model == beside.model ? beside : loaded;
+    if (found.lightmap)
+        model.set(found.lightmap);
+    else
+        model.compressed = found.transfer;
+    if (&model == &loaded)
+        compressed_as = found.how;
     ++transfer_version;
 }
 
@@ -57,15 +73,24 @@ TransferFigures figures_of(const LoadedModel& loaded) {
     }
     if (loaded.compressed) {
         const prt::ClusteredBases& bases = loaded.compressed->bases;
-        const auto receivers = static_cast<double>(std::max<std::size_t>(1, loaded.model->scene.receivers()));
-        figures.bytes_per_vertex = static_cast<double>(prt::bytes_per_receiver(*loaded.compressed));
+        const auto receivers =
+            static_cast<double>(std::max<std::size_t>(1, loaded.compressed->receivers.size()));
+        figures.bytes_per_receiver = static_cast<double>(prt::bytes_per_receiver(*loaded.compressed));
         figures.bytes_with_bases =
-            figures.bytes_per_vertex + static_cast<double>(prt::basis_bytes(bases)) / receivers;
+            figures.bytes_per_receiver + static_cast<double>(prt::basis_bytes(bases)) / receivers;
         figures.clusters = static_cast<int>(bases.clusters());
         figures.order = bases.layout.order;
         figures.channels = bases.layout.channels();
     }
     return figures;
+}
+
+LightmapFigures lightmap_figures_of(const LoadedModel& loaded) {
+    const prt::LightmapLayout& layout = *loaded.lightmap.layout();
+    return {.transfer = figures_of(loaded),
+            .maps = layout.maps,
+            .texels = layout.texels(),
+            .receivers = loaded.lightmap.baked ? loaded.lightmap.baked->texels.size() : 0};
 }
 
 } // namespace viewer

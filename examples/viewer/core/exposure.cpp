@@ -1,5 +1,7 @@
 #include "core/exposure.h"
 
+#include "core/texel_light.h"
+
 #include "prt/sh.h"
 #include "prt/tone_map.h"
 
@@ -8,7 +10,7 @@
 namespace viewer {
 namespace {
 
-using Receivers = std::span<const std::uint32_t>;
+using Indices = std::span<const std::uint32_t>; ///< of receivers
 
 glm::vec3 normal_of(const prt::Scene& scene, std::uint32_t receiver) {
     const auto array = std::prev(std::upper_bound(
@@ -18,7 +20,7 @@ glm::vec3 normal_of(const prt::Scene& scene, std::uint32_t receiver) {
 }
 
 /// Exit radiance for albedo 1 of a few receivers.
-std::vector<glm::vec3> unshadowed(const prt::Scene& scene, const prt::Light& light, Receivers receivers) {
+std::vector<glm::vec3> unshadowed(const prt::Scene& scene, const prt::Light& light, Indices receivers) {
     const prt::Light bands = prt::truncated(light, 3);
     const prt::TransferLayout layout = prt::layout_of_one(3, 1, prt::PartKind::direct);
     std::vector<glm::vec3> radiance;
@@ -32,7 +34,7 @@ std::vector<glm::vec3> unshadowed(const prt::Scene& scene, const prt::Light& lig
     return radiance;
 }
 
-std::vector<glm::vec3> baked(const prt::Transfer& raw, const prt::Lighting& lighting, Receivers receivers) {
+std::vector<glm::vec3> baked(const prt::Transfer& raw, const prt::Lighting& lighting, Indices receivers) {
     const std::vector<glm::vec3> columns = prt::light_columns(raw.layout, lighting);
     std::vector<glm::vec3> radiance;
     for (const std::uint32_t receiver : receivers)
@@ -41,7 +43,7 @@ std::vector<glm::vec3> baked(const prt::Transfer& raw, const prt::Lighting& ligh
 }
 
 std::vector<glm::vec3> compressed(const prt::ClusteredTransfer& transfer, const prt::Lighting& lighting,
-                                  Receivers receivers) {
+                                  Indices receivers) {
     const std::vector<glm::vec3> all = prt::exit_radiance(transfer, lighting);
     std::vector<glm::vec3> radiance;
     for (const std::uint32_t receiver : receivers)
@@ -55,6 +57,19 @@ std::vector<glm::vec3> compressed(const prt::ClusteredTransfer& transfer, const 
 float night_share(float luminance, float darkness) {
     constexpr float kDaylight = 0.5f, kPower = 0.4f;
     return std::pow(std::min(1.0f, luminance / kDaylight), kPower * darkness);
+}
+
+/// Whatever transfer there is.
+std::vector<glm::vec3> radiance_at(const LoadedModel& loaded, const prt::Light& light,
+                                   const LampSettings& lamps, Indices receivers) {
+    if (!loaded.raw && !loaded.compressed)
+        return unshadowed(loaded.model->scene, light, receivers);
+    const prt::Lighting lighting =
+        with_lamps({light}, lamps, loaded.compressed ? loaded.compressed->bases.layout : loaded.raw->layout);
+    if (loaded.of_texels())
+        return texel_radiance_at(loaded, lighting, receivers);
+    return loaded.compressed ? compressed(*loaded.compressed, lighting, receivers)
+                             : baked(*loaded.raw, lighting, receivers);
 }
 
 prt::LightMeter meter_of(const ExposureMeter::View& view) {
@@ -73,13 +88,7 @@ float ExposureMeter::exposure(const View& view, const Lit& lit, const std::funct
     view_ = view;
     version_ = lit.version;
     const prt::Light all = light();
-    const Receivers receivers = meter_->receivers();
-    const std::vector<glm::vec3> radiance =
-        lit.compressed ? compressed(*lit.compressed,
-                                    with_lamps({all}, lit.lamps, lit.compressed->bases.layout), receivers)
-        : lit.raw      ? baked(*lit.raw, with_lamps({all}, lit.lamps, lit.raw->layout), receivers)
-                       : unshadowed(view.model->scene, all, receivers);
-    const float luminance = meter_->luminance(radiance);
+    const float luminance = meter_->luminance(radiance_at(lit.loaded, all, lit.lamps, meter_->receivers()));
     exposure_ = luminance > 0 ? prt::exposure_for(luminance) * night_share(luminance, lit.darkness)
                               : prt::automatic_exposure(all);
     return exposure_;

@@ -24,11 +24,9 @@ public:
 
         friend bool operator==(const View&, const View&) = default;
     };
-    /// What it is lit by. Either transfer may be null: the compressed one counts first, and without any the
-    /// light arrives unshadowed.
+    /// What it is lit by. The compressed transfer counts first, and without any the light arrives unshadowed.
     struct Lit {
-        const prt::Transfer* raw;
-        const prt::ClusteredTransfer* compressed;
+        const LoadedModel& loaded;
         const LampSettings& lamps;
         float darkness;          ///< of the night, 0..1
         RadianceVersion version; ///< tells lights and transfers apart

@@ -32,9 +32,18 @@ struct Baked {
     prt::BakeRecord record;
 };
 
+/// Of `model`: of its vertices, or of texels.
 struct Compressed {
-    std::shared_ptr<const prt::ClusteredTransfer> transfer;
+    std::shared_ptr<const Model> model;
+    std::shared_ptr<const prt::ClusteredTransfer> transfer = {};
+    std::shared_ptr<const prt::CompressedLightmap> lightmap = {}; ///< instead
     CompressionSettings how;
+};
+
+/// A scene, by vertices, by a lightmap, or by both: then each has a model, whose vertices may differ.
+struct OpenModels {
+    LoadedModel first;
+    LoadedModel beside; ///< of texels, where the first is of vertices
 };
 
 /// Share of the hemisphere that is open. [receivers]
@@ -85,7 +94,7 @@ struct Failure {
     std::string why;
 };
 
-using Finding = std::variant<LoadedModel, Baked, Compressed, Occlusion, EnvironmentFile, NumberPictures,
+using Finding = std::variant<OpenModels, Baked, Compressed, Occlusion, EnvironmentFile, NumberPictures,
                              RepeatedBake, SurfaceBudget, Saved, Failure>;
 
 using Channel = BackgroundWork<Finding>::Channel;

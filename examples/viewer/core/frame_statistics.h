@@ -24,7 +24,8 @@ struct Milliseconds {
 struct Figures {
     Milliseconds milliseconds;
     std::size_t receivers = 0, triangles = 0, triangles_drawn = 0;
-    TransferFigures transfer;
+    TransferFigures transfer; ///< of vertices
+    std::optional<LightmapFigures> lightmap;
     int reference_passes = 0;
     Difference difference; ///< of the two pictures, while it is shown
 };

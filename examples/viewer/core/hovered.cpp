@@ -1,15 +1,30 @@
 #include "core/hovered.h"
 
+#include "core/texel_light.h"
+
+#include "prt/lightmap_lookup.h"
+
+#include <algorithm>
+#include <iterator>
+
 namespace viewer {
 namespace {
 
-std::optional<std::uint32_t> receiver_at(const Model& model, const Screen& screen, const glm::vec2& pixel) {
-    const auto hit = model.trace->rays().nearest({screen.camera.position, direction_through(screen, pixel)});
-    if (!hit)
-        return std::nullopt;
-    const glm::uvec3& corners = model.trace->surfaces().corners(hit->triangle);
-    const float u = hit->uv.x, v = hit->uv.y, w = 1 - u - v;
-    return w >= u && w >= v ? corners.x : u >= v ? corners.y : corners.z;
+glm::vec3 shares_of(const prt::RayHit& hit) {
+    return {1 - hit.uv.x - hit.uv.y, hit.uv};
+}
+
+std::uint32_t vertex_at(const Model& model, const prt::RayHit& hit) {
+    const glm::uvec3& corners = model.trace->surfaces().corners(hit.triangle);
+    const glm::vec3 w = shares_of(hit);
+    return w.x >= w.y && w.x >= w.z ? corners.x : w.y >= w.z ? corners.y : corners.z;
+}
+
+/// The one that counts most in a filter.
+std::uint32_t texel_at(const LoadedModel& loaded, const prt::RayHit& hit) {
+    const prt::BilinearTexels filter =
+        prt::LightmapLookup(loaded.model->scene, *loaded.lightmap.layout()).filter(hit.triangle, hit.uv);
+    return filter.texels[std::ranges::max_element(filter.weights) - std::begin(filter.weights)];
 }
 
 glm::vec3 position_of(const prt::Scene& scene, std::uint32_t receiver) {
@@ -44,29 +59,37 @@ std::vector<float> first_channel(std::span<const float> vector, const prt::Trans
     return whole;
 }
 
+/// Cluster, weights and vector of a receiver of compressed transfer.
+void take_compressed(const prt::ClusteredTransfer& compressed, Hovered& found) {
+    found.cluster = compressed.receivers.clusters[found.receiver];
+    const auto layouts = prt::cluster_layouts(compressed.bases);
+    found.weights.resize(layouts[static_cast<std::size_t>(found.cluster)].components);
+    prt::decode_weights(compressed, layouts, found.receiver, found.weights);
+    found.order = compressed.bases.layout.order;
+    found.vector = first_channel(decoded(compressed, found.receiver, found.weights), compressed.bases.layout);
+}
+
 } // namespace
 
-std::optional<Hovered> find_hovered(const Model& model, const prt::Transfer* raw,
-                                    const prt::ClusteredTransfer* compressed, bool prefer_raw,
-                                    const Screen& screen, const glm::vec2& pixel) {
-    const auto receiver = receiver_at(model, screen, pixel);
-    if (!receiver)
+std::optional<Hovered> find_hovered(const LoadedModel& loaded, bool prefer_raw, const Screen& screen,
+                                    const glm::vec2& pixel) {
+    const Model& model = *loaded.model;
+    const prt::Ray ray{screen.camera.position, direction_through(screen, pixel)};
+    const auto hit = model.trace->rays().nearest(ray);
+    if (!hit)
         return std::nullopt;
     Hovered found;
-    found.receiver = *receiver;
-    found.position = position_of(model.scene, *receiver);
-    if (compressed) {
-        found.cluster = compressed->receivers.clusters[*receiver];
-        const auto layouts = prt::cluster_layouts(compressed->bases);
-        found.weights.resize(layouts[static_cast<std::size_t>(found.cluster)].components);
-        prt::decode_weights(*compressed, layouts, *receiver, found.weights);
-        found.order = compressed->bases.layout.order;
-        found.vector =
-            first_channel(decoded(*compressed, *receiver, found.weights), compressed->bases.layout);
-    }
-    if (raw && (!compressed || prefer_raw)) {
-        found.order = raw->layout.order;
-        found.vector = first_channel(raw->vector(*receiver), raw->layout);
+    found.of = loaded.receivers();
+    found.receiver = loaded.of_texels() ? texel_at(loaded, *hit) : vertex_at(model, *hit);
+    found.position = loaded.of_texels() ? ray.origin + hit->distance * ray.direction
+                                        : position_of(model.scene, found.receiver);
+    if (loaded.compressed)
+        take_compressed(*loaded.compressed, found);
+    const std::optional<std::size_t> baked =
+        !loaded.lightmap.baked ? found.receiver : receiver_of(loaded.lightmap.baked->texels, found.receiver);
+    if (loaded.raw && baked && (!loaded.compressed || prefer_raw)) {
+        found.order = loaded.raw->layout.order;
+        found.vector = first_channel(loaded.raw->vector(*baked), loaded.raw->layout);
     }
     return found;
 }

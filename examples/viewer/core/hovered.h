@@ -10,9 +10,10 @@
 
 namespace viewer {
 
-/// The receiver under the pointer.
+/// The receiver under the pointer, a vertex or a texel.
 struct Hovered {
-    std::uint32_t receiver = 0;
+    Receivers of = Receivers::vertices;
+    std::uint32_t receiver = 0; ///< texels are numbered map behind map
     glm::vec3 position{0};
     std::vector<float>
         vector; ///< transfer, [order²] all parts, of the first channel; empty where there is none
@@ -21,10 +22,9 @@ struct Hovered {
     std::vector<float> weights; ///< the cluster's
 };
 
-/// The nearest vertex of the triangle at `pixel`. Its vector is the compressed one where there is one, unless
-/// `prefer_raw`; `raw` and `compressed` may be null.
-std::optional<Hovered> find_hovered(const Model& model, const prt::Transfer* raw,
-                                    const prt::ClusteredTransfer* compressed, bool prefer_raw,
-                                    const Screen& screen, const glm::vec2& pixel);
+/// The nearest vertex of the triangle at `pixel`, or the nearest texel. Its vector is the compressed one
+/// where there is one, unless `prefer_raw`.
+std::optional<Hovered> find_hovered(const LoadedModel& loaded, bool prefer_raw, const Screen& screen,
+                                    const glm::vec2& pixel);
 
 } // namespace viewer

@@ -16,13 +16,15 @@ void find_occlusion(Channel& channel, const Model& model) {
     channel.post(std::make_shared<const std::vector<float>>(ambient_occlusion(model, channel.progress())));
 }
 
-/// Computes and posts what `loaded` lacks.
-void complete(Channel& channel, LoadedModel loaded) {
-    if (!loaded.raw && !loaded.compressed)
-        loaded.raw = bake_in_stages(channel, *loaded.model).transfer;
-    if (!loaded.compressed)
-        channel.post(compress_as(channel, *loaded.model, *loaded.raw, {.order = loaded.raw->layout.order}));
-    find_occlusion(channel, *loaded.model);
+/// Computes and posts what `open` lacks.
+void complete(Channel& channel, OpenModels open) {
+    LoadedModel& first = open.first;
+    if (!first.raw && !first.compressed)
+        first.raw = bake_in_stages(channel, *first.model).transfer;
+    for (const LoadedModel* loaded : {&open.first, &open.beside})
+        if (loaded->model && !loaded->compressed)
+            channel.post(compress_as(channel, *loaded, {.order = loaded->raw->layout.order}));
+    find_occlusion(channel, *first.model);
 }
 
 EnvironmentFile read_environment(const std::filesystem::path& path) {
@@ -47,25 +49,27 @@ void Jobs::start(JobKind kind, std::function<void(Channel&)> work) {
     });
 }
 
-void Jobs::open(const std::vector<std::filesystem::path>& paths, const LoadedModel& open) {
+void Jobs::open(const std::vector<std::filesystem::path>& paths, const OpenModels& open) {
     start(JobKind::model, [paths, open](Channel& channel) {
         channel.enter(Stage::reading, "reading " + paths.front().filename().string());
-        const LoadedModel loaded = load_together(paths, open);
-        channel.post(loaded);
-        complete(channel, loaded);
+        const OpenModels models = load_together(paths, open);
+        channel.post(models);
+        complete(channel, models);
     });
 }
 
 void Jobs::bake(std::shared_ptr<const Model> model) {
     start(JobKind::model, [model = std::move(model)](Channel& channel) {
-        complete(channel, {model, nullptr, nullptr, {}});
+        OpenModels bare;
+        bare.first.model = model;
+        complete(channel, std::move(bare));
     });
 }
 
 void Jobs::compress(const Document& document, const CompressionSettings& how) {
     start(JobKind::model,
           [loaded = document.loaded, how, with_occlusion = !document.occlusion](Channel& channel) {
-              channel.post(compress_as(channel, *loaded.model, *loaded.raw, how));
+              channel.post(compress_as(channel, loaded, how));
               if (with_occlusion)
                   find_occlusion(channel, *loaded.model);
           });
@@ -80,10 +84,12 @@ void Jobs::read_environments(const std::vector<std::filesystem::path>& paths) {
 }
 
 void Jobs::find_numbers(const Document& document, const prt::Lighting& lighting, const LampSettings& lamps) {
-    start(JobKind::numbers, [loaded = document.loaded, lighting, lamps](Channel& channel) {
-        channel.post(NumberPictures{loaded.model, number_pictures(*loaded.model, loaded.raw.get(),
-                                                                  *loaded.compressed, lighting, lamps)});
-    });
+    start(JobKind::numbers,
+          [models = OpenModels{document.loaded, document.beside}, lighting, lamps](Channel& channel) {
+              for (const LoadedModel* loaded : {&models.first, &models.beside})
+                  if (loaded->compressed)
+                      channel.post(NumberPictures{loaded->model, number_pictures(*loaded, lighting, lamps)});
+          });
 }
 
 void Jobs::find_budget(const Document& document, const LightRig& rig, const RadianceVersion& version) {
@@ -97,7 +103,7 @@ void Jobs::find_budget(const Document& document, const LightRig& rig, const Radi
 void Jobs::save(const Document& document, const std::filesystem::path& output) {
     start(JobKind::saving, [loaded = document.loaded, output](Channel& channel) {
         channel.enter(Stage::saving, "saving " + output.filename().string());
-        save_compressed(*loaded.model, {*loaded.compressed, loaded.record}, output);
+        save_compressed(loaded, output);
         channel.post(Saved{output});
     });
 }

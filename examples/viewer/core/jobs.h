@@ -14,7 +14,7 @@ class Jobs {
 public:
     /// Reads models that hold the same scene, and takes over transfer from `open` where that is of it, too.
     /// Then bakes, compresses and finds the occlusion, what of it is missing.
-    void open(const std::vector<std::filesystem::path>& paths, const LoadedModel& open);
+    void open(const std::vector<std::filesystem::path>& paths, const OpenModels& open);
     /// Bakes `model`, compresses that and finds the occlusion.
     void bake(std::shared_ptr<const Model> model);
     /// Compresses what was baked anew; finds the occlusion where it is missing.

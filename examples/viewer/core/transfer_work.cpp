@@ -1,6 +1,7 @@
 #include "core/transfer_work.h"
 
 #include "prt/bake.h"
+#include "prt/lightmap_file.h"
 #include "prt/receiver_colors.h"
 #include "prt/reorder.h"
 #include "prt/search.h"
@@ -14,12 +15,26 @@ namespace {
 /// A first picture at once, then better ones.
 constexpr int kBakeRays[] = {16, 128, 1024};
 
+/// What the compressor may look at.
+prt::SceneSurface surface_of(const LoadedModel& loaded) {
+    if (!loaded.of_texels())
+        return prt::SceneSurface(loaded.model->scene);
+    const prt::BakedLightmap& lightmap = *loaded.lightmap.baked;
+    prt::SceneSurface surface;
+    surface.areas = lightmap.areas;
+    surface.edges = prt::lightmap_edges(lightmap.layout, lightmap.texels, lightmap.seams);
+    return surface;
+}
+
 /// The preset where its own sizes are asked for, made to fit small meshes as `prt compress` does; else as
 /// asked.
-prt::CompressResult compressed_as(const CompressionSettings& how, const prt::Transfer& transfer,
-                                  const Model& model, const prt::Progress& progress) {
+prt::CompressResult compressed_as(const CompressionSettings& how, const LoadedModel& loaded,
+                                  const prt::Progress& progress) {
+    const prt::Transfer transfer = truncated(*loaded.raw, how.order);
     prt::CompressOptions options{.coding = prt::preset_u32x4()};
-    const prt::SceneSurface owner(model.scene);
+    if (loaded.of_texels()) // which know no normals
+        options.guides = prt::GuideChoice::none;
+    const prt::SceneSurface owner = surface_of(loaded);
     const prt::ReceiverSurface surface = owner.view();
     if (how.clusters == options.clusters && how.components == options.coding.components)
         return prt::compress_preset(transfer, surface, options, progress).result;
@@ -29,10 +44,21 @@ prt::CompressResult compressed_as(const CompressionSettings& how, const prt::Tra
     return prt::compress(transfer, surface, options, progress);
 }
 
-/// Takes over from `other` the transfer that `loaded` lacks; false where there is none, or the scenes differ.
-bool add_transfer(LoadedModel& loaded, LoadedModel other) {
-    if (loaded.model->receivers_id != other.model->receivers_id)
-        return false;
+/// Takes over from `other` the transfer of texels that `loaded` lacks. Returns why not, empty: done.
+std::string add_lightmap(LoadedModel& loaded, const LoadedModel& other) {
+    if (*loaded.lightmap.layout() != *other.lightmap.layout())
+        return "its lightmap has other maps than that of ";
+    if (!loaded.lightmap.compressed && other.lightmap.compressed)
+        loaded.set(other.lightmap.compressed);
+    else if (!loaded.lightmap.baked && other.lightmap.baked)
+        loaded.set(other.lightmap.baked);
+    else
+        return "adds no transfer to ";
+    return "";
+}
+
+/// The same of vertices.
+bool add_vertices(LoadedModel& loaded, LoadedModel other) {
     if (loaded.compressed && !loaded.raw && other.raw) {
         loaded.raw = std::make_shared<const prt::Transfer>(
             prt::in_order_of(loaded.model->scene, other.model->scene, *other.raw));
@@ -47,17 +73,40 @@ bool add_transfer(LoadedModel& loaded, LoadedModel other) {
     return false;
 }
 
+/// Takes over what `loaded` lacks, of the same kind of receivers.
+std::string add_transfer(LoadedModel& loaded, LoadedModel other) {
+    if (loaded.model->receivers_id != other.model->receivers_id)
+        return "is another scene than ";
+    if (loaded.of_texels())
+        return add_lightmap(loaded, other);
+    return add_vertices(loaded, std::move(other)) ? "" : "adds no transfer to ";
+}
+
+/// Adds `other` to the scene that is open: its transfer to that of the same receivers, or all of it beside.
+std::string add_model(OpenModels& open, LoadedModel other) {
+    if (open.first.receivers() == other.receivers())
+        return add_transfer(open.first, std::move(other));
+    if (open.first.model->surface_id != other.model->surface_id)
+        return "is another scene than ";
+    if (open.beside.model)
+        return add_transfer(open.beside, std::move(other));
+    open.beside = std::move(other);
+    if (open.first.of_texels())
+        std::swap(open.first, open.beside);
+    return "";
+}
+
 } // namespace
 
-LoadedModel load_together(const std::vector<std::filesystem::path>& paths, const LoadedModel& open) {
-    LoadedModel loaded = load_model(paths.front());
+OpenModels load_together(const std::vector<std::filesystem::path>& paths, const OpenModels& open) {
+    OpenModels models{load_model(paths.front()), {}};
     for (std::size_t i = 1; i < paths.size(); ++i)
-        if (!add_transfer(loaded, load_model(paths[i])))
-            throw prt::Error(paths[i].string() + ": is another scene than " + paths.front().string() +
-                             ", or adds no transfer to it");
-    if (open.model)
-        add_transfer(loaded, open);
-    return loaded;
+        if (const std::string why = add_model(models, load_model(paths[i])); !why.empty())
+            throw prt::Error(paths[i].string() + ": " + why + paths.front().string());
+    for (const LoadedModel* before : {&open.first, &open.beside})
+        if (before->model)
+            add_model(models, *before); // where it is of this scene
+    return models;
 }
 
 Baked bake_in_stages(Channel& channel, const Model& model) {
@@ -76,37 +125,60 @@ Baked bake_in_stages(Channel& channel, const Model& model) {
     return baked;
 }
 
-Compressed compress_as(Channel& channel, const Model& model, const prt::Transfer& raw,
-                       const CompressionSettings& how) {
-    channel.enter(Stage::compressing, "compressing");
-    prt::CompressResult result = compressed_as(how, truncated(raw, how.order), model, channel.progress());
-    return {std::make_shared<const prt::ClusteredTransfer>(std::move(result.transfer)), how};
+Compressed compress_as(Channel& channel, const LoadedModel& loaded, const CompressionSettings& how) {
+    channel.enter(Stage::compressing, loaded.of_texels() ? "compressing the lightmap" : "compressing");
+    prt::ClusteredTransfer transfer = compressed_as(how, loaded, channel.progress()).transfer;
+    Compressed compressed{.model = loaded.model, .how = how};
+    if (!loaded.of_texels()) {
+        compressed.transfer = std::make_shared<const prt::ClusteredTransfer>(std::move(transfer));
+        return compressed;
+    }
+    compressed.lightmap = std::make_shared<const prt::CompressedLightmap>(
+        prt::spread_over_maps(*loaded.lightmap.baked, std::move(transfer)));
+    return compressed;
 }
 
-void save_compressed(const Model& model, const prt::CompressedTransfer& compressed,
-                     const std::filesystem::path& output) {
+void save_compressed(const LoadedModel& loaded, const std::filesystem::path& output) {
+    const Model& model = *loaded.model;
     prt::GltfDocument document = prt::load_gltf(model.path);
     const prt::Scene scene = prt::extract_scene(document);
     if (prt::receivers_id(scene) != model.receivers_id)
         throw prt::Error(model.path.string() + ": has changed since it was opened");
-    prt::write_clustered(document, scene, compressed);
+    if (loaded.of_texels())
+        prt::write_lightmap(document, scene, *loaded.lightmap.compressed);
+    else
+        prt::write_clustered(document, scene, {*loaded.compressed, loaded.record});
     prt::save_glb(document, output);
 }
 
 std::vector<std::pair<PictureKind, std::vector<glm::vec3>>>
-number_pictures(const Model& model, const prt::Transfer* raw, const prt::ClusteredTransfer& compressed,
-                const prt::Lighting& lighting, const LampSettings& lamps) {
+number_pictures(const LoadedModel& loaded, const prt::Lighting& lighting, const LampSettings& lamps) {
     std::vector<std::pair<PictureKind, std::vector<glm::vec3>>> pictures;
-    pictures.emplace_back(PictureKind::clusters, prt::cluster_colors(compressed));
-    pictures.emplace_back(PictureKind::components, prt::component_colors(compressed));
-    if (!raw)
+    pictures.emplace_back(PictureKind::clusters, prt::cluster_colors(*loaded.compressed));
+    pictures.emplace_back(PictureKind::components, prt::component_colors(*loaded.compressed));
+    if (!loaded.raw)
         return pictures;
-    const auto reference = prt::exit_radiance(*raw, with_lamps(lighting, lamps, raw->layout), 1),
+    const prt::BakedLightmap* lightmap = loaded.lightmap.baked.get();
+    const prt::ClusteredTransfer picked =
+        lightmap ? prt::picked_texels(*loaded.compressed, lightmap->texels) : prt::ClusteredTransfer();
+    const prt::ClusteredTransfer& compressed = lightmap ? picked : *loaded.compressed;
+    const std::vector<prt::Edge> of_texels =
+        lightmap ? prt::lightmap_edges(lightmap->layout, lightmap->texels, lightmap->seams)
+                 : std::vector<prt::Edge>();
+    const std::vector<prt::Edge>& edges = lightmap ? of_texels : loaded.model->edges;
+    const std::vector<float>& areas = lightmap ? lightmap->areas : loaded.model->areas;
+    const auto reference =
+                   prt::exit_radiance(*loaded.raw, with_lamps(lighting, lamps, loaded.raw->layout), 1),
                approximation =
                    prt::exit_radiance(compressed, with_lamps(lighting, lamps, compressed.bases.layout), 1);
-    pictures.emplace_back(PictureKind::error, prt::error_colors(reference, approximation, model.areas));
-    pictures.emplace_back(PictureKind::seams, prt::seam_colors(reference, approximation, model.areas,
-                                                               model.edges, compressed.receivers.clusters));
+    const auto add = [&](PictureKind kind, std::vector<glm::vec3> colors) {
+        pictures.emplace_back(kind, lightmap
+                                        ? prt::spread_over_maps(lightmap->layout, lightmap->texels, colors)
+                                        : std::move(colors));
+    };
+    add(PictureKind::error, prt::error_colors(reference, approximation, areas));
+    add(PictureKind::seams,
+        prt::seam_colors(reference, approximation, areas, edges, compressed.receivers.clusters));
     return pictures;
 }
 

@@ -1,5 +1,7 @@
 #include "core/viewer.h"
 
+#include "core/budget_work.h"
+
 #include "prt/shader_source.h"
 #include "prt/support/error.h"
 
@@ -42,7 +44,7 @@ Viewer::Viewer() {
 void Viewer::restore_gpu() {
     gpu_ = std::make_unique<Gpu>();
     if (document_.model())
-        upload_model();
+        upload_models();
 }
 
 void Viewer::message(const std::string& text) {
@@ -76,17 +78,19 @@ void Viewer::open(const std::vector<std::filesystem::path>& paths) {
     if (models.empty())
         return;
     statistics_.begin_opening();
-    jobs_.open(models, document_.loaded);
+    jobs_.open(models, {document_.loaded, document_.beside});
 }
 
 void Viewer::bake_anew() {
-    if (document_.model())
+    if (can_bake())
         jobs_.bake(document_.loaded.model);
 }
 
 void Viewer::measure_budget() {
     if (!can_measure())
-        return message("the error over the surface is measured of a bake, once it is there");
+        return message(document_.loaded.of_texels()
+                           ? kMeasuredOfVertices
+                           : "the error over the surface is measured of a bake, once it is there");
     gpu_->budget = lampless();
     jobs_.find_budget(document_, lighting_.rig, lampless());
 }
@@ -132,8 +136,8 @@ void Viewer::update(double seconds) {
 
 // ---- what was found
 
-void Viewer::take(const LoadedModel& loaded) {
-    document_.open(loaded);
+void Viewer::take(const OpenModels& models) {
+    document_.open(models);
     stop_budget();
     settings.lit.lamps.each.clear();
     follow_lamps();
@@ -141,7 +145,7 @@ void Viewer::take(const LoadedModel& loaded) {
     seen_.hovered.reset();
     lighting_.meter = {};
     reset_camera();
-    upload_model();
+    upload_models();
 }
 
 /// Lists the lamps of the transfer that there is; those that stay keep their strength.
@@ -150,16 +154,40 @@ void Viewer::follow_lamps() {
     lamps = lamps_of(document_.layouts(), lamps);
 }
 
-void Viewer::upload_model() {
-    gpu_->model.reset(); // there may not be room for two
-    gpu_->model = std::make_unique<GpuModel>(document_.loaded.model);
-    if (document_.raw())
-        gpu_->model->set_raw(*document_.raw());
-    const prt::ClusteredTransfer* compressed = document_.compressed();
-    if (compressed && document_.most_components() <= prt::most_vertex_components(compressed->bases))
-        gpu_->model->set_compressed(*compressed);
+std::unique_ptr<GpuModel> Viewer::uploaded(const LoadedModel& loaded) {
+    auto model = std::make_unique<GpuModel>(loaded.model);
+    if (loaded.lightmap.baked)
+        model->set_raw(loaded.lightmap.baked);
+    else if (loaded.raw)
+        model->set_raw(*loaded.raw);
+    const prt::ClusteredTransfer* compressed = loaded.compressed.get();
+    if (loaded.lightmap.compressed)
+        model->set_compressed(loaded.lightmap.compressed);
+    else if (compressed &&
+             compressed->bases.max_components() <= prt::most_vertex_components(compressed->bases))
+        model->set_compressed(*compressed);
     else if (compressed)
         message("the compressed transfer has more components than a vertex has attributes");
+    return model;
+}
+
+GpuModel* Viewer::gpu_model(const Model* model) const {
+    return model == document_.model()              ? gpu_->model.get()
+           : model == document_.beside.model.get() ? gpu_->beside.get()
+                                                   : nullptr;
+}
+
+GpuModel& Viewer::gpu_model(const SidePicture& picture) const {
+    const bool beside = &document_.shown_by(picture) == &document_.beside;
+    return beside && gpu_->beside ? *gpu_->beside : *gpu_->model;
+}
+
+void Viewer::upload_models() {
+    gpu_->model.reset(); // there may not be room for two
+    gpu_->beside.reset();
+    gpu_->model = uploaded(document_.loaded);
+    if (document_.has_both())
+        gpu_->beside = uploaded(document_.beside);
     if (document_.occlusion)
         gpu_->model->set_occlusion(*document_.occlusion);
     if (document_.budget)
@@ -174,12 +202,15 @@ void Viewer::take(const Baked& baked) {
 }
 
 void Viewer::take(const Compressed& compressed) {
-    if (compression == document_.compressed_as)
+    if (compressed.model == document_.loaded.model && compression == document_.compressed_as)
         compression = compressed.how; // the file's own, when a model was opened
     document_.set(compressed);
     follow_lamps();
-    if (gpu_->model)
-        gpu_->model->set_compressed(*compressed.transfer);
+    GpuModel* const model = gpu_model(compressed.model.get());
+    if (model && compressed.lightmap)
+        model->set_compressed(compressed.lightmap);
+    else if (model)
+        model->set_compressed(*compressed.transfer);
 }
 
 void Viewer::take(const Occlusion& occlusion) {
@@ -196,9 +227,9 @@ void Viewer::take(const EnvironmentFile& file) {
 }
 
 void Viewer::take(const NumberPictures& pictures) {
-    if (pictures.model == document_.loaded.model && gpu_->model)
+    if (GpuModel* const model = gpu_model(pictures.model.get()))
         for (const auto& [kind, colors] : pictures.colors)
-            gpu_->model->set_numbers(kind, colors);
+            model->set_numbers(kind, colors);
 }
 
 void Viewer::take(const RepeatedBake& repeated) {

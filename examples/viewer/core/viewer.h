@@ -32,8 +32,12 @@ public:
     void open(const std::vector<std::filesystem::path>& paths);
     /// Bakes the model anew, though it may hold transfer.
     void bake_anew();
-    /// There is a bake of which the error over the surface can be measured.
-    bool can_measure() const { return document_.raw() && !jobs_.busy(JobKind::model); }
+    /// There is a bake of which the error over the surface can be measured: of vertices.
+    bool can_measure() const {
+        return document_.raw() && !document_.loaded.of_texels() && !jobs_.busy(JobKind::model);
+    }
+    /// The viewer bakes vertices alone.
+    bool can_bake() const { return document_.model() && !document_.loaded.of_texels() && !jobs_.busy(); }
     /// Measures it in the background, under the present light.
     void measure_budget();
     void stop_budget() { jobs_.stop(JobKind::budget); }
@@ -81,7 +85,9 @@ public:
         PictureKind kind;
         std::string note;
     };
-    Shown shown(PictureKind wanted) const;
+    Shown shown(const SidePicture& wanted) const;
+    /// Why no side can show this of the models that are open, whatever is waited for; empty: one can.
+    std::string never_shown(const SidePicture& wanted) const;
 
     /// The context is gone, with all that was on the GPU; call `restore_gpu` with another one.
     void release_gpu() { gpu_.reset(); }
@@ -90,7 +96,7 @@ public:
 private:
     struct Gpu {
         FrameRenderer renderer;
-        std::unique_ptr<GpuModel> model;
+        std::unique_ptr<GpuModel> model, beside; ///< as of the document
         prt::GlObject background;
         std::uint64_t background_version = 0;
         RadianceVersion lit, numbers, budget; ///< that the model is lit by, that were asked for
@@ -103,7 +109,7 @@ private:
         std::optional<glm::vec2> pointer;
         std::optional<Hovered> hovered;
     };
-    void take(const LoadedModel& loaded);
+    void take(const OpenModels& models);
     void take(const Baked& baked);
     void take(const Compressed& compressed);
     void take(const Occlusion& occlusion);
@@ -113,7 +119,11 @@ private:
     void take(const SurfaceBudget& budget);
     void take(const Saved& saved);
     void take(const Failure& failure);
-    void upload_model();
+    void upload_models();
+    std::unique_ptr<GpuModel> uploaded(const LoadedModel& loaded);
+    /// Of the document's model; null: it is of none.
+    GpuModel* gpu_model(const Model* model) const;
+    GpuModel& gpu_model(const SidePicture& picture) const;
     void recompress_where_asked();
     void follow_lamps();
     RadianceVersion version() const {
@@ -132,14 +142,15 @@ private:
     bool wants(PictureKind kind) const { return settings.left == kind || settings.right == kind; }
 
     void follow_light();
-    std::string left_out(PictureKind kind) const;
+    std::string left_out(const SidePicture& picture) const;
     void find_numbers();
     void follow_budget();
     FrameView frame_view();
-    void draw_sides(const std::array<PictureKind, 2>& kinds, const FrameView& view);
+    void draw_sides(const std::array<SidePicture, 2>& pictures, const FrameView& view);
     void show_reference(int side, const FrameView& view);
     void draw_lobe(std::uint32_t framebuffer, const FrameView& view);
-    void measure(PictureKind right, const FrameView& view);
+    SidePicture under_pointer() const;
+    void measure(const SidePicture& right, const FrameView& view);
 
     Document document_;
     Jobs jobs_;

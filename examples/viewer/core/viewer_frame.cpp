@@ -1,5 +1,6 @@
 // How the viewer draws a frame.
 
+#include "core/budget_work.h"
 #include "core/lobe.h"
 #include "core/viewer.h"
 
@@ -35,14 +36,17 @@ void Viewer::draw(std::uint32_t framebuffer, int width, int height) {
         gpu_->frame.end();
         return;
     }
-    const std::array<PictureKind, 2> kinds = {shown(settings.left).kind, shown(settings.right).kind};
-    draw_sides(kinds, view);
+    const SidePicture left = left_picture(settings), right = right_picture(settings);
+    const std::array<SidePicture, 2> pictures = {SidePicture(shown(left).kind, left.receivers),
+                                                 SidePicture(shown(right).kind, right.receivers)};
+    draw_sides(pictures, view);
     Figures& figures = statistics_.figures;
     if (settings.difference)
         figures.difference = gpu_->renderer.difference();
-    gpu_->renderer.composite(framebuffer, settings, view, kinds, figures.difference.mean);
+    gpu_->renderer.composite(framebuffer, settings, view, {pictures[0].kind, pictures[1].kind},
+                             figures.difference.mean);
     gpu_->frame.end();
-    measure(kinds[1], view);
+    measure(pictures[1], view);
     seen_.hovered.reset();
     if (settings.lobe)
         draw_lobe(framebuffer, view);
@@ -51,7 +55,9 @@ void Viewer::draw(std::uint32_t framebuffer, int width, int height) {
 
 void Viewer::follow_light() {
     if (gpu_->model && gpu_->lit != version()) {
-        gpu_->model->set_lighting(light().lighting, light().suns, lighting_.lamps());
+        for (GpuModel* model : {gpu_->model.get(), gpu_->beside.get()})
+            if (model)
+                model->set_lighting(light().lighting, light().suns, lighting_.lamps());
         if (document_.compressed())
             statistics_.figures.milliseconds.constants = 1e3 * gpu_->model->seconds_constants();
         gpu_->lit = version();
@@ -67,7 +73,8 @@ void Viewer::follow_light() {
 /// Asks for colors for numbers, of the newest transfer and light. What takes the CPU goes to the background.
 void Viewer::find_numbers() {
     const bool wanted = shows_numbers(settings.left) || shows_numbers(settings.right);
-    if (!wanted || !document_.compressed() || gpu_->numbers == version() || jobs_.busy(JobKind::numbers))
+    const bool there = document_.compressed() || document_.beside.compressed;
+    if (!wanted || !there || gpu_->numbers == version() || jobs_.busy(JobKind::numbers))
         return;
     gpu_->numbers = version();
     jobs_.find_numbers(document_, light().lighting, lighting_.lamps());
@@ -90,8 +97,7 @@ FrameView Viewer::frame_view() {
                                              .width = seen_.size.x,
                                              .height = seen_.size.y,
                                              .textured = settings.drawing.textured},
-                                            {.raw = document_.raw(),
-                                             .compressed = document_.compressed(),
+                                            {.loaded = document_.loaded,
                                              .lamps = lighting_.lamps(),
                                              .darkness = lighting_.rig.darkness(),
                                              .version = version()},
@@ -103,44 +109,58 @@ FrameView Viewer::frame_view() {
 }
 
 /// What a picture that is there leaves out.
-std::string Viewer::left_out(PictureKind kind) const {
+std::string Viewer::left_out(const SidePicture& picture) const {
+    const PictureKind kind = picture.kind;
     const bool transfer = kind == PictureKind::prt || kind == PictureKind::prt_compressed;
     if (!transfer && !shows_numbers(kind) && any_shines(settings.lit.lamps))
         return kind == PictureKind::reference ? "without lamps and what shines"
                                               : "without the light of lamps";
     if (kind == PictureKind::surface_error && !budget_is_current())
         return "of another light or transfer";
-    if (kind != PictureKind::reference && gpu_->model->takes_suns_as_sky(kind))
+    if (kind != PictureKind::reference && gpu_model(picture).takes_suns_as_sky(kind))
         return "no direct light is kept apart, so that suns are lit as sky";
     return "";
 }
 
-Viewer::Shown Viewer::shown(PictureKind wanted) const {
-    if (!gpu_->model)
-        return {wanted, ""};
-    if (wanted == PictureKind::reference || gpu_->model->can_draw(wanted))
-        return {wanted, left_out(wanted)};
-    std::string why = "not there yet";
-    const bool needs_raw = wanted == PictureKind::prt || wanted == PictureKind::error ||
-                           wanted == PictureKind::seams || wanted == PictureKind::surface_error;
-    if (needs_raw && !document_.raw() && !jobs_.busy(JobKind::model))
-        why = "the file holds compressed transfer only; bake to see it";
-    return {PictureKind::unshadowed, why};
+std::string Viewer::never_shown(const SidePicture& wanted) const {
+    if (!document_.model() || jobs_.busy(JobKind::model))
+        return "";
+    const LoadedModel& loaded = document_.shown_by(wanted);
+    if (wanted.kind == PictureKind::surface_error && loaded.of_texels())
+        return kMeasuredOfVertices;
+    const bool needs_raw = wanted.kind == PictureKind::prt || wanted.kind == PictureKind::error ||
+                           wanted.kind == PictureKind::seams || wanted.kind == PictureKind::surface_error;
+    if (!needs_raw || loaded.raw)
+        return "";
+    return loaded.of_texels() ? "the file holds a compressed lightmap only; open its bake, too"
+                              : "the file holds compressed transfer only; bake to see it";
 }
 
-void Viewer::draw_sides(const std::array<PictureKind, 2>& kinds, const FrameView& view) {
+Viewer::Shown Viewer::shown(const SidePicture& wanted) const {
+    if (!gpu_->model)
+        return {wanted.kind, ""};
+    if (wanted.kind == PictureKind::reference || gpu_model(wanted).can_draw(wanted.kind))
+        return {wanted.kind, left_out(wanted)};
+    const std::string why = never_shown(wanted);
+    return {PictureKind::unshadowed, why.empty() ? "not there yet" : why};
+}
+
+void Viewer::draw_sides(const std::array<SidePicture, 2>& pictures, const FrameView& view) {
+    DrawSettings drawing = settings.drawing;
+    drawing.texel_grid = drawing.texel_grid && !settings.difference; // it would be one
+
     const int width = seen_.size.x,
               split = static_cast<int>(std::lround(settings.split * static_cast<float>(width)));
     for (int side = 0; side < 2; ++side) {
         const int first = settings.difference || side == 0 ? 0 : split,
                   last = settings.difference || side == 1 ? width : split;
-        const PictureKind kind = kinds[static_cast<std::size_t>(side)];
+        const SidePicture& picture = pictures[static_cast<std::size_t>(side)];
         if (first >= last)
             continue;
-        if (kind == PictureKind::reference)
+        if (picture.kind == PictureKind::reference)
             show_reference(side, view);
         else
-            gpu_->renderer.draw(side, kind, *gpu_->model, settings.drawing, view, {first, last});
+            gpu_->renderer.draw(side, picture.kind, gpu_model(picture), drawing, view, {first, last});
     }
     if (!wants(PictureKind::reference))
         reference_.stop();
@@ -161,27 +181,37 @@ void Viewer::show_reference(int side, const FrameView& view) {
 }
 
 /// Takes the figures of the frame that was just drawn.
-void Viewer::measure(PictureKind right, const FrameView& view) {
+void Viewer::measure(const SidePicture& right, const FrameView& view) {
     Figures& figures = statistics_.figures;
     figures.milliseconds.gpu = gpu_->frame.milliseconds();
-    figures.triangles_drawn = gpu_->model->drawn_triangles();
-    if (statistics_.times_vertices() && settings.panels && right != PictureKind::reference) {
+    figures.triangles_drawn = gpu_model(right).drawn_triangles();
+    if (statistics_.times_vertices() && settings.panels && right.kind != PictureKind::reference) {
         gpu_->vertices.begin();
-        gpu_->renderer.draw_vertices_only(right, *gpu_->model, settings.drawing, view);
+        gpu_->renderer.draw_vertices_only(right.kind, gpu_model(right), settings.drawing, view);
         gpu_->vertices.end();
         figures.milliseconds.vertices = gpu_->vertices.milliseconds();
     }
     figures.reference_passes = reference_.passes();
     figures.receivers = document_.model()->scene.receivers();
     figures.triangles = document_.model()->scene.triangles();
-    figures.transfer = figures_of(document_.loaded);
+    figures.transfer = document_.loaded.of_texels() ? TransferFigures() : figures_of(document_.loaded);
+    figures.lightmap.reset();
+    if (const LoadedModel* lightmap = document_.lightmap())
+        figures.lightmap = lightmap_figures_of(*lightmap);
+}
+
+/// The side that the pointer is over.
+SidePicture Viewer::under_pointer() const {
+    const bool left = !settings.difference && seen_.pointer &&
+                      seen_.pointer->x < settings.split * static_cast<float>(seen_.size.x);
+    return left ? left_picture(settings) : right_picture(settings);
 }
 
 /// Of the receiver under the pointer.
 void Viewer::draw_lobe(std::uint32_t framebuffer, const FrameView& view) {
     if (seen_.pointer)
-        seen_.hovered = find_hovered(*document_.model(), document_.raw(), document_.compressed(),
-                                     settings.right == PictureKind::prt, screen(), *seen_.pointer);
+        seen_.hovered = find_hovered(document_.shown_by(under_pointer()), settings.right == PictureKind::prt,
+                                     screen(), *seen_.pointer);
     const std::optional<Hovered>& hovered = seen_.hovered;
     if (!hovered || hovered->order == 0)
         return;

@@ -16,6 +16,9 @@
 namespace viewer {
 namespace {
 
+/// As it is seen: neither base colours nor heat nor most lights have it.
+constexpr glm::vec3 kGridColor(0.02f, 0.6f, 0.75f);
+
 prt::GlObject make_target(GLenum format, int width, int height) {
     prt::GlObject texture = prt::make_texture_2d(1, format, width, height);
     glTextureParameteri(texture.name(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -145,6 +148,8 @@ void FrameRenderer::draw(int index, PictureKind kind, GpuModel& model, const Dra
     model.draw_blended(kind, pass);
     if (settings.wireframe)
         model.draw_wires(pass, glm::vec3(numbers ? 0.1f : 0.15f / view.exposure));
+    if (settings.texel_grid)
+        model.draw_texel_grid(pass, kGridColor / (numbers ? 1.0f : view.exposure), size_.samples);
     glDisable(GL_SCISSOR_TEST);
     prt::check_gl("drawing");
 }

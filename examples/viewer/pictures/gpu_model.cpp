@@ -14,6 +14,9 @@
 namespace viewer {
 namespace {
 
+/// Of the lines over what is below them.
+constexpr float kGridShare = 0.7f;
+
 void set_matrix(const prt::GlObject& program, const glm::mat4& matrix) {
     glUniformMatrix4fv(prt::uniform(program, "view_projection"), 1, GL_FALSE, glm::value_ptr(matrix));
 }
@@ -37,21 +40,83 @@ GpuModel::GpuModel(std::shared_ptr<const Model> model, std::size_t most_receiver
 
 void GpuModel::set_raw(const prt::Transfer& transfer) {
     drop_raw(); // there may not be room for two
-    raw_ = Raw{RawTransfer(transfer, most_receivers_), scene_.make_vertex_arrays()};
-    scene_.attach_receivers(raw_->arrays, raw_->transfer.radiance(), PRT_LOCATION_RADIANCE, 3);
-    if (lights(transfer.layout))
-        raw_->transfer.set_light(lighting_of(transfer.layout));
+    RawTransfer raw(transfer, most_receivers_);
+    prt::GlVertexArrays arrays = scene_.make_vertex_arrays();
+    scene_.attach_receivers(arrays, raw.radiance(), PRT_LOCATION_RADIANCE, 3);
+    take_raw({std::move(raw), std::move(arrays), transfer.layout});
+}
+
+void GpuModel::set_raw(std::shared_ptr<const prt::BakedLightmap> lightmap) {
+    drop_raw();
+    const prt::TransferLayout layout = lightmap->baked.transfer.layout;
+    take_raw({RawLightmap(std::move(lightmap), most_receivers_), scene_.make_vertex_arrays(), layout});
 }
 
 void GpuModel::set_compressed(const prt::ClusteredTransfer& transfer) {
-    compressed_ = Compressed{prt::GlTransfer(transfer), scene_.make_vertex_arrays(), transfer.bases.layout};
-    for (std::size_t i = 0; i < compressed_->arrays.size(); ++i)
-        compressed_->transfer.attach(compressed_->arrays[i].name(),
-                                     model_->scene.vertex_arrays[i].first_receiver);
+    prt::GlTransfer compressed(transfer);
+    prt::GlVertexArrays arrays = scene_.make_vertex_arrays();
+    for (std::size_t i = 0; i < arrays.size(); ++i)
+        compressed.attach(arrays[i].name(), model_->scene.vertex_arrays[i].first_receiver);
+    take_compressed({std::move(compressed), std::move(arrays), transfer.bases.layout});
+}
+
+void GpuModel::set_compressed(std::shared_ptr<const prt::CompressedLightmap> lightmap) {
+    const prt::TransferLayout layout = lightmap->compressed.transfer.bases.layout;
+    take_compressed({LitLightmap(std::move(lightmap)), scene_.make_vertex_arrays(), layout});
+}
+
+/// Programs depend on whose transfer it is, and compressed ones on its layout.
+void GpuModel::take_raw(Raw raw) {
+    raw_.emplace(std::move(raw));
+    std::erase_if(programs_.surfaces,
+                  [](const auto& program) { return program.first.source == Source::raw; });
+    light_raw();
+}
+
+void GpuModel::take_compressed(Compressed compressed) {
+    compressed_.emplace(std::move(compressed));
     std::erase_if(programs_.surfaces,
                   [](const auto& program) { return program.first.source == Source::compressed; });
-    if (lights(transfer.bases.layout))
-        compressed_->transfer.set_light(lighting_of(transfer.bases.layout));
+    light_compressed();
+}
+
+void GpuModel::light_raw() {
+    if (lights(raw_->layout))
+        std::visit([this](auto& transfer) { transfer.set_light(lighting_of(raw_->layout)); }, raw_->transfer);
+}
+
+void GpuModel::light_compressed() {
+    if (lights(compressed_->layout))
+        std::visit([this](auto& transfer) { transfer.set_light(lighting_of(compressed_->layout)); },
+                   compressed_->transfer);
+}
+
+prt::GlLightmapTextures GpuModel::any_lightmap() const {
+    if (const auto* lit = compressed_ ? std::get_if<LitLightmap>(&compressed_->transfer) : nullptr)
+        return lit->textures();
+    if (const auto* raw = raw_ ? std::get_if<RawLightmap>(&raw_->transfer) : nullptr)
+        return raw->textures();
+    return {};
+}
+
+prt::GlLightmapTextures GpuModel::lightmap_of(PictureKind kind) const {
+    switch (source_of(kind)) {
+    case Source::raw:
+        if (const auto* raw = std::get_if<RawLightmap>(&raw_->transfer))
+            return raw->textures();
+        break;
+    case Source::compressed:
+        if (const auto* lit = std::get_if<LitLightmap>(&compressed_->transfer))
+            return lit->textures();
+        break;
+    case Source::numbers:
+        if (const auto maps = numbers_.maps.find(kind); maps != numbers_.maps.end())
+            return {any_lightmap().layout, maps->second};
+        break;
+    case Source::normals:
+        break;
+    }
+    return {};
 }
 
 void GpuModel::set_occlusion(std::span<const float> occlusion) {
@@ -60,7 +125,10 @@ void GpuModel::set_occlusion(std::span<const float> occlusion) {
 }
 
 void GpuModel::set_numbers(PictureKind kind, std::span<const glm::vec3> colors) {
-    numbers_.colors[kind] = prt::make_buffer(colors);
+    if (const prt::LightmapLayout* layout = any_lightmap().layout)
+        numbers_.maps[kind] = make_unfiltered_maps(*layout, colors);
+    else
+        numbers_.colors[kind] = prt::make_buffer(colors);
 }
 
 /// Has as many bands.
@@ -90,17 +158,17 @@ void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::
     }
     if (compressed_) {
         const prt::Stopwatch stopwatch;
-        compressed_->transfer.set_light(lighting_of(compressed_->layout));
+        light_compressed();
         compressed_->seconds_constants = stopwatch.seconds();
     }
     if (raw_)
-        raw_->transfer.set_light(lighting_of(raw_->transfer.layout()));
+        light_raw();
 }
 
 const prt::TransferLayout* GpuModel::layout_of(Source source) const {
     if (compressed_ && source != Source::raw)
         return &compressed_->layout;
-    return raw_ ? &raw_->transfer.layout() : nullptr;
+    return raw_ ? &raw_->layout : nullptr;
 }
 
 /// As `prt render` shows it: what no transfer knows shines as in the scene, unless all lamps are off.
@@ -145,7 +213,7 @@ bool GpuModel::can_draw(PictureKind kind) const {
     case Source::compressed:
         return compressed_.has_value();
     case Source::numbers:
-        return numbers_.colors.contains(kind);
+        return numbers_.colors.contains(kind) || numbers_.maps.contains(kind);
     case Source::normals:
         break;
     }
@@ -166,17 +234,22 @@ const prt::GlVertexArrays& GpuModel::arrays(Source source) const {
     return plain_;
 }
 
+/// Where radiance comes from.
+std::string GpuModel::defines_of(const Surface& surface) const {
+    if (surface.source == Source::normals)
+        return "";
+    if (any_lightmap().layout)
+        return "#define PRT_LIGHTMAP\n";
+    return surface.source == Source::compressed ? std::get<prt::GlTransfer>(compressed_->transfer).defines()
+                                                : "#define PRT_VERTEX_RADIANCE\n";
+}
+
 const prt::GlObject& GpuModel::program(const Surface& surface) {
     prt::GlObject& program = programs_.surfaces[surface];
-    if (program.name() == 0) {
-        std::string defines = surface.source == Source::compressed ? compressed_->transfer.defines()
-                              : surface.source == Source::normals  ? ""
-                                                                   : "#define PRT_VERTEX_RADIANCE\n";
-        if (surface.suns)
-            defines += "#define PRT_SUNS\n";
+    if (program.name() == 0)
         program = prt::make_program("viewer_surface.vert",
-                                    surface.gbuffer ? "viewer_gbuffer.frag" : "viewer_forward.frag", defines);
-    }
+                                    surface.gbuffer ? "viewer_gbuffer.frag" : "viewer_forward.frag",
+                                    defines_of(surface) + (surface.suns ? "#define PRT_SUNS\n" : ""));
     return program;
 }
 
@@ -194,11 +267,13 @@ const prt::GlObject& GpuModel::use(PictureKind kind, const GeometryPass& pass) {
         glUniform3fv(prt::uniform(chosen, "irradiance_sh"), 9, glm::value_ptr(lit_.irradiance.front()));
         glVertexAttrib1f(PRT_LOCATION_AO, 1); // until there is an occlusion
     }
-    if (source == Source::compressed)
-        compressed_->transfer.use();
+    const prt::GlLightmapTextures lightmap = lightmap_of(kind);
+    scene_.light_by(lightmap);
+    if (source == Source::compressed && !lightmap.layout)
+        std::get<prt::GlTransfer>(compressed_->transfer).use();
     if (suns)
         shadows_->use();
-    if (source == Source::numbers)
+    if (source == Source::numbers && !lightmap.layout)
         scene_.attach_receivers(numbers_.arrays, numbers_.colors.at(kind), PRT_LOCATION_RADIANCE, 3);
     return chosen;
 }
@@ -254,6 +329,33 @@ void GpuModel::draw_wires(const GeometryPass& pass, const glm::vec3& color) {
     glDepthFunc(GL_LESS);
     glDisable(GL_POLYGON_OFFSET_LINE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
+}
+
+void GpuModel::draw_texel_grid(const GeometryPass& pass, const glm::vec3& color, int samples) {
+    const prt::GlLightmapTextures lightmap = any_lightmap();
+    if (!lightmap.layout)
+        return;
+    if (programs_.texel_grid.name() == 0)
+        programs_.texel_grid = prt::make_program("viewer_texel_grid.vert", "viewer_texel_grid.frag");
+    const prt::GlObject& grid = programs_.texel_grid;
+    glUseProgram(grid.name());
+    set_matrix(grid, pass.view_projection);
+    glUniform1i(prt::uniform(grid, "textured"), pass.textured);
+    prt::set_uniform(grid, "samples", static_cast<float>(samples));
+    glUniform4f(prt::uniform(grid, "line_tint"), color.r, color.g, color.b, kGridShare);
+    scene_.light_by(lightmap);
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glEnable(GL_POLYGON_OFFSET_FILL);
+    glPolygonOffset(-1, -1);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+    for (std::size_t p = 0; p < model_->scene.primitives.size(); ++p)
+        scene_.draw(grid, numbers_.arrays, p); // whose vertices have nothing in the place of texels
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_POLYGON_OFFSET_FILL);
+    glDisable(GL_BLEND);
 }
 
 } // namespace viewer

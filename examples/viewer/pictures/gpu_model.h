@@ -2,6 +2,7 @@
 
 // A model on the GPU, with all that it can be lit by.
 
+#include "pictures/gpu_lightmap.h"
 #include "pictures/lamps.h"
 #include "pictures/model.h"
 #include "pictures/raw_transfer.h"
@@ -15,6 +16,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <variant>
 
 namespace viewer {
 
@@ -35,7 +37,11 @@ public:
     void set_raw(const prt::Transfer& transfer);
     void drop_raw() { raw_.reset(); }
     void set_compressed(const prt::ClusteredTransfer& transfer);
+    /// The same of texels; a model has transfer of its vertices or of texels.
+    void set_raw(std::shared_ptr<const prt::BakedLightmap> lightmap);
+    void set_compressed(std::shared_ptr<const prt::CompressedLightmap> lightmap);
     void set_occlusion(std::span<const float> occlusion);
+    /// [receivers], or [texels of all maps] where the model has a lightmap.
     void set_numbers(PictureKind kind, std::span<const glm::vec3> colors);
     /// Of as many bands as the transfers have, and three at least. `suns` are shadowed at each pixel where
     /// the picture's transfer keeps direct light apart, and where it has none. `lamps`, by name, are those
@@ -58,6 +64,8 @@ public:
     void draw_blended(PictureKind kind, const GeometryPass& pass);
     /// Edges of all triangles.
     void draw_wires(const GeometryPass& pass, const glm::vec3& color);
+    /// Borders of the lightmap's texels, where it has one; `samples` per pixel along each axis.
+    void draw_texel_grid(const GeometryPass& pass, const glm::vec3& color, int samples);
     /// The first nine coefficients of exit radiance by normal: irradiance.glsl.
     const std::array<glm::vec3, 9>& irradiance() const { return lit_.irradiance; }
     std::size_t drawn_triangles() const { return drawn_triangles_; } ///< of the last opaque drawing
@@ -72,11 +80,12 @@ private:
         friend auto operator<=>(const Surface&, const Surface&) = default;
     };
     struct Raw {
-        RawTransfer transfer;
+        std::variant<RawTransfer, RawLightmap> transfer;
         prt::GlVertexArrays arrays;
+        prt::TransferLayout layout;
     };
     struct Compressed {
-        prt::GlTransfer transfer;
+        std::variant<prt::GlTransfer, LitLightmap> transfer;
         prt::GlVertexArrays arrays;
         prt::TransferLayout layout;
         double seconds_constants = 0;
@@ -90,16 +99,25 @@ private:
     };
     struct Numbers {
         std::map<PictureKind, prt::GlObject> colors;
+        std::map<PictureKind, std::vector<prt::GlObject>> maps; ///< instead, of texels
         prt::GlVertexArrays arrays;
     };
     struct Programs {
         std::map<Surface, prt::GlObject> surfaces;
-        prt::GlObject wires;
+        prt::GlObject wires, texel_grid;
     };
+    void take_raw(Raw raw);
+    void take_compressed(Compressed compressed);
+    void light_raw();
+    void light_compressed();
     bool lights(const prt::TransferLayout& layout) const;
     prt::Lighting lighting_of(const prt::TransferLayout& layout) const;
     /// That knows the lamps of such a picture; null: none does.
     const prt::TransferLayout* layout_of(Source source) const;
+    /// The lightmap that a picture looks up; without a layout where it looks up none.
+    prt::GlLightmapTextures lightmap_of(PictureKind kind) const;
+    prt::GlLightmapTextures any_lightmap() const;
+    std::string defines_of(const Surface& surface) const;
     std::vector<glm::vec3> emission_of(Source source) const;
     const prt::TransferLayout* layout_shown(PictureKind kind) const;
     bool shows_suns(PictureKind kind) const;

@@ -1,16 +1,53 @@
 #include "pictures/model.h"
 
 #include "prt/bake.h"
+#include "prt/lightmap_file.h"
+#include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <bit>
 
 namespace viewer {
 namespace {
 
 /// Enough for a picture: 8 bits of occlusion are 0.4 %.
 constexpr int kOcclusionRays = 256;
+
+/// FNV-1a of three corners, a word at a time, in their order.
+std::uint64_t triangle_hash(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const glm::vec3* corner : {&a, &b, &c})
+        for (int axis = 0; axis < 3; ++axis)
+            hash = (hash ^ std::bit_cast<std::uint32_t>((*corner)[axis] + 0.0f)) * 0x100000001b3;
+    hash = (hash ^ hash >> 32) * 0xd6e8feb86659fd93;
+    return hash ^ hash >> 32;
+}
+
+/// A sum over triangles and over the corners that they may begin with, so that neither's order matters.
+std::uint64_t surface_id(const prt::Scene& scene) {
+    std::uint64_t sum = 0;
+    for (const prt::Primitive& primitive : scene.primitives) {
+        const std::vector<glm::vec3>& p = scene.vertex_arrays[primitive.vertices].positions;
+        for (const glm::uvec3& t : primitive.triangles)
+            sum += triangle_hash(p[t.x], p[t.y], p[t.z]) + triangle_hash(p[t.y], p[t.z], p[t.x]) +
+                   triangle_hash(p[t.z], p[t.x], p[t.y]);
+    }
+    return sum;
+}
+
+/// Errors in images of a lightmap name no file.
+std::optional<prt::CompressedLightmap> read_compressed(const prt::GltfDocument& document,
+                                                       const prt::Scene& scene,
+                                                       const std::filesystem::path& path) {
+    try {
+        return prt::read_compressed_lightmap(document, scene);
+    } catch (const prt::Error& error) {
+        const std::string what = error.what(), name = path.string() + ": ";
+        throw prt::Error(what.starts_with(name) ? what : name + what);
+    }
+}
 
 } // namespace
 
@@ -24,12 +61,25 @@ std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path 
     model->center = 0.5f * (model->box.low + model->box.high);
     model->radius = std::max(0.5f * glm::distance(model->box.low, model->box.high), 1e-30f);
     model->receivers_id = prt::receivers_id(model->scene);
+    model->surface_id = surface_id(model->scene);
     for (prt::Primitive& primitive : model->scene.primitives)
         model->clusters.push_back(
             make_triangle_clusters(primitive, model->scene.vertex_arrays[primitive.vertices]));
     model->trace.emplace(model->scene, prt::load_textures(model->scene, prt::BadTextures::ignore));
     model->trace->rays(); // now rather than in the first frame
     return model;
+}
+
+void LoadedModel::set(std::shared_ptr<const prt::BakedLightmap> baked) {
+    raw = {baked, &baked->baked.transfer};
+    record = baked->baked.record;
+    lightmap.baked = std::move(baked);
+}
+
+void LoadedModel::set(std::shared_ptr<const prt::CompressedLightmap> of_all_texels) {
+    compressed = {of_all_texels, &of_all_texels->compressed.transfer};
+    record = of_all_texels->compressed.record;
+    lightmap.compressed = std::move(of_all_texels);
 }
 
 LoadedModel load_model(const std::filesystem::path& path) {
@@ -44,6 +94,10 @@ LoadedModel load_model(const std::filesystem::path& path) {
         loaded.compressed = std::make_shared<const prt::ClusteredTransfer>(std::move(compressed->transfer));
         loaded.record = compressed->record;
     }
+    if (auto baked = prt::read_lightmap(document, scene))
+        loaded.set(std::make_shared<const prt::BakedLightmap>(std::move(*baked)));
+    if (auto compressed = read_compressed(document, scene, path))
+        loaded.set(std::make_shared<const prt::CompressedLightmap>(std::move(*compressed)));
     loaded.model = make_model(std::move(scene), path);
     return loaded;
 }

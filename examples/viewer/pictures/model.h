@@ -2,9 +2,11 @@
 
 // A scene file in memory, and what the viewer computes of it once.
 
+#include "pictures/picture_kind.h"
 #include "pictures/triangle_clusters.h"
 
 #include "prt/gltf.h"
+#include "prt/lightmap.h"
 #include "prt/mesh_edges.h"
 #include "prt/picture.h"
 #include "prt/support/progress.h"
@@ -30,6 +32,7 @@ struct Model {
     glm::vec3 center{0};
     float radius = 1;
     std::string receivers_id;
+    std::uint64_t surface_id = 0;         ///< of the triangles' places, whatever their vertices and order
     std::optional<prt::TraceScene> trace; ///< of `scene`
 
     Model() = default;
@@ -37,12 +40,28 @@ struct Model {
     Model& operator=(const Model&) = delete;
 };
 
+/// Transfer of texels; both are null where receivers are vertices.
+struct LoadedLightmap {
+    std::shared_ptr<const prt::BakedLightmap> baked;
+    std::shared_ptr<const prt::CompressedLightmap> compressed; ///< of all texels
+
+    const prt::LightmapLayout* layout() const {
+        return compressed ? &compressed->layout : baked ? &baked->layout : nullptr;
+    }
+};
+
 /// What a file holds.
 struct LoadedModel {
     std::shared_ptr<const Model> model;
     std::shared_ptr<const prt::Transfer> raw;
     std::shared_ptr<const prt::ClusteredTransfer> compressed;
-    prt::BakeRecord record; ///< of the transfer
+    prt::BakeRecord record;  ///< of the transfer
+    LoadedLightmap lightmap; ///< where receivers are texels: `raw` and `compressed` are within
+
+    bool of_texels() const { return lightmap.layout() != nullptr; }
+    Receivers receivers() const { return of_texels() ? Receivers::texels : Receivers::vertices; }
+    void set(std::shared_ptr<const prt::BakedLightmap> baked);
+    void set(std::shared_ptr<const prt::CompressedLightmap> of_all_texels);
 };
 
 /// What the viewer needs of `scene`; textures that are missing or damaged are left out.

@@ -23,6 +23,9 @@ enum class PictureKind {
     surface_error,  ///< all of it, at points over the surface, against path tracing
 };
 
+/// Whose transfer.
+enum class Receivers { vertices, texels };
+
 struct PictureName {
     PictureKind kind;
     const char *id, *title; ///< for scripts; for people
@@ -55,6 +58,12 @@ inline PictureKind next(PictureKind kind) {
 
 inline bool is_ssao(PictureKind kind) {
     return kind == PictureKind::ssao || kind == PictureKind::ssao_normals;
+}
+
+/// Of transfer, so that vertices and texels of one scene have two of them.
+inline bool shows_transfer(PictureKind kind) {
+    return kind == PictureKind::prt || kind == PictureKind::prt_compressed || kind == PictureKind::clusters ||
+           kind == PictureKind::components || kind == PictureKind::error || kind == PictureKind::seams;
 }
 
 /// Colors that stand for numbers: shown as they are, without exposure and base color.

@@ -50,7 +50,7 @@ void RawTransfer::set_light(const prt::Lighting& lighting) {
         glUniform1ui(prt::uniform(program_, "first"), static_cast<GLuint>(first));
         glDispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
     }
-    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+    glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 } // namespace viewer

@@ -16,9 +16,18 @@ struct SsaoSettings {
     friend bool operator==(const SsaoSettings&, const SsaoSettings&) = default;
 };
 
+/// Where both vertices and a lightmap of the scene are open: which sides show the lightmap.
+struct LightmapSides {
+    bool left = false, right = true;
+
+    friend bool operator==(const LightmapSides&, const LightmapSides&) = default;
+};
+
 /// How the model is drawn.
 struct DrawSettings {
     bool wireframe = false;
+    bool texel_grid = false; ///< borders of the lightmap's texels; not over a difference
+    LightmapSides lightmap;
     bool deferred = false; ///< through a G-buffer instead of forward
     bool dithered = true;  ///< the five bits of occlusion in the G-buffer
     bool culling = true;   ///< of clusters of triangles outside the view
@@ -52,5 +61,20 @@ struct Settings {
 
     friend bool operator==(const Settings&, const Settings&) = default;
 };
+
+/// What a side shows, of which receivers where there are both.
+struct SidePicture {
+    SidePicture(PictureKind wanted, Receivers of = Receivers::vertices) : kind(wanted), receivers(of) {}
+
+    PictureKind kind;
+    Receivers receivers;
+};
+
+inline SidePicture left_picture(const Settings& settings) {
+    return {settings.left, settings.drawing.lightmap.left ? Receivers::texels : Receivers::vertices};
+}
+inline SidePicture right_picture(const Settings& settings) {
+    return {settings.right, settings.drawing.lightmap.right ? Receivers::texels : Receivers::vertices};
+}
 
 } // namespace viewer

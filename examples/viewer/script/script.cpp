@@ -3,6 +3,7 @@
 #include "script/script.h"
 
 #include "gpu/offscreen.h"
+#include "script/figures_json.h"
 #include "script/lamp_step.h"
 #include "ui/commands.h"
 #include "ui/controls.h"
@@ -87,43 +88,6 @@ RigLight light_of(const Json& json) {
     take(json, "distance", light.distance);
     take(json, "strength", light.strength);
     return light;
-}
-
-Json figures_json(const Figures& f) {
-    const Milliseconds& ms = f.milliseconds;
-    const TransferFigures& t = f.transfer;
-    return {{"frame_milliseconds", ms.frame},
-            {"longest_frame_milliseconds", ms.longest},
-            {"gpu_milliseconds", ms.gpu},
-            {"vertex_milliseconds", ms.vertices},
-            {"constants_milliseconds", ms.constants},
-            {"open_milliseconds", ms.open},
-            {"receivers", f.receivers},
-            {"triangles", f.triangles},
-            {"triangles_drawn", f.triangles_drawn},
-            {"raw_bytes", t.raw_bytes},
-            {"bytes_per_vertex", t.bytes_per_vertex},
-            {"bytes_per_vertex_with_bases", t.bytes_with_bases},
-            {"clusters", t.clusters},
-            {"order", t.order},
-            {"channels", t.channels},
-            {"reference_passes", f.reference_passes},
-            {"difference_relative_l2", f.difference.relative_l2},
-            {"difference_mean_radiance", f.difference.mean},
-            {"difference_pixels", f.difference.pixels}};
-}
-
-Json budget_json(const prt::ErrorBudget& budget) {
-    const auto json = [](const prt::SquaredError& error) {
-        return Json{{"error", error.root()},
-                    {"squared", error.value},
-                    {"squared_low", error.low},
-                    {"squared_high", error.high}};
-    };
-    Json causes = Json::object();
-    for (std::size_t i = 0; i < prt::kErrorCauses; ++i)
-        causes[prt::to_string(static_cast<prt::ErrorCause>(i))] = json(budget.causes[i]);
-    return {{"total", json(budget.total)}, {"causes", causes}, {"squared_together", budget.together.value}};
 }
 
 // ---- the player

@@ -1,5 +1,6 @@
 #include "ui/budget_panel.h"
 
+#include "core/budget_work.h"
 #include "ui/overlay.h"
 #include "ui/widgets.h"
 
@@ -89,7 +90,10 @@ void budget_panel(Viewer& viewer) {
             viewer.measure_budget();
         tip("Takes the error over the surface apart by its causes, under this light, against path tracing.");
     } else {
-        ImGui::TextDisabled("there is no bake to measure");
+        const bool of_texels = viewer.document().loaded.of_texels();
+        ImGui::PushTextWrapPos();
+        ImGui::TextDisabled("%s", of_texels ? kMeasuredOfVertices : "there is no bake to measure");
+        ImGui::PopTextWrapPos();
     }
     if (viewer.document().budget)
         show_errors(viewer, viewer.document().budget->errors);

@@ -20,10 +20,13 @@ Place place(Settings& settings) {
 constexpr auto kDrawing = &Settings::drawing;
 constexpr auto kLit = &Settings::lit;
 constexpr auto kLamps = &LitBy::lamps;
+constexpr auto kLightmap = &DrawSettings::lightmap;
 constexpr auto kSsao = &DrawSettings::ssao;
 
 void swap_sides(Controls& c) {
-    std::swap(c.viewer().settings.left, c.viewer().settings.right);
+    Settings& settings = c.viewer().settings;
+    std::swap(settings.left, settings.right);
+    std::swap(settings.drawing.lightmap.left, settings.drawing.lightmap.right);
 }
 
 void switch_samples(Controls& c) {
@@ -33,6 +36,8 @@ void switch_samples(Controls& c) {
 
 constexpr const char* kSideTip = "What this side of the line shows. Keys 1 and 2 take the next.";
 
+constexpr const char* kLightmapTip = "Transfer of the lightmap's texels instead of vertices': both are open.";
+
 constexpr Command kCommands[] = {
     {"left", '1', "left picture: the next", "left", kSideTip, place<&Settings::left>},
     {"right", '2', "right picture: the next", "right", kSideTip, place<&Settings::right>},
@@ -41,6 +46,9 @@ constexpr Command kCommands[] = {
      "How far the two pictures are apart, as heat, with its figure. Key D.", place<&Settings::difference>},
     {"wireframe", 'W', "wireframe", "wireframe", "The triangles over both pictures. Key W.",
      place<kDrawing, &DrawSettings::wireframe>},
+    {"texel_grid", 'M', "grid of the lightmap's texels", "texel grid",
+     "Borders of the lightmap's texels, where these are some pixels large. Not over a difference. Key M.",
+     place<kDrawing, &DrawSettings::texel_grid>},
     {"lobe", 'L', "lobe of the transfer vector under the pointer", "lobe",
      "The transfer vector of the vertex under the pointer: red adds light, blue takes it. Key L.",
      place<&Settings::lobe>},
@@ -73,6 +81,10 @@ constexpr Command kCommands[] = {
     {"", 'Q', "quit", "", "", nullptr, [](Controls& c) { c.quit(); }},
     {"help", 'H', "this help; Tab hides the panels", "", "", place<&Settings::help>},
     {"panels", '\t', "", "", "", place<&Settings::panels>},
+    {"left_lightmap", 0, "", "by the lightmap", kLightmapTip,
+     place<kDrawing, kLightmap, &LightmapSides::left>},
+    {"right_lightmap", 0, "", "by the lightmap", kLightmapTip,
+     place<kDrawing, kLightmap, &LightmapSides::right>},
     {"split", 0, "", "", "", place<&Settings::split>},
     {"white",
      0,

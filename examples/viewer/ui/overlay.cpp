@@ -51,18 +51,24 @@ void draw_label(ImDrawList& list, float x, float y, const std::string& text) {
     list.AddText({x, y}, kWhite, text.c_str());
 }
 
-std::string side_label(const Viewer& viewer, PictureKind kind) {
-    const Viewer::Shown shown = viewer.shown(kind);
-    if (shown.kind == kind)
-        return name_of(kind).title + (shown.note.empty() ? "" : ": " + shown.note);
-    return fmt::format("{}: {}. Meanwhile: {}", name_of(kind).title, shown.note, name_of(shown.kind).title);
+std::string title_of(const Viewer& viewer, const SidePicture& picture) {
+    const bool lightmap = shows_transfer(picture.kind) && viewer.document().shown_by(picture).of_texels();
+    return name_of(picture.kind).title + std::string(lightmap ? ", lightmap" : "");
+}
+
+std::string side_label(const Viewer& viewer, const SidePicture& picture) {
+    const Viewer::Shown shown = viewer.shown(picture);
+    const std::string title = title_of(viewer, picture);
+    if (shown.kind == picture.kind)
+        return title + (shown.note.empty() ? "" : ": " + shown.note);
+    return fmt::format("{}: {}. Meanwhile: {}", title, shown.note, name_of(shown.kind).title);
 }
 
 /// The name, and what the picture leaves out.
-std::string brief_label(const Viewer& viewer, PictureKind kind) {
-    const Viewer::Shown shown = viewer.shown(kind);
-    const bool partly = shown.kind == kind && !shown.note.empty();
-    return name_of(kind).title + (partly ? " (" + shown.note + ")" : "");
+std::string brief_label(const Viewer& viewer, const SidePicture& picture) {
+    const Viewer::Shown shown = viewer.shown(picture);
+    const bool partly = shown.kind == picture.kind && !shown.note.empty();
+    return title_of(viewer, picture) + (partly ? " (" + shown.note + ")" : "");
 }
 
 /// What the colors of a picture of numbers mean.
@@ -71,13 +77,17 @@ struct Legend {
     std::string low, high, note;
 };
 
-Legend legend_of(const Viewer& viewer, PictureKind kind) {
-    switch (kind) {
+Legend legend_of(const Viewer& viewer, const SidePicture& picture) {
+    const LoadedModel& loaded = viewer.document().shown_by(picture);
+    switch (picture.kind) {
     case PictureKind::clusters:
-        return {false, "", "", fmt::format("{} clusters, a colour each", viewer.figures().transfer.clusters)};
+        return {false, "", "",
+                fmt::format("{} clusters, a colour each",
+                            loaded.compressed ? loaded.compressed->bases.clusters() : 0)};
     case PictureKind::components:
-        return {true, "0", fmt::format("{}", viewer.document().most_components()),
-                "components of the vertex' cluster"};
+        return {true, "0",
+                fmt::format("{}", loaded.compressed ? loaded.compressed->bases.max_components() : 0),
+                fmt::format("components of the {} cluster", loaded.of_texels() ? "texel's" : "vertex'")};
     case PictureKind::error:
         return {true, "0", fmt::format("{:.0f} %", 100 * prt::kWhiteError),
                 "of the mean radiance, this light"};
@@ -127,25 +137,25 @@ void draw_legend(ImDrawList& list, const Legend& legend, float x, float bottom, 
 void draw_difference(const Viewer& viewer, ImDrawList& list, const ImVec2& size) {
     const Settings& s = viewer.settings;
     const std::string text =
-        fmt::format("{} - {}: relative L2 {:.2f} %", brief_label(viewer, s.left),
-                    brief_label(viewer, s.right), 100 * viewer.figures().difference.relative_l2);
+        fmt::format("{} - {}: relative L2 {:.2f} %", brief_label(viewer, left_picture(s)),
+                    brief_label(viewer, right_picture(s)), 100 * viewer.figures().difference.relative_l2);
     const float width = ImGui::CalcTextSize(text.c_str()).x;
     draw_legend(list, {true, "0", fmt::format("{:.0f} % of the mean", 100 * s.white), text},
                 size.x - width - scaled(16), size.y - scaled(12), width);
 }
 
 /// The name of what a side shows, and its legend above, from the split away.
-void draw_side(const Viewer& viewer, ImDrawList& list, PictureKind kind, bool left, float split,
+void draw_side(const Viewer& viewer, ImDrawList& list, const SidePicture& picture, bool left, float split,
                const ImVec2& size) {
-    const std::string text = side_label(viewer, kind);
+    const std::string text = side_label(viewer, picture);
     const auto start = [&](float width) {
         return left ? std::max(scaled(6), split - width - scaled(12)) : split + scaled(12);
     };
     draw_label(list, start(ImGui::CalcTextSize(text.c_str()).x), size.y - scaled(28), text);
-    const PictureKind shown = viewer.shown(kind).kind;
+    const PictureKind shown = viewer.shown(picture).kind;
     if (!shows_numbers(shown))
         return;
-    const Legend legend = legend_of(viewer, shown);
+    const Legend legend = legend_of(viewer, {shown, picture.receivers});
     const float width = std::max(scaled(160), ImGui::CalcTextSize(legend.note.c_str()).x);
     draw_legend(list, legend, start(width), size.y - scaled(42), width);
 }
@@ -169,9 +179,9 @@ void draw_overlay(const Viewer& viewer) {
     if (s.split > 0 && s.split < 1)
         list.AddLine({split, 0}, {split, size.y}, IM_COL32(255, 255, 255, 200), scaled(1.5f));
     if (s.split > 0.02f)
-        draw_side(viewer, list, s.left, true, split, size);
+        draw_side(viewer, list, left_picture(s), true, split, size);
     if (s.split < 0.98f)
-        draw_side(viewer, list, s.right, false, split, size);
+        draw_side(viewer, list, right_picture(s), false, split, size);
 }
 
 } // namespace viewer

@@ -16,18 +16,36 @@
 namespace viewer {
 namespace {
 
-void choose_side(Viewer& viewer, const char* id) {
-    control(viewer.settings, setting(id));
-    const PictureKind wanted = *std::get<PictureKind*>(setting(id).place(viewer.settings));
-    const std::string note = viewer.shown(wanted).note;
+/// What a side shows; `lightmap` is the setting of whether it shows transfer of texels, where there are both.
+void choose_side(Viewer& viewer, const char* id, const char* lightmap,
+                 SidePicture (*picture)(const Settings&)) {
+    const Receivers receivers = picture(viewer.settings).receivers;
+    choose_picture(setting(id), *std::get<PictureKind*>(setting(id).place(viewer.settings)),
+                   [&](PictureKind kind) {
+                       return viewer.never_shown({kind, receivers});
+                   });
+    if (viewer.document().has_both() && shows_transfer(picture(viewer.settings).kind)) {
+        ImGui::PushID(id);
+        control(viewer.settings, setting(lightmap));
+        ImGui::PopID();
+    }
+    const std::string note = viewer.shown(picture(viewer.settings)).note;
     if (!note.empty())
         ImGui::TextWrapped("%s", note.c_str());
 }
 
+void choose_texel_grid(Viewer& viewer) {
+    const bool there = viewer.document().lightmap() != nullptr;
+    ImGui::BeginDisabled(!there);
+    control(viewer.settings, setting("texel_grid"));
+    ImGui::EndDisabled();
+    say_why_disabled(there ? "" : "no lightmap is open (prt bake --size)");
+}
+
 void picture_panel(Viewer& viewer) {
     Settings& s = viewer.settings;
-    choose_side(viewer, "left");
-    choose_side(viewer, "right");
+    choose_side(viewer, "left", "left_lightmap", left_picture);
+    choose_side(viewer, "right", "right_lightmap", right_picture);
     controls(s, {"difference", "wireframe", "lobe"});
     if (s.difference)
         controls(s, {"white"});
@@ -35,6 +53,8 @@ void picture_panel(Viewer& viewer) {
     line("metered", fmt::format("{:+.2f} stops", viewer.lighting().meter.stops()),
          "What exposure 0 stands for: prt render --exposure takes the sum.");
     controls(s, {"background", "textured"});
+    ImGui::SameLine();
+    choose_texel_grid(viewer);
     controls(s, {"deferred", "dithered", "culling"});
     if (ImGui::SmallButton("reset camera"))
         viewer.reset_camera();
@@ -179,8 +199,12 @@ void compression_controls(Viewer& viewer) {
     if (viewer.jobs().busy())
         ImGui::ProgressBar(static_cast<float>(viewer.jobs().share()), {-1, 0}, viewer.jobs().label().c_str());
     if (!viewer.jobs().busy() && viewer.document().model()) {
+        ImGui::BeginDisabled(!viewer.can_bake());
         if (ImGui::SmallButton("bake anew"))
             viewer.bake_anew();
+        ImGui::EndDisabled();
+        say_why_disabled(
+            viewer.can_bake() ? "" : "the viewer bakes vertices; lightmaps are baked by prt bake --size");
         tip("Traces the model again with three bounces, though its file holds transfer.");
     }
     if (viewer.can_save()) {
@@ -197,10 +221,41 @@ void compression_controls(Viewer& viewer) {
     ImGui::SliderInt("order", &viewer.compression.order, 1, viewer.document().raw_order());
     tip("Bands of spherical harmonics that are kept: more show sharper shadows.");
     ImGui::SliderInt("clusters", &viewer.compression.clusters, 1, 1024, "%d", ImGuiSliderFlags_Logarithmic);
-    tip("Groups of vertices with a basis of their own: more are closer, and larger in the file and per "
+    tip("Groups of receivers with a basis of their own: more are closer, and larger in the file and per "
         "frame. 256 with 4 components is the preset u32, which gives small models fewer.");
     ImGui::SliderInt("components", &viewer.compression.components, 0, 16);
     tip("Weights per vertex: more are closer, and take more bytes and shader time.");
+}
+
+/// `receiver`: what one is called.
+void transfer_lines(const TransferFigures& t, const char* receiver, std::size_t baked_receivers) {
+    if (t.bytes_per_receiver > 0)
+        line(fmt::format("bytes per {}", receiver).c_str(),
+             fmt::format("{:.0f}, {:.2f} with bases", t.bytes_per_receiver, t.bytes_with_bases),
+             "Of compressed transfer, without and with what all share.");
+    if (t.clusters > 0)
+        line("clusters in use", fmt::format("{}", t.clusters));
+    if (t.raw_bytes > 0)
+        line("uncompressed",
+             fmt::format("{:.0f} a {}",
+                         static_cast<double>(t.raw_bytes) / static_cast<double>(baked_receivers), receiver));
+}
+
+void lightmap_lines(const LightmapFigures& f) {
+    constexpr std::size_t kMostNamed = 2;
+    std::string maps = f.maps.size() == 1 ? "" : fmt::format("{}: ", f.maps.size());
+    for (std::size_t m = 0; m < std::min(f.maps.size(), kMostNamed); ++m)
+        maps += fmt::format("{}{} x {}", m == 0 ? "" : ", ", f.maps[m].width, f.maps[m].height);
+    line(f.maps.size() == 1 ? "lightmap" : "lightmaps", maps + (f.maps.size() > kMostNamed ? ", ..." : ""),
+         "Texels along the sides.");
+    if (f.receivers > 0)
+        line("texels",
+             fmt::format("{}, {:.0f} % used", f.texels,
+                         100 * static_cast<double>(f.receivers) / static_cast<double>(f.texels)),
+             "All, and how many of them surfaces read.");
+    else
+        line("texels", fmt::format("{}", f.texels));
+    transfer_lines(f.transfer, "texel", f.receivers);
 }
 
 void figure_lines(const Figures& f) {
@@ -214,16 +269,9 @@ void figure_lines(const Figures& f) {
          "Forming and uploading the constants of all clusters when the light changes.");
     line("vertices", fmt::format("{}", f.receivers));
     line("triangles", fmt::format("{} of {}", f.triangles_drawn, f.triangles));
-    if (f.transfer.bytes_per_vertex > 0)
-        line("bytes per vertex",
-             fmt::format("{:.0f}, {:.2f} with bases", f.transfer.bytes_per_vertex,
-                         f.transfer.bytes_with_bases),
-             "Of compressed transfer, without and with what all vertices share.");
-    if (f.transfer.clusters > 0)
-        line("clusters in use", fmt::format("{}", f.transfer.clusters));
-    if (f.transfer.raw_bytes > 0)
-        line("uncompressed", fmt::format("{:.0f} a vertex", static_cast<double>(f.transfer.raw_bytes) /
-                                                                static_cast<double>(f.receivers)));
+    transfer_lines(f.transfer, "vertex", f.receivers);
+    if (f.lightmap)
+        lightmap_lines(*f.lightmap);
     if (f.reference_passes > 0)
         line("reference", fmt::format("{} paths per pixel", f.reference_passes));
 }
@@ -237,7 +285,7 @@ void lobe_panel(const Viewer& viewer) {
     const auto& hovered = viewer.hovered();
     if (!hovered)
         return;
-    line("vertex", fmt::format("{}", hovered->receiver));
+    line(hovered->of == Receivers::texels ? "texel" : "vertex", fmt::format("{}", hovered->receiver));
     if (hovered->cluster >= 0) {
         line("cluster", fmt::format("{}", hovered->cluster));
         if (!hovered->weights.empty())

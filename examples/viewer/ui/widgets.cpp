@@ -6,20 +6,6 @@
 #include <imgui_internal.h>
 
 namespace viewer {
-namespace {
-
-/// The drop-down `command` for pictures.
-void choose_picture(const Command& command, PictureKind& kind) {
-    if (!ImGui::BeginCombo(command.label, name_of(kind).title, ImGuiComboFlags_HeightLarge))
-        return tip(command.tip);
-    for (const PictureName& name : kPictures)
-        if (ImGui::Selectable(name.title, name.kind == kind))
-            kind = name.kind;
-    ImGui::EndCombo();
-}
-
-} // namespace
-
 void tip(const char* text) {
     constexpr float kRest = 0.35f; // seconds
     if (!ImGui::IsItemHovered() || ImGui::GetCurrentContext()->HoveredIdTimer < kRest)
@@ -29,6 +15,25 @@ void tip(const char* text) {
     ImGui::TextUnformatted(text);
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
+}
+
+void say_why_disabled(const std::string& reason) {
+    if (!reason.empty() && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+        ImGui::SetTooltip("%s", reason.c_str());
+}
+
+void choose_picture(const Command& command, PictureKind& kind,
+                    const std::function<std::string(PictureKind)>& why_not) {
+    if (!ImGui::BeginCombo(command.label, name_of(kind).title, ImGuiComboFlags_HeightLarge))
+        return tip(command.tip);
+    for (const PictureName& name : kPictures) {
+        const std::string reason = why_not(name.kind);
+        if (ImGui::Selectable(name.title, name.kind == kind,
+                              reason.empty() ? 0 : ImGuiSelectableFlags_Disabled))
+            kind = name.kind;
+        say_why_disabled(reason);
+    }
+    ImGui::EndCombo();
 }
 
 void line(const char* name, const std::string& value, const char* what) {
@@ -50,7 +55,7 @@ void control(Settings& settings, const Command& command) {
     const ImGuiSliderFlags flags = (range.logarithmic ? ImGuiSliderFlags_Logarithmic : 0) |
                                    (range.strict ? ImGuiSliderFlags_AlwaysClamp : 0);
     if (PictureKind* const* kind = std::get_if<PictureKind*>(&place))
-        return choose_picture(command, **kind);
+        return choose_picture(command, **kind, [](PictureKind) { return std::string(); });
     if (bool* const* value = std::get_if<bool*>(&place))
         ImGui::Checkbox(command.label, *value);
     else if (int* const* number = std::get_if<int*>(&place))

@@ -2,6 +2,7 @@
 
 #include "prt/gl_renderer.h"
 
+#include "prt/gl_lightmap.h"
 #include "prt/gl_scene.h"
 #include "prt/sun_shadows.h"
 #include "prt/support/error.h"
@@ -58,16 +59,20 @@ public:
         : picture_(picture), target_(picture), scene_(*picture.scene, picture.textures),
           arrays_(scene_.make_vertex_arrays()) {
         scene_.shine(picture.emission);
-        if (picture.in_shader.transfer) {
+        std::string defines;
+        if (picture.in_shader.lightmaps.layout) {
+            light_by_maps();
+            defines = "#define PRT_LIGHTMAP\n";
+        } else if (picture.in_shader.transfer) {
             transfer_.emplace(*picture.in_shader.transfer);
             transfer_->set_light({*picture.in_shader.lighting});
             for (std::size_t i = 0; i < arrays_.size(); ++i)
                 transfer_->attach(arrays_[i].name(), picture.scene->vertex_arrays[i].first_receiver);
+            defines = transfer_->defines();
         } else {
             radiance_ = make_buffer(picture.radiance);
             scene_.attach_receivers(arrays_, radiance_, PRT_LOCATION_RADIANCE, 3);
         }
-        std::string defines = transfer_ ? transfer_->defines() : "";
         if (!picture.suns.empty()) {
             shadows_.emplace(scene_);
             defines += "#define PRT_SUNS\n";
@@ -93,6 +98,18 @@ public:
     }
 
 private:
+    void light_by_maps() {
+        const PictureLightmaps& lightmaps = picture_.in_shader.lightmaps;
+        if (lightmaps.on_gpu) {
+            lightmap_.emplace(*lightmaps.on_gpu);
+            lightmap_->set_light(*lightmaps.lighting);
+            scene_.light_by(lightmap_->textures());
+        } else {
+            maps_ = make_lightmap_textures(*lightmaps.layout, lightmaps.radiance);
+            scene_.light_by({lightmaps.layout, maps_});
+        }
+    }
+
     void draw_background() const {
         if (!picture_.background.image)
             return;
@@ -147,6 +164,8 @@ private:
     GlScene scene_;
     GlVertexArrays arrays_;
     std::optional<GlTransfer> transfer_;
+    std::optional<GlLightmap> lightmap_;
+    std::vector<GlObject> maps_;
     std::optional<SunShadows> shadows_;
     GlObject radiance_, program_;
 };

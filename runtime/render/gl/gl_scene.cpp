@@ -165,10 +165,21 @@ void GlScene::prepare(const GlObject& program, const GlVertexArrays& arrays, std
         glEnable(GL_CULL_FACE);
     glVertexArrayElementBuffer(array, indices_[index].name());
     glBindVertexArray(array);
+    if (lightmaps_.layout && uniform(program, "lightmap") >= 0)
+        prepare_lightmap(array, index);
     if (uniform(program, "sunlit") >= 0)
         prepare_for_suns(program, primitive);
     if (uniform(program, "emission") >= 0)
         prepare_emission(program, primitive);
+}
+
+/// What shaders/lightmap.glsl asks for of a surface.
+void GlScene::prepare_lightmap(std::uint32_t array, std::size_t primitive) const {
+    const LightmapPlace& place = lightmaps_.layout->places[primitive];
+    const Vertices& vertices = vertices_[scene_.primitives[primitive].vertices];
+    attach_floats(array, vertices.texcoords[static_cast<std::size_t>(place.texcoord)], PRT_LOCATION_LIGHTMAP,
+                  2);
+    glBindTextureUnit(PRT_UNIT_LIGHTMAP, lightmaps_.maps[place.map].name());
 }
 
 /// What shaders/emission.glsl asks for of a surface.

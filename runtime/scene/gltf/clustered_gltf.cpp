@@ -4,11 +4,11 @@
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
+#include "gltf/clustered_json.h"
 #include "gltf/guides_json.h"
 #include "gltf/own_attributes.h"
 #include "gltf/transfer_json.h"
 #include "gltf/unshare.h"
-#include "prt/support/bits.h"
 
 #include <algorithm>
 #include <cmath>
@@ -134,98 +134,6 @@ void unpack_clusters(std::size_t first, std::size_t count, std::size_t clusters,
                         " of " + std::to_string(clusters));
         receivers.clusters[p] = static_cast<std::uint16_t>(k);
     }
-}
-
-Json write_bases(GltfContents& contents, const ClusteredBases& bases) {
-    if (!bases.is_coded())
-        return write_float_view(contents, bases.rows);
-    const CodedBases& coded = bases.coded;
-    Json json = {{"origin", write_float_view(contents, coded.origin)},
-                 {"scales", write_float_view(contents, coded.scales)},
-                 {"step", coded.step},
-                 {"axes", write_row_code(contents, coded.axes)},
-                 {"values", write_row_code(contents, coded.values)}};
-    if (!coded.units.empty())
-        json["units"] = write_float_view(contents, coded.units);
-    return json;
-}
-
-/// Throws where the rows, those that constants are formed from, and what they are decoded from would take too
-/// much memory: a row of zeros has four bits, and none where there are no axes.
-void check_rows(const GltfContents& contents, std::size_t rows, std::size_t axes, std::size_t dimension) {
-    const auto values = static_cast<double>(rows) * static_cast<double>(axes + 3 * dimension) +
-                        static_cast<double>(axes) * static_cast<double>(dimension);
-    check_allowed(values * sizeof(float), contents.file_bytes, "its bases");
-}
-
-void read_bases(const GltfContents& contents, const Json& json, ClusteredBases& bases) {
-    const std::size_t rows = bases.first_rows().back(), dimension = bases.dimension();
-    if (!json.contains("values")) {
-        bases.rows = read_float_view(contents, json, rows * dimension, kLargestTransfer, "the bases");
-        return;
-    }
-    constexpr float kAnyFinite = std::numeric_limits<float>::max(); // small steps may have large scales
-    CodedBases& coded = bases.coded;
-    coded.origin = read_float_view(contents, json.at("origin"), dimension, kLargestTransfer, "the origin");
-    if (json.contains("units"))
-        coded.units = read_float_view(contents, json["units"], dimension, kAnyFinite, "the units");
-    coded.axes = read_row_code(contents, json.at("axes"));
-    coded.values = read_row_code(contents, json.at("values"));
-    const std::size_t axes = coded.values.drops.size();
-    coded.scales = read_float_view(contents, json.at("scales"), axes, kAnyFinite, "the scales");
-    const Json& step = json.at("step");
-    coded.step = step.is_number() ? step.get<float>() : -1.0f;
-    if (!(coded.step >= 0) || !std::isfinite(coded.step))
-        throw Error("the step of the bases is " + step.dump() + ", no number from 0 on");
-    check_rows(contents, rows, axes, dimension);
-    bases.rows = decode_bases(coded, bases.components, bases.guide_rows());
-    check_magnitudes(bases.rows, kLargestTransfer, "the decoded bases");
-}
-
-Json write_packing(GltfContents& contents, const ClusteredTransfer& transfer) {
-    BitWriter writer;
-    for (const std::uint8_t bits : transfer.bases.bits)
-        writer.write(bits - 1u, 4);
-    return {{"clusterBits", transfer.receivers.cluster_bits},
-            {"bufferView", contents.add_buffer_view(writer.take())}};
-}
-
-void read_packing(const GltfContents& contents, const Json& json, ClusteredTransfer& transfer) {
-    ClusteredBases& bases = transfer.bases;
-    ClusteredReceivers& receivers = transfer.receivers;
-    receivers.format = WeightFormat::packed;
-    receivers.cluster_bits = whole_number(json.at("clusterBits"), "clusterBits", 0, 16);
-    if (bases.clusters() > std::size_t{1} << receivers.cluster_bits)
-        throw Error(std::to_string(bases.clusters()) + " clusters do not fit " +
-                    std::to_string(receivers.cluster_bits) + " bits");
-    BitReader reader(std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>())));
-    const std::size_t directions = bases.first_rows().back() - bases.clusters() * bases.fixed_rows();
-    std::size_t most = 0;
-    for (const int components : bases.components) {
-        if (components > kMostPackedComponents)
-            throw Error("a cluster has " + std::to_string(components) + " packed components, of 0.." +
-                        std::to_string(kMostPackedComponents));
-        auto total = static_cast<std::size_t>(receivers.cluster_bits);
-        for (int j = 0; j < components; ++j) {
-            if (!reader.has(4))
-                throw Error("there are no bits for " + std::to_string(directions) + " packed components");
-            bases.bits.push_back(static_cast<std::uint8_t>(reader.read(4) + 1));
-            total += bases.bits.back();
-        }
-        most = std::max(most, total);
-    }
-    receivers.words = std::max(1, static_cast<int>((most + 31) / 32));
-}
-
-ClusteredBases read_clusters_of(const Json& extension) {
-    ClusteredBases bases;
-    bases.layout = read_layout(extension);
-    const int most = static_cast<int>(bases.dimension());
-    for (const Json& count : extension.at("components"))
-        bases.components.push_back(whole_number(count, "the number of a cluster's components", 0, most));
-    if (bases.components.empty() || bases.components.size() > 65536)
-        throw Error("has " + std::to_string(bases.components.size()) + " clusters, of 1..65536");
-    return bases;
 }
 
 void write_into(GltfContents& contents, const Scene& scene, const CompressedTransfer& compressed) {

@@ -174,6 +174,38 @@ void erase_views(GltfContents& contents, const std::set<std::size_t>& views) {
     });
 }
 
+constexpr const char* kOwnExtensions[] = {kTransferExtension, kClusteredExtension, kLightmapExtension};
+
+/// Calls `visit` with every member that says which image a texture has.
+template <class Visit>
+void for_each_source(Json& json, Visit&& visit) {
+    if (json.contains("textures"))
+        for_each_object(json["textures"], [&](Json& object) {
+            if (object.contains("source") && object["source"].is_number_unsigned())
+                visit(object["source"]);
+        });
+}
+
+/// Takes those of `images` out that no texture shows; their views join `views`.
+void remove_images(GltfContents& contents, std::set<std::size_t> images, std::set<std::size_t>& views) {
+    Json& json = contents.json;
+    for_each_source(json, [&](const Json& source) { images.erase(source.get<std::size_t>()); });
+    if (images.empty() || !json.contains("images"))
+        return;
+    for (const std::size_t i : images)
+        if (i < json["images"].size() && json["images"][i].contains("bufferView"))
+            views.insert(json["images"][i]["bufferView"].get<std::size_t>());
+    const auto new_index = remove_elements(json, "images", images);
+    for_each_source(json, [&](Json& source) { renumber(source, new_index); });
+    const auto erase_from = [&](auto& list) {
+        for (auto i = images.rbegin(); i != images.rend(); ++i)
+            if (*i < list.size())
+                list.erase(list.begin() + static_cast<std::ptrdiff_t>(*i));
+    };
+    erase_from(contents.images);
+    erase_from(contents.model.images);
+}
+
 } // namespace
 
 Json& member(Json& object, const char* key, Json::value_t type) {
@@ -254,13 +286,23 @@ void GltfContents::remove_transfer() {
         if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
             views.insert(object["bufferView"].get<std::size_t>());
     };
+    std::set<std::size_t> of_lightmaps;
+    const auto take_images = [&](const Json& extension) { // of words of lightmaps
+        if (extension.contains("maps"))
+            for (const Json& map : extension["maps"])
+                if (map.is_object() && map.contains("images"))
+                    for (const Json& image : map["images"])
+                        if (image.is_number_unsigned())
+                            of_lightmaps.insert(image.get<std::size_t>());
+    };
     const auto take_extensions = [&](Json& owner) {
         if (!owner.contains("extensions"))
             return;
-        for (const char* name : {kTransferExtension, kClusteredExtension}) {
+        for (const char* name : kOwnExtensions) {
             if (!owner["extensions"].contains(name))
                 continue;
             for_each_object(owner["extensions"][name], take_view);
+            take_images(owner["extensions"][name]);
             owner["extensions"].erase(name);
         }
         if (owner["extensions"].empty())
@@ -278,8 +320,9 @@ void GltfContents::remove_transfer() {
         primitive["attributes"] = std::move(kept);
     });
     take_extensions(json);
+    remove_images(*this, std::move(of_lightmaps), views);
     remove_unused(std::move(accessors), std::move(views));
-    for (const char* name : {kTransferExtension, kClusteredExtension})
+    for (const char* name : kOwnExtensions)
         drop_extension(name);
 }
 

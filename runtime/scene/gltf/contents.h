@@ -48,6 +48,7 @@ struct GltfContents {
 
 inline constexpr const char* kTransferExtension = "PRTKIT_transfer";
 inline constexpr const char* kClusteredExtension = "PRTKIT_clustered_pca";
+inline constexpr const char* kLightmapExtension = "PRTKIT_lightmap";
 
 /// What an exception says of the file, without the inner words of the libraries that threw it, as one line of
 /// printable characters.

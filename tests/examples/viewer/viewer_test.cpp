@@ -125,7 +125,7 @@ TEST_F(ViewerTest, BakesWhatIsNotBakedAndShowsItBeforeItIsDone) {
             frames_until([&] { return right() == name.kind; });
         EXPECT_EQ(right(), name.kind) << name.id;
     }
-    EXPECT_GT(viewer->figures().transfer.bytes_per_vertex, 0);
+    EXPECT_GT(viewer->figures().transfer.bytes_per_receiver, 0);
     EXPECT_EQ(viewer->figures().transfer.order, 6);
 }
 
@@ -133,7 +133,7 @@ TEST_F(ViewerTest, OpensCompressedFilesAndSaysWhatTheyLack) {
     viewer->settings.right = PictureKind::prt;
     open({shipped()});
     EXPECT_EQ(viewer->figures().transfer.order, 4);
-    EXPECT_EQ(viewer->figures().transfer.bytes_per_vertex, 4);
+    EXPECT_EQ(viewer->figures().transfer.bytes_per_receiver, 4);
     EXPECT_EQ(right(), PictureKind::unshadowed);
     EXPECT_NE(viewer->shown(PictureKind::prt).note.find("bake to see it"), std::string::npos);
     EXPECT_EQ(viewer->shown(PictureKind::prt_compressed).kind, PictureKind::prt_compressed);
@@ -289,7 +289,7 @@ TEST_F(ViewerTest, GivesSmallModelsNoMoreBasesThanTheirWeightsAreWorth) {
     open({baked(6)});
     const auto receivers = static_cast<double>(viewer->figures().receivers);
     EXPECT_LT(receivers, 1000);
-    EXPECT_EQ(viewer->figures().transfer.bytes_per_vertex, 4); // one word, as the preset says
+    EXPECT_EQ(viewer->figures().transfer.bytes_per_receiver, 4); // one word, as the preset says
     // Bases of twice the weights' bytes, or 4 KB; 256 clusters would take ten times that.
     EXPECT_LE(viewer->figures().transfer.bytes_with_bases, 4 + std::max(8.0, 4096 / receivers));
 }

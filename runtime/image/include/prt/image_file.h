@@ -47,6 +47,8 @@ Image8 decode_image(std::span<const std::byte> file);
 
 /// An 8-bit RGB PNG in memory. `pixels` is [height][width].
 std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec3> pixels);
+/// The same in RGBA, as `Image8` has it.
+std::vector<std::byte> encode_png(int width, int height, std::span<const glm::u8vec4> pixels);
 
 /// Writes an 8-bit RGB PNG. `pixels` is [height][width].
 void write_png(const std::filesystem::path& path, int width, int height, std::span<const glm::u8vec3> pixels);

@@ -6,6 +6,7 @@
 #include "prt/camera.h"
 #include "prt/clustered_transfer.h"
 #include "prt/environment.h"
+#include "prt/lightmap.h"
 #include "prt/scene.h"
 #include "prt/sun_disc.h"
 #include "prt/texture.h"
@@ -22,10 +23,20 @@ struct Background {
     float rotation = 0;           ///< about +Y, as in `rotated_about_y`; radians
 };
 
+/// Lightmaps that light surfaces in the place of their vertices.
+struct PictureLightmaps {
+    const LightmapLayout* layout = nullptr; ///< null: there are none
+    std::span<const glm::vec3> radiance;    ///< [texels of the layout] exit radiance for albedo 1, or a color
+    /// Where set, OpenGL forms it on the GPU, lit by `lighting`.
+    const CompressedLightmap* on_gpu = nullptr;
+    const Lighting* lighting = nullptr;
+};
+
 /// Transfer, and the lighting that a vertex shader multiplies it with.
 struct LitInShader {
     const ClusteredTransfer* transfer = nullptr;
     const Lighting* lighting = nullptr;
+    PictureLightmaps lightmaps = {}; ///< whichever renderer
 };
 
 struct Picture {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "prt/gl_lightmap.h"
 #include "prt/gl_objects.h"
 #include "prt/picture.h"
 
@@ -38,6 +39,9 @@ public:
     /// From now on the emission of each material is multiplied with this, [materials]; empty: nothing shines.
     void shine(std::span<const glm::vec3> strengths) { emission_.assign(strengths.begin(), strengths.end()); }
 
+    /// From now on surfaces are lit by these, which programs with PRT_LIGHTMAP look up.
+    void light_by(const GlLightmapTextures& lightmaps) { lightmaps_ = lightmaps; }
+
     /// Drawn after all others, far ones first, without writing depth.
     bool is_blended(const Primitive& primitive) const;
     /// Draws `primitive` with `program`, which is in use; all of it, or some of its triangles.
@@ -61,6 +65,7 @@ private:
     void prepare(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
     void prepare_for_suns(const GlObject& program, const Primitive& primitive) const;
     void prepare_emission(const GlObject& program, const Primitive& primitive) const;
+    void prepare_lightmap(std::uint32_t array, std::size_t primitive) const;
 
     const Scene& scene_;
     std::vector<Vertices> vertices_;  ///< [vertex arrays]
@@ -69,6 +74,7 @@ private:
     std::vector<GlObject> textures_;  ///< [images]
     std::vector<bool> encoded_;       ///< [images] as colors
     std::vector<glm::vec3> emission_; ///< [materials]; empty: none shines
+    GlLightmapTextures lightmaps_;
     std::size_t bytes_ = 0;
 };
 

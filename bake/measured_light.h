@@ -1,0 +1,28 @@
+#pragma once
+
+// Light as a bake measures it, before it bounces.
+
+#include "direct.h"
+#include "lamps/lamp_light.h"
+#include "record.h"
+#include "surface/surface_fit.h"
+
+#include <optional>
+
+namespace prt {
+
+/// Direct light, and how it becomes that of receivers.
+struct Measured {
+    DirectLight direct;
+    SealedIn sealed;
+    std::optional<SurfaceFit> fit; ///< none: measured at receivers
+};
+
+/// Measures where `plan.options.fit` says. Rays that were spent on finding out where count in `statistics`.
+Measured measure(const BakePlan& plan, Tracer& tracer, BakeStatistics& statistics, const Progress& progress);
+
+/// Light of the plan's lamps at its receivers, by samples of `fit` where there is one.
+LampLight measure_lamps(const BakePlan& plan, Tracer& tracer, const std::optional<SurfaceFit>& fit,
+                        const Progress& progress);
+
+} // namespace prt

@@ -1,0 +1,354 @@
+// Bakes texels: light is bounced between vertices, then gathered by every texel with the rays of its own
+// direct light.
+
+#include "prt/lightmap_bake.h"
+
+#include "available_memory.h"
+#include "bake_options.h"
+#include "exit_light.h"
+#include "measured_light.h"
+#include "memory.h"
+#include "parts.h"
+#include "prt/error_measures.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
+#include "prt/trace_receivers.h"
+#include "record.h"
+#include "refine/even_refinement.h"
+#include "sampling_error.h"
+#include "texels/gutters.h"
+#include "texels/seams.h"
+#include "texels/texel_areas.h"
+#include "texels/texel_light.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace prt {
+namespace {
+
+/// Vertices that light bounces between lie at most so many texels apart. Measured on the room, 256², 3
+/// bounces, 1 024 rays, against 2: see docs/math.md, section 15.
+constexpr double kTexelsBetweenSources = 8;
+/// Rows of the gather that are there at a time take about so many bytes at most.
+constexpr double kBytesOfRows = 1e9;
+
+/// A side of a texel, metres, in the mean of all.
+double texel_size(const TexelPlaces& places, const std::vector<std::vector<ChartTriangle>>& charts) {
+    double surface = 0, texels = 0;
+    for (const auto& of_atlas : charts)
+        for (const ChartTriangle& t : of_atlas) {
+            surface += places.area(t.triangle);
+            texels += area_in_texels(t);
+        }
+    return texels > 0 ? std::sqrt(surface / texels) : 0;
+}
+
+/// Leaves and media are known at vertices alone: what passes them was scattered on the other side.
+void check_materials(const Scene& scene, const Media& media) {
+    for (const Primitive& primitive : scene.primitives) {
+        const Material& material = scene.materials[primitive.material];
+        const bool leaf = material.transmission.factor > 0 && !media[primitive.material];
+        if (leaf || media[primitive.material])
+            throw Error(fmt::format("mesh {} primitive {} {}, which texels do not know yet: bake at vertices",
+                                    primitive.mesh, primitive.primitive,
+                                    leaf ? "lets light through as leaves do" : "has a medium inside"));
+    }
+}
+
+void check_texel_options(const BakeOptions& options) {
+    check_options(options);
+    if (options.tracer.method == BakeMethod::raster)
+        throw Error("method raster draws depth maps for vertices: use method trace for texels");
+    if (options.target_error)
+        throw Error("an error to reach is one of vertices: give texels a number of rays");
+}
+
+/// All dense values of a texel, and what fills and stitches them: measured on 1 024² texels of order 6, three
+/// channels of bounced light.
+void check_room(const std::vector<Atlas>& atlases, std::size_t numbers, double limit) {
+    double largest = 0, all = 0;
+    for (const Atlas& atlas : atlases) {
+        largest = std::max(largest, static_cast<double>(atlas.texels()));
+        all += static_cast<double>(atlas.texels());
+    }
+    const double value = sizeof(float) * static_cast<double>(numbers),
+                 needed = value * (1.1 * largest + 3.2 * all), there = limit > 0 ? limit : available_memory();
+    if (there > 0 && needed > there)
+        throw Error(
+            fmt::format("maps of {:.3g} texels with {} numbers each need about {:.2g} GB of memory, and "
+                        "there are {:.2g} GB: give fewer texels or a lower order",
+                        all, numbers, needed * 1e-9, there * 1e-9));
+}
+
+/// Jumps of the first coefficient across seams, squared and summed.
+double squared_jumps(const Atlas& atlas, std::span<const SeamPoint> seams, std::span<const float> vectors,
+                     std::size_t stride) {
+    double sum = 0;
+    for (const SeamPoint& point : seams) {
+        double jump = 0;
+        for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
+            const BilinearTexels filter = bilinear_at(atlas, place);
+            for (std::size_t i = 0; i < 4; ++i)
+                jump += sign * filter.weights[i] * static_cast<double>(vectors[filter.texels[i] * stride]);
+        }
+        sum += jump * jump / (kY00 * kY00);
+    }
+    return sum;
+}
+
+std::uint32_t most_read(const BilinearTexels& filter) {
+    return filter.texels[std::max_element(filter.weights, filter.weights + 4) - filter.weights];
+}
+
+/// Lightmaps on their way, map behind map.
+class LightmapBaker {
+public:
+    LightmapBaker(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
+                  const FinerModel& finer)
+        : scene_(scene), atlases_(atlases), options_(options), finer_(finer),
+          media_(choose_media(traced_scene(), options)) {
+        check_materials(traced_scene(), media_);
+        for (const Atlas& atlas : atlases)
+            charts_.push_back(chart_triangles(scene, atlas));
+    }
+
+    LightmapBake run(const Progress& progress) {
+        const Stopwatch watch;
+        const TexelPlaces plain(scene_, nullptr);
+        const double spacing =
+            options_.bounces != 0 ? kTexelsBetweenSources * texel_size(plain, charts_) : HUGE_VAL;
+        const Scene even = with_short_edges(traced_scene(), spacing);
+        const TraceScene traced = trace_scene(even, media_, options_);
+        const BakePlan plan = plan_bake(traced, media_, options_);
+        check_memory(plan);
+        check_room(atlases_, plan.numbers(), options_.memory.limit);
+        const std::unique_ptr<Tracer> tracer = make_tracer(traced, options_.tracer);
+        statistics().notices = plan.notices;
+        const double share = plan.bounces != 0 || !plan.lamps.empty() ? 0.2 : 0;
+        BouncedSources sources = bounce(plan, *tracer, progress.part(0, share));
+        statistics().seconds.sources = watch.seconds();
+        TexelTransport transport(plan, std::move(sources), rows_at_once());
+        const Casters casters{traced, finer_.reach};
+        const TexelPlaces places(scene_, finer_.scene ? &casters : nullptr);
+        trace(plan, *tracer, places, transport, progress.part(share, 1));
+        finish(plan, *tracer, places, watch);
+        progress.update(1);
+        return std::move(result_);
+    }
+
+private:
+    LightmapStatistics& statistics() { return result_.statistics; }
+    const Scene& traced_scene() const { return finer_.scene ? *finer_.scene : scene_; }
+
+    std::size_t rows_at_once() const {
+        const double rays = std::max(1.0, static_cast<double>(options_.rays) / kSamplesOfTexel);
+        return static_cast<std::size_t>(
+            std::clamp(kBytesOfRows / (rays * GatherOperator::kMostBytesPerRay), 256.0, 65536.0));
+    }
+
+    /// Light at vertices before the last bounce.
+    BouncedSources bounce(const BakePlan& plan, Tracer& tracer, const Progress& progress) {
+        BouncedSources sources;
+        const LampTask no_task{.scene = plan.scene,
+                               .receivers = Receivers(),
+                               .lamps = plan.lamps,
+                               .options = plan.options.lamps,
+                               .channels = plan.lamp_channels()};
+        sources.lamps = no_lamp_light(no_task).transfer;
+        if (plan.bounces == 0)
+            return sources;
+        statistics().sources = plan.receivers().size();
+        BakeStatistics asked;
+        Measured measured = measure(plan, tracer, asked, progress.part(0, 0.8));
+        LampLight lamps = measure_lamps(plan, tracer, measured.fit, progress.part(0.8, 0.9));
+        statistics().rays += measured.direct.rays + measured.sealed.rays + lamps.rays + asked.rays;
+        const std::unique_ptr<GatherProduct> product =
+            measured.direct.gather ? tracer.gather_product(*measured.direct.gather) : nullptr;
+        const TransportOperators operators{.refill = measured.sealed.refill,
+                                           .diffusion = plan.diffusion,
+                                           .gather =
+                                               measured.direct.gather ? &*measured.direct.gather : nullptr,
+                                           .product = product.get(),
+                                           .fit = measured.fit ? &*measured.fit : nullptr};
+        const int before = plan.bounces == kEndlessBounces ? kEndlessBounces : plan.bounces - 1;
+        Transfer sky = plan.channels == 3 ? in_color(measured.direct.transfer) : measured.direct.transfer;
+        Propagated lit =
+            propagate(std::move(sky), operators, before, options_.threads, progress.part(0.9, 1));
+        bounces_done_ = lit.bounces + 1;
+        sources.sky = std::move(lit.transfer);
+        if (!plan.lamps.empty())
+            sources.lamps =
+                propagate_lamps_on_both_sides(plan, std::move(lamps.transfer), operators, before, {})
+                    .transfer;
+        return sources;
+    }
+
+    void trace(const BakePlan& plan, Tracer& tracer, const TexelPlaces& places, TexelTransport& transport,
+               const Progress& progress) {
+        light_.direct.layout = layout_of_one(options_.order, 1, PartKind::direct);
+        light_.rest.layout = layout_of_one(options_.order, plan.channels, PartKind::indirect);
+        light_.lamps.layout = transport.lamp_layout();
+        std::size_t first = 0;
+        for (std::size_t a = 0; a < atlases_.size(); ++a) {
+            const Progress part =
+                progress.part(static_cast<double>(a) / static_cast<double>(atlases_.size()),
+                              static_cast<double>(a + 1) / static_cast<double>(atlases_.size()));
+            const TexelSamples samples = sample_texels(charts_[a], atlases_[a]);
+            const TexelTask task{
+                .tracer = tracer,
+                .scene = plan.scene,
+                .places = places,
+                .options = {.order = options_.order, .rays = options_.rays, .seed = options_.seed + a},
+                .inside = options_.repairs.inside,
+                .transport = &transport};
+            TexelLight light = trace_texels(task, atlases_[a], samples.samples, part);
+            statistics().rays += light.rays;
+            take(a, first, places, samples.samples, std::move(light), transport);
+            first += atlases_[a].texels();
+        }
+    }
+
+    /// Fills and stitches the light of a map and keeps what filters read.
+    void take(std::size_t a, std::size_t first, const TexelPlaces& places,
+              std::span<const TexelSample> samples, TexelLight light, const TexelTransport& transport) {
+        const Atlas& atlas = atlases_[a];
+        statistics().texels.measured += light.measured;
+        statistics().texels.sealed +=
+            light.measured - static_cast<std::size_t>(std::ranges::count(light.lit, true));
+        const std::vector<SeamPoint> seams = seam_points(scene_, atlas);
+        const auto order2 = light_.direct.dimension();
+        const auto close = [&](std::vector<float>& values, std::size_t stride) {
+            if (stride == 0)
+                return;
+            fill_gutters(atlas, light.lit, values, stride);
+            stitch_seams(atlas, seams, light.lit, values, stride);
+        };
+        fill_gutters(atlas, light.lit, light.direct, order2);
+        jumps_.before += squared_jumps(atlas, seams, light.direct, order2);
+        stitch_seams(atlas, seams, light.lit, light.direct, order2);
+        jumps_.after += squared_jumps(atlas, seams, light.direct, order2);
+        jumps_.points += seams.size();
+        close(light.sky, transport.sky_stride());
+        close(light.lamps, transport.lamp_stride());
+
+        const TexelAreas areas = texel_areas(atlas, charts_[a], places, samples);
+        BakedLightmap& map = result_.lightmap;
+        const std::size_t begin = map.texels.size();
+        for (const std::uint32_t texel : areas.texels) {
+            map.texels.push_back(static_cast<std::uint32_t>(first + texel));
+            const auto append = [&](const std::vector<float>& from, std::size_t stride, Transfer& to) {
+                to.vectors.insert(to.vectors.end(),
+                                  from.begin() + static_cast<std::ptrdiff_t>(texel * stride),
+                                  from.begin() + static_cast<std::ptrdiff_t>((texel + 1) * stride));
+            };
+            append(light.direct, order2, light_.direct);
+            append(light.sky, transport.sky_stride(), light_.rest);
+            append(light.lamps, transport.lamp_stride(), light_.lamps);
+        }
+        map.areas.insert(map.areas.end(), areas.areas.begin(), areas.areas.end());
+        for (const SeamPoint& point : seams) {
+            const auto receiver_at = [&](const glm::dvec2& place) {
+                const auto found =
+                    std::ranges::lower_bound(areas.texels, most_read(bilinear_at(atlas, place)));
+                return static_cast<std::uint32_t>(begin +
+                                                  static_cast<std::size_t>(found - areas.texels.begin()));
+            };
+            map.seams.push_back({receiver_at(point.here), receiver_at(point.there)});
+        }
+    }
+
+    /// Where sampling errs: the direct light of single places, with the rays of a texel.
+    void estimate_error(Tracer& tracer, const TexelPlaces& places) {
+        constexpr std::size_t kPlaces = 2048;
+        Receivers receivers;
+        for (std::size_t a = 0; a < atlases_.size(); ++a) {
+            const std::vector<TexelSample> samples = sample_texels(charts_[a], atlases_[a]).samples;
+            const std::size_t step = std::max<std::size_t>(1, samples.size() * atlases_.size() / kPlaces);
+            for (std::size_t s = 0; s < samples.size(); s += step)
+                places.append(samples[s], 1, receivers);
+        }
+        const TraceOptions options{.order = options_.order, .rays = options_.rays, .seed = options_.seed};
+        Transfer traced = zero_transfer(options.order, 1, receivers.size());
+        const std::vector<std::uint32_t> indices = receivers_on_surfaces(receivers);
+        trace_receivers(tracer, receivers, indices, options, traced);
+        const SamplingError error = sampling_error(tracer, receivers, options, traced, {});
+        statistics().sampling_error = error.error;
+        statistics().rays += error.rays + indices.size() * static_cast<std::size_t>(options.rays);
+    }
+
+    void finish(const BakePlan& plan, Tracer& tracer, const TexelPlaces& places, const Stopwatch& watch) {
+        LightmapStatistics& s = statistics();
+        BakedLightmap& map = result_.lightmap;
+        map.seams = unique_edges(std::move(map.seams));
+        map.layout.places.resize(scene_.primitives.size());
+        for (std::size_t a = 0; a < atlases_.size(); ++a) {
+            map.layout.maps.push_back(size_of(atlases_[a]));
+            for (const std::size_t p : atlases_[a].primitives)
+                map.layout.places[p] = {a, atlases_[a].uv_set};
+        }
+        s.mean_visibility = mean_visibility(light_.direct, map.areas);
+        estimate_error(tracer, places);
+        BakedTransfer& baked = map.baked;
+        baked.transfer = plan.bounces != 0 ? joined(light_.direct, narrowed(std::move(light_.rest)))
+                                           : std::move(light_.direct);
+        if (!plan.lamps.empty())
+            baked.transfer = with_lamps(baked.transfer, light_.lamps, plan.lamps);
+        baked.record = {.bounces = bounces_done_,
+                        .endless = plan.bounces == kEndlessBounces,
+                        .rays = options_.rays,
+                        .seed = options_.seed,
+                        .method = tracer.method(),
+                        .backend = tracer.backend(),
+                        .receivers = receivers_id(scene_),
+                        .sampling_error = s.sampling_error};
+        s.rounding_error = float16_rounding_error(baked.transfer, map.areas);
+        baked.storage = options_.memory.storage.value_or(
+            storage_for({.rounding = s.rounding_error, .sampling = s.sampling_error}, s.notices));
+        s.texels.all = map.layout.texels();
+        s.texels.receivers = map.texels.size();
+        s.device = tracer.device();
+        const auto rms = [&](double sum) {
+            return jumps_.points > 0 ? std::sqrt(sum / static_cast<double>(jumps_.points)) : 0;
+        };
+        s.seam_before = rms(jumps_.before);
+        s.seam = rms(jumps_.after);
+        if (s.texels.sealed > 0)
+            s.notices.push_back(fmt::format(
+                "{} texels are sealed in by backs of faces: they take the light of texels beside them",
+                s.texels.sealed));
+        s.seconds.all = watch.seconds();
+        s.seconds.texels = s.seconds.all - s.seconds.sources;
+    }
+
+    const Scene& scene_;
+    const std::vector<Atlas>& atlases_;
+    const BakeOptions& options_;
+    const FinerModel& finer_;
+    Media media_;
+    std::vector<std::vector<ChartTriangle>> charts_; ///< [atlases]
+    struct Parts {
+        Transfer direct, rest, lamps;
+    } light_; ///< of the receivers so far
+    struct Jumps {
+        double before = 0, after = 0; ///< squared
+        std::size_t points = 0;
+    } jumps_;
+    int bounces_done_ = 0;
+    LightmapBake result_;
+};
+
+} // namespace
+
+LightmapBake bake_lightmap(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
+                           const FinerModel& finer, const Progress& progress) {
+    check_texel_options(options);
+    check_finer(finer);
+    return LightmapBaker(scene, atlases, options, finer).run(progress);
+}
+
+} // namespace prt

@@ -1,0 +1,25 @@
+#pragma once
+
+// What filters read of texels.
+
+#include "texels/texel_places.h"
+
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// Texels that charts touch and those round them, by their numbers in the atlas, ascending.
+struct TexelAreas {
+    std::vector<std::uint32_t> texels;
+    /// m²: how much of the surface a bilinear filter reads from each, by the samples of texels.
+    std::vector<float> areas;
+};
+
+/// Texels squared that a chart's triangle covers.
+double area_in_texels(const ChartTriangle& triangle);
+
+TexelAreas texel_areas(const Atlas& atlas, std::span<const ChartTriangle> charts, const TexelPlaces& places,
+                       std::span<const TexelSample> samples);
+
+} // namespace prt

@@ -1,0 +1,84 @@
+// Gathers light from vertices of what is traced: texels are many, so that their rows are made and forgotten
+// some at a time, while bounces before the last one take those of vertices alone.
+
+#include "texels/texel_transport.h"
+
+#include "lamps/lamp_light.h"
+#include "parts.h"
+#include "prt/sh_basis.h"
+
+#include <algorithm>
+
+namespace prt {
+
+TexelTransport::TexelTransport(const BakePlan& plan, BouncedSources sources, std::size_t rows)
+    : plan_(plan),
+      gather_(plan.scene.surfaces(), *plan.transport, plan.bounces != 0 ? rows : 0, plan.channels),
+      sky_order_(sources.sky.layout.order) {
+    const int threads = plan.options.threads;
+    const auto reflected = [&](Transfer exit) {
+        gather_.reflect(exit.layout.order, exit.vectors, threads);
+        return std::move(exit.vectors);
+    };
+    if (plan.bounces != 0)
+        sky_ = reflected(std::move(sources.sky));
+    if (plan.lamps.empty())
+        return;
+    lamp_layout_ = sources.lamps.layout;
+    if (plan.bounces == 0)
+        return;
+    if (plan.channels == lamp_layout_.channels())
+        lamps_.push_back(reflected(std::move(sources.lamps)));
+    else
+        for (int c = 0; c < 3; ++c)
+            lamps_.push_back(reflected(one_channel(sources.lamps, c)));
+}
+
+std::size_t TexelTransport::sky_stride() const {
+    return bounces() ? static_cast<std::size_t>(plan_.channels * coefficient_count(plan_.options.order)) : 0;
+}
+
+std::size_t TexelTransport::lamp_stride() const {
+    return lamp_layout_.dimension();
+}
+
+void TexelTransport::clear() {
+    for (std::size_t row = 0; row < gather_.rows(); ++row)
+        gather_.set_row(row, {}, 1);
+}
+
+void TexelTransport::gather_sky(std::span<float> to) const {
+    gather_.apply(sky_order_, sky_, 0, to, plan_.options.threads);
+}
+
+std::size_t TexelTransport::light_of_lamps(Tracer& tracer, const Receivers& receivers, std::uint64_t seed,
+                                           std::span<float> to, const Progress& progress) const {
+    LampTask task{.scene = plan_.scene,
+                  .receivers = receivers,
+                  .lamps = plan_.lamps,
+                  .options = plan_.options.lamps,
+                  .channels = lamp_layout_.channels(),
+                  .seed = seed,
+                  .threads = plan_.options.threads};
+    task.options.rays = std::max(1, task.options.rays / 4); // a texel has four places
+    const LampLight direct = tracer.lamp_light(task, progress);
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(lamp_layout_.order));
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        const std::size_t lamp = i % coefficients;
+        const bool wanted = plan_.options.lamps.mode == LampMode::all ||
+                            (lamp < plan_.lamps.size() && plan_.lamps[lamp].towards);
+        to[i] = wanted ? direct.transfer.vectors[i] : 0.0f;
+    }
+    std::vector<float> bounced;
+    for (std::size_t part = 0; part < lamps_.size(); ++part) {
+        const std::size_t stride = lamp_stride() / lamps_.size();
+        bounced.resize(receivers.size() * stride);
+        gather_.apply(lamp_layout_.order, lamps_[part], 0, bounced, plan_.options.threads);
+        for (std::size_t r = 0; r < receivers.size(); ++r)
+            for (std::size_t i = 0; i < stride; ++i)
+                to[r * lamp_stride() + part * stride + i] += bounced[r * stride + i];
+    }
+    return direct.rays;
+}
+
+} // namespace prt

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "prt/lightmap_bake.h"
+#include "report/report.h"
+
+#include <cstdint>
+#include <string>
+
+namespace prt::cli {
+
+/// What was baked into texels.
+struct LightmapOutcome {
+    std::string output;
+    const Scene& scene; ///< as it was baked
+    const LightmapBake& bake;
+    std::uintmax_t bytes = 0; ///< of the file
+};
+
+Report lightmap_report(const LightmapOutcome& baked);
+
+/// Its maps: [{"width": 512, "height": 512}, ...]
+Json maps_figures(const LightmapLayout& layout);
+/// "2 maps, 512 x 512 and 256 x 256"
+std::string maps_in_words(const LightmapLayout& layout);
+
+} // namespace prt::cli

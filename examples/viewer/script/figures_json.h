@@ -1,0 +1,16 @@
+#pragma once
+
+// What scripts write of measures, as JSON.
+
+#include "core/frame_statistics.h"
+
+#include "prt/error_budget.h"
+
+#include <nlohmann/json.hpp>
+
+namespace viewer {
+
+nlohmann::json figures_json(const Figures& figures);
+nlohmann::json budget_json(const prt::ErrorBudget& budget);
+
+} // namespace viewer

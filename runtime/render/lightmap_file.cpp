@@ -1,0 +1,158 @@
+// Words of texels as PNG images.
+
+#include "prt/lightmap_file.h"
+
+#include "prt/image_file.h"
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+namespace prt {
+namespace {
+
+std::vector<std::byte> word_png(const LightmapSize& size, std::span<const std::uint32_t> words) {
+    std::vector<glm::u8vec4> pixels;
+    pixels.reserve(words.size());
+    for (const std::uint32_t word : words)
+        pixels.emplace_back(word & 255u, word >> 8 & 255u, word >> 16 & 255u, word >> 24);
+    return encode_png(size.width, size.height, pixels);
+}
+
+/// Reads word `word` of all texels of a map, whose first is `first`.
+void read_word(std::span<const std::byte> png, const LightmapSize& size, std::size_t first, int word,
+               ClusteredReceivers& receivers) {
+    const Image8 image = decode_image(png);
+    if (image.width != size.width || image.height != size.height)
+        throw Error("a lightmap of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
+                    " texels has an image of " + std::to_string(image.width) + " x " +
+                    std::to_string(image.height));
+    for (std::size_t t = 0; t < image.pixels.size(); ++t) {
+        const glm::u8vec4& p = image.pixels[t];
+        const std::uint32_t value =
+            p.r | std::uint32_t{p.g} << 8 | std::uint32_t{p.b} << 16 | std::uint32_t{p.a} << 24;
+        std::memcpy(&receivers.weights[(first + t) * receivers.stride() + 4 * static_cast<std::size_t>(word)],
+                    &value, sizeof value);
+    }
+}
+
+} // namespace
+
+std::vector<std::uint32_t> words_of_map(const CompressedLightmap& lightmap, std::size_t map, int word) {
+    const ClusteredReceivers& receivers = lightmap.compressed.transfer.receivers;
+    const std::size_t first = lightmap.layout.first_texels()[map];
+    std::vector<std::uint32_t> words(lightmap.layout.maps[map].texels());
+    for (std::size_t t = 0; t < words.size(); ++t)
+        std::memcpy(&words[t],
+                    &receivers.weights[(first + t) * receivers.stride() + 4 * static_cast<std::size_t>(word)],
+                    sizeof words[t]);
+    return words;
+}
+
+void write_lightmap(GltfDocument& document, const Scene& scene, const CompressedLightmap& lightmap) {
+    const ClusteredReceivers& receivers = lightmap.compressed.transfer.receivers;
+    if (receivers.format != WeightFormat::packed)
+        throw Error("weights of texels are words of images: they have to be packed");
+    EncodedLightmap encoded{{lightmap.layout, {lightmap.compressed.transfer, lightmap.compressed.record}},
+                            {}};
+    for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m)
+        for (int w = 0; w < receivers.words; ++w)
+            encoded.images.push_back(word_png(lightmap.layout.maps[m], words_of_map(lightmap, m, w)));
+    write_encoded_lightmap(document, scene, encoded);
+}
+
+std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& document, const Scene& scene) {
+    std::optional<EncodedLightmap> encoded = read_encoded_lightmap(document, scene);
+    if (!encoded)
+        return std::nullopt;
+    CompressedLightmap& lightmap = encoded->lightmap;
+    ClusteredReceivers& receivers = lightmap.compressed.transfer.receivers;
+    const std::vector<std::size_t> first = lightmap.layout.first_texels();
+    receivers.clusters.resize(first.back());
+    receivers.weights.resize(first.back() * receivers.stride());
+    std::size_t image = 0;
+    for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m)
+        for (int w = 0; w < receivers.words; ++w)
+            read_word(encoded->images[image++], lightmap.layout.maps[m], first[m], w, receivers);
+    const std::size_t clusters = lightmap.compressed.transfer.bases.clusters();
+    for (std::size_t t = 0; t < receivers.size(); ++t) {
+        std::uint32_t word = 0;
+        std::memcpy(&word, &receivers.weights[t * receivers.stride()], sizeof word);
+        const std::uint32_t k = word & ((1u << receivers.cluster_bits) - 1);
+        if (k >= clusters)
+            throw Error("texel " + std::to_string(t) + " is in cluster " + std::to_string(k) + " of " +
+                        std::to_string(clusters));
+        receivers.clusters[t] = static_cast<std::uint16_t>(k);
+    }
+    return std::move(lightmap);
+}
+
+namespace {
+
+/// Receiver `from` of one as receiver `to` of another.
+void copy_receiver(const ClusteredReceivers& source, std::size_t from, ClusteredReceivers& target,
+                   std::size_t to) {
+    target.clusters[to] = source.clusters[from];
+    std::memcpy(&target.weights[to * target.stride()], &source.weights[from * source.stride()],
+                source.stride());
+}
+
+ClusteredReceivers room_for(std::size_t count, const ClusteredReceivers& like) {
+    ClusteredReceivers receivers{.format = like.format,
+                                 .components = like.components,
+                                 .cluster_bits = like.cluster_bits,
+                                 .words = like.words,
+                                 .clusters = std::vector<std::uint16_t>(count),
+                                 .weights = std::vector<std::byte>(count * like.stride()),
+                                 .guides = {}};
+    return receivers;
+}
+
+/// Calls `visit` with every texel and the receiver, by its place in `texels`, that it is or that lies near
+/// it. A map without receivers is left out.
+template <class Visit>
+void for_each_texel(const LightmapLayout& layout, std::span<const std::uint32_t> texels, Visit&& visit) {
+    const std::vector<std::size_t> first = layout.first_texels();
+    auto begin = texels.begin();
+    for (std::size_t m = 0; m < layout.maps.size(); ++m) {
+        const auto end = std::lower_bound(begin, texels.end(), first[m + 1]);
+        std::vector<std::uint32_t> of_map(begin, end);
+        for (std::uint32_t& texel : of_map)
+            texel -= static_cast<std::uint32_t>(first[m]);
+        const std::vector<std::uint32_t> nearest = nearest_receivers(layout.maps[m], of_map);
+        const auto offset = static_cast<std::size_t>(begin - texels.begin());
+        for (std::size_t t = 0; t < nearest.size() && !of_map.empty(); ++t)
+            visit(first[m] + t, offset + nearest[t]);
+        begin = end;
+    }
+}
+
+} // namespace
+
+CompressedLightmap spread_over_maps(const BakedLightmap& baked, ClusteredTransfer compressed) {
+    CompressedLightmap lightmap{baked.layout, {{std::move(compressed.bases), {}}, baked.baked.record}};
+    ClusteredReceivers& all = lightmap.compressed.transfer.receivers =
+        room_for(baked.layout.texels(), compressed.receivers);
+    for_each_texel(baked.layout, baked.texels, [&](std::size_t texel, std::size_t receiver) {
+        copy_receiver(compressed.receivers, receiver, all, texel);
+    });
+    return lightmap;
+}
+
+std::vector<glm::vec3> spread_over_maps(const LightmapLayout& layout, std::span<const std::uint32_t> texels,
+                                        std::span<const glm::vec3> values) {
+    std::vector<glm::vec3> all(layout.texels());
+    for_each_texel(layout, texels,
+                   [&](std::size_t texel, std::size_t receiver) { all[texel] = values[receiver]; });
+    return all;
+}
+
+ClusteredTransfer picked_texels(const ClusteredTransfer& all, std::span<const std::uint32_t> texels) {
+    ClusteredTransfer picked{all.bases, room_for(texels.size(), all.receivers)};
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        copy_receiver(all.receivers, texels[i], picked.receivers, i);
+    return picked;
+}
+
+} // namespace prt

@@ -1,0 +1,113 @@
+#pragma once
+
+// Radiance in the formats of textures, sixteen texels at a time.
+
+#include "prt/lightmap_former.h"
+#include "prt/support/vector_lanes.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace prt {
+
+/// Radiance of texels one behind the other, color by color.
+struct RadianceLanes {
+    Lanes colors[3];
+};
+
+using WordLanes [[gnu::vector_size(4 * kLaneCount)]] = std::int32_t;
+
+namespace texel_formats {
+
+[[gnu::always_inline]] inline WordLanes bits_of(const Lanes& values) {
+    WordLanes bits;
+    std::memcpy(&bits, &values, sizeof bits);
+    return bits;
+}
+
+[[gnu::always_inline]] inline Lanes floats_of(const WordLanes& bits) {
+    Lanes values;
+    std::memcpy(&values, &bits, sizeof values);
+    return values;
+}
+
+/// In [0, most]; 0 where it is no number.
+[[gnu::always_inline]] inline Lanes within(const Lanes& v, float most) {
+    const Lanes positive = v > 0 ? v : Lanes{};
+    return positive < most ? positive : Lanes{} + most;
+}
+
+/// A float of five bits of exponent and `mantissa` bits, without a sign, rounded to the nearest: its bits.
+[[gnu::always_inline]] inline WordLanes small_float(const Lanes& v, float most, int mantissa) {
+    constexpr float kBias = 0x1p-112f; // from an exponent that is 127 too large to one that is 15
+    const WordLanes bits = bits_of(within(v, most) * kBias);
+    return (bits + (1 << (22 - mantissa))) >> (23 - mantissa);
+}
+
+/// EXT_texture_shared_exponent: the largest color, rounded to nine bits, says the exponent of all.
+[[gnu::always_inline]] inline WordLanes shared_exponent(const RadianceLanes& radiance) {
+    constexpr float kMost = 65408;
+    Lanes colors[3], largest = {};
+    for (int c = 0; c < 3; ++c) {
+        colors[c] = within(radiance.colors[c], kMost);
+        largest = colors[c] > largest ? colors[c] : largest;
+    }
+    const WordLanes exponent = ((bits_of(largest) + 0x4000) >> 23) - 127 + 16;
+    const WordLanes shared = exponent > 0 ? exponent : WordLanes{};
+    const Lanes scale = floats_of((24 - shared + 127) << 23);
+    WordLanes word = shared << 27;
+    for (int c = 0; c < 3; ++c)
+        word |= __builtin_convertvector(colors[c] * scale + 0.5f, WordLanes) << (9 * c);
+    return word;
+}
+
+/// What bits of such a float stand for.
+inline float small_float(std::uint32_t bits, int mantissa) {
+    return std::bit_cast<float>(bits << (23 - mantissa)) * 0x1p112f;
+}
+
+} // namespace texel_formats
+
+inline glm::vec3 read_texel(LightmapFormat format, const std::byte* texel) {
+    using texel_formats::small_float;
+    if (format == LightmapFormat::rgba16) {
+        std::uint16_t halves[3];
+        std::memcpy(halves, texel, sizeof halves);
+        return {small_float(halves[0], 10), small_float(halves[1], 10), small_float(halves[2], 10)};
+    }
+    std::uint32_t word = 0;
+    std::memcpy(&word, texel, sizeof word);
+    if (format == LightmapFormat::r11g11b10)
+        return {small_float(word & 2047u, 6), small_float(word >> 11 & 2047u, 6), small_float(word >> 22, 5)};
+    const auto scale = std::bit_cast<float>(((word >> 27) + 103) << 23); // 2^(exponent - 24)
+    return scale * glm::vec3(word & 511u, word >> 9 & 511u, word >> 18 & 511u);
+}
+
+/// Writes the first `count` of the lanes to `to`, which is as wide.
+[[gnu::always_inline]] inline void write_texels(LightmapFormat format, const RadianceLanes& radiance,
+                                                std::size_t count, std::byte* to) {
+    using namespace texel_formats;
+    if (format == LightmapFormat::rgba16) {
+        std::uint16_t halves[kLaneCount][4];
+        WordLanes colors[3];
+        for (int c = 0; c < 3; ++c)
+            colors[c] = small_float(radiance.colors[c], 65504, 10);
+        for (std::size_t i = 0; i < kLaneCount; ++i) {
+            for (std::size_t c = 0; c < 3; ++c)
+                halves[i][c] = static_cast<std::uint16_t>(colors[c][i]);
+            halves[i][3] = 0x3C00; // 1
+        }
+        std::memcpy(to, halves, count * sizeof halves[0]);
+        return;
+    }
+    const WordLanes words = format == LightmapFormat::rgb9e5
+                                ? shared_exponent(radiance)
+                                : small_float(radiance.colors[0], 65024, 6) |
+                                      small_float(radiance.colors[1], 65024, 6) << 11 |
+                                      small_float(radiance.colors[2], 64512, 5) << 22;
+    std::memcpy(to, &words, count * sizeof(std::int32_t));
+}
+
+} // namespace prt

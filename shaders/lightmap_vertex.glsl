@@ -1,0 +1,11 @@
+// What a fragment shader with lightmap.glsl takes of a vertex.
+
+#include "shared_layout.h"
+
+layout(location = PRT_LOCATION_LIGHTMAP) in vec2 lightmap_place;
+
+out vec2 lightmap_texcoord;
+
+void take_for_lightmap() {
+    lightmap_texcoord = lightmap_place;
+}
