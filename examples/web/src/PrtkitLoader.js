@@ -74,6 +74,11 @@ export class PrtkitPlugin {
     return relitMaterial(source, transfer);
   }
 
+  /** Before a mesh is drawn: another renderer would leave out its light. */
+  checkRenderer(renderer) {
+    if (!renderer.isWebGLRenderer) throw new Error("prtkit: WebGPURenderer wants the plug-in of prtkit-web/webgpu");
+  }
+
   /** Gives the meshes of `gltf` what lights them. `of(mesh, primitive)`: their transfer. */
   convert(gltf, model, of) {
     const { json, associations } = this.parser;
@@ -95,6 +100,7 @@ export class PrtkitPlugin {
           traits,
           model,
         });
+        object.onBeforeRender = this.checkRenderer;
         if (!traits) return;
         object.castShadow = traits.casts;
         object.receiveShadow = true;

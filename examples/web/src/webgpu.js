@@ -18,4 +18,8 @@ export class PrtkitPlugin extends ForWebGL {
   materialOf(source, transfer) {
     return nodeMaterial(source, transfer);
   }
+
+  checkRenderer(renderer) {
+    if (renderer.isWebGLRenderer) throw new Error("prtkit: WebGLRenderer wants the plug-in of prtkit-web");
+  }
 }

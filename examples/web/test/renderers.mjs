@@ -202,6 +202,13 @@ await check("texels: without an environment, the picture is that of three's own 
   return `mean ${mean.toFixed(3)} of 255`;
 });
 
+await check("the plug-in of the other renderer is refused", async () => {
+  for (const by of ["vertices", "texels"]) {
+    await assert.rejects(ask("picture", { api: "webgl", ...given(by, { wrong: true }) }), /WebGLRenderer wants the plug-in of prtkit-web$/m);
+await assert.rejects(ask("picture", { api: "nodes", ...given(by, { wrong: true }) }), /WebGPURenderer wants the plug-in of prtkit-web\/webgpu/);
+  }
+});
+
 await onWebgl.close();
 await onWebgpu.close();
 await server.close();

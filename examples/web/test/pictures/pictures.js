@@ -163,8 +163,8 @@ function probe() {
 }
 
 /** A scene with the model in the light that is asked for. */
-async function sceneOf(api, { model, light, environment, suns, shadows, fog, others, change, copies, besides, probed }) {
-  const Plugin = api === "webgl" ? PrtkitPlugin : NodePlugin;
+async function sceneOf(api, { model, light, environment, suns, shadows, fog, others, change, copies, besides, probed, wrong }) {
+  const Plugin = (api === "webgl") !== Boolean(wrong) ? PrtkitPlugin : NodePlugin;
   const gltf = await load(model, Plugin);
   const scene = new Scene();
   if (copies === "instances") scene.add(...instancesOf(gltf.scene));
