@@ -21,6 +21,7 @@ import { matte } from "./relitMaterial.js";
 const strength = uniform(new Vector3()).onObjectUpdate(({ material }) => material._transfer.uniforms.prtStrength.value);
 const sunsApart = uniform(0).onObjectUpdate(({ material }) => Number(material._transfer.uniforms.prtSunsApart.value));
 const transmission = uniform(new Vector4()).onObjectUpdate(({ material }) => material._transfer.traits.transmission);
+const emission = materialEmissive.mul(strength); // one node for all, so that they share programs
 const baseColor = property("vec3", "prtBaseColor");
 
 /** Brings the model's light up to date before anything that it lights is drawn. */
@@ -95,7 +96,7 @@ const lit = (Base) =>
       this._transfer = transfer;
       this.shadowSide = DoubleSide; // every triangle blocks from both sides
       if (transfer.lightMap) Object.assign(this, { lightMap: transfer.lightMap, lightMapIntensity: Math.PI });
-      this.emissiveNode = materialEmissive.mul(strength);
+      this.emissiveNode = emission;
       return this;
     }
 

@@ -85,6 +85,19 @@ test("maps are drawn where their light is new to a renderer", async () => {
   assert.equal(drawn.length, 3);
 });
 
+test("maps are drawn again when a device that was lost is there again", async () => {
+  const { userData } = await load();
+  const { prtkit } = userData;
+  let drawn = 0;
+  prtkit.maps.pass.draw = () => ++drawn;
+  const renderer = { domElement: new EventTarget() };
+  for (let i = 0; i < 2; ++i) prtkit.beforeRender(renderer);
+  assert.equal(drawn, 3);
+  renderer.domElement.dispatchEvent(new Event("webglcontextrestored"));
+  prtkit.beforeRender(renderer);
+  assert.equal(drawn, 6);
+});
+
 const refusals = {
   "another version": [(json) => (extensionOf(json).version = 2), /version 2 is not known, only 1; compress the model again/],
   "a raw bake": [(json) => (extensionOf(json).raw = {}), /holds transfer as it was baked; make it one to ship: prt compress/],
