@@ -94,7 +94,7 @@ void LightmapFormer::form_rows(std::size_t map, std::span<const glm::vec4> const
                     static_cast<std::size_t>(y + r) * static_cast<std::size_t>(level.width) +
                     static_cast<std::size_t>(x);
                 evaluate_range(lightmap_.compressed.transfer.receivers, clusters_.data(), constants.data(),
-                               begin, begin + static_cast<std::size_t>(count), rows[r] - begin);
+                               begin, begin + static_cast<std::size_t>(count), rows[r]);
                 write_row(format_, rows[r], count, place(level, x, y + r));
             }
             const bool is_there = half && y / 2 < half->height && (x == 0 || x / 2 < half->width);
