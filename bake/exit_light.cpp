@@ -80,7 +80,8 @@ Propagated propagate_lamps(const BakePlan& plan, Transfer light, const Transport
         unbounced = exit_without_bounces(plan, light, operators.refill);
         leave_back_sides(plan, unbounced);
     }
-    Propagated exit = propagate_lamps_on_both_sides(plan, std::move(light), operators, plan.bounces, progress);
+    Propagated exit =
+        propagate_lamps_on_both_sides(plan, std::move(light), operators, plan.bounces, progress);
     leave_back_sides(plan, exit.transfer);
     const std::size_t stride = static_cast<std::size_t>(coefficient_count(unbounced.layout.order));
     for (std::size_t i = 0; i < unbounced.vectors.size(); ++i)

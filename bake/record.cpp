@@ -90,9 +90,10 @@ BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight&
     result.statistics.device = tracer.device();
     BakedTransfer& baked = result.baked;
     BakeStatistics& s = result.statistics;
-    baked.storage = plan.options.memory.storage
-                        ? *plan.options.memory.storage
-                        : storage_for({.rounding = s.rounding_error, .sampling = s.sampling_error}, s.notices);
+    baked.storage =
+        plan.options.memory.storage
+            ? *plan.options.memory.storage
+            : storage_for({.rounding = s.rounding_error, .sampling = s.sampling_error}, s.notices);
     baked.record = {.bounces = exit.bounces,
                     .endless = plan.bounces == kEndlessBounces,
                     .rays = direct.mean_rays,

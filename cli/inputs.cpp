@@ -81,7 +81,8 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
     }
     if (!baked && !compressed) // else they were given when it was baked
         print_notices(path.string(), scene.notices);
-    return {std::move(document), std::move(scene), std::move(baked), std::move(compressed), std::move(lightmap)};
+    return {std::move(document), std::move(scene), std::move(baked), std::move(compressed),
+            std::move(lightmap)};
 }
 
 Environment load_environment_map(const Path& path, const EnvironmentOptions& options) {

@@ -57,15 +57,13 @@ TexelSizeOptions add_texels(CLI::App* command, TexelArguments& a, const std::str
     CLI::Option* density =
         command
             ->add_option_function<std::string>(
-                "--texels",
-                [&a](const std::string& text) { a.texels.per_metre = parse_density(text); },
+                "--texels", [&a](const std::string& text) { a.texels.per_metre = parse_density(text); },
                 what + ", with so many texels a metre in the mean")
             ->type_name("N/m");
-    CLI::Option* size = command
-                            ->add_option("--size", a.texels.size,
-                                         what + ", with so many texels along each side")
-                            ->check(CLI::Range(1, kMostTexels))
-                            ->excludes(density);
+    CLI::Option* size =
+        command->add_option("--size", a.texels.size, what + ", with so many texels along each side")
+            ->check(CLI::Range(1, kMostTexels))
+            ->excludes(density);
     command->add_option("--uv", a.uv_set, "coordinates that textures use: TEXCOORD_n")
         ->default_str("1")
         ->check(CLI::Range(0, 7));
@@ -120,8 +118,7 @@ TexelRoom make_room(const TexelArguments& a, const Path& path, GltfDocument& doc
         return {plan_atlases(scene, options)};
     try { // coordinates that have a place for everything are kept
         TexelRoom room{plan_atlases(scene, options)};
-        print_notices(path.string(),
-                      {fmt::format("has TEXCOORD_{} already, which is kept", options.uv_set)});
+        print_notices(path.string(), {fmt::format("has TEXCOORD_{} already, which is kept", options.uv_set)});
         return room;
     } catch (const Error&) { // that is why
         return unwrapped(a, path, document, scene);

@@ -1,6 +1,6 @@
-// Exit radiance of the texels of a lightmap (docs/format.md, PRTKIT_lightmap): one texel per thread, once for every light;
-// surfaces then look it up as any texture, filtered. Dispatch (width + 7) / 8 by (height + 7) / 8 groups, then make
-// smaller levels.
+// Exit radiance of the texels of a lightmap (docs/format.md, PRTKIT_lightmap): one texel per thread, once for every
+// light; surfaces then look it up as any texture, filtered. Dispatch (width + 7) / 8 by (height + 7) / 8 groups, then
+// make smaller levels.
 //
 // Define before including what prt_exit_radiance.glsl asks for of packed weights and of constants, and
 //     PRT_LIGHTMAP_FORMAT    of the image: rgba16f (where nothing is said), r11f_g11f_b10f or rgba32f.

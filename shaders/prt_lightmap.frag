@@ -1,8 +1,9 @@
-// Exit radiance of the texels of a lightmap (docs/format.md, PRTKIT_lightmap): drawn over a target of the map's size, once
-// for every light; surfaces then look it up as any texture, filtered. For GLSL 3.3, GLSL ES 3.0 and later.
+// Exit radiance of the texels of a lightmap (docs/format.md, PRTKIT_lightmap): drawn over a target of the map's size,
+// once for every light; surfaces then look it up as any texture, filtered. For GLSL 3.3, GLSL ES 3.0 and later.
 //
 // Define before including what prt_exit_radiance.glsl asks for of packed weights and of constants, and
-//     PRT_NORMALIZED_WORDS   where the images of words are RGBA8 textures, as browsers make them; else they are RGBA8UI.
+//     PRT_NORMALIZED_WORDS   where the images of words are RGBA8 textures, as browsers make them; else they are
+//     RGBA8UI.
 // They are looked up by texels: without a filter, mipmaps, conversion of colors or multiplication by alpha.
 
 #define PRT_WORDS_OF_TEXEL

@@ -22,7 +22,7 @@
 #define PRT_LOCATION_WEIGHTS_11 15
 #define PRT_LOCATION_AO 4       // where there are no weights
 #define PRT_LOCATION_LIGHTMAP 4 // the same
-#define PRT_LOCATION_NORMAL 15 // shares its place with the last weights, which no model with guides has
+#define PRT_LOCATION_NORMAL 15  // shares its place with the last weights, which no model with guides has
 
 // Storage buffers.
 #define PRT_BINDING_CONSTANTS 0

@@ -1,6 +1,6 @@
 // Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or from a PRT_VERTEX_RADIANCE
-// attribute, or from a PRT_LIGHTMAP; with none of these, the fragment shader finds it from the normal and an ambient occlusion. PRT_SUNS: for suns
-// apart. What a surface gives off comes on top of all.
+// attribute, or from a PRT_LIGHTMAP; with none of these, the fragment shader finds it from the normal and an ambient
+// occlusion. PRT_SUNS: for suns apart. What a surface gives off comes on top of all.
 
 #include "shared_layout.h"
 

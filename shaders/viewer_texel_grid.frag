@@ -17,8 +17,8 @@ const float kNoLines = 3.0, kFullLines = 8.0; // pixels that a texel takes
 
 void main() {
     vec2 place = lightmap_texcoord * vec2(textureSize(lightmap, 0)); // borders are at whole numbers
-    vec2 texels_a_sample = max(vec2(length(vec2(dFdx(place.x), dFdy(place.x))), length(vec2(dFdx(place.y), dFdy(place.y)))),
-                               vec2(1e-9));
+    vec2 texels_a_sample =
+        max(vec2(length(vec2(dFdx(place.x), dFdy(place.x))), length(vec2(dFdx(place.y), dFdy(place.y)))), vec2(1e-9));
     vec2 to_border = abs(fract(place - 0.5) - 0.5) / texels_a_sample; // in samples
     vec2 cover = clamp(0.5 + 0.5 * samples - to_border, 0.0, 1.0);
     cover *= smoothstep(kNoLines, kFullLines, 1.0 / (texels_a_sample * samples));

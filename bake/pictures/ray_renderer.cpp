@@ -29,8 +29,8 @@ public:
           rays_(picture, scene.rays(), picture.width * picture.samples, picture.height * picture.samples),
           // As many for each sample of a pixel.
           suns_(picture, scene, (sun_rays + samples() - 1) / samples() * samples()) {
-        if (picture.lightmaps.layout)
-            lightmaps_.emplace(*picture.scene, *picture.lightmaps.layout);
+        if (picture.in_shader.lightmaps.layout)
+            lightmaps_.emplace(*picture.scene, *picture.in_shader.lightmaps.layout);
     }
 
     int columns() const { return rays_.columns(); }
@@ -52,7 +52,8 @@ public:
 
 private:
     glm::vec3 exit_radiance_at(const SeenSurface& surface) const {
-        return lightmaps_ ? lightmaps_->look_up(surface.triangle, surface.barycentrics, picture_.lightmaps.radiance)
+        return lightmaps_ ? lightmaps_->look_up(surface.triangle, surface.barycentrics,
+                                                picture_.in_shader.lightmaps.radiance)
                           : at_corners(picture_, surface);
     }
 

@@ -3,19 +3,17 @@
 #include "refine/bisection.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace prt {
 
-EvenScene with_short_edges(const Scene& scene, double longest) {
-    EvenScene even{scene, std::vector<std::uint32_t>(scene.triangles())};
-    std::iota(even.whole.begin(), even.whole.end(), 0u);
+Scene with_short_edges(const Scene& scene, double longest) {
+    Scene even = scene;
     const Bounds box = bounds(scene);
     const glm::vec3 size = box.high - box.low;
     const double shortest = kLeastEdge * 0.5 * static_cast<double>(std::max({size.x, size.y, size.z}));
     longest = std::max(longest, 2 * shortest);
     while (true) {
-        const WeldedEdges edges = welded_edges(even.scene);
+        const WeldedEdges edges = welded_edges(even);
         EdgeMarks marks(edges);
         for (std::uint32_t t = 0; t < edges.of_triangle.size(); ++t) {
             const std::uint32_t edge = edges.of_triangle[t][edges.longest[t]];
@@ -24,12 +22,7 @@ EvenScene with_short_edges(const Scene& scene, double longest) {
         }
         if (marks.vertices() == 0)
             return even;
-        const Bisection bisection = bisect(even.scene, edges, marks);
-        std::vector<std::uint32_t> whole;
-        for (const Part& part : bisection.parts)
-            whole.push_back(even.whole[part.whole]);
-        even.whole = std::move(whole);
-        even.scene = refined(even.scene, bisection.refinement);
+        even = refined(even, bisect(even, edges, marks).refinement);
     }
 }
 

@@ -3,6 +3,7 @@
 #include "prt/repeated_bake.h"
 
 #include "prt/bake.h"
+#include "prt/lightmap_bake.h"
 #include "prt/support/error.h"
 
 #include <fmt/core.h>
@@ -42,29 +43,60 @@ BakeOptions options_of_record(const BakeRecord& record, int order, int threads) 
     return options;
 }
 
-} // namespace
+/// Those of a repetition: of rays of its own.
+BakeOptions options_of_repetition(const BakeRecord& record, int order, int threads) {
+    BakeOptions options = options_of_record(record, order, threads);
+    options.repairs.bad_textures = BadTextures::ignore; // the bake has passed them
+    options.seed = ~record.seed;
+    return options;
+}
 
-Transfer repeated_bake(const Scene& scene, const Transfer& baked, const BakeRecord& record, int threads,
-                       const Progress& progress) {
+/// Throws `Error` unless `repeated` differs from `baked` by noise alone.
+void check_repeats(const Transfer& baked, const Transfer& repeated, std::span<const float> areas,
+                   const BakeRecord& record) {
     // Two bakes of independent rays differ by sqrt(2) times the error of one in direct light, which comes
     // first; the estimate of that is off by less than another factor of two in practice, of few rays that are
     // fitted by four. A scene that was baked otherwise differs by tens of per cents.
     constexpr double kNoise = 6, kRounding = 0.05;
-    BakeOptions options = options_of_record(record, baked.layout.order, threads);
-    options.repairs.bad_textures = BadTextures::ignore; // the bake has passed them
-    options.seed = ~record.seed;
-    Transfer repeated = bake(scene, options, progress).baked.transfer;
     const std::size_t parts = baked.layout.distant_parts().size();
-    bool same = parts == repeated.layout.parts.size();
+    bool same = parts == repeated.layout.parts.size() && baked.receivers() == repeated.receivers();
     for (std::size_t i = 0; same && i < parts; ++i)
         same = baked.layout.parts[i] == repeated.layout.parts[i];
-    const double off = same ? difference_of_bakes(baked, repeated, receiver_areas(scene)) : 1;
+    const double off = same ? difference_of_bakes(baked, repeated, areas) : 1;
     if (!(off <= kNoise * record.sampling_error + kRounding))
         throw Error(fmt::format(
             "baked again, it differs by {:.1f} %, where {:.1f} % is the noise of its rays: a budget needs a "
-            "bake of the scene as it is in the file; name its --no-shadow again, and bake without --inside "
-            "and --subsurface",
+            "bake of the scene as it is in the file; name its --no-shadow again, and bake without --inside, "
+            "--subsurface and --casters",
             100 * off, 100 * record.sampling_error));
+}
+
+} // namespace
+
+Transfer repeated_bake(const Scene& scene, const Transfer& baked, const BakeRecord& record, int threads,
+                       const Progress& progress) {
+    const BakeOptions options = options_of_repetition(record, baked.layout.order, threads);
+    Transfer repeated = bake(scene, options, progress).baked.transfer;
+    check_repeats(baked, repeated, receiver_areas(scene), record);
+    return repeated;
+}
+
+Transfer repeated_lightmap(const Scene& scene, const BakedLightmap& lightmap, int threads,
+                           const Progress& progress) {
+    const BakedTransfer& baked = lightmap.baked;
+    BakeOptions options = options_of_repetition(baked.record, baked.transfer.layout.order, threads);
+    options.fit = FitMode::automatic; // of vertices that light bounces between
+    std::vector<Atlas> atlases;
+    for (const LightmapSize& map : lightmap.layout.maps)
+        atlases.push_back(
+            {.primitives = {}, .width = map.width, .height = map.height, .repeats = map.repeats});
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
+        Atlas& atlas = atlases[lightmap.layout.places[p].map];
+        atlas.primitives.push_back(p);
+        atlas.uv_set = lightmap.layout.places[p].texcoord;
+    }
+    Transfer repeated = bake_lightmap(scene, atlases, options, {}, progress).lightmap.baked.transfer;
+    check_repeats(baked.transfer, repeated, lightmap.areas, baked.record);
     return repeated;
 }
 

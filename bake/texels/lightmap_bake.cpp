@@ -1,5 +1,5 @@
-// Bakes texels: light is bounced between vertices, then gathered by every texel with the rays of its own direct
-// light.
+// Bakes texels: light is bounced between vertices, then gathered by every texel with the rays of its own
+// direct light.
 
 #include "prt/lightmap_bake.h"
 
@@ -31,8 +31,8 @@
 namespace prt {
 namespace {
 
-/// Vertices that light bounces between lie at most so many texels apart. Measured on the room, 256², 3 bounces,
-/// 1 024 rays, against 2: see docs/math.md, section 15.
+/// Vertices that light bounces between lie at most so many texels apart: chosen, not measured. There are some
+/// 64 times fewer of them than texels then.
 constexpr double kTexelsBetweenSources = 8;
 /// Rows of the gather that are there at a time take about so many bytes at most.
 constexpr double kBytesOfRows = 1e9;
@@ -68,20 +68,21 @@ void check_texel_options(const BakeOptions& options) {
         throw Error("an error to reach is one of vertices: give texels a number of rays");
 }
 
-/// All dense values of a texel, and what fills and stitches them: measured on 1 024² texels of order 6, three
-/// channels of bounced light.
+/// Dense values of the largest map, then three times those of all receivers: apart, in parts, and in the
+/// file. Counted, not measured.
 void check_room(const std::vector<Atlas>& atlases, std::size_t numbers, double limit) {
     double largest = 0, all = 0;
     for (const Atlas& atlas : atlases) {
         largest = std::max(largest, static_cast<double>(atlas.texels()));
         all += static_cast<double>(atlas.texels());
     }
-    const double value = sizeof(float) * static_cast<double>(numbers), needed = value * (1.1 * largest + 3.2 * all),
-                 there = limit > 0 ? limit : available_memory();
+    const double value = sizeof(float) * static_cast<double>(numbers),
+                 needed = value * (1.1 * largest + 3.2 * all), there = limit > 0 ? limit : available_memory();
     if (there > 0 && needed > there)
-        throw Error(fmt::format("maps of {:.3g} texels with {} numbers each need about {:.2g} GB of memory, and "
-                                "there are {:.2g} GB: give fewer texels or a lower order",
-                                all, numbers, needed * 1e-9, there * 1e-9));
+        throw Error(
+            fmt::format("maps of {:.3g} texels with {} numbers each need about {:.2g} GB of memory, and "
+                        "there are {:.2g} GB: give fewer texels or a lower order",
+                        all, numbers, needed * 1e-9, there * 1e-9));
 }
 
 /// Jumps of the first coefficient across seams, squared and summed.
@@ -121,8 +122,8 @@ public:
         const TexelPlaces plain(scene_, nullptr);
         const double spacing =
             options_.bounces != 0 ? kTexelsBetweenSources * texel_size(plain, charts_) : HUGE_VAL;
-        const EvenScene even = with_short_edges(traced_scene(), spacing);
-        const TraceScene traced = trace_scene(even.scene, media_, options_);
+        const Scene even = with_short_edges(traced_scene(), spacing);
+        const TraceScene traced = trace_scene(even, media_, options_);
         const BakePlan plan = plan_bake(traced, media_, options_);
         check_memory(plan);
         check_room(atlases_, plan.numbers(), options_.memory.limit);
@@ -131,8 +132,8 @@ public:
         const double share = plan.bounces != 0 || !plan.lamps.empty() ? 0.2 : 0;
         BouncedSources sources = bounce(plan, *tracer, progress.part(0, share));
         statistics().seconds.sources = watch.seconds();
-        TexelTransport transport(plan, std::move(sources), even.whole, rows_at_once());
-        const Casters casters{traced, finer_.reach, even.whole};
+        TexelTransport transport(plan, std::move(sources), rows_at_once());
+        const Casters casters{traced, finer_.reach};
         const TexelPlaces places(scene_, finer_.scene ? &casters : nullptr);
         trace(plan, *tracer, places, transport, progress.part(share, 1));
         finish(plan, *tracer, places, watch);
@@ -170,7 +171,8 @@ private:
             measured.direct.gather ? tracer.gather_product(*measured.direct.gather) : nullptr;
         const TransportOperators operators{.refill = measured.sealed.refill,
                                            .diffusion = plan.diffusion,
-                                           .gather = measured.direct.gather ? &*measured.direct.gather : nullptr,
+                                           .gather =
+                                               measured.direct.gather ? &*measured.direct.gather : nullptr,
                                            .product = product.get(),
                                            .fit = measured.fit ? &*measured.fit : nullptr};
         const int before = plan.bounces == kEndlessBounces ? kEndlessBounces : plan.bounces - 1;
@@ -181,29 +183,29 @@ private:
         sources.sky = std::move(lit.transfer);
         if (!plan.lamps.empty())
             sources.lamps =
-                propagate_lamps_on_both_sides(plan, std::move(lamps.transfer), operators, before, {}).transfer;
+                propagate_lamps_on_both_sides(plan, std::move(lamps.transfer), operators, before, {})
+                    .transfer;
         return sources;
     }
 
     void trace(const BakePlan& plan, Tracer& tracer, const TexelPlaces& places, TexelTransport& transport,
                const Progress& progress) {
-        direct_.layout = layout_of_one(options_.order, 1, PartKind::direct);
-        rest_.layout = layout_of_one(options_.order, plan.channels, PartKind::indirect);
-        lamps_.layout = transport.lamp_layout();
+        light_.direct.layout = layout_of_one(options_.order, 1, PartKind::direct);
+        light_.rest.layout = layout_of_one(options_.order, plan.channels, PartKind::indirect);
+        light_.lamps.layout = transport.lamp_layout();
         std::size_t first = 0;
         for (std::size_t a = 0; a < atlases_.size(); ++a) {
             const Progress part =
                 progress.part(static_cast<double>(a) / static_cast<double>(atlases_.size()),
                               static_cast<double>(a + 1) / static_cast<double>(atlases_.size()));
             const TexelSamples samples = sample_texels(charts_[a], atlases_[a]);
-            const TexelTask task{.tracer = tracer,
-                                 .scene = plan.scene,
-                                 .places = places,
-                                 .options = {.order = options_.order,
-                                             .rays = options_.rays,
-                                             .seed = options_.seed + a},
-                                 .inside = options_.repairs.inside,
-                                 .transport = &transport};
+            const TexelTask task{
+                .tracer = tracer,
+                .scene = plan.scene,
+                .places = places,
+                .options = {.order = options_.order, .rays = options_.rays, .seed = options_.seed + a},
+                .inside = options_.repairs.inside,
+                .transport = &transport};
             TexelLight light = trace_texels(task, atlases_[a], samples.samples, part);
             statistics().rays += light.rays;
             take(a, first, places, samples.samples, std::move(light), transport);
@@ -212,14 +214,14 @@ private:
     }
 
     /// Fills and stitches the light of a map and keeps what filters read.
-    void take(std::size_t a, std::size_t first, const TexelPlaces& places, std::span<const TexelSample> samples,
-              TexelLight light, const TexelTransport& transport) {
+    void take(std::size_t a, std::size_t first, const TexelPlaces& places,
+              std::span<const TexelSample> samples, TexelLight light, const TexelTransport& transport) {
         const Atlas& atlas = atlases_[a];
         statistics().texels.measured += light.measured;
         statistics().texels.sealed +=
             light.measured - static_cast<std::size_t>(std::ranges::count(light.lit, true));
         const std::vector<SeamPoint> seams = seam_points(scene_, atlas);
-        const auto order2 = direct_.dimension();
+        const auto order2 = light_.direct.dimension();
         const auto close = [&](std::vector<float>& values, std::size_t stride) {
             if (stride == 0)
                 return;
@@ -227,10 +229,10 @@ private:
             stitch_seams(atlas, seams, light.lit, values, stride);
         };
         fill_gutters(atlas, light.lit, light.direct, order2);
-        jumps_before_ += squared_jumps(atlas, seams, light.direct, order2);
+        jumps_.before += squared_jumps(atlas, seams, light.direct, order2);
         stitch_seams(atlas, seams, light.lit, light.direct, order2);
-        jumps_ += squared_jumps(atlas, seams, light.direct, order2);
-        seam_points_ += seams.size();
+        jumps_.after += squared_jumps(atlas, seams, light.direct, order2);
+        jumps_.points += seams.size();
         close(light.sky, transport.sky_stride());
         close(light.lamps, transport.lamp_stride());
 
@@ -240,18 +242,21 @@ private:
         for (const std::uint32_t texel : areas.texels) {
             map.texels.push_back(static_cast<std::uint32_t>(first + texel));
             const auto append = [&](const std::vector<float>& from, std::size_t stride, Transfer& to) {
-                to.vectors.insert(to.vectors.end(), from.begin() + static_cast<std::ptrdiff_t>(texel * stride),
+                to.vectors.insert(to.vectors.end(),
+                                  from.begin() + static_cast<std::ptrdiff_t>(texel * stride),
                                   from.begin() + static_cast<std::ptrdiff_t>((texel + 1) * stride));
             };
-            append(light.direct, order2, direct_);
-            append(light.sky, transport.sky_stride(), rest_);
-            append(light.lamps, transport.lamp_stride(), lamps_);
+            append(light.direct, order2, light_.direct);
+            append(light.sky, transport.sky_stride(), light_.rest);
+            append(light.lamps, transport.lamp_stride(), light_.lamps);
         }
         map.areas.insert(map.areas.end(), areas.areas.begin(), areas.areas.end());
         for (const SeamPoint& point : seams) {
             const auto receiver_at = [&](const glm::dvec2& place) {
-                const auto found = std::ranges::lower_bound(areas.texels, most_read(bilinear_at(atlas, place)));
-                return static_cast<std::uint32_t>(begin + static_cast<std::size_t>(found - areas.texels.begin()));
+                const auto found =
+                    std::ranges::lower_bound(areas.texels, most_read(bilinear_at(atlas, place)));
+                return static_cast<std::uint32_t>(begin +
+                                                  static_cast<std::size_t>(found - areas.texels.begin()));
             };
             map.seams.push_back({receiver_at(point.here), receiver_at(point.there)});
         }
@@ -286,12 +291,13 @@ private:
             for (const std::size_t p : atlases_[a].primitives)
                 map.layout.places[p] = {a, atlases_[a].uv_set};
         }
-        s.mean_visibility = mean_visibility(direct_, map.areas);
+        s.mean_visibility = mean_visibility(light_.direct, map.areas);
         estimate_error(tracer, places);
         BakedTransfer& baked = map.baked;
-        baked.transfer = plan.bounces != 0 ? joined(direct_, narrowed(std::move(rest_))) : std::move(direct_);
+        baked.transfer = plan.bounces != 0 ? joined(light_.direct, narrowed(std::move(light_.rest)))
+                                           : std::move(light_.direct);
         if (!plan.lamps.empty())
-            baked.transfer = with_lamps(baked.transfer, lamps_, plan.lamps);
+            baked.transfer = with_lamps(baked.transfer, light_.lamps, plan.lamps);
         baked.record = {.bounces = bounces_done_,
                         .endless = plan.bounces == kEndlessBounces,
                         .rays = options_.rays,
@@ -307,10 +313,10 @@ private:
         s.texels.receivers = map.texels.size();
         s.device = tracer.device();
         const auto rms = [&](double sum) {
-            return seam_points_ > 0 ? std::sqrt(sum / static_cast<double>(seam_points_)) : 0;
+            return jumps_.points > 0 ? std::sqrt(sum / static_cast<double>(jumps_.points)) : 0;
         };
-        s.seam_before = rms(jumps_before_);
-        s.seam = rms(jumps_);
+        s.seam_before = rms(jumps_.before);
+        s.seam = rms(jumps_.after);
         if (s.texels.sealed > 0)
             s.notices.push_back(fmt::format(
                 "{} texels are sealed in by backs of faces: they take the light of texels beside them",
@@ -325,10 +331,14 @@ private:
     const FinerModel& finer_;
     Media media_;
     std::vector<std::vector<ChartTriangle>> charts_; ///< [atlases]
-    Transfer direct_, rest_, lamps_;                 ///< of the receivers so far
+    struct Parts {
+        Transfer direct, rest, lamps;
+    } light_; ///< of the receivers so far
+    struct Jumps {
+        double before = 0, after = 0; ///< squared
+        std::size_t points = 0;
+    } jumps_;
     int bounces_done_ = 0;
-    double jumps_before_ = 0, jumps_ = 0;
-    std::size_t seam_points_ = 0;
     LightmapBake result_;
 };
 

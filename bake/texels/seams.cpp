@@ -106,7 +106,8 @@ public:
         };
         int row = 0;
         for (const SeamPoint& point : seams) {
-            const BilinearTexels here = bilinear_at(atlas, point.here), there = bilinear_at(atlas, point.there);
+            const BilinearTexels here = bilinear_at(atlas, point.here),
+                                 there = bilinear_at(atlas, point.there);
             const double price = std::min(price_of(here, sizes), price_of(there, sizes));
             for (const auto& [filter, sign] : {std::pair(&here, 1.0), std::pair(&there, -1.0)})
                 for (std::size_t i = 0; i < 4; ++i)

@@ -37,8 +37,7 @@ std::vector<TexelGroup> by_texel(std::span<const TexelSample> samples) {
 /// One sample of each of some texels.
 struct Layer {
     Receivers receivers;
-    std::vector<std::uint32_t> triangles; ///< [receivers] that they lie on
-    std::vector<std::uint32_t> indices;   ///< of those that are there
+    std::vector<std::uint32_t> indices; ///< of those that are there
 };
 
 class TexelTracer {
@@ -84,8 +83,7 @@ private:
         Layer layer;
         for (const TexelGroup& group : groups) {
             const bool there = k < group.samples.size();
-            layer.triangles.push_back(task_.places.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f,
-                                                          layer.receivers));
+            task_.places.append(group.samples[there ? k : 0], there ? 1.0f : 0.0f, layer.receivers);
         }
         layer.indices = receivers_on_surfaces(layer.receivers);
         return layer;
@@ -102,7 +100,7 @@ private:
         if (task_.transport && task_.transport->bounces()) {
             task_.transport->clear();
             sink = [&](std::uint32_t g, std::span<const Hit> hits) {
-                task_.transport->set_row(g, hits, options.rays, layer.triangles[g]);
+                task_.transport->set_row(g, hits, options.rays);
             };
         }
         trace_receivers(task_.tracer, layer.receivers, layer.indices, options, traced, progress.part(0, 0.9),
@@ -125,9 +123,8 @@ private:
         add(more, task_.transport->sky_stride(), light.sky);
         more.assign(groups.size() * task_.transport->lamp_stride(), 0.0f);
         if (!more.empty())
-            light.rays += task_.transport->light_of_lamps(task_.tracer, layer.receivers,
-                                                          lamp_seed(groups, k), more,
-                                                          progress.part(0.9, 1));
+            light.rays += task_.transport->light_of_lamps(task_.tracer, layer.receivers, lamp_seed(groups, k),
+                                                          more, progress.part(0.9, 1));
         add(more, task_.transport->lamp_stride(), light.lamps);
     }
 

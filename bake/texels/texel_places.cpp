@@ -5,8 +5,6 @@
 namespace prt {
 namespace {
 
-constexpr std::uint32_t kNoTriangle = ~0u;
-
 glm::vec3 at_place(const std::vector<glm::vec3>& values, const glm::uvec3& c, const glm::vec2& uv) {
     return values[c.x] * (1 - uv.x - uv.y) + values[c.y] * uv.x + values[c.z] * uv.y;
 }
@@ -39,7 +37,7 @@ TexelPlaces::TexelPlaces(const Scene& scene, const Casters* casters)
     }
 }
 
-std::optional<std::uint32_t> TexelPlaces::move_to_casters(Place& place) const {
+void TexelPlaces::move_to_casters(Place& place) const {
     const auto reach = static_cast<float>(casters_->reach);
     const glm::vec3 here = place.position + from_scene_;
     place.position = here;
@@ -50,12 +48,11 @@ std::optional<std::uint32_t> TexelPlaces::move_to_casters(Place& place) const {
     const Ray ray{here + reach * place.normal, -place.normal, 0, 2 * reach};
     const std::optional<RayHit> hit = casters_->scene.rays().nearest(ray, faces_alike);
     if (!hit)
-        return std::nullopt;
+        return;
     const glm::uvec3& c = surfaces.corners(hit->triangle);
     place.position = at_place(of_casters_.positions, c, hit->uv);
     place.plane = plane_of(of_casters_.positions, c);
     place.normal = unit_or(at_place(of_casters_.normals, c, hit->uv), place.plane);
-    return casters_->whole.empty() ? hit->triangle : casters_->whole[hit->triangle];
 }
 
 double TexelPlaces::area(std::uint32_t triangle) const {
@@ -65,20 +62,18 @@ double TexelPlaces::area(std::uint32_t triangle) const {
     return glm::length(glm::cross(glm::dvec3(positions[c.y]) - a, glm::dvec3(positions[c.z]) - a)) / 2;
 }
 
-std::uint32_t TexelPlaces::append(const TexelSample& sample, float area, Receivers& receivers) const {
+void TexelPlaces::append(const TexelSample& sample, float area, Receivers& receivers) const {
     const glm::uvec3& c = corners_[sample.triangle];
     Place place{at_place(vertices_.positions, c, sample.uv), {}, plane_of(vertices_.positions, c)};
     place.normal = unit_or(at_place(vertices_.normals, c, sample.uv), place.plane);
     if (place.plane == glm::vec3(0))
         place.plane = place.normal;
-    std::uint32_t triangle = sample.triangle;
-    if (casters_) // beside a finer model nothing is its own
-        triangle = move_to_casters(place).value_or(kNoTriangle);
+    if (casters_)
+        move_to_casters(place);
     receivers.positions.push_back(place.position);
     receivers.normals.push_back(place.normal);
     receivers.starts.push_back(place.plane);
     receivers.areas.push_back(area);
-    return triangle;
 }
 
 } // namespace prt

@@ -7,8 +7,6 @@
 #include "texels/texel_samples.h"
 
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <vector>
 
 namespace prt {
@@ -17,8 +15,6 @@ namespace prt {
 struct Casters {
     const TraceScene& scene;
     double reach; ///< metres, that the finer surface is looked for on either side
-    /// [triangles of `scene`] what each is a part of, where it was split to be traced; empty: itself.
-    std::span<const std::uint32_t> whole = {};
 };
 
 /// Places of samples as receivers: on the surface, or on that of `casters` where one lies over or under it
@@ -27,8 +23,8 @@ class TexelPlaces {
 public:
     /// Keeps references. `casters`: null where the scene casts itself.
     TexelPlaces(const Scene& scene, const Casters* casters);
-    /// Appends a receiver of that area. Returns the triangle that it lies on, of the scene or of its casters.
-    std::uint32_t append(const TexelSample& sample, float area, Receivers& receivers) const;
+    /// Appends a receiver of that area.
+    void append(const TexelSample& sample, float area, Receivers& receivers) const;
     /// Area of a triangle of the scene, m².
     double area(std::uint32_t triangle) const;
 
@@ -36,8 +32,7 @@ private:
     struct Place {
         glm::vec3 position, normal, plane;
     };
-    /// The triangle there; nothing where there is none.
-    std::optional<std::uint32_t> move_to_casters(Place& place) const;
+    void move_to_casters(Place& place) const;
 
     std::vector<glm::uvec3> corners_; ///< [triangles]
     Receivers vertices_, of_casters_;

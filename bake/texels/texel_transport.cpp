@@ -8,13 +8,11 @@
 #include "prt/sh_basis.h"
 
 #include <algorithm>
-#include <iterator>
 
 namespace prt {
 
-TexelTransport::TexelTransport(const BakePlan& plan, BouncedSources sources,
-                               std::span<const std::uint32_t> whole, std::size_t rows)
-    : plan_(plan), whole_(whole),
+TexelTransport::TexelTransport(const BakePlan& plan, BouncedSources sources, std::size_t rows)
+    : plan_(plan),
       gather_(plan.scene.surfaces(), *plan.transport, plan.bounces != 0 ? rows : 0, plan.channels),
       sky_order_(sources.sky.layout.order) {
     const int threads = plan.options.threads;
@@ -42,14 +40,6 @@ std::size_t TexelTransport::sky_stride() const {
 
 std::size_t TexelTransport::lamp_stride() const {
     return lamp_layout_.dimension();
-}
-
-void TexelTransport::set_row(std::size_t row, std::span<const Hit> hits, int rays, std::uint32_t own) {
-    thread_local std::vector<Hit> others;
-    others.clear();
-    std::copy_if(hits.begin(), hits.end(), std::back_inserter(others),
-                 [&](const Hit& hit) { return whole_[hit.triangle] != own; });
-    gather_.set_row(row, others, rays);
 }
 
 void TexelTransport::clear() {

@@ -12,18 +12,16 @@
 
 namespace prt {
 
-/// Exit transfer of all receivers of a plan, on both sides of surfaces, before the last bounce; of no receivers
-/// where there is no such light.
+/// Exit transfer of all receivers of a plan, on both sides of surfaces, before the last bounce; of no
+/// receivers where there is no such light.
 struct BouncedSources {
     Transfer sky, lamps;
 };
 
 class TexelTransport {
 public:
-    /// Takes `rows` texels at a time. Keeps a reference to `plan`. `whole` [triangles of what is traced]: the
-    /// triangle that each is a part of.
-    TexelTransport(const BakePlan& plan, BouncedSources sources, std::span<const std::uint32_t> whole,
-                   std::size_t rows);
+    /// Takes `rows` texels at a time. Keeps a reference to `plan`.
+    TexelTransport(const BakePlan& plan, BouncedSources sources, std::size_t rows);
 
     bool bounces() const { return plan_.bounces != 0; }
     std::size_t rows() const { return gather_.rows(); }
@@ -31,9 +29,9 @@ public:
     std::size_t sky_stride() const;
     std::size_t lamp_stride() const;
 
-    /// Notes what rays of row `row` met, without the surface that they start on: rays that an interpolated
-    /// normal sends below a triangle meet it.
-    void set_row(std::size_t row, std::span<const Hit> hits, int rays, std::uint32_t own);
+    /// Notes what rays of row `row` met. A triangle that rays start on is no exception: an interpolated
+    /// normal sends some below it, and whatever they miss would be lost.
+    void set_row(std::size_t row, std::span<const Hit> hits, int rays) { gather_.set_row(row, hits, rays); }
     /// Forgets what rows met.
     void clear();
     /// Bounced sky light of the first rows, `to` [rows][sky_stride()].
@@ -47,11 +45,11 @@ public:
 
 private:
     const BakePlan& plan_;
-    std::span<const std::uint32_t> whole_;
     GatherOperator gather_;
     int sky_order_ = 0;
-    std::vector<float> sky_;                ///< reflected
-    std::vector<std::vector<float>> lamps_; ///< the same; each color apart where surfaces are grey and lamps not
+    std::vector<float> sky_; ///< reflected
+    std::vector<std::vector<float>>
+        lamps_; ///< the same; each color apart where surfaces are grey and lamps not
     TransferLayout lamp_layout_;
 };
 

@@ -62,6 +62,8 @@ private:
 
     /// All triangles in four, at some of the points.
     std::optional<Trial> more_vertices() const {
+        if (s_.baked.lightmap) // what more texels bring is for another bake to say
+            return std::nullopt;
         constexpr std::size_t kPoints = 256;
         const SurfacePoints some = some_of(s_.reference.points(), kPoints);
         const QuarterCorners quarters = quarter_corners(s_.reference.scene(), some);
@@ -123,7 +125,18 @@ private:
                      budget_.of(ErrorCause::rays).value * noise(receivers, some, kTimes * rays) / now};
     }
 
-    /// A word more for every vertex.
+    ClusteredTransfer compressed(const Transfer& baked, CompressOptions options) const {
+        const Progress quiet{{}, progress_.stop};
+        if (const std::optional<LightmapOfFile>& lightmap = s_.baked.lightmap) {
+            options.guides = GuideChoice::none;
+            return compress(baked, {.areas = lightmap->areas, .edges = lightmap->edges}, options, quiet)
+                .transfer;
+        }
+        const SceneSurface surface(s_.baked.scene);
+        return compress(baked, surface.view(), options, quiet).transfer;
+    }
+
+    /// A word more for every receiver.
     std::optional<Trial> more_bytes() const {
         const ClusteredTransfer& shipped = s_.shipped->compressed->transfer;
         if (shipped.receivers.format != WeightFormat::packed)
@@ -136,12 +149,13 @@ private:
         options.threads = s_.effort.threads;
         if (words != 2)
             options.coding.bits = 32 * words - 8;
-        const SceneSurface surface(s_.baked.scene);
         const Transfer& baked = s_.baked.baked->transfer;
-        const ClusteredTransfer larger =
-            compress(baked, surface.view(), options, {{}, progress_.stop}).transfer;
-        const Transfer coded = decode(larger, s_.effort.threads);
-        const BudgetStages stages{baked, baked, &coded, bounces()};
+        const Transfer coded = decode(compressed(baked, options), s_.effort.threads);
+        const BudgetStages stages{.baked = baked,
+                                  .repeated = baked,
+                                  .shipped = &coded,
+                                  .bounces = bounces(),
+                                  .lightmap = s_.baked.lightmap ? &*s_.baked.lightmap : nullptr};
         double squared = 0;
         for (const ErrorBudget& one : budgets(s_.reference, stages, s_.effort.threads))
             squared += one.of(ErrorCause::bytes).value;

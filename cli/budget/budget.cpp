@@ -1,6 +1,8 @@
 #include "budget/budget.h"
 
 #include "prt/bake.h"
+#include "prt/lightmap_file.h"
+#include "prt/lightmap_lookup.h"
 #include "prt/support/error.h"
 
 namespace prt::cli {
@@ -14,11 +16,24 @@ SurfacePoints points_of(const TraceScene& scene, const BudgetEffort& effort, con
     return points;
 }
 
+/// Values of texels as a filter shows them at points.
+std::vector<glm::vec3> filtered(const BudgetReference& reference, const LightmapOfFile& lightmap,
+                                std::span<const glm::vec3> at_receivers) {
+    const SurfacePoints& points = reference.points();
+    const LightmapLookup lookup(reference.scene().scene(), lightmap.layout);
+    const std::vector<glm::vec3> texels = spread_over_maps(lightmap.layout, lightmap.texels, at_receivers);
+    std::vector<glm::vec3> values;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        values.push_back(lookup.look_up(points.triangles[i], points.uv[i], texels));
+    return values;
+}
+
 /// At the points; lamps are off.
 std::vector<glm::vec3> radiance_at(const BudgetReference& reference, const Transfer& transfer,
-                                   Lighting lighting, int threads) {
+                                   const LightmapOfFile* lightmap, Lighting lighting, int threads) {
     lighting.lamps.assign(transfer.layout.lamps(), glm::vec3(0));
-    return interpolated(reference.points(), exit_radiance(transfer, lighting, threads));
+    const std::vector<glm::vec3> radiance = exit_radiance(transfer, lighting, threads);
+    return lightmap ? filtered(reference, *lightmap, radiance) : interpolated(reference.points(), radiance);
 }
 
 } // namespace
@@ -59,7 +74,7 @@ std::vector<ErrorBudget> budgets(const BudgetReference& reference, const BudgetS
     for (std::size_t i = 0; i < reference.lights().size(); ++i) {
         const Lighting lighting = reference.lights()[i].lighting(order);
         const auto at_points = [&](const Transfer& transfer) {
-            return radiance_at(reference, transfer, lighting, threads);
+            return radiance_at(reference, transfer, stages.lightmap, lighting, threads);
         };
         InterpolatedRadiance radiance{at_points(stages.baked), at_points(stages.repeated), {}, stages.alike};
         radiance.shipped = stages.shipped ? at_points(*stages.shipped) : radiance.baked;

@@ -3,6 +3,7 @@
 // What a picture's errors come from, under each of several lights.
 
 #include "budget/budget_lights.h"
+#include "inputs.h"
 #include "prt/error_budget.h"
 #include "prt/support/progress.h"
 
@@ -54,6 +55,9 @@ struct BudgetStages {
     const Transfer* shipped = nullptr; ///< null: not compressed
     int bounces = 0;                   ///< or kEndlessBounces
     bool alike = true;                 ///< both bakes have as many rays
+    /// Null: their receivers are vertices, and their values are interpolated; else texels, which are
+    /// filtered.
+    const LightmapOfFile* lightmap = nullptr;
 };
 
 /// [lights]

@@ -4,6 +4,7 @@
 #include "budget/budget_report.h"
 #include "no_shadow.h"
 #include "prt/bake.h"
+#include "prt/lightmap_file.h"
 #include "prt/repeated_bake.h"
 #include "prt/support/error.h"
 #include "solid_materials.h"
@@ -24,6 +25,15 @@ void check_no_media(const SceneFile& baked) {
                 "enter");
 }
 
+/// Of a bake that is done again.
+Transfer repeat(const SceneFile& baked, int threads, const Progress& progress) {
+    if (!baked.lightmap)
+        return repeated_bake(baked.scene, baked.baked->transfer, *baked.record(), threads, progress);
+    const LightmapOfFile& lightmap = *baked.lightmap;
+    return repeated_lightmap(
+        baked.scene, {lightmap.layout, lightmap.texels, lightmap.areas, {}, *baked.baked}, threads, progress);
+}
+
 void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFile* shipped, Report& report,
              Session& session) {
     const int threads = request.lights.threads;
@@ -31,18 +41,21 @@ void measure(const BudgetRequest& request, const SceneFile& baked, const SceneFi
     ProgressBar bar = session.progress_bar("taking errors apart");
     const Progress progress = bar.progress();
     const std::vector<BudgetLight> lights = budget_lights(request.lights);
-    const Transfer repeated =
-        repeated_bake(baked.scene, baked.baked->transfer, record, threads, progress.part(0, 0.4));
+    const Transfer repeated = repeat(baked, threads, progress.part(0, 0.4));
     const BudgetEffort effort{.threads = threads};
     const BudgetReference reference(baked.scene, lights, effort, progress.part(0.4, 0.8));
-    const std::optional<Transfer> coded =
-        shipped ? std::optional(decode(shipped->compressed->transfer, threads)) : std::nullopt;
+    std::optional<Transfer> coded;
+    if (shipped)
+        coded = decode(baked.lightmap ? picked_texels(shipped->compressed->transfer, baked.lightmap->texels)
+                                      : shipped->compressed->transfer,
+                       threads);
     const std::vector<ErrorBudget> all =
         budgets(reference,
                 {.baked = baked.baked->transfer,
                  .repeated = repeated,
                  .shipped = coded ? &*coded : nullptr,
-                 .bounces = record.endless ? kEndlessBounces : record.bounces},
+                 .bounces = record.endless ? kEndlessBounces : record.bounces,
+                 .lightmap = baked.lightmap ? &*baked.lightmap : nullptr},
                 threads);
     const ErrorBudget mean = mean_budget(all);
     const std::optional<Advice> what =
@@ -66,6 +79,8 @@ void add_budget(BudgetRequest request, SceneFile& baked, Report& report, Session
     std::optional<SceneFile> shipped;
     if (!request.shipped.empty())
         shipped = load_scene_file(request.shipped, request.reading);
+    if (shipped)
+        check_belong_together(baked, request.baked, *shipped, request.shipped);
     if (shipped && !shipped->compressed)
         throw Error(request.shipped.string() + ": is no compressed file: a budget is of one bake");
     const TransferLayout& layout = shipped ? layout_of(*shipped) : layout_of(baked);

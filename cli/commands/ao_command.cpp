@@ -133,8 +133,7 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
         lit += map.measured - map.sealed;
         measured += map.measured;
     };
-    OcclusionMapsStatistics result = occlusion_maps(
-        scene, atlases, a.options, take, finer.model(), progress);
+    OcclusionMapsStatistics result = occlusion_maps(scene, atlases, a.options, take, finer.model(), progress);
     if (const std::size_t replaced = write_surface_textures(document, scene, textures); replaced > 0)
         result.notices.push_back(fmt::format("occlusion textures of {} materials are replaced", replaced));
     Report report;
@@ -178,7 +177,8 @@ void run(AoArguments a, Session& session) {
     Scene scene = extract_scene(document);
     print_notices(a.scene.string(), scene.notices);
     const TexelRoom room =
-        a.in_textures() ? about(a.scene, [&] { return make_room(a.textures, a.scene, document, scene); }) : TexelRoom{};
+        a.in_textures() ? about(a.scene, [&] { return make_room(a.textures, a.scene, document, scene); })
+                        : TexelRoom{};
     leave_out_shadows(scene, a.no_shadow);
     Report report;
     {

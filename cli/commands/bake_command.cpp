@@ -267,10 +267,8 @@ void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, co
         write_lightmap(document, scene, baked.lightmap);
         return encode_glb(document);
     });
-    Report report = lightmap_report({.output = a.output.string(),
-                                     .scene = scene,
-                                     .bake = baked,
-                                     .bytes = session.write(a.output, file)});
+    Report report = lightmap_report(
+        {.output = a.output.string(), .scene = scene, .bake = baked, .bytes = session.write(a.output, file)});
     add_figures(report, room.figures);
     publish(report, a.json, session);
 }

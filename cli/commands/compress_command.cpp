@@ -254,9 +254,11 @@ Outcome run_compressor(const CompressArguments& a, const TransferView& transfer,
 }
 
 /// The bake's file with the result, in the order that is asked for.
-std::vector<std::byte> encoded(const CompressArguments& a, Bake bake, Scene& scene, ClusteredTransfer compressed) {
+std::vector<std::byte> encoded(const CompressArguments& a, Bake bake, Scene& scene,
+                               ClusteredTransfer compressed) {
     GltfDocument& document = bake.document;
-    const BufferCompression buffers = a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none;
+    const BufferCompression buffers =
+        a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none;
     if (bake.lightmap) {
         bake.lightmap->baked.record = bake.stored.record;
         write_lightmap(document, scene, spread_over_maps(*bake.lightmap, std::move(compressed)));
@@ -329,7 +331,7 @@ std::string guides_in_words(const ClusteredBases& bases) {
 
 /// The errors are those of what is written, against `transfer` in its order.
 Json result_json(const CompressStatistics& s, const CompressOptions& options, const TransferView& transfer,
-                 const ErrorMoments& moments, const Written& written) {
+                 const Written& written) {
     const std::vector<float>& areas = written.areas;
     const std::vector<Edge>& edges = written.edges;
     const std::size_t receivers = transfer.receivers();
@@ -344,7 +346,6 @@ Json result_json(const CompressStatistics& s, const CompressOptions& options, co
             {"components_mean", s.mean_components},
             {"guides", guides_in_words(bases)},
             {"shader_operations", s.operations()},
-            {"lit_rms", expected_lit_rms(moments, *options.metric)},
             {"jump_across_clusters",
              jump_across_clusters(transfer, written.transfer, written.transfer.receivers.clusters,
                                   {areas, edges}, *options.metric, options.threads)},
@@ -403,6 +404,22 @@ std::vector<std::string> sentences(const CompressArguments& a, bool fitted) {
     return list;
 }
 
+/// All but errors under skies.
+Report report_of(const CompressArguments& a, const SearchOptions& options, const TransferView& transfer,
+                 const Outcome& outcome, const Written& result) {
+    const CompressStatistics& s = outcome.result.statistics;
+    Report report;
+    add_figures(report, {{"output", a.output.string()}});
+    add_figures(report, result_json(s, options.compress, transfer, result));
+    add_figures(
+        report,
+        {{"bytes_file", result.bytes}, {"trials", trials_json(outcome.trials)}, {"seconds", s.seconds}});
+    report.sentences = sentences(a, a.preset && !outcome.trials.empty());
+    if (outcome.best)
+        add_promises(options.budget, *outcome.best, report);
+    return report;
+}
+
 /// What texels cannot be: a pass over a map knows no normals, and its words are packed.
 void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
     if (a.guides_given && options.compress.guides != GuideChoice::none)
@@ -452,8 +469,9 @@ void run(CompressArguments a, Session& session) {
     Scene scene = extract_scene(bake.document);
     const VertexReuse reuse_before = vertex_reuse(scene);
     const std::optional<BakedLightmap> texels = bake.lightmap;
-    std::vector<std::byte> file = about(
-        a.baked, [&] { return encoded(a, bake_without_transfer(bake), scene, std::move(outcome.result.transfer)); });
+    std::vector<std::byte> file = about(a.baked, [&] {
+        return encoded(a, bake_without_transfer(bake), scene, std::move(outcome.result.transfer));
+    });
     if (!a.writing.reorder)
         scene = {}; // vertices are where they were
     const Written result = written(a, std::move(file), texels, session);
@@ -461,26 +479,17 @@ void run(CompressArguments a, Session& session) {
         transfer = in_order(std::move(transfer), matching_receivers(result.scene, scene));
         scene = {};
     }
-    const CompressStatistics& s = outcome.result.statistics;
-    Report report;
-    add_figures(report, {{"output", a.output.string()}});
+    Report report = report_of(a, options, transfer, outcome, result);
+    add_figures(report, reuse_json(reuse_before, vertex_reuse(result.scene)));
     const ErrorMoments moments =
         error_moments(transfer, result.transfer, result.areas, options.compress.threads);
-    add_figures(report, result_json(s, options.compress, transfer, moments, result));
-    add_figures(report, reuse_json(reuse_before, vertex_reuse(result.scene)));
-    add_figures(
-        report,
-        {{"bytes_file", result.bytes}, {"trials", trials_json(outcome.trials)}, {"seconds", s.seconds}});
-    report.sentences = sentences(a, a.preset && !outcome.trials.empty());
-    if (outcome.best)
-        add_promises(options.budget, *outcome.best, report);
+    add_figures(report, {{"lit_rms", expected_lit_rms(moments, *options.compress.metric)}});
     std::ranges::move(standard_skies(transfer.layout().order), std::back_inserter(skies));
     add_sky_errors(moments, skies, report);
     if (texels)
         say_texels(report);
     publish(report, a.reports.json, session);
 }
-
 } // namespace
 
 void add_compress(CLI::App& app, Session& session) {

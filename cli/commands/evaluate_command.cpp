@@ -44,8 +44,8 @@ Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::v
         baked.lightmap ? std::nullopt : std::optional<SceneSurface>(baked.scene);
     const ReceiverSurface surface =
         vertices ? vertices->view() : ReceiverSurface{baked.lightmap->areas, baked.lightmap->edges};
-    return sweep(transfer, surface, all, options,
-                 residual_vq_candidates(transfer, options.seed), bar.progress());
+    return sweep(transfer, surface, all, options, residual_vq_candidates(transfer, options.seed),
+                 bar.progress());
 }
 
 /// Those that were named, turned as asked, or the default ones.
@@ -102,8 +102,6 @@ void run(EvaluateArguments a, Session& session) {
     SceneFile baked = load_scene_file(a.baked, a.reading);
     if (!baked.baked)
         throw Error(a.baked.string() + ": holds no raw transfer; the first file is the output of prt bake");
-    if (a.budget)
-        check_of_vertices(baked, a.baked, "--budget takes the error of vertices apart");
     const std::vector<SplitLight> lights = lights_of(a, baked.baked->transfer.layout.order);
     Report report = empty_report(a, session);
     if (!a.shipped.empty())

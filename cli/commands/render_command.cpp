@@ -185,8 +185,8 @@ Lighting lighting_of(const RenderArguments& a, const SceneFile& model, SplitLigh
     return lighting;
 }
 
-/// Exit radiance for albedo 1 of the receivers, texels or vertices: compressed, baked, or unshadowed, whatever
-/// the model holds.
+/// Exit radiance for albedo 1 of the receivers, texels or vertices: compressed, baked, or unshadowed,
+/// whatever the model holds.
 std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighting, int threads) {
     if (model.compressed)
         return exit_radiance(model.compressed->transfer, lighting, threads);
@@ -196,8 +196,8 @@ std::vector<glm::vec3> lit_colors(const SceneFile& model, const Lighting& lighti
 }
 
 /// Of all texels of a shipped lightmap, against those that its bake has.
-std::vector<glm::vec3> lightmap_errors(const SceneFile& baked, const SceneFile& model, const Lighting& lighting,
-                                       int threads) {
+std::vector<glm::vec3> lightmap_errors(const SceneFile& baked, const SceneFile& model,
+                                       const Lighting& lighting, int threads) {
     const LightmapOfFile& lightmap = *baked.lightmap;
     const std::vector<glm::vec3> shipped =
         model.compressed
@@ -296,7 +296,8 @@ void light_in_shader(const RenderArguments& a, const SceneFile& model, const Lig
         return;
     const ClusteredBases& bases = model.compressed->transfer.bases;
     if (bases.max_components() <= most_vertex_components(bases)) {
-        picture.in_shader = {&model.compressed->transfer, &lighting};
+        picture.in_shader.transfer = &model.compressed->transfer;
+        picture.in_shader.lighting = &lighting;
     } else {
         print_notices(
             a.model.string(),
@@ -395,7 +396,7 @@ void run(RenderArguments a, Session& session) {
         maps = lit_maps(model, colors);
     picture.radiance = model.lightmap ? maps.at_vertices : colors;
     if (model.lightmap)
-        picture.lightmaps = {.layout = &model.lightmap->layout, .radiance = maps.texels};
+        picture.in_shader.lightmaps = {.layout = &model.lightmap->layout, .radiance = maps.texels};
     if (suns)
         picture.suns = light.split.suns;
     const std::vector<glm::vec3> emission =
@@ -414,8 +415,8 @@ void run(RenderArguments a, Session& session) {
         light_in_shader(a, model, lighting, picture);
     if (context && model.lightmap && model.compressed && a.look.show == Show::lit) {
         on_gpu = {model.lightmap->layout, *model.compressed};
-        picture.lightmaps.on_gpu = &*on_gpu;
-        picture.lightmaps.lighting = &lighting;
+        picture.in_shader.lightmaps.on_gpu = &*on_gpu;
+        picture.in_shader.lightmaps.lighting = &lighting;
     }
     const Light all_light = lighting.suns ? sum(lighting.sky, *lighting.suns) : lighting.sky;
     const Rendered rendered = render(a, picture, scene, all_light, context.get());

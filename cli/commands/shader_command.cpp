@@ -19,7 +19,7 @@ struct ShaderArguments {
     Path model, output;
     ShaderLanguage language = ShaderLanguage::glsl450;
     std::optional<ConstantSource> constants; ///< unset: what the language can do
-    bool compute = false;
+    bool compute = false, fragment = false;
     GltfOptions reading;
 };
 
@@ -51,6 +51,17 @@ void warn_of_large_blocks(const Path& model, const ClusteredTransfer& transfer) 
                                    rows, bytes, kGuaranteedBlock, kGuaranteedBlock / sizeof(glm::vec4))});
 }
 
+/// A compute shader where the language has those.
+void write_lightmap_shader(const ShaderArguments& a, const ClusteredTransfer& transfer,
+                           ConstantSource constants, Session& session) {
+    const bool old = constants_for(a.language) == ConstantSource::texture;
+    const LightmapPass pass = a.fragment || old ? LightmapPass::fragment : LightmapPass::compute;
+    session.write(a.output, lightmap_shader(transfer, pass, constants, a.language));
+    print(fmt::format("{}: {} clusters, {} rows of constants; a {} shader over the texels of a map\n",
+                      printable(a.output.string()), transfer.bases.clusters(), constant_rows(transfer.bases),
+                      pass == LightmapPass::compute ? "compute" : "fragment"));
+}
+
 void run(ShaderArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.output, "--output"}}, {a.model});
     const SceneFile model = load_scene_file(a.model, a.reading);
@@ -58,6 +69,10 @@ void run(ShaderArguments a, Session& session) {
         throw Error(a.model.string() + ": holds no compressed transfer; run prt compress first");
     const ClusteredTransfer& transfer = model.compressed->transfer;
     const ConstantSource constants = a.constants.value_or(constants_for(a.language));
+    if (a.fragment && !model.lightmap)
+        throw Error(a.model.string() + ": holds no lightmap, which --fragment is for");
+    if (model.lightmap && !a.compute)
+        return write_lightmap_shader(a, transfer, constants, session);
     const std::string source = a.compute
                                    ? constants_shader(transfer, a.language)
                                    : relight_shader(transfer, constants, a.language, model.scene.origin);
@@ -86,6 +101,9 @@ void add_shader(CLI::App& app, Session& session) {
            "buffer, texture where the language has no buffers");
     command->add_flag("--compute", a.compute,
                       "the compute shader that forms the constants instead of the vertex shader");
+    command->add_flag(
+        "--fragment", a.fragment,
+        "of a lightmap: a fragment shader to draw over a map where a compute shader could do it");
     add_reading(command, a.reading);
 }
 

@@ -13,9 +13,15 @@ void replace_all(std::string& text, std::string_view word, std::string_view by) 
 }
 
 std::string of_texels(std::string text) {
-    for (const auto& [word, by] : {std::pair("per vertex", "per texel"), {"per_vertex", "per_texel"}, {"a vertex", "a texel"}})
+    for (const auto& [word, by] :
+         {std::pair("per vertex", "per texel"), {"per_vertex", "per_texel"}, {"a vertex", "a texel"}})
         replace_all(text, word, by);
     return text;
+}
+
+/// "vertices" as a number, and as a cause of errors.
+std::string title_of_texels(std::string title) {
+    return title == "vertices" ? "texels" : of_texels(std::move(title));
 }
 
 /// Keys alone.
@@ -39,9 +45,12 @@ Json of_texels(const Json& json) {
 void say_texels(Report& report) {
     for (Figure& figure : report.figures) {
         figure.column.key = of_texels(std::move(figure.column.key));
-        figure.column.title = of_texels(std::move(figure.column.title));
+        figure.column.title = title_of_texels(std::move(figure.column.title));
         figure.value = of_texels(figure.value);
     }
+    for (Table& table : report.tables)
+        for (Column& column : table.columns)
+            column.title = title_of_texels(std::move(column.title));
     report.verdict = of_texels(std::move(report.verdict));
     for (std::string& sentence : report.sentences)
         sentence = of_texels(std::move(sentence));

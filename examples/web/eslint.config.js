@@ -3,7 +3,7 @@ import js from "@eslint/js";
 import globals from "globals";
 
 export default [
-  { ignores: ["**/node_modules/", "**/dist/", "**/public/", "**/*.glsl.js"] },
+  { ignores: ["**/node_modules/", "**/dist/", "**/public/", "**/*.glsl.js", "**/*.frag.js"] },
   js.configs.recommended,
   {
     languageOptions: { globals: { ...globals.browser, ...globals.node } },

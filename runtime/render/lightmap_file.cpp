@@ -30,7 +30,8 @@ void read_word(std::span<const std::byte> png, const LightmapSize& size, std::si
                     std::to_string(image.height));
     for (std::size_t t = 0; t < image.pixels.size(); ++t) {
         const glm::u8vec4& p = image.pixels[t];
-        const std::uint32_t value = p.r | std::uint32_t{p.g} << 8 | std::uint32_t{p.b} << 16 | std::uint32_t{p.a} << 24;
+        const std::uint32_t value =
+            p.r | std::uint32_t{p.g} << 8 | std::uint32_t{p.b} << 16 | std::uint32_t{p.a} << 24;
         std::memcpy(&receivers.weights[(first + t) * receivers.stride() + 4 * static_cast<std::size_t>(word)],
                     &value, sizeof value);
     }
@@ -53,7 +54,8 @@ void write_lightmap(GltfDocument& document, const Scene& scene, const Compressed
     const ClusteredReceivers& receivers = lightmap.compressed.transfer.receivers;
     if (receivers.format != WeightFormat::packed)
         throw Error("weights of texels are words of images: they have to be packed");
-    EncodedLightmap encoded{{lightmap.layout, {lightmap.compressed.transfer, lightmap.compressed.record}}, {}};
+    EncodedLightmap encoded{{lightmap.layout, {lightmap.compressed.transfer, lightmap.compressed.record}},
+                            {}};
     for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m)
         for (int w = 0; w < receivers.words; ++w)
             encoded.images.push_back(word_png(lightmap.layout.maps[m], words_of_map(lightmap, m, w)));
@@ -89,9 +91,11 @@ std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& d
 namespace {
 
 /// Receiver `from` of one as receiver `to` of another.
-void copy_receiver(const ClusteredReceivers& source, std::size_t from, ClusteredReceivers& target, std::size_t to) {
+void copy_receiver(const ClusteredReceivers& source, std::size_t from, ClusteredReceivers& target,
+                   std::size_t to) {
     target.clusters[to] = source.clusters[from];
-    std::memcpy(&target.weights[to * target.stride()], &source.weights[from * source.stride()], source.stride());
+    std::memcpy(&target.weights[to * target.stride()], &source.weights[from * source.stride()],
+                source.stride());
 }
 
 ClusteredReceivers room_for(std::size_t count, const ClusteredReceivers& like) {
@@ -105,8 +109,8 @@ ClusteredReceivers room_for(std::size_t count, const ClusteredReceivers& like) {
     return receivers;
 }
 
-/// Calls `visit` with every texel and the receiver, by its place in `texels`, that it is or that lies near it. A
-/// map without receivers is left out.
+/// Calls `visit` with every texel and the receiver, by its place in `texels`, that it is or that lies near
+/// it. A map without receivers is left out.
 template <class Visit>
 void for_each_texel(const LightmapLayout& layout, std::span<const std::uint32_t> texels, Visit&& visit) {
     const std::vector<std::size_t> first = layout.first_texels();

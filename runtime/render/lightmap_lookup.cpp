@@ -14,8 +14,8 @@ glm::vec3 mean(const BilinearTexels& filter, std::span<const glm::vec3> values) 
 
 /// At texture coordinates of a map, whose first texel is `first`.
 BilinearTexels filter_at(const LightmapSize& map, std::size_t first, const glm::vec2& uv) {
-    BilinearTexels filter = bilinear_texels(map, static_cast<double>(uv.x) * map.width,
-                                            static_cast<double>(uv.y) * map.height);
+    BilinearTexels filter =
+        bilinear_texels(map, static_cast<double>(uv.x) * map.width, static_cast<double>(uv.y) * map.height);
     for (std::uint32_t& texel : filter.texels)
         texel += static_cast<std::uint32_t>(first);
     return filter;
@@ -26,12 +26,14 @@ BilinearTexels filter_at(const LightmapSize& map, std::size_t first, const glm::
 LightmapLookup::LightmapLookup(const Scene& scene, const LightmapLayout& layout)
     : scene_(scene), layout_(layout), first_texels_(layout.first_texels()), first_triangles_{0} {
     for (const Primitive& primitive : scene.primitives)
-        first_triangles_.push_back(first_triangles_.back() + static_cast<std::uint32_t>(primitive.triangles.size()));
+        first_triangles_.push_back(first_triangles_.back() +
+                                   static_cast<std::uint32_t>(primitive.triangles.size()));
 }
 
 BilinearTexels LightmapLookup::filter(std::uint32_t triangle, const glm::vec2& barycentrics) const {
     const auto p = static_cast<std::size_t>(std::ranges::upper_bound(first_triangles_, triangle) -
-                                            first_triangles_.begin()) - 1;
+                                            first_triangles_.begin()) -
+                   1;
     const Primitive& primitive = scene_.primitives[p];
     const LightmapPlace& place = layout_.places[p];
     const std::vector<glm::vec2>& uv =

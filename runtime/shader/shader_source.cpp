@@ -186,4 +186,13 @@ std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage l
         define("PRT_ROWS", constant_rows(transfer.bases)) + part_defines(transfer.bases.layout), language);
 }
 
+std::string lightmap_shader(const ClusteredTransfer& transfer, LightmapPass pass, ConstantSource constants,
+                            ShaderLanguage language) {
+    if (pass == LightmapPass::compute && language != ShaderLanguage::glsl450 &&
+        language != ShaderLanguage::vulkan)
+        throw Error("OpenGL 3.3 and OpenGL ES 3.0 have no compute shaders: take the fragment shader");
+    return shader_source(pass == LightmapPass::compute ? "prt_lightmap.comp" : "prt_lightmap.frag",
+                         relight_defines(transfer, constants, language), language);
+}
+
 } // namespace prt

@@ -178,19 +178,19 @@ template <WeightFormat Format>
                 Lanes known[3];
                 known_lanes(row, receivers.guides.data() + p * guides, guides, known);
                 evaluate_lanes(weights + p * stride, stride, layout.components, row + 1 + guides, known,
-                               radiance + p);
+                               radiance + (p - begin));
                 p += kLaneCount - 1;
                 continue;
             }
         const Color sum = known_color(row, receivers.guides.data() + p * guides, guides) +
                           sum_of_weights<Format>(receivers, layout, weights + p * stride, row + 1 + guides);
-        radiance[p] = {sum[0], sum[1], sum[2]};
+        radiance[p - begin] = {sum[0], sum[1], sum[2]};
     }
 }
 
 PRT_TARGET_CLONES
 void evaluate_in_lanes(const ClusteredReceivers& receivers, const ClusterLayout* layouts,
-                    const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
+                       const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
     switch (receivers.format) {
     case WeightFormat::snorm8:
         return evaluate_format<WeightFormat::snorm8>(receivers, layouts, constants, begin, end, radiance);
@@ -216,7 +216,7 @@ void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> cons
     const ClusteredReceivers& receivers = transfer.receivers;
     assert(radiance.size() >= receivers.size());
     parallel_for(receivers.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
-        evaluate_range(receivers, layouts.data(), constants.data(), begin, end, radiance.data());
+        evaluate_range(receivers, layouts.data(), constants.data(), begin, end, radiance.data() + begin);
     });
 }
 

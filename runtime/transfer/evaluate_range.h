@@ -4,8 +4,8 @@
 
 namespace prt {
 
-/// Exit radiance of receivers [begin, end) from formed constants; `radiance` is that of receiver 0, and only
-/// those are written. Allocates nothing.
+/// Exit radiance of receivers [begin, end) from formed constants; `radiance` is that of receiver `begin`.
+/// Allocates nothing.
 void evaluate_range(const ClusteredReceivers& receivers, const ClusterLayout* layouts,
                     const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance);
 

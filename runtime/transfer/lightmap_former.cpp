@@ -1,5 +1,5 @@
-// Radiance of texels, tile by tile: two rows at a time stay in the cache until they and the row of the next level
-// are written.
+// Radiance of texels, tile by tile: two rows at a time stay in the cache until they and the row of the next
+// level are written.
 
 #include "prt/lightmap_former.h"
 
@@ -28,8 +28,7 @@ PRT_TARGET_CLONES
 void write_row(LightmapFormat format, const glm::vec3* texels, int count, std::byte* to) {
     const std::size_t size = bytes_per_texel(format);
     for (int x = 0; x < count; x += kLaneCount)
-        write_texels(format, lanes_of(texels + x),
-                     static_cast<std::size_t>(std::min(kLaneCount, count - x)),
+        write_texels(format, lanes_of(texels + x), static_cast<std::size_t>(std::min(kLaneCount, count - x)),
                      to + static_cast<std::size_t>(x) * size);
 }
 
@@ -45,7 +44,8 @@ std::vector<LightmapLevel> levels_of(const LightmapSize& map, std::size_t texel)
     std::vector<LightmapLevel> levels = {{map.width, map.height, 0}};
     while (levels.back().width > 1 || levels.back().height > 1) {
         const LightmapLevel& last = levels.back();
-        const std::size_t bytes = static_cast<std::size_t>(last.width) * static_cast<std::size_t>(last.height) * texel;
+        const std::size_t bytes =
+            static_cast<std::size_t>(last.width) * static_cast<std::size_t>(last.height) * texel;
         levels.push_back({std::max(1, last.width / 2), std::max(1, last.height / 2), last.first + bytes});
     }
     return levels;
@@ -80,7 +80,9 @@ void LightmapFormer::form_rows(std::size_t map, std::span<const glm::vec4> const
     const LightmapLevel* const half = levels_[map].size() > 1 ? &levels_[map][1] : nullptr;
     const auto place = [&](const LightmapLevel& in, int x, int y) {
         return texels.data() + in.first +
-               (static_cast<std::size_t>(y) * static_cast<std::size_t>(in.width) + static_cast<std::size_t>(x)) * size;
+               (static_cast<std::size_t>(y) * static_cast<std::size_t>(in.width) +
+                static_cast<std::size_t>(x)) *
+                   size;
     };
     glm::vec3 rows[2][kTile] = {}, means[kTile] = {};
     for (int y = first; y < last; y += 2)
@@ -89,16 +91,18 @@ void LightmapFormer::form_rows(std::size_t map, std::span<const glm::vec4> const
             for (int r = 0; r < height; ++r) {
                 const std::size_t begin =
                     first_texels_[map] +
-                    static_cast<std::size_t>(y + r) * static_cast<std::size_t>(level.width) + static_cast<std::size_t>(x);
-                evaluate_range(lightmap_.compressed.transfer.receivers, clusters_.data(), constants.data(), begin,
-                               begin + static_cast<std::size_t>(count), rows[r] - begin);
+                    static_cast<std::size_t>(y + r) * static_cast<std::size_t>(level.width) +
+                    static_cast<std::size_t>(x);
+                evaluate_range(lightmap_.compressed.transfer.receivers, clusters_.data(), constants.data(),
+                               begin, begin + static_cast<std::size_t>(count), rows[r]);
                 write_row(format_, rows[r], count, place(level, x, y + r));
             }
             const bool is_there = half && y / 2 < half->height && (x == 0 || x / 2 < half->width);
             if (!is_there)
                 continue;
             halve(rows[0], rows[height - 1], count, means);
-            write_row(format_, means, std::min(std::max(1, count / 2), half->width - x / 2), place(*half, x / 2, y / 2));
+            write_row(format_, means, std::min(std::max(1, count / 2), half->width - x / 2),
+                      place(*half, x / 2, y / 2));
         }
 }
 
@@ -112,11 +116,11 @@ void LightmapFormer::form_smaller_levels(std::size_t map, std::span<std::byte> t
                 const int count = std::min(kTile, from.width - x), height = std::min(2, from.height - 2 * y);
                 for (int r = 0; r < height; ++r)
                     for (int i = 0; i < count; ++i)
-                        rows[r][i] = read_texel(
-                            format_, texels.data() + from.first +
-                                         (static_cast<std::size_t>(2 * y + r) * static_cast<std::size_t>(from.width) +
-                                          static_cast<std::size_t>(x + i)) *
-                                             size);
+                        rows[r][i] = read_texel(format_, texels.data() + from.first +
+                                                             (static_cast<std::size_t>(2 * y + r) *
+                                                                  static_cast<std::size_t>(from.width) +
+                                                              static_cast<std::size_t>(x + i)) *
+                                                                 size);
                 halve(rows[0], rows[height - 1], count, means);
                 write_row(format_, means, std::max(1, count / 2),
                           texels.data() + to.first +
@@ -134,9 +138,10 @@ void LightmapFormer::form(std::size_t map, std::span<const glm::vec4> constants,
     if (thread_count(threads) == 1)
         form_rows(map, constants, 0, height, texels);
     else
-        parallel_for(static_cast<std::size_t>(height), kRowsAtOnce, threads, [&](std::size_t begin, std::size_t end) {
-            form_rows(map, constants, static_cast<int>(begin), static_cast<int>(end), texels);
-        });
+        parallel_for(static_cast<std::size_t>(height), kRowsAtOnce, threads,
+                     [&](std::size_t begin, std::size_t end) {
+                         form_rows(map, constants, static_cast<int>(begin), static_cast<int>(end), texels);
+                     });
     form_smaller_levels(map, texels);
 }
 

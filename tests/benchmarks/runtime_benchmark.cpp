@@ -191,7 +191,12 @@ CompressedLightmap lightmap_of(int side) {
     ClusteredTransfer& t = lightmap.compressed.transfer;
     t = clustered(256, 8, layout_of_one(kOrder, 1), 1, 1);
     t.bases.bits.assign(256 * 8, 7);
-    t.receivers = {.format = WeightFormat::packed, .cluster_bits = 8, .words = 2, .clusters = {}, .weights = {}, .guides = {}};
+    t.receivers = {.format = WeightFormat::packed,
+                   .cluster_bits = 8,
+                   .words = 2,
+                   .clusters = {},
+                   .weights = {},
+                   .guides = {}};
     std::mt19937 random(1);
     std::vector<std::uint32_t> words;
     for (int i = 0; i < kSide * kSide; ++i) {

@@ -16,6 +16,7 @@ const { PrtkitPlugin, projectEquirectangular } = await import(pathToFileURL(join
 
 const [folder, verbose] = process.argv.slice(2);
 const white = projectEquirectangular(new DataTexture(new Float32Array([1, 1, 1, 1]), 1, 1, RGBAFormat, FloatType));
+globalThis.createImageBitmap ??= async () => ({}); // node decodes no images
 const SECONDS = 20; // a file takes milliseconds
 
 /** What is wrong with a model that was read; nothing where all is right. */
@@ -42,7 +43,7 @@ function wrongModel(gltf) {
 function wrongRefusal(error) {
   if (!(error instanceof Error)) return "what is thrown is no Error";
   const inOurs = /examples\/web\/src/.test(error.stack.split("\n").find((line) => line.trim().startsWith("at ")) ?? "");
-  const ours = /^PRTKIT_clustered_pca: [^\n]+$/.test(error.message);
+  const ours = /^PRTKIT_(clustered_pca|lightmap): [^\n]+$/.test(error.message);
   return inOurs && !ours ? `says ${error.name}: ${error.message}` : null;
 }
 

@@ -27,9 +27,9 @@ struct LightmapStatistics {
         double sources = 0, texels = 0, all = 0;
     };
     Seconds seconds;
-    double mean_visibility = 0; ///< area-weighted T_0 / Y_00 of the direct light
-    double sampling_error = 0;  ///< estimated relative L2 of the direct light, at places of texels
-    double rounding_error = 0;  ///< relative L2 of storing float16
+    double mean_visibility = 0;       ///< area-weighted T_0 / Y_00 of the direct light
+    double sampling_error = 0;        ///< estimated relative L2 of the direct light, at places of texels
+    double rounding_error = 0;        ///< relative L2 of storing float16
     double seam_before = 0, seam = 0; ///< jumps of T_0 / Y_00 across seams, root mean square
     std::vector<std::string> notices;
 

@@ -51,6 +51,9 @@ export class PrtkitModel {
   /** Of the vertex attributes that transfer takes, as they are bound: packed weights in whole 32-bit words, others
    * as vectors of four beside the cluster in a word of its own. */
   readonly bytesPerVertex: number;
+  /** Texels of lightmaps that have transfer, where vertices have none, and the bytes of words of each. */
+  readonly texels: number;
+  readonly bytesPerTexel: number;
   /** Lights all meshes of the file by `light`, all of it or without its suns. `suns`: those that the scene's directional
    * lights add with their shadows; they light here what is lit after a bounce. Without them, and where `directApart` is
    * false, three's lights add nothing. Lamps that `lamps` does not name shine as in the scene,
@@ -64,11 +67,12 @@ export class PrtkitModel {
   /** Strengths of the keys by which `suns` shine without a shadow map, for `lamps` of `setLight` with the same angle; the
    * suns are then left out of its light. Throws a RangeError where the model has no keys. */
   strengthsOfSuns(suns: Sun[], angle?: number): Record<string, [number, number, number]>;
-  /** Frees the tables on the device; materials and geometries are disposed of as all of three's. */
+  /** Frees the tables and lightmaps on the device; materials and geometries are disposed of as all of three's. */
   dispose(): void;
 }
 
-/** Reads PRTKIT_clustered_pca: `loader.register((parser) => new PrtkitPlugin(parser))`. */
+/** Reads PRTKIT_clustered_pca and PRTKIT_lightmap, for WebGLRenderer; that of `prtkit-web/webgpu` for WebGPURenderer:
+ * `loader.register((parser) => new PrtkitPlugin(parser))`. */
 export class PrtkitPlugin implements GLTFLoaderPlugin {
   readonly name: string;
   constructor(parser: GLTFParser);

@@ -21,11 +21,11 @@
 //
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
-import { bakedFrame } from "./bakedFrame.js";
-import { PrtkitModel, TABLES } from "./PrtkitModel.js";
 import { relitMaterial, sunTraits } from "./relitMaterial.js";
-import { convertGeometry } from "./vertexWeights.js";
-import { checkExtension, viewsOf } from "./wholeExtension.js";
+import { TexelPass } from "./texelPass.js";
+import { transferOfTexels } from "./texelTransfer.js";
+import { transferOfVertices } from "./vertexTransfer.js";
+import { expect, TEXELS, VERTICES } from "./wholeExtension.js";
 
 export { halfFloatSky, projectEquirectangular } from "./equirectangular.js";
 export { lightOfSuns, readLightFile } from "./lightFile.js";
@@ -35,63 +35,72 @@ export { projectInWorker } from "./projectInWorker.js";
 export { ShLight } from "./sphericalHarmonics.js";
 export { SunLights } from "./SunLights.js";
 
-const EXTENSION = "PRTKIT_clustered_pca";
-
-/** For `GLTFLoader.register`. Files without the extension load as ever. */
+/** For `GLTFLoader.register`. Files without transfer load as ever. */
 export class PrtkitPlugin {
   constructor(parser) {
     this.parser = parser;
-    this.name = EXTENSION;
+    this.name = VERTICES;
   }
 
   async afterRoot(gltf) {
-    const extension = this.parser.json.extensions?.[EXTENSION];
-    if (!extension) return;
-    checkExtension(extension);
-    const views = new Map();
-    for (const i of viewsOf(extension)) views.set(i, new Uint8Array(await this.viewOf(i)));
-    const model = new PrtkitModel(extension, (i) => views.get(i), gltf.scene);
-    this.convert(gltf, model);
+    const { [VERTICES]: vertices, [TEXELS]: texels } = this.parser.json.extensions ?? {};
+    if (!vertices && !texels) return;
+    expect(!vertices || !texels, "the file has the transfer of texels, too");
+    const { model, of } = vertices
+      ? await transferOfVertices(vertices, (list) => this.viewsOf(list, VERTICES), gltf.scene)
+      : await transferOfTexels(texels, (list) => this.viewsOf(list, TEXELS), gltf.scene, this.parser, this.passOf);
+    this.convert(gltf, model, of);
     gltf.userData.prtkit = model;
   }
 
-  /** The bytes of a buffer view; three knows best whether they are there. */
-  async viewOf(i) {
-    try {
-      return await this.parser.getDependency("bufferView", i);
-    } catch (error) {
-      throw new Error(`${EXTENSION}: buffer view ${i} cannot be read`, { cause: error });
-    }
+  /** The bytes of buffer views; three knows best whether they are there. */
+  async viewsOf(list, name) {
+    const views = new Map();
+    for (const i of list)
+      try {
+        views.set(i, new Uint8Array(await this.parser.getDependency("bufferView", i)));
+      } catch (error) {
+        throw new Error(`${name}: buffer view ${i} cannot be read`, { cause: error });
+      }
+    return views;
   }
 
-  /** Gives the meshes of `gltf` what lights them. */
-  convert(gltf, model) {
+  /** What draws the lightmaps of `model`; and how a material is lit: by WebGLRenderer. */
+  passOf(model, defines, words) {
+    return new TexelPass(model.uniforms, defines, words);
+  }
+
+  materialOf(source, transfer) {
+    return relitMaterial(source, transfer);
+  }
+
+  /** Before a mesh is drawn: another renderer would leave out its light. */
+  checkRenderer(renderer) {
+    if (!renderer.isWebGLRenderer) throw new Error("prtkit: WebGPURenderer wants the plug-in of prtkit-web/webgpu");
+  }
+
+  /** Gives the meshes of `gltf` what lights them. `of(mesh, primitive)`: their transfer. */
+  convert(gltf, model, of) {
     const { json, associations } = this.parser;
-    const defines = new Map(); // by geometry: nodes may share one
     for (const scene of gltf.scenes) {
       scene.updateMatrixWorld(true); // as in the file
       scene.traverse((object) => {
         const from = associations.get(object);
         if (!object.isMesh || from?.meshes === undefined) return;
-        if (!defines.has(object.geometry)) {
-          if (!Object.keys(object.geometry.attributes).some((name) => name.startsWith("_prt_"))) return;
-          const converted = convertGeometry(object.geometry, model.clusters);
-          defines.set(object.geometry, { ...TABLES, ...converted.defines });
-          model.bytesPerVertex = converted.bytesPerVertex;
-          model.vertices += object.geometry.getAttribute("position").count;
-        }
         const primitive = json.meshes?.[from.meshes]?.primitives?.[from.primitives];
+        const transfer = of(object, primitive);
+        if (!transfer) return;
         const number = primitive?.material;
         const gltfMaterial = json.materials?.[number];
         const traits = model.directApart ? sunTraits(gltfMaterial) : null;
-        const frame = bakedFrame(object, model.clusters.guides);
         const strength = model.strengthOf(gltfMaterial?.name || `material ${number}`);
-        object.material = relitMaterial(object.material, {
-          uniforms: { ...model.uniforms, ...frame.uniforms, prtStrength: strength },
-          defines: { ...defines.get(object.geometry), ...frame.defines },
+        object.material = this.materialOf(object.material, {
+          ...transfer,
+          uniforms: { ...model.uniforms, ...transfer.uniforms, prtStrength: strength },
           traits,
-          beforeRender: model.beforeRender,
+          model,
         });
+        object.onBeforeRender = this.checkRenderer;
         if (!traits) return;
         object.castShadow = traits.casts;
         object.receiveShadow = true;

@@ -1,7 +1,7 @@
 // The compressed transfer of one file, shared by its meshes, and what lights it.
 
 import { DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, UnsignedIntType, Vector3 } from "three";
-import { clusterTable, decodeClusters, formConstants, lightColumns, shaderRows } from "./clusteredPca.js";
+import { clusterTable, formConstants, lightColumns, shaderRows } from "./clusteredPca.js";
 import { strengthsOfSuns } from "./lightSet.js";
 import { shownBy, turnForModel, turnedBy } from "./turns.js";
 
@@ -9,31 +9,29 @@ const TEXTURE_WIDTH = 256;
 /** Of the shader: where its tables are. */
 export const TABLES = { PRT_CONSTANTS_TEXTURE: 1, PRT_TEXTURE_WIDTH: TEXTURE_WIDTH };
 
-function tableTexture(count, data, format, type, internalFormat) {
+function tableTexture(count, data, format, type) {
   const height = Math.max(1, Math.ceil(count / TEXTURE_WIDTH));
   const padded = new data.constructor(4 * TEXTURE_WIDTH * height);
   padded.set(data);
   const texture = new DataTexture(padded, TEXTURE_WIDTH, height, format, type);
-  texture.internalFormat = internalFormat;
   texture.minFilter = texture.magFilter = NearestFilter;
   texture.needsUpdate = true;
   return texture;
 }
 
 export class PrtkitModel {
-  /** `root`: the scene of the file, by whose turn in the world `setSky` lights. */
-  constructor(extension, view, root = null) {
+  /** `clusters`: of decodeClusters; `root`: the scene of the file, by whose turn in the world `setSky` lights. */
+  constructor(clusters, root = null) {
     this.root = root;
-    this.clusters = decodeClusters(extension, view);
+    this.clusters = clusters;
     this.rows = shaderRows(this.clusters);
     const { rowCount, components } = this.clusters;
-    this.constantsTexture = tableTexture(rowCount, new Float32Array(4 * rowCount), RGBAFormat, FloatType, "RGBA32F");
+    this.constantsTexture = tableTexture(rowCount, new Float32Array(4 * rowCount), RGBAFormat, FloatType);
     this.clustersTexture = tableTexture(
       components.length,
       clusterTable(this.clusters),
       RGBAIntegerFormat,
       UnsignedIntType,
-      "RGBA32UI",
     );
     this.order = this.clusters.order;
     this.channels = Math.max(...this.clusters.parts.map((part) => part.channels));
@@ -53,8 +51,14 @@ export class PrtkitModel {
     };
     this.vertices = 0;
     this.bytesPerVertex = 0;
+    this.texels = 0;
+    this.bytesPerTexel = 0;
+    this.maps = null; // RelitMaps, where texels have the transfer
     this.sky = null; // of setSky
-    this.beforeRender = () => this.followSky();
+    this.beforeRender = (renderer) => {
+      this.followSky();
+      this.maps?.form(renderer, this.constantsTexture.version);
+    };
   }
 
   /**
@@ -152,6 +156,7 @@ export class PrtkitModel {
   /** Frees the tables. Materials and geometries are disposed of as three's are. */
   dispose() {
     this.sky = null;
+    this.maps?.dispose();
     this.constantsTexture.dispose();
     this.clustersTexture.dispose();
   }

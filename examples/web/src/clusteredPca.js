@@ -51,6 +51,11 @@ const dimensionOf = ({ order, parts }) =>
  */
 export function decodeClusters(extension, view) {
   checkExtension(extension);
+  return clustersOf(extension, view);
+}
+
+/** The same of an extension that is right, of vertices or of texels. */
+export function clustersOf(extension, view) {
   const { order, parts, components, guides = [], bases, packing } = extension;
   const guideRows = 3 * guides.length;
   let centers = new Int16Array(0);

@@ -106,10 +106,14 @@ async function start() {
 
   function showFigures({ bytesPerVertexWithBases, litRms, fileBytes }, milliseconds) {
     const { prtkit } = picture.gltf.userData;
-    figures({
+    const ofVertices = () => ({
       vertices: prtkit.vertices.toLocaleString("en"),
       "bytes per vertex": (bytesPerVertexWithBases ?? prtkit.bytesPerVertex).toFixed(2),
       "of them attributes": prtkit.bytesPerVertex,
+    });
+    const ofTexels = () => ({ texels: prtkit.texels.toLocaleString("en"), "bytes per texel": prtkit.bytesPerTexel });
+    figures({
+      ...(prtkit.maps ? ofTexels() : ofVertices()),
       clusters: prtkit.clusters.components.length,
       order: prtkit.order,
       ...(litRms === undefined ? {} : { "error (lit rms)": `${(100 * litRms).toFixed(2)} %` }),

@@ -23,6 +23,7 @@ import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { halfFloatSky, lightOfSuns, PrtkitPlugin, projectInWorker, readLightFile, SunLights } from "./PrtkitLoader.js";
+import { AS_BAKED } from "./wholeExtension.js";
 import { skyImage } from "./skyImage.js";
 import { truncated, WINDOWS } from "./windows.js";
 import { ExposureMeter } from "./exposureMeter.js";
@@ -52,7 +53,7 @@ async function loadModel(url, progress) {
   disposeOf(gltf);
   throw new Error(
     gltf.parser.json.extensions?.PRTKIT_transfer
-      ? "holds transfer as it was baked: run prt compress"
+      ? `PRTKIT_transfer: ${AS_BAKED}`
       : "is not baked, and holds no transfer: run prt bake and prt compress, or prt make",
   );
 }

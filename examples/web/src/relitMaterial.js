@@ -23,7 +23,7 @@ export function sunTraits(gltfMaterial) {
 }
 
 /** What has no shading of its own, an unlit material, is matte. */
-function matte(source) {
+export function matte(source) {
   return new MeshLambertMaterial({
     name: source.name,
     color: source.color,
@@ -41,10 +41,12 @@ function matte(source) {
 
 /** Gives `material` its light, and its clones theirs: three copies neither defines nor what is done before compiling. */
 function light(material, transfer) {
-  const { uniforms, defines, traits, beforeRender } = transfer;
+  const { uniforms, defines, traits, lightMap, model } = transfer;
   material.defines = { ...material.defines, ...defines };
   if (traits?.lit) material.defines.PRT_SUNS = 1;
   if (PACKED_SHADOW_MAPS) material.defines.PRT_PACKED_SHADOW_MAPS = 1;
+  // Radiance of what has albedo 1; three has irradiance in light maps.
+  if (lightMap) Object.assign(material, { lightMap, lightMapIntensity: Math.PI });
   material.shadowSide = DoubleSide; // every triangle blocks from both sides
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms);
@@ -52,15 +54,15 @@ function light(material, transfer) {
     addTransfer(shader);
   };
   material.customProgramCacheKey = () => `prtkit:${JSON.stringify(material.defines)}`;
-  material.onBeforeRender = beforeRender;
+  material.onBeforeRender = model.beforeRender;
   material.clone = () => light(Object.getPrototypeOf(material).clone.call(material), transfer);
   return material;
 }
 
 /**
  * `source`, the material that GLTFLoader made, as one of its own, lit by `transfer`: `uniforms` of the model, and the strength
- * of what shines; `defines` of the geometry's attributes; `traits` of sunTraits, null where the model keeps no direct light
- * apart; `beforeRender` is called before it is drawn.
+ * of what shines; `defines` of the geometry's attributes; `lightMap`, where texels have the transfer; `traits` of sunTraits,
+ * null where the model keeps no direct light apart; `model`: whose light it is.
  */
 export function relitMaterial(source, transfer) {
   return light(source.isMeshStandardMaterial ? source.clone() : matte(source), transfer);

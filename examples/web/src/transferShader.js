@@ -35,6 +35,10 @@ ${sunLoop}`;
 // With an environment the transfer is what three calls the irradiance of it, and shares energy with the specular reflection as
 // that does. Without, nothing is reflected but diffusely, and rough metals as bounces have them (docs/math.md, section 6).
 const TRANSFER = `
+#ifdef PRT_LIGHTMAP
+  vec3 prtRadiance = RECIPROCAL_PI * irradiance; // of three's light map, which is the transfer's
+  irradiance = vec3( 0.0 );
+#endif
   vec3 prtDiffuse = max( prtRadiance, vec3( 0.0 ) );
 #if defined( STANDARD ) && defined( USE_ENVMAP )
   iblIrradiance = PI * prtDiffuse;
@@ -58,9 +62,9 @@ export function addTransfer(shader) {
   const chunk = (name) => `#include <${name}>`;
   const vertex = (name, text) => (shader.vertexShader = replaced(shader.vertexShader, chunk(name), text));
   const fragment = (name, text) => (shader.fragmentShader = replaced(shader.fragmentShader, chunk(name), text));
-  vertex("common", `${chunk("common")}\n${exitRadiance}\n${transferVertex}`);
+  vertex("common", `${chunk("common")}\n#ifndef PRT_LIGHTMAP\n${exitRadiance}\n#endif\n${transferVertex}`);
   vertex("project_vertex", `${chunk("project_vertex")}\nprtLight( transformed );`);
-  fragment("common", `${chunk("common")}\nin vec3 prtRadiance;\nuniform vec3 prtStrength;`);
+  fragment("common", `${chunk("common")}\n#ifndef PRT_LIGHTMAP\nin vec3 prtRadiance;\n#endif\nuniform vec3 prtStrength;`);
   fragment("shadowmap_pars_fragment", `${chunk("shadowmap_pars_fragment")}\n#ifdef PRT_SUNS\n${sunLight}\n#endif`);
   fragment("normal_fragment_begin", `${chunk("normal_fragment_begin")}${FACE_NORMAL}`);
   fragment("lights_fragment_begin", `${LIGHTS}${NO_IRRADIANCE}`);

@@ -1,6 +1,7 @@
 // From the attributes of a mesh to the frame of the bake, in which guides are; the place is seen from their origin.
 // Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl. Attributes and matrices without
-// prt are three's.
+// prt are three's. Define PRT_LIGHTMAP where texels have the transfer, not vertices.
+#ifndef PRT_LIGHTMAP
 #if !defined(PRT_GUIDE_NORMAL) && !defined(PRT_GUIDE_POSITION)
 vec3 prtBakedPlace() {
   return vec3(0.0);
@@ -29,12 +30,16 @@ vec3 prtBakedNormal() {
 }
 #endif
 
-out vec3 prtRadiance;       // of a receiver of albedo 1
+out vec3 prtRadiance; // of a receiver of albedo 1
+#endif
+
 centroid out vec3 prtPlace; // in the world
 
 // `transformed`: the vertex as its skin and its morph targets have moved it.
 void prtLight(vec3 transformed) {
+#ifndef PRT_LIGHTMAP
   prtRadiance = prt_exit_radiance(prtBakedPlace(), prtBakedNormal());
+#endif
   vec4 place = vec4(transformed, 1.0);
 #ifdef USE_INSTANCING
   place = instanceMatrix * place;

@@ -25,8 +25,8 @@ function wordAttribute(words, stride, first) {
   return new BufferAttribute(part, size);
 }
 
-/** 32-bit words of packed weights that a vertex has: those of the cluster with most bits. */
-const wordsOf = ({ widths, clusterBits }) =>
+/** 32-bit words of packed weights that a vertex or texel has: those of the cluster with most bits. */
+export const wordsOf = ({ widths, clusterBits }) =>
   Math.max(1, ...widths.map((own) => Math.ceil(own.reduce((sum, width) => sum + width, clusterBits) / 32)));
 
 /** The first `count` groups of weights, taken out of a geometry with all of them. */

@@ -1,8 +1,22 @@
-// What the JSON of PRTKIT_clustered_pca must be before anything is computed from it (docs/format.md).
+// What the JSON of PRTKIT_clustered_pca and PRTKIT_lightmap must be before anything is computed from it (docs/format.md).
 
-/** Throws an Error that says `what` is wrong with the file, unless `holds`. */
-export function expect(holds, what) {
-  if (!holds) throw new Error(`PRTKIT_clustered_pca: ${what}`);
+export const VERTICES = "PRTKIT_clustered_pca";
+export const TEXELS = "PRTKIT_lightmap";
+/** What is wrong with a file that is not compressed. */
+export const AS_BAKED = "holds transfer as it was baked; make it one to ship: prt compress baked.glb -o shipped.glb";
+
+/** Throws an Error that says `what` is wrong with the file, unless `holds`. `name`: of the extension that it is wrong with. */
+export function expect(holds, what, name = VERTICES) {
+  if (!holds) throw new Error(`${name}: ${what}`);
+}
+
+/** What `work` returns; what it finds wrong with clusters is wrong with a lightmap. */
+export function ofTexels(work) {
+  try {
+    return work();
+  } catch (error) {
+    throw new Error(error.message.replace(VERTICES, TEXELS), { cause: error });
+  }
 }
 
 /** Of scales of guides and float weights, and metres that a vertex is from the origin of the world. */
@@ -75,8 +89,14 @@ function checkPacking({ packing, components }) {
 /** Throws an Error that says what is wrong with the object at the top level of a glTF. */
 export function checkExtension(extension) {
   expect(isObject(extension), "the extension is no object");
-  const { version, order, parts, components, guides, centers } = extension;
+  const { version } = extension;
   expect(version === 6, `version ${version} is not known, only 6; compress the model again`);
+  checkClusters(extension);
+}
+
+/** The same of what vertices and texels have alike. */
+function checkClusters(extension) {
+  const { order, parts, components, guides, centers } = extension;
   expect(isWhole(order, 1, 10) && areParts(parts), "order or parts are wrong");
   expect(Array.isArray(components) && isWhole(components.length, 1, 65536), "the components are no list of 1 to 65536");
   expect(components.every((m) => isWhole(m, 0, 600)), "the components of a cluster are wrong");
@@ -86,6 +106,34 @@ export function checkExtension(extension) {
   }
   checkBases(extension.bases);
   checkPacking(extension);
+}
+
+const LARGEST_MAP = 16384; // texels along a side: what textures have at most
+
+const isMap = (map) =>
+  isObject(map) &&
+  isWhole(map.width, 1, LARGEST_MAP) &&
+  isWhole(map.height, 1, LARGEST_MAP) &&
+  ["boolean", "undefined"].includes(typeof map.repeats) &&
+  Array.isArray(map.images);
+
+/** As checkExtension, of PRTKIT_lightmap in a glTF with so many `images`. */
+export function checkLightmap(extension, images) {
+  const holds = (value, what) => expect(value, what, TEXELS);
+  holds(isObject(extension), "the extension is no object");
+  const { version, raw, guides, packing, maps } = extension;
+  holds(version === 1, `version ${version} is not known, only 1; compress the model again`);
+  holds(raw === undefined, AS_BAKED);
+  ofTexels(() => checkClusters(extension));
+  holds(guides === undefined, "texels have no guides");
+  holds(packing !== undefined, "the weights of texels are not packed");
+  holds(Array.isArray(maps) && maps.length > 0 && maps.every(isMap), "the maps are wrong");
+  holds(isWhole(maps[0].images.length, 1, 8), "a texel has no words, or more than 8");
+  for (const map of maps)
+    holds(
+      map.images.length === maps[0].images.length && map.images.every((image) => isWhole(image, 0, images - 1)),
+      "the images of the maps are not there, or not as many for each",
+    );
 }
 
 /** The buffer views that an extension, which is right, names. */

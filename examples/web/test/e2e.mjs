@@ -5,11 +5,12 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join } from "node:path";
+import { join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
 import { preview } from "vite";
 import { distFolder } from "../tools/folders.mjs";
+import { bakedModel } from "./bakedModel.js";
 
 const web = fileURLToPath(new URL("../", import.meta.url));
 const prt = process.env.PRT ?? join(web, "../../build/release/cli/prt");
@@ -752,6 +753,82 @@ await check("a model without transfer gives a message", async (page) => {
   await page.waitForSelector("#message:not([hidden])");
   assert.match(await page.locator("#message").innerText(), /is not baked.*prt bake/);
 });
+
+await check("a model with lightmaps is dropped, on a phone, too", async (page, errors) => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  const lightmaps = join(work, "lightmaps.glb");
+  writeFileSync(lightmaps, bakedModel("texels"));
+  await page.goto(url({ model: "knot", suns: 0 }));
+  await picture(page);
+  const count = await drawn(page);
+  await dropped(page, { "lightmaps.glb": lightmaps });
+  await page.waitForFunction(() => document.querySelector("#model").selectedOptions[0].text === "lightmaps.glb");
+  await picture(page, count);
+  await page.locator("#panel summary").click();
+  const [names, values] = await Promise.all(["dt", "dd"].map((part) => page.locator(`#figures ${part}`).allInnerTexts()));
+  assert.deepEqual(names.slice(0, 2), ["texels", "bytes per texel"]);
+  assert.deepEqual(values.slice(0, 2), ["8,384", "8"]);
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 390), "nothing hangs over the side");
+  if (screenshots) await page.screenshot({ path: join(screenshots, "phone-lightmaps.png") });
+  const before = await canvas(page);
+  const next = await drawn(page);
+  await page.evaluate(() => globalThis.prtkitPicture.setAngle(2));
+  await picture(page, next);
+  assert.ok((await difference(page, before, await canvas(page))).mean > 0.3, "light turns");
+  assert.deepEqual(errors, []);
+});
+
+await check("lightmaps of prt: the picture is that of prt render", async (page, errors) => {
+  const [scene, baked, shipped] = ["scene", "baked", "shipped"].map((name) => join(work, `${name}.glb`));
+  writeFileSync(scene, bakedModel("vertices", (json) => {
+    delete json.extensions;
+    // Coats and metals are three's own matter.
+    json.materials = json.materials.map(({ extensions: _, pbrMetallicRoughness, ...material }) => ({
+      ...material,
+      pbrMetallicRoughness: { ...pbrMetallicRoughness, metallicFactor: 0 },
+    }));
+    for (const { primitives } of json.meshes)
+      for (const name of Object.keys(primitives[0].attributes)) if (name.startsWith("_PRT")) delete primitives[0].attributes[name];
+  }));
+  const run = (...options) => execFileSync(prt, options, { stdio: "ignore" });
+  run("bake", scene, "-o", baked, "--rays", "256", "--bounces", "1", "--size", "128", "--unwrap");
+  run("compress", baked, "-o", shipped);
+  const view = { position: [1.5, 3, 5], target: [0, 0.4, 0], fieldOfView: 40 };
+  await page.goto(url({ model: "knot", angle: 60, panel: 0, suns: 0 }));
+  await picture(page);
+  const count = await drawn(page);
+  await dropped(page, { "shipped.glb": shipped });
+  await page.waitForFunction(() => document.querySelector("#model").selectedOptions[0].text === "shipped.glb");
+  await page.evaluate((camera) => {
+    globalThis.prtkitPicture.frame(camera);
+    globalThis.prtkitPicture.draw();
+  }, view);
+  await picture(page, count + 1);
+  const [shown, expected] = [await canvas(page), await render(page, relative(distFolder, shipped), 60, view)];
+  const d = await difference(page, shown, expected);
+  if (screenshots) {
+    writeFileSync(join(screenshots, "lightmaps.png"), Buffer.from(shown.split(",")[1], "base64"));
+    writeFileSync(join(screenshots, "lightmaps.prt.png"), Buffer.from(expected.split(",")[1], "base64"));
+  }
+  console.log(`  mean ${d.mean.toFixed(3)} of 255, ${(100 * d.far).toFixed(2)} % of the pixels differ by more than ${FAR}`);
+  assert.deepEqual(errors, []);
+  assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
+  assert.ok(d.far < FAR_SHARE, `${d.far} of the pixels differ`);
+});
+
+for (const [name, extensions] of Object.entries({
+  PRTKIT_transfer: { PRTKIT_transfer: { version: 4 } },
+  PRTKIT_lightmap: { PRTKIT_lightmap: { version: 1, raw: {} } },
+}))
+  await check(`a raw bake with ${name} gives the command that ships it`, async (page) => {
+    const raw = join(work, "raw.glb");
+    writeFileSync(raw, bakedModel("vertices", (json) => (json.extensions = extensions)));
+    await page.goto(url({ model: "knot" }));
+    await picture(page);
+    await dropped(page, { "raw.glb": raw });
+    await page.waitForSelector("#message:not([hidden])");
+    assert.match(await page.locator("#message").innerText(), new RegExp(`^raw.glb: ${name}: .*prt compress baked.glb -o shipped.glb`));
+  });
 
 await browser.close();
 server.httpServer.close();

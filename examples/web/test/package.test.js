@@ -25,9 +25,12 @@ test("the package has what its modules import, and nothing else", () => {
     importsOf(path).forEach(visit);
   };
   visit(normalize(exports["."].default));
+  const ofWebgl = [...reached].map((path) => readFileSync(join(web, path), "utf8"));
+  assert.ok(ofWebgl.every((text) => !/from "three\/(webgpu|tsl)"/.test(text)), "WebGL does without nodes");
+  visit(normalize(exports["./webgpu"].default));
   assert.ok(reached.has("src/projectionWorker.js"), "workers are found");
   assert.deepEqual(listed.filter((path) => !path.endsWith(".d.ts")).sort(), [...reached].sort());
-  assert.ok(listed.includes(normalize(exports["."].types)));
+  for (const entry of [".", "./webgpu"]) assert.ok(listed.includes(normalize(exports[entry].types)));
 });
 
 test("the package loads where it is installed, and is small", () => {
@@ -47,9 +50,12 @@ test("the package loads where it is installed, and is small", () => {
     writeFileSync(
       join(folder, "game.js"),
       `import * as prtkit from "prtkit-web";
-       console.log(Object.keys(prtkit).sort().join());`,
+       console.log(Object.keys(prtkit).sort().join());
+       const nodes = await import("prtkit-web/webgpu");
+       console.log(Object.keys(nodes).sort().join(), nodes.PrtkitPlugin !== prtkit.PrtkitPlugin);`,
     );
-    assert.equal(execFileSync("node", ["game.js"], { cwd: folder, encoding: "utf8" }), `${names.sort().join()}\n`);
+    const expected = names.sort().join();
+    assert.equal(execFileSync("node", ["game.js"], { cwd: folder, encoding: "utf8" }), `${expected}\n${expected} true\n`);
   } finally {
     rmSync(folder, { recursive: true });
   }

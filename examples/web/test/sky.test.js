@@ -19,6 +19,7 @@ import {
   Vector3,
 } from "three";
 import { lightFromProbe, PrtkitModel, projectEquirectangular, projectInWorker, SunLights } from "../src/PrtkitLoader.js";
+import { decodeClusters } from "../src/clusteredPca.js";
 import { halfFloat } from "../src/halfFloat.js";
 import { evaluateSh, ShLight } from "../src/sphericalHarmonics.js";
 import { environmentTurn, turnedBy } from "../src/turns.js";
@@ -31,7 +32,7 @@ const allNear = (actual, expected, tolerance, what) => expected.forEach((value, 
 function modelTowardsX(root) {
   const values = [0.25, 0, 0, -0.3];
   const extension = { version: 6, order: 2, parts: [{ kind: "whole", channels: 1 }], components: [0], bases: { bufferView: 0 } };
-  return new PrtkitModel(extension, () => new Uint8Array(new Float32Array(values).buffer), root);
+  return new PrtkitModel(decodeClusters(extension, () => new Uint8Array(new Float32Array(values).buffer)), root);
 }
 
 const redOf = (model) => model.constantsTexture.image.data[0];
@@ -118,7 +119,7 @@ test("suns follow the scene as the light does", () => {
 test("suns by the keys of a light set follow, too", () => {
   const key = { kind: "lamp", channels: 1, name: "key", towards: [1, 0, 0] };
   const extension = { version: 6, order: 1, parts: [{ kind: "direct", channels: 1 }, key], components: [0], bases: { bufferView: 0 } };
-  const model = new PrtkitModel(extension, () => new Uint8Array(new Float32Array([0, 5]).buffer), new Object3D());
+  const model = new PrtkitModel(decodeClusters(extension, () => new Uint8Array(new Float32Array([0, 5]).buffer)), new Object3D());
   const scene = new Scene();
   scene.backgroundIntensity = 2;
   model.setSky(lightFrom([0, 1, 0], 1), scene, { keyed: [{ towards: [0, 0, 1], irradiance: [1, 2, 3], halfAngle: 0 }] });

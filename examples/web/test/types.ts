@@ -14,6 +14,7 @@ import {
   ShLight,
   SunLights,
 } from "../src/PrtkitLoader.js";
+import { PrtkitPlugin as NodePlugin, PrtkitModel as Model } from "../src/webgpu.js";
 
 export async function show(scene: Scene): Promise<number> {
   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
@@ -37,5 +38,6 @@ export async function show(scene: Scene): Promise<number> {
   model.setSky(await projectInWorker(sky, 6, { center: "z" }), scene, { suns: lightOfSuns(lighting.suns), keyed: [] });
   model.setSky(lightFromProbe(new LightProbe()).rotated([1, 0, 0, 0, 1, 0, 0, 0, 1]), scene);
   suns.follow(scene).lights[0].shadow.autoUpdate = false;
-  return model.bytesPerVertex * model.vertices;
+  const nodes: Model = (await new GLTFLoader().register((parser) => new NodePlugin(parser)).loadAsync("model.glb")).userData.prtkit;
+  return model.bytesPerVertex * model.vertices + nodes.bytesPerTexel * nodes.texels;
 }

@@ -1,5 +1,5 @@
-// Makes GLSL JavaScript modules, with what it includes: shaders/prt_exit_radiance.glsl, of which there is one source, and
-// what stands in src/.
+// Makes GLSL JavaScript modules, with what it includes: those of shaders/, of which there is one source, and what stands in
+// src/.
 import { readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
@@ -14,5 +14,5 @@ function embed(folder, name) {
   );
 }
 
-embed("shaders/", "prt_exit_radiance.glsl");
+for (const name of ["prt_exit_radiance.glsl", "prt_lightmap.frag"]) embed("shaders/", name);
 for (const name of ["sunLight", "sunLoop", "transferVertex"]) embed("examples/web/src/", `${name}.glsl`);

@@ -5,7 +5,8 @@
 //     LightmapFormer former(lightmap, LightmapFormat::rgb9e5);         // once per model
 //     std::vector<std::byte> texels(former.bytes(map));
 //     constants.form(light, formed);                                   // prt/constant_former.h
-//     former.form(map, formed, texels);                                // when the lighting changes: then upload
+//     former.form(map, formed, texels);                                // when the lighting changes: then
+//     upload
 //
 // The texture goes into the lightmap slot of an engine: exit radiance is what it holds, times albedo; slots
 // that want irradiance take pi times as much. Experimental.

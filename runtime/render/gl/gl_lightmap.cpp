@@ -120,7 +120,8 @@ void GlLightmap::set_light(const Lighting& lighting) {
         glGenerateTextureMipmap(map.name());
 }
 
-std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout, std::span<const glm::vec3> radiance) {
+std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout,
+                                             std::span<const glm::vec3> radiance) {
     std::vector<GlObject> maps;
     const std::vector<std::size_t> first = layout.first_texels();
     for (std::size_t m = 0; m < layout.maps.size(); ++m) {
@@ -163,8 +164,8 @@ std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, 
     return radiance;
 }
 
-std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap, const Lighting& lighting,
-                                                      const GlContext&) {
+std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap,
+                                                      const Lighting& lighting, const GlContext&) {
     const ClusteredTransfer& transfer = lightmap.compressed.transfer;
     const BoundConstants bound(transfer, lighting);
     const GlObject program = make_program("background.vert", "prt_lightmap.frag", relight_defines(transfer)),

@@ -60,7 +60,7 @@ public:
           arrays_(scene_.make_vertex_arrays()) {
         scene_.shine(picture.emission);
         std::string defines;
-        if (picture.lightmaps.layout) {
+        if (picture.in_shader.lightmaps.layout) {
             light_by_maps();
             defines = "#define PRT_LIGHTMAP\n";
         } else if (picture.in_shader.transfer) {
@@ -99,7 +99,7 @@ public:
 
 private:
     void light_by_maps() {
-        const PictureLightmaps& lightmaps = picture_.lightmaps;
+        const PictureLightmaps& lightmaps = picture_.in_shader.lightmaps;
         if (lightmaps.on_gpu) {
             lightmap_.emplace(*lightmaps.on_gpu);
             lightmap_->set_light(*lightmaps.lighting);

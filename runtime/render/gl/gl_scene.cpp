@@ -177,7 +177,8 @@ void GlScene::prepare(const GlObject& program, const GlVertexArrays& arrays, std
 void GlScene::prepare_lightmap(std::uint32_t array, std::size_t primitive) const {
     const LightmapPlace& place = lightmaps_.layout->places[primitive];
     const Vertices& vertices = vertices_[scene_.primitives[primitive].vertices];
-    attach_floats(array, vertices.texcoords[static_cast<std::size_t>(place.texcoord)], PRT_LOCATION_LIGHTMAP, 2);
+    attach_floats(array, vertices.texcoords[static_cast<std::size_t>(place.texcoord)], PRT_LOCATION_LIGHTMAP,
+                  2);
     glBindTextureUnit(PRT_UNIT_LIGHTMAP, lightmaps_.maps[place.map].name());
 }
 

@@ -235,7 +235,7 @@ Scene cut_floor() {
 double jump(const Atlas& atlas, const SeamPoint& point, std::span<const float> values) {
     double sum = 0;
     for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
-        const Bilinear filter = bilinear_at(atlas, place);
+        const BilinearTexels filter = bilinear_at(atlas, place);
         for (std::size_t i = 0; i < 4; ++i)
             sum += sign * filter.weights[i] * static_cast<double>(values[filter.texels[i]]);
     }

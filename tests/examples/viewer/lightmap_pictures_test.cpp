@@ -98,7 +98,7 @@ protected:
     prt::Picture picture_by(const std::vector<glm::vec3>& texels) const {
         prt::Picture picture = picture_of(*loaded.model, {}, view.camera, kShot.x, kShot.y);
         picture.textured = settings.drawing.textured;
-        picture.lightmaps = {.layout = loaded.lightmap.layout(), .radiance = texels};
+        picture.in_shader.lightmaps = {.layout = loaded.lightmap.layout(), .radiance = texels};
         picture.suns = lit.suns;
         return picture;
     }

@@ -41,6 +41,10 @@ for file in *.vert *.frag *.comp; do
                 compiles "$file" "PRT_ORDER 6" $defines
             done
             ;;
+        prt_lightmap.comp)
+            compiles "$file" "${packed[@]}"
+            compiles "$file" "${packed[@]}" "${alike[@]}" "PRT_LIGHTMAP_FORMAT r11f_g11f_b10f"
+            ;;
         *.comp)
             compiles "$file" "PRT_ROWS 40" "PRT_NUMBERS 144" "PRT_FIRST_CHANNELS 1" "PRT_COEFFICIENTS 36"
             compiles "$file" "PRT_ROWS 40" "PRT_NUMBERS 144" "PRT_FIRST_CHANNELS 3" "PRT_COEFFICIENTS 36"
@@ -58,6 +62,7 @@ for file in *.vert *.frag *.comp; do
             ;;
         scene.vert | viewer_*)
             compiles "$file"
+            compiles "$file" PRT_LIGHTMAP
             compiles "$file" "${packed[@]}"
             compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 8"
             compiles "$file" PRT_VERTEX_RADIANCE PRT_RADIANCE_GIVEN
@@ -67,6 +72,7 @@ for file in *.vert *.frag *.comp; do
             ;;
         scene.frag | sun_caster.frag)
             compiles "$file"
+            compiles "$file" PRT_LIGHTMAP
             compiles "$file" PRT_SUNS PRT_PARTLY
             ;;
         *) compiles "$file" ;;

@@ -1,9 +1,11 @@
 // What runs every frame allocates nothing: a program of its own, because it counts every allocation.
 
 #include "prt/constant_former.h"
+#include "prt/lightmap_former.h"
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
 #include "prt/sh_vector.h"
+#include "support/random_lightmap.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +13,7 @@
 #include <atomic>
 #include <cstdlib>
 #include <new>
+#include <random>
 
 namespace {
 std::atomic<std::size_t> allocations = 0;
@@ -56,6 +59,20 @@ TEST(Frame, AllocatesNothing) {
     EXPECT_GT(constants[0].r, 0);
     const std::vector<int> one(1); // the counter does count
     EXPECT_GT(allocations, before);
+}
+
+TEST(Lightmap, IsLitWithoutAllocation) {
+    std::mt19937 random(1);
+    const CompressedLightmap lightmap = test::random_lightmap({{70, 40}}, 2, false, random);
+    const ConstantFormer constants(lightmap.compressed.transfer);
+    std::vector<glm::vec4> formed(constants.rows());
+    const Light light = constant_light(3, {1, 2, 3});
+    const LightmapFormer former(lightmap, LightmapFormat::rgb9e5);
+    std::vector<std::byte> texels(former.bytes(0));
+    const std::size_t before = allocations;
+    constants.form(light.coefficients, formed);
+    former.form(0, formed, texels, 1); // several threads have to be started
+    EXPECT_EQ(allocations, before);
 }
 
 } // namespace

@@ -13,8 +13,8 @@
 
 namespace prt {
 
-/// Writes PRTKIT_lightmap into `document`, from which `scene` was extracted; weights have to be packed. Throws
-/// `Error`.
+/// Writes PRTKIT_lightmap into `document`, from which `scene` was extracted; weights have to be packed.
+/// Throws `Error`.
 void write_lightmap(GltfDocument& document, const Scene& scene, const CompressedLightmap& lightmap);
 
 /// The compressed lightmap in the file; nothing when it holds none. Throws `Error` when it is damaged.

@@ -20,8 +20,8 @@ public:
     /// Keeps references to both.
     LightmapLookup(const Scene& scene, const LightmapLayout& layout);
 
-    /// What a bilinear filter reads at a place of `triangle`, in the order of the scene's primitives and their
-    /// triangles; `barycentrics` of corners 1 and 2. Texels are numbered as those of the layout.
+    /// What a bilinear filter reads at a place of `triangle`, in the order of the scene's primitives and
+    /// their triangles; `barycentrics` of corners 1 and 2. Texels are numbered as those of the layout.
     BilinearTexels filter(std::uint32_t triangle, const glm::vec2& barycentrics) const;
     /// The mean that it gives of `values` [texels of the layout].
     glm::vec3 look_up(std::uint32_t triangle, const glm::vec2& barycentrics,

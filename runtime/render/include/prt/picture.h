@@ -23,12 +23,6 @@ struct Background {
     float rotation = 0;           ///< about +Y, as in `rotated_about_y`; radians
 };
 
-/// Transfer, and the lighting that a vertex shader multiplies it with.
-struct LitInShader {
-    const ClusteredTransfer* transfer = nullptr;
-    const Lighting* lighting = nullptr;
-};
-
 /// Lightmaps that light surfaces in the place of their vertices.
 struct PictureLightmaps {
     const LightmapLayout* layout = nullptr; ///< null: there are none
@@ -36,6 +30,13 @@ struct PictureLightmaps {
     /// Where set, OpenGL forms it on the GPU, lit by `lighting`.
     const CompressedLightmap* on_gpu = nullptr;
     const Lighting* lighting = nullptr;
+};
+
+/// Transfer, and the lighting that a vertex shader multiplies it with.
+struct LitInShader {
+    const ClusteredTransfer* transfer = nullptr;
+    const Lighting* lighting = nullptr;
+    PictureLightmaps lightmaps = {}; ///< whichever renderer
 };
 
 struct Picture {
@@ -46,7 +47,6 @@ struct Picture {
     std::span<const glm::vec3> radiance;
     /// Where set, OpenGL forms the exit radiance in the vertex shader from it instead of `radiance`.
     LitInShader in_shader;
-    PictureLightmaps lightmaps;
     /// Their light is not in the radiance above but is added at each pixel, sharply shadowed.
     std::span<const SunDisc> suns = {};
 

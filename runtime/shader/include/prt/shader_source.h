@@ -54,4 +54,15 @@ std::string part_defines(const TransferLayout& layout);
 /// A complete compute shader that forms the constants (shaders/prt_constants.comp), for GLSL 4.5 and Vulkan.
 std::string constants_shader(const ClusteredTransfer& transfer, ShaderLanguage language);
 
+/// Which pass lights a lightmap.
+enum class LightmapPass {
+    compute,  ///< prt_lightmap.comp: GLSL 4.5 and Vulkan
+    fragment, ///< prt_lightmap.frag: every language
+};
+
+/// The whole shader that lights a lightmap of packed words. Throws `Error` as `relight_defines` does, and
+/// where the language has no compute shaders.
+std::string lightmap_shader(const ClusteredTransfer& transfer, LightmapPass pass, ConstantSource constants,
+                            ShaderLanguage language);
+
 } // namespace prt

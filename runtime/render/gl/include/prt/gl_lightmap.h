@@ -43,7 +43,8 @@ private:
 };
 
 /// Textures of `radiance` [layout.texels()], with all levels.
-std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout, std::span<const glm::vec3> radiance);
+std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout,
+                                             std::span<const glm::vec3> radiance);
 /// The same without radiance, RGBA16F: for shaders that write it.
 std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout);
 
@@ -51,7 +52,7 @@ std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout);
 std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, const Lighting& lighting,
                                             const GlContext& context);
 /// The same by `shaders/prt_lightmap.frag`, drawn over maps.
-std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap, const Lighting& lighting,
-                                                      const GlContext& context);
+std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap,
+                                                      const Lighting& lighting, const GlContext& context);
 
 } // namespace prt

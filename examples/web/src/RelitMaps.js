@@ -1,0 +1,59 @@
+// Lightmaps of a model as textures of radiance, which are drawn anew when its light has changed.
+
+import { ClampToEdgeWrapping, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, RepeatWrapping, WebGLRenderTarget } from "three";
+
+function targetOf({ width, height, repeats }) {
+  const wrapping = repeats ? RepeatWrapping : ClampToEdgeWrapping;
+  return new WebGLRenderTarget(width, height, {
+    type: HalfFloatType,
+    minFilter: LinearMipmapLinearFilter,
+    magFilter: LinearFilter,
+    generateMipmaps: true,
+    wrapS: wrapping,
+    wrapT: wrapping,
+    depthBuffer: false,
+  });
+}
+
+export class RelitMaps {
+  /** `maps`: [{ width, height, repeats, words }], with the textures of their words. `pass`: draws texels (texelPass.js). */
+  constructor(maps, pass) {
+    this.maps = maps;
+    this.pass = pass;
+    this.targets = new Map(); // by map and coordinates: a texture of three knows which coordinates look it up
+    this.formed = new Map(); // by renderer, the version of the constants that its textures are of
+  }
+
+  /** The radiance of map `i`, looked up by the coordinates of that number. */
+  texture(i, texCoord) {
+    const key = `${i} ${texCoord}`;
+    if (!this.targets.has(key)) {
+      const target = targetOf(this.maps[i]);
+      target.texture.channel = texCoord;
+      target.texture.name = `prtkit map ${i}`;
+      this.targets.set(key, { target, map: this.maps[i] });
+    }
+    return this.targets.get(key).target.texture;
+  }
+
+  /** Draws all maps, unless `renderer` has those of this version of the constants. */
+  form(renderer, version) {
+    if (this.formed.get(renderer) === version) return;
+    if (!this.formed.has(renderer)) this.forgetLost(renderer);
+    this.formed.set(renderer, version); // first: whoever draws may come here again
+    for (const { target, map } of this.targets.values()) this.pass.draw(renderer, target, map);
+  }
+
+  /** What a device held is gone when it is lost: to be drawn again when it is there again. */
+  forgetLost({ domElement }) {
+    domElement?.addEventListener?.("webglcontextrestored", () => this.formed.clear());
+  }
+
+  /** Frees what is on the device; it is made again where a map is still drawn with. */
+  dispose() {
+    this.formed.clear();
+    this.pass.dispose();
+    for (const { target } of this.targets.values()) target.dispose();
+    for (const { words } of this.maps) for (const texture of words) texture.dispose();
+  }
+}

@@ -1,0 +1,170 @@
+// Materials of WebGPURenderer, lit by transfer as relitMaterial.js has those of WebGLRenderer. Where transfer goes is told by
+// transferShader.js; suns that are apart have three's own shadows here.
+
+import {
+  diffuseColor,
+  materialEmissive,
+  materialLightMap,
+  materialRoughness,
+  metalness,
+  normalFlat,
+  normalView,
+  property,
+  uniform,
+  vec3,
+} from "three/tsl";
+import { DoubleSide, LightingNode, MeshLambertNodeMaterial, MeshPhysicalNodeMaterial, MeshStandardNodeMaterial, Vector3, Vector4 } from "three/webgpu";
+import { radianceOfVertices } from "./radianceNodes.js";
+import { matte } from "./relitMaterial.js";
+
+// Of the material that is drawn.
+const strength = uniform(new Vector3()).onObjectUpdate(({ material }) => material._transfer.uniforms.prtStrength.value);
+const sunsApart = uniform(0).onObjectUpdate(({ material }) => Number(material._transfer.uniforms.prtSunsApart.value));
+const transmission = uniform(new Vector4()).onObjectUpdate(({ material }) => material._transfer.traits.transmission);
+const emission = materialEmissive.mul(strength); // one node for all, so that they share programs
+const baseColor = property("vec3", "prtBaseColor");
+
+/** Brings the model's light up to date before anything that it lights is drawn. */
+class LightNode extends LightingNode {
+  constructor(model) {
+    super();
+    this.model = model;
+    this.updateBeforeType = "render";
+  }
+
+  updateBefore({ renderer }) {
+    this.model.beforeRender(renderer);
+  }
+
+  setup() {}
+}
+
+/** Suns that are apart, through thin sheets, too: sunLoop.glsl. */
+function sunLight(lighting, thin) {
+  const { direct } = lighting;
+  return (data, builder) => {
+    const { lightDirection, reflectedLight } = data;
+    const cosine = normalView.dot(lightDirection);
+    const arrives = cosine.mul(normalFlat.dot(lightDirection)).greaterThan(0).select(sunsApart, 0);
+    const lightColor = data.lightColor.mul(arrives).toVar();
+    if (!thin) return direct.call(lighting, { ...data, lightColor }, builder);
+    const directDiffuse = vec3(0).toVar();
+    direct.call(lighting, { ...data, lightColor, reflectedLight: { ...reflectedLight, directDiffuse } }, builder);
+    const behind = cosine.negate().max(0).mul(transmission.a).div(Math.PI);
+    reflectedLight.directDiffuse.addAssign(directDiffuse.mul(transmission.a.oneMinus()).add(lightColor.mul(transmission.rgb).mul(behind)));
+  };
+}
+
+/** Changes what a lighting model of three's adds up: the transfer's `radiance` is its diffuse light around. */
+function relit(lighting, { radiance, reflects, thin }) {
+  const diffuse = radiance.max(0);
+  if (lighting.indirectSpecular === undefined)
+    lighting.indirect = ({ context: { irradiance, reflectedLight } }) =>
+      reflectedLight.indirectDiffuse.addAssign(irradiance.div(Math.PI).add(diffuse).mul(diffuseColor.rgb));
+  else {
+    const { indirectDiffuse, ambientOcclusion } = lighting;
+    lighting.indirectDiffuse = (builder) => {
+      indirectDiffuse.call(lighting, builder);
+      const { iblIrradiance, reflectedLight } = builder.context;
+      const scattered = metalness.mul(materialRoughness.mul(materialRoughness).oneMinus()).oneMinus();
+      if (reflects) iblIrradiance.assign(diffuse.mul(Math.PI));
+      else reflectedLight.indirectDiffuse.addAssign(diffuse.mul(baseColor).mul(scattered));
+    };
+    // Occlusion of the surroundings is in the transfer.
+    lighting.ambientOcclusion = (builder) => {
+      const reflectedLight = { ...builder.context.reflectedLight, indirectDiffuse: vec3(0).toVar() };
+      ambientOcclusion.call(lighting, { ...builder, context: { ...builder.context, reflectedLight } });
+    };
+  }
+  lighting.direct = sunLight(lighting, thin);
+  return lighting;
+}
+
+/** Own properties of `source`, as three makes node materials of others; colours and vectors are copies. */
+function take(material, source) {
+  for (const [key, value] of Object.entries(source)) {
+    if (["uuid", "type", "version", "_transfer"].includes(key) || value?.isNode) continue;
+    const isValue = value?.isColor || value?.isVector2 || value?.isVector3 || value?.isEuler || value?.isMatrix3;
+    material[key] = isValue ? value.clone() : value;
+  }
+}
+
+const lit = (Base) =>
+  class extends Base {
+    /** `transfer`: as of relitMaterial. */
+    light(transfer) {
+      this._transfer = transfer;
+      this.shadowSide = DoubleSide; // every triangle blocks from both sides
+      if (transfer.lightMap) Object.assign(this, { lightMap: transfer.lightMap, lightMapIntensity: Math.PI });
+      this.emissiveNode = emission;
+      return this;
+    }
+
+    get isMapped() {
+      return Boolean(this._transfer.lightMap);
+    }
+
+    /** Of whom the same nodes are: all of a model whose attributes, coordinates and suns are alike. */
+    customProgramCacheKey() {
+      const { model, defines, traits, lightMap } = this._transfer;
+      const parts = [model.constantsTexture.id, JSON.stringify(defines), traits?.lit, traits?.transmission.w > 0, lightMap?.channel];
+      return `${super.customProgramCacheKey()}:prtkit:${parts.join(":")}`;
+    }
+
+    setupEnvironment(builder) {
+      const node = super.setupEnvironment(builder);
+      this._reflects = node !== null;
+      return node;
+    }
+
+    setupLightMap(builder) {
+      return this.isMapped ? null : super.setupLightMap(builder);
+    }
+
+    /** Three's own lights are left out but for suns: they are in the sky, or lamps of the transfer. */
+    setupLighting(builder) {
+      const { lightsNode } = this;
+      const { model, traits } = this._transfer;
+      const suns = traits?.lit ? (lightsNode ?? builder.lightsNode).getLights().filter(({ isDirectionalLight }) => isDirectionalLight) : [];
+      this.lightsNode = builder.renderer.lighting.createNode([...suns, new LightNode(model)]);
+      try {
+        return super.setupLighting(builder);
+      } finally {
+        this.lightsNode = lightsNode;
+      }
+    }
+
+    setupVariants(builder) {
+      baseColor.assign(diffuseColor.rgb);
+      return super.setupVariants(builder);
+    }
+
+    setupLightingModel(builder) {
+      const { model, defines, traits } = this._transfer;
+      if (builder.renderer.backend.isWebGPUBackend && defines.PRT_WEIGHT_VECTORS > 5)
+        throw new Error("prtkit: WebGPU has no room for so many weights of a vertex: run prt compress with fewer components, or packed");
+      return relit(super.setupLightingModel(builder), {
+        radiance: this.isMapped ? materialLightMap.div(Math.PI) : radianceOfVertices(model, defines),
+        reflects: this._reflects,
+        thin: traits?.transmission.w > 0,
+      });
+    }
+
+    copy(source) {
+      super.copy(source);
+      take(this, source);
+      return this.light(source._transfer);
+    }
+  };
+
+const LitPhysical = lit(MeshPhysicalNodeMaterial);
+const LitStandard = lit(MeshStandardNodeMaterial);
+const LitLambert = lit(MeshLambertNodeMaterial);
+
+/** As relitMaterial, for WebGPURenderer. */
+export function nodeMaterial(source, transfer) {
+  const Material = source.isMeshPhysicalMaterial ? LitPhysical : source.isMeshStandardMaterial ? LitStandard : LitLambert;
+  const material = new Material();
+  take(material, source.isMeshStandardMaterial ? source : matte(source));
+  return material.light(transfer);
+}

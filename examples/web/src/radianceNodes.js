@@ -1,0 +1,126 @@
+// shaders/prt_exit_radiance.glsl in three's node language, for WebGPURenderer: of vertices, and of texels.
+
+import {
+  attribute,
+  Fn,
+  float,
+  If,
+  ivec2,
+  Loop,
+  normalGeometry,
+  positionGeometry,
+  textureLoad,
+  uint,
+  uniform,
+  varying,
+  vec3,
+} from "three/tsl";
+import { Matrix3, Matrix4 } from "three/webgpu";
+import { TABLES } from "./PrtkitModel.js";
+
+const ROW_BITS = Math.log2(TABLES.PRT_TEXTURE_WIDTH);
+
+/** Entry `i`, an unsigned integer, of a table of PrtkitModel. */
+const entry = (table, i) =>
+  textureLoad(table, ivec2(i.bitAnd(uint(TABLES.PRT_TEXTURE_WIDTH - 1)), i.shiftRight(uint(ROW_BITS))));
+
+/** What reads bits of words: `width` of them from bit `at` on, which may lie across two. */
+function bitsOf(words) {
+  const word = (i) => words.reduce((chosen, one, k) => (k === 0 ? one : i.equal(uint(k)).select(one, chosen)), null);
+  return (at, width) => {
+    const shift = at.bitAnd(uint(31));
+    const low = word(at.shiftRight(uint(5))).shiftRight(shift);
+    const high = word(at.shiftRight(uint(5)).add(uint(1))).shiftLeft(uint(32).sub(shift).bitAnd(uint(31)));
+    const both = words.length > 1 ? shift.add(width).greaterThan(uint(32)).select(low.bitOr(high), low) : low;
+    return both.bitAnd(uint(1).shiftLeft(width).sub(uint(1)));
+  };
+}
+
+const NO_GUIDES = { rows: 0, of: null };
+
+/**
+ * Radiance of what has the packed `words()`. `guides`: { rows, of }, how many rows of a cluster they take and, given its first
+ * row, what they add to its mean.
+ */
+export function radianceOfWords({ constantsTexture, clustersTexture }, words, clusterBits, guides = NO_GUIDES) {
+  return Fn(() => {
+    const bits = bitsOf(words());
+    const cluster = entry(clustersTexture, bits(uint(0), uint(clusterBits))).toVar();
+    const first = cluster.x;
+    const radiance = vec3(entry(constantsTexture, first).rgb).toVar();
+    if (guides.of) radiance.addAssign(guides.of(first));
+    const at = uint(clusterBits).toVar();
+    Loop({ start: uint(0), end: cluster.y, type: "uint", condition: "<" }, ({ i }) => {
+      const widths = i.lessThan(uint(8)).select(cluster.z, cluster.w);
+      const width = widths.shiftRight(i.bitAnd(uint(7)).mul(uint(4))).bitAnd(uint(15)).add(uint(1)).toVar();
+      const row = first.add(uint(1 + guides.rows)).add(i);
+      radiance.addAssign(entry(constantsTexture, row).rgb.mul(float(bits(at, width))));
+      at.addAssign(width);
+    });
+    return radiance;
+  })();
+}
+
+/** The same where weights are vectors of four beside the cluster. */
+function radianceOfWeights({ constantsTexture, clustersTexture }, vectors, guides) {
+  return Fn(() => {
+    const cluster = entry(clustersTexture, attribute("prt_cluster", "uint")).toVar();
+    const first = cluster.x;
+    const radiance = vec3(entry(constantsTexture, first).rgb).toVar();
+    if (guides.of) radiance.addAssign(guides.of(first));
+    for (let j = 0; j < 4 * vectors; ++j)
+      If(uint(j).lessThan(cluster.y), () => {
+        const weight = attribute(`prt_weights_${j >> 2}`, "vec4")["xyzw"[j & 3]];
+        radiance.addAssign(entry(constantsTexture, first.add(uint(1 + guides.rows + j))).rgb.mul(weight));
+      });
+    return radiance;
+  })();
+}
+
+// By the material that is drawn: the same nodes serve all of a model.
+const ofMaterial = (value, name) => uniform(value).onObjectUpdate(({ material }) => material._transfer.uniforms[name].value);
+const toBake = ofMaterial(new Matrix4(), "prtToBake");
+const normalToBake = ofMaterial(new Matrix3(), "prtNormalToBake");
+
+/** Place and normal of a vertex in the frame of the bake, as transferVertex.glsl has them. */
+function bakedFrameOf(defines) {
+  if (defines.PRT_BAKED_ATTRIBUTES) return { place: attribute("prt_place", "vec3"), normal: attribute("prt_normal", "vec3") };
+  const turned = normalToBake.mul(normalGeometry);
+  return { place: toBake.mul(positionGeometry).xyz, normal: turned.mul(turned.dot(turned).max(1e-30).inverseSqrt()) };
+}
+
+function guidesOf({ constantsTexture }, defines) {
+  const { place, normal } = bakedFrameOf(defines);
+  const vectors = [...(defines.PRT_GUIDE_NORMAL ? [normal] : []), ...(defines.PRT_GUIDE_POSITION ? [place] : [])];
+  if (vectors.length === 0) return NO_GUIDES;
+  const coordinates = vectors.flatMap((vector) => [vector.x, vector.y, vector.z]);
+  const of = (first) =>
+    coordinates
+      .map((x, g) => entry(constantsTexture, first.add(uint(1 + g))).rgb.mul(x))
+      .reduce((sum, added) => sum.add(added));
+  return { rows: coordinates.length, of };
+}
+
+const TYPES = ["uint", "uvec2", "uvec3", "uvec4"];
+
+/** The words of a vertex, from the attributes of vertexWeights.js. */
+function wordsOfVertex(count) {
+  const inAttribute = (i) => Math.min(4, count - 4 * i);
+  return Array.from({ length: count }, (_, j) => {
+    const size = inAttribute(j >> 2);
+    const words = attribute(`prt_words_${j >> 2}`, TYPES[size - 1]);
+    return size === 1 ? words : words["xyzw"[j & 3]];
+  });
+}
+
+/** Radiance of the vertices of a geometry with these `defines`, interpolated. */
+export function radianceOfVertices(model, defines) {
+  const guides = guidesOf(model, defines);
+  const packed = defines.PRT_PACKED_WORDS;
+  return varying(
+    packed
+      ? radianceOfWords(model, () => wordsOfVertex(packed), defines.PRT_CLUSTER_BITS, guides)
+      : radianceOfWeights(model, defines.PRT_WEIGHT_VECTORS, guides),
+    "prtRadiance",
+  );
+}

@@ -1,0 +1,44 @@
+// Models whose texels have the transfer: PRTKIT_lightmap.
+
+import { clustersOf } from "./clusteredPca.js";
+import { PrtkitModel, TABLES } from "./PrtkitModel.js";
+import { RelitMaps } from "./RelitMaps.js";
+import { wordsOf } from "./vertexWeights.js";
+import { checkLightmap, expect, ofTexels, TEXELS, viewsOf } from "./wholeExtension.js";
+import { wordTexture } from "./wordImages.js";
+
+const holds = (value, what) => expect(value, what, TEXELS);
+
+/** The coordinates of a mesh that its primitive names, by their number. */
+function coordinatesOf({ geometry }, { texCoord }) {
+  holds(Number.isInteger(texCoord) && texCoord >= 0, "the coordinates of a primitive are no number");
+  holds(texCoord < 4, `a primitive has its map at TEXCOORD_${texCoord}: three has four, up to TEXCOORD_3`);
+  const name = texCoord === 0 ? "uv" : `uv${texCoord}`;
+  holds(geometry.hasAttribute(name), `a primitive lacks TEXCOORD_${texCoord}, where its map is`);
+  return texCoord;
+}
+
+/** As transferOfVertices. `passOf(model, defines, words)`: what draws the maps. */
+export async function transferOfTexels(extension, views, root, parser, passOf) {
+  checkLightmap(extension, parser.json.images?.length ?? 0);
+  const bytes = await views(viewsOf(extension));
+  const clusters = ofTexels(() => clustersOf(extension, (i) => bytes.get(i)));
+  const words = wordsOf(clusters);
+  holds(words <= extension.maps[0].images.length, `a texel has ${extension.maps[0].images.length} words, not ${words}`);
+  const maps = [];
+  for (const map of extension.maps) {
+    const textures = await Promise.all(map.images.slice(0, words).map((i) => wordTexture(parser, i, map)));
+    maps.push({ width: map.width, height: map.height, repeats: map.repeats === true, words: textures });
+  }
+  const model = new PrtkitModel(clusters, root);
+  model.texels = maps.reduce((sum, { width, height }) => sum + width * height, 0);
+  model.bytesPerTexel = 4 * words;
+  model.maps = new RelitMaps(maps, passOf(model, { ...TABLES, PRT_CLUSTER_BITS: clusters.clusterBits }, words));
+  const of = (mesh, primitive) => {
+    const placed = primitive?.extensions?.[TEXELS];
+    if (placed === undefined) return null;
+    holds(maps[placed?.map] !== undefined, "a primitive names a map that is not there");
+    return { uniforms: {}, defines: { PRT_LIGHTMAP: 1 }, lightMap: model.maps.texture(placed.map, coordinatesOf(mesh, placed)) };
+  };
+  return { model, of };
+}

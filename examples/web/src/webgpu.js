@@ -1,0 +1,25 @@
+// The plug-in for WebGPURenderer: as PrtkitLoader.js, whose all else this has, too.
+//
+//   import { PrtkitPlugin } from "prtkit-web/webgpu";
+//   const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
+
+import { nodeMaterial } from "./nodeMaterial.js";
+import { NodeTexelPass } from "./nodeTexelPass.js";
+import { PrtkitPlugin as ForWebGL } from "./PrtkitLoader.js";
+
+export * from "./PrtkitLoader.js";
+
+/** For `GLTFLoader.register`: materials are nodes. */
+export class PrtkitPlugin extends ForWebGL {
+  passOf(model, { PRT_CLUSTER_BITS: clusterBits }) {
+    return new NodeTexelPass(model, clusterBits);
+  }
+
+  materialOf(source, transfer) {
+    return nodeMaterial(source, transfer);
+  }
+
+  checkRenderer(renderer) {
+    if (renderer.isWebGLRenderer) throw new Error("prtkit: WebGLRenderer wants the plug-in of prtkit-web");
+  }
+}

@@ -1,0 +1,177 @@
+// A small baked model as `prt compress` would write it, of made-up transfer: a ball over a floor, and a lamp; its transfer in
+// vertices or in texels.
+import { PlaneGeometry, SphereGeometry } from "three";
+import { encodedRows } from "./encodedRows.js";
+import { Binary, png } from "./glb.js";
+
+export const PARTS = [
+  { kind: "direct", channels: 1 },
+  { kind: "indirect", channels: 3 },
+  { kind: "lamp", channels: 1, name: "Lantern" },
+];
+const ORDER = 2;
+export const COMPONENTS = [4, 2, 3];
+export const WIDTHS = [[8, 7, 9, 8], [5, 16], [8, 3, 12]];
+const CLUSTER_BITS = 4;
+const SIZE = 4 + 3 * 4 + 1;
+const WORDS = 2;
+
+/** Numbers that look random, and are the same in every run. */
+function random(seed) {
+  let state = seed;
+  return () => (state = (state * 1664525 + 1013904223) % 2 ** 32) / 2 ** 32;
+}
+
+/** Bases without guides, or with the guide of normals: bright means, and directions about a fifth of them. */
+function bases(guides) {
+  const next = random(7);
+  const row = (most, mean) =>
+    Array.from({ length: SIZE }, (_, a) => (mean && [0, 4, 8, 12].includes(a) ? 0.25 : 0) + most * (next() - 0.5));
+  return COMPONENTS.flatMap((m) => [...row(0.05, true), ...Array.from({ length: guides + m }, () => row(0.08, false)).flat()]);
+}
+
+/** The words of what is at (u, v) of object `i`: its cluster, and weights that go smoothly from place to place. */
+export function wordsAt(u, v, i) {
+  const cluster = (i + Math.floor(2.999 * u)) % COMPONENTS.length;
+  let bits = BigInt(cluster);
+  let at = CLUSTER_BITS;
+  WIDTHS[cluster].forEach((width, j) => {
+    const share = 0.5 + 0.5 * Math.sin((j + 1) * 3 * u + (5 - j) * v + i);
+    bits |= BigInt(Math.round(share * (2 ** width - 1))) << BigInt(at);
+    at += width;
+  });
+  return [Number(bits & 0xffffffffn), Number(bits >> 32n)];
+}
+
+/** Widths less one, four bits each. */
+function packedWidths() {
+  const codes = WIDTHS.flat().map((width) => width - 1);
+  return Uint8Array.from({ length: Math.ceil(codes.length / 2) }, (_, i) => codes[2 * i] | ((codes[2 * i + 1] ?? 0) << 4));
+}
+
+const clusters = (binary, guides) => ({
+  order: ORDER,
+  parts: PARTS,
+  components: COMPONENTS,
+  bases: { bufferView: binary.view(new Float32Array(bases(guides))), componentType: 5126 },
+  packing: { clusterBits: CLUSTER_BITS, bufferView: binary.view(packedWidths()) },
+});
+
+/** Texels whose words are `of(x, y)`: an image for each word. */
+function images(binary, width, height, of) {
+  const words = Array.from({ length: WORDS }, () => new Uint32Array(width * height));
+  for (let y = 0; y < height; ++y) for (let x = 0; x < width; ++x) of(x, y).forEach((word, j) => (words[j][y * width + x] = word));
+  return words.map((list) => ({ bufferView: binary.view(png(width, height, list)), mimeType: "image/png" }));
+}
+
+export const MAPS = [
+  { width: 96, height: 64, repeats: false },
+  { width: 40, height: 56, repeats: true },
+];
+/** Where the texels' words are taken; rows of random ones first, with all values of bytes, alpha among them. */
+export function texelWords(i, x, y) {
+  if (y >= 8) return wordsAt((x + 0.5) / MAPS[i].width, (y + 0.5) / MAPS[i].height, i);
+  const next = random(1000 * i + 100 * y + x + 1);
+  for (let skipped = 0; skipped < 4; ++skipped) next();
+  const word = () => Math.floor(next() * 2 ** 32) & (x % 3 === 0 ? 0x00ffffff : 0xffffffff);
+  return [((word() & ~15) | (x % 3)) >>> 0, word() >>> 0]; // in one of the clusters
+}
+
+function normalMap() {
+  const bytes = new Uint8Array(4 * 64 * 64);
+  for (let y = 0; y < 64; ++y)
+    for (let x = 0; x < 64; ++x)
+      bytes.set([128 + 40 * Math.sin(x / 5), 128 + 40 * Math.cos(y / 4), 250, 255], 4 * (64 * y + x));
+  return png(64, 64, bytes);
+}
+
+const MATERIALS = [
+  { name: "floor", pbrMetallicRoughness: { baseColorFactor: [0.8, 0.7, 0.6, 1], metallicFactor: 0, roughnessFactor: 0.9 }, normalTexture: { index: 0 } },
+  { name: "ball", pbrMetallicRoughness: { baseColorFactor: [0.9, 0.6, 0.3, 1], metallicFactor: 0.6, roughnessFactor: 0.35 } },
+  {
+    name: "Lantern",
+    emissiveFactor: [0.2, 0.15, 0.05],
+    pbrMetallicRoughness: { baseColorFactor: [0.5, 0.5, 0.9, 1], metallicFactor: 0, roughnessFactor: 0.5 },
+    extensions: { KHR_materials_clearcoat: { clearcoatFactor: 0.8, clearcoatRoughnessFactor: 0.1 } },
+  },
+];
+
+/** Cluster and weights of a vertex from its words. */
+function unpacked([low, high]) {
+  const bits = (BigInt(high) << 32n) | BigInt(low);
+  const cluster = low & (2 ** CLUSTER_BITS - 1);
+  let at = CLUSTER_BITS;
+  const weights = WIDTHS[cluster].map((width) => {
+    const most = 2 ** width - 1;
+    const q = Number((bits >> BigInt(at)) & BigInt(most));
+    at += width;
+    return (2 * q - most) / most;
+  });
+  return { cluster, weights: [...weights, 0, 0, 0, 0].slice(0, 4) };
+}
+
+/** Attributes of what is not packed. */
+function weightAttributes(binary, words) {
+  const vertices = words.map(unpacked);
+  const bytes = new Uint8Array(4 * vertices.length); // each cluster in four
+  vertices.forEach(({ cluster }, v) => (bytes[4 * v] = cluster));
+  binary.accessors.push({ bufferView: binary.view(bytes, { byteStride: 4 }), componentType: 5121, count: vertices.length, type: "SCALAR" });
+  return {
+    _PRT_CLUSTER: binary.accessors.length - 1,
+    _PRT_WEIGHTS_0: binary.accessor(new Float32Array(vertices.flatMap(({ weights }) => weights)), "VEC4"),
+  };
+}
+
+const MAPPED = "texels";
+/** How vertices have it: the guides beside, and how weights lie. */
+const GUIDES = {
+  vertices: [{ kind: "normal", scale: [1, 1, 1] }],
+  weights: [{ kind: "normal", scale: [1, 1, 1] }, { kind: "position", origin: [0.1, 0.2, -0.1], scale: [0.3, 0.3, 0.3] }],
+};
+
+/** The file. `by`: "vertices", "weights" (of vertices, not packed) or "texels"; `change(json, binary)` may make it another one. */
+export function bakedModel(by, change = () => {}) {
+  const binary = new Binary();
+  const shapes = [new PlaneGeometry(4, 4, 24, 24).rotateX(-Math.PI / 2), new SphereGeometry(0.7, 40, 24).translate(-0.5, 1, 0), new SphereGeometry(0.35, 24, 16).translate(0.9, 0.5, 0.6)];
+  const isMapped = by === MAPPED;
+  const json = { extensionsUsed: ["KHR_materials_clearcoat", "KHR_materials_unlit"], scene: 0, scenes: [{ nodes: [0, 1, 2] }], nodes: [{ mesh: 0 }, { mesh: 1 }, { mesh: 2 }], materials: MATERIALS };
+  json.images = [{ bufferView: binary.view(normalMap()), mimeType: "image/png" }];
+  json.textures = [{ source: 0 }];
+  json.meshes = shapes.map(({ attributes: { position, normal, uv }, index }, i) => {
+    position.array = new Float32Array(position.array);
+    const attributes = {
+      POSITION: binary.accessor(position.array, "VEC3", { min: [-9, -9, -9], max: [9, 9, 9] }),
+      NORMAL: binary.accessor(new Float32Array(normal.array), "VEC3"),
+      TEXCOORD_0: binary.accessor(new Float32Array(uv.array), "VEC2"),
+    };
+    const primitive = { attributes, indices: binary.accessor(new Uint32Array(index.array), "SCALAR"), material: i };
+    if (isMapped) {
+      attributes.TEXCOORD_1 = binary.accessor(new Float32Array(uv.array), "VEC2");
+      primitive.extensions = { PRTKIT_lightmap: { map: i % 2, texCoord: i === 2 ? 0 : 1 } };
+    } else {
+      const words = Array.from({ length: position.count }, (_, v) => wordsAt(uv.getX(v), uv.getY(v), i));
+      if (by === "weights") Object.assign(attributes, weightAttributes(binary, words));
+      else
+        for (let j = 0; j < WORDS; ++j)
+          attributes[`_PRT_WEIGHTS_${j}`] = binary.accessor(new Uint8Array(Uint32Array.from(words, (own) => own[j]).buffer), "VEC4");
+    }
+    return { primitives: [primitive] };
+  });
+  if (isMapped) {
+    const maps = MAPS.map((map, i) => {
+      const first = json.images.length;
+      json.images.push(...images(binary, map.width, map.height, (x, y) => texelWords(i, x, y)));
+      return { ...map, images: [first, first + 1] };
+    });
+    json.extensions = { PRTKIT_lightmap: { version: 1, ...clusters(binary, 0), maps } };
+  } else {
+    const guides = GUIDES[by];
+    const rows = 3 * guides.length;
+    const none = new Array(rows).fill(0);
+    const centers = { bufferView: binary.view(encodedRows(none, COMPONENTS.map(() => [0, none]))), drops: none };
+    const { packing, ...rest } = clusters(binary, rows);
+    json.extensions = { PRTKIT_clustered_pca: { version: 6, ...rest, ...(by === "weights" ? {} : { packing }), guides, centers } };
+  }
+  change(json, binary);
+  return binary.file(json);
+}

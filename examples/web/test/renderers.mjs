@@ -1,0 +1,216 @@
+// Made-up models in headless Chromium: what the plug-in computes on the device against plain numbers, and WebGPURenderer
+// against WebGLRenderer.
+//   node test/renderers.mjs [PATTERN of the names of checks, else all]      PICTURES=FOLDER keeps what is compared
+// Needs a chromium (CHROMIUM, else /usr/bin/chromium). THREE names the folder of another release of three than that of this
+// project.
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { chromium } from "playwright-core";
+import { DataUtils } from "three";
+import { createServer } from "vite";
+import { clustersOf, lightColumns } from "../src/clusteredPca.js";
+import { bakedModel, MAPS, texelWords } from "./bakedModel.js";
+import { extensionOf, png } from "./glb.js";
+import { radianceOfWords } from "./wordRadiance.js";
+
+const [, , pattern = ""] = process.argv;
+const web = fileURLToPath(new URL("../", import.meta.url));
+const three = process.env.THREE ?? join(web, "node_modules/three");
+const revision = Number.parseInt(JSON.parse(readFileSync(join(three, "package.json"), "utf8")).version.split(".")[1]);
+const alias = [
+  [/^three$/, "build/three.module.js"],
+  [/^three\/(webgpu|tsl)$/, "build/three.$1.js"],
+  [/^three\/examples/, "examples"],
+].map(([find, file]) => ({ find, replacement: join(three, file) }));
+const server = await createServer({
+  root: web,
+  server: { port: 0, host: "127.0.0.1", fs: { strict: false } },
+  resolve: { alias },
+  cacheDir: mkdtempSync(join(tmpdir(), "prtkit-vite-")),
+  logLevel: "error",
+});
+process.on("exit", () => rmSync(server.config.cacheDir, { recursive: true, force: true }));
+await server.listen();
+const errors = [];
+// The last: three's, of its own clones since release 187.
+const UNHEARD = /GPU stall|WebGPU is not available|iridescenceThicknessRange/;
+/** A floor that light passes, and a ball that is unlit. */
+function leafy(json) {
+  json.materials = structuredClone(json.materials);
+  json.materials[0].extensions = { KHR_materials_diffuse_transmission: { diffuseTransmissionFactor: 0.4, diffuseTransmissionColorFactor: [0.5, 1, 0.4] } };
+  json.materials[0].doubleSided = true;
+  json.materials[1].extensions = { KHR_materials_unlit: {} };
+}
+const models = Object.fromEntries(["vertices", "weights", "texels"].map((by) => [`${by}.glb`, bakedModel(by)]));
+for (const by of ["vertices", "texels"]) models[`leaf_${by}.glb`] = bakedModel(by, leafy);
+
+/** A page of a browser of its own: where WebGPU in software gives up, it takes the process of all pages along. */
+async function opened(...options) {
+  const browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking",
+      "--disable-component-update", "--disable-sync", "--no-first-run", ...options],
+  });
+  const page = await browser.newPage({ viewport: { width: 320, height: 240 } });
+  page.setDefaultTimeout(120_000); // a busy machine is not a fault of the page
+  page.on("pageerror", (error) => errors.push(error.message));
+  page.on("console", (line) => ["error", "warning"].includes(line.type()) && !UNHEARD.test(line.text()) && errors.push(line.text()));
+  await page.route("**/*.glb", (route) => route.fulfill({ body: models[new URL(route.request().url()).pathname.split("/").pop()] }));
+  await page.goto(`http://127.0.0.1:${server.httpServer.address().port}/test/pictures/`);
+  await page.waitForFunction(() => globalThis.pictures);
+  const ask = (what, asked) => page.evaluate(([name, given]) => globalThis.pictures[name](given), [what, asked]);
+  return { ask, close: () => browser.close() };
+}
+
+const onWebgl = await opened();
+const { ask } = onWebgl;
+const onWebgpu = await opened("--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader");
+
+/** Both pictures above each other, in the folder PICTURES. */
+function savePicture(name, ...pictures) {
+  const bytes = Uint8Array.from(pictures.flat());
+  writeFileSync(join(process.env.PICTURES, `${name.replace(/\W+/g, "_")}.png`), png(320, 240 * pictures.length, bytes));
+}
+
+let failed = 0;
+async function check(name, body) {
+  if (!new RegExp(pattern).test(name)) return;
+  errors.length = 0;
+  try {
+    console.log(`ok - ${name}: ${(await body()) ?? ""}`);
+    assert.deepEqual(errors, []);
+  } catch (error) {
+    ++failed;
+    console.log(`not ok - ${name}\n  ${error.message}\n  ${errors.join("\n  ")}`);
+  }
+}
+
+const light = [3, 2.5, 2, 0.4, 0.2, -0.3, -0.2, 0.5, 0.1, 0.6, -0.4, 0.3];
+
+await check("texels have the radiance of their words, drawn once for every light", async () => {
+  const lamps = { Lantern: [0.5, 0.25, 2] };
+  const found = await ask("texels", { model: "texels.glb", light, lamps });
+  const { extension, view } = extensionOf(models["texels.glb"], "PRTKIT_lightmap");
+  const columns = lightColumns(clustersOf(extension, view), light, null, lamps.Lantern);
+  const clusters = clustersOf(extension, view);
+  let [most, mostHalf] = [0, 0];
+  const seen = new Set();
+  for (const { i, bytes, halves, floats } of found.maps)
+    for (let y = 0; y < MAPS[i].height; ++y)
+      for (let x = 0; x < MAPS[i].width; ++x) {
+        const at = 4 * (y * MAPS[i].width + x);
+        const words = texelWords(i, x, y);
+        words.forEach((word, j) => {
+          const expected = [word & 255, (word >> 8) & 255, (word >> 16) & 255, word >>> 24];
+          assert.deepEqual(bytes[j].slice(at, at + 4), expected, `map ${i}, texel ${x}, ${y}, word ${j}`);
+          if (expected[3] === 0) seen.add(`clear ${expected[0]}`);
+          expected.forEach((byte, c) => seen.add(`${c}: ${byte}`));
+        });
+        radianceOfWords(clusters, columns, words).forEach((value, c) => {
+          most = Math.max(most, Math.abs(floats[at + c] - value) / Math.max(Math.abs(value), 0.1));
+          mostHalf = Math.max(mostHalf, Math.abs(DataUtils.fromHalfFloat(halves[at + c]) - value) / Math.max(Math.abs(value), 0.1));
+        });
+      }
+  assert.ok(most < 1e-5 && mostHalf < 2 ** -10, `${most}, ${mostHalf}`);
+  assert.ok(seen.size > 4 * 250, `${seen.size} values of bytes`);
+  const first = DataUtils.fromHalfFloat(found.doubled[0]);
+  assert.ok(first !== DataUtils.fromHalfFloat(found.maps[0].halves[0]), "another light is drawn");
+  assert.deepEqual([found.targets, found.once, found.unchanged, found.afterChange >= 6], [3, 3, 3, true]);
+  assert.ok(found.same, "the first picture is the second");
+  assert.ok(found.again, "what is disposed of is made again");
+  return `${most.toExponential(1)} off in floats, ${mostHalf.toExponential(1)} in half floats`;
+});
+
+/** Mean difference of channels, of 255, and the largest. */
+function compared(a, b) {
+  let [sum, most, lit] = [0, 0, 0];
+  a.forEach((value, i) => {
+    if (i % 4 === 3) return;
+    const off = Math.abs(value - b[i]);
+    sum += off;
+    most = Math.max(most, off);
+    lit += value > 20 ? 1 : 0;
+  });
+  const share = lit / (0.75 * a.length);
+  assert.ok(share > 0.2, `only ${share} of the picture shows anything`);
+  return { mean: sum / (0.75 * a.length), most };
+}
+
+const cases = {
+  "a sky": {},
+  "a reflected environment": { environment: true },
+  "suns": { suns: true },
+  // On WebGPU in software three's shadow maps stay empty, whatever the material.
+  "suns with shadows, and an environment": { suns: true, shadows: true, environment: true, but: "webgpu" },
+  "suns through sheets from below, and an unlit ball": { suns: "from below", model: "leaf" },
+  "fog": { suns: true, fog: true, picture: "radiance" }, // three mixes it in before or behind the tone curve
+  "other lights, which add nothing": { others: true },
+  "cloned materials": { change: "clone", environment: true },
+  // Before, WebGPURenderer turns reflections the other way than backgrounds.
+  ...(revision >= 184 ? { "a turned environment": { environment: true, probed: true, change: "metal" } } : {}),
+  "metals": { change: "metal" },
+  "instances": { copies: "instances", suns: true },
+  "clones": { copies: "clones" },
+  "a light probe": { probed: true },
+  "another model with its own light": { besides: true },
+};
+const other = { vertices: "texels.glb", texels: "vertices.glb" };
+const given = (by, { model, besides, ...options }) => ({
+  ...options,
+  model: `${model ? `${model}_` : ""}${by}.glb`,
+  besides: besides && other[by],
+  light,
+});
+
+const agree = (a, b) => {
+  const { mean, most } = compared(a, b);
+  assert.ok(mean <= 0.5, `mean ${mean} of 255`);
+  return `mean ${mean.toFixed(3)} of 255, at most ${most.toFixed(0)}`;
+};
+
+async function checkRenderers(by, what, options) {
+  const pages = [["nodes", onWebgl, "picture"], ["webgpu", onWebgpu, "radiance"]];
+  for (const [api, { ask: askThere }, usual] of pages.filter(([name]) => name !== options.but))
+    await check(`${by}, ${what}: WebGPURenderer on ${api === "webgpu" ? "WebGPU" : "WebGL"} draws what WebGLRenderer draws`, async () => {
+      const picture = options.picture ?? usual;
+      const asked = given(by, options);
+      const [expected, shown] = [await ask(picture, { api: "webgl", ...asked }), await askThere(picture, { api, ...asked })];
+      if (process.env.PICTURES) savePicture(`${by}.${what}.${api}`, expected, shown);
+      return agree(expected, shown);
+    });
+}
+
+for (const by of ["vertices", "texels"]) for (const [what, options] of Object.entries(cases)) await checkRenderers(by, what, options);
+await checkRenderers("weights", "guides of places, too", { suns: true });
+
+for (const by of ["vertices", "texels"])
+  for (const api of ["webgl", "nodes"])
+    await check(`${by}, ${api}: instances are lit as clones are`, async () => {
+      const [instances, clones] = [await ask("picture", { api, ...given(by, { copies: "instances", suns: true }) }),
+        await ask("picture", { api, ...given(by, { copies: "clones", suns: true }) })];
+      return agree(instances, clones);
+    });
+
+await check("texels: without an environment, the picture is that of three's own light map", async () => {
+  const [ours, own] = [await ask("picture", { api: "webgl", ...given("texels", { change: "matte" }) }), await ask("picture", { api: "webgl", ...given("texels", { change: "three's own" }) })];
+  const { mean } = compared(ours, own);
+  // Later releases take off what is reflected, though nothing is.
+  assert.ok(mean < (revision < 184 ? 0.1 : 1), `mean ${mean} of 255`);
+  return `mean ${mean.toFixed(3)} of 255`;
+});
+
+await check("the plug-in of the other renderer is refused", async () => {
+  for (const by of ["vertices", "texels"]) {
+    await assert.rejects(ask("picture", { api: "webgl", ...given(by, { wrong: true }) }), /WebGLRenderer wants the plug-in of prtkit-web$/m);
+await assert.rejects(ask("picture", { api: "nodes", ...given(by, { wrong: true }) }), /WebGPURenderer wants the plug-in of prtkit-web\/webgpu/);
+  }
+});
+
+await onWebgl.close();
+await onWebgpu.close();
+await server.close();
+console.log(failed === 0 ? "all passed" : `${failed} failed`);
+process.exit(failed === 0 ? 0 : 1);

@@ -1,0 +1,203 @@
+// Transfer of texels: closed forms, energy, and what cannot be baked into them.
+
+#include "prt/lightmap_bake.h"
+#include "prt/sh.h"
+#include "prt/support/error.h"
+#include "prt/unwrap.h"
+#include "support/scene_builder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+namespace prt {
+namespace {
+
+using test::SceneBuilder;
+
+/// Two metres of floor that fill a map of `size` texels along a side.
+Scene floor_map(Scene scene) {
+    for (VertexArray& vertices : scene.vertex_arrays) {
+        vertices.texcoords.assign(1, {});
+        for (const glm::vec3& p : vertices.positions)
+            vertices.texcoords[0].emplace_back((p.x + 1) / 2, (p.z + 1) / 2);
+    }
+    return scene;
+}
+
+Atlas whole(const Scene& scene, int size) {
+    return plan_atlases(scene, {.size = size, .uv_set = 0}).front();
+}
+
+BakeOptions options_of(int order, int rays, int bounces) {
+    BakeOptions options;
+    options.order = order;
+    options.rays = rays;
+    options.bounces = bounces;
+    options.tracer.backend = Backend::cpu;
+    options.memory.storage = TransferStorage::float32;
+    return options;
+}
+
+double sum_of(std::span<const float> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(LightmapBake, OfAnOpenFloorIsTheLobeOfItsNormal) {
+    const Scene scene = floor_map(SceneBuilder().floor({0, 0, 0}, 1).build());
+    const LightmapBake baked = bake_lightmap(scene, {whole(scene, 8)}, options_of(4, 4096, 0));
+    const BakedLightmap& map = baked.lightmap;
+    const Transfer truth = unshadowed_transfer(scene, 4);
+    EXPECT_EQ(map.texels.size(), 64u);
+    EXPECT_NEAR(sum_of(map.areas), 4, 1e-4); // m²
+    for (std::size_t t = 0; t < map.texels.size(); ++t)
+        for (std::size_t i = 0; i < 16; ++i)
+            EXPECT_NEAR(map.baked.transfer.vector(t)[i], truth.vector(0)[i], 3e-3) << t << " " << i;
+}
+
+TEST(LightmapBake, OfALampFallsWithTheSquareOfTheDistance) {
+    Scene scene = floor_map(SceneBuilder().floor({0, 0, 0}, 1).build());
+    scene.lights.push_back({.name = "lamp", .intensity = glm::vec3(3), .position = {0.3f, 0.7f, -0.2f}});
+    const LightmapBake baked = bake_lightmap(scene, {whole(scene, 32)}, options_of(1, 64, 0));
+    const TransferLayout& layout = baked.lightmap.baked.transfer.layout;
+    ASSERT_EQ(layout.lamps(), 1u);
+    for (std::size_t t = 0; t < baked.lightmap.texels.size(); ++t) {
+        const std::uint32_t texel = baked.lightmap.texels[t];
+        const std::uint32_t row = texel / 32;
+        const glm::dvec3 place((texel % 32 + 0.5) / 16 - 1, 0, (row + 0.5) / 16 - 1);
+        const glm::dvec3 way = glm::dvec3(0.3, 0.7, -0.2) - place;
+        const double squared = glm::dot(way, way);
+        const double radiance = 3 * way.y / (squared * std::sqrt(squared)) / std::numbers::pi;
+        // The mean over a texel of a sixteenth of a metre differs from its middle by its curvature.
+        EXPECT_NEAR(baked.lightmap.baked.transfer.vector(t).back(), radiance, 0.01 * radiance);
+    }
+}
+
+/// Each triangle has a chart of its own in a map.
+struct Charted {
+    Scene scene;
+    std::vector<Atlas> atlases;
+
+    Charted(Scene plain, int size) : scene(std::move(plain)) {
+        Unwrapping unwrapping = unwrap(scene, {.size = size});
+        for (std::size_t p = 0; p < scene.primitives.size(); ++p) {
+            VertexArray& vertices = scene.vertex_arrays[scene.primitives[p].vertices];
+            const VertexSplit& split = unwrapping.primitives[p];
+            VertexArray after;
+            for (const std::uint32_t v : split.source) {
+                after.positions.push_back(vertices.positions[v]);
+                after.normals.push_back(vertices.normals[v]);
+            }
+            after.texcoords = {split.uv};
+            vertices = std::move(after);
+            scene.primitives[p].triangles = split.triangles;
+        }
+        std::size_t first = 0;
+        for (VertexArray& vertices : scene.vertex_arrays) {
+            vertices.first_receiver = first;
+            first += vertices.size();
+        }
+        atlases = std::move(unwrapping.atlases);
+        for (Atlas& atlas : atlases)
+            atlas.uv_set = 0;
+    }
+};
+
+TEST(LightmapBake, WithAllBouncesOfWhiteSurfacesIsOneEverywhere) {
+    const Charted bowl(test::painted(SceneBuilder().bowl({0, 0, 0}, 1, 12, 3).build(), glm::vec3(1)), 96);
+    const LightmapBake baked = bake_lightmap(bowl.scene, bowl.atlases, options_of(2, 256, kEndlessBounces));
+    const Transfer& t = baked.lightmap.baked.transfer;
+    EXPECT_GT(baked.statistics.sources, 0u);
+    const std::vector<glm::vec3> radiance = exit_radiance(t, constant_light(2, glm::vec3(1)));
+    for (std::size_t p = 0; p < radiance.size(); ++p)
+        if (baked.lightmap.areas[p] > 0) {
+            EXPECT_NEAR(radiance[p].r, 1, 2e-3) << p;
+        }
+}
+
+TEST(LightmapBake, BouncesAsVerticesDo) {
+    // A wall beside a floor, both cut fine: at vertices of the floor both bakes see the same.
+    const Scene wall = SceneBuilder()
+                           .floor({0, 0, 0}, 1, 16)
+                           .transform([](const glm::vec3& p) { return glm::vec3(-1, p.x + 1, p.z); })
+                           .build();
+    const auto joined = [&](const Scene& floor) {
+        return test::join(
+            {test::painted(floor, glm::vec3(0.5f)), test::painted(wall, {0.8f, 0.2f, 0.1f}, true)});
+    };
+    Charted fine(joined(SceneBuilder().floor({0, 0, 0}, 1, 16).build()), 256);
+    BakeOptions options = options_of(3, 4096, 2);
+    options.fit = FitMode::vertex;
+    const Transfer vertices = bake(fine.scene, options).baked.transfer;
+    const LightmapBake texels = bake_lightmap(fine.scene, fine.atlases, options);
+    const std::vector<std::size_t> first = texels.lightmap.layout.first_texels();
+    double error = 0, norm = 0;
+    const VertexArray& floor = fine.scene.vertex_arrays[0];
+    for (std::size_t v = 0; v < floor.size(); ++v) {
+        const glm::vec3& p = floor.positions[v];
+        if (p.y != 0 || std::max(std::abs(p.x), std::abs(p.z)) > 0.9f)
+            continue;
+        const LightmapSize& size = texels.lightmap.layout.maps[0];
+        const glm::vec2& uv = floor.texcoords[0][v];
+        const BilinearTexels filter = bilinear_texels(size, static_cast<double>(uv.x) * size.width,
+                                                      static_cast<double>(uv.y) * size.height);
+        for (std::size_t i = 0; i < vertices.dimension(); ++i) {
+            double value = 0;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const auto found = std::ranges::lower_bound(texels.lightmap.texels, filter.texels[k]);
+                ASSERT_NE(found, texels.lightmap.texels.end());
+                const auto receiver = static_cast<std::size_t>(found - texels.lightmap.texels.begin());
+                value += filter.weights[k] *
+                         static_cast<double>(texels.lightmap.baked.transfer.vector(receiver)[i]);
+            }
+            const auto truth = static_cast<double>(vertices.vector(v)[i]);
+            error += (value - truth) * (value - truth);
+            norm += truth * truth;
+        }
+    }
+    ASSERT_GT(norm, 0);
+    EXPECT_LT(std::sqrt(error / norm), 0.02); // texels have a quarter of the rays at each of four places
+}
+
+TEST(LightmapBake, IsTheSameForAnyNumberOfThreads) {
+    const Charted bowl(test::painted(SceneBuilder().bowl({0, 0, 0}, 1, 6, 2).build(), {0.7f, 0.4f, 0.2f}),
+                       48);
+    BakeOptions one = options_of(3, 64, 2), three = one;
+    one.threads = 1;
+    three.threads = 3;
+    EXPECT_EQ(bake_lightmap(bowl.scene, bowl.atlases, one).lightmap.baked.transfer.vectors,
+              bake_lightmap(bowl.scene, bowl.atlases, three).lightmap.baked.transfer.vectors);
+}
+
+TEST(LightmapBake, CannotHoldWhatIsKnownAtVerticesAlone) {
+    const auto refused = [](Scene scene, BakeOptions options, const std::string& why) {
+        scene = floor_map(std::move(scene));
+        try {
+            bake_lightmap(scene, {whole(scene, 4)}, options);
+            ADD_FAILURE() << why;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find(why), std::string::npos) << error.what();
+        }
+    };
+    const Scene floor = SceneBuilder().floor({0, 0, 0}, 1).build();
+    Scene leaf = test::painted(floor, glm::vec3(0.5f), true);
+    for (Material& material : leaf.materials)
+        material.transmission.factor = 0.5f;
+    refused(leaf, options_of(2, 16, 1), "lets light through");
+    BakeOptions medium = options_of(2, 16, 1);
+    medium.subsurface.media = {{"", measured_media().front().medium}};
+    refused(floor, medium, "has a medium inside");
+    BakeOptions adaptive = options_of(2, 16, 0);
+    adaptive.target_error = 0.1;
+    refused(floor, adaptive, "number of rays");
+    BakeOptions little = options_of(10, 16, 0);
+    little.memory.limit = 2000;
+    refused(floor, little, "memory");
+}
+
+} // namespace
+} // namespace prt

@@ -1,0 +1,126 @@
+// Lightmaps through the program: baked, compressed, told of and drawn; and what is refused.
+
+#include "prt/image_file.h"
+#include "prt/lightmap_file.h"
+#include "road.h"
+#include "support/glb_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace prt::test {
+namespace {
+
+class Lightmaps : public Road {
+protected:
+    static constexpr const char* kScene = "plain_room.glb";
+
+    void SetUp() override {
+#ifdef PRT_EXAMPLE_SCENES
+        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "plain_room", "sky"}).status, 0);
+#else
+        GTEST_SKIP() << "the example scenes are not built";
+#endif
+    }
+    Outcome bake(const std::vector<std::string>& options, const char* output = "baked.glb") {
+        std::vector<std::string> arguments = {"bake",   at(kScene), "-o",      at(output),
+                                              "--rays", "16",       "--order", "3"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return prt(arguments);
+    }
+    void expect_refused(const Outcome& outcome, const std::string& why) {
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+        EXPECT_EQ(outcome.err.find("prt: error: "), outcome.err.rfind("prt: error: ")) << outcome.err;
+    }
+};
+
+TEST_F(Lightmaps, GoAllTheRoad) {
+    ASSERT_EQ(bake({"--size", "128", "--unwrap", "--bounces", "1", "--json", at("bake.json")}).status, 0);
+    EXPECT_GT(read_json(folder / "bake.json")["texels_measured"], 1000);
+    ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--clusters", "8", "--bits", "56",
+                   "--json", at("compress.json")})
+                  .status,
+              0);
+    const nlohmann::json compressed = read_json(folder / "compress.json");
+    EXPECT_EQ(compressed["bytes_bound_per_texel"], 8);
+    EXPECT_EQ(validator_errors(folder / "shipped.glb"), 0);
+
+    const Scene scene = extract_scene(load_gltf(folder / "baked.glb"));
+    const GltfDocument baked_file = load_gltf(folder / "baked.glb"),
+                       shipped_file = load_gltf(folder / "shipped.glb");
+    const std::optional<BakedLightmap> baked = read_lightmap(baked_file, scene);
+    const std::optional<CompressedLightmap> shipped = read_compressed_lightmap(shipped_file, scene);
+    ASSERT_TRUE(baked && shipped);
+    EXPECT_EQ(baked->layout, shipped->layout);
+    EXPECT_FALSE(read_compressed_lightmap(baked_file, scene) || read_lightmap(shipped_file, scene));
+    EXPECT_EQ(shipped->compressed.transfer.receivers.size(), 128u * 128u);
+
+    ASSERT_EQ(prt({"evaluate", at("baked.glb"), at("shipped.glb"), "--json", at("evaluate.json")}).status, 0);
+    EXPECT_NEAR(read_json(folder / "evaluate.json")["relative_l2"].get<double>(),
+                compressed["relative_l2"].get<double>(), 1e-6);
+    const Outcome info = prt({"info", at("shipped.glb")});
+    EXPECT_NE(info.out.find("1 map, 128 x 128"), std::string::npos) << info.out;
+    for (const char* model : {"baked.glb", "shipped.glb"})
+        EXPECT_EQ(
+            prt({"render", at(model), "--env", at("sky.exr"), "-o", at("p.png"), "--size", "64x48"}).status,
+            0);
+}
+
+TEST_F(Lightmaps, HaveShadersThatCompile) {
+    ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
+    ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb")}).status, 0);
+    const struct {
+        const char *language, *file;
+        bool fragment;
+    } cases[] = {{"glsl450", "a.comp", false}, {"vulkan", "b.comp", false},  {"glsl450", "c.frag", true},
+                 {"glsl330", "d.frag", false}, {"essl300", "e.frag", false}, {"vulkan", "f.frag", true}};
+    for (const auto& c : cases) {
+        std::vector<std::string> arguments = {"shader",   at("shipped.glb"), "-o",
+                                              at(c.file), "--language",      c.language};
+        if (c.fragment)
+            arguments.emplace_back("--fragment");
+        ASSERT_EQ(prt(arguments).status, 0) << c.language;
+        if (const std::string glslang = PRT_GLSLANG; !glslang.empty()) {
+            const Outcome outcome = c.language == std::string("vulkan")
+                                        ? run(glslang, {"-V", "-o", at("s.spv"), at(c.file)})
+                                        : run(glslang, {at(c.file)});
+            EXPECT_EQ(outcome.status, 0) << c.language << " " << c.file << ": " << outcome.out;
+        }
+    }
+}
+
+TEST_F(Lightmaps, LeaveNothingBehindWhereVerticesAreBakedAgain) {
+    ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
+    ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb")}).status, 0);
+    ASSERT_EQ(prt({"bake", at("shipped.glb"), "-o", at("again.glb"), "--rays", "16"}).status, 0);
+    const GlbFile file = read_glb(folder / "again.glb");
+    EXPECT_EQ(file.json.dump().find("PRTKIT_lightmap"), std::string::npos);
+    EXPECT_TRUE(!file.json.contains("images") || file.json["images"].empty());
+    EXPECT_EQ(validator_errors(folder / "again.glb"), 0);
+}
+
+TEST_F(Lightmaps, AreRefusedWhereTheyCannotBe) {
+    expect_refused(bake({"--size", "64"}), "has no TEXCOORD_1");
+    expect_refused(bake({"--unwrap"}), "--unwrap is for textures");
+    expect_refused(bake({"--size", "64", "--unwrap", "--refine", "0.1"}), "--refine is for vertices");
+    expect_refused(bake({"--size", "8", "--unwrap"}), "texels");
+    expect_refused(bake({"--size", "4096", "--unwrap", "--memory-limit", "100MB"}), "memory");
+    EXPECT_FALSE(std::filesystem::exists(folder / "baked.glb"));
+    ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
+    const auto compress = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments = {"compress", at("baked.glb"), "-o", at("shipped.glb")};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return prt(arguments);
+    };
+    expect_refused(compress({"--guides", "normal"}), "texels know neither");
+    expect_refused(compress({"--weights", "8"}), "packed");
+    expect_refused(compress({"--reorder"}), "texels stay where they are");
+    EXPECT_FALSE(std::filesystem::exists(folder / "shipped.glb"));
+    expect_refused(prt({"relight", at("baked.glb"), "--env", at("sky.exr"), "-o", at("r.glb")}),
+                   "holds a lightmap");
+}
+
+} // namespace
+} // namespace prt::test
