@@ -92,6 +92,23 @@ LampIrradiance irradiance_of_lights(const TraceScene& scene, const Lamp& lamp, c
     return result;
 }
 
+std::size_t take_lights(const TraceScene& scene, const Lamp& lamp, const LampReceiver& receiver,
+                        double radius, int most, const TakeLight& take) {
+    std::size_t rays = 0;
+    for (const std::uint32_t i : lamp.lights) {
+        LampReceiver facing = receiver;
+        const SeenLight where = seen(scene.scene().lights[i], receiver, radius);
+        facing.normal = glm::vec3(where.towards);
+        Lamp one;
+        one.lights = {i};
+        const LampIrradiance light = irradiance_of_lights(scene, one, facing, radius, most);
+        rays += light.rays;
+        if (light.irradiance != glm::dvec3(0))
+            take(where.towards, light.irradiance);
+    }
+    return rays;
+}
+
 ShiningTriangles::ShiningTriangles(const TraceScene& scene, const Lamp& lamp) : scene_(scene) {
     const Surfaces& surfaces = scene.surfaces();
     for (const std::uint32_t t : lamp.triangles) {
@@ -116,27 +133,37 @@ ShiningTriangles::ShiningTriangles(const TraceScene& scene, const Lamp& lamp) : 
     }
 }
 
-glm::dvec3 ShiningTriangles::irradiance_along(const LampReceiver& receiver, const Shining& t,
-                                              const lamp_geometry::SeenTriangle& seen,
-                                              const glm::dvec2& u) const {
+ShiningTriangles::Sample ShiningTriangles::sample(const LampReceiver& receiver, const Shining& t,
+                                                  const lamp_geometry::SeenTriangle& seen,
+                                                  const glm::dvec2& u) const {
     const lamp_geometry::TrianglePoint point = lamp_geometry::point_of(seen, u);
-    const double cosine = glm::dot(glm::dvec3(receiver.normal), glm::normalize(point.place));
-    if (!(cosine > 0))
-        return glm::dvec3(0);
+    const glm::dvec3 towards = glm::normalize(point.place);
+    if (!(glm::dot(glm::dvec3(receiver.normal), towards) > 0))
+        return {};
     // The ray ends on the side that is seen, not on the triangle itself.
     const glm::dvec3 outward = glm::normalize(seen.volume > 0 ? -seen.normal : seen.normal);
     const auto off = static_cast<double>(scene_.rays().triangle_offset(t.triangle));
     const glm::vec3 way(point.place + off * outward);
     const float open = transmittance(scene_.rays(), scene_.surfaces(), receiver.origin, way, 1);
     if (open <= 0)
-        return glm::dvec3(0);
+        return {};
     const SurfacePoint place{t.triangle, glm::vec2(point.uv), 0};
     const glm::dvec3 radiance = glm::dvec3(scene_.surfaces().emission(place)) *
                                 static_cast<double>(scene_.surfaces().coverage(place));
-    return radiance * (cosine * static_cast<double>(open) * point.angle / seen.angle);
+    return {towards, radiance * (static_cast<double>(open) * point.angle / seen.angle)};
 }
 
 LampIrradiance ShiningTriangles::irradiance(const LampReceiver& receiver, int rays) const {
+    LampIrradiance result;
+    const glm::dvec3 normal(receiver.normal);
+    result.rays = take_light(receiver, rays, [&](const glm::dvec3& towards, const glm::dvec3& irradiance) {
+        result.irradiance += glm::dot(normal, towards) * irradiance;
+    });
+    return result;
+}
+
+std::size_t ShiningTriangles::take_light(const LampReceiver& receiver, int rays,
+                                         const TakeLight& take) const {
     // From where rays start: in the plane of a wall that shines its solid angle is none, and a hair before it
     // half of all there is.
     const glm::dvec3 from(receiver.origin), normal(receiver.normal);
@@ -156,9 +183,8 @@ LampIrradiance ShiningTriangles::irradiance(const LampReceiver& receiver, int ra
         if (angle > 0)
             weighted.push_back({&t, all += angle * t.luminance});
     }
-    LampIrradiance result;
     if (weighted.empty())
-        return result;
+        return 0;
     const double shift = lamp_geometry::unit_number(receiver.seed);
     std::size_t at = 0;
     double before = 0;
@@ -169,11 +195,11 @@ LampIrradiance ShiningTriangles::irradiance(const LampReceiver& receiver, int ra
         const Weighted& t = weighted[at];
         const glm::dvec2 u(std::clamp((target - before) / (t.until - before), 0.0, 1.0),
                            lamp_geometry::golden(static_cast<std::uint32_t>(i), receiver.seed * 2654435761u));
-        result.irradiance += irradiance_along(receiver, *t.shining, see(*t.shining), u) *
-                             (all / (t.shining->luminance * rays));
-        ++result.rays;
+        const Sample light = sample(receiver, *t.shining, see(*t.shining), u);
+        if (light.irradiance != glm::dvec3(0))
+            take(light.towards, light.irradiance * (all / (t.shining->luminance * rays)));
     }
-    return result;
+    return static_cast<std::size_t>(rays);
 }
 
 } // namespace prt

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -32,6 +33,14 @@ struct LampIrradiance {
 LampIrradiance irradiance_of_lights(const TraceScene& scene, const Lamp& lamp, const LampReceiver& receiver,
                                     double radius, int most);
 
+/// Takes light that comes in from unit `towards`, as irradiance of what faces it.
+using TakeLight = std::function<void(const glm::dvec3& towards, const glm::dvec3& irradiance)>;
+
+/// The same lights one by one, each from its middle: of a place, whatever the receiver's normal is. Returns
+/// how many rays it took.
+std::size_t take_lights(const TraceScene& scene, const Lamp& lamp, const LampReceiver& receiver,
+                        double radius, int most, const TakeLight& take);
+
 /// The triangles of a lamp that shine, with how bright each is on average.
 class ShiningTriangles {
 public:
@@ -49,10 +58,16 @@ public:
     /// Irradiance by `rays` rays that are spread over what is seen of them by its solid angle.
     LampIrradiance irradiance(const LampReceiver& receiver, int rays) const;
 
+    /// The same sample by sample.
+    std::size_t take_light(const LampReceiver& receiver, int rays, const TakeLight& take) const;
+
 private:
-    /// Of a sample of a triangle that is seen so, as if the triangle were all there is.
-    glm::dvec3 irradiance_along(const LampReceiver& receiver, const Shining& t,
-                                const lamp_geometry::SeenTriangle& seen, const glm::dvec2& u) const;
+    /// Of a sample of a triangle that is seen so, as if the triangle were all there is, on what faces it.
+    struct Sample {
+        glm::dvec3 towards{0}, irradiance{0};
+    };
+    Sample sample(const LampReceiver& receiver, const Shining& t, const lamp_geometry::SeenTriangle& seen,
+                  const glm::dvec2& u) const;
 
     const TraceScene& scene_;
     std::vector<Shining> triangles_;

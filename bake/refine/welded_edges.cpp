@@ -13,17 +13,17 @@ namespace {
 
 /// The number of each receiver's place, in the order of places.
 std::vector<std::uint32_t> places_of(const Scene& scene) {
-    struct Place {
+    struct Welded {
         glm::vec3 at;
         std::uint32_t receiver;
         auto key() const { return std::tuple(at.x, at.y, at.z); } // 0 and -0 are one
     };
-    std::vector<Place> all;
+    std::vector<Welded> all;
     all.reserve(scene.receivers());
     for (const VertexArray& vertices : scene.vertex_arrays)
         for (const glm::vec3& at : vertices.positions)
             all.push_back({at, static_cast<std::uint32_t>(all.size())});
-    std::sort(all.begin(), all.end(), [](const Place& a, const Place& b) {
+    std::sort(all.begin(), all.end(), [](const Welded& a, const Welded& b) {
         return a.key() != b.key() ? a.key() < b.key() : a.receiver < b.receiver;
     });
     std::vector<std::uint32_t> places(all.size());

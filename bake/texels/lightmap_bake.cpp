@@ -5,8 +5,7 @@
 
 #include "available_memory.h"
 #include "bake_options.h"
-#include "exit_light.h"
-#include "measured_light.h"
+#include "bounced_sources.h"
 #include "memory.h"
 #include "parts.h"
 #include "prt/error_measures.h"
@@ -130,7 +129,10 @@ public:
         const std::unique_ptr<Tracer> tracer = make_tracer(traced, options_.tracer);
         statistics().notices = plan.notices;
         const double share = plan.bounces != 0 || !plan.lamps.empty() ? 0.2 : 0;
-        BouncedSources sources = bounce(plan, *tracer, progress.part(0, share));
+        BouncedSources sources = bounced_sources(plan, *tracer, progress.part(0, share));
+        bounces_done_ = sources.bounces;
+        statistics().rays += sources.rays;
+        statistics().sources = plan.bounces != 0 ? plan.receivers().size() : 0;
         statistics().seconds.sources = watch.seconds();
         TexelTransport transport(plan, std::move(sources), rows_at_once());
         const Casters casters{traced, finer_.reach};
@@ -149,43 +151,6 @@ private:
         const double rays = std::max(1.0, static_cast<double>(options_.rays) / kSamplesOfTexel);
         return static_cast<std::size_t>(
             std::clamp(kBytesOfRows / (rays * GatherOperator::kMostBytesPerRay), 256.0, 65536.0));
-    }
-
-    /// Light at vertices before the last bounce.
-    BouncedSources bounce(const BakePlan& plan, Tracer& tracer, const Progress& progress) {
-        BouncedSources sources;
-        const LampTask no_task{.scene = plan.scene,
-                               .receivers = Receivers(),
-                               .lamps = plan.lamps,
-                               .options = plan.options.lamps,
-                               .channels = plan.lamp_channels()};
-        sources.lamps = no_lamp_light(no_task).transfer;
-        if (plan.bounces == 0)
-            return sources;
-        statistics().sources = plan.receivers().size();
-        BakeStatistics asked;
-        Measured measured = measure(plan, tracer, asked, progress.part(0, 0.8));
-        LampLight lamps = measure_lamps(plan, tracer, measured.fit, progress.part(0.8, 0.9));
-        statistics().rays += measured.direct.rays + measured.sealed.rays + lamps.rays + asked.rays;
-        const std::unique_ptr<GatherProduct> product =
-            measured.direct.gather ? tracer.gather_product(*measured.direct.gather) : nullptr;
-        const TransportOperators operators{.refill = measured.sealed.refill,
-                                           .diffusion = plan.diffusion,
-                                           .gather =
-                                               measured.direct.gather ? &*measured.direct.gather : nullptr,
-                                           .product = product.get(),
-                                           .fit = measured.fit ? &*measured.fit : nullptr};
-        const int before = plan.bounces == kEndlessBounces ? kEndlessBounces : plan.bounces - 1;
-        Transfer sky = plan.channels == 3 ? in_color(measured.direct.transfer) : measured.direct.transfer;
-        Propagated lit =
-            propagate(std::move(sky), operators, before, options_.threads, progress.part(0.9, 1));
-        bounces_done_ = lit.bounces + 1;
-        sources.sky = std::move(lit.transfer);
-        if (!plan.lamps.empty())
-            sources.lamps =
-                propagate_lamps_on_both_sides(plan, std::move(lamps.transfer), operators, before, {})
-                    .transfer;
-        return sources;
     }
 
     void trace(const BakePlan& plan, Tracer& tracer, const TexelPlaces& places, TexelTransport& transport,

@@ -2,7 +2,7 @@
 
 // Light that comes to texels beside that of the sky: from surfaces that light bounced off, and from lamps.
 
-#include "plan.h"
+#include "bounced_sources.h"
 #include "prt/tracer.h"
 #include "transport/gather.h"
 
@@ -11,12 +11,6 @@
 #include <vector>
 
 namespace prt {
-
-/// Exit transfer of all receivers of a plan, on both sides of surfaces, before the last bounce; of no
-/// receivers where there is no such light.
-struct BouncedSources {
-    Transfer sky, lamps;
-};
 
 class TexelTransport {
 public:

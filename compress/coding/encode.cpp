@@ -52,14 +52,15 @@ std::size_t axes_in_use(const QuantisedClusters& clusters, double step) {
 /// What rounding may be coarser by in each column: 1 for distant light, and for lamps such that an error of a
 /// unit costs as much as it does there on average.
 Eigen::ArrayXd units_of(const TransferLayout& layout, const Eigen::MatrixXd& moments) {
+    const Eigen::ArrayXd costs = moments.diagonal();
+    const auto of_output = costs.size() / static_cast<Eigen::Index>(layout.outputs);
     Eigen::Index skies = 0;
     for (const TransferPart& part : layout.distant_parts())
         skies += static_cast<Eigen::Index>(layout.numbers_of(part));
-    const Eigen::ArrayXd costs = moments.diagonal();
-    const double usual = skies > 0 ? costs.head(skies).mean() : costs.mean();
+    const double usual = skies > 0 ? costs.head(skies).mean() : costs.head(of_output).mean();
     Eigen::ArrayXd units = Eigen::ArrayXd::Ones(costs.size());
-    for (Eigen::Index a = skies; a < units.size(); ++a)
-        if (costs[a] > 0 && usual > 0)
+    for (Eigen::Index a = 0; a < units.size(); ++a)
+        if (a % of_output >= skies && costs[a] > 0 && usual > 0)
             units[a] = static_cast<double>(static_cast<float>(std::sqrt(usual / costs[a])));
     return units;
 }

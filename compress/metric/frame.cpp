@@ -93,11 +93,13 @@ void square_roots(const LightMetric& metric, Matrix& root, Matrix& inverse) {
     inverse = solver.operatorInverseSqrt();
 }
 
-/// Leaves out axes from the end as long as they add at most `most_dropped`, or are `rounding` only.
+/// Leaves out axes from the end as long as they add at most `most_dropped`, are `rounding` only, or are more
+/// than points can have.
 void drop_axes(Frame& frame, double most_dropped, double rounding) {
     while (frame.dimension > 0) {
         const double variance = frame.variances[frame.dimension - 1];
-        if (frame.dropped + variance > most_dropped && variance > rounding)
+        if (frame.dropped + variance > most_dropped && variance > rounding &&
+            frame.dimension <= kMostTransferNumbers)
             break;
         frame.dropped += variance;
         --frame.dimension;
@@ -141,7 +143,9 @@ Frame fit_frame(const TransferView& transfer, std::span<const float> significanc
     for (std::size_t p = 0; p < usual.size(); ++p)
         outliers = outliers || (usual[p] == 0 && significance[p] > 0);
     // Float rounding of usual vectors alone makes (2^-24)² of their energy along every axis; 4 is a margin.
-    if (!outliers)
+    if (outliers)
+        drop_axes(frame, -1, -1);
+    else
         drop_axes(frame, most_dropped, 4 * 0x1p-48 * scale * scale * (root * origin).squaredNorm());
     const Matrix axes = largest_axes(solver.eigenvectors(), frame.dimension);
     const Matrix analysis = scale * root * axes,

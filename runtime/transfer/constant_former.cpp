@@ -96,10 +96,11 @@ std::vector<float> rows_of_stored(const ClusteredTransfer& transfer) {
 } // namespace
 
 ConstantFormer::ConstantFormer(const ClusteredTransfer& transfer)
-    : layout_(transfer.bases.layout), rows_(constant_rows(transfer.bases)) {
-    check_layout(layout_);
-    const std::vector<float> rows = rows_of_stored(transfer);
-    const std::size_t dimension = transfer.bases.dimension();
+    : layout_(transfer.bases.layout.of_one_output()),
+      rows_(constant_rows(transfer.bases) * transfer.bases.layout.outputs) {
+    check_layout(transfer.bases.layout);
+    const std::vector<float> rows = rows_of_stored(transfer); // of each output in turn
+    const std::size_t dimension = layout_.dimension();
     matrix_.assign((rows_ + kLanes - 1) / kLanes * kLanes * dimension, 0.0f);
     for (std::size_t row = 0; row < rows_; ++row)
         for (std::size_t i = 0; i < dimension; ++i)

@@ -20,6 +20,8 @@ using ColorInMemory [[gnu::vector_size(16), gnu::aligned(4), gnu::may_alias]] = 
     return *reinterpret_cast<const ColorInMemory*>(row);
 }
 
+constexpr std::size_t kMostOutputs = 16;
+
 using FourColors [[gnu::vector_size(64)]] = float;
 using FourColorsInMemory [[gnu::vector_size(64), gnu::aligned(4), gnu::may_alias]] = float;
 
@@ -203,6 +205,32 @@ void evaluate_in_lanes(const ClusteredReceivers& receivers, const ClusterLayout*
     }
 }
 
+/// Every output of receivers [begin, end), whose weights are packed.
+PRT_TARGET_CLONES
+void evaluate_outputs(const ClusteredReceivers& receivers, const ClusterLayout* layouts, std::size_t outputs,
+                      const glm::vec4* constants, std::size_t begin, std::size_t end, glm::vec3* radiance) {
+    const std::size_t stride = receivers.stride();
+    for (std::size_t p = begin; p < end; ++p) {
+        const ClusterLayout& layout = layouts[receivers.clusters[p]];
+        const std::byte* const words = receivers.weights.data() + p * stride;
+        const glm::vec4* row = constants + layout.first_row * outputs;
+        Color sums[kMostOutputs];
+        for (std::size_t o = 0; o < outputs; ++o)
+            sums[o] = color_at(row + o);
+        auto position = static_cast<std::size_t>(receivers.cluster_bits);
+        for (std::size_t j = 0; j < layout.components; ++j) {
+            const int width = width_of(layout, j);
+            const auto weight = static_cast<float>(bits_at(words, position, width));
+            position += static_cast<std::size_t>(width);
+            row += outputs;
+            for (std::size_t o = 0; o < outputs; ++o)
+                sums[o] += weight * color_at(row + o);
+        }
+        for (std::size_t o = 0; o < outputs; ++o)
+            radiance[(p - begin) * outputs + o] = {sums[o][0], sums[o][1], sums[o][2]};
+    }
+}
+
 } // namespace
 
 void evaluate_range(const ClusteredReceivers& receivers, const ClusterLayout* layouts,
@@ -214,7 +242,16 @@ void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> cons
               std::span<glm::vec3> radiance, int threads) {
     const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
     const ClusteredReceivers& receivers = transfer.receivers;
-    assert(radiance.size() >= receivers.size());
+    const std::size_t outputs = transfer.bases.layout.outputs;
+    assert(radiance.size() >= receivers.size() * outputs);
+    if (outputs > 1) {
+        assert(receivers.format == WeightFormat::packed);
+        parallel_for(receivers.size(), 1024, threads, [&](std::size_t begin, std::size_t end) {
+            evaluate_outputs(receivers, layouts.data(), outputs, constants.data(), begin, end,
+                             radiance.data() + begin * outputs);
+        });
+        return;
+    }
     parallel_for(receivers.size(), 4096, threads, [&](std::size_t begin, std::size_t end) {
         evaluate_range(receivers, layouts.data(), constants.data(), begin, end, radiance.data() + begin);
     });

@@ -95,7 +95,7 @@ std::size_t TransferLayout::dimension() const {
     std::size_t numbers = 0;
     for (const TransferPart& part : parts)
         numbers += numbers_of(part);
-    return numbers;
+    return outputs * numbers;
 }
 
 std::size_t TransferLayout::columns() const {
@@ -129,6 +129,9 @@ void check_layout(const TransferLayout& layout) {
     check_order(layout.order);
     if (layout.parts.empty())
         throw Error("the transfer has no parts");
+    if (layout.outputs != 1 && layout.outputs != 4 && layout.outputs != 9 && layout.outputs != 16)
+        throw Error("transfer has " + std::to_string(layout.outputs) +
+                    " outputs, only 1, 4, 9 or 16 make sense");
     for (std::size_t i = 0; i < layout.parts.size(); ++i) {
         const TransferPart& part = layout.parts[i];
         check_key(part);

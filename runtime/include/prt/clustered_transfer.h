@@ -76,7 +76,7 @@ std::size_t bits_per_receiver(const ClusteredTransfer& transfer);
 std::size_t constant_rows(const ClusteredBases& bases);
 
 /// Exit radiance for albedo 1 of every receiver, `radiance` [receivers], from formed constants: what the
-/// vertex shader computes.
+/// vertex shader computes. Of transfer of several outputs, which has packed weights: [receivers][outputs].
 void evaluate(const ClusteredTransfer& transfer, std::span<const glm::vec4> constants,
               std::span<glm::vec3> radiance, int threads = 0);
 

@@ -33,7 +33,8 @@ public:
 
     int order() const { return layout_.order; }
     const TransferLayout& layout() const { return layout_; }
-    /// Constants in all: per cluster one mean and m_k directions, in the order of `ClusterLayout::first_row`.
+    /// Constants in all: per cluster one mean and m_k directions, in the order of `ClusterLayout::first_row`,
+    /// of each as many as there are outputs.
     std::size_t rows() const { return rows_; }
 
     /// Writes (r, g, b, 0) for every row to `constants` [rows]. Allocates nothing. Throws `Error` if

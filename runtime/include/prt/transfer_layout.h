@@ -40,10 +40,14 @@ struct TransferPart {
 /// Lamps of a layout at most: a group of any number of lights is one.
 inline constexpr std::size_t kMostLamps = 64;
 
-/// A transfer vector is its parts one behind the other, each [channels][columns_of(part)].
+/// A transfer vector is its parts one behind the other, each [channels][columns_of(part)]; of several outputs
+/// it is one such vector for each of them.
 struct TransferLayout {
     int order = 0;
     std::vector<TransferPart> parts = {}; ///< at most one of each kind but lamps, in the order of `PartKind`
+    /// Colors that a receiver makes of a lighting: its exit radiance, or 4, 9 or 16 coefficients of the light
+    /// that comes in at a probe.
+    std::size_t outputs = 1;
 
     /// 3 where any part has color, else 1.
     int channels() const;
@@ -57,8 +61,10 @@ struct TransferLayout {
     std::size_t numbers_of(const TransferPart& part) const {
         return static_cast<std::size_t>(part.channels) * columns_of(part);
     }
-    /// Numbers of a transfer vector.
+    /// Numbers of a transfer vector, of all outputs.
     std::size_t dimension() const;
+    /// The layout of the vector of one output.
+    TransferLayout of_one_output() const { return {order, parts}; }
     /// Colors of light that a transfer vector is multiplied with.
     std::size_t columns() const;
     /// The parts of distant light, and behind them those that are lamps.
@@ -109,7 +115,7 @@ struct LightingView {
 
 /// Numbers of a transfer vector of the largest layout that `check_layout` lets pass, and its columns of
 /// light.
-inline constexpr std::size_t kMostTransferNumbers =
+inline constexpr std::size_t kMostTransferNumbers = // of an output
     6 * static_cast<std::size_t>(coefficient_count(kMaxOrder)) + 3 * kMostLamps;
 inline constexpr std::size_t kMostLightColumns =
     2 * static_cast<std::size_t>(coefficient_count(kMaxOrder)) + kMostLamps;

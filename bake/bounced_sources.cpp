@@ -1,0 +1,47 @@
+// Bounces light between the vertices of a scene, all but once.
+
+#include "bounced_sources.h"
+
+#include "exit_light.h"
+#include "lamps/lamp_light.h"
+#include "measured_light.h"
+#include "parts.h"
+
+#include <memory>
+
+namespace prt {
+
+BouncedSources bounced_sources(const BakePlan& plan, Tracer& tracer, const Progress& progress) {
+    BouncedSources sources;
+    const LampTask no_task{.scene = plan.scene,
+                           .receivers = Receivers(),
+                           .lamps = plan.lamps,
+                           .options = plan.options.lamps,
+                           .channels = plan.lamp_channels()};
+    sources.lamps = no_lamp_light(no_task).transfer;
+    if (plan.bounces == 0)
+        return sources;
+    BakeStatistics asked;
+    Measured measured = measure(plan, tracer, asked, progress.part(0, 0.8));
+    LampLight lamps = measure_lamps(plan, tracer, measured.fit, progress.part(0.8, 0.9));
+    sources.rays = measured.direct.rays + measured.sealed.rays + lamps.rays + asked.rays;
+    const std::unique_ptr<GatherProduct> product =
+        measured.direct.gather ? tracer.gather_product(*measured.direct.gather) : nullptr;
+    const TransportOperators operators{.refill = measured.sealed.refill,
+                                       .diffusion = plan.diffusion,
+                                       .gather = measured.direct.gather ? &*measured.direct.gather : nullptr,
+                                       .product = product.get(),
+                                       .fit = measured.fit ? &*measured.fit : nullptr};
+    const int before = plan.bounces == kEndlessBounces ? kEndlessBounces : plan.bounces - 1;
+    Transfer sky = plan.channels == 3 ? in_color(measured.direct.transfer) : measured.direct.transfer;
+    Propagated lit =
+        propagate(std::move(sky), operators, before, plan.options.threads, progress.part(0.9, 1));
+    sources.bounces = lit.bounces + 1;
+    sources.sky = std::move(lit.transfer);
+    if (!plan.lamps.empty())
+        sources.lamps =
+            propagate_lamps_on_both_sides(plan, std::move(lamps.transfer), operators, before, {}).transfer;
+    return sources;
+}
+
+} // namespace prt

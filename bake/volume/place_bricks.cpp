@@ -1,0 +1,160 @@
+// Bricks of the coarsest level cover the box of the volume; those that surfaces come near are split, down to
+// the finest.
+
+#include "volume/place_bricks.h"
+
+#include "prt/support/error.h"
+
+#include <fmt/core.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace prt {
+namespace {
+
+struct PlacedTriangle {
+    glm::vec3 a, b, c;
+};
+
+std::vector<PlacedTriangle> triangles_of(const Scene& scene) {
+    std::vector<PlacedTriangle> triangles;
+    for (const Primitive& primitive : scene.primitives) {
+        const std::vector<glm::vec3>& at = scene.vertex_arrays[primitive.vertices].positions;
+        for (const glm::uvec3& t : primitive.triangles)
+            triangles.push_back({at[t.x], at[t.y], at[t.z]});
+    }
+    return triangles;
+}
+
+VolumeBounds bounds_of(const std::vector<PlacedTriangle>& triangles) {
+    VolumeBounds bounds{glm::vec3(std::numeric_limits<float>::max()),
+                        glm::vec3(std::numeric_limits<float>::lowest())};
+    for (const PlacedTriangle& t : triangles)
+        for (const glm::vec3& p : {t.a, t.b, t.c}) {
+            bounds.least = glm::min(bounds.least, p);
+            bounds.most = glm::max(bounds.most, p);
+        }
+    return bounds;
+}
+
+/// Whether the triangle comes into the box about `middle`, by its own box and its plane: a few more than do.
+bool comes_into(const PlacedTriangle& t, const glm::vec3& middle, float half) {
+    const glm::vec3 a = t.a - middle, b = t.b - middle, c = t.c - middle;
+    if (glm::any(glm::greaterThan(glm::min(a, glm::min(b, c)), glm::vec3(half))) ||
+        glm::any(glm::lessThan(glm::max(a, glm::max(b, c)), glm::vec3(-half))))
+        return false;
+    const glm::dvec3 normal = glm::cross(glm::dvec3(b - a), glm::dvec3(c - a));
+    const double reach =
+        static_cast<double>(half) * (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
+    return std::abs(glm::dot(normal, glm::dvec3(a))) <= reach * 1.0001;
+}
+
+/// Splits bricks of one grid.
+class Placement {
+public:
+    Placement(const VolumeBounds& bounds, float spacing) {
+        const float side = spacing * static_cast<float>(kBrickCells);
+        const glm::vec3 extent = bounds.most - bounds.least;
+        grid_.spacing = spacing;
+        grid_.size = glm::max(glm::ivec3(glm::ceil(extent / side - 1e-3f)), glm::ivec3(1));
+        grid_.origin = bounds.least - 0.5f * (side * glm::vec3(grid_.size) - extent);
+    }
+
+    VolumeGrid place(const std::vector<PlacedTriangle>& triangles) {
+        const int longest = std::max({grid_.size.x, grid_.size.y, grid_.size.z});
+        int top = 0;
+        while (top < kMostBrickLevel && 1 << (top + 1) <= longest)
+            ++top;
+        const int step = 1 << top;
+        for (int z = 0; z < grid_.size.z; z += step)
+            for (int y = 0; y < grid_.size.y; y += step)
+                for (int x = 0; x < grid_.size.x; x += step)
+                    add({{x, y, z}, top}, triangles);
+        return std::move(grid_);
+    }
+
+private:
+    void add(const VolumeBrick& brick, const std::vector<PlacedTriangle>& triangles) {
+        if (glm::any(glm::greaterThanEqual(brick.place, grid_.size)))
+            return;
+        if (brick.level == 0) {
+            grid_.bricks.push_back(brick);
+            return;
+        }
+        const float half = 0.5f * grid_.spacing * static_cast<float>(kBrickCells << brick.level),
+                    cell = grid_.spacing * static_cast<float>(1 << brick.level);
+        const glm::vec3 middle = position_of(grid_, kBrickCells * brick.place) + half;
+        std::vector<PlacedTriangle> here;
+        for (const PlacedTriangle& t : triangles)
+            if (comes_into(t, middle, half + 0.5f * cell))
+                here.push_back(t);
+        const glm::ivec3 end = brick.place + (1 << brick.level);
+        if (here.empty() && !glm::any(glm::greaterThan(end, grid_.size))) {
+            grid_.bricks.push_back(brick);
+            return;
+        }
+        const int step = 1 << (brick.level - 1);
+        for (int i = 0; i < 8; ++i)
+            add({brick.place + step * glm::ivec3(i & 1, i >> 1 & 1, i >> 2), brick.level - 1}, here);
+    }
+
+    VolumeGrid grid_;
+};
+
+void check_bounds(const VolumeBounds& bounds) {
+    for (int a = 0; a < 3; ++a)
+        if (!(bounds.least[a] < bounds.most[a]) || !(std::abs(bounds.least[a]) <= 1e9f) ||
+            !(std::abs(bounds.most[a]) <= 1e9f))
+            throw Error("the bounds of a volume are two corners, x0,y0,z0,x1,y1,z1, the second beyond the "
+                        "first along every axis");
+}
+
+void check_spacing(const VolumeBounds& bounds, double spacing) {
+    const glm::dvec3 bricks = glm::dvec3(bounds.most - bounds.least) / (kBrickCells * spacing);
+    if (std::max({bricks.x, bricks.y, bricks.z}) > kMostBricksAlong)
+        throw Error(fmt::format("probes {:g} m apart are more than {} along the volume: make it smaller, or "
+                                "their distance larger",
+                                spacing, kMostBricksAlong * kBrickCells));
+}
+
+} // namespace
+
+VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options) {
+    const std::vector<PlacedTriangle> triangles = triangles_of(scene);
+    if (triangles.empty() && !options.bounds)
+        throw Error("a scene without triangles has no bounds for a volume: give it some");
+    VolumeBounds bounds = options.bounds.value_or(bounds_of(triangles));
+    if (!options.bounds) // a flat scene has air above it
+        bounds.most = glm::max(bounds.most, bounds.least + 1e-3f * glm::length(bounds.most - bounds.least));
+    check_bounds(bounds);
+    if (options.probes == 0) {
+        check_spacing(bounds, options.spacing);
+        return Placement(bounds, static_cast<float>(options.spacing)).place(triangles);
+    }
+    const glm::dvec3 extent(bounds.most - bounds.least);
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    double most = longest, least = longest / (kMostBricksAlong * kBrickCells) * 1.01;
+    VolumeGrid grid = Placement(bounds, static_cast<float>(most)).place(triangles);
+    // Fewer finest bricks than fill the box with so many probes can only hold fewer.
+    least =
+        std::max(least, std::cbrt(extent.x * extent.y * extent.z / static_cast<double>(options.probes)) / 16);
+    for (int i = 0; i < 14; ++i) {
+        const double spacing = std::sqrt(least * most);
+        VolumeGrid finer = Placement(bounds, static_cast<float>(spacing)).place(triangles);
+        const bool fits = finer.bricks.size() <= options.probes && probes_of(finer).size() <= options.probes;
+        (fits ? most : least) = spacing;
+        if (fits)
+            grid = std::move(finer);
+    }
+    if (probes_of(grid).size() > options.probes)
+        throw Error(fmt::format("a volume has {} probes at least", kBrickProbes));
+    return grid;
+}
+
+} // namespace prt

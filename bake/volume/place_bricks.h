@@ -1,0 +1,15 @@
+#pragma once
+
+// Where the bricks of a volume are: fine ones where surfaces are, coarse ones in the open.
+
+#include "prt/scene.h"
+#include "prt/volume_bake.h"
+
+#include <cstddef>
+
+namespace prt {
+
+/// Throws `Error` for bounds or a spacing that make no volume, and one that would not fit.
+VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options);
+
+} // namespace prt

@@ -1,0 +1,287 @@
+// Rays of a probe are those of six receivers, whose normals are the axes: together they are nearly even over
+// the sphere, density (|x| + |y| + |z|) / 6 pi, and every tracer knows how to trace them. Light from
+// directions that are open is the whole less what is blocked, as it is at receivers of surfaces.
+
+#include "volume/probe_tracer.h"
+
+#include "lamps/lamp_light.h"
+#include "prt/sh.h"
+#include "prt/support/parallel.h"
+#include "prt/support/tangent_frame.h"
+#include "prt/support/vector_lanes.h"
+#include "prt/trace_receivers.h"
+#include "trace/chunk_kernels.h"
+#include "transport/gather.h"
+#include "volume/sight.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+
+namespace prt {
+namespace {
+
+constexpr std::size_t kPlacesAtOnce = 1024;
+constexpr int kSides = 6;
+
+glm::vec3 side(int i) {
+    glm::vec3 axis(0);
+    axis[i / 2] = i % 2 == 0 ? -1.0f : 1.0f;
+    return axis;
+}
+
+/// sums[o][i] += weight[o] values[i].
+PRT_TARGET_CLONES
+void add_products(std::span<const float> weights, std::span<const float> values, float* sums,
+                  std::size_t stride) {
+    const std::size_t count = values.size();
+    for (std::size_t o = 0; o < weights.size(); ++o) {
+        const float weight = weights[o];
+        float* const to = sums + o * stride;
+        for (std::size_t i = 0; i < count; ++i)
+            to[i] += weight * values[i];
+    }
+}
+
+/// to[i] += weight from[i].
+PRT_TARGET_CLONES
+void add_scaled(float weight, const float* from, std::size_t count, float* to) {
+    for (std::size_t i = 0; i < count; ++i)
+        to[i] += weight * from[i];
+}
+
+} // namespace
+
+/// What one thread works in.
+struct ProbeTracer::Space {
+    std::vector<float> vectors; ///< [coefficients][numbers]
+    std::vector<float> blocked; ///< [coefficients][order²]
+    std::vector<float> all;     ///< the same of all rays
+    std::vector<float> exit;    ///< of a place that a ray met
+    ChunkDirections directions;
+    SightSums sight;
+    double backs = 0;
+    PlaceSeen seen;
+};
+
+ProbeTracer::ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources sources, int order)
+    : plan_(plan), tracer_(tracer), rays_along_(std::max(1, (plan.options.rays + kSides - 1) / kSides)),
+      whole_(kChunk), last_((rays_along_ - 1) % kChunk + 1),
+      reflectance_(shared_reflectance(plan.scene.surfaces(), *plan.transport)) {
+    layout_.order = order;
+    layout_.sky = layout_of_one(plan.options.order, 1, PartKind::direct);
+    if (plan.bounces != 0)
+        layout_.sky.parts.push_back({PartKind::indirect, plan.channels});
+    if (!plan.lamps.empty())
+        layout_.lamps = sources.lamps.layout;
+    sky_ = std::move(sources.sky.vectors);
+    if (plan.bounces != 0)
+        lamps_ = std::move(sources.lamps.vectors);
+    if (!reflectance_.empty())
+        for (auto* exit : {&sky_, &lamps_}) {
+            if (exit->empty())
+                continue;
+            const std::size_t channels =
+                static_cast<std::size_t>(exit == &sky_ ? plan.channels : layout_.lamps.channels());
+            const std::size_t stride = exit->size() / reflectance_.size();
+            for (std::size_t p = 0; p < reflectance_.size(); ++p)
+                for (std::size_t i = 0; i < stride; ++i)
+                    (*exit)[p * stride + i] *= reflectance_[p][static_cast<int>(i / (stride / channels))];
+        }
+    for (const Lamp& lamp : plan.lamps)
+        shining_.emplace_back(plan.scene, lamp);
+}
+
+void ProbeTracer::trace(const Task& task, const Progress& progress,
+                        const std::function<void(std::size_t, const PlaceSeen&)>& take) {
+    for (std::size_t begin = 0; begin < task.places.size(); begin += kPlacesAtOnce) {
+        progress.check();
+        trace_batch(task, begin, std::min(begin + kPlacesAtOnce, task.places.size()), take);
+        progress.update(static_cast<double>(std::min(begin + kPlacesAtOnce, task.places.size())) /
+                        static_cast<double>(task.places.size()));
+    }
+}
+
+void ProbeTracer::trace_batch(const Task& task, std::size_t begin, std::size_t end,
+                              const std::function<void(std::size_t, const PlaceSeen&)>& take) {
+    const std::size_t count = end - begin;
+    Receivers receivers;
+    std::vector<std::uint32_t> indices;
+    for (std::size_t p = begin; p < end; ++p)
+        for (int s = 0; s < kSides; ++s) {
+            indices.push_back(static_cast<std::uint32_t>(receivers.size()));
+            receivers.positions.push_back(task.places[p]);
+            receivers.normals.push_back(side(s));
+            receivers.areas.push_back(1);
+            receivers.starts.emplace_back(0);
+        }
+    const TraceOptions options{.order = 1, .rays = rays_along_, .seed = task.seed + begin};
+    std::vector<std::vector<Hit>> hits(receivers.size());
+    Transfer unused = zero_transfer(1, 1, receivers.size());
+    trace_receivers(
+        tracer_, receivers, indices, options, unused, {},
+        [&](std::uint32_t r, std::span<const Hit> met) { hits[r].assign(met.begin(), met.end()); });
+    std::atomic<std::size_t> of_lamps = 0;
+    parallel_for(count, 16, plan_.options.threads, [&](std::size_t first, std::size_t last) {
+        Space space;
+        for (std::size_t i = first; i < last; ++i) {
+            see({.places = task.places.subspan(begin, count), .sight = task.sight, .seed = options.seed}, i,
+                std::span(hits).subspan(i * kSides, kSides), space);
+            if (!plan_.lamps.empty())
+                of_lamps += add_lamps(task, begin + i, space);
+            take(begin + i, space.seen);
+        }
+    });
+    rays_ += count * kSides * static_cast<std::size_t>(rays_along_) + of_lamps;
+}
+
+void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::vector<Hit>> hits,
+                      Space& space) const {
+    const std::size_t coefficients = layout_.coefficients(), direct = layout_.direct(),
+                      numbers = layout_.numbers();
+    space.vectors.assign(coefficients * numbers, 0.0f);
+    space.blocked.assign(coefficients * direct, 0.0f);
+    space.sight = SightSums(task.sight);
+    space.backs = 0;
+    const double n = kSides * rays_along_;
+    const int bands = std::max(layout_.sky.order, layout_.order);
+    std::array<float, kMaxOrder * kMaxOrder> basis{};
+    const auto basis_at = [&](const glm::vec3& d) {
+        evaluate_sh(bands, d, std::span(basis).first(static_cast<std::size_t>(coefficient_count(bands))));
+        return static_cast<float>(6 * std::numbers::pi /
+                                  (n * static_cast<double>(std::abs(d.x) + std::abs(d.y) + std::abs(d.z))));
+    };
+    std::array<float, kMostIncidentOrder * kMostIncidentOrder> weighted{};
+    const auto weigh = [&](float weight) {
+        for (std::size_t o = 0; o < coefficients; ++o)
+            weighted[o] = weight * basis[o];
+        return std::span<const float>(weighted).first(coefficients);
+    };
+    const std::vector<glm::vec3>& positions = plan_.receivers().positions;
+    const glm::vec3 from = task.places[place];
+    double shut = 0;
+    for (const std::vector<Hit>& of_side : hits)
+        for (const Hit& hit : of_side) {
+            const glm::uvec3& corners = plan_.scene.surfaces().corners(hit.triangle);
+            const glm::vec3 way = (1 - hit.u - hit.v) * (positions[corners.x] - from) +
+                                  hit.u * (positions[corners.y] - from) +
+                                  hit.v * (positions[corners.z] - from);
+            const float distance = glm::length(way);
+            if (!(distance > 0)) // on a surface
+                continue;
+            const glm::vec3 d = way / distance;
+            const float even = basis_at(d);
+            shut += static_cast<double>(hit.weight);
+            add_products(weigh(even * hit.weight), std::span(basis).first(direct), space.blocked.data(),
+                         direct);
+            space.sight.add_hit(d, distance, hit.weight);
+            if (hit.back && !plan_.scene.surfaces().two_sided(hit.triangle)) {
+                space.backs += static_cast<double>(hit.weight);
+                continue;
+            }
+            if (!sky_.empty() || !lamps_.empty())
+                add_reflected(hit, std::span(basis).first(coefficients), even * hit.weight, space);
+        }
+    // All directions: the coefficients themselves, or where most are blocked the sum over the same rays.
+    const bool mostly_open = 2 * shut <= n;
+    space.all.assign(coefficients * direct, 0.0f);
+    for (int s = 0; s < kSides; ++s)
+        for (int first = 0; first < rays_along_; first += kChunk) {
+            const int rays = std::min(kChunk, rays_along_ - first);
+            generate_directions(
+                rays == kChunk ? whole_ : last_, sobol_offset(static_cast<std::uint32_t>(first)),
+                receiver_seed(static_cast<std::uint32_t>(place) * kSides + static_cast<std::uint32_t>(s),
+                              task.seed),
+                tangent_frame(side(s)), space.directions);
+            for (std::size_t r = 0; r < static_cast<std::size_t>(rays); ++r) {
+                const glm::vec3 d(space.directions.x[r], space.directions.y[r], space.directions.z[r]);
+                space.sight.add_ray(d);
+                if (!mostly_open)
+                    add_products(weigh(basis_at(d)), std::span(basis).first(direct), space.all.data(),
+                                 direct);
+            }
+        }
+    for (std::size_t o = 0; o < coefficients; ++o)
+        for (std::size_t i = 0; i < direct; ++i) {
+            const float whole = mostly_open ? (i == o ? 1.0f : 0.0f) : space.all[o * direct + i];
+            space.vectors[o * numbers + i] = whole - space.blocked[o * direct + i];
+        }
+    space.seen = {space.vectors, static_cast<float>(space.backs / n), space.sight.distances()};
+}
+
+/// What leaves the surface that was met.
+void ProbeTracer::add_reflected(const Hit& hit, std::span<const float> basis, float weight,
+                                Space& space) const {
+    const Surfaces& surfaces = plan_.scene.surfaces();
+    const TransportReceivers& receivers = *plan_.transport;
+    const std::size_t direct = layout_.direct(), sky = layout_.sky.dimension() - direct,
+                      lamps = lamps_.empty() ? 0 : layout_.lamps.dimension(), numbers = layout_.numbers();
+    space.exit.assign(sky + lamps, 0.0f);
+    const glm::vec3 barycentrics(1 - hit.u - hit.v, hit.u, hit.v);
+    std::optional<Scattering> scattering;
+    if (reflectance_.empty())
+        scattering = surfaces.scattering({hit.triangle, {hit.u, hit.v}, hit.footprint});
+    const auto add = [&](std::uint32_t receiver, float share, const glm::vec3& factor) {
+        if (receiver == kNoReceiver || factor == glm::vec3(0))
+            return;
+        const auto add_colors = [&](const std::vector<float>& from, std::size_t stride, int channels,
+                                    float* to) {
+            const std::size_t count = stride / static_cast<std::size_t>(channels);
+            for (int c = 0; c < channels; ++c)
+                add_scaled(share * factor[c], &from[receiver * stride + static_cast<std::size_t>(c) * count],
+                           count, to + static_cast<std::size_t>(c) * count);
+        };
+        if (sky > 0)
+            add_colors(sky_, sky, plan_.channels, space.exit.data());
+        if (lamps > 0)
+            add_colors(lamps_, lamps, layout_.lamps.channels(), space.exit.data() + sky);
+    };
+    for (int corner = 0; corner < 3; ++corner) {
+        const std::uint32_t front = surfaces.corners(hit.triangle)[corner], back = receivers.back_of(front);
+        const std::uint32_t near = hit.back ? back : front, far = hit.back ? front : back;
+        add(near, barycentrics[corner], scattering ? scattering->reflected : glm::vec3(1));
+        if (scattering)
+            add(far, barycentrics[corner], scattering->transmitted);
+    }
+    std::array<float, kMostIncidentOrder * kMostIncidentOrder> weights{};
+    for (std::size_t o = 0; o < basis.size(); ++o)
+        weights[o] = weight * basis[o];
+    add_products(std::span(weights).first(basis.size()), space.exit, space.vectors.data() + direct, numbers);
+}
+
+std::size_t ProbeTracer::add_lamps(const Task& task, std::size_t place, Space& space) const {
+    const std::size_t numbers = layout_.numbers(), first = layout_.sky.dimension(),
+                      channels = static_cast<std::size_t>(layout_.lamps.channels()),
+                      stride = layout_.lamps.dimension() / channels;
+    std::size_t rays = 0;
+    for (std::size_t k = 0; k < plan_.lamps.size(); ++k) {
+        const Lamp& lamp = plan_.lamps[k];
+        if (plan_.options.lamps.mode != LampMode::all && !lamp.towards)
+            continue;
+        std::array<double, kMostIncidentOrder * kMostIncidentOrder> basis{};
+        const auto take = [&](const glm::dvec3& towards, const glm::dvec3& irradiance) {
+            evaluate_sh(layout_.order, towards, std::span(basis).first(layout_.coefficients()));
+            for (std::size_t o = 0; o < layout_.coefficients(); ++o)
+                for (std::size_t c = 0; c < channels; ++c)
+                    space.vectors[o * numbers + first + c * stride + k] +=
+                        static_cast<float>(basis[o] * irradiance[static_cast<int>(c)]);
+        };
+        LampReceiver receiver{task.places[place], glm::vec3(0, 0, 1), task.places[place],
+                              receiver_seed(static_cast<std::uint32_t>(place), task.seed + k)};
+        rays += take_lights(plan_.scene, lamp, receiver, plan_.options.lamps.radius, plan_.options.lamps.rays,
+                            take);
+        if (shining_[k].all().empty())
+            continue;
+        for (const float up : {1.0f, -1.0f}) {
+            receiver.normal = glm::vec3(0, 0, up);
+            rays += shining_[k].take_light(receiver, std::max(1, plan_.options.lamps.rays / 2), take);
+        }
+    }
+    return rays;
+}
+
+} // namespace prt
