@@ -3,9 +3,13 @@
 #include "prt/compress.h"
 #include "prt/gltf.h"
 #include "support/guided.h"
+#include "support/lightmap_model.h"
+#include "support/random_lightmap.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
 
+#include <algorithm>
+#include <iterator>
 #include <random>
 #include <string>
 #include <utility>
@@ -77,6 +81,21 @@ GlbFile made(const Recipe& recipe) {
     return read_glb(folder / "shipped.glb");
 }
 
+/// Words over coded bases with a lamp, and over plain ones.
+std::vector<ShippedFile> lightmap_files() {
+    const GlbFile scene = mapped_floor(2);
+    const LightmapLayout layout = layout_of_floor({12, 10}, {9, 7});
+    std::mt19937 random(5);
+    const BakedLightmap baked = made_up_lightmap(layout, kLamps, random);
+    const std::vector<Edge> edges = lightmap_edges(layout, baked.texels, baked.seams);
+    const CompressOptions options{.clusters = 5, .coding = preset_u64(), .guides = GuideChoice::none};
+    const ClusteredTransfer coded = compress(baked.baked.transfer, {baked.areas, edges}, options).transfer;
+    CompressedLightmap plain = random_lightmap(layout.maps, 1, false, random);
+    plain.layout = layout;
+    return {{"texels_coded", with_lightmap(scene, spread_over_maps(baked, coded))},
+            {"texels_plain", with_lightmap(scene, plain)}};
+}
+
 std::vector<Recipe> recipes() {
     WeightCoding fixed = preset_u32x4(), free = preset_u64(), floats{.format = WeightFormat::float32},
                  bytes{.format = WeightFormat::snorm8};
@@ -105,6 +124,7 @@ std::vector<ShippedFile> shipped_files() {
     std::vector<ShippedFile> files;
     for (const Recipe& recipe : recipes())
         files.push_back({recipe.name, made(recipe)});
+    std::ranges::move(lightmap_files(), std::back_inserter(files));
     return files;
 }
 
