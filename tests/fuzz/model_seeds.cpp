@@ -2,8 +2,10 @@
 #include "seeds.h"
 
 #include "prt/compress.h"
+#include "prt/fallback.h"
 #include "prt/gltf.h"
 #include "prt/image_file.h"
+#include "prt/support/file.h"
 #include "support/glb_file.h"
 #include "support/guided.h"
 #include "support/lightmap_model.h"
@@ -139,6 +141,13 @@ void write_shipped(const Path& folder, const std::string& name, const CompressOp
     save_glb(document, folder / (name + ".meshopt.glb"), BufferCompression::meshopt);
 }
 
+void write_with_fallback(const Path& folder) {
+    GltfDocument document = parse_gltf(read_file(folder / "u64.glb"), "u64.glb");
+    const Scene scene = extract_scene(document);
+    write_fallback(document, scene, std::vector<glm::vec3>(scene.receivers(), glm::vec3(0.5f)), 1.5f);
+    save_glb(document, folder / "fallback.glb");
+}
+
 void write_guided(const Path& folder) {
     GltfDocument document = document_of(floor_file(2));
     const Scene scene = extract_scene(document);
@@ -201,6 +210,7 @@ void write_model_seeds(const Path& to) {
         write_shipped(folder, name, {.clusters = 3, .coding = {.format = format, .components = 4}});
     write_shipped(folder, "plain", {.clusters = 2, .coding = {.components = 3}, .basis_share = 0});
     write_shipped(folder, "u64", {.clusters = 4, .coding = preset_u64()});
+    write_with_fallback(folder);
     write_guided(folder);
     write_lightmaps(folder);
 }

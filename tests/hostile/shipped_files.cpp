@@ -1,6 +1,7 @@
 #include "shipped_files.h"
 
 #include "prt/compress.h"
+#include "prt/fallback.h"
 #include "prt/gltf.h"
 #include "support/guided.h"
 #include "support/lightmap_model.h"
@@ -28,6 +29,7 @@ struct Recipe {
     CompressOptions options;
     bool position_alone = false; ///< a guide that the compressor does not choose
     GlbFile scene = {};
+    bool has_fallback = false;
 };
 
 /// A ball on a floor.
@@ -78,6 +80,12 @@ GlbFile made(const Recipe& recipe) {
         add_guides(compressed.transfer.bases, {GuideKind::position}, random);
     write_clustered(document, scene, compressed);
     save_glb(document, folder / "shipped.glb");
+    if (recipe.has_fallback) {
+        document = load_gltf(folder / "shipped.glb");
+        const Scene shipped = extract_scene(document);
+        write_fallback(document, shipped, std::vector<glm::vec3>(shipped.receivers(), glm::vec3(0.5f)), 1.5f);
+        save_glb(document, folder / "shipped.glb");
+    }
     return read_glb(folder / "shipped.glb");
 }
 
@@ -114,7 +122,8 @@ std::vector<Recipe> recipes() {
          kLamps,
          {.clusters = 4, .coding = free, .guides = GuideChoice::normal_and_position},
          false,
-         hard_scene()},
+         hard_scene(),
+         true},
     };
 }
 
