@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <iterator>
 
 namespace prt {
 namespace {
@@ -117,7 +116,7 @@ private:
                                       plan_.channels);
             }
             sink = [&](std::uint32_t g, std::span<const Hit> hits) {
-                set_row(sample(g), hits, *direct.gather);
+                direct.gather->set_row(sample(g), hits, rays_);
             };
         } else {
             options.hit_stride = 1;
@@ -150,15 +149,6 @@ private:
                 },
                 progress, sink);
         direct.rays += indices.size() * static_cast<std::size_t>(rays_);
-    }
-
-    /// A triangle does not light itself: rays that an interpolated normal sends below its plane meet it.
-    void set_row(std::size_t sample, std::span<const Hit> hits, GatherOperator& gather) const {
-        thread_local std::vector<Hit> others;
-        others.clear();
-        std::copy_if(hits.begin(), hits.end(), std::back_inserter(others),
-                     [&](const Hit& hit) { return hit.triangle != samples_.places[sample].triangle; });
-        gather.set_row(sample, others, rays_);
     }
 
     const BakePlan& plan_;

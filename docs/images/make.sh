@@ -79,6 +79,10 @@ pair knot marble
 node $images/sheet.mjs $images/transport.jpg 2 426 \
     "$work"/{dark.first,room.second,opaque.first,tree.second,knot.first,marble.second}.png
 
+# A lightmap of the room, for the viewer.
+bake room room.lightmap --size 512 --unwrap --bounces 3
+ship room.lightmap u64
+
 # The viewer's tour.
 cp examples/viewer/tour.json "$work"
 "$build/examples/viewer/prt-viewer" "$work/room.baked.glb" "$work/room.shipped.glb" "$sky" --headless "$work/tour.json"

@@ -36,6 +36,8 @@ public:
     bool busy(JobKind kind) const { return work(kind).busy(); }
     /// Files are read or written, or the model is baked or compressed.
     bool busy() const;
+    /// What there is of raw transfer is of few rays.
+    bool baking() const { return busy(JobKind::model) && work(JobKind::model).stage() == Stage::baking; }
     /// Nothing would be lost by compressing again.
     bool may_compress() const;
     /// Of work of that kind: what is done, and how far it is.

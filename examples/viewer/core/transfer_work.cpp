@@ -46,7 +46,8 @@ prt::CompressResult compressed_as(const CompressionSettings& how, const LoadedMo
 
 /// Takes over from `other` the transfer of texels that `loaded` lacks. Returns why not, empty: done.
 std::string add_lightmap(LoadedModel& loaded, const LoadedModel& other) {
-    if (*loaded.lightmap.layout() != *other.lightmap.layout())
+    if (*loaded.lightmap.layout() != *other.lightmap.layout() ||
+        loaded.model->receivers_id != other.model->receivers_id)
         return "its lightmap has other maps than that of ";
     if (!loaded.lightmap.compressed && other.lightmap.compressed)
         loaded.set(other.lightmap.compressed);
@@ -75,10 +76,11 @@ bool add_vertices(LoadedModel& loaded, LoadedModel other) {
 
 /// Takes over what `loaded` lacks, of the same kind of receivers.
 std::string add_transfer(LoadedModel& loaded, LoadedModel other) {
+    const bool same_surface = loaded.model->surface_id == other.model->surface_id;
+    if (loaded.of_texels() && same_surface) // vertices may be split otherwise: then so are maps
+        return add_lightmap(loaded, other);
     if (loaded.model->receivers_id != other.model->receivers_id)
         return "is another scene than ";
-    if (loaded.of_texels())
-        return add_lightmap(loaded, other);
     return add_vertices(loaded, std::move(other)) ? "" : "adds no transfer to ";
 }
 

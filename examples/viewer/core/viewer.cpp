@@ -78,7 +78,10 @@ void Viewer::open(const std::vector<std::filesystem::path>& paths) {
     if (models.empty())
         return;
     statistics_.begin_opening();
-    jobs_.open(models, {document_.loaded, document_.beside});
+    OpenModels before{document_.loaded, document_.beside};
+    if (jobs_.baking()) // it is done again, to its end, where the scene stays
+        before.first.raw = nullptr;
+    jobs_.open(models, before);
 }
 
 void Viewer::bake_anew() {

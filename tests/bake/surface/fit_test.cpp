@@ -334,6 +334,23 @@ TEST(FittedBake, BouncesAreAGeometricSeries) {
     }
 }
 
+// Normals of a coarse bowl send rays below the plane of their triangle: what these meet is light, too.
+TEST(FittedBake, OfAWhiteFurnaceIsOneOnCoarseHollowSurfaces) {
+    const Scene bowl =
+        test::painted(SceneBuilder().bowl({0, 0, 0}, 1, 8, 3).build(), glm::vec3(1), /*double_sided=*/true);
+    BakeOptions options = fitted_options(512);
+    options.bounces = kEndlessBounces;
+    const Transfer transfer = bake(bowl, options).baked.transfer;
+    const std::vector<float> areas = receiver_areas(bowl);
+    const std::vector<glm::vec3> lit = exit_radiance(transfer, constant_light(3, glm::vec3(1)));
+    double mean = 0, area = 0;
+    for (std::size_t p = 0; p < lit.size(); ++p) {
+        mean += static_cast<double>(areas[p] * lit[p].x);
+        area += static_cast<double>(areas[p]);
+    }
+    EXPECT_NEAR(mean / area, 1, 1e-3);
+}
+
 /// A lamp h over a floor gives 1 / (pi h²) below it, and falls as h / (pi d³).
 TEST(FittedBake, LampsLightAsTheyDoAndNeverTakeLightAway) {
     Scene scene = SceneBuilder().floor({0, 0, 0}, 2, 16).build();

@@ -9,9 +9,11 @@
 
 #include "prt/gl_context.h"
 #include "prt/gl_renderer.h"
+#include "prt/lightmap_bake.h"
 #include "prt/lightmap_file.h"
 #include "prt/lightmap_lookup.h"
 #include "prt/ray_renderer.h"
+#include "support/scene_builder.h"
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -303,6 +305,72 @@ TEST_F(LightmapPictures, OfErrorsAreBrightestWhereATexelLostMost) {
     const std::vector<glm::vec3>& errors = pictures[2].second;
     ASSERT_EQ(pictures[2].first, PictureKind::error);
     EXPECT_LT(glm::length(errors[least]), glm::length(errors[most]));
+}
+
+/// A floor that fills a map, gives off some light, and has a lamp and a key of a light set over it.
+prt::Scene floor_with_lamps() {
+    prt::Scene scene =
+        prt::test::painted(prt::test::SceneBuilder().floor({0, 0, 0}, 1, 4).build(), {0.7f, 0.5f, 0.3f});
+    prt::VertexArray& vertices = scene.vertex_arrays[0];
+    vertices.texcoords.assign(1, {});
+    for (const glm::vec3& p : vertices.positions)
+        vertices.texcoords[0].emplace_back(0.5f * (glm::vec2(p.x, p.z) + 1.0f));
+    scene.lights.push_back({.name = "warm", .intensity = {2, 1.5f, 1}, .position = {0.4f, 0.8f, 0.2f}});
+    scene.lights.push_back(
+        {.name = "key", .kind = prt::PunctualKind::directional, .direction = {-0.6f, -0.8f, 0}, .key = true});
+    scene.materials[0].name = "glow";
+    scene.materials[0].emission.radiance = {0.05f, 0.1f, 0.2f};
+    return scene;
+}
+
+TEST_F(LightmapPictures, ShowLampsKeysAndWhatShines) {
+    loaded = {};
+    loaded.model = make_model(floor_with_lamps(), "test");
+    const prt::Scene& scene = loaded.model->scene;
+    prt::BakeOptions options;
+    options.order = 4;
+    options.rays = 32;
+    options.tracer.backend = prt::Backend::cpu;
+    loaded.set(std::make_shared<const prt::BakedLightmap>(
+        prt::bake_lightmap(scene, prt::plan_atlases(scene, {.size = 16, .uv_set = 0}), options).lightmap));
+    const Compressed small = [&] {
+        BackgroundWork<Finding> work;
+        Compressed result;
+        work.start([&](Channel& channel) { result = compress_as(channel, loaded, {.order = 4}); });
+        while (work.busy())
+            work.collect();
+        return result;
+    }();
+    loaded.set(small.lightmap);
+    view.camera = prt::automatic_camera(scene, float{kShot.x} / float{kShot.y}, 0.6f);
+    gpu = std::make_unique<GpuModel>(loaded.model);
+    gpu->set_raw(loaded.lightmap.baked);
+    gpu->set_compressed(loaded.lightmap.compressed);
+    const prt::SunDisc sun{{0.6f, 0.8f, 0}, {2, 1.5f, 1}, 0.005}; // at the key
+    const LampSettings lamps{.strength = 2, .each = {{.name = "warm", .color = {1, 0.5f, 0.25f}}}};
+    gpu->set_lighting({lit.lighting.sky, prt::as_light(sun, 4)}, std::vector{sun}, lamps);
+
+    const prt::TransferLayout& layout = loaded.raw->layout;
+    std::vector<glm::vec3> strengths = strengths_of(lamps, layout);
+    const std::vector<glm::vec3> emission = prt::emission_strengths(scene, layout, strengths);
+    ASSERT_EQ(strengths.size(), 3u); // the lamp, the key, and what shines
+    std::size_t lamp = 0;
+    for (const prt::TransferPart& part : layout.parts)
+        if (part.kind == prt::PartKind::lamp) {
+            if (part.name == "key")
+                strengths[lamp] = sun.irradiance;
+            ++lamp;
+        }
+    lit.suns.clear(); // the key has them
+    lit.lighting = {lit.lighting.sky, {}, strengths};
+    for (const PictureKind kind : {PictureKind::prt, PictureKind::prt_compressed}) {
+        EXPECT_FALSE(gpu->takes_suns_as_sky(kind));
+        const std::vector<glm::vec3> texels = radiance(kind);
+        prt::Picture picture = picture_by(texels);
+        picture.emission = emission;
+        EXPECT_LT(share_of_difference(drawn(kind), prt::render_gl(picture, *context)), 0.002)
+            << name_of(kind).id;
+    }
 }
 
 } // namespace
