@@ -39,6 +39,12 @@ made terrain --camera 1,4.5,11 --look-at 0,2.6,0
 rays=256 sky=out/scenes/night.exr road night_room 3 u64 --camera 0.6,1.7,2.6 --look-at 0,1.8,-6 --fov 50
 # The courtyard, 139 000 vertices: minutes on a few cores.
 rays=128 sky=out/scenes/noon.exr road courtyard 3 u64 --camera 3.9,1.75,4.9 --look-at -1.3,2.75,-6 --fov 46
+echo
+# The room again, with its light in the texels of a map instead of at vertices.
+$prt bake out/scenes/room.glb -o out/room.lightmap.baked.glb --size 256 --unwrap --bounces 3 --rays 1024
+$prt compress out/room.lightmap.baked.glb -o out/room.lightmap.glb --preset u64
+$prt render out/room.lightmap.glb --env "$sky" -o out/room.lightmap.png --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
+echo
 $prt render out/knot.shipped.glb --env "$sky" --show clusters -o out/knot.clusters.png
 $prt render out/knot.shipped.glb --env "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png
 echo

@@ -62,7 +62,7 @@ build_and_test() {
 }
 
 cmake/install_packages.sh
-npm install --silent --no-audit --no-fund --no-package-lock --prefix build/validator gltf-validator@2.0.0-dev.3.10 >/dev/null
+npm install --silent --no-audit --no-fund --no-package-lock --prefix build/validator gltf-validator@2.0.0-dev.3.10 ajv@8.17.1 pngjs@7.0.0 >/dev/null
 [ $# -gt 0 ] || set -- look sanitize fuzz tidy threads optimised
 for step in "$@"; do
     case "$step" in

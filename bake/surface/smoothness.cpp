@@ -5,10 +5,15 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace prt {
 namespace {
+
+/// A foot so many lengths of an edge away from it is rounding: corners, which are floats, have seven digits.
+/// What is made of it is a float.
+constexpr double kFarthestFoot = 1e18;
 
 /// An edge of a triangle, seen from it.
 struct Slope {
@@ -50,7 +55,7 @@ std::vector<Bend> bends_of(std::span<const FitTriangle> triangles) {
             ++end;
         const Slope &a = slopes[begin], &b = slopes[end - 1];
         if (end != begin + 2 || a.low == a.high || a.opposite == b.opposite || !(a.height > 0) ||
-            !(b.height > 0))
+            !(b.height > 0) || std::max(std::abs(a.share), std::abs(b.share)) > kFarthestFoot)
             continue;
         const double h = 2 * a.height * b.height / (a.height + b.height);
         const double to_a = h / a.height, to_b = h / b.height;

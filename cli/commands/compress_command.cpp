@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include "compress_metric.h"
+#include "fallback.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
@@ -38,6 +39,7 @@ struct CompressArguments {
     struct Writing {
         bool meshopt = false, reorder = false, whole = false;
     } writing;
+    Path fallback; ///< a light
     GltfOptions reading;
 };
 
@@ -253,12 +255,15 @@ Outcome run_compressor(const CompressArguments& a, const TransferView& transfer,
     return {std::move(found.result), std::move(found.trials), found.best};
 }
 
+BufferCompression buffer_compression(const CompressArguments& a) {
+    return a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none;
+}
+
 /// The bake's file with the result, in the order that is asked for.
 std::vector<std::byte> encoded(const CompressArguments& a, Bake bake, Scene& scene,
                                ClusteredTransfer compressed) {
     GltfDocument& document = bake.document;
-    const BufferCompression buffers =
-        a.writing.meshopt ? BufferCompression::meshopt : BufferCompression::none;
+    const BufferCompression buffers = buffer_compression(a);
     if (bake.lightmap) {
         bake.lightmap->baked.record = bake.stored.record;
         write_lightmap(document, scene, spread_over_maps(*bake.lightmap, std::move(compressed)));
@@ -428,6 +433,10 @@ void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
         throw Error("--weights: those of texels are words of images; leave it out, or say packed");
     if (a.writing.reorder)
         throw Error("--reorder is for vertices: texels stay where they are");
+    if (!a.fallback.empty())
+        throw Error(
+            "--fallback writes colors of vertices, and the light of this file is in texels: leave it out, "
+            "or bake at vertices");
     options.compress.guides = GuideChoice::none;
     options.choose_guides = false;
 }
@@ -439,7 +448,7 @@ Bake bake_without_transfer(Bake& bake) {
 
 void run(CompressArguments a, Session& session) {
     std::vector<Path> inputs = a.metric.lights;
-    inputs.push_back(a.baked);
+    inputs.insert(inputs.end(), {a.baked, a.fallback});
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}},
                                        {a.reports.json, "--json", {".json"}},
                                        {a.reports.trace, "--trace", {".jsonl"}}},
@@ -451,9 +460,12 @@ void run(CompressArguments a, Session& session) {
     SearchOptions options = a.options;
     if (bake.lightmap)
         choose_for_texels(a, options);
+    const int threads = options.compress.threads;
+    std::optional<Fallback> fallback =
+        load_fallback(a.fallback, transfer.layout().order, a.metric.light_options, threads);
     std::optional<SceneSurface> surface = surface_of(bake, options);
-    std::vector<NamedLighting> skies = given_lights(a.metric, transfer.layout(), options.compress.threads);
-    ErrorTerms terms = error_terms(a.metric, skies, transfer, surface->areas, options.compress.threads);
+    std::vector<NamedLighting> skies = given_lights(a.metric, transfer.layout(), threads);
+    ErrorTerms terms = error_terms(a.metric, skies, transfer, surface->areas, threads);
     options.compress.metric = std::move(terms.metric);
     if (options.budget.max_error)
         options.budget.skies = std::move(terms.promised);
@@ -472,6 +484,8 @@ void run(CompressArguments a, Session& session) {
     std::vector<std::byte> file = about(a.baked, [&] {
         return encoded(a, bake_without_transfer(bake), scene, std::move(outcome.result.transfer));
     });
+    if (fallback)
+        file = with_fallback(file, a.baked, *fallback, buffer_compression(a), threads);
     if (!a.writing.reorder)
         scene = {}; // vertices are where they were
     const Written result = written(a, std::move(file), texels, session);
@@ -481,11 +495,11 @@ void run(CompressArguments a, Session& session) {
     }
     Report report = report_of(a, options, transfer, outcome, result);
     add_figures(report, reuse_json(reuse_before, vertex_reuse(result.scene)));
-    const ErrorMoments moments =
-        error_moments(transfer, result.transfer, result.areas, options.compress.threads);
+    const ErrorMoments moments = error_moments(transfer, result.transfer, result.areas, threads);
     add_figures(report, {{"lit_rms", expected_lit_rms(moments, *options.compress.metric)}});
     std::ranges::move(standard_skies(transfer.layout().order), std::back_inserter(skies));
     add_sky_errors(moments, skies, report);
+    say_fallback(fallback, report);
     if (texels)
         say_texels(report);
     publish(report, a.reports.json, session);
@@ -515,6 +529,13 @@ void add_compress(CLI::App& app, Session& session) {
         ->check(real_in(0, kMostPrice));
     command->add_flag("--whole", a.writing.whole,
                       "direct and indirect light as one: smaller, for who does not light suns apart");
+    command
+        ->add_option(
+            "--fallback", a.fallback,
+            "light (.exr, .hdr, .png, .jpg, .json) that viewers without PRT show the model in: as COLOR_0 "
+            "of unlit materials")
+        ->check(named)
+        ->type_name("FILE");
     command->add_flag("--reorder", a.writing.reorder, "put the vertices of a cluster side by side");
     command->add_flag("--meshopt", a.writing.meshopt, "write vertex data through EXT_meshopt_compression");
     command->add_option("--seed", a.options.compress.seed, "seed of the clustering")

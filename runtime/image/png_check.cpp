@@ -89,6 +89,12 @@ int png_bit_depth(std::span<const std::byte> file) {
     return file.size() > kDepth ? std::to_integer<int>(file[kDepth]) : 0;
 }
 
+bool is_png_of_bytes(std::span<const std::byte> file) {
+    constexpr std::size_t kColorType = kPngMagic.size() + kLengthAndType + 9; // behind the depth
+    constexpr std::byte kRgba{6};
+    return is_png(file) && png_bit_depth(file) == 8 && file.size() > kColorType && file[kColorType] == kRgba;
+}
+
 void check_png_chunks(std::span<const std::byte> file) {
     auto rest = file.subspan(kPngMagic.size());
     while (const auto chunk = next_chunk(rest)) {

@@ -3,6 +3,7 @@
 #include "prt/lightmap_file.h"
 
 #include "prt/image_file.h"
+#include "prt/image_size.h"
 #include "prt/support/error.h"
 
 #include <algorithm>
@@ -20,14 +21,22 @@ std::vector<std::byte> word_png(const LightmapSize& size, std::span<const std::u
     return encode_png(size.width, size.height, pixels);
 }
 
+/// Throws unless the pixels of an image are words of a map: what is asked before they are unpacked.
+void check_word_image(std::span<const std::byte> png, const LightmapSize& size) {
+    if (!is_png_of_bytes(png))
+        throw Error("is no PNG of 8 bits in each of red, green, blue and alpha");
+    const ImageSize found = image_size(png);
+    if (found.width != size.width || found.height != size.height)
+        throw Error("has " + std::to_string(found.width) + " x " + std::to_string(found.height) +
+                    " pixels for a lightmap of " + std::to_string(size.width) + " x " +
+                    std::to_string(size.height) + " texels");
+}
+
 /// Reads word `word` of all texels of a map, whose first is `first`.
 void read_word(std::span<const std::byte> png, const LightmapSize& size, std::size_t first, int word,
                ClusteredReceivers& receivers) {
+    check_word_image(png, size);
     const Image8 image = decode_image(png);
-    if (image.width != size.width || image.height != size.height)
-        throw Error("a lightmap of " + std::to_string(size.width) + " x " + std::to_string(size.height) +
-                    " texels has an image of " + std::to_string(image.width) + " x " +
-                    std::to_string(image.height));
     for (std::size_t t = 0; t < image.pixels.size(); ++t) {
         const glm::u8vec4& p = image.pixels[t];
         const std::uint32_t value =
@@ -74,7 +83,12 @@ std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& d
     std::size_t image = 0;
     for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m)
         for (int w = 0; w < receivers.words; ++w)
-            read_word(encoded->images[image++], lightmap.layout.maps[m], first[m], w, receivers);
+            try {
+                read_word(encoded->images[image++], lightmap.layout.maps[m], first[m], w, receivers);
+            } catch (const Error& error) {
+                throw Error("the image of word " + std::to_string(w) + " of map " + std::to_string(m) + " " +
+                            error.what());
+            }
     const std::size_t clusters = lightmap.compressed.transfer.bases.clusters();
     for (std::size_t t = 0; t < receivers.size(); ++t) {
         std::uint32_t word = 0;

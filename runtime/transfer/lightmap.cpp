@@ -10,6 +10,14 @@ namespace {
 
 constexpr std::uint32_t kNobody = ~0u;
 
+/// A coordinate near the first of the squares that a map is repeated in: squares are taken off exactly,
+/// however far out it lies. 0 where it is not finite, as between coordinates that floats just hold.
+double near_first_square(double x, int side, bool repeats) {
+    if (!std::isfinite(x))
+        return 0;
+    return repeats ? std::fmod(x, side) : x;
+}
+
 /// The texel that a filter reads for the i-th along a side.
 std::uint32_t along_side(double i, int side, bool repeats) {
     const double size = side;
@@ -93,6 +101,8 @@ std::vector<std::uint32_t> nearest_receivers(const LightmapSize& size,
 }
 
 BilinearTexels bilinear_texels(const LightmapSize& size, double x, double y) {
+    x = near_first_square(x, size.width, size.repeats);
+    y = near_first_square(y, size.height, size.repeats);
     const double left = std::floor(x - 0.5), top = std::floor(y - 0.5);
     const double right = x - 0.5 - left, low = y - 0.5 - top;
     const auto width = static_cast<std::uint32_t>(size.width);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <sstream>
 
 namespace prt::test {
 namespace {
@@ -68,6 +69,32 @@ TEST_F(Lightmaps, GoAllTheRoad) {
             0);
 }
 
+TEST_F(Lightmaps, AreDecodedFromTheFormatPageWithTheSameError) {
+    if (std::string(PRT_NODE).empty() ||
+        !std::filesystem::exists(std::string(PRT_VALIDATOR_MODULES) + "/pngjs"))
+        GTEST_SKIP() << "node or pngjs is not installed";
+    ASSERT_EQ(bake({"--size", "64", "--unwrap", "--bounces", "1"}).status,
+              0); // two parts, one of them colored
+    const std::vector<std::vector<std::string>> ways = {
+        {}, {"--preset", "u64"}, {"--clusters", "50", "--bits", "40"}, {"--clusters", "1", "--bits", "0"}};
+    for (const std::vector<std::string>& way : ways) {
+        std::vector<std::string> arguments = {"compress", at("baked.glb"),     "-o",       at("shipped.glb"),
+                                              "--json",   at("compress.json"), "--metric", "natural"};
+        arguments.insert(arguments.end(), way.begin(), way.end());
+        ASSERT_EQ(prt(arguments).status, 0);
+        const Outcome decoder =
+            run(PRT_NODE, {PRT_DECODE, at("baked.glb"), at("shipped.glb"), PRT_VALIDATOR_MODULES});
+        ASSERT_EQ(decoder.status, 0) << decoder.err;
+        std::istringstream found(decoder.out);
+        double l2 = 0, lit_rms = 0;
+        found >> l2 >> lit_rms;
+        const nlohmann::json report = read_json(folder / "compress.json");
+        const double expected_l2 = report["relative_l2"], expected_lit_rms = report["lit_rms"];
+        EXPECT_NEAR(l2, expected_l2, 1e-5 * expected_l2); // areas and vectors are floats there
+        EXPECT_NEAR(lit_rms, expected_lit_rms, 1e-5 * expected_lit_rms);
+    }
+}
+
 TEST_F(Lightmaps, HaveShadersThatCompile) {
     ASSERT_EQ(bake({"--size", "64", "--unwrap"}).status, 0);
     ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb")}).status, 0);
@@ -117,6 +144,7 @@ TEST_F(Lightmaps, AreRefusedWhereTheyCannotBe) {
     expect_refused(compress({"--guides", "normal"}), "texels know neither");
     expect_refused(compress({"--weights", "8"}), "packed");
     expect_refused(compress({"--reorder"}), "texels stay where they are");
+    expect_refused(compress({"--fallback", at("sky.exr")}), "the light of this file is in texels");
     EXPECT_FALSE(std::filesystem::exists(folder / "shipped.glb"));
     expect_refused(prt({"relight", at("baked.glb"), "--env", at("sky.exr"), "-o", at("r.glb")}),
                    "holds a lightmap");

@@ -2,10 +2,14 @@
 #include "seeds.h"
 
 #include "prt/compress.h"
+#include "prt/fallback.h"
 #include "prt/gltf.h"
 #include "prt/image_file.h"
+#include "prt/support/file.h"
 #include "support/glb_file.h"
 #include "support/guided.h"
+#include "support/lightmap_model.h"
+#include "support/random_lightmap.h"
 #include "support/scene_builder.h"
 
 #include <array>
@@ -137,6 +141,13 @@ void write_shipped(const Path& folder, const std::string& name, const CompressOp
     save_glb(document, folder / (name + ".meshopt.glb"), BufferCompression::meshopt);
 }
 
+void write_with_fallback(const Path& folder) {
+    GltfDocument document = parse_gltf(read_file(folder / "u64.glb"), "u64.glb");
+    const Scene scene = extract_scene(document);
+    write_fallback(document, scene, std::vector<glm::vec3>(scene.receivers(), glm::vec3(0.5f)), 1.5f);
+    save_glb(document, folder / "fallback.glb");
+}
+
 void write_guided(const Path& folder) {
     GltfDocument document = document_of(floor_file(2));
     const Scene scene = extract_scene(document);
@@ -148,6 +159,30 @@ void write_guided(const Path& folder) {
     test::add_guides(compressed.transfer.bases, {GuideKind::normal, GuideKind::position}, random);
     write_clustered(document, scene, compressed);
     save_glb(document, folder / "guided.glb");
+}
+
+/// Raw, of words over plain bases, and of words over coded ones.
+void write_lightmaps(const Path& folder) {
+    const GlbFile scene = test::mapped_floor(1);
+    const LightmapLayout layout = test::layout_of_floor({6, 5}, {4, 3});
+    std::mt19937 random(2);
+    BakedLightmap baked = test::made_up_lightmap(
+        layout, {2, {{PartKind::direct, 1}, {PartKind::indirect, 3}, {PartKind::lamp, 1, "lamp"}}}, random);
+    for (const TransferStorage storage : {TransferStorage::float32, TransferStorage::float16}) {
+        baked.baked.storage = storage;
+        test::with_lightmap(scene, baked)
+            .write(folder / ("lightmap" + std::string(to_string(storage)) + ".glb"));
+    }
+    for (const int words : {1, 2}) {
+        CompressedLightmap shipped = test::random_lightmap(layout.maps, words, words == 1, random);
+        shipped.layout = layout;
+        test::with_lightmap(scene, shipped)
+            .write(folder / ("lightmap.words" + std::to_string(words) + ".glb"));
+    }
+    const std::vector<Edge> edges = lightmap_edges(layout, baked.texels, baked.seams);
+    const CompressOptions options{.clusters = 3, .coding = preset_u64(), .guides = GuideChoice::none};
+    const ClusteredTransfer coded = compress(baked.baked.transfer, {baked.areas, edges}, options).transfer;
+    test::with_lightmap(scene, spread_over_maps(baked, coded)).write(folder / "lightmap.coded.glb");
 }
 
 } // namespace
@@ -175,7 +210,9 @@ void write_model_seeds(const Path& to) {
         write_shipped(folder, name, {.clusters = 3, .coding = {.format = format, .components = 4}});
     write_shipped(folder, "plain", {.clusters = 2, .coding = {.components = 3}, .basis_share = 0});
     write_shipped(folder, "u64", {.clusters = 4, .coding = preset_u64()});
+    write_with_fallback(folder);
     write_guided(folder);
+    write_lightmaps(folder);
 }
 
 } // namespace prt::fuzz

@@ -9,5 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const fuzz::WholeModel model = fuzz::read_whole(fuzz::bytes(data, size), file.path());
         if (model.compressed)
             fuzz::expect_finite_light(model.compressed->transfer);
+        if (model.lightmap)
+            fuzz::expect_finite_light(*model.lightmap);
     });
 }

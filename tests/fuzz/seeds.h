@@ -8,7 +8,7 @@ namespace prt::fuzz {
 
 using Path = std::filesystem::path;
 
-/// `models`: scenes as .glb and .gltf, bakes, and shipped files of every weight format.
+/// `models`: scenes as .glb and .gltf, bakes, shipped files of every weight format, and lightmaps.
 void write_model_seeds(const Path& folder);
 
 /// `exr`, `hdr`, `pictures`: lat-long maps of every kind.

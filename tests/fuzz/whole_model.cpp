@@ -1,10 +1,15 @@
 // Reads a model as the program does and looks at everything that was read.
 #include "whole_model.h"
 
+#include "prt/constant_former.h"
+#include "prt/lightmap_former.h"
+#include "prt/lightmap_lookup.h"
 #include "target.h"
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 namespace prt::fuzz {
@@ -57,6 +62,43 @@ void check_scene(const Scene& scene) {
     expect_finite(std::span<const float>(receiver_areas(scene)), "areas");
 }
 
+void check_layout(const Scene& scene, const LightmapLayout& layout) {
+    expect(layout.places.size() == scene.primitives.size(), "texels for other primitives");
+    const std::size_t texels = layout.texels();
+    const LightmapLookup lookup(scene, layout);
+    const glm::vec2 places[] = {{0, 0}, {1, 0}, {0, 1}, {0.3f, 0.3f}};
+    for (std::uint32_t triangle = 0; triangle < scene.triangles(); ++triangle)
+        for (const glm::vec2& place : places) {
+            const BilinearTexels filter = lookup.filter(triangle, place);
+            for (const std::uint32_t texel : filter.texels)
+                expect(texel < texels, "a filter reads outside of the maps");
+            expect_finite(std::span<const double>(filter.weights), "weights of a filter");
+        }
+}
+
+void check_lightmap(const Scene& scene, const BakedLightmap& lightmap) {
+    check_layout(scene, lightmap.layout);
+    const std::size_t receivers = lightmap.texels.size();
+    expect(receivers > 0 && lightmap.texels.back() < lightmap.layout.texels(), "texels outside of the maps");
+    expect(std::ranges::adjacent_find(lightmap.texels, std::greater_equal()) == lightmap.texels.end(),
+           "texels are not in ascending order");
+    expect(lightmap.areas.size() == receivers && lightmap.baked.transfer.receivers() == receivers,
+           "values of other texels");
+    expect_finite(std::span<const float>(lightmap.areas), "areas of texels");
+    expect_finite(std::span<const float>(lightmap.baked.transfer.vectors), "transfer of texels");
+    for (const Edge& seam : lightmap.seams)
+        expect(seam.first < seam.second && seam.second < receivers, "a seam of other texels");
+}
+
+void check_lightmap(const Scene& scene, const CompressedLightmap& lightmap) {
+    check_layout(scene, lightmap.layout);
+    const ClusteredTransfer& transfer = lightmap.compressed.transfer;
+    expect(transfer.receivers.size() == lightmap.layout.texels(), "words for other texels");
+    expect_finite(std::span<const float>(transfer.bases.rows), "bases of texels");
+    for (const std::uint16_t cluster : transfer.receivers.clusters)
+        expect(cluster < transfer.bases.clusters(), "a texel is in no cluster");
+}
+
 } // namespace
 
 WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::path& path) {
@@ -74,7 +116,14 @@ WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::pa
         expect_finite(std::span<const float>(compressed->transfer.bases.rows), "bases");
         expect_finite(std::span<const float>(compressed->transfer.receivers.guides), "guides");
     }
-    return {std::move(document), std::move(scene), std::move(baked), std::move(compressed)};
+    auto baked_lightmap = read_lightmap(document, scene);
+    auto lightmap = read_compressed_lightmap(document, scene);
+    if (baked_lightmap)
+        check_lightmap(scene, *baked_lightmap);
+    if (lightmap)
+        check_lightmap(scene, *lightmap);
+    return {std::move(document),   std::move(scene),          std::move(baked),
+            std::move(compressed), std::move(baked_lightmap), std::move(lightmap)};
 }
 
 void expect_finite_light(const ClusteredTransfer& transfer) {
@@ -82,6 +131,21 @@ void expect_finite_light(const ClusteredTransfer& transfer) {
     const Light light = constant_light(transfer.bases.layout.order, glm::vec3(1));
     for (const glm::vec3& radiance : exit_radiance(transfer, light, 1))
         expect_finite(std::span<const float>(&radiance.x, 3), "exit radiance");
+}
+
+void expect_finite_light(const CompressedLightmap& lightmap) {
+    constexpr std::size_t kMostTexels = 100'000;
+    if (lightmap.layout.texels() > kMostTexels)
+        return;
+    expect_finite_light(lightmap.compressed.transfer);
+    const ConstantFormer constants(lightmap.compressed.transfer);
+    std::vector<glm::vec4> formed(constants.rows());
+    constants.form(constant_light(constants.order(), glm::vec3(1)), formed);
+    const LightmapFormer former(lightmap, LightmapFormat::rgb9e5);
+    for (std::size_t m = 0; m < lightmap.layout.maps.size(); ++m) {
+        std::vector<std::byte> texels(former.bytes(m));
+        former.form(m, formed, texels, 1);
+    }
 }
 
 } // namespace prt::fuzz

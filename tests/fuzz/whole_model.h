@@ -1,6 +1,7 @@
 #pragma once
 
 #include "prt/gltf.h"
+#include "prt/lightmap_file.h"
 
 #include <optional>
 
@@ -12,6 +13,8 @@ struct WholeModel {
     Scene scene;
     std::optional<BakedTransfer> baked;
     std::optional<CompressedTransfer> compressed;
+    std::optional<BakedLightmap> baked_lightmap;
+    std::optional<CompressedLightmap> lightmap;
 };
 
 /// Reads as the program does and expects that all numbers are finite and all indices are inside. Throws
@@ -20,5 +23,8 @@ WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::pa
 
 /// Decodes it, lights it, and expects finite numbers.
 void expect_finite_light(const ClusteredTransfer& transfer);
+
+/// Lights all its texels, and expects finite numbers. Large ones are left out: they show no more.
+void expect_finite_light(const CompressedLightmap& lightmap);
 
 } // namespace prt::fuzz

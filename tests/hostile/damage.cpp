@@ -1,5 +1,8 @@
 #include "damage.h"
 
+#include "prt/image_file.h"
+#include "support/lightmap_model.h"
+
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -54,7 +57,8 @@ Json& member_of(Json& value, Random& random) {
 }
 
 Json& extension(GlbFile& file) {
-    return file.json["extensions"]["PRTKIT_clustered_pca"];
+    Json& all = file.json["extensions"];
+    return all[all.contains("PRTKIT_lightmap") ? "PRTKIT_lightmap" : "PRTKIT_clustered_pca"];
 }
 
 void change_number(GlbFile& file, Random& random) {
@@ -110,7 +114,45 @@ void lengthen_list(GlbFile& file, Random& random) {
     }
 }
 
+/// Maps of other sizes and other words, images of other pixels, primitives elsewhere.
+void change_maps(GlbFile& file, Random& random) {
+    Json& maps = extension(file).at("maps");
+    Json& map = maps[below(maps.size(), random)];
+    Json& image = map["images"][below(map["images"].size(), random)];
+    switch (random() % 7) {
+    case 0:
+        map[random() % 2 ? "width" : "height"] = strange_number(random);
+        break;
+    case 1:
+        image = random() % 2 ? Json(below(file.json["images"].size(), random)) : strange_value(random);
+        break;
+    case 2:
+        map["images"].push_back(image);
+        break;
+    case 3:
+        map["repeats"] = random() % 2 ? Json(!map.value("repeats", false)) : strange_value(random);
+        break;
+    case 4: {
+        std::vector<glm::u8vec4> pixels(map["width"].get<std::size_t>() * map["height"].get<std::size_t>());
+        for (glm::u8vec4& pixel : pixels)
+            pixel = {random() % 256, random() % 256, random() % 256, random() % 256};
+        image = add_image(file, encode_png(map["width"], map["height"], pixels));
+        break;
+    }
+    case 5:
+        maps.push_back(map);
+        break;
+    default: {
+        Json& primitives = file.json["meshes"][0]["primitives"];
+        primitives[below(primitives.size(), random)]["extensions"]["PRTKIT_lightmap"]
+                  [random() % 2 ? "map" : "texCoord"] = strange_value(random);
+    }
+    }
+}
+
 void change_guides(GlbFile& file, Random& random) {
+    if (extension(file).contains("maps"))
+        return change_maps(file, random);
     Json& guides = extension(file)["guides"];
     if (!guides.is_array() || guides.empty()) {
         guides = Json::array({{{"kind", "normal"}, {"scale", {1, 1, 1}}}});
@@ -147,11 +189,14 @@ std::span<std::byte> view_bytes(GlbFile& file, std::size_t view) {
         .subspan(begin, std::min<std::size_t>(json.value("byteLength", 0u), size - begin));
 }
 
-/// A view that the extension names.
+/// A view that the extension names, or an image, which has words then.
 std::size_t own_view(GlbFile& file, Random& random) {
     std::vector<Json*> all;
     std::vector<std::size_t> views;
     collect(extension(file), all);
+    if (file.json.contains("images"))
+        for (Json& image : file.json["images"])
+            all.push_back(&image);
     for (const Json* value : all)
         if (value->is_object() && value->contains("bufferView") &&
             (*value)["bufferView"].is_number_unsigned())

@@ -6,7 +6,7 @@
 
 namespace prt::test {
 
-/// `file` with damage to one place of its clustered transfer, or of the mesh that this is of, or to a few.
+/// `file` with damage to one place of its compressed transfer, or of the mesh that this is of, or to a few.
 /// The same seed gives the same.
 GlbFile damaged(GlbFile file, std::uint32_t seed);
 

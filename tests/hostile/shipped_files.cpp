@@ -1,11 +1,16 @@
 #include "shipped_files.h"
 
 #include "prt/compress.h"
+#include "prt/fallback.h"
 #include "prt/gltf.h"
 #include "support/guided.h"
+#include "support/lightmap_model.h"
+#include "support/random_lightmap.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
 
+#include <algorithm>
+#include <iterator>
 #include <random>
 #include <string>
 #include <utility>
@@ -24,6 +29,7 @@ struct Recipe {
     CompressOptions options;
     bool position_alone = false; ///< a guide that the compressor does not choose
     GlbFile scene = {};
+    bool has_fallback = false;
 };
 
 /// A ball on a floor.
@@ -74,7 +80,28 @@ GlbFile made(const Recipe& recipe) {
         add_guides(compressed.transfer.bases, {GuideKind::position}, random);
     write_clustered(document, scene, compressed);
     save_glb(document, folder / "shipped.glb");
+    if (recipe.has_fallback) {
+        document = load_gltf(folder / "shipped.glb");
+        const Scene shipped = extract_scene(document);
+        write_fallback(document, shipped, std::vector<glm::vec3>(shipped.receivers(), glm::vec3(0.5f)), 1.5f);
+        save_glb(document, folder / "shipped.glb");
+    }
     return read_glb(folder / "shipped.glb");
+}
+
+/// Words over coded bases with a lamp, and over plain ones.
+std::vector<ShippedFile> lightmap_files() {
+    const GlbFile scene = mapped_floor(2);
+    const LightmapLayout layout = layout_of_floor({12, 10}, {9, 7});
+    std::mt19937 random(5);
+    const BakedLightmap baked = made_up_lightmap(layout, kLamps, random);
+    const std::vector<Edge> edges = lightmap_edges(layout, baked.texels, baked.seams);
+    const CompressOptions options{.clusters = 5, .coding = preset_u64(), .guides = GuideChoice::none};
+    const ClusteredTransfer coded = compress(baked.baked.transfer, {baked.areas, edges}, options).transfer;
+    CompressedLightmap plain = random_lightmap(layout.maps, 1, false, random);
+    plain.layout = layout;
+    return {{"texels_coded", with_lightmap(scene, spread_over_maps(baked, coded))},
+            {"texels_plain", with_lightmap(scene, plain)}};
 }
 
 std::vector<Recipe> recipes() {
@@ -95,7 +122,8 @@ std::vector<Recipe> recipes() {
          kLamps,
          {.clusters = 4, .coding = free, .guides = GuideChoice::normal_and_position},
          false,
-         hard_scene()},
+         hard_scene(),
+         true},
     };
 }
 
@@ -105,6 +133,7 @@ std::vector<ShippedFile> shipped_files() {
     std::vector<ShippedFile> files;
     for (const Recipe& recipe : recipes())
         files.push_back({recipe.name, made(recipe)});
+    std::ranges::move(lightmap_files(), std::back_inserter(files));
     return files;
 }
 

@@ -13,7 +13,8 @@ struct ShippedFile {
 };
 
 /// Valid shipped files of every kind, made anew: each choice of guides, bits that are fixed and free, weights
-/// of floats and of bytes, rows that are coded and plain, lamps, quantised normals, nodes that mirror.
+/// of floats and of bytes, rows that are coded and plain, lamps, quantised normals, nodes that mirror,
+/// lightmaps.
 std::vector<ShippedFile> shipped_files();
 
 } // namespace prt::test

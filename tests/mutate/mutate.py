@@ -42,6 +42,11 @@ BAKED = SCENE[:2] + SCENE[3:] + [COMPRESS, COMPRESS + ["--meshopt"], COMPRESS + 
                                  ["evaluate", "{file}", "{shipped}"]]
 SHIPPED = SCENE[:1] + SCENE[3:] + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.vert"],
                                  ["relight", "{file}", "--env", "light.json", "-o", "out.glb"]] + SCENE[1:2]
+# Of texels.
+RAW_TEXELS = SCENE[:1] + SCENE[3:] + [COMPRESS, COMPRESS + ["--preset", "custom", "--clusters", "3", "--components", "2"],
+                                      ["evaluate", "{file}", "{shipped}"]]
+TEXELS = SCENE[:1] + SCENE[3:] + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.comp"],
+                                  ["shader", "{file}", "-o", "out.frag", "--fragment"]] + SCENE[1:2]
 SHIPMENTS = [["--meshopt"], ["--preset", "custom", "--weights", "8", "--clusters", "2", "--components", "3"],
              ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3"], ["--preset", "u64", "--reorder"],
              ["--preset", "u32x4", "--guides", "position"],
@@ -63,6 +68,17 @@ class Bases:
             names = {"baked": str(baked), "shipped": str(shipped[0])}
             self.files += [(scene.read_bytes(), SCENE, names)] * 2 + [(baked.read_bytes(), BAKED, names)] * 3
             self.files += [(path.read_bytes(), SHIPPED, names) for path in shipped]
+            self.add_lightmap(program, scene, folder)
+
+    def add_lightmap(self, program, scene, folder):
+        """Files of texels, where the scene's materials can have them."""
+        names = {name: str(folder / f"{scene.stem}.texels.{name}.glb") for name in ("baked", "shipped")}
+        bake = [program, "bake", scene, "-o", names["baked"], "--size", "32", "--unwrap", "--rays", "4", "--order", "2", "--backend", "cpu"]
+        if subprocess.run(bake, check=False, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode != 0:
+            return
+        self.make(program, ["compress", names["baked"], "-o", names["shipped"], "--preset", "u64"])
+        self.files += [(pathlib.Path(names[name]).read_bytes(), commands, names)
+                       for name, commands in (("baked", RAW_TEXELS), ("shipped", TEXELS)) for _ in range(2)]
 
     @staticmethod
     def make(program, arguments):

@@ -52,17 +52,21 @@ void GlbFile::write(const std::filesystem::path& path) const {
     std::ofstream(path, std::ios::binary) << bytes();
 }
 
+GlbFile glb_of(std::span<const std::byte> bytes) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, &bytes[12], sizeof length);
+    GlbFile glb;
+    const auto* text = reinterpret_cast<const char*>(&bytes[20]);
+    glb.json = nlohmann::ordered_json::parse(text, text + length);
+    if (const std::size_t begin = 28 + length; begin < bytes.size())
+        glb.binary.assign(bytes.begin() + static_cast<std::ptrdiff_t>(begin), bytes.end());
+    return glb;
+}
+
 GlbFile read_glb(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     const std::string bytes((std::istreambuf_iterator<char>(file)), {});
-    std::uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + 12, sizeof length);
-    GlbFile glb;
-    glb.json = nlohmann::ordered_json::parse(bytes.substr(20, length));
-    const auto* data = reinterpret_cast<const std::byte*>(bytes.data());
-    if (const std::size_t begin = 28 + length; begin < bytes.size())
-        glb.binary.assign(data + begin, data + bytes.size());
-    return glb;
+    return glb_of(std::as_bytes(std::span(bytes)));
 }
 
 GlbFile triangle_file() {

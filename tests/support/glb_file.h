@@ -34,6 +34,7 @@ inline constexpr int kByte = 5120, kUnsignedByte = 5121, kShort = 5122, kUnsigne
                      kUnsignedInt = 5125, kFloat = 5126;
 
 /// A .glb taken apart.
+GlbFile glb_of(std::span<const std::byte> bytes);
 GlbFile read_glb(const std::filesystem::path& path);
 
 /// A file with one triangle (0,0,0) (1,0,0) (0,1,0), indexed, with normals, at node 0.

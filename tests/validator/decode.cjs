@@ -1,7 +1,9 @@
 // A decoder of prtkit files in another language, written from docs/format.md alone:
-//   node decode.cjs BAKED SHIPPED
-// prints the area-weighted relative L2 error of SHIPPED against BAKED, and its expected lit_rms under natural light.
+//   node decode.cjs BAKED SHIPPED [NODE_MODULES]
+// prints the area-weighted relative L2 error of SHIPPED against BAKED, and its expected lit_rms under natural light. Of
+// lightmaps NODE_MODULES has the reader of PNG, pngjs.
 const fs = require("fs");
+const { resolve } = require("path");
 
 function half(bits) {
   const sign = bits & 0x8000 ? -1 : 1;
@@ -17,6 +19,16 @@ class Glb {
     const jsonLength = file.readUInt32LE(12);
     this.json = JSON.parse(file.subarray(20, 20 + jsonLength).toString("utf8"));
     this.bin = file.subarray(28 + jsonLength);
+  }
+
+  bytes(view) {
+    const { byteOffset = 0, byteLength } = this.json.bufferViews[view];
+    return this.bin.subarray(byteOffset, byteOffset + byteLength);
+  }
+
+  numbers(object) {
+    const bytes = this.bytes(object.bufferView);
+    return Array.from({ length: bytes.length / 4 }, (_, i) => bytes.readUInt32LE(4 * i));
   }
 
   floats(object) {
@@ -66,17 +78,17 @@ const columnsOf = (part, order) => (part.kind === "lamp" ? 1 : order * order);
 const dimensionOf = ({ order, parts }) =>
   parts.reduce((sum, part) => sum + part.channels * columnsOf(part, order), 0);
 
-function rawVectors(glb, primitive) {
-  const dimension = dimensionOf(glb.json.extensions.PRTKIT_transfer);
-  const values = glb.floats(primitive.extensions.PRTKIT_transfer.vectors);
+/// Vectors [receivers][S] of a buffer view.
+function rawVectors(glb, extension, view) {
+  const dimension = dimensionOf(extension);
+  const values = glb.floats(view);
   return Array.from({ length: values.length / dimension }, (_, p) => values.slice(p * dimension, (p + 1) * dimension));
 }
 
-/// Bits of a buffer view, lowest first.
+/// Bits of bytes, lowest first.
 class Bits {
-  constructor(glb, view) {
-    const { byteOffset = 0, byteLength } = glb.json.bufferViews[view];
-    this.bytes = glb.bin.subarray(byteOffset, byteOffset + byteLength);
+  constructor(bytes) {
+    this.bytes = bytes;
     this.position = 0;
   }
   read(width) {
@@ -89,8 +101,7 @@ class Bits {
 
 /// Numbers of an arithmetically coded buffer view, row by row.
 function codedRows(glb, code, rows) {
-  const { byteOffset = 0, byteLength } = glb.json.bufferViews[code.bufferView];
-  const bytes = [...glb.bin.subarray(byteOffset, byteOffset + byteLength)];
+  const bytes = [...glb.bytes(code.bufferView)];
   const nextByte = () => {
     if (bytes.length === 0) throw new Error("the coded rows end too early");
     return bytes.shift();
@@ -172,6 +183,18 @@ function guideCoordinates(glb, extension, primitive) {
   );
 }
 
+/// What makes cluster and weights of the bytes of a receiver's words.
+function packedCodes(glb, { components, packing }) {
+  const widths = new Bits(glb.bytes(packing.bufferView));
+  const bits = components.map((m) => Array.from({ length: m }, () => widths.read(4) + 1));
+  return (bytes) => {
+    const words = new Bits(bytes);
+    const cluster = words.read(packing.clusterBits);
+    const weights = bits[cluster].map((width) => (2 * words.read(width) - (2 ** width - 1)) / (2 ** width - 1));
+    return { cluster, weights };
+  };
+}
+
 /// Cluster and weights of every vertex of a primitive.
 function vertexCodes(glb, extension, primitive) {
   const groups = [];
@@ -184,23 +207,30 @@ function vertexCodes(glb, extension, primitive) {
       weights: Array.from({ length: extension.components[k] }, (_, j) => groups[j >> 2][p][j & 3]),
     }));
   }
-  const widths = new Bits(glb, extension.packing.bufferView);
-  const bits = extension.components.map((m) => Array.from({ length: m }, () => widths.read(4) + 1));
-  return groups[0].map((_, p) => {
-    const bytes = groups.flatMap((group) => group[p]);
-    let position = 0;
-    const take = (width) => {
-      let value = 0;
-      for (let b = 0; b < width; ++b, ++position)
-        value += ((bytes[position >> 3] >> (position & 7)) & 1) * 2 ** b;
-      return value;
-    };
-    const cluster = take(extension.packing.clusterBits);
-    return {
-      cluster,
-      weights: bits[cluster].map((width) => (2 * take(width) - (2 ** width - 1)) / (2 ** width - 1)),
-    };
+  const codeOf = packedCodes(glb, extension);
+  return groups[0].map((_, p) => codeOf(groups.flatMap((group) => group[p])));
+}
+
+/// The bytes of the words of every texel, map behind map.
+function texelBytes(glb, { maps }) {
+  const { PNG } = require(resolve(process.argv[4], "pngjs"));
+  return maps.flatMap(({ width, height, images }) => {
+    const words = images.map((i) => {
+      const { bufferView, mimeType } = glb.json.images[i];
+      const image = PNG.sync.read(glb.bytes(bufferView));
+      if (mimeType !== "image/png" || image.width !== width || image.height !== height || image.depth !== 8 || !image.alpha)
+        throw new Error(`image ${i} is no PNG of words`);
+      return image.data;
+    });
+    return Array.from({ length: width * height }, (_, t) => words.flatMap((data) => [...data.subarray(4 * t, 4 * t + 4)]));
   });
+}
+
+/// A cluster's rows, put together by weights of those behind the mean.
+function combined(rows, weights) {
+  const vector = [...rows[0]];
+  weights.forEach((w, j) => rows[1 + j].forEach((b, i) => (vector[i] += w * b)));
+  return vector;
 }
 
 function decodedVectors(glb, primitive) {
@@ -210,10 +240,8 @@ function decodedVectors(glb, primitive) {
   const scales = (extension.guides ?? []).flatMap(({ scale }) => scale);
   const centers = extension.centers ? codedRows(glb, extension.centers, rows.length) : rows.map(() => []);
   return vertexCodes(glb, extension, primitive).map(({ cluster, weights }, p) => {
-    const vector = [...rows[cluster][0]];
     const guided = scales.map((scale, i) => scale * coordinates[p][i] - centers[cluster][i]);
-    [...guided, ...weights].forEach((w, j) => rows[cluster][1 + j].forEach((b, i) => (vector[i] += w * b)));
-    return vector;
+    return combined(rows[cluster], [...guided, ...weights]);
   });
 }
 
@@ -232,9 +260,33 @@ function areas(glb, primitive) {
   return result;
 }
 
+/// Area, vector and decoded vector of every vertex.
+function vertices(baked, shipped) {
+  return baked.primitives().flatMap((primitive, i) => {
+    const weights = areas(baked, primitive);
+    const decoded = decodedVectors(shipped, shipped.primitives()[i]);
+    const raw = rawVectors(baked, baked.json.extensions.PRTKIT_transfer, primitive.extensions.PRTKIT_transfer.vectors);
+    return raw.map((vector, p) => ({ area: weights[p], vector, decoded: decoded[p] }));
+  });
+}
+
+/// The same of every texel that is a receiver. All texels are decoded.
+function texels(baked, shipped) {
+  const extension = shipped.json.extensions.PRTKIT_lightmap;
+  const rows = clusterRows(shipped, extension);
+  const decoded = texelBytes(shipped, extension)
+    .map(packedCodes(shipped, extension))
+    .map(({ cluster, weights }) => combined(rows[cluster], weights));
+  const { raw, ...layout } = baked.json.extensions.PRTKIT_lightmap;
+  const numbers = baked.numbers(raw.texels);
+  const sizes = baked.floats(raw.areas);
+  return rawVectors(baked, layout, raw.vectors).map((vector, p) => ({ area: sizes[p], vector, decoded: decoded[numbers[p]] }));
+}
+
 const baked = new Glb(process.argv[2]);
 const shipped = new Glb(process.argv[3]);
-const { order, parts } = baked.json.extensions.PRTKIT_transfer;
+const ofTexels = baked.json.extensions.PRTKIT_lightmap;
+const { order, parts } = ofTexels ?? baked.json.extensions.PRTKIT_transfer;
 const channels = Math.max(...parts.map((part) => part.channels));
 
 /// E[ a·b ] of the light in band l on two parts under natural light: docs/math.md, section 4.
@@ -280,24 +332,20 @@ function costs(vector) {
 
 const sums = { error: 0, norm: 0, litError: 0, litNorm: 0 };
 const lamps = new Map(); // by part: its error and norm
-baked.primitives().forEach((primitive, i) => {
-  const weights = areas(baked, primitive);
-  const decoded = decodedVectors(shipped, shipped.primitives()[i]);
-  rawVectors(baked, primitive).forEach((vector, p) => {
-    const [error, litError, lampError] = costs(vector.map((value, k) => value - decoded[p][k]));
-    const [norm, litNorm, lampNorm] = costs(vector);
-    sums.error += weights[p] * error;
-    sums.norm += weights[p] * norm;
-    sums.litError += weights[p] * litError;
-    sums.litNorm += weights[p] * litNorm;
-    for (const [lamp, square] of lampNorm) {
-      const sum = lamps.get(lamp) ?? { error: 0, norm: 0 };
-      sum.error += weights[p] * lampError.get(lamp);
-      sum.norm += weights[p] * square;
-      lamps.set(lamp, sum);
-    }
-  });
-});
+for (const { area, vector, decoded } of ofTexels ? texels(baked, shipped) : vertices(baked, shipped)) {
+  const [error, litError, lampError] = costs(vector.map((value, k) => value - decoded[k]));
+  const [norm, litNorm, lampNorm] = costs(vector);
+  sums.error += area * error;
+  sums.norm += area * norm;
+  sums.litError += area * litError;
+  sums.litNorm += area * litNorm;
+  for (const [lamp, square] of lampNorm) {
+    const sum = lamps.get(lamp) ?? { error: 0, norm: 0 };
+    sum.error += area * lampError.get(lamp);
+    sum.norm += area * square;
+    lamps.set(lamp, sum);
+  }
+}
 // All lamps together cost as much as the sky and each as much as the others, where both give something.
 const shining = [...lamps.values()].filter(({ norm }) => norm > 0);
 const all = sums.litNorm > 0 ? sums.litNorm : shining.reduce((sum, { norm }) => sum + norm, 0);

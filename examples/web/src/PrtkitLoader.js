@@ -21,6 +21,7 @@
 //
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
+import { setFallbackAside } from "./fallback.js";
 import { relitMaterial, sunTraits } from "./relitMaterial.js";
 import { TexelPass } from "./texelPass.js";
 import { transferOfTexels } from "./texelTransfer.js";
@@ -40,6 +41,10 @@ export class PrtkitPlugin {
   constructor(parser) {
     this.parser = parser;
     this.name = VERTICES;
+  }
+
+  beforeRoot() {
+    setFallbackAside(this.parser.json);
   }
 
   async afterRoot(gltf) {

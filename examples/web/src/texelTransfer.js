@@ -24,10 +24,10 @@ export async function transferOfTexels(extension, views, root, parser, passOf) {
   const bytes = await views(viewsOf(extension));
   const clusters = ofTexels(() => clustersOf(extension, (i) => bytes.get(i)));
   const words = wordsOf(clusters);
-  holds(words <= extension.maps[0].images.length, `a texel has ${extension.maps[0].images.length} words, not ${words}`);
+  holds(words === extension.maps[0].images.length, `a texel has ${extension.maps[0].images.length} words, not ${words}`);
   const maps = [];
   for (const map of extension.maps) {
-    const textures = await Promise.all(map.images.slice(0, words).map((i) => wordTexture(parser, i, map)));
+    const textures = await Promise.all(map.images.map((i) => wordTexture(parser, i, map)));
     maps.push({ width: map.width, height: map.height, repeats: map.repeats === true, words: textures });
   }
   const model = new PrtkitModel(clusters, root);

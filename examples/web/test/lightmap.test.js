@@ -107,6 +107,7 @@ const refusals = {
   "a map without a size": [(json) => delete extensionOf(json).maps[0].width, /the maps are wrong/],
   "maps of different words": [(json) => extensionOf(json).maps[1].images.pop(), /not as many for each/],
   "an image that is not there": [(json) => (extensionOf(json).maps[0].images[0] = 99), /images of the maps are not there/],
+  "too many words": [(json) => extensionOf(json).maps.forEach(({ images }) => images.push(images[0])), /a texel has 3 words, not 2/],
   "too few words": [(json) => extensionOf(json).maps.forEach(({ images }) => images.pop()), /a texel has 1 words, not 2/],
   "damaged bases": [(json) => (extensionOf(json).bases.bufferView = 0), /the bases have another size/],
   "a buffer view that is not there": [(json) => (extensionOf(json).bases.bufferView = 999), /buffer view 999 cannot be read/],

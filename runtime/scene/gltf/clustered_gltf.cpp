@@ -5,6 +5,7 @@
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
 #include "gltf/clustered_json.h"
+#include "gltf/fallback.h"
 #include "gltf/guides_json.h"
 #include "gltf/own_attributes.h"
 #include "gltf/transfer_json.h"
@@ -182,11 +183,11 @@ void make_room(const GltfContents& contents, const Json& attributes, ClusteredRe
     receivers.weights.resize(receivers.size() * receivers.stride());
 }
 
-/// Those of `attributes` that are ours, in the order of their names.
+/// Those of `attributes` that are ours and of the transfer, in the order of their names.
 Json own_attributes(const Json& attributes) {
     std::map<std::string, Json> own;
     for (auto it = attributes.begin(); it != attributes.end(); ++it)
-        if (is_own_attribute(it.key()))
+        if (is_own_attribute(it.key()) && it.key() != kOtherColors)
             own[it.key()] = *it;
     return own;
 }

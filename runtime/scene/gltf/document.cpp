@@ -7,6 +7,7 @@
 #include "gltf/check_shape.h"
 #include "gltf/contents.h"
 #include "gltf/draco_primitives.h"
+#include "gltf/fallback.h"
 #include "gltf/glb.h"
 #include "gltf/instances.h"
 #include "gltf/json_text.h"
@@ -30,9 +31,10 @@ namespace {
 
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
 /// base color is used. Textures of other formats are missed only where they are needed.
-constexpr std::array<std::string_view, 30> kSupportedExtensions = {
+constexpr std::array<std::string_view, 31> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
+    kLightmapExtension,
     kMeshoptExtension,
     kDracoExtension,
     "EXT_mesh_gpu_instancing",
@@ -289,6 +291,7 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
         if (draco)
             contents->cut_unused_bytes();
         check_data(*contents);
+        set_fallback_aside(*contents);
         expand_instances(*contents);
         embed_images(*contents);
     } catch (const std::exception& error) { // ours, and those of the standard and the JSON library

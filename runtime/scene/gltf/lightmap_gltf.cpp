@@ -57,10 +57,11 @@ LightmapPlace read_place(const Json& json, const VertexArray& vertices, std::siz
 
 LightmapLayout read_layout_of_maps(const GltfContents& contents, const Scene& scene, const Json& extension) {
     LightmapLayout layout;
-    for (const Json& map : extension.at("maps"))
+    const Json& maps = extension.at("maps");
+    if (!maps.is_array() || maps.empty())
+        throw Error("the maps are no list, or none");
+    for (const Json& map : maps)
         layout.maps.push_back(read_map(map));
-    if (layout.maps.empty())
-        throw Error("there are no maps");
     check_allowed(8 * static_cast<double>(layout.texels()), contents.file_bytes, "its lightmaps");
     for (const Primitive& primitive : scene.primitives) {
         const Json* of_primitive = extension_of(primitive_json(contents, primitive), kLightmapExtension);
@@ -94,6 +95,8 @@ Json write_numbers(GltfContents& contents, std::span<const std::uint32_t> number
 
 std::vector<std::uint32_t> read_texels(const GltfContents& contents, const Json& raw, std::size_t texels) {
     std::vector<std::uint32_t> numbers = read_numbers(contents, raw.at("texels"), "the texels");
+    if (numbers.empty())
+        throw Error("no texel is a receiver");
     for (std::size_t i = 0; i < numbers.size(); ++i)
         if (numbers[i] >= texels || (i > 0 && numbers[i] <= numbers[i - 1]))
             throw Error("the texels are not in ascending order, or beyond the maps");
@@ -176,6 +179,30 @@ void write_encoded(GltfContents& contents, const Scene& scene, const EncodedLigh
     extension["bake"] = record_json(lightmap.compressed.record);
 }
 
+/// The images of the words of all maps. One may stand for several words.
+std::vector<std::vector<std::byte>> read_images(const GltfContents& contents, const Json& maps,
+                                                std::size_t words) {
+    std::vector<std::vector<std::byte>> all;
+    double bytes = 0;
+    for (const Json& map : maps) {
+        const Json& images = map.at("images");
+        if (!images.is_array() || images.size() != words)
+            throw Error("a map has " + std::to_string(images.size()) + " images for " +
+                        std::to_string(words) + " words of a texel");
+        if (contents.images.empty())
+            throw Error("the images of the maps are not there");
+        for (const Json& image : images) {
+            const int most = static_cast<int>(contents.images.size()) - 1;
+            const auto& file =
+                contents.images[static_cast<std::size_t>(whole_number(image, "an image of a map", 0, most))];
+            check_allowed(bytes += static_cast<double>(file.size()), contents.file_bytes,
+                          "the images of its lightmaps");
+            all.push_back(file);
+        }
+    }
+    return all;
+}
+
 EncodedLightmap read_encoded(const GltfContents& contents, const Scene& scene, const Json& extension) {
     EncodedLightmap encoded;
     CompressedLightmap& lightmap = encoded.lightmap;
@@ -185,19 +212,26 @@ EncodedLightmap read_encoded(const GltfContents& contents, const Scene& scene, c
     lightmap.compressed.record = read_record(extension.value("bake", Json::object()));
     read_bases(contents, extension.at("bases"), transfer.bases);
     read_packing(contents, extension.at("packing"), transfer);
-    const auto words = static_cast<std::size_t>(transfer.receivers.words);
-    for (const Json& map : extension.at("maps")) {
-        const Json& images = map.at("images");
-        if (!images.is_array() || images.size() != words)
-            throw Error("a map has " + std::to_string(images.size()) + " images for " +
-                        std::to_string(words) + " words of a texel");
-        for (const Json& image : images) {
-            const int most = static_cast<int>(contents.images.size()) - 1;
-            encoded.images.push_back(
-                contents.images[static_cast<std::size_t>(whole_number(image, "an image of a map", 0, most))]);
-        }
-    }
+    const double bytes = static_cast<double>(transfer.receivers.stride() + sizeof(std::uint16_t));
+    check_allowed(bytes * static_cast<double>(lightmap.layout.texels()), contents.file_bytes,
+                  "the words of its lightmaps");
+    encoded.images =
+        read_images(contents, extension["maps"], static_cast<std::size_t>(transfer.receivers.words));
     return encoded;
+}
+
+/// The extension at the top level of a file, where it has it; it has no other of prtkit's then.
+const Json* find_lightmap(const GltfContents& contents) {
+    const Json* extension = find_extension(contents, kLightmapExtension, kLightmapVersion);
+    for (const char* other : {kTransferExtension, kClusteredExtension})
+        if (extension && extension_of(contents.json, other))
+            throw Error(std::string("has ") + kLightmapExtension + " and " + other +
+                        ": transfer of texels or of vertices, not both");
+    if (extension && extension->contains("raw") && extension->contains("components"))
+        throw Error("has raw vectors or clusters, not both");
+    if (extension && extension->contains("guides"))
+        throw Error("texels have no guides");
+    return extension;
 }
 
 } // namespace
@@ -208,7 +242,7 @@ void write_lightmap(GltfDocument& document, const Scene& scene, const BakedLight
 
 std::optional<BakedLightmap> read_lightmap(const GltfDocument& document, const Scene& scene) {
     return named(document, [&](const GltfContents& contents) -> std::optional<BakedLightmap> {
-        const Json* extension = find_extension(contents, kLightmapExtension, kLightmapVersion);
+        const Json* extension = find_lightmap(contents);
         if (!extension || !extension->contains("raw"))
             return std::nullopt;
         BakedLightmap lightmap;
@@ -226,7 +260,7 @@ void write_encoded_lightmap(GltfDocument& document, const Scene& scene, const En
 
 std::optional<EncodedLightmap> read_encoded_lightmap(const GltfDocument& document, const Scene& scene) {
     return named(document, [&](const GltfContents& contents) -> std::optional<EncodedLightmap> {
-        const Json* extension = find_extension(contents, kLightmapExtension, kLightmapVersion);
+        const Json* extension = find_lightmap(contents);
         if (!extension || extension->contains("raw"))
             return std::nullopt;
         return read_encoded(contents, scene, *extension);

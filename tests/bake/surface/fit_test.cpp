@@ -122,6 +122,13 @@ TEST(Bend, IsOfEdgesThatTwoTrianglesShare) {
     EXPECT_EQ(bends_of(std::vector<FitTriangle>{{{0, 1, 2}, at}, {{0, 1, 2}, at}}).size(), 0); // duplicated
 }
 
+TEST(Bend, IsNotThatOfEdgesWithoutLength) {
+    // Beside the pole of a sphere whose vertices are not quite in one place: a denormal apart.
+    const std::vector<FitTriangle> triangles = {{{0, 1, 2}, {{{0, 0, 0}, {3.3e-41, 0, 0}, {1, 1, 0}}}},
+                                                {{1, 0, 3}, {{{3.3e-41, 0, 0}, {0, 0, 0}, {1, -1, 0}}}}};
+    EXPECT_EQ(bends_of(triangles).size(), 0);
+}
+
 class FitWeight : public testing::TestWithParam<float> {};
 INSTANTIATE_TEST_SUITE_P(Weights, FitWeight, testing::Values(0.0f, 0.003f, 5.0f));
 

@@ -34,6 +34,21 @@ TEST(BilinearTexels, SumToOneAndGiveLinearFunctionsBack) {
         }
 }
 
+TEST(BilinearTexels, LieInTheMapWhereverTheCoordinatesDo) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    for (const bool repeats : {false, true})
+        for (const double x :
+             {3e38, -3e38, 1e16 + 2, -1e-300, 3.0, kInfinity, -kInfinity, kInfinity - kInfinity})
+            for (const double y : {x, 0.5}) {
+                const BilinearTexels filter = bilinear_texels({3, 5, repeats}, x, y);
+                for (int i = 0; i < 4; ++i) {
+                    EXPECT_LT(filter.texels[i], 15u) << x << " " << y;
+                    EXPECT_TRUE(filter.weights[i] >= 0 && filter.weights[i] <= 1) << x << " " << y;
+                }
+            }
+    EXPECT_EQ(bilinear_texels({3, 3, true}, 9e15 + 1.5, 0.5).texels[0], 1u); // 9e15 is 3 times a whole number
+}
+
 TEST(BilinearTexels, EndAtTheBorderUnlessTheMapGoesOn) {
     EXPECT_EQ(bilinear_texels({4, 4}, -3, 0.5).texels[0], 0u);
     EXPECT_EQ(bilinear_texels({4, 4}, 99, 3.5).texels[1], 15u);

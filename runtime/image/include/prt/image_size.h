@@ -15,4 +15,8 @@ struct ImageSize {
 /// else.
 ImageSize image_size(std::span<const std::byte> file);
 
+/// Whether a file in memory begins as a PNG does that has 8 bits in each of red, green, blue and alpha: bytes
+/// that `decode_image` gives as they are.
+bool is_png_of_bytes(std::span<const std::byte> file);
+
 } // namespace prt

@@ -1,0 +1,41 @@
+#include "fallback.h"
+
+#include "prt/encode_glb.h"
+#include "prt/fallback.h"
+#include "prt/support/error.h"
+
+#include <fmt/core.h>
+
+namespace prt::cli {
+
+std::optional<Fallback> load_fallback(const Path& light, int order, const LightOptions& options,
+                                      int threads) {
+    if (light.empty())
+        return std::nullopt;
+    LoadedLight loaded = load_light(light, order, options, threads);
+    return Fallback{{std::move(loaded.light)}, std::move(loaded.name)};
+}
+
+std::vector<std::byte> with_fallback(std::span<const std::byte> file, const Path& path, Fallback& fallback,
+                                     BufferCompression buffers, int threads) {
+    GltfDocument document = parse_gltf(file, path);
+    const Scene scene = extract_scene(document);
+    const std::optional<CompressedTransfer> compressed = read_clustered(document, scene);
+    const std::vector<glm::vec3> radiance = exit_radiance(compressed->transfer, fallback.lighting, threads);
+    fallback.exposure = fallback_exposure(radiance, receiver_areas(scene));
+    fallback.primitives = write_fallback(document, scene, radiance, fallback.exposure);
+    return encode_glb(document, buffers);
+}
+
+void say_fallback(const std::optional<Fallback>& fallback, Report& report) {
+    if (!fallback)
+        return;
+    add_figures(report, {{"fallback",
+                          {{"light", fallback->name},
+                           {"exposure", fallback->exposure},
+                           {"primitives", fallback->primitives}}}});
+    report.sentences.emplace_back(
+        "viewers without PRT show it as {fallback/light} lights it, at exposure {fallback/exposure:.4g}");
+}
+
+} // namespace prt::cli

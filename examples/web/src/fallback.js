@@ -1,0 +1,24 @@
+// Baked light that a file has for viewers without PRT (docs/format.md, "Fallback"): colours of vertices, and materials that
+// are unlit for it.
+
+import { VERTICES } from "./wholeExtension.js";
+
+const UNLIT = "KHR_materials_unlit";
+
+/** Makes `json`, a whole glTF, what it is without its fallback, before three reads materials and attributes. */
+export function setFallbackAside(json) {
+  if (!json.extensions?.[VERTICES]?.fallback) return;
+  const lit = new Set();
+  json.materials?.forEach(({ extensions }, i) => {
+    if (extensions?.[UNLIT]?.extras?.prtkit !== "fallback") return;
+    delete extensions[UNLIT];
+    lit.add(i);
+  });
+  const primitives = json.meshes?.flatMap((mesh) => mesh.primitives ?? []) ?? [];
+  for (const { attributes, material } of primitives) {
+    if (!attributes || !lit.has(material)) continue;
+    delete attributes.COLOR_0;
+    if (attributes._PRT_COLOR_0 !== undefined) attributes.COLOR_0 = attributes._PRT_COLOR_0;
+    delete attributes._PRT_COLOR_0;
+  }
+}

@@ -1,0 +1,225 @@
+// Baked light for viewers that do not know the extensions: docs/format.md, "Fallback".
+
+#include "prt/fallback.h"
+
+#include "gltf/fallback.h"
+#include "gltf/transfer_json.h"
+#include "gltf/unshare.h"
+
+#include <glm/common.hpp>
+#include <glm/gtc/type_precision.hpp>
+#include <glm/vec4.hpp>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+#include <string>
+#include <utility>
+
+namespace prt {
+namespace {
+
+constexpr const char* kUnlit = "KHR_materials_unlit";
+/// In the extras of what makes a material unlit for a fallback.
+constexpr const char *kMark = "prtkit", *kMarked = "fallback";
+
+/// Number of a primitive's material in the file, -1 where it has none.
+int material_of(const Json& primitive) {
+    const auto found = primitive.find("material");
+    return found != primitive.end() && found->is_number_unsigned() ? found->get<int>() : -1;
+}
+
+Json& material_at(Json& json, int material) {
+    return json.at("materials").at(static_cast<std::size_t>(material));
+}
+
+bool is_unlit(const Json& material) {
+    return extension_of(material, kUnlit) != nullptr;
+}
+
+bool is_unlit_for_fallback(const Json& material) {
+    const Json* unlit = extension_of(material, kUnlit);
+    return unlit && unlit->contains("extras") && (*unlit)["extras"].is_object() &&
+           (*unlit)["extras"].value(kMark, Json()) == kMarked;
+}
+
+/// Whether a material shows more than light that its base color sends back, or less.
+bool is_left_alone(const Json& material) {
+    const Json* glass = extension_of(material, "KHR_materials_transmission");
+    return is_unlit(material) || (glass && glass->value("transmissionFactor", 0.0) > 0) ||
+           material.value("emissiveFactor", std::vector<double>(3, 0.0)) != std::vector<double>(3, 0.0);
+}
+
+/// Materials that primitives other than `lit` name, and variants of any.
+std::set<int> used_elsewhere(const Json& json, std::span<Json* const> lit) {
+    std::set<int> used;
+    for_each_primitive(json, [&](const Json& primitive) {
+        if (std::ranges::find(lit, &primitive) == lit.end())
+            used.insert(material_of(primitive));
+        if (const Json* variants = extension_of(primitive, "KHR_materials_variants"))
+            for (const Json& mapping : variants->value("mappings", Json::array()))
+                used.insert(material_of(mapping));
+    });
+    return used;
+}
+
+/// Makes materials unlit, each once: a copy where others use it, and a new one where there was none.
+class UnlitMaterials {
+public:
+    UnlitMaterials(Json& json, std::set<int> used_elsewhere)
+        : json_(json), used_elsewhere_(std::move(used_elsewhere)) {}
+
+    int unlit(int material) {
+        const auto [known, is_new] = unlit_.try_emplace(material, material);
+        if (!is_new)
+            return known->second;
+        Json& materials = member(json_, "materials", Json::value_t::array);
+        if (material < 0 || used_elsewhere_.contains(material)) {
+            known->second = static_cast<int>(materials.size());
+            Json copy = material < 0 ? Json::object() : Json(material_at(json_, material));
+            materials.push_back(std::move(copy));
+        }
+        extensions_of(material_at(json_, known->second))[kUnlit] = {{"extras", {{kMark, kMarked}}}};
+        return known->second;
+    }
+
+private:
+    Json& json_;
+    std::set<int> used_elsewhere_;
+    std::map<int, int> unlit_; ///< by the material that it was
+};
+
+std::size_t add_colors(GltfContents& contents, const VertexArray& vertices,
+                       std::span<const glm::vec3> radiance, float exposure) {
+    std::vector<glm::u16vec4> colors;
+    for (std::size_t v = 0; v < vertices.size(); ++v) {
+        const glm::vec4 own = vertices.colors.empty() ? glm::vec4(1) : vertices.colors[v];
+        const glm::vec4 color = own * glm::vec4(exposure * radiance[vertices.first_receiver + v], 1);
+        colors.emplace_back(glm::round(65535.0f * glm::clamp(color, 0.0f, 1.0f)));
+    }
+    const std::size_t view =
+        contents.add_buffer_view(std::as_bytes(std::span(colors)), sizeof(glm::u16vec4), true);
+    return contents.add_accessor({{"bufferView", view},
+                                  {"componentType", TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT},
+                                  {"normalized", true},
+                                  {"count", colors.size()},
+                                  {"type", "VEC4"}});
+}
+
+std::size_t write_into(GltfContents& contents, const Scene& scene, std::span<const glm::vec3> radiance,
+                       float exposure) {
+    if (!extension_of(contents.json, kClusteredExtension))
+        throw Error("only compressed transfer of vertices has a fallback");
+    const std::vector<Json*> primitives = unshare(contents, scene);
+    UnlitMaterials materials(contents.json, used_elsewhere(contents.json, primitives));
+    std::map<std::size_t, std::size_t> colors; // accessors by vertex array
+    std::map<int, bool> left_alone;            // materials as they were
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        Json& primitive = *primitives[i];
+        const int material = material_of(primitive);
+        const auto alone = left_alone.try_emplace(material, false);
+        if (alone.second && material >= 0)
+            alone.first->second = is_left_alone(material_at(contents.json, material));
+        if (alone.first->second)
+            continue;
+        const std::size_t vertices = scene.primitives[i].vertices;
+        const auto own = colors.try_emplace(vertices, 0);
+        if (own.second)
+            own.first->second = add_colors(contents, scene.vertex_arrays[vertices], radiance, exposure);
+        Json& attributes = primitive["attributes"];
+        if (attributes.contains("COLOR_0"))
+            attributes[kOtherColors] = Json(attributes["COLOR_0"]);
+        attributes["COLOR_0"] = own.first->second;
+        primitive["material"] = materials.unlit(material);
+        ++count;
+    }
+    extensions_of(contents.json)[kClusteredExtension]["fallback"] = {{"exposure", exposure}};
+    if (count > 0)
+        contents.use_extension(kUnlit);
+    return count;
+}
+
+/// The numbers of the materials that are unlit for a fallback alone, which they are no more.
+std::set<int> lit_again(GltfContents& contents) {
+    std::set<int> lit;
+    if (!contents.json.contains("materials"))
+        return lit;
+    Json& materials = contents.json["materials"];
+    for (std::size_t m = 0; m < std::min(materials.size(), contents.model.materials.size()); ++m) {
+        if (!is_unlit_for_fallback(materials[m]))
+            continue;
+        Json& extensions = materials[m]["extensions"];
+        extensions.erase(kUnlit);
+        contents.model.materials[m].extensions.erase(kUnlit);
+        if (extensions.empty())
+            materials[m].erase("extensions");
+        lit.insert(static_cast<int>(m));
+    }
+    if (std::ranges::none_of(materials, is_unlit))
+        contents.drop_extension(kUnlit);
+    return lit;
+}
+
+/// Gives a primitive its own colors; those of the fallback go where the transfer has its attributes.
+void exchange_colors(Json& attributes, std::map<std::string, int>& of_model) {
+    if (!attributes.contains("COLOR_0"))
+        return;
+    const Json fallback = attributes["COLOR_0"];
+    if (attributes.contains(kOtherColors))
+        attributes["COLOR_0"] = Json(attributes[kOtherColors]);
+    else
+        attributes.erase("COLOR_0");
+    attributes[kOtherColors] = fallback;
+    of_model.erase("COLOR_0");
+    for (const char* name : {"COLOR_0", kOtherColors})
+        if (attributes.contains(name))
+            of_model[name] = attributes[name].get<int>();
+}
+
+} // namespace
+
+float fallback_exposure(std::span<const glm::vec3> radiance, std::span<const float> areas) {
+    constexpr double kShown = 0.995; // of the surface: small bright places are clipped
+    std::vector<std::size_t> order(radiance.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto brightness = [&](std::size_t p) {
+        return std::max({radiance[p].r, radiance[p].g, radiance[p].b});
+    };
+    std::ranges::sort(order, {}, brightness);
+    double all = 0, below = 0;
+    for (const float area : areas)
+        all += static_cast<double>(area);
+    for (const std::size_t p : order) {
+        below += static_cast<double>(areas[p]);
+        if (below >= kShown * all)
+            return brightness(p) > 1e-6f ? 1 / brightness(p) : 1.0f; // darker than any picture shows
+    }
+    return 1;
+}
+
+std::size_t write_fallback(GltfDocument& document, const Scene& scene, std::span<const glm::vec3> radiance,
+                           float exposure) {
+    return named(document,
+                 [&](GltfContents& contents) { return write_into(contents, scene, radiance, exposure); });
+}
+
+void set_fallback_aside(GltfContents& contents) {
+    const Json* extension = extension_of(contents.json, kClusteredExtension);
+    if (!extension || !extension->contains("fallback"))
+        return;
+    const Json& exposure = extension->at("fallback").at("exposure");
+    if (!exposure.is_number() || !(exposure.get<double>() > 0))
+        throw Error("the exposure of the fallback is no number above 0");
+    contents.json["extensions"][kClusteredExtension].erase("fallback");
+    const std::set<int> lit = lit_again(contents);
+    for (std::size_t m = 0; m < contents.model.meshes.size(); ++m)
+        for (std::size_t p = 0; p < contents.model.meshes[m].primitives.size(); ++p) {
+            Json& primitive = contents.json.at("meshes").at(m).at("primitives").at(p);
+            if (lit.contains(material_of(primitive)) && primitive.contains("attributes"))
+                exchange_colors(primitive["attributes"], contents.model.meshes[m].primitives[p].attributes);
+        }
+}
+
+} // namespace prt

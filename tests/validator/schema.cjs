@@ -1,0 +1,45 @@
+// What the JSON schemas of docs/format.md say of files:
+//   node schema.cjs NODE_MODULES FORMAT FILE...
+// prints a line for each .glb: its name, and "right" or what is wrong. Of every extension of prtkit that the file has at the
+// top level, and on its primitives. Exit status: 1 where one is wrong, 2 where a schema is.
+const fs = require("fs");
+const path = require("path");
+const [modules, format, ...files] = process.argv.slice(2);
+const Ajv = require(path.resolve(modules, "ajv/dist/2020"));
+
+const blocks = [...fs.readFileSync(format, "utf8").matchAll(/^```json\n([^]*?)^```$/gm)].map((match) => match[1]);
+const schemas = blocks.filter((text) => text.includes('"$schema"')).map((text) => JSON.parse(text));
+const ajv = new Ajv({ strictTypes: false, allErrors: true });
+let check;
+try {
+  for (const schema of schemas) ajv.addSchema(schema, schema.$id ?? schema.title); // all, before one refers to another
+  check = new Map(schemas.map(({ $id, title }) => [title, ajv.getSchema($id ?? title)]));
+} catch (error) {
+  console.log(error.message);
+  process.exit(2);
+}
+
+/// What is wrong with a value by the schema of this title; one that there is no schema for must not be there.
+function wrong(title, value) {
+  const validate = check.get(title);
+  if (!validate) return [`there is no schema '${title}'`];
+  return validate(value) ? [] : validate.errors.map(({ instancePath, message }) => `${title}: ${instancePath} ${message}`);
+}
+
+const ours = (owner) => Object.entries(owner.extensions ?? {}).filter(([name]) => name.startsWith("PRTKIT_"));
+
+function wrongFile(file) {
+  const bytes = fs.readFileSync(file);
+  const json = JSON.parse(bytes.subarray(20, 20 + bytes.readUInt32LE(12)).toString("utf8"));
+  const primitives = (json.meshes ?? []).flatMap((mesh) => mesh.primitives);
+  return [
+    ...ours(json).flatMap(([name, value]) => wrong(`${name}, top level`, value)),
+    ...primitives.flatMap(ours).flatMap(([name, value]) => wrong(`${name}, on a primitive`, value)),
+  ];
+}
+
+for (const file of files) {
+  const found = wrongFile(file);
+  console.log(`${path.basename(file)}: ${found.length > 0 ? found.join("; ") : "right"}`);
+  if (found.length > 0) process.exitCode = 1;
+}
