@@ -47,6 +47,7 @@ FoundClusters find_clusters(const Task& task, const Progress& progress) {
     if (task.course.draft)
         how.schedule = draft_schedule();
     double most_dropped = !bases_are_coded(options)                ? 0
+                          : task.transfer.layout().outputs > 1     ? tuning::kDroppedOfOutputs
                           : options.coding.bits > tuning::kFewBits ? tuning::kDroppedOfManyBits
                                                                    : tuning::kDroppedOfFewBits;
     for (double from = 0;;) { // a second attempt is rare

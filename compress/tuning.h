@@ -49,6 +49,8 @@ inline constexpr float kOutlierLength = 100;
 /// what a word and two words leave on the demo scenes. [preset] with u32, u64
 inline constexpr double kDroppedOfFewBits = 1e-6, kDroppedOfManyBits = 1e-7;
 inline constexpr int kFewBits = 48;
+/// Of probes, whose many numbers are mostly noise.
+inline constexpr double kDroppedOfOutputs = 1e-4;
 /// Where the axes dropped more than this share of the error found, the frame is made anew with the other
 /// share of it, or with all axes where the error is below kExactError (float rounding). By hand.
 inline constexpr double kTooMuchDropped = 0.04, kDroppedAgain = 0.01, kLeastDropped = 1e-13,
