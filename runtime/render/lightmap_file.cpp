@@ -89,16 +89,7 @@ std::optional<CompressedLightmap> read_compressed_lightmap(const GltfDocument& d
                 throw Error("the image of word " + std::to_string(w) + " of map " + std::to_string(m) + " " +
                             error.what());
             }
-    const std::size_t clusters = lightmap.compressed.transfer.bases.clusters();
-    for (std::size_t t = 0; t < receivers.size(); ++t) {
-        std::uint32_t word = 0;
-        std::memcpy(&word, &receivers.weights[t * receivers.stride()], sizeof word);
-        const std::uint32_t k = word & ((1u << receivers.cluster_bits) - 1);
-        if (k >= clusters)
-            throw Error("texel " + std::to_string(t) + " is in cluster " + std::to_string(k) + " of " +
-                        std::to_string(clusters));
-        receivers.clusters[t] = static_cast<std::uint16_t>(k);
-    }
+    unpack_clusters(lightmap.compressed.transfer.bases.clusters(), 0, receivers.size(), "texel", receivers);
     return std::move(lightmap);
 }
 

@@ -2,8 +2,10 @@
 #include "transfer/packed_weights.h"
 
 #include "prt/clustered_transfer.h"
+#include "prt/support/error.h"
 
 #include <algorithm>
+#include <string>
 
 namespace prt {
 
@@ -49,6 +51,18 @@ void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& la
     put(cluster, cluster_bits);
     for (std::size_t j = 0; j < layout.components; ++j)
         put(values[j], width_of(layout, j));
+}
+
+void unpack_clusters(std::size_t clusters, std::size_t first, std::size_t count, const char* what,
+                     ClusteredReceivers& receivers) {
+    for (std::size_t p = first; p < first + count; ++p) {
+        const auto word = load<std::uint32_t>(receivers.weights.data() + p * receivers.stride());
+        const std::uint32_t k = word & ((1u << receivers.cluster_bits) - 1);
+        if (k >= clusters)
+            throw Error(std::string(what) + " " + std::to_string(p - first) + " is in cluster " +
+                        std::to_string(k) + " of " + std::to_string(clusters));
+        receivers.clusters[p] = static_cast<std::uint16_t>(k);
+    }
 }
 
 } // namespace prt

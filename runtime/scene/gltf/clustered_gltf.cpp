@@ -123,20 +123,6 @@ void read_weights(const GltfContents& contents, const Json& attributes, std::siz
     }
 }
 
-/// The clusters of receivers [first, first + count), out of their words.
-void unpack_clusters(std::size_t first, std::size_t count, std::size_t clusters,
-                     ClusteredReceivers& receivers) {
-    for (std::size_t p = first; p < first + count; ++p) {
-        std::uint32_t word = 0;
-        std::memcpy(&word, &receivers.weights[p * receivers.stride()], sizeof word);
-        const std::uint32_t k = word & ((1u << receivers.cluster_bits) - 1);
-        if (k >= clusters)
-            throw Error("vertex " + std::to_string(p - first) + " is in cluster " + std::to_string(k) +
-                        " of " + std::to_string(clusters));
-        receivers.clusters[p] = static_cast<std::uint16_t>(k);
-    }
-}
-
 void write_into(GltfContents& contents, const Scene& scene, const CompressedTransfer& compressed) {
     const std::vector<Json*> primitives = unshare(contents, scene);
     contents.remove_transfer();
@@ -205,7 +191,7 @@ void read_receivers(const GltfContents& contents, const Json& attributes, const 
         make_room(contents, attributes, receivers);
     read_weights(contents, attributes, vertices.first_receiver, vertices.size(), receivers);
     if (packed)
-        unpack_clusters(vertices.first_receiver, vertices.size(), clusters, receivers);
+        unpack_clusters(clusters, vertices.first_receiver, vertices.size(), "vertex", receivers);
 }
 
 } // namespace

@@ -174,6 +174,7 @@ void erase_views(GltfContents& contents, const std::set<std::size_t>& views) {
     });
 }
 
+/// Of transfer of surfaces.
 constexpr const char* kOwnExtensions[] = {kTransferExtension, kClusteredExtension, kLightmapExtension};
 
 /// Calls `visit` with every member that says which image a texture has.
@@ -278,6 +279,21 @@ void GltfContents::drop_extension(const std::string& name) {
 void GltfContents::cut_unused_bytes() {
     if (json.contains("bufferViews"))
         cut_bytes(*this, {});
+}
+
+void GltfContents::remove_volume() {
+    if (!json.contains("extensions") || !json["extensions"].contains(kVolumeExtension))
+        return;
+    std::set<std::size_t> views;
+    for_each_object(json["extensions"][kVolumeExtension], [&](Json& object) {
+        if (object.contains("bufferView") && object["bufferView"].is_number_unsigned())
+            views.insert(object["bufferView"].get<std::size_t>());
+    });
+    json["extensions"].erase(kVolumeExtension);
+    if (json["extensions"].empty())
+        json.erase("extensions");
+    remove_unused({}, std::move(views));
+    drop_extension(kVolumeExtension);
 }
 
 void GltfContents::remove_transfer() {

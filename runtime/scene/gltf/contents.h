@@ -40,8 +40,10 @@ struct GltfContents {
     void drop_extension(const std::string& name);
     /// Cuts out of the buffer what no view refers to.
     void cut_unused_bytes();
-    /// Takes the extensions of prtkit out, with their attributes, accessors and data.
+    /// Takes the extensions of prtkit about surfaces out, with their attributes, accessors and data.
     void remove_transfer();
+    /// Takes the volume of prtkit out, with its data.
+    void remove_volume();
     /// Takes those of `accessors` and `views` out that nothing refers to any more, with their data.
     void remove_unused(std::set<std::size_t> accessors, std::set<std::size_t> views = {});
 };
@@ -49,6 +51,7 @@ struct GltfContents {
 inline constexpr const char* kTransferExtension = "PRTKIT_transfer";
 inline constexpr const char* kClusteredExtension = "PRTKIT_clustered_pca";
 inline constexpr const char* kLightmapExtension = "PRTKIT_lightmap";
+inline constexpr const char* kVolumeExtension = "PRTKIT_transfer_volume";
 
 /// What an exception says of the file, without the inner words of the libraries that threw it, as one line of
 /// printable characters.

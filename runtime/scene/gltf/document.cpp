@@ -31,10 +31,11 @@ namespace {
 
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
 /// base color is used. Textures of other formats are missed only where they are needed.
-constexpr std::array<std::string_view, 31> kSupportedExtensions = {
+constexpr std::array<std::string_view, 32> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
     kLightmapExtension,
+    kVolumeExtension,
     kMeshoptExtension,
     kDracoExtension,
     "EXT_mesh_gpu_instancing",
