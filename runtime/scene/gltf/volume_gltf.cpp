@@ -25,7 +25,8 @@ Json write_bricks(GltfContents& contents, const VolumeGrid& grid) {
 }
 
 std::vector<std::byte> bytes_of(const GltfContents& contents, const Json& json) {
-    const auto bytes = buffer_view_bytes(contents.model, json.at("bufferView").get<int>());
+    const auto bytes =
+        std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>()));
     return {bytes.begin(), bytes.end()};
 }
 
