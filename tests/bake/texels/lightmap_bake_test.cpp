@@ -203,6 +203,25 @@ TEST(LightmapBake, WithAllBouncesOfWhiteSurfacesIsOneEverywhere) {
         }
 }
 
+TEST(LightmapBake, JumpsForTheCompressorAreThoseThatItStitches) {
+    const Charted bowl(SceneBuilder().bowl({0, 0, 0}, 1, 6, 2).build(), 96);
+    const LightmapBake baked = bake_lightmap(bowl.scene, bowl.atlases, options_of(2, 64, 0));
+    const BakedLightmap& map = baked.lightmap;
+    const std::vector<SeamJump> jumps = seam_jumps(bowl.scene, map.layout, map.texels);
+    ASSERT_GT(jumps.size(), 0u);
+    double squared = 0;
+    for (const SeamJump& jump : jumps) {
+        EXPECT_NEAR(sum_of(jump.weights), 0, 1e-6);
+        double value = 0;
+        for (std::size_t i = 0; i < 8; ++i)
+            value += static_cast<double>(jump.weights[i] * map.baked.transfer.vector(jump.receivers[i])[0] /
+                                         0.28209479f);
+        squared += value * value;
+    }
+    EXPECT_NEAR(std::sqrt(squared / static_cast<double>(jumps.size())), baked.statistics.seam, 1e-5);
+    EXPECT_GT(baked.statistics.seam_before, 1e-3);
+}
+
 TEST(LightmapBake, BouncesAsVerticesDo) {
     // A wall beside a floor, both cut fine: at vertices of the floor both bakes see the same.
     const Scene wall = SceneBuilder()
