@@ -8,6 +8,7 @@
 #include "prt/encode_glb.h"
 #include "prt/error_measures.h"
 #include "prt/jumps.h"
+#include "prt/lightmap_bake.h"
 #include "prt/lightmap_file.h"
 #include "prt/mesh_edges.h"
 #include "prt/reorder.h"
@@ -262,6 +263,8 @@ SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
         SceneSurface surface;
         surface.areas = bake.lightmap->areas;
         surface.edges = lightmap_edges(bake.lightmap->layout, bake.lightmap->texels, bake.lightmap->seams);
+        surface.jumps =
+            seam_jumps(extract_scene(bake.document), bake.lightmap->layout, bake.lightmap->texels);
         return surface;
     }
     SceneSurface surface(extract_scene(bake.document));
