@@ -65,7 +65,7 @@ TEST_F(Volumes, GoAllTheRoad) {
     const Outcome info = prt({"info", at("shipped.glb")});
     EXPECT_EQ(info.status, 0);
     EXPECT_NE(info.out.find("volume: "), std::string::npos) << info.out;
-    const Outcome evaluation = prt({"evaluate", at("baked.glb"), at("shipped.glb"), "--budget", "--lights",
+    const Outcome evaluation = prt({"evaluate", at("baked.glb"), at("shipped.glb"), "--volume", "--lights",
                                     at("sky.exr"), "--json", at("errors.json")});
     ASSERT_EQ(evaluation.status, 0) << evaluation.err;
     const nlohmann::json errors = read_json(folder / "errors.json")["volume_errors"];
