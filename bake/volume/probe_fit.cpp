@@ -17,7 +17,7 @@ using Columns = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowM
 
 /// What a probe's own measurement counts beside points: one point that stands where it is has 1.
 constexpr float kOwnWeight = 0.3f;
-constexpr int kMostSteps = 40;
+constexpr int kMostGradientSteps = 40;
 /// Residual at which a column is solved, over what it began with.
 constexpr float kSolved = 1e-3f;
 constexpr std::size_t kColumnsAtOnce = 32;
@@ -63,7 +63,7 @@ void solve(const Sparse& a, const Eigen::ArrayXf& inverse_diagonal, const Column
     Columns d = z;
     const Eigen::ArrayXf start = b.colwise().squaredNorm().array().max(1e-30f);
     Eigen::ArrayXf rz = (r.array() * z.array()).colwise().sum();
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostGradientSteps; ++step) {
         if ((r.colwise().squaredNorm().transpose().array() <= kSolved * kSolved * start).all())
             return;
         const Columns ad = a * d;

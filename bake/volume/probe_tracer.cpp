@@ -12,6 +12,7 @@
 #include "prt/trace_receivers.h"
 #include "trace/chunk_kernels.h"
 #include "transport/gather.h"
+#include "volume/outer_sums.h"
 #include "volume/sight.h"
 
 #include <glm/geometric.hpp>
@@ -34,19 +35,6 @@ glm::vec3 side(int i) {
     return axis;
 }
 
-/// sums[o][i] += weight[o] values[i].
-PRT_TARGET_CLONES
-void add_products(std::span<const float> weights, std::span<const float> values, float* sums,
-                  std::size_t stride) {
-    const std::size_t count = values.size();
-    for (std::size_t o = 0; o < weights.size(); ++o) {
-        const float weight = weights[o];
-        float* const to = sums + o * stride;
-        for (std::size_t i = 0; i < count; ++i)
-            to[i] += weight * values[i];
-    }
-}
-
 /// to[i] += weight from[i].
 PRT_TARGET_CLONES
 void add_scaled(float weight, const float* from, std::size_t count, float* to) {
@@ -59,12 +47,12 @@ void add_scaled(float weight, const float* from, std::size_t count, float* to) {
 /// What one thread works in.
 struct ProbeTracer::Space {
     std::vector<float> vectors; ///< [coefficients][numbers]
-    std::vector<float> blocked; ///< [coefficients][order²]
-    std::vector<float> all;     ///< the same of all rays
-    std::vector<float> exit;    ///< of a place that a ray met
+    /// By direction, [coefficients][order²]: of what is blocked, and of all rays; and what comes back.
+    OuterSums blocked, all, reflected;
     ChunkDirections directions;
     SightSums sight;
-    double backs = 0;
+    double shut = 0, backs = 0; ///< rays
+    std::array<float, kMaxOrder * kMaxOrder> basis{};
     PlaceSeen seen;
 };
 
@@ -143,52 +131,66 @@ void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::
                       Space& space) const {
     const std::size_t coefficients = layout_.coefficients(), direct = layout_.direct(),
                       numbers = layout_.numbers();
-    space.vectors.assign(coefficients * numbers, 0.0f);
-    space.blocked.assign(coefficients * direct, 0.0f);
     space.sight = SightSums(task.sight);
-    space.backs = 0;
-    const double n = kSides * rays_along_;
-    const int bands = std::max(layout_.sky.order, layout_.order);
-    std::array<float, kMaxOrder * kMaxOrder> basis{};
-    const auto basis_at = [&](const glm::vec3& d) {
-        evaluate_sh(bands, d, std::span(basis).first(static_cast<std::size_t>(coefficient_count(bands))));
-        return static_cast<float>(6 * std::numbers::pi /
-                                  (n * static_cast<double>(std::abs(d.x) + std::abs(d.y) + std::abs(d.z))));
-    };
-    std::array<float, kMostIncidentOrder * kMostIncidentOrder> weighted{};
-    const auto weigh = [&](float weight) {
-        for (std::size_t o = 0; o < coefficients; ++o)
-            weighted[o] = weight * basis[o];
-        return std::span<const float>(weighted).first(coefficients);
-    };
-    const std::vector<glm::vec3>& positions = plan_.receivers().positions;
-    const glm::vec3 from = task.places[place];
-    double shut = 0;
+    space.shut = space.backs = 0;
+    space.blocked.begin(coefficients, direct);
+    space.all.begin(coefficients, direct);
+    space.reflected.begin(coefficients, numbers - direct);
     for (const std::vector<Hit>& of_side : hits)
-        for (const Hit& hit : of_side) {
-            const glm::uvec3& corners = plan_.scene.surfaces().corners(hit.triangle);
-            const glm::vec3 way = (1 - hit.u - hit.v) * (positions[corners.x] - from) +
-                                  hit.u * (positions[corners.y] - from) +
-                                  hit.v * (positions[corners.z] - from);
-            const float distance = glm::length(way);
-            if (!(distance > 0)) // on a surface
-                continue;
-            const glm::vec3 d = way / distance;
-            const float even = basis_at(d);
-            shut += static_cast<double>(hit.weight);
-            add_products(weigh(even * hit.weight), std::span(basis).first(direct), space.blocked.data(),
-                         direct);
-            space.sight.add_hit(d, distance, hit.weight);
-            if (hit.back && !plan_.scene.surfaces().two_sided(hit.triangle)) {
-                space.backs += static_cast<double>(hit.weight);
-                continue;
-            }
-            if (!sky_.empty() || !lamps_.empty())
-                add_reflected(hit, std::span(basis).first(coefficients), even * hit.weight, space);
-        }
+        for (const Hit& hit : of_side)
+            add_hit(hit, task.places[place], space);
     // All directions: the coefficients themselves, or where most are blocked the sum over the same rays.
-    const bool mostly_open = 2 * shut <= n;
-    space.all.assign(coefficients * direct, 0.0f);
+    const double rays = kSides * rays_along_;
+    const bool mostly_open = 2 * space.shut <= rays;
+    add_rays(task, place, mostly_open, space);
+    space.vectors.assign(coefficients * numbers, 0.0f);
+    for (std::size_t o = 0; o < coefficients; ++o) {
+        const std::span<const float> blocked = space.blocked.row(o), all = space.all.row(o);
+        for (std::size_t i = 0; i < direct; ++i) {
+            const float whole = mostly_open ? (i == o ? 1.0f : 0.0f) : all[i];
+            space.vectors[o * numbers + i] = whole - blocked[i];
+        }
+        std::copy_n(space.reflected.row(o).begin(), numbers - direct, &space.vectors[o * numbers + direct]);
+    }
+    space.seen = {space.vectors, static_cast<float>(space.backs / rays), space.sight.distances()};
+}
+
+float ProbeTracer::look(const glm::vec3& d, Space& space) const {
+    const int bands = std::max(layout_.sky.order, layout_.order);
+    evaluate_sh(bands, d, std::span(space.basis).first(static_cast<std::size_t>(coefficient_count(bands))));
+    return static_cast<float>(
+        6 * std::numbers::pi /
+        (kSides * rays_along_ * static_cast<double>(std::abs(d.x) + std::abs(d.y) + std::abs(d.z))));
+}
+
+void ProbeTracer::add_direction(float weight, const Space& space, OuterSums& sums) const {
+    const OuterSums::Room room = sums.add();
+    for (std::size_t o = 0; o < room.weights.size(); ++o)
+        room.weights[o] = weight * space.basis[o];
+    std::copy_n(space.basis.begin(), layout_.direct(), room.values.begin());
+}
+
+void ProbeTracer::add_hit(const Hit& hit, const glm::vec3& from, Space& space) const {
+    const std::vector<glm::vec3>& positions = plan_.receivers().positions;
+    const glm::uvec3& corners = plan_.scene.surfaces().corners(hit.triangle);
+    const glm::vec3 way = (1 - hit.u - hit.v) * (positions[corners.x] - from) +
+                          hit.u * (positions[corners.y] - from) + hit.v * (positions[corners.z] - from);
+    const float distance = glm::length(way);
+    if (!(distance > 0)) // on a surface
+        return;
+    const glm::vec3 d = way / distance;
+    const float weight = hit.weight * look(d, space);
+    space.shut += static_cast<double>(hit.weight);
+    add_direction(weight, space, space.blocked);
+    space.sight.add_hit(d, distance, hit.weight);
+    if (hit.back && !plan_.scene.surfaces().two_sided(hit.triangle))
+        space.backs += static_cast<double>(hit.weight);
+    else if (!sky_.empty() || !lamps_.empty())
+        add_reflected(hit, weight, space);
+}
+
+/// What rays meet is not asked: where most directions are open it does not matter either.
+void ProbeTracer::add_rays(const Task& task, std::size_t place, bool mostly_open, Space& space) const {
     for (int s = 0; s < kSides; ++s)
         for (int first = 0; first < rays_along_; first += kChunk) {
             const int rays = std::min(kChunk, rays_along_ - first);
@@ -201,26 +203,20 @@ void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::
                 const glm::vec3 d(space.directions.x[r], space.directions.y[r], space.directions.z[r]);
                 space.sight.add_ray(d);
                 if (!mostly_open)
-                    add_products(weigh(basis_at(d)), std::span(basis).first(direct), space.all.data(),
-                                 direct);
+                    add_direction(look(d, space), space, space.all);
             }
         }
-    for (std::size_t o = 0; o < coefficients; ++o)
-        for (std::size_t i = 0; i < direct; ++i) {
-            const float whole = mostly_open ? (i == o ? 1.0f : 0.0f) : space.all[o * direct + i];
-            space.vectors[o * numbers + i] = whole - space.blocked[o * direct + i];
-        }
-    space.seen = {space.vectors, static_cast<float>(space.backs / n), space.sight.distances()};
 }
 
-/// What leaves the surface that was met.
-void ProbeTracer::add_reflected(const Hit& hit, std::span<const float> basis, float weight,
-                                Space& space) const {
+/// What leaves the surface that was met in the direction of `space.basis`.
+void ProbeTracer::add_reflected(const Hit& hit, float weight, Space& space) const {
     const Surfaces& surfaces = plan_.scene.surfaces();
     const TransportReceivers& receivers = *plan_.transport;
-    const std::size_t direct = layout_.direct(), sky = layout_.sky.dimension() - direct,
-                      lamps = lamps_.empty() ? 0 : layout_.lamps.dimension(), numbers = layout_.numbers();
-    space.exit.assign(sky + lamps, 0.0f);
+    const std::size_t sky = layout_.sky.dimension() - layout_.direct(),
+                      lamps = lamps_.empty() ? 0 : layout_.lamps.dimension();
+    const OuterSums::Room room = space.reflected.add();
+    for (std::size_t o = 0; o < room.weights.size(); ++o)
+        room.weights[o] = weight * space.basis[o];
     const glm::vec3 barycentrics(1 - hit.u - hit.v, hit.u, hit.v);
     std::optional<Scattering> scattering;
     if (reflectance_.empty())
@@ -236,9 +232,9 @@ void ProbeTracer::add_reflected(const Hit& hit, std::span<const float> basis, fl
                            count, to + static_cast<std::size_t>(c) * count);
         };
         if (sky > 0)
-            add_colors(sky_, sky, plan_.channels, space.exit.data());
+            add_colors(sky_, sky, plan_.channels, room.values.data());
         if (lamps > 0)
-            add_colors(lamps_, lamps, layout_.lamps.channels(), space.exit.data() + sky);
+            add_colors(lamps_, lamps, layout_.lamps.channels(), room.values.data() + sky);
     };
     for (int corner = 0; corner < 3; ++corner) {
         const std::uint32_t front = surfaces.corners(hit.triangle)[corner], back = receivers.back_of(front);
@@ -247,10 +243,6 @@ void ProbeTracer::add_reflected(const Hit& hit, std::span<const float> basis, fl
         if (scattering)
             add(far, barycentrics[corner], scattering->transmitted);
     }
-    std::array<float, kMostIncidentOrder * kMostIncidentOrder> weights{};
-    for (std::size_t o = 0; o < basis.size(); ++o)
-        weights[o] = weight * basis[o];
-    add_products(std::span(weights).first(basis.size()), space.exit, space.vectors.data() + direct, numbers);
 }
 
 std::size_t ProbeTracer::add_lamps(const Task& task, std::size_t place, Space& space) const {

@@ -11,12 +11,15 @@
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
 
 namespace prt {
+
+class OuterSums;
 
 /// Numbers of a coefficient of incident light, one layout behind the other, and its bands.
 struct IncidentLayout {
@@ -62,7 +65,12 @@ private:
     void trace_batch(const Task& task, std::size_t begin, std::size_t end,
                      const std::function<void(std::size_t, const PlaceSeen&)>& take);
     void see(const Task& task, std::size_t place, std::span<const std::vector<Hit>> hits, Space& space) const;
-    void add_reflected(const Hit& hit, std::span<const float> basis, float weight, Space& space) const;
+    /// Evaluates the basis in unit `d`; returns the solid angle that a ray stands for.
+    float look(const glm::vec3& d, Space& space) const;
+    void add_direction(float weight, const Space& space, OuterSums& sums) const;
+    void add_hit(const Hit& hit, const glm::vec3& from, Space& space) const;
+    void add_rays(const Task& task, std::size_t place, bool mostly_open, Space& space) const;
+    void add_reflected(const Hit& hit, float weight, Space& space) const;
     std::size_t add_lamps(const Task& task, std::size_t place, Space& space) const;
 
     const BakePlan& plan_;

@@ -41,8 +41,8 @@ struct CompressArguments {
     bool best_effort = false;
     struct Writing {
         bool meshopt = false, reorder = false, whole = false;
+        Path fallback; ///< a light
     } writing;
-    Path fallback; ///< a light
     struct Volume {
         int bytes = 16;   ///< of a probe's weights
         int clusters = 0; ///< 0: by their number
@@ -472,7 +472,7 @@ void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
         throw Error("--weights: those of texels are words of images; leave it out, or say packed");
     if (a.writing.reorder)
         throw Error("--reorder is for vertices: texels stay where they are");
-    if (!a.fallback.empty())
+    if (!a.writing.fallback.empty())
         throw Error(
             "--fallback writes colors of vertices, and the light of this file is in texels: leave it out, "
             "or bake at vertices");
@@ -485,13 +485,32 @@ Bake bake_without_transfer(Bake& bake) {
     return {std::move(bake.document), {{}, bake.stored.record}, bake.lightmap};
 }
 
-void run(CompressArguments a, Session& session) {
+std::vector<Path> check_files(const CompressArguments& a) {
     std::vector<Path> inputs = a.metric.lights;
-    inputs.insert(inputs.end(), {a.baked, a.fallback});
-    a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}},
-                                       {a.reports.json, "--json", {".json"}},
-                                       {a.reports.trace, "--trace", {".jsonl"}}},
-                                      inputs);
+    inputs.insert(inputs.end(), {a.baked, a.writing.fallback});
+    return check_outputs({{a.output, "--output", {".glb"}},
+                          {a.reports.json, "--json", {".json"}},
+                          {a.reports.trace, "--trace", {".jsonl"}}},
+                         inputs);
+}
+
+void check_components(const CompressArguments& a, const TransferView& transfer) {
+    const int asked = a.options.compress.coding.components;
+    if (a.components_given && asked > static_cast<int>(transfer.dimension()))
+        throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
+                                transfer.dimension(), asked));
+}
+
+/// Under the metric, `skies`, and those that are always tried.
+void add_errors(const ErrorMoments& moments, const LightMetric& metric, std::vector<NamedLighting> skies,
+                Report& report) {
+    add_figures(report, {{"lit_rms", expected_lit_rms(moments, metric)}});
+    std::ranges::move(standard_skies(metric.layout.order), std::back_inserter(skies));
+    add_sky_errors(moments, skies, report);
+}
+
+void run(CompressArguments a, Session& session) {
+    a.reading.outputs = check_files(a);
     Bake bake = load_bake(a.baked, a.reading);
     TransferView transfer = bake.stored.transfer;
     if (a.writing.whole)
@@ -501,16 +520,14 @@ void run(CompressArguments a, Session& session) {
         choose_for_texels(a, options);
     const int threads = options.compress.threads;
     std::optional<Fallback> fallback =
-        load_fallback(a.fallback, transfer.layout().order, a.metric.light_options, threads);
+        load_fallback(a.writing.fallback, transfer.layout().order, a.metric.light_options, threads);
     std::optional<SceneSurface> surface = surface_of(bake, options);
     std::vector<NamedLighting> skies = given_lights(a.metric, transfer.layout(), threads);
     ErrorTerms terms = error_terms(a.metric, skies, transfer, surface->areas, threads);
     options.compress.metric = std::move(terms.metric);
     if (options.budget.max_error)
         options.budget.skies = std::move(terms.promised);
-    if (a.components_given && options.compress.coding.components > static_cast<int>(transfer.dimension()))
-        throw Error(fmt::format("components must lie in 0..{}, the dimension of the transfer vectors, not {}",
-                                transfer.dimension(), options.compress.coding.components));
+    check_components(a, transfer);
     std::string trace;
     if (!a.reports.trace.empty())
         options.compress.trace = [&](const CompressEvent& event) { trace += trace_line(event); };
@@ -538,10 +555,8 @@ void run(CompressArguments a, Session& session) {
     }
     Report report = report_of(a, options, transfer, outcome, result);
     add_figures(report, reuse_json(reuse_before, vertex_reuse(result.scene)));
-    const ErrorMoments moments = error_moments(transfer, result.transfer, result.areas, threads);
-    add_figures(report, {{"lit_rms", expected_lit_rms(moments, *options.compress.metric)}});
-    std::ranges::move(standard_skies(transfer.layout().order), std::back_inserter(skies));
-    add_sky_errors(moments, skies, report);
+    add_errors(error_moments(transfer, result.transfer, result.areas, threads), *options.compress.metric,
+               std::move(skies), report);
     say_fallback(fallback, report);
     if (volume)
         add_volume_compression(volume->statistics, volume->volume, report);
@@ -549,6 +564,7 @@ void run(CompressArguments a, Session& session) {
         say_texels(report);
     publish(report, a.reports.json, session);
 }
+
 } // namespace
 
 void add_compress(CLI::App& app, Session& session) {
@@ -576,7 +592,7 @@ void add_compress(CLI::App& app, Session& session) {
                       "direct and indirect light as one: smaller, for who does not light suns apart");
     command
         ->add_option(
-            "--fallback", a.fallback,
+            "--fallback", a.writing.fallback,
             "light (.exr, .hdr, .png, .jpg, .json) that viewers without PRT show the model in: as COLOR_0 "
             "of unlit materials")
         ->check(named)

@@ -25,8 +25,9 @@ struct EvaluateArguments {
     LightOptions light_options;
     SunCount suns = {std::nullopt};
     int rotations = 1; ///< of each light about +Y
-    bool sweep = false;
-    bool budget = false, volume = false;
+    struct Measures {
+        bool sweep = false, budget = false, volume = false;
+    } measures;
     std::vector<std::string> no_shadow; ///< names of materials
     GltfOptions reading;
     int threads = 0;
@@ -83,12 +84,12 @@ void add_sizes_of_bake(const EvaluateArguments& a, const Transfer& transfer, Rep
 }
 
 std::vector<Path> check(const EvaluateArguments& a) {
-    if (a.shipped.empty() && !a.sweep && !a.budget && !a.volume)
+    if (a.shipped.empty() && !a.measures.sweep && !a.measures.budget && !a.measures.volume)
         throw CLI::ValidationError(
             "evaluate", "compares two files: prt evaluate BAKED.glb SHIPPED.glb; or measures what the "
                         "compressor makes of one: prt evaluate BAKED.glb --sweep; or where the error of a "
                         "picture comes from: prt evaluate BAKED.glb [SHIPPED.glb] --budget");
-    if (a.budget && a.rotations != 1)
+    if (a.measures.budget && a.rotations != 1)
         throw CLI::ValidationError("--rotations", "a budget is under each light as it stands: use --rotate");
     std::vector<Path> inputs = a.lights;
     inputs.insert(inputs.end(), {a.baked, a.shipped});
@@ -113,7 +114,7 @@ void run(EvaluateArguments a, Session& session) {
                         .threads = a.threads},
                        baked, lights, report);
     add_sizes_of_bake(a, baked.baked->transfer, report);
-    if (a.budget)
+    if (a.measures.budget)
         add_budget({.baked = a.baked,
                     .shipped = a.shipped,
                     .reading = a.reading,
@@ -125,7 +126,7 @@ void run(EvaluateArguments a, Session& session) {
                                .threads = a.threads},
                     .no_shadow = a.no_shadow},
                    baked, report, session);
-    if (a.volume)
+    if (a.measures.volume)
         add_volume_errors({.baked = a.baked,
                            .shipped = a.shipped,
                            .reading = a.reading,
@@ -137,7 +138,7 @@ void run(EvaluateArguments a, Session& session) {
                                       .threads = a.threads},
                            .no_shadow = a.no_shadow},
                           baked, report, session);
-    if (a.sweep)
+    if (a.measures.sweep)
         add_sweep(run_sweep(a, baked, lights, session), report);
     if (baked.lightmap)
         say_texels(report);
@@ -171,13 +172,13 @@ void add_evaluate(CLI::App& app, Session& session) {
         ->capture_default_str()
         ->check(CLI::Range(1, 64));
     command->add_flag(
-        "--sweep", a.sweep,
+        "--sweep", a.measures.sweep,
         "error against size and shader cost of this compressor and of those it came from; minutes");
     command->add_flag(
-        "--budget", a.budget,
+        "--budget", a.measures.budget,
         "take the error over the surface, against path tracing, apart by its causes: light, bounces, "
         "vertices, rays, bytes; and say what to change. Bakes once more");
-    command->add_flag("--volume", a.volume,
+    command->add_flag("--volume", a.measures.volume,
                       "measure the volume at places in free space, against path tracing, by their distance "
                       "from surfaces");
     add_no_shadow(command, a.no_shadow);
