@@ -133,6 +133,7 @@ void main() {
 /// With the textures that are bound, in the context that is current; calls of ES 3.0 alone.
 std::vector<Found> found_by_shader(const CompressedVolume& volume, VolumeFormat format,
                                    ShaderLanguage language, const std::vector<Place>& places) {
+    bind_small_framebuffer();
     lookup_program(volume_functions(volume, format), language);
     GLuint array = 0, vertices = 0, results = 0;
     glGenVertexArrays(1, &array);
