@@ -81,8 +81,14 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
     }
     if (!baked && !compressed) // else they were given when it was baked
         print_notices(path.string(), scene.notices);
-    return {std::move(document), std::move(scene), std::move(baked), std::move(compressed),
-            std::move(lightmap)};
+    SceneFile file{.document = std::move(document),
+                   .scene = std::move(scene),
+                   .baked = std::move(baked),
+                   .compressed = std::move(compressed),
+                   .lightmap = std::move(lightmap)};
+    file.volume = read_volume(file.document, file.scene);
+    file.compressed_volume = read_compressed_volume(file.document, file.scene);
+    return file;
 }
 
 Environment load_environment_map(const Path& path, const EnvironmentOptions& options) {

@@ -7,6 +7,7 @@
 #include "prt/light.h"
 #include "prt/lightmap.h"
 #include "prt/support/error.h"
+#include "prt/volume_gltf.h"
 #include "session.h"
 
 #include <optional>
@@ -39,6 +40,9 @@ struct SceneFile {
     std::optional<CompressedTransfer> compressed;
     /// Set where receivers of the transfer are texels; else they are vertices.
     std::optional<LightmapOfFile> lightmap = {};
+    /// Of probes, beside transfer of surfaces.
+    std::optional<BakedVolume> volume = {};
+    std::optional<CompressedVolume> compressed_volume = {};
 
     /// Order of the transfer, 0 where there is none.
     int order() const;

@@ -154,7 +154,7 @@ void fill_up(std::span<const int> fixed_bits, QuantisedClusters& clusters, Codes
 }
 
 /// Everything from points to what a file holds.
-ClusteredTransfer code(const Task& task, std::span<const Edge> edges, FoundClusters&& found,
+ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundClusters&& found,
                        const Progress& progress) {
     const CompressOptions& options = task.options;
     const bool draft = task.course.draft;
@@ -171,8 +171,8 @@ ClusteredTransfer code(const Task& task, std::span<const Edge> edges, FoundClust
     if (options.coding.format != WeightFormat::float32)
         alternate(coding.points, task.significance, how, progress.part(0, 0.7), coded);
     progress.update(0.7);
-    if ((options.seam_price > 0 || options.border_price > 0) && !edges.empty() && !draft)
-        smooth_seams(coding.points, task.significance, edges, coded.clusters,
+    if ((options.seam_price > 0 || options.border_price > 0) && !surface.edges.empty() && !draft)
+        smooth_seams(coding.points, task.significance, surface.edges, surface.jumps, coded.clusters,
                      {.seam_price = options.seam_price,
                       .border_price = options.border_price,
                       .mean_components = options.mean_components,
@@ -217,7 +217,7 @@ CompressResult compress_from(const Course& course, const TransferView& transfer,
     FoundClusters found = find_clusters(task, progress.part(0, 0.7));
     for (const double error : found.clustering.history)
         statistics.lit_rms_by_iteration.push_back(std::sqrt(error + found.frame.dropped));
-    result.transfer = code(task, surface.edges, std::move(found), progress.part(0.7, 0.98));
+    result.transfer = code(task, surface, std::move(found), progress.part(0.7, 0.98));
     statistics.clusters = static_cast<int>(result.transfer.bases.clusters());
     statistics.mean_components = mean_components_of(result.transfer);
     statistics.guide_rows = static_cast<int>(result.transfer.bases.guide_rows());

@@ -107,6 +107,11 @@ void check_input(const TransferView& transfer, const ReceiverSurface& surface,
         if (edge.first >= transfer.receivers() || edge.second >= transfer.receivers())
             throw Error("an edge joins receivers " + std::to_string(edge.first) + " and " +
                         std::to_string(edge.second) + " of " + std::to_string(transfer.receivers()));
+    for (const SeamJump& jump : surface.jumps)
+        for (const std::uint32_t receiver : jump.receivers)
+            if (receiver >= transfer.receivers())
+                throw Error("a seam reads receiver " + std::to_string(receiver) + " of " +
+                            std::to_string(transfer.receivers()));
 }
 
 LightMetric metric_of(const CompressOptions& options, const TransferView& transfer,

@@ -30,8 +30,12 @@
 namespace prt {
 namespace {
 
-/// Vertices that light bounces between lie at most so many texels apart: chosen, not measured. There are some
-/// 64 times fewer of them than texels then.
+/// Vertices that light bounces between lie at most so many texels apart; there are some 64 times fewer of
+/// them than texels then. Measured on three.js's collision-world with 256 x 256 texels, 1 024 rays and all
+/// bounces, relative L2 of the radiance under three skies, suns apart, against 2 texels: with 4, 8, 16 and 32
+/// texels 0.4, 1.1 to 1.3, 1.5 to 1.9 and 1.9 to 2.4 %, from 14 842, 7 452, 5 488 and 4 996 vertices, 41 548
+/// with 2. The demo's room, against one texel: 0.1 to 0.4 % with 2, 0.3 to 0.7 % with 4, 0.4 to 0.8 % with 8
+/// and more, since no edge of it is longer.
 constexpr double kTexelsBetweenSources = 8;
 /// Rows of the gather that are there at a time take about so many bytes at most.
 constexpr double kBytesOfRows = 1e9;

@@ -12,7 +12,9 @@
 #include "prt/support/error.h"
 #include "report/bake_report.h"
 #include "report/lightmap_report.h"
+#include "report/volume_report.h"
 #include "texel_arguments.h"
+#include "volume_arguments.h"
 
 #include <fmt/core.h>
 
@@ -28,6 +30,7 @@ struct BakeArguments {
     std::optional<double> refine;       ///< relative L2 over the surface to split triangles for
     std::size_t most_vertices = 0;      ///< of a refined scene; 0: as many as `refine` allows
     TexelArguments texels;              ///< given: instead of vertices
+    VolumeArguments volume;             ///< given: beside them
     BakeOptions options;
     GltfOptions reading;
 };
@@ -238,21 +241,44 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
     return baked;
 }
 
-void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
-    const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
-    const std::vector<std::byte> file = about(a.scene, [&] {
-        write_transfer(document, scene, baked.result.baked);
+/// The volume that is asked for.
+std::optional<VolumeBake> bake_probes(const BakeArguments& a, const Scene& scene, Session& session) {
+    if (!a.volume.given())
+        return std::nullopt;
+    ProgressBar bar = session.progress_bar("baking the volume");
+    return about(a.scene, [&] {
+        return bake_volume(scene, volume_options(a.volume, scene), a.options, bar.progress());
+    });
+}
+
+/// The file with what surfaces have in `document`, and with its volume.
+std::vector<std::byte> with_volume(const BakeArguments& a, GltfDocument& document, const Scene& scene,
+                                   const std::optional<VolumeBake>& volume) {
+    return about(a.scene, [&] {
+        if (volume)
+            write_volume(document, scene, volume->volume);
+        else
+            discard_volume(document);
         return encode_glb(document);
     });
-    publish(bake_report({.output = a.output.string(),
-                         .options = a.options,
-                         .no_shadow = !a.no_shadow.empty(),
-                         .scene = scene,
-                         .result = baked.result,
-                         .refinement = baked.refinement,
-                         .refine_target = a.refine.value_or(0),
-                         .bytes = session.write(a.output, file)}),
-            a.json, session);
+}
+
+void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
+    const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
+    const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
+    about(a.scene, [&] { write_transfer(document, scene, baked.result.baked); });
+    const std::vector<std::byte> file = with_volume(a, document, scene, volume);
+    Report report = bake_report({.output = a.output.string(),
+                                 .options = a.options,
+                                 .no_shadow = !a.no_shadow.empty(),
+                                 .scene = scene,
+                                 .result = baked.result,
+                                 .refinement = baked.refinement,
+                                 .refine_target = a.refine.value_or(0),
+                                 .bytes = session.write(a.output, file)});
+    if (volume)
+        add_volume_bake(*volume, report);
+    publish(report, a.json, session);
 }
 
 void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, const TexelRoom& room,
@@ -263,18 +289,20 @@ void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, co
         ProgressBar bar = session.progress_bar("baking");
         return bake_lightmap(scene, room.atlases, a.options, finer.model(), bar.progress());
     });
-    const std::vector<std::byte> file = about(a.scene, [&] {
-        write_lightmap(document, scene, baked.lightmap);
-        return encode_glb(document);
-    });
+    const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
+    about(a.scene, [&] { write_lightmap(document, scene, baked.lightmap); });
+    const std::vector<std::byte> file = with_volume(a, document, scene, volume);
     Report report = lightmap_report(
         {.output = a.output.string(), .scene = scene, .bake = baked, .bytes = session.write(a.output, file)});
     add_figures(report, room.figures);
+    if (volume)
+        add_volume_bake(*volume, report);
     publish(report, a.json, session);
 }
 
 void check_arguments(const BakeArguments& a) {
     check_texels(a.texels);
+    check_volume(a.volume);
     if (a.texels.given() && a.refine)
         throw Error("--refine is for vertices: texels are as fine as --texels or --size says");
 }
@@ -333,6 +361,7 @@ void add_bake(CLI::App& app, Session& session) {
     add_method(command, a.options);
     add_refinement(command, a);
     add_texels(command, a.texels, "into a lightmap instead of vertices");
+    add_volume(command, a.volume);
     choice(command, "--storage", a.options.memory.storage, kStorages,
            "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
     command->add_option("--seed", a.options.seed, "seed of the samples")

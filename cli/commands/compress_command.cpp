@@ -4,9 +4,11 @@
 #include "fallback.h"
 #include "options.h"
 #include "outputs.h"
+#include "prt/compress_volume.h"
 #include "prt/encode_glb.h"
 #include "prt/error_measures.h"
 #include "prt/jumps.h"
+#include "prt/lightmap_bake.h"
 #include "prt/lightmap_file.h"
 #include "prt/mesh_edges.h"
 #include "prt/reorder.h"
@@ -16,6 +18,7 @@
 #include "prt/support/error.h"
 #include "report/of_texels.h"
 #include "report/trace_lines.h"
+#include "report/volume_report.h"
 #include "sky_errors.h"
 
 #include <fmt/ranges.h>
@@ -40,6 +43,10 @@ struct CompressArguments {
         bool meshopt = false, reorder = false, whole = false;
     } writing;
     Path fallback; ///< a light
+    struct Volume {
+        int bytes = 16;   ///< of a probe's weights
+        int clusters = 0; ///< 0: by their number
+    } volume;
     GltfOptions reading;
 };
 
@@ -196,6 +203,7 @@ struct Bake {
     GltfDocument document;
     StoredBake stored;
     std::optional<BakedLightmap> lightmap = {}; ///< of texels; its transfer is in `stored`
+    std::optional<BakedVolume> volume = {};
 };
 
 Bake of_lightmap(GltfDocument document, BakedLightmap lightmap) {
@@ -204,9 +212,8 @@ Bake of_lightmap(GltfDocument document, BakedLightmap lightmap) {
     return {std::move(document), std::move(stored), std::move(lightmap)};
 }
 
-Bake load_bake(const Path& path, const GltfOptions& reading) {
-    GltfDocument document = load_gltf(path, reading);
-    const Scene scene = extract_scene(document);
+/// What surfaces have.
+Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& path) {
     if (std::optional<BakedLightmap> lightmap = read_lightmap(document, scene)) {
         discard_transfer(document);
         return of_lightmap(std::move(document), std::move(*lightmap));
@@ -220,12 +227,44 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
     return {std::move(document), std::move(*stored)};
 }
 
+Bake load_bake(const Path& path, const GltfOptions& reading) {
+    GltfDocument document = load_gltf(path, reading);
+    const Scene scene = extract_scene(document);
+    std::optional<BakedVolume> volume = read_volume(document, scene);
+    discard_volume(document);
+    Bake bake = bake_of_surfaces(std::move(document), scene, path);
+    bake.volume = std::move(volume);
+    return bake;
+}
+
+/// A cluster for so many probes: its bases take about half as many bytes as their weights then.
+constexpr std::size_t kProbesOfCluster = 700;
+
+std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a, const Bake& bake,
+                                                      Session& session) {
+    if (!bake.volume)
+        return std::nullopt;
+    CompressOptions options;
+    options.coding = preset_volume();
+    options.coding.bits = 8 * a.volume.bytes - options.coding.cluster_bits;
+    options.clusters = a.volume.clusters > 0 ? a.volume.clusters
+                                             : static_cast<int>(std::clamp<std::size_t>(
+                                                   bake.volume->sights.size() / kProbesOfCluster, 1, 256));
+    options.bases_count = true;
+    options.seed = a.options.compress.seed;
+    options.threads = a.options.compress.threads;
+    ProgressBar bar = session.progress_bar("compressing the volume");
+    return compress_volume(*bake.volume, options, bar.progress());
+}
+
 /// What the compressor may look at.
 SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
     if (bake.lightmap) {
         SceneSurface surface;
         surface.areas = bake.lightmap->areas;
         surface.edges = lightmap_edges(bake.lightmap->layout, bake.lightmap->texels, bake.lightmap->seams);
+        surface.jumps =
+            seam_jumps(extract_scene(bake.document), bake.lightmap->layout, bake.lightmap->texels);
         return surface;
     }
     SceneSurface surface(extract_scene(bake.document));
@@ -481,7 +520,11 @@ void run(CompressArguments a, Session& session) {
     Scene scene = extract_scene(bake.document);
     const VertexReuse reuse_before = vertex_reuse(scene);
     const std::optional<BakedLightmap> texels = bake.lightmap;
+    const std::optional<CompressedVolumeResult> volume =
+        about(a.baked, [&] { return compress_probes(a, bake, session); });
     std::vector<std::byte> file = about(a.baked, [&] {
+        if (volume)
+            write_volume(bake.document, scene, volume->volume);
         return encoded(a, bake_without_transfer(bake), scene, std::move(outcome.result.transfer));
     });
     if (fallback)
@@ -500,6 +543,8 @@ void run(CompressArguments a, Session& session) {
     std::ranges::move(standard_skies(transfer.layout().order), std::back_inserter(skies));
     add_sky_errors(moments, skies, report);
     say_fallback(fallback, report);
+    if (volume)
+        add_volume_compression(volume->statistics, volume->volume, report);
     if (texels)
         say_texels(report);
     publish(report, a.reports.json, session);
@@ -536,6 +581,15 @@ void add_compress(CLI::App& app, Session& session) {
             "of unlit materials")
         ->check(named)
         ->type_name("FILE");
+    command
+        ->add_option("--volume-bytes", a.volume.bytes,
+                     "bytes of a probe's weights, where the bake has a volume: a multiple of 4")
+        ->capture_default_str()
+        ->check(CLI::IsMember({4, 8, 12, 16, 20, 24, 28}));
+    command
+        ->add_option("--volume-clusters", a.volume.clusters,
+                     "clusters of probes; otherwise by how many there are")
+        ->check(CLI::Range(1, 256));
     command->add_flag("--reorder", a.writing.reorder, "put the vertices of a cluster side by side");
     command->add_flag("--meshopt", a.writing.meshopt, "write vertex data through EXT_meshopt_compression");
     command->add_option("--seed", a.options.compress.seed, "seed of the clustering")

@@ -4,6 +4,7 @@
 #include "outputs.h"
 #include "report/lightmap_report.h"
 #include "report/of_texels.h"
+#include "report/volume_report.h"
 
 #include <fmt/ranges.h>
 
@@ -126,6 +127,11 @@ void add_lightmap(const SceneFile& model, Report& report) {
     report.sentences.push_back("lightmap: " + maps_in_words(layout) + ", {lightmap/texels} texels");
 }
 
+void add_volume(const VolumeGrid& grid, std::size_t probes, int order, Report& report) {
+    add_figures(report, {{"volume", grid_figures(grid, probes, order)}});
+    report.sentences.push_back(grid_sentence("volume"));
+}
+
 void run(InfoArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.json, "--json", {".json"}}}, {a.file});
     const SceneFile model = load_scene_file(a.file, a.reading);
@@ -137,6 +143,11 @@ void run(InfoArguments a, Session& session) {
         add_baked(*model.baked, report);
     if (model.compressed)
         add_compressed(*model.compressed, report);
+    if (model.volume)
+        add_volume(model.volume->grid, model.volume->sights.size(), model.volume->order, report);
+    if (model.compressed_volume)
+        add_volume(model.compressed_volume->grid, model.compressed_volume->sights.size(),
+                   model.compressed_volume->order, report);
     if (!model.record())
         report.sentences.emplace_back("no transfer");
     if (model.lightmap)

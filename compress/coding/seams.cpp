@@ -5,6 +5,7 @@
 #include "coding/seams.h"
 
 #include "coding/conjugate_gradients.h"
+#include "coding/seam_jumps.h"
 #include "prt/adjacency.h"
 #include "tuning.h"
 
@@ -12,6 +13,7 @@
 
 #include <array>
 #include <numeric>
+#include <ranges>
 
 namespace prt {
 namespace {
@@ -27,6 +29,11 @@ std::vector<double> significance_per_edge(const Adjacency& neighbours, std::span
 }
 
 using PointVector = Eigen::VectorXf;
+
+double mean_of(std::span<const float> values) {
+    return std::accumulate(values.begin(), values.end(), 0.0) /
+           static_cast<double>(std::max<std::size_t>(values.size(), 1));
+}
 
 /// All receivers; of more than are solved for together neighbours soon after each other: breadth first from
 /// the first of each piece of the mesh.
@@ -76,15 +83,20 @@ std::vector<Eigen::MatrixXf> products_of_rows(const QuantisedClusters& clusters)
 class SeamSmoother {
 public:
     SeamSmoother(const PointBlocks& points, std::span<const float> significance, std::span<const Edge> edges,
-                 const QuantisedClusters& clusters, const SeamOptions& options, Codes& codes)
+                 std::span<const SeamJump> jumps, const QuantisedClusters& clusters,
+                 const SeamOptions& options, Codes& codes)
         : points_(points), significance_(significance), clusters_(clusters), options_(options), codes_(codes),
           neighbours_(edges, significance.size()),
           edge_shares_(significance_per_edge(neighbours_, significance)),
           dimension_(static_cast<Eigen::Index>(points.dimension)),
-          mean_error_(total_error(significance, codes.errors)) {}
+          mean_error_(total_error(significance, codes.errors)),
+          jumps_(jumps, {tuning::kJumpPrice * mean_of(significance),
+                         tuning::kJumpBorder * mean_of(significance) * mean_error_}) {}
 
     void solve_weights();
     void reassign();
+    void close_jumps();
+    void measure_errors();
 
 private:
     /// Where receiver p is pulled by its neighbours: what eq. 28 costs at p is total |e - pull|², and what
@@ -149,7 +161,8 @@ private:
     bool find_better(std::size_t p, const Pull& pull, std::ptrdiff_t spare, BetterCode& better) const;
     /// How many components more receivers may have in all.
     std::ptrdiff_t spare_components() const;
-    std::size_t sweep(std::ptrdiff_t& spare);
+    template <class Indices>
+    std::size_t sweep(const Indices& receivers, std::ptrdiff_t& spare);
 
     const PointBlocks& points_;
     std::span<const float> significance_;
@@ -160,6 +173,7 @@ private:
     std::vector<double> edge_shares_; ///< [points]
     Eigen::Index dimension_;
     double mean_error_;
+    SeamJumps jumps_; ///< count once they are measured, after all else
     // While weights are solved for:
     std::vector<std::uint32_t> first_;      ///< [points] a receiver's first unknown of as many as components
     std::vector<Eigen::MatrixXf> products_; ///< [clusters] of their rows with each other
@@ -290,13 +304,20 @@ void SeamSmoother::pull_at(std::size_t p, Pull& pull) const {
     pull.total = static_cast<double>(significance_[p]);
     pull.vector.setZero(dimension_);
     pull.candidates.assign(1, codes_.clusters[p]);
+    const auto consider = [&](std::uint32_t k) {
+        if (std::find(pull.candidates.begin(), pull.candidates.end(), k) == pull.candidates.end())
+            pull.candidates.push_back(k);
+    };
     for (const std::uint32_t q : neighbours_.of(p)) {
         pull.total += options_.seam_price * edge(p, q);
         error_of(q, error);
         pull.vector += static_cast<float>(options_.seam_price * edge(p, q)) * error;
-        const std::uint32_t k = codes_.clusters[q];
-        if (std::find(pull.candidates.begin(), pull.candidates.end(), k) == pull.candidates.end())
-            pull.candidates.push_back(k);
+        consider(codes_.clusters[q]);
+    }
+    if (jumps_.measured()) {
+        error_of(p, error);
+        pull.total += jumps_.pull(p, error, pull.vector);
+        jumps_.see_partners(p, [&](std::uint32_t q) { consider(codes_.clusters[q]); });
     }
     if (pull.total > 0)
         pull.vector /= static_cast<float>(pull.total);
@@ -307,6 +328,8 @@ double SeamSmoother::cost_at(std::size_t p, const Pull& pull, std::uint32_t k, c
     for (const std::uint32_t q : neighbours_.of(p))
         if (codes_.clusters[q] != k)
             cost += options_.border_price * mean_error_ * edge(p, q);
+    if (jumps_.measured())
+        cost += jumps_.borders(p, [&](std::uint32_t q) { return codes_.clusters[q] != k; });
     return cost;
 }
 
@@ -332,19 +355,27 @@ bool SeamSmoother::find_better(std::size_t p, const Pull& pull, std::ptrdiff_t s
 }
 
 /// One after the other, so that each sees what its neighbours have become. Returns how many have changed.
-std::size_t SeamSmoother::sweep(std::ptrdiff_t& spare) {
+template <class Indices>
+std::size_t SeamSmoother::sweep(const Indices& receivers, std::ptrdiff_t& spare) {
     std::size_t changed = 0;
     Pull pull;
     BetterCode better;
-    for (std::size_t p = 0; p < points_.count; ++p) {
+    PointVector before(dimension_), after(dimension_);
+    for (const std::size_t p : receivers) {
         if (neighbours_.degree(p) == 0)
             continue;
         pull_at(p, pull);
         if (!(pull.total > 0) || !find_better(p, pull, spare, better))
             continue;
+        if (jumps_.measured())
+            error_of(p, before);
         spare -= clusters_.components[better.cluster] - clusters_.components[codes_.clusters[p]];
         codes_.clusters[p] = better.cluster;
         codes_.weights.write(clusters_, better.cluster, p, better.weights.data());
+        if (jumps_.measured()) {
+            error_of(p, after);
+            jumps_.move(p, after - before);
+        }
         ++changed;
     }
     return changed;
@@ -353,8 +384,26 @@ std::size_t SeamSmoother::sweep(std::ptrdiff_t& spare) {
 void SeamSmoother::reassign() {
     std::ptrdiff_t spare = spare_components();
     for (int s = 0; s < tuning::kMostSeamSweeps; ++s)
-        if (sweep(spare) * tuning::kReceiversPerSeamChange < points_.count)
+        if (sweep(std::views::iota(std::size_t{0}, points_.count), spare) * tuning::kReceiversPerSeamChange <
+            points_.count)
             break;
+}
+
+/// The light of a game is interpolated between the texels of a seam: all that are read there count together.
+void SeamSmoother::close_jumps() {
+    if (jumps_.receivers().empty())
+        return;
+    PointVector error(dimension_);
+    jumps_.measure(dimension_, [&](std::size_t p) -> const PointVector& {
+        error_of(p, error);
+        return error;
+    });
+    std::ptrdiff_t spare = spare_components();
+    for (int s = 0; s < tuning::kJumpSweeps; ++s)
+        sweep(jumps_.receivers(), spare);
+}
+
+void SeamSmoother::measure_errors() {
     PointVector error(dimension_);
     for (std::size_t p = 0; p < points_.count; ++p) {
         error_of(p, error);
@@ -365,13 +414,16 @@ void SeamSmoother::reassign() {
 } // namespace
 
 void smooth_seams(const PointBlocks& points, std::span<const float> significance, std::span<const Edge> edges,
-                  const QuantisedClusters& clusters, const SeamOptions& options, Codes& codes) {
+                  std::span<const SeamJump> jumps, const QuantisedClusters& clusters,
+                  const SeamOptions& options, Codes& codes) {
     if (points.dimension == 0)
         return;
-    SeamSmoother smoother(points, significance, edges, clusters, options, codes);
+    SeamSmoother smoother(points, significance, edges, jumps, clusters, options, codes);
     if (options.seam_price > 0 && clusters.max_components > 0)
         smoother.solve_weights();
     smoother.reassign();
+    smoother.close_jumps();
+    smoother.measure_errors();
 }
 
 } // namespace prt

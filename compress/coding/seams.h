@@ -1,7 +1,7 @@
 #pragma once
 
 #include "coding/weight_coding.h"
-#include "prt/adjacency.h"
+#include "prt/lightmap.h"
 #include "tuning.h"
 
 namespace prt {
@@ -18,8 +18,9 @@ struct SeamOptions {
 /// Trades error of receivers for smoothness of the error over the mesh. First all weights of so many
 /// receivers together, as real numbers, by conjugate gradients on the normal equations of eq. 28; then
 /// receiver by receiver the cluster, of its own and its neighbours', and the rounded weights that are best
-/// while the neighbours stay, until few change.
+/// while the neighbours stay, until few change; last the receivers of `jumps`, so that these close.
 void smooth_seams(const PointBlocks& points, std::span<const float> significance, std::span<const Edge> edges,
-                  const QuantisedClusters& clusters, const SeamOptions& options, Codes& codes);
+                  std::span<const SeamJump> jumps, const QuantisedClusters& clusters,
+                  const SeamOptions& options, Codes& codes);
 
 } // namespace prt

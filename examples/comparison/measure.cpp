@@ -1,9 +1,11 @@
 #include "measure.h"
 
+#include "lit_lightmap.h"
 #include "pictures/frame_renderer.h"
 
 #include "prt/bake.h"
 #include "prt/gl_renderer.h"
+#include "prt/lightmap_lookup.h"
 #include "prt/path_tracer.h"
 #include "prt/ray_renderer.h"
 #include "prt/search.h"
@@ -68,6 +70,7 @@ public:
         add_row("baked AO", PictureKind::baked_ao, 1); // eight bits
         const prt::Transfer split = add_transfer();
         add_suns_apart(split);
+        add_lightmap();
         return std::move(result_);
     }
 
@@ -220,10 +223,7 @@ private:
         Row row{.method = std::move(method), .bytes_per_vertex = bytes, .errors = {}, .picture = {}};
         for (std::size_t i = 0; i < skies_.size(); ++i) {
             prt::Image picture = drawn_with_sun(skies_[i], transfer, shadows);
-            row.errors.push_back(
-                error_against(picture, references_[i].a, references_[i].b, result_.surfaces));
-            if (i == 0)
-                row.picture = std::move(picture);
+            add_picture(i, std::move(picture), row);
         }
         result_.rows.push_back(std::move(row));
     }
@@ -238,6 +238,49 @@ private:
         const double bytes = found.result.statistics.bytes_with_bases(result_.vertices);
         add_sun_row("PRT, 8 bytes, sun by rays", bytes, found.result.transfer, Shadows::rays);
         add_sun_row("PRT, 8 bytes, sun by shadow map", bytes, found.result.transfer, Shadows::map);
+    }
+
+    void add_lightmap() {
+        say_("lightmap");
+        const LitLightmap lit = make_lightmap(model_->path, options_.lightmap_size,
+                                              kOrders[std::size(kOrders) - 1], options_.bake_rays);
+        Row whole{.method = "lightmap, 8 bytes a texel",
+                  .bytes_per_vertex = lit.bytes_per_texel,
+                  .errors = {},
+                  .picture = {}};
+        Row apart = whole;
+        apart.method = "lightmap, 8 bytes, sun by rays";
+        for (std::size_t i = 0; i < skies_.size(); ++i) {
+            const Sky& sky = skies_[i];
+            const prt::ClusteredTransfer& transfer = lit.lightmap.compressed.transfer;
+            const prt::Light all = prt::truncated(sky.light, sky.rest.order);
+            add_picture(i, drawn_by(lit, prt::exit_radiance(transfer, all), {}), whole);
+            const prt::Lighting rest{sky.rest, prt::as_light(sky.suns, sky.rest.order)};
+            add_picture(i, drawn_by(lit, prt::exit_radiance(transfer, rest), sky.suns), apart);
+        }
+        result_.rows.push_back(std::move(whole));
+        result_.rows.push_back(std::move(apart));
+    }
+
+    /// `radiance` [texels], and suns at each pixel.
+    prt::Image drawn_by(const LitLightmap& lit, const std::vector<glm::vec3>& radiance,
+                        std::span<const prt::SunDisc> suns) const {
+        prt::Picture picture =
+            viewer::picture_of(*lit.model, {}, view_.camera, options_.width, options_.height);
+        const std::vector<glm::vec3> at_vertices =
+            prt::at_vertices(lit.model->scene, lit.lightmap.layout, radiance);
+        picture.radiance = at_vertices;
+        picture.in_shader.lightmaps = {.layout = &lit.lightmap.layout, .radiance = radiance};
+        picture.suns = suns;
+        picture.textured = false;
+        return prt::render_rays(picture, *lit.model->trace, {.sun_rays = 64});
+    }
+
+    /// Of sky i.
+    void add_picture(std::size_t i, prt::Image picture, Row& row) const {
+        row.errors.push_back(error_against(picture, references_[i].a, references_[i].b, result_.surfaces));
+        if (i == 0)
+            row.picture = std::move(picture);
     }
 
     const std::vector<Sky>& skies_;

@@ -21,6 +21,7 @@ struct Options {
     int width = 640, height = 360;
     int passes = 64; ///< paths per pixel of each of the two references
     int bake_rays = 4096;
+    int lightmap_size = 512;  ///< texels along each side
     double frame_seconds = 1; ///< to measure frame times for
 };
 

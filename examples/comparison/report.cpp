@@ -119,7 +119,8 @@ std::string explanation(const SceneResult& scene, const Options& options) {
         "of {} paths per pixel are taken, so that their noise does not count: the mean of (p - "
         "a)(p - b). Bytes are those of a "
         "vertex beside position and normal, the bases of the compressed shared out; raw transfer "
-        "as float16; AO, of direct light, 8 bits. Times "
+        "as float16; AO, of direct light, 8 bits; of lightmaps ({} x {} texels on charts of their own, drawn "
+        "by rays, not timed) those of a texel. Times "
         "are of {}: drawing a frame, and what a change of the light takes once. All methods but "
         "PRT light by three bands "
         "of the environment, as games do. SSAO has 16 samples and the best of five radii for "
@@ -128,7 +129,8 @@ std::string explanation(const SceneResult& scene, const Options& options) {
         "one, taken out of it (`--suns 1`) and added at each pixel: their pictures are those of `prt "
         "render`, and "
         "not timed. The bake has {} rays, endless bounces.\n",
-        options.width, options.height, options.passes, scene.device, options.bake_rays);
+        options.width, options.height, options.passes, options.lightmap_size, options.lightmap_size,
+        scene.device, options.bake_rays);
 }
 
 std::string milliseconds(const std::optional<double>& time, int digits) {

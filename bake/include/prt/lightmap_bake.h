@@ -50,4 +50,9 @@ struct LightmapBake {
 LightmapBake bake_lightmap(const Scene& scene, const std::vector<Atlas>& atlases, const BakeOptions& options,
                            const FinerModel& finer = {}, const Progress& progress = {});
 
+/// For the compressor: jumps across the seams of the lightmap of `scene` with receivers `texels`, two a texel
+/// along each at least. What was baked has next to none.
+std::vector<SeamJump> seam_jumps(const Scene& scene, const LightmapLayout& layout,
+                                 std::span<const std::uint32_t> texels);
+
 } // namespace prt

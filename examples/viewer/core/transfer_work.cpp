@@ -1,6 +1,7 @@
 #include "core/transfer_work.h"
 
 #include "prt/bake.h"
+#include "prt/lightmap_bake.h"
 #include "prt/lightmap_file.h"
 #include "prt/receiver_colors.h"
 #include "prt/reorder.h"
@@ -23,6 +24,7 @@ prt::SceneSurface surface_of(const LoadedModel& loaded) {
     prt::SceneSurface surface;
     surface.areas = lightmap.areas;
     surface.edges = prt::lightmap_edges(lightmap.layout, lightmap.texels, lightmap.seams);
+    surface.jumps = prt::seam_jumps(loaded.model->scene, lightmap.layout, lightmap.texels);
     return surface;
 }
 

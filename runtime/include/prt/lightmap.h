@@ -5,6 +5,7 @@
 #include "prt/adjacency.h"
 #include "prt/baked_transfer.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -55,6 +56,13 @@ struct BakedLightmap {
 struct CompressedLightmap {
     LightmapLayout layout;
     CompressedTransfer compressed;
+};
+
+/// A place where a surface is cut: what bilinear filters read on the two sides of it, less each other, so
+/// that the sum of weights and values is how far light jumps there.
+struct SeamJump {
+    std::array<std::uint32_t, 8> receivers;
+    std::array<float, 8> weights;
 };
 
 /// Receivers whose light has to go together: texels side by side, and the two sides of seams.

@@ -137,7 +137,7 @@ TEST(SeamSolver, WeightsThatMayBeAnyReachTheLeastOfTheSum) {
         const double start = mesh.energy(mesh.codes, kPrice, 0), least = least_energy(mesh, kPrice);
         ASSERT_LT(least, 0.9 * start);
         const std::vector<std::uint32_t> before = mesh.codes.clusters;
-        smooth_seams(mesh.points, mesh.significance, mesh.edges, mesh.clusters, {.seam_price = kPrice},
+        smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_price = kPrice},
                      mesh.codes);
         EXPECT_EQ(mesh.codes.clusters, before);
         // Points of 300 are floats, and the solver ends where the squared residual fell to 1e-6.
@@ -152,7 +152,7 @@ TEST(SeamSolver, NoReceiverAloneFindsACheaperCodeAfterwards) {
         constexpr double kPrice = 2;
         const double border = border_price * mesh.mean_error(mesh.codes);
         const double start = mesh.energy(mesh.codes, kPrice, border);
-        smooth_seams(mesh.points, mesh.significance, mesh.edges, mesh.clusters,
+        smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters,
                      {.seam_price = kPrice, .border_price = border_price}, mesh.codes);
         const double reached = mesh.energy(mesh.codes, kPrice, border);
         EXPECT_LT(reached, 0.95 * start);
@@ -179,9 +179,9 @@ TEST(SeamSolver, StretchesReachWhatAllTogetherDo) {
     SmallMesh together(400, 2, 100, WeightGrid::any());
     const double start = together.energy(together.codes, kPrice, 0);
     SmallMesh stretches = together;
-    smooth_seams(together.points, together.significance, together.edges, together.clusters,
+    smooth_seams(together.points, together.significance, together.edges, {}, together.clusters,
                  {.seam_price = kPrice}, together.codes);
-    smooth_seams(stretches.points, stretches.significance, stretches.edges, stretches.clusters,
+    smooth_seams(stretches.points, stretches.significance, stretches.edges, {}, stretches.clusters,
                  {.seam_price = kPrice, .solved_together = 40}, stretches.codes);
     const double least = together.energy(together.codes, kPrice, 0),
                  reached = stretches.energy(stretches.codes, kPrice, 0);
@@ -193,7 +193,8 @@ TEST(SeamSolver, AReceiverStaysWhereNoOtherClusterIsCheaper) {
     // Clusters are all the same, and nothing but a mean.
     SmallMesh mesh(12, 0, 0, WeightGrid::any());
     const std::vector<std::uint32_t> before = mesh.codes.clusters;
-    smooth_seams(mesh.points, mesh.significance, mesh.edges, mesh.clusters, {.seam_price = 1}, mesh.codes);
+    smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_price = 1},
+                 mesh.codes);
     EXPECT_EQ(mesh.codes.clusters, before);
 }
 

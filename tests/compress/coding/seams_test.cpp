@@ -1,5 +1,6 @@
 #include "prt/compress.h"
 #include "prt/error_measures.h"
+#include "prt/support/error.h"
 
 #include <gtest/gtest.h>
 
@@ -95,6 +96,63 @@ TEST_P(Seams, SmoothingKeepsTheMeanNumberOfComponents) {
     const CompressResult result = compress(grid.transfer, {grid.areas, grid.edges}, options);
     EXPECT_LE(result.statistics.mean_components, 1.5);
     EXPECT_GT(result.statistics.mean_components, 1.2);
+}
+
+/// Two charts side by side that show one place, half a texel apart.
+struct TwoCharts : Grid {
+    static constexpr std::uint32_t kWidth = kSize / 2;
+    std::vector<SeamJump> jumps;
+
+    TwoCharts() {
+        std::erase_if(edges,
+                      [](const Edge& e) { return e.second == e.first + 1 && e.second % kSize == kWidth; });
+        for (std::uint32_t y = 0; y < kSize; ++y)
+            for (std::uint32_t x = 0; x < kSize; ++x) {
+                const double u = x < kWidth ? x : x - kWidth + 0.5;
+                for (std::uint32_t i = 0; i < 9; ++i) {
+                    const double along = (1 + i % 3) * u + (1 + i / 3) * y;
+                    transfer.vector(y * kSize + x)[i] =
+                        (i == 0 ? 2.0f : 0.0f) + static_cast<float>(std::sin(0.05 * along + i * i));
+                }
+            }
+        // Both sides of a seam along u = 5.25.
+        for (std::uint32_t p = 5; p < kSize * kSize; p += kSize)
+            jumps.push_back({{p, p + 1, p, p, p + 29, p + 30, p, p}, {0.75f, 0.25f, 0, 0, -0.25f, -0.75f}});
+    }
+
+    struct Closed {
+        double jump = 0, lit_rms = 0;
+    };
+    Closed compressed(std::span<const SeamJump> closed) const {
+        CompressOptions options{.clusters = 30, .coding = {.components = 3, .bits = 15}};
+        options.metric = natural_metric(transfer.layout);
+        const CompressResult result =
+            compress(transfer, {.areas = areas, .edges = edges, .jumps = closed}, options);
+        const Transfer decoded = decode(result.transfer);
+        double sum = 0;
+        for (const SeamJump& jump : jumps)
+            for (std::size_t i = 0; i < 9; ++i) {
+                double error = 0;
+                for (std::size_t k = 0; k < 8; ++k)
+                    error += static_cast<double>(jump.weights[k] * (decoded.vector(jump.receivers[k])[i] -
+                                                                    transfer.vector(jump.receivers[k])[i]));
+                sum += error * error;
+            }
+        return {std::sqrt(sum), result.statistics.lit_rms};
+    }
+};
+
+TEST(Seams, OfLightmapsAreClosed) {
+    const TwoCharts charts;
+    const TwoCharts::Closed open = charts.compressed({}), closed = charts.compressed(charts.jumps);
+    EXPECT_LT(closed.jump, 0.7 * open.jump);
+    EXPECT_LT(closed.lit_rms, 1.05 * open.lit_rms);
+}
+
+TEST(Seams, OfReceiversThatAreNotThereAreRefused) {
+    const Grid grid;
+    const SeamJump jump{{0, 1, 2, 3, 4, 5, 6, Grid::kSize * Grid::kSize}, {1}};
+    EXPECT_THROW(compress(grid.transfer, {.areas = grid.areas, .jumps = {&jump, 1}}, {}), Error);
 }
 
 TEST(Seams, MeshEdgesAreThoseOfTheTrianglesOnce) {

@@ -52,12 +52,13 @@ TEST(Comparison, MeasuresEveryMethodAndWritesItsPage) {
     options.height = 54;
     options.passes = 32;
     options.bake_rays = 128;
+    options.lightmap_size = 64;
     options.frame_seconds = 0.01;
     const auto context = prt::GlContext::create(prt::GlDevice::any);
     ASSERT_TRUE(context);
     const SceneResult result =
         measure(folder / "ball.glb", skies, options, *context, [](const std::string&) {});
-    ASSERT_EQ(result.rows.size(), 15u);
+    ASSERT_EQ(result.rows.size(), 17u);
     const auto row = [&](const std::string& start) {
         for (const Row& r : result.rows)
             if (r.method.starts_with(start))
@@ -66,7 +67,9 @@ TEST(Comparison, MeasuresEveryMethodAndWritesItsPage) {
         return Row{};
     };
     for (const Row& r : result.rows) {
-        EXPECT_EQ(r.frame_milliseconds.has_value(), r.method.find("sun by") == std::string::npos) << r.method;
+        const bool drawn_by_rays =
+            r.method.find("sun by") != std::string::npos || r.method.starts_with("lightmap");
+        EXPECT_EQ(r.frame_milliseconds.has_value(), !drawn_by_rays) << r.method;
         EXPECT_GT(r.frame_milliseconds.value_or(1), 0) << r.method;
         ASSERT_EQ(r.errors.size(), 1u);
         EXPECT_LT(r.errors[0], 1) << r.method;
@@ -79,6 +82,9 @@ TEST(Comparison, MeasuresEveryMethodAndWritesItsPage) {
     EXPECT_NEAR(row("PRT, 8 bytes, sun by rays").errors[0], row("PRT, order 6, sun by rays").errors[0], 0.02);
     EXPECT_NEAR(row("PRT, 8 bytes, sun by shadow map").errors[0], row("PRT, 8 bytes, sun by rays").errors[0],
                 0.02);
+    EXPECT_NEAR(row("lightmap, 8 bytes a texel").errors[0], row("PRT, order 6").errors[0], 0.03);
+    EXPECT_NEAR(row("lightmap, 8 bytes, sun by rays").errors[0], row("PRT, order 6, sun by rays").errors[0],
+                0.03);
     EXPECT_EQ(row("PRT, order 6").bytes_per_vertex, 72);
     EXPECT_LE(row("PRT, order 6, 8 bytes").bytes_per_vertex, 8);
     EXPECT_NEAR(row("PRT, order 6, 16 bytes").errors[0], row("PRT, order 6").errors[0], 0.02);

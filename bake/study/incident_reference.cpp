@@ -1,0 +1,120 @@
+// Paths from places in free space, in directions even over the sphere.
+
+#include "prt/incident_reference.h"
+
+#include "pictures/light_paths.h"
+#include "prt/bake.h"
+#include "prt/sh.h"
+#include "prt/support/error.h"
+#include "trace/each_receiver.h"
+#include "trace/sample_sequence.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+namespace prt {
+namespace {
+
+constexpr float kMostBacks = 0.25f;
+/// Density of the first ray: unlike a camera's it does not look through backs of surfaces.
+constexpr float kNoCamera = 1e30f;
+
+glm::vec3 direction_of(const glm::vec2& u) {
+    const float z = 1 - 2 * u.x, radius = std::sqrt(std::max(0.0f, 1 - z * z)),
+                angle = 2 * std::numbers::pi_v<float> * u.y;
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+/// Distance of the nearest surface, nothing where the place is inside of something.
+std::optional<float> distance_at(const TraceScene& scene, const glm::vec3& place) {
+    constexpr int kDirections = 256;
+    float nearest = std::numeric_limits<float>::infinity();
+    int backs = 0;
+    for (int i = 0; i < kDirections; ++i) {
+        const float turn = 0.6180339887f * static_cast<float>(i);
+        const glm::vec3 d =
+            direction_of({(static_cast<float>(i) + 0.5f) / kDirections, turn - std::floor(turn)});
+        const auto hit = scene.rays().nearest({place, d});
+        if (!hit)
+            continue;
+        const RayScene::Triangle t = scene.rays().triangle(hit->triangle);
+        const Primitive& primitive = scene.scene().primitives[t.primitive];
+        const std::vector<glm::vec3>& at = scene.scene().vertex_arrays[primitive.vertices].positions;
+        const glm::uvec3& c = primitive.triangles[t.triangle];
+        const glm::vec3 normal = glm::normalize(glm::cross(at[c.y] - at[c.x], at[c.z] - at[c.x]));
+        const float facing = glm::dot(normal, d);
+        nearest = std::min(nearest, hit->distance * std::abs(facing));
+        backs += facing > 0 && !scene.surfaces().two_sided(hit->triangle);
+    }
+    if (static_cast<float>(backs) > kMostBacks * kDirections)
+        return std::nullopt;
+    return nearest;
+}
+
+} // namespace
+
+FreePlaces free_places_in(const TraceScene& scene, const VolumeGrid& grid, std::size_t count,
+                          std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<float> unit(0, 1);
+    const glm::vec3 extent = grid.spacing * static_cast<float>(kBrickCells) * glm::vec3(grid.size);
+    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
+    for (const VertexArray& vertices : scene.scene().vertex_arrays)
+        for (const glm::vec3& p : vertices.positions) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    low = glm::max(low, grid.origin);
+    high = glm::min(high, grid.origin + extent);
+    FreePlaces places;
+    for (std::size_t tries = 0; places.positions.size() < count; ++tries) {
+        if (tries > 20 * count)
+            throw Error("there is next to no free space in the volume to measure light in");
+        const float x = unit(random), y = unit(random), z = unit(random);
+        const glm::vec3 place = low + (high - low) * glm::vec3(x, y, z);
+        if (const std::optional<float> distance = distance_at(scene, place)) {
+            places.positions.push_back(place);
+            places.distances.push_back(*distance);
+        }
+    }
+    return places;
+}
+
+std::array<std::vector<glm::vec3>, 2>
+incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& places, int order,
+                   const MeasuredLight& light, const IncidentOptions& options, const Progress& progress) {
+    // A surface that is seen is lit by all light: what the renderer adds is that of the place itself.
+    const LightPaths paths{scene, {light.all, light.all}, {kEndlessBounces, true, false}};
+    const auto coefficients = static_cast<std::size_t>(coefficient_count(order));
+    const float weight = 4 * std::numbers::pi_v<float> / static_cast<float>(options.paths);
+    std::array<std::vector<glm::vec3>, 2> halves;
+    for (auto& half : halves)
+        half.resize(places.size() * coefficients);
+    std::vector<std::uint32_t> all(places.size());
+    std::iota(all.begin(), all.end(), 0u);
+    for_each_receiver(all, options.threads, progress, [&](std::uint32_t p) {
+        std::array<float, kMostIncidentOrder * kMostIncidentOrder> basis{};
+        for (std::size_t h = 0; h < halves.size(); ++h)
+            for (int i = 0; i < options.paths; ++i) {
+                PathSamples samples(receiver_seed(2 * p + static_cast<std::uint32_t>(h), options.seed),
+                                    static_cast<std::uint32_t>(i));
+                const glm::vec3 d = direction_of(samples.next());
+                LightPath path{.ray = {places[p], d}, .density = kNoCamera};
+                const bool open = paths.follow(path, samples) && path.vertices == 0;
+                const glm::vec3 radiance = open ? light.seen().radiance(d) : path.radiance;
+                evaluate_sh(order, d, std::span(basis).first(coefficients));
+                for (std::size_t o = 0; o < coefficients; ++o)
+                    halves[h][p * coefficients + o] += weight * basis[o] * radiance;
+            }
+    });
+    return halves;
+}
+
+} // namespace prt

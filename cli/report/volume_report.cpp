@@ -1,0 +1,75 @@
+#include "report/volume_report.h"
+
+#include "report/publish.h"
+
+#include <fmt/core.h>
+
+namespace prt::cli {
+
+Json grid_figures(const VolumeGrid& grid, std::size_t probes, int order) {
+    return {{"probes", probes},
+            {"bricks", grid.bricks.size()},
+            {"spacing_metres", grid.spacing},
+            {"incident_order", order}};
+}
+
+std::string grid_sentence(const std::string& key) {
+    return fmt::format("volume: {{{0}/probes}} probes in {{{0}/bricks}} bricks, {{{0}/spacing_metres:.3g}} m "
+                       "apart where they are finest, incident light of order {{{0}/incident_order}}",
+                       key);
+}
+
+void add_volume_bake(const VolumeBake& bake, Report& report) {
+    const VolumeStatistics& s = bake.statistics;
+    Json figures = grid_figures(bake.volume.grid, s.probes.all, bake.volume.order);
+    figures.update(Json{{"probes_moved", s.probes.moved},
+                        {"probes_inside", s.probes.blind},
+                        {"probes_between_bricks", s.probes.hanging},
+                        {"fit_points", s.probes.fit_points},
+                        {"error_between_probes_before", s.fit_before},
+                        {"error_between_probes", s.fit_after},
+                        {"rays", s.rays},
+                        {"device", s.device},
+                        {"seconds", s.seconds.all},
+                        {"seconds_sources", s.seconds.sources},
+                        {"seconds_probes", s.seconds.probes},
+                        {"seconds_fit", s.seconds.fit},
+                        {"rays_per_second", s.rays_per_second()}});
+    add_figures(report, {{"volume", figures}});
+    report.sentences.push_back(grid_sentence("volume"));
+    report.sentences.emplace_back("  {volume/probes_moved} stood on surfaces and were moved off, "
+                                  "{volume/probes_inside} are inside of something and take the light of "
+                                  "their neighbours");
+    if (s.probes.fit_points > 0)
+        report.sentences.emplace_back(
+            "  at {volume/fit_points} points between them light errs by {volume/error_between_probes:.1f%} "
+            "of "
+            "every coefficient, before they were fitted to it by {volume/error_between_probes_before:.1f%}");
+    report.sentences.emplace_back(
+        "  {volume/seconds:.3f} s: vertices {volume/seconds_sources:.3f}, probes "
+        "{volume/seconds_probes:.3f}, "
+        "fit {volume/seconds_fit:.3f}; {volume/rays_per_second:.2fM} million rays/s");
+}
+
+void add_volume_compression(const CompressStatistics& statistics, const CompressedVolume& volume,
+                            Report& report) {
+    const std::size_t probes = volume.sights.size();
+    Json figures = grid_figures(volume.grid, probes, volume.order);
+    figures.update(Json{{"clusters", statistics.clusters},
+                        {"components_mean", statistics.mean_components},
+                        {"bytes_bound_per_probe", statistics.bytes_per_receiver},
+                        {"bytes_per_probe_with_bases", statistics.bytes_with_bases(probes)},
+                        {"bytes_of_sight_per_probe", sizeof(ProbeSight)},
+                        {"expected_error", statistics.lit_rms},
+                        {"seconds", statistics.seconds}});
+    add_figures(report, {{"volume", figures}});
+    report.sentences.push_back(grid_sentence("volume"));
+    report.sentences.emplace_back(
+        "  {volume/clusters} clusters x {volume/components_mean:.2f} components, "
+        "{volume/bytes_bound_per_probe} "
+        "bytes per probe, {volume/bytes_per_probe_with_bases:.2f} with the bases, and "
+        "{volume/bytes_of_sight_per_probe} of what it sees; expected error of incident light "
+        "{volume/expected_error:.2f%}; {volume/seconds:.2f} s");
+}
+
+} // namespace prt::cli

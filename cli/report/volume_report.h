@@ -1,0 +1,21 @@
+#pragma once
+
+#include "prt/compress.h"
+#include "prt/volume_bake.h"
+#include "report/report.h"
+
+namespace prt::cli {
+
+/// {"probes": 3213, "bricks": 40, "spacing_metres": 0.5, ..}
+Json grid_figures(const VolumeGrid& grid, std::size_t probes, int order);
+/// "volume: 3213 probes in 40 bricks, 0.5 m apart, order 3", of figures under `key`.
+std::string grid_sentence(const std::string& key);
+
+/// What was baked at probes.
+void add_volume_bake(const VolumeBake& bake, Report& report);
+
+/// What became of it.
+void add_volume_compression(const CompressStatistics& statistics, const CompressedVolume& volume,
+                            Report& report);
+
+} // namespace prt::cli

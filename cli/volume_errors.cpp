@@ -1,0 +1,144 @@
+#include "volume_errors.h"
+
+#include "prt/incident_reference.h"
+#include "prt/support/error.h"
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace prt::cli {
+namespace {
+
+constexpr std::size_t kPlaces = 1000;
+/// Distances from surfaces, metres, that are told apart.
+constexpr std::array<float, 4> kDistances = {0.05f, 0.2f, 0.5f, HUGE_VALF};
+
+/// Squared differences from both halves of a reference, and what they are relative to.
+struct ErrorSum {
+    double error = 0, norm = 0;
+
+    double relative() const { return norm > 0 ? std::sqrt(std::max(0.0, error) / norm) : 0; }
+};
+
+struct VolumeErrors {
+    ErrorSum all;
+    std::array<ErrorSum, kDistances.size()> by_distance;
+};
+
+/// What comes in at probes: [probes][coefficients].
+VolumeErrors errors_of(const VolumeLookup& lookup, std::span<const glm::vec3> incident,
+                       const FreePlaces& places, const std::array<std::vector<glm::vec3>, 2>& truth) {
+    const std::size_t coefficients = truth[0].size() / places.positions.size();
+    std::vector<glm::vec3> light(coefficients);
+    VolumeErrors errors;
+    for (std::size_t p = 0; p < places.positions.size(); ++p) {
+        mix_incident(lookup.find(places.positions[p]), incident, light);
+        ErrorSum here;
+        for (std::size_t o = 0; o < coefficients; ++o) {
+            const glm::dvec3 a(truth[0][p * coefficients + o]), b(truth[1][p * coefficients + o]),
+                x(light[o]);
+            here.error += glm::dot(a - x, b - x);
+            here.norm += glm::dot(a, b);
+        }
+        const auto bin = static_cast<std::size_t>(std::ranges::upper_bound(kDistances, places.distances[p]) -
+                                                  kDistances.begin());
+        for (ErrorSum* sum : {&errors.all, &errors.by_distance[std::min(bin, kDistances.size() - 1)]}) {
+            sum->error += here.error;
+            sum->norm += here.norm;
+        }
+    }
+    return errors;
+}
+
+std::string distance_title(std::size_t i) {
+    if (i == 0)
+        return fmt::format("within {:g} m", kDistances[0]);
+    return std::isinf(kDistances[i]) ? fmt::format("beyond {:g} m", kDistances[i - 1])
+                                     : fmt::format("to {:g} m", kDistances[i]);
+}
+
+Table empty_table() {
+    Table table{"volume_errors", "Errors of the volume in free space", "", {}, {}};
+    table.columns = {{"light", "light"}, {"volume", "volume"}, {"error", "error", Unit::percent, 2}};
+    for (std::size_t i = 0; i < kDistances.size(); ++i)
+        table.columns.push_back({fmt::format("error_{}", i), distance_title(i), Unit::percent, 2});
+    return table;
+}
+
+std::vector<Json> row_of(const std::string& light, const char* volume, const VolumeErrors& errors) {
+    std::vector<Json> row = {light, volume, errors.all.relative()};
+    for (const ErrorSum& sum : errors.by_distance)
+        row.push_back(sum.norm > 0 ? Json(sum.relative()) : Json());
+    return row;
+}
+
+/// Root mean square over lights, column by column.
+std::vector<Json> mean_row(const char* volume, std::span<const VolumeErrors> all) {
+    VolumeErrors mean;
+    const auto add = [&](ErrorSum& to, const ErrorSum& from) {
+        const double relative = from.relative();
+        to.error += relative * relative;
+        to.norm += from.norm > 0 ? 1 : 0;
+    };
+    for (const VolumeErrors& one : all) {
+        add(mean.all, one.all);
+        for (std::size_t i = 0; i < kDistances.size(); ++i)
+            add(mean.by_distance[i], one.by_distance[i]);
+    }
+    return row_of("root mean square", volume, mean);
+}
+
+} // namespace
+
+void add_volume_errors(const SceneFile& baked, const SceneFile* shipped, const BudgetLightOptions& options,
+                       Report& report, Session& session) {
+    if (!baked.volume)
+        return;
+    const BakedVolume& volume = *baked.volume;
+    const CompressedVolume* const small =
+        shipped && shipped->compressed_volume ? &*shipped->compressed_volume : nullptr;
+    if (small && (small->grid != volume.grid || small->order != volume.order))
+        throw Error("the volumes of both files have their probes at other places");
+    ProgressBar bar = session.progress_bar("measuring the volume");
+    const Progress progress = bar.progress();
+    const TraceScene traced(baked.scene, load_textures(baked.scene), {.threads = options.threads});
+    const FreePlaces places = free_places_in(traced, volume.grid, kPlaces, 1);
+    const VolumeLookup lookup(volume.grid, volume.sights);
+    const std::vector<BudgetLight> lights = budget_lights(options);
+    Table table = empty_table();
+    std::vector<VolumeErrors> of_baked, of_small;
+    const auto share = [&](std::size_t i) {
+        return static_cast<double>(i) / static_cast<double>(lights.size());
+    };
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const auto truth =
+            incident_reference(traced, places.positions, volume.order, lights[i].measured,
+                               {.threads = options.threads}, progress.part(share(i), share(i + 1)));
+        const Lighting lighting = lights[i].lighting(volume.baked.transfer.layout.order);
+        of_baked.push_back(errors_of(lookup, exit_radiance(volume.baked.transfer, lighting, options.threads),
+                                     places, truth));
+        table.rows.push_back(row_of(lights[i].name, "baked", of_baked.back()));
+        if (!small)
+            continue;
+        of_small.push_back(
+            errors_of(lookup, incident_light(*small, lighting, options.threads), places, truth));
+        table.rows.push_back(row_of(lights[i].name, "shipped", of_small.back()));
+    }
+    if (lights.size() > 1) {
+        table.rows.push_back(mean_row("baked", of_baked));
+        if (small)
+            table.rows.push_back(mean_row("shipped", of_small));
+    }
+    table.about =
+        fmt::format("Relative L2 of the coefficients of the light that comes in at {} places in free "
+                    "space, by their distance from surfaces, against path tracing under the whole "
+                    "light; suns that can be lit apart are left to the renderer.",
+                    kPlaces);
+    report.tables.insert(report.tables.begin(), std::move(table));
+}
+
+} // namespace prt::cli

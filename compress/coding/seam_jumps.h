@@ -1,0 +1,79 @@
+#pragma once
+
+// Jumps of light across the cuts of lightmaps, while codes change.
+
+#include "prt/lightmap.h"
+
+#include <Eigen/Dense>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+struct JumpPrices {
+    double square = 0; ///< of a jump, squared
+    double border = 0; ///< of a receiver in another cluster, for each other that a jump reads with it
+};
+
+/// Jumps of the error: sums of the errors of receivers, each times a weight. What was baked has none, so
+/// these are those that a game shows. A jump costs its price times its square.
+class SeamJumps {
+public:
+    /// Keeps a reference.
+    SeamJumps(std::span<const SeamJump> jumps, const JumpPrices& prices);
+
+    /// Those that jumps read, in ascending order.
+    std::span<const std::uint32_t> receivers() const { return receivers_; }
+    /// Calls `see` with the receivers that jumps read together with p, as often as they do.
+    template <class See>
+    void see_partners(std::size_t p, See&& see) const {
+        for (const Part& part : parts_of(p))
+            for (std::size_t i = 0; i < jumps_[part.jump].receivers.size(); ++i)
+                if (const std::uint32_t q = jumps_[part.jump].receivers[i];
+                    q != p && jumps_[part.jump].weights[i] != 0)
+                    see(q);
+    }
+
+    /// What p costs beside those that it does not share its cluster with: `apart(q)`.
+    template <class Apart>
+    double borders(std::size_t p, Apart&& apart) const {
+        double cost = 0;
+        see_partners(p, [&](std::uint32_t q) { cost += apart(q) ? prices_.border : 0; });
+        return cost;
+    }
+
+    /// Whether jumps have been added up: they count from then on.
+    bool measured() const { return sums_.cols() > 0; }
+    /// Adds up all jumps anew. `error_of(p)`: code minus point.
+    template <class ErrorOf>
+    void measure(Eigen::Index dimension, ErrorOf&& error_of) {
+        sums_.setZero(dimension, static_cast<Eigen::Index>(jumps_.size()));
+        for (const std::uint32_t p : receivers_)
+            move(p, error_of(p));
+    }
+    /// The error of receiver p changes by so much.
+    void move(std::size_t p, const Eigen::VectorXf& by);
+
+    /// With the rest as it is, jumps cost curvature |e|² - 2 slope · e and what does not depend on the error
+    /// e of p, which is `now`. Adds `slope` to what is there, and returns the curvature.
+    double pull(std::size_t p, const Eigen::VectorXf& now, Eigen::VectorXf& slope) const;
+
+private:
+    struct Part {
+        std::uint32_t receiver, jump;
+        float weight;
+    };
+    std::span<const Part> parts_of(std::size_t p) const;
+    void unite_parts();
+
+    std::span<const SeamJump> jumps_;
+    JumpPrices prices_;
+    std::vector<Part> parts_; ///< in the order of their receivers
+    std::vector<std::uint32_t> receivers_;
+    std::vector<std::size_t> first_; ///< [receivers_ + 1] in parts_
+    Eigen::MatrixXf sums_;           ///< [dimension][jumps]
+};
+
+} // namespace prt
