@@ -1,12 +1,13 @@
 // Light of a volume at a place (docs/format.md, PRTKIT_transfer_volume), for GLSL 4.5 and 3.3, GLSL ES 3.0 and Vulkan:
 //
-//     vec3 prt_volume_irradiance(vec3 position, vec3 normal)          over pi: times albedo it is what a surface sends back
-//     float prt_volume_sun_visibility(vec3 position, vec3 normal)     of the sun that the textures were formed for
-//     void prt_volume_incident(vec3 position, vec3 normal, out vec3 light[PRT_VOLUME_COEFFICIENTS])
-//     vec3 prt_incident_irradiance(light, normal), prt_incident_radiance(light, towards), prt_incident_direction(light)
+//     vec3 prt_volume_irradiance(vec3 position, vec3 normal)       over pi: times albedo it is what a surface sends out
+//     float prt_volume_sun_visibility(vec3 position, vec3 normal)  of the sun that the textures were formed for
+//     void prt_volume_incident(vec3 position, vec3 normal, out vec3 light[PRT_VOLUME_COEFFICIENTS]), and of that
+//     vec3 prt_incident_irradiance(light, normal)
+//     vec3 prt_incident_radiance(light, towards)                   what a glossy surface mirrors, blurred
+//     vec3 prt_incident_direction(light)                           to where most of it comes from
 //
-// `position` in metres; `normal`, unit, is that of the surface that is lit, or zero. The last three serve several uses of
-// one lookup: what a glossy surface mirrors of blurred light, and where most light comes from.
+// `position` in metres; `normal`, unit, is that of the surface that is lit, or zero.
 //
 // Define before including (prt::volume_defines writes the lines for a volume)
 //     PRT_VOLUME_ORDER n         of incident light, 2..4,
@@ -67,8 +68,7 @@ float prt_volume_sight(uvec2 sights, vec3 from) {
     vec3 root = mix(below, above, greaterThan(from, vec3(0.0))) / 255.0;
     vec3 distances = PRT_VOLUME_SIGHT_CELLS * float(1u << (sights.y >> 16 & 3u)) * root * root;
     float passed = dot(abs(from), 1.0 / max(distances, vec3(1e-18))); // 1: a surface is there
-    float behind =
-        clamp((passed - PRT_VOLUME_SIGHT_FULL) / (PRT_VOLUME_SIGHT_NONE - PRT_VOLUME_SIGHT_FULL), 0.0, 1.0);
+    float behind = clamp((passed - PRT_VOLUME_SIGHT_FULL) / (PRT_VOLUME_SIGHT_NONE - PRT_VOLUME_SIGHT_FULL), 0.0, 1.0);
     return max(1.0 - behind * behind * (3.0 - 2.0 * behind), PRT_VOLUME_HIDDEN_WEIGHT);
 }
 
@@ -123,8 +123,7 @@ vec4 prt_volume_plane(PrtVolumePlace place, int plane) {
 #endif
     vec4 sum = vec4(0.0);
     for (int i = 0; i < 8; ++i)
-        sum += place.weights[i >> 2][i & 3] *
-               texelFetch(prt_volume_light, texel + ivec3(i & 1, i >> 1 & 1, i >> 2), 0);
+        sum += place.weights[i >> 2][i & 3] * texelFetch(prt_volume_light, texel + ivec3(i & 1, i >> 1 & 1, i >> 2), 0);
     return sum;
 }
 
@@ -150,17 +149,17 @@ vec3 prt_incident_sum(vec3 light[PRT_VOLUME_COEFFICIENTS], vec3 n, vec4 bands) {
     vec3 sum = bands[0] * 0.282094792 * light[0];
     sum += bands[1] * 0.488602512 * (-n.y * light[1] + n.z * light[2] - n.x * light[3]);
 #if PRT_VOLUME_ORDER > 2
-    sum += bands[2] * (1.092548431 * (n.x * n.y * light[4] - n.y * n.z * light[5] - n.x * n.z * light[7]) +
-                       0.315391565 * (3.0 * n.z * n.z - 1.0) * light[6] +
-                       0.546274215 * (n.x * n.x - n.y * n.y) * light[8]);
+    sum += bands[2] *
+           (1.092548431 * (n.x * n.y * light[4] - n.y * n.z * light[5] - n.x * n.z * light[7]) +
+            0.315391565 * (3.0 * n.z * n.z - 1.0) * light[6] + 0.546274215 * (n.x * n.x - n.y * n.y) * light[8]);
 #endif
 #if PRT_VOLUME_ORDER > 3
     vec3 s = n * n;
-    sum += bands[3] * (-0.590043590 * n.y * (3.0 * s.x - s.y) * light[9] + 2.890611442 * n.x * n.y * n.z * light[10] -
-                       0.457045799 * n.y * (5.0 * s.z - 1.0) * light[11] +
-                       0.373176333 * n.z * (5.0 * s.z - 3.0) * light[12] -
-                       0.457045799 * n.x * (5.0 * s.z - 1.0) * light[13] +
-                       1.445305721 * n.z * (s.x - s.y) * light[14] - 0.590043590 * n.x * (s.x - 3.0 * s.y) * light[15]);
+    sum += bands[3] *
+           (-0.590043590 * n.y * (3.0 * s.x - s.y) * light[9] + 2.890611442 * n.x * n.y * n.z * light[10] -
+            0.457045799 * n.y * (5.0 * s.z - 1.0) * light[11] + 0.373176333 * n.z * (5.0 * s.z - 3.0) * light[12] -
+            0.457045799 * n.x * (5.0 * s.z - 1.0) * light[13] + 1.445305721 * n.z * (s.x - s.y) * light[14] -
+            0.590043590 * n.x * (s.x - 3.0 * s.y) * light[15]);
 #endif
     return max(sum, vec3(0.0));
 }
@@ -177,8 +176,7 @@ vec3 prt_incident_radiance(vec3 light[PRT_VOLUME_COEFFICIENTS], vec3 towards) {
 // Unit, to where most light comes from; zero where all directions are alike.
 vec3 prt_incident_direction(vec3 light[PRT_VOLUME_COEFFICIENTS]) {
     const vec3 kLuminance = vec3(0.2126, 0.7152, 0.0722);
-    vec3 direction =
-        vec3(-dot(light[3], kLuminance), -dot(light[1], kLuminance), dot(light[2], kLuminance));
+    vec3 direction = vec3(-dot(light[3], kLuminance), -dot(light[1], kLuminance), dot(light[2], kLuminance));
     float size = length(direction);
     return size > 0.0 ? direction / size : vec3(0.0);
 }

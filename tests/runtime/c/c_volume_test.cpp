@@ -2,12 +2,11 @@
 
 #include "prt/prt.h"
 
-#include "prt/encode_glb.h"
 #include "prt/gltf.h"
 #include "prt/volume_former.h"
-#include "prt/volume_gltf.h"
 #include "support/glb_file.h"
 #include "support/random_volume.h"
+#include "support/volume_model.h"
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
@@ -27,13 +26,10 @@ protected:
     void SetUp() override {
         test::GlbFile file = test::triangle_file();
         file.json["nodes"][0]["translation"] = {1e6, 20, 3};
-        const std::string text = file.bytes();
-        GltfDocument document = parse_gltf(std::as_bytes(std::span(text)), "t.glb");
-        scene = extract_scene(document);
         std::mt19937 random(3);
         expected = test::random_volume(3, false, random);
-        write_volume(document, scene, expected);
-        encoded = encode_glb(document);
+        encoded = test::with_volume(file, expected).bytes();
+        scene = extract_scene(parse_gltf(std::as_bytes(std::span(encoded)), "t.glb"));
         prt_message message;
         ASSERT_EQ(prt_volume_load_memory(encoded.data(), encoded.size(), &volume, &message), PRT_OK)
             << message.text;
@@ -52,7 +48,7 @@ protected:
     static constexpr float kSun[3] = {2, 4, -1};
     Scene scene;
     CompressedVolume expected;
-    std::vector<std::byte> encoded;
+    std::string encoded;
     prt_volume* volume = nullptr;
     prt_volume_info info = {};
     prt_volume_textures textures = {};
