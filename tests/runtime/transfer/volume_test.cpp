@@ -13,6 +13,7 @@
 #include <cmath>
 #include <numeric>
 #include <random>
+#include <utility>
 
 namespace prt {
 namespace {
@@ -83,6 +84,20 @@ TEST(VolumeWeights, AreExactForLinearLightWhereNothingHides) {
             light +=
                 corners.weights[c] * linear(position_of(grid, lookup.probes().corners[corners.probes[c]]));
         EXPECT_NEAR(light, linear(place), 2e-5f);
+    }
+}
+
+TEST(VolumeWeights, OfASurfaceAreThoseOfAQuarterOfACellOffIt) {
+    const VolumeGrid grid = two_levels();
+    const std::vector<ProbeSight> sights(probes_of(grid).size(), kAllAround);
+    const VolumeLookup lookup(grid, sights);
+    const glm::vec3 coarse(-0.5f, 2.5f, 1), fine(1.25f, 2.25f, 1), normal(0, 0.6f, -0.8f);
+    for (const auto& [place, cell] : {std::pair(coarse, 0.5f), std::pair(fine, 0.25f)}) {
+        const VolumeCorners surface = lookup.find(place, normal),
+                            off = lookup.find(place + 0.25f * cell * normal);
+        EXPECT_EQ(surface.probes, off.probes);
+        for (std::size_t c = 0; c < 8; ++c)
+            EXPECT_NEAR(surface.weights[c], off.weights[c], 1e-6f);
     }
 }
 
