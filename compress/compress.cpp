@@ -96,7 +96,8 @@ Coding first_codes(const Task& task, const AlternationOptions& how, FoundCluster
 
 /// Goes over to the frame as the file holds it, with fewer axes, and rounded.
 void round_frame(const Task& task, Coding& coding) {
-    const double error = total_error(task.significance, coding.coded.codes.errors);
+    const double error = total_error(task.significance, coding.coded.codes.errors) *
+                         (task.transfer.layout().outputs > 1 ? tuning::kSharesOfOutputs : 1);
     truncate(coding.frame, axes_needed(coding.frame, tuning::kAxesShare * error));
     coding.coded_frame = code_frame(coding.frame, task.metric, tuning::kAxisRoundingShare * error);
     coding.coded.clusters = truncated(coding.coded.clusters, coding.frame.dimension);

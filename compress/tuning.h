@@ -62,6 +62,8 @@ inline constexpr std::size_t kManyReceivers = 65536;
 inline constexpr double kRoundingOverDropped = 0.1, kPointsRoundingShare = 0.001;
 /// Shares of the error that leaving out axes and rounding them may add in a file. By hand. [sweep]
 inline constexpr double kAxesShare = 0.01, kAxisRoundingShare = 0.02;
+/// So many times that where a receiver has several outputs, whose axes are long. By hand.
+inline constexpr double kSharesOfOutputs = 4;
 /// Share of the error that rounding the bases may add: bytes of bases against error, measured on small meshes
 /// for packed weights; the others follow their size. [sweep]
 inline constexpr double kBasisSharePacked = 0.1, kBasisShare8 = 0.05, kBasisShare16 = 0.0001;

@@ -125,14 +125,24 @@ void check_spacing(const VolumeBounds& bounds, double spacing) {
 
 } // namespace
 
+VolumeBounds volume_bounds(const Scene& scene, const VolumeOptions& options) {
+    if (options.bounds) {
+        check_bounds(*options.bounds);
+        return *options.bounds;
+    }
+    const std::vector<PlacedTriangle> triangles = triangles_of(scene);
+    if (triangles.empty())
+        throw Error("a scene without triangles has no bounds for a volume: give it some");
+    VolumeBounds bounds = bounds_of(triangles);
+    // A flat scene has some air above it.
+    bounds.most = glm::max(bounds.most, bounds.least + 1e-3f * glm::length(bounds.most - bounds.least));
+    check_bounds(bounds);
+    return bounds;
+}
+
 VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options) {
     const std::vector<PlacedTriangle> triangles = triangles_of(scene);
-    if (triangles.empty() && !options.bounds)
-        throw Error("a scene without triangles has no bounds for a volume: give it some");
-    VolumeBounds bounds = options.bounds.value_or(bounds_of(triangles));
-    if (!options.bounds) // a flat scene has air above it
-        bounds.most = glm::max(bounds.most, bounds.least + 1e-3f * glm::length(bounds.most - bounds.least));
-    check_bounds(bounds);
+    const VolumeBounds bounds = volume_bounds(scene, options);
     if (options.probes == 0) {
         check_spacing(bounds, options.spacing);
         return Placement(bounds, static_cast<float>(options.spacing)).place(triangles);

@@ -9,6 +9,9 @@
 
 namespace prt {
 
+/// Those of the options, or of the scene. Throws `Error` where they are none.
+VolumeBounds volume_bounds(const Scene& scene, const VolumeOptions& options);
+
 /// Throws `Error` for bounds or a spacing that make no volume, and one that would not fit.
 VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options);
 

@@ -19,6 +19,8 @@
 
 #include <fmt/core.h>
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -57,8 +59,9 @@ void check_room(const VolumeOptions& volume, double probes, std::size_t numbers,
                                 needed * 1e-9, there * 1e-9));
 }
 
-/// Points all over the cells of a volume, as many in each brick.
-std::vector<glm::vec3> points_between(const VolumeGrid& grid, double each, std::uint64_t seed) {
+/// Points all over the cells of a volume, as many in each brick, but for those out of its bounds.
+std::vector<glm::vec3> points_between(const VolumeGrid& grid, const VolumeBounds& bounds, double each,
+                                      std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
     std::vector<glm::vec3> points;
@@ -69,7 +72,9 @@ std::vector<glm::vec3> points_between(const VolumeGrid& grid, double each, std::
         const glm::vec3 least = position_of(grid, kBrickCells * brick.place);
         for (; owed >= 1; owed -= 1) {
             const float x = unit(random), y = unit(random), z = unit(random);
-            points.push_back(least + side * glm::vec3(x, y, z));
+            const glm::vec3 point = least + side * glm::vec3(x, y, z);
+            if (glm::clamp(point, bounds.least, bounds.most) == point)
+                points.push_back(point);
         }
     }
     return points;
@@ -199,7 +204,8 @@ private:
     void fit(ProbeTracer& tracer, const ProbeVectors& vectors, const Progress& progress) {
         const VolumeGrid& grid = result_.volume.grid;
         const VolumeLookup lookup(grid, result_.volume.sights);
-        const std::vector<glm::vec3> places = points_between(grid, volume_.fit_points, options_.seed);
+        const std::vector<glm::vec3> places =
+            points_between(grid, volume_bounds(scene_, volume_), volume_.fit_points, options_.seed);
         FitPoints points;
         points.vectors.resize(places.size() * vectors.stride);
         std::vector<char> kept(places.size());

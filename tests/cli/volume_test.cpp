@@ -1,0 +1,109 @@
+// Volumes through the program: baked, compressed, told of and measured; and what is refused.
+
+#include "prt/gltf.h"
+#include "prt/volume_gltf.h"
+#include "road.h"
+#include "support/glb_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace prt::test {
+namespace {
+
+class Volumes : public Road {
+protected:
+    static constexpr const char* kScene = "plain_room.glb";
+
+    void SetUp() override {
+#ifdef PRT_EXAMPLE_SCENES
+        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "plain_room"}).status, 0);
+#else
+        GTEST_SKIP() << "the example scenes are not built";
+#endif
+    }
+    Outcome bake(const std::vector<std::string>& options) {
+        std::vector<std::string> arguments = {"bake",   at(kScene), "-o",      at("baked.glb"),
+                                              "--rays", "32",       "--order", "3"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return prt(arguments);
+    }
+    void expect_refused(const Outcome& outcome, const std::string& why, int status = 1) {
+        EXPECT_EQ(outcome.status, status);
+        EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "baked.glb"));
+    }
+};
+
+TEST_F(Volumes, GoAllTheRoad) {
+    ASSERT_EQ(bake({"--volume", "1", "--bounces", "1", "--json", at("bake.json")}).status, 0);
+    const nlohmann::json baked_figures = read_json(folder / "bake.json")["volume"];
+    EXPECT_GT(baked_figures["probes"], 400);
+    EXPECT_EQ(validator_errors(folder / "baked.glb"), 0);
+    ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--volume-bytes", "8",
+                   "--volume-clusters", "2", "--json", at("compress.json")})
+                  .status,
+              0);
+    const nlohmann::json compressed = read_json(folder / "compress.json")["volume"];
+    EXPECT_EQ(compressed["bytes_bound_per_probe"], 8);
+    EXPECT_EQ(compressed["probes"], baked_figures["probes"]);
+    EXPECT_EQ(validator_errors(folder / "shipped.glb"), 0);
+
+    const GltfDocument baked_file = load_gltf(folder / "baked.glb"),
+                       shipped_file = load_gltf(folder / "shipped.glb");
+    const Scene scene = extract_scene(baked_file);
+    const std::optional<BakedVolume> baked = read_volume(baked_file, scene);
+    const std::optional<CompressedVolume> shipped =
+        read_compressed_volume(shipped_file, extract_scene(shipped_file));
+    ASSERT_TRUE(baked && shipped);
+    EXPECT_FALSE(read_volume(shipped_file, scene) || read_compressed_volume(baked_file, scene));
+    EXPECT_EQ(baked->grid, shipped->grid);
+    EXPECT_EQ(baked->sights, shipped->sights);
+    EXPECT_EQ(baked->sights.size(), baked_figures["probes"]);
+
+    const Outcome info = prt({"info", at("shipped.glb")});
+    EXPECT_EQ(info.status, 0);
+    EXPECT_NE(info.out.find("volume: "), std::string::npos) << info.out;
+    const Outcome evaluation =
+        prt({"evaluate", at("baked.glb"), at("shipped.glb"), "--budget", "--json", at("errors.json")});
+    ASSERT_EQ(evaluation.status, 0) << evaluation.err;
+    const nlohmann::json errors = read_json(folder / "errors.json")["volume_errors"];
+    ASSERT_EQ(errors.size(), 8u); // three lights and their mean, of both files
+    for (const nlohmann::json& row : errors) {
+        EXPECT_GT(row["error"], 0);
+        EXPECT_LT(row["error"], 1);
+    }
+}
+
+TEST_F(Volumes, GoWithASecondBake) {
+    ASSERT_EQ(bake({"--volume-probes", "400"}).status, 0);
+    EXPECT_TRUE(read_volume(load_gltf(folder / "baked.glb"), extract_scene(load_gltf(folder / "baked.glb"))));
+    ASSERT_EQ(prt({"bake", at("baked.glb"), "-o", at("again.glb"), "--rays", "8"}).status, 0);
+    const GltfDocument again = load_gltf(folder / "again.glb");
+    EXPECT_FALSE(read_volume(again, extract_scene(again)));
+}
+
+TEST_F(Volumes, StandBesideLightmaps) {
+    ASSERT_EQ(bake({"--volume", "2", "--size", "64", "--unwrap"}).status, 0);
+    ASSERT_EQ(
+        prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--clusters", "4", "--bits", "24"}).status,
+        0);
+    const GltfDocument shipped = load_gltf(folder / "shipped.glb");
+    EXPECT_TRUE(read_compressed_volume(shipped, extract_scene(shipped)));
+    EXPECT_EQ(validator_errors(folder / "shipped.glb"), 0);
+}
+
+TEST_F(Volumes, RefuseWhatMakesNone) {
+    expect_refused(bake({"--volume", "1e-6"}), "make it smaller");
+    expect_refused(bake({"--volume-order", "2"}), "say --volume");
+    expect_refused(bake({"--volume", "1", "--volume-bounds", "1,1,1,0,0,0"}), "two corners");
+    expect_refused(bake({"--volume", "0.05", "--memory-limit", "40MB"}), "memory");
+    EXPECT_NE(bake({"--volume", "-1"}).status, 0);
+    EXPECT_NE(bake({"--volume", "nan"}).status, 0);
+    EXPECT_NE(bake({"--volume", "1", "--volume-bounds", "0,0,0,1,1"}).status, 0);
+    EXPECT_NE(bake({"--volume", "1", "--volume-bounds", "0,0,0,1,nan,1"}).status, 0);
+}
+
+} // namespace
+} // namespace prt::test
