@@ -1,5 +1,6 @@
 #include "volume_errors.h"
 
+#include "no_shadow.h"
 #include "prt/incident_reference.h"
 #include "prt/support/error.h"
 
@@ -94,15 +95,25 @@ std::vector<Json> mean_row(const char* volume, std::span<const VolumeErrors> all
 
 } // namespace
 
-void add_volume_errors(const SceneFile& baked, const SceneFile* shipped, const BudgetLightOptions& options,
-                       Report& report, Session& session) {
+void add_volume_errors(VolumeErrorsRequest request, SceneFile& baked, Report& report, Session& session) {
     if (!baked.volume)
-        return;
+        throw Error(request.baked.string() + ": holds no raw volume; run prt bake --volume first");
+    about(request.baked, [&] { leave_out_shadows(baked.scene, request.no_shadow); });
     const BakedVolume& volume = *baked.volume;
+    std::optional<SceneFile> shipped;
+    if (!request.shipped.empty())
+        shipped = load_scene_file(request.shipped, request.reading);
     const CompressedVolume* const small =
         shipped && shipped->compressed_volume ? &*shipped->compressed_volume : nullptr;
-    if (small && (small->grid != volume.grid || small->order != volume.order))
-        throw Error("the volumes of both files have their probes at other places");
+    if (shipped && !small)
+        throw Error(request.shipped.string() + ": holds no compressed volume");
+    if (small && (small->grid != volume.grid || small->order != volume.order ||
+                  small->compressed.record.receivers != volume.baked.record.receivers))
+        throw Error(request.shipped.string() + ": its volume does not belong to that of " +
+                    request.baked.string());
+    BudgetLightOptions& options = request.lights;
+    options.order = volume.baked.transfer.layout.order;
+    options.apart = volume.baked.transfer.layout.has(PartKind::direct);
     ProgressBar bar = session.progress_bar("measuring the volume");
     const Progress progress = bar.progress();
     const TraceScene traced(baked.scene, load_textures(baked.scene), {.threads = options.threads});

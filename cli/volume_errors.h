@@ -9,9 +9,15 @@
 
 namespace prt::cli {
 
-/// Adds a table of errors by light and by distance from surfaces, of the volume of `baked` and, where there
-/// is one, of `shipped`. Nothing where `baked` has no volume. Throws `Error` where volumes are of two scenes.
-void add_volume_errors(const SceneFile& baked, const SceneFile* shipped, const BudgetLightOptions& lights,
-                       Report& report, Session& session);
+struct VolumeErrorsRequest {
+    Path baked, shipped; ///< shipped: empty where there is none
+    GltfOptions reading; ///< of `shipped`
+    BudgetLightOptions lights;
+    std::vector<std::string> no_shadow; ///< materials that the bake let light through
+};
+
+/// Adds a table of errors by light and by distance from surfaces, of the volume of `baked` and of the shipped
+/// one. Throws `Error` where there are none, and where they are of two scenes.
+void add_volume_errors(VolumeErrorsRequest request, SceneFile& baked, Report& report, Session& session);
 
 } // namespace prt::cli

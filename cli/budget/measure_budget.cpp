@@ -8,7 +8,6 @@
 #include "prt/repeated_bake.h"
 #include "prt/support/error.h"
 #include "solid_materials.h"
-#include "volume_errors.h"
 
 #include <fmt/core.h>
 
@@ -87,10 +86,7 @@ void add_budget(BudgetRequest request, SceneFile& baked, Report& report, Session
     const TransferLayout& layout = shipped ? layout_of(*shipped) : layout_of(baked);
     request.lights.order = baked.order();
     request.lights.apart = layout.has(PartKind::direct);
-    about(request.baked, [&] {
-        measure(request, baked, shipped ? &*shipped : nullptr, report, session);
-        add_volume_errors(baked, shipped ? &*shipped : nullptr, request.lights, report, session);
-    });
+    about(request.baked, [&] { measure(request, baked, shipped ? &*shipped : nullptr, report, session); });
 }
 
 } // namespace prt::cli

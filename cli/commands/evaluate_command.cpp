@@ -11,6 +11,7 @@
 #include "report/of_texels.h"
 #include "report/sweep_report.h"
 #include "residual_vq.h"
+#include "volume_errors.h"
 
 #include <filesystem>
 
@@ -25,7 +26,7 @@ struct EvaluateArguments {
     SunCount suns = {std::nullopt};
     int rotations = 1; ///< of each light about +Y
     bool sweep = false;
-    bool budget = false;
+    bool budget = false, volume = false;
     std::vector<std::string> no_shadow; ///< names of materials
     GltfOptions reading;
     int threads = 0;
@@ -82,7 +83,7 @@ void add_sizes_of_bake(const EvaluateArguments& a, const Transfer& transfer, Rep
 }
 
 std::vector<Path> check(const EvaluateArguments& a) {
-    if (a.shipped.empty() && !a.sweep && !a.budget)
+    if (a.shipped.empty() && !a.sweep && !a.budget && !a.volume)
         throw CLI::ValidationError(
             "evaluate", "compares two files: prt evaluate BAKED.glb SHIPPED.glb; or measures what the "
                         "compressor makes of one: prt evaluate BAKED.glb --sweep; or where the error of a "
@@ -124,6 +125,18 @@ void run(EvaluateArguments a, Session& session) {
                                .threads = a.threads},
                     .no_shadow = a.no_shadow},
                    baked, report, session);
+    if (a.volume)
+        add_volume_errors({.baked = a.baked,
+                           .shipped = a.shipped,
+                           .reading = a.reading,
+                           .lights = {.files = a.lights,
+                                      .suns = a.suns,
+                                      .reading = a.light_options,
+                                      .order = {},
+                                      .apart = {},
+                                      .threads = a.threads},
+                           .no_shadow = a.no_shadow},
+                          baked, report, session);
     if (a.sweep)
         add_sweep(run_sweep(a, baked, lights, session), report);
     if (baked.lightmap)
@@ -164,6 +177,9 @@ void add_evaluate(CLI::App& app, Session& session) {
         "--budget", a.budget,
         "take the error over the surface, against path tracing, apart by its causes: light, bounces, "
         "vertices, rays, bytes; and say what to change. Bakes once more");
+    command->add_flag("--volume", a.volume,
+                      "measure the volume at places in free space, against path tracing, by their distance "
+                      "from surfaces");
     add_no_shadow(command, a.no_shadow);
     add_reading(command, a.reading);
     add_threads(command, a.threads);

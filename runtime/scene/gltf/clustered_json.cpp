@@ -97,9 +97,10 @@ void read_packing(const GltfContents& contents, const Json& json, ClusteredTrans
     receivers.words = std::max(1, static_cast<int>((most + 31) / 32));
 }
 
-ClusteredBases read_clusters_of(const Json& extension) {
+ClusteredBases read_clusters_of(const Json& extension, std::size_t outputs) {
     ClusteredBases bases;
     bases.layout = read_layout(extension);
+    bases.layout.outputs = outputs;
     const int most = static_cast<int>(bases.dimension());
     for (const Json& count : extension.at("components"))
         bases.components.push_back(whole_number(count, "the number of a cluster's components", 0, most));

@@ -8,7 +8,7 @@
 namespace prt {
 
 /// Order, parts and components of an extension. Throws `Error` where they make no sense.
-ClusteredBases read_clusters_of(const Json& extension);
+ClusteredBases read_clusters_of(const Json& extension, std::size_t outputs = 1);
 
 Json write_bases(GltfContents& contents, const ClusteredBases& bases);
 /// Reads the rows of `bases`, whose components are known. Throws `Error` where they are damaged.

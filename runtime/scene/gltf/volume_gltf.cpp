@@ -25,8 +25,7 @@ Json write_bricks(GltfContents& contents, const VolumeGrid& grid) {
 }
 
 std::vector<std::byte> bytes_of(const GltfContents& contents, const Json& json) {
-    const auto bytes =
-        std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>()));
+    const auto bytes = std::as_bytes(buffer_view_bytes(contents.model, json.at("bufferView").get<int>()));
     return {bytes.begin(), bytes.end()};
 }
 
@@ -127,8 +126,7 @@ CompressedVolume read_words(const GltfContents& contents, const Scene& scene, co
     CompressedVolume volume;
     const std::size_t probes = read_common(contents, scene, extension, volume);
     ClusteredTransfer& transfer = volume.compressed.transfer;
-    transfer.bases = read_clusters_of(extension);
-    transfer.bases.layout.outputs = static_cast<std::size_t>(coefficient_count(volume.order));
+    transfer.bases = read_clusters_of(extension, static_cast<std::size_t>(coefficient_count(volume.order)));
     volume.compressed.record = read_record(extension.value("bake", Json::object()));
     read_bases(contents, extension.at("bases"), transfer.bases);
     read_packing(contents, extension.at("packing"), transfer);
