@@ -29,6 +29,8 @@
 #define PRT_BINDING_CLUSTERS 1
 #define PRT_BINDING_MATRIX 2
 #define PRT_BINDING_LIGHT 3
+#define PRT_BINDING_VOLUME_WORDS 4
+#define PRT_BINDING_VOLUME_PROBES 5
 #define PRT_BINDING_EMISSION_TEXCOORDS 10
 
 // Surfaces: prt::AlphaMode.
@@ -48,8 +50,19 @@
 #define PRT_UNIT_BACKGROUND 1
 #define PRT_UNIT_EMISSION 7
 #define PRT_UNIT_LIGHTMAP 14
+#define PRT_UNIT_VOLUME_LIGHT 15
+#define PRT_UNIT_VOLUME_SIGHTS 16
+#define PRT_UNIT_VOLUME_INDEX 17
 
 // Images.
 #define PRT_IMAGE_LIGHTMAP 0
+#define PRT_IMAGE_VOLUME 1
+
+// Weights of the probes of a volume: prt/volume_weights.h says what they are.
+#define PRT_VOLUME_NORMAL_BIAS 0.25
+#define PRT_VOLUME_SIGHT_CELLS 4.0
+#define PRT_VOLUME_SIGHT_FULL 0.9
+#define PRT_VOLUME_SIGHT_NONE 1.2
+#define PRT_VOLUME_HIDDEN_WEIGHT 0.0001
 
 #endif

@@ -5,6 +5,7 @@
 #include "prt/shader_source.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
+#include "prt/volume_shader.h"
 #include "terminal.h"
 
 #include <fmt/core.h>
@@ -19,7 +20,7 @@ struct ShaderArguments {
     Path model, output;
     ShaderLanguage language = ShaderLanguage::glsl450;
     std::optional<ConstantSource> constants; ///< unset: what the language can do
-    bool compute = false, fragment = false;
+    bool compute = false, fragment = false, volume = false;
     GltfOptions reading;
 };
 
@@ -62,9 +63,29 @@ void write_lightmap_shader(const ShaderArguments& a, const ClusteredTransfer& tr
                       pass == LightmapPass::compute ? "compute" : "fragment"));
 }
 
+/// The lookup, which is the same text in all languages, or the pass before it.
+void write_volume_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
+    if (!model.compressed_volume)
+        throw Error(a.model.string() +
+                    ": holds no compressed volume; run prt bake --volume and prt compress first");
+    const CompressedVolume& volume = *model.compressed_volume;
+    session.write(a.output, a.compute ? volume_shader(volume, a.language)
+                                      : volume_functions(volume, VolumeFormat::rgba16, model.scene.origin));
+    const VolumeAtlas atlas = atlas_of(volume.grid, volume.order);
+    const glm::ivec3 texels = atlas.light_texels();
+    print(fmt::format("{}: {}; light in a texture of {} x {} x {} texels RGBA16F\n",
+                      printable(a.output.string()),
+                      a.compute ? fmt::format("a compute shader, {} x {} x {} groups", atlas.bricks.x,
+                                              atlas.bricks.y, atlas.bricks.z)
+                                : "functions to put behind the version line of a shader",
+                      texels.x, texels.y, texels.z));
+}
+
 void run(ShaderArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.output, "--output"}}, {a.model});
     const SceneFile model = load_scene_file(a.model, a.reading);
+    if (a.volume || (model.compressed_volume && !model.compressed))
+        return write_volume_shader(a, model, session);
     if (!model.compressed)
         throw Error(a.model.string() + ": holds no compressed transfer; run prt compress first");
     const ClusteredTransfer& transfer = model.compressed->transfer;
@@ -104,6 +125,9 @@ void add_shader(CLI::App& app, Session& session) {
     command->add_flag(
         "--fragment", a.fragment,
         "of a lightmap: a fragment shader to draw over a map where a compute shader could do it");
+    command->add_flag("--volume", a.volume,
+                      "the functions that look its volume up, for every language; with --compute the compute "
+                      "shader that forms what they read");
     add_reading(command, a.reading);
 }
 

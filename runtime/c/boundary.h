@@ -4,12 +4,16 @@
 // come in.
 
 #include "prt/prt.h"
+#include "prt/shader_source.h"
 #include "prt/support/error.h"
+#include "prt/transfer_layout.h"
 
 #include <glm/vec3.hpp>
 
 #include <cstddef>
 #include <new>
+#include <span>
+#include <string>
 
 namespace prt::c {
 
@@ -73,8 +77,30 @@ std::size_t count_of(int order);
 bool within(float most, const float* values, std::size_t count);
 bool finite(const float* values, std::size_t count);
 
+/// Of light and constants that something is lit by.
+inline constexpr float kBrightest = 1e20f, kLargestConstant = 1e30f;
+
 inline glm::vec3* colors(float* light) {
     return reinterpret_cast<glm::vec3*>(light); // three floats and nothing else
 }
+
+inline std::span<const glm::vec3> light_colors(const float* from, std::size_t count) {
+    return {reinterpret_cast<const glm::vec3*>(from), count};
+}
+
+/// Coefficients of a sky and its suns, [order²], and strengths of lamps; the last two may be null.
+struct LightArguments {
+    int order;
+    const float *sky, *suns, *lamps;
+};
+
+/// Throws `Error` for an order that is none and for light that is not finite or too bright.
+LightingView lighting_of(const LightArguments& light, std::size_t lamps);
+
+/// Writes `text` with its final 0 to `source`, and its size to `*size`. Throws `TooSmall`.
+void write_text(const std::string& text, char* source, std::size_t* size);
+
+/// Those of C are the same numbers.
+ShaderLanguage language_of(int language);
 
 } // namespace prt::c

@@ -28,28 +28,14 @@ namespace {
 using namespace prt::c;
 using prt::Error;
 
-/// Of light and constants that a model is lit by.
-constexpr float kBrightest = 1e20f, kLargestConstant = 1e30f;
-
-std::span<const glm::vec3> light_colors(const float* from, std::size_t count) {
-    return {reinterpret_cast<const glm::vec3*>(from), count};
-}
-
 /// Those of C are the same numbers.
-prt::ShaderLanguage language_of(int language) {
-    if (language < PRT_GLSL450 || language > PRT_VULKAN)
-        throw Error("there is no such shader language");
-    return static_cast<prt::ShaderLanguage>(language);
-}
-
 prt::ConstantSource source_of(int constants) {
     if (constants < PRT_CONSTANTS_IN_BUFFER || constants > PRT_CONSTANTS_IN_TEXTURE)
         throw Error("there is no such place for constants");
     return static_cast<prt::ConstantSource>(constants);
 }
 
-static_assert(static_cast<int>(prt::ShaderLanguage::vulkan) == PRT_VULKAN &&
-              static_cast<int>(prt::ConstantSource::texture) == PRT_CONSTANTS_IN_TEXTURE &&
+static_assert(static_cast<int>(prt::ConstantSource::texture) == PRT_CONSTANTS_IN_TEXTURE &&
               static_cast<int>(prt::WeightFormat::packed) == PRT_PACKED &&
               static_cast<int>(prt::WeightFormat::snorm8) == PRT_SNORM8);
 static_assert(sizeof(prt::ClusterLayout) == 4 * sizeof(std::uint32_t) &&
@@ -196,14 +182,9 @@ prt_status prt_model_form_constants_apart(const prt_model* model, int order, con
                                           prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, sky, constants);
-        const std::size_t count = count_of(order), rows = model->former.rows(),
-                          strengths = lamps ? model->former.layout().lamps() : 0;
-        if (!within(kBrightest, sky, 3 * count) || (suns && !within(kBrightest, suns, 3 * count)) ||
-            (lamps && !within(kBrightest, lamps, 3 * strengths)))
-            throw Error("the coefficients of a light must be finite and at most 1e20");
-        model->former.form(
-            {light_colors(sky, count), light_colors(suns, suns ? count : 0), light_colors(lamps, strengths)},
-            {reinterpret_cast<glm::vec4*>(constants), rows});
+        const std::size_t rows = model->former.rows();
+        model->former.form(lighting_of({order, sky, suns, lamps}, model->former.layout().lamps()),
+                           {reinterpret_cast<glm::vec4*>(constants), rows});
         if (!within(kLargestConstant, constants, 4 * rows))
             throw Error("the light is too bright for the model: constants pass 1e30");
     });
@@ -224,13 +205,8 @@ prt_status prt_model_shader(const prt_model* model, int language, int constants,
                             prt_message* message) {
     return guarded(message, [&] {
         check_pointers(model, size);
-        const std::string text =
-            prt::relight_shader(model->transfer, source_of(constants), language_of(language));
-        const std::size_t room = source ? *size : 0;
-        *size = text.size() + 1;
-        if (room < *size)
-            throw TooSmall("the shader takes " + std::to_string(*size) + " bytes");
-        std::memcpy(source, text.c_str(), *size);
+        write_text(prt::relight_shader(model->transfer, source_of(constants), language_of(language)), source,
+                   size);
     });
 }
 

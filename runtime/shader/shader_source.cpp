@@ -2,13 +2,11 @@
 
 #include "prt/shader_source.h"
 
+#include "defines.h"
 #include "embedded_files.h"
 #include "prt/support/error.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <limits>
-#include <locale>
 #include <set>
 #include <sstream>
 
@@ -47,19 +45,6 @@ const char* version_lines(ShaderLanguage language) {
     return "#version 450 core\n";
 }
 
-std::string define(const char* name, std::size_t value) {
-    return std::string("#define ") + name + " " + std::to_string(value) + "\n";
-}
-
-/// `value` as GLSL, with all digits that a float has.
-std::string glsl_number(double value) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic()); // programs may have set one that writes commas
-    text << std::scientific << std::setprecision(std::numeric_limits<float>::max_digits10 - 1)
-         << static_cast<float>(value);
-    return text.str();
-}
-
 std::string guide_defines(const ClusteredBases& bases, const glm::dvec3& seen_from) {
     std::string text;
     for (const Guide& guide : bases.guides) {
@@ -67,9 +52,8 @@ std::string guide_defines(const ClusteredBases& bases, const glm::dvec3& seen_fr
             text += "#define PRT_GUIDE_NORMAL\n";
             continue;
         }
-        const glm::dvec3 origin = seen_from + glm::dvec3(guide.origin);
-        text += "#define PRT_GUIDE_POSITION\n#define PRT_GUIDE_ORIGIN vec3(" + glsl_number(origin.x) + ", " +
-                glsl_number(origin.y) + ", " + glsl_number(origin.z) + ")\n";
+        text += "#define PRT_GUIDE_POSITION\n" +
+                define("PRT_GUIDE_ORIGIN", glsl_vector(seen_from + glm::dvec3(guide.origin)));
     }
     return text;
 }
@@ -116,12 +100,15 @@ std::string same_weight_defines(const ClusteredTransfer& transfer) {
 
 } // namespace
 
-std::string shader_source(std::string_view name, std::string_view defines, ShaderLanguage language) {
-    std::string source = version_lines(language);
-    source += defines;
+std::string shader_part(std::string_view name, std::string_view defines) {
+    std::string source(defines);
     std::set<std::string> included;
     append_file(std::string(name), included, source);
     return source;
+}
+
+std::string shader_source(std::string_view name, std::string_view defines, ShaderLanguage language) {
+    return version_lines(language) + shader_part(name, defines);
 }
 
 int most_vertex_components(const ClusteredBases& bases) {

@@ -46,6 +46,12 @@ namespace texel_formats {
     return (bits + (1 << (22 - mantissa))) >> (23 - mantissa);
 }
 
+/// A half float with its sign, rounded to the nearest, at most 65 504 in magnitude; 0 where it is no number.
+[[gnu::always_inline]] inline WordLanes signed_half(const Lanes& v) {
+    const WordLanes bits = bits_of(v);
+    return small_float(floats_of(bits & 0x7FFFFFFF), 65504, 10) | (bits >> 16 & 0x8000);
+}
+
 /// EXT_texture_shared_exponent: the largest color, rounded to nine bits, says the exponent of all.
 [[gnu::always_inline]] inline WordLanes shared_exponent(const RadianceLanes& radiance) {
     constexpr float kMost = 65408;

@@ -134,8 +134,10 @@ VolumeProbes probes_of(const VolumeGrid& grid) {
             }
         }
     }
+    // Of a brick that reaches out of the box some have none beside them.
     for (std::uint32_t p = 0; p < probes.size(); ++p)
-        if (!has_corner(grid.bricks[around[p].brick], probes.corners[p]))
+        if (around[p].brick != VolumeLookup::kNoBrick &&
+            !has_corner(grid.bricks[around[p].brick], probes.corners[p]))
             probes.hanging.push_back({p, around[p].brick});
     std::ranges::stable_sort(probes.hanging, std::ranges::greater(),
                              [&](const VolumeProbes::Hanging& h) { return grid.bricks[h.brick].level; });

@@ -8,11 +8,13 @@
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
 #include "prt/sh_vector.h"
+#include "prt/volume_former.h"
 
 #include <benchmark/benchmark.h>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <array>
 #include <cstring>
 #include <random>
 #include <string>
@@ -228,6 +230,72 @@ BENCHMARK(relight_lightmap)
     ->ArgsProduct({{1, 8, 64}, {1, 2}, {0, 1, 2}})
     ->Unit(benchmark::kMillisecond)
     ->UseRealTime();
+
+/// 21 025 probes of sixteen bytes: 256 clusters of twelve directions. Lit by a sky of order 6, direct light
+/// and bounces apart.
+CompressedVolume volume_of() {
+    CompressedVolume volume{{.spacing = 1, .size = {7, 7, 6}, .bricks = {}}, 3, {}, {}};
+    for (int i = 0; i < 7 * 7 * 6; ++i)
+        volume.grid.bricks.push_back({{i % 7, i / 7 % 7, i / 49}, 0});
+    volume.sights.resize(probes_of(volume.grid).size());
+    ClusteredTransfer& t = volume.compressed.transfer;
+    t.bases.layout = {kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}, 9};
+    t.bases.components.assign(256, 12);
+    t.bases.bits.assign(256u * 12, 10);
+    t.bases.rows = random_values(256u * 13 * t.bases.dimension());
+    t.receivers = {.format = WeightFormat::packed,
+                   .components = 12,
+                   .cluster_bits = 8,
+                   .words = 4,
+                   .clusters = {},
+                   .weights = {},
+                   .guides = {}};
+    std::mt19937 random(1);
+    for (std::size_t p = 0; p < volume.sights.size(); ++p)
+        t.receivers.clusters.push_back(static_cast<std::uint16_t>(p * 256 / volume.sights.size()));
+    t.receivers.weights.resize(16 * volume.sights.size());
+    for (std::byte& b : t.receivers.weights)
+        b = static_cast<std::byte>(random());
+    return volume;
+}
+
+/// Constants and all texels.
+void relight_volume(State& state) {
+    const CompressedVolume volume = volume_of();
+    const VolumeFormer former(volume);
+    std::vector<glm::vec4> constants(former.rows());
+    std::vector<std::byte> texels(former.bytes());
+    const auto light = random_light();
+    const bool both = state.range(0) == 0;
+    for (auto _ : state) {
+        if (both || state.range(0) == 1)
+            former.form_constants(light, glm::vec3(0, 1, 0), constants);
+        if (both || state.range(0) == 2)
+            former.form(constants, texels, static_cast<int>(state.range(1)));
+        benchmark::ClobberMemory();
+    }
+}
+BENCHMARK(relight_volume)
+    ->ArgNames({"both_constants_texels", "threads"})
+    ->ArgsProduct({{0, 1, 2}, {1, 2}})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
+/// At places all over, one by one.
+void look_up_volume(State& state) {
+    const CompressedVolume volume = volume_of();
+    const VolumeLookup lookup(volume.grid, volume.sights);
+    const std::vector<glm::vec3> incident(9 * volume.sights.size(), glm::vec3(1));
+    const auto directions = random_directions(1024);
+    std::array<glm::vec3, 9> light{};
+    for (auto _ : state)
+        for (const glm::vec3& d : directions) {
+            mix_incident(lookup.find(12.0f + 12.0f * d, d), incident, light);
+            benchmark::DoNotOptimize(irradiance_of(light, d));
+        }
+    state.SetItemsProcessed(state.iterations() * 1024);
+}
+BENCHMARK(look_up_volume);
 
 /// What memory can do: a copy that no cache holds, bytes read and written.
 void plain_copy(State& state) {

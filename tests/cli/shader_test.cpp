@@ -2,7 +2,9 @@
 
 #include "program.h"
 #include "support/glb_file.h"
+#include "support/random_volume.h"
 #include "support/temporary_folder.h"
+#include "support/volume_model.h"
 
 #include <gtest/gtest.h>
 
@@ -16,17 +18,11 @@ std::string text_of(const std::filesystem::path& path) {
     return {std::istreambuf_iterator<char>(file), {}};
 }
 
-class Shader : public testing::TestWithParam<std::vector<std::string>> {
+class Tools : public testing::Test {
 protected:
     void SetUp() override {
         if (std::string(PRT_GLSLANG).empty() || std::string(PRT_SPIRV_CROSS).empty())
             GTEST_SKIP() << "glslangValidator or spirv-cross is not installed";
-        triangle_file().write(folder / "t.glb");
-        ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "3"}).status, 0);
-        std::vector<std::string> compress = {"compress", at("b.glb"), "-o", at("c.glb")};
-        compress.insert(compress.end(), GetParam().begin(), GetParam().end());
-        const Outcome outcome = prt(compress);
-        ASSERT_EQ(outcome.status, 0) << outcome.err;
     }
     std::string at(const std::string& name) const { return (folder / name).string(); }
     void succeeds(const std::string& program, const std::vector<std::string>& arguments) {
@@ -43,6 +39,21 @@ protected:
     }
 
     TemporaryFolder folder;
+};
+
+class Shader : public Tools, public testing::WithParamInterface<std::vector<std::string>> {
+protected:
+    void SetUp() override {
+        Tools::SetUp();
+        if (IsSkipped())
+            return;
+        triangle_file().write(folder / "t.glb");
+        ASSERT_EQ(prt({"bake", at("t.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "3"}).status, 0);
+        std::vector<std::string> compress = {"compress", at("b.glb"), "-o", at("c.glb")};
+        compress.insert(compress.end(), GetParam().begin(), GetParam().end());
+        const Outcome outcome = prt(compress);
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+    }
 };
 INSTANTIATE_TEST_SUITE_P(
     Weights, Shader,
@@ -84,6 +95,65 @@ TEST_P(Shader, ConstantsAreFormedByComputeShaders) {
     EXPECT_EQ(prt({"shader", at("c.glb"), "-o", at("s.comp"), "--compute", "--language", "essl300"}).status,
               1);
     EXPECT_EQ(prt({"shader", at("b.glb"), "-o", at("s.comp")}).status, 1);
+}
+
+using VolumeShader = Tools;
+
+TEST_F(VolumeShader, HasOneLookupForEveryLanguage) {
+    std::mt19937 random(1);
+    for (const int order : {2, 3, 4}) {
+        with_volume(triangle_file(), random_volume(order, false, random)).write(folder / "v.glb");
+        const Outcome outcome = prt({"shader", at("v.glb"), "-o", at("v.glsl"), "--volume"});
+        ASSERT_EQ(outcome.status, 0) << outcome.err;
+        EXPECT_NE(outcome.out.find("RGBA16F"), std::string::npos) << outcome.out;
+        ASSERT_EQ(prt({"shader", at("v.glb"), "-o", at("again.glsl")}).status, 0); // it has nothing else
+        EXPECT_EQ(text_of(folder / "v.glsl"), text_of(folder / "again.glsl"));
+        const std::string use =
+            "layout(location = 0) out vec4 color;\n"
+            "void main() {\n"
+            "    vec3 n = normalize(normal), light[PRT_VOLUME_COEFFICIENTS];\n"
+            "    prt_volume_incident(position, n, light);\n"
+            "    color = vec4(prt_volume_irradiance(position, n), 1.0);\n"
+            "    color.a = prt_volume_sun_visibility(position, n);\n"
+            "    color.rgb += prt_incident_radiance(light, prt_incident_direction(light));\n"
+            "}\n";
+        const std::string inputs = "in vec3 position;\nin vec3 normal;\n";
+        for (const std::string version :
+             {"#version 450\n", "#version 330\n",
+              "#version 300 es\nprecision highp float;\nprecision highp int;\n"}) {
+            std::ofstream(folder / "s.frag") << version << text_of(folder / "v.glsl") << inputs << use;
+            succeeds(PRT_GLSLANG, {"-S", "frag", at("s.frag")});
+        }
+        std::ofstream(folder / "s.frag") << "#version 450\n"
+                                         << text_of(folder / "v.glsl")
+                                         << "layout(location = 0) in vec3 position;\n"
+                                            "layout(location = 1) in vec3 normal;\n"
+                                         << use;
+        compiles_for_vulkan("s.frag", "frag");
+    }
+}
+
+TEST_F(VolumeShader, FormsLightByCompute) {
+    std::mt19937 random(2);
+    for (const bool alike : {false, true}) {
+        with_volume(triangle_file(), random_volume(3, alike, random)).write(folder / "v.glb");
+        const std::vector<std::string> command = {"shader",   at("v.glb"), "-o",        at("v.comp"),
+                                                  "--volume", "--compute", "--language"};
+        const auto in = [&](const std::string& language) {
+            std::vector<std::string> arguments = command;
+            arguments.push_back(language);
+            return prt(arguments);
+        };
+        ASSERT_EQ(in("glsl450").status, 0);
+        succeeds(PRT_GLSLANG, {"-S", "comp", at("v.comp")});
+        ASSERT_EQ(in("vulkan").status, 0);
+        compiles_for_vulkan("v.comp", "comp");
+        EXPECT_EQ(in("essl300").status, 1);
+    }
+    triangle_file().write(folder / "t.glb");
+    const Outcome outcome = prt({"shader", at("t.glb"), "-o", at("v.glsl"), "--volume"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("no compressed volume"), std::string::npos) << outcome.err;
 }
 
 } // namespace

@@ -45,6 +45,12 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" "${packed[@]}"
             compiles "$file" "${packed[@]}" "${alike[@]}" "PRT_LIGHTMAP_FORMAT r11f_g11f_b10f"
             ;;
+        prt_volume.comp)
+            for order in 2 3 4; do
+                compiles "$file" "${packed[@]}" "PRT_VOLUME_ORDER $order"
+            done
+            compiles "$file" "${packed[@]}" "${alike[@]}" "PRT_VOLUME_ORDER 3" "PRT_VOLUME_FORMAT rgba32f"
+            ;;
         *.comp)
             compiles "$file" "PRT_ROWS 40" "PRT_NUMBERS 144" "PRT_FIRST_CHANNELS 1" "PRT_COEFFICIENTS 36"
             compiles "$file" "PRT_ROWS 40" "PRT_NUMBERS 144" "PRT_FIRST_CHANNELS 3" "PRT_COEFFICIENTS 36"

@@ -106,7 +106,8 @@ void bind_guides(const ClusteredTransfer& transfer, const glm::vec3& scene_origi
     }
 }
 
-/// Nothing is drawn, but without a window there is no framebuffer unless we make one.
+} // namespace
+
 void bind_small_framebuffer() {
     GLuint framebuffer = 0, color = 0;
     glGenRenderbuffers(1, &color);
@@ -116,8 +117,6 @@ void bind_small_framebuffer() {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
 }
-
-} // namespace
 
 EsContext::EsContext() {
     display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);

@@ -32,6 +32,9 @@ private:
 /// A shader object. A test in which it does not compile fails.
 GLuint compiled(GLenum stage, const std::string& source);
 
+/// Nothing is drawn, but without a window there is no framebuffer unless we make one.
+void bind_small_framebuffer();
+
 template <class T>
 void bind_buffer(GLenum target, GLuint binding, const std::vector<T>& values) {
     GLuint name = 0;

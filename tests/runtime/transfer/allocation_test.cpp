@@ -5,7 +5,9 @@
 #include "prt/sh.h"
 #include "prt/sh_rotation.h"
 #include "prt/sh_vector.h"
+#include "prt/volume_former.h"
 #include "support/random_lightmap.h"
+#include "support/random_volume.h"
 
 #include <gtest/gtest.h>
 
@@ -72,6 +74,24 @@ TEST(Lightmap, IsLitWithoutAllocation) {
     const std::size_t before = allocations;
     constants.form(light.coefficients, formed);
     former.form(0, formed, texels, 1); // several threads have to be started
+    EXPECT_EQ(allocations, before);
+}
+
+TEST(Volume, IsLitAndLookedUpWithoutAllocation) {
+    std::mt19937 random(1);
+    const CompressedVolume volume = test::random_volume(3, false, random);
+    const VolumeFormer former(volume);
+    const VolumeLookup lookup(volume.grid, volume.sights);
+    const Light light = constant_light(3, {1, 2, 3});
+    std::vector<glm::vec4> constants(former.rows());
+    std::vector<std::byte> texels(former.bytes());
+    const std::vector<glm::vec3> incident = incident_light(volume, {light}, 1);
+    std::array<glm::vec3, 9> mixed{};
+    const std::size_t before = allocations;
+    former.form_constants(light, glm::vec3(0, 1, 0), constants);
+    former.form(constants, texels, 1); // several threads have to be started
+    mix_incident(lookup.find({0, 1, 2}, {0, 1, 0}), incident, mixed);
+    irradiance_of(mixed, {0, 1, 0});
     EXPECT_EQ(allocations, before);
 }
 

@@ -180,6 +180,79 @@ typedef enum prt_constants {
 PRT_API prt_status prt_model_shader(const prt_model* model, int language, int constants, char* source,
                                     size_t* size, prt_message* message);
 
+/* The volume of probes of a file that prt compress has written, for what moves through the scene.
+ * Experimental: what is called prt_volume_* may change with any version. */
+typedef struct prt_volume prt_volume;
+
+PRT_API prt_status prt_volume_load(const char* path, prt_volume** volume, prt_message* message);
+PRT_API prt_status prt_volume_load_memory(const void* bytes, size_t size, prt_volume** volume,
+                                          prt_message* message);
+PRT_API void prt_volume_destroy(prt_volume* volume); /* null is fine */
+
+typedef struct prt_volume_info {
+    int order;          /* of lighting */
+    int incident_order; /* n = 2..4: n*n coefficients of the light that comes in at a probe */
+    size_t probes;
+    size_t rows;      /* of constants, 4 floats each */
+    size_t lamps;     /* that have strengths */
+    int direct_apart; /* 1 where suns can be lit apart from the sky, else 0 */
+    float corner[3];  /* metres: the least one, seen from `origin` as all positions are */
+    float spacing;    /* metres, of the finest probes */
+    double origin[3]; /* metres, in the file's world; as prt_vertex_inputs has it */
+} prt_volume_info;
+PRT_API prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info* out, prt_message* message);
+
+/* The 3D textures of prt_volume.glsl: width, height, depth. Light is RGBA16F, filtered linearly; the others
+ * do not change with the lighting and are not filtered. Pointers live as long as the volume. */
+typedef struct prt_volume_textures {
+    int light[3], sights[3], index[3];
+    size_t light_bytes;
+    const uint32_t* sight_texels; /* RG32UI */
+    const uint32_t* index_texels; /* R32UI */
+} prt_volume_textures;
+PRT_API prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures* out,
+                                           prt_message* message);
+
+/* What a volume is lit with: coefficients as prt_model_form_constants_apart takes them. */
+typedef struct prt_lighting {
+    int order;
+    const float* sky;
+    const float* suns;  /* may be null: none is apart */
+    const float* lamps; /* may be null */
+    const float* sun;   /* direction to the sun whose visibility is wanted; may be null */
+} prt_lighting;
+/* Writes constants, [rows][4]. Allocates nothing. Limits as for a model. */
+PRT_API prt_status prt_volume_form_constants(const prt_volume* volume, const prt_lighting* lighting,
+                                             float* constants, prt_message* message);
+/* Writes what probes `first` to `last` - 1 have in the texture of light, to `texels` [light_bytes]; from
+ * several threads at once for different probes. Allocates nothing. */
+PRT_API prt_status prt_volume_form_light(const prt_volume* volume, const float* constants, size_t first,
+                                         size_t last, void* texels, prt_message* message);
+/* Writes the light that comes in at probes, [probes][n*n][3], for use without textures. */
+PRT_API prt_status prt_volume_evaluate(const prt_volume* volume, const float* constants, float* incident,
+                                       prt_message* message);
+
+/* A place that is lit: `normal`, unit, of its surface, or zero. */
+typedef struct prt_volume_place {
+    float position[3], normal[3];
+} prt_volume_place;
+/* Mixes the light of probes around a place, [n*n][3]; those behind surfaces are left out. Allocates nothing.
+ */
+PRT_API prt_status prt_volume_incident(const prt_volume* volume, const float* incident,
+                                       const prt_volume_place* place, float* light, prt_message* message);
+/* Irradiance over pi of what faces the normal of `place`: times the albedo it is exit radiance. */
+PRT_API prt_status prt_volume_irradiance(const prt_volume* volume, const float* incident,
+                                         const prt_volume_place* place, float irradiance[3],
+                                         prt_message* message);
+
+/* The functions that look a volume up, to be put behind the version line of a shader of any language;
+ * positions are seen from `origin`. *size as for prt_model_shader. */
+PRT_API prt_status prt_volume_functions(const prt_volume* volume, char* source, size_t* size,
+                                        prt_message* message);
+/* The compute shader that forms the texture of light: PRT_GLSL450 or PRT_VULKAN. */
+PRT_API prt_status prt_volume_shader(const prt_volume* volume, int language, char* source, size_t* size,
+                                     prt_message* message);
+
 #ifdef __cplusplus
 }
 #endif

@@ -30,6 +30,9 @@ inline constexpr int kConstantTextureWidth = 256;
 std::string shader_source(std::string_view name, std::string_view defines,
                           ShaderLanguage language = ShaderLanguage::glsl450);
 
+/// The same without a version line: to be put into shaders.
+std::string shader_part(std::string_view name, std::string_view defines);
+
 /// Components that fit the attributes of a vertex where weights are not packed: 48, or 44 beside guides.
 int most_vertex_components(const ClusteredBases& bases);
 

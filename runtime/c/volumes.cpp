@@ -1,0 +1,210 @@
+// The C interface: volumes of files that prt compress has written.
+
+#include "boundary.h"
+#include "prt/gltf.h"
+#include "prt/volume_former.h"
+#include "prt/volume_gltf.h"
+#include "prt/volume_shader.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <span>
+#include <string>
+
+struct prt_volume {
+    glm::dvec3 origin;
+    prt::CompressedVolume volume;
+    prt::VolumeLookup lookup;
+    prt::VolumeFormer former; // refers to the volume
+    std::vector<std::uint32_t> sights, index;
+
+    prt_volume(const glm::dvec3& of_scene, prt::CompressedVolume&& of_file)
+        : origin(of_scene), volume(std::move(of_file)), lookup(volume.grid, volume.sights), former(volume),
+          sights(prt::sight_texels(volume.grid, lookup.probes(), volume.sights)),
+          index(prt::index_texels(volume.grid, lookup.index())) {}
+
+    std::size_t coefficients() const { return former.atlas().coefficients(); }
+};
+
+namespace {
+
+using namespace prt::c;
+using prt::Error;
+
+prt_volume* make_volume(const prt::GltfDocument& document, const std::string& name) {
+    const prt::Scene scene = prt::extract_scene(document);
+    auto volume = prt::read_compressed_volume(document, scene);
+    if (!volume)
+        throw Error(name + ": holds no compressed volume; run prt bake --volume and prt compress first");
+    return new prt_volume(scene.origin, std::move(*volume));
+}
+
+std::span<const glm::vec4> checked_constants(const prt_volume& volume, const float* constants) {
+    if (!within(kLargestConstant, constants, 4 * volume.former.rows()))
+        throw Error("constants must be finite and at most 1e30");
+    return {reinterpret_cast<const glm::vec4*>(constants), volume.former.rows()};
+}
+
+/// Coefficients of a place.
+void mix(const prt_volume& volume, const float* incident, const prt_volume_place& place,
+         std::span<glm::vec3> light) {
+    if (!finite(place.position, 3) || !finite(place.normal, 3))
+        throw Error("a position and a normal must be finite");
+    const std::size_t n = volume.coefficients();
+    const prt::VolumeCorners corners =
+        volume.lookup.find(glm::make_vec3(place.position), glm::make_vec3(place.normal));
+    for (const std::uint32_t probe : corners.probes)
+        if (!within(kLargestConstant, incident + 3 * n * probe, 3 * n))
+            throw Error("the light of probes must be finite and at most 1e30");
+    prt::mix_incident(corners, light_colors(incident, n * volume.former.probes()), light);
+}
+
+} // namespace
+
+extern "C" {
+
+prt_status prt_volume_load(const char* path, prt_volume** volume, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(path, volume);
+        *volume = nullptr;
+        as_file([&] {
+            *volume = make_volume(prt::load_gltf(path, {.missing_images = prt::MissingImages::ignore}), path);
+        });
+    });
+}
+
+prt_status prt_volume_load_memory(const void* bytes, size_t size, prt_volume** volume, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(bytes, volume);
+        *volume = nullptr;
+        const std::span file(static_cast<const std::byte*>(bytes), size);
+        as_file([&] {
+            *volume = make_volume(
+                prt::parse_gltf(file, "memory", {.missing_images = prt::MissingImages::ignore}), "memory");
+        });
+    });
+}
+
+void prt_volume_destroy(prt_volume* volume) {
+    delete volume;
+}
+
+prt_status prt_volume_get_info(const prt_volume* volume, prt_volume_info* out, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(volume, out);
+        const prt::TransferLayout& layout = volume->former.layout();
+        *out = {};
+        out->order = layout.order;
+        out->incident_order = volume->volume.order;
+        out->probes = volume->former.probes();
+        out->rows = volume->former.rows();
+        out->lamps = layout.lamps();
+        out->direct_apart = layout.has(prt::PartKind::direct);
+        std::copy_n(glm::value_ptr(volume->volume.grid.origin), 3, out->corner);
+        out->spacing = volume->volume.grid.spacing;
+        std::copy_n(glm::value_ptr(volume->origin), 3, out->origin);
+    });
+}
+
+prt_status prt_volume_get_textures(const prt_volume* volume, prt_volume_textures* out, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(volume, out);
+        *out = {};
+        const prt::VolumeAtlas& atlas = volume->former.atlas();
+        const glm::ivec3 light = atlas.light_texels(), sights = atlas.sight_texels();
+        std::copy_n(glm::value_ptr(light), 3, out->light);
+        std::copy_n(glm::value_ptr(sights), 3, out->sights);
+        std::copy_n(glm::value_ptr(volume->volume.grid.size), 3, out->index);
+        out->light_bytes = volume->former.bytes();
+        out->sight_texels = volume->sights.data();
+        out->index_texels = volume->index.data();
+    });
+}
+
+prt_status prt_volume_form_constants(const prt_volume* volume, const prt_lighting* lighting, float* constants,
+                                     prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(volume, lighting, constants);
+        check_pointers(lighting->sky);
+        std::optional<glm::vec3> sun;
+        if (lighting->sun) {
+            const glm::dvec3 towards(lighting->sun[0], lighting->sun[1], lighting->sun[2]);
+            const double length = glm::length(towards);
+            if (!(length > 0 && std::isfinite(length)))
+                throw Error("a sun needs a direction");
+            sun = glm::vec3(towards / length);
+        }
+        const std::size_t rows = volume->former.rows();
+        volume->former.form_constants(
+            lighting_of({lighting->order, lighting->sky, lighting->suns, lighting->lamps},
+                        volume->former.layout().lamps()),
+            sun, {reinterpret_cast<glm::vec4*>(constants), rows});
+        if (!within(kLargestConstant, constants, 4 * rows))
+            throw Error("the light is too bright for the volume: constants pass 1e30");
+    });
+}
+
+prt_status prt_volume_form_light(const prt_volume* volume, const float* constants, size_t first, size_t last,
+                                 void* texels, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(volume, constants, texels);
+        if (first > last || last > volume->former.probes())
+            throw Error("the volume has " + std::to_string(volume->former.probes()) + " probes");
+        volume->former.form_probes(checked_constants(*volume, constants), first, last,
+                                   {static_cast<std::byte*>(texels), volume->former.bytes()});
+    });
+}
+
+prt_status prt_volume_evaluate(const prt_volume* volume, const float* constants, float* incident,
+                               prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(volume, constants, incident);
+        prt::evaluate(volume->volume.compressed.transfer, checked_constants(*volume, constants),
+                      {colors(incident), volume->former.probes() * volume->coefficients()});
+    });
+}
+
+prt_status prt_volume_incident(const prt_volume* volume, const float* incident, const prt_volume_place* place,
+                               float* light, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(volume, incident, place, light);
+        mix(*volume, incident, *place, {colors(light), volume->coefficients()});
+    });
+}
+
+prt_status prt_volume_irradiance(const prt_volume* volume, const float* incident,
+                                 const prt_volume_place* place, float irradiance[3], prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(volume, incident, place, irradiance);
+        std::array<glm::vec3, prt::kMostIncidentOrder * prt::kMostIncidentOrder> mixed;
+        const std::span<glm::vec3> light = std::span(mixed).first(volume->coefficients());
+        mix(*volume, incident, *place, light);
+        const double length = glm::length(glm::dvec3(glm::make_vec3(place->normal)));
+        if (!(length > 0.99 && length < 1.01))
+            throw Error("irradiance is that of a surface: its normal must be of length 1");
+        const glm::vec3 found = prt::irradiance_of(light, glm::make_vec3(place->normal));
+        std::copy_n(glm::value_ptr(found), 3, irradiance);
+    });
+}
+
+prt_status prt_volume_functions(const prt_volume* volume, char* source, size_t* size, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(volume, size);
+        write_text(prt::volume_functions(volume->volume), source, size);
+    });
+}
+
+prt_status prt_volume_shader(const prt_volume* volume, int language, char* source, size_t* size,
+                             prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(volume, size);
+        write_text(prt::volume_shader(volume->volume, language_of(language)), source, size);
+    });
+}
+
+} // extern "C"

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "prt/gl_context.h"
+#include "prt/gl_objects.h"
+#include "prt/volume_former.h"
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace prt {
+
+/// A volume on the GPU, lit by `shaders/prt_volume.comp`, for shaders that include `shaders/prt_volume.glsl`.
+class GlVolume {
+public:
+    /// Uploads words, clusters, sights and index. Keeps a reference to `volume`. Throws `Error` when memory
+    /// runs out, where the device has no 3D textures as large, and where a probe has more words than shaders
+    /// take.
+    explicit GlVolume(const CompressedVolume& volume, VolumeFormat format = VolumeFormat::rgba16);
+
+    /// Forms the constants for `lighting` and the visibility of a sun, then light of all probes.
+    void set_light(const Lighting& lighting, const std::optional<glm::vec3>& sun = {});
+    /// Takes what VolumeFormer formed instead: [bytes of the former].
+    void upload(std::span<const std::byte> texels);
+    /// The three textures, to the units of shared_layout.h.
+    void bind() const;
+    const VolumeFormer& former() const { return former_; }
+    /// All planes, read back: [texels of the texture].
+    std::vector<glm::vec4> read() const;
+    /// Bytes that it takes on the GPU.
+    std::size_t bytes() const { return bytes_; }
+
+private:
+    VolumeFormat format_;
+    VolumeFormer former_;
+    std::vector<glm::vec4> formed_;
+    GlObject program_, clusters_, constants_, words_, probes_;
+    GlObject light_, sights_, index_;
+    std::size_t bytes_ = 0;
+};
+
+} // namespace prt

@@ -1,0 +1,87 @@
+// Files with damaged volumes, through C: each is refused in one line, or what is formed and looked up is
+// finite.
+
+#include "damage.h"
+#include "fuzz/target.h"
+#include "prt/compress_volume.h"
+#include "prt/prt.h"
+#include "support/random_volume.h"
+#include "support/volume_model.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace prt::test {
+namespace {
+
+/// Bases that are coded.
+CompressedVolume coded_volume(std::mt19937& random) {
+    const CompressedVolume plain = random_volume(3, false, random);
+    BakedVolume baked{plain.grid, plain.order, plain.sights, {}};
+    baked.baked.transfer = decode(plain.compressed.transfer);
+    baked.baked.transfer.layout.outputs = 1;
+    return compress_volume(baked, {.clusters = 5, .coding = preset_volume()}).volume;
+}
+
+/// Whether it was read.
+bool use(const std::string& file) {
+    prt_volume* volume = nullptr;
+    prt_message message = {};
+    if (prt_volume_load_memory(file.data(), file.size(), &volume, &message) != PRT_OK) {
+        fuzz::expect_plain(message.text);
+        fuzz::expect(volume == nullptr, "a volume that is refused is there");
+        return false;
+    }
+    prt_volume_info info;
+    prt_volume_textures textures;
+    EXPECT_EQ(prt_volume_get_info(volume, &info, nullptr), PRT_OK);
+    EXPECT_EQ(prt_volume_get_textures(volume, &textures, nullptr), PRT_OK);
+    const auto coefficients = static_cast<std::size_t>(info.incident_order * info.incident_order);
+    const std::vector<float> light(3 * static_cast<std::size_t>(info.order * info.order), 0.5f);
+    std::vector<float> constants(4 * info.rows), incident(3 * coefficients * info.probes),
+        found(3 * coefficients);
+    std::vector<std::byte> texels(textures.light_bytes);
+    const float up[3] = {0, 1, 0};
+    const prt_lighting lighting{info.order, light.data(), nullptr, nullptr, up};
+    EXPECT_EQ(prt_volume_form_constants(volume, &lighting, constants.data(), &message), PRT_OK)
+        << message.text;
+    EXPECT_EQ(prt_volume_form_light(volume, constants.data(), 0, info.probes, texels.data(), &message),
+              PRT_OK);
+    EXPECT_EQ(prt_volume_evaluate(volume, constants.data(), incident.data(), &message), PRT_OK);
+    fuzz::expect_finite(std::span<const float>(incident), "incident light");
+    for (int i = 0; i < 27; ++i) {
+        prt_volume_place place{{0, 0, 0}, {0, 1, 0}};
+        for (int a = 0; a < 3; ++a)
+            place.position[a] = info.corner[a] + 7.5f * info.spacing * static_cast<float>((i + a) % 4 - 1);
+        if (prt_volume_incident(volume, incident.data(), &place, found.data(), &message) == PRT_OK)
+            fuzz::expect_finite(std::span<const float>(found), "light of a place");
+    }
+    prt_volume_destroy(volume);
+    return true;
+}
+
+TEST(HostileVolumes, AreRefusedInALineOrFormedToFiniteNumbers) {
+    std::mt19937 random(1);
+    const GlbFile files[] = {with_volume(triangle_file(), random_volume(2, false, random)),
+                             with_volume(triangle_file(), coded_volume(random))};
+    for (const GlbFile& file : files)
+        EXPECT_TRUE(use(file.bytes()));
+    int read = 0;
+    constexpr std::uint32_t kCases = 600;
+    for (std::uint32_t seed = 0; seed < kCases; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        try {
+            read += use(damaged(files[seed % 2], seed).bytes());
+        } catch (const std::exception& error) {
+            ADD_FAILURE() << error.what();
+        }
+    }
+    // Both ways are taken.
+    EXPECT_GT(read, static_cast<int>(kCases / 20));
+    EXPECT_LT(read, static_cast<int>(kCases - kCases / 5));
+}
+
+} // namespace
+} // namespace prt::test

@@ -1,0 +1,259 @@
+// Volumes in memory: how probes count, in closed form, and the light that comes in at them.
+
+#include "prt/constant_former.h"
+#include "prt/sh.h"
+#include "prt/transfer_volume.h"
+#include "prt/volume_weights.h"
+#include "support/random_volume.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+#include <utility>
+
+namespace prt {
+namespace {
+
+constexpr std::uint8_t kFar = 255;
+constexpr ProbeSight kAllAround = {kFar, kFar, kFar, kFar, kFar, kFar};
+
+/// A coarse brick, and fine ones on its side.
+VolumeGrid two_levels() {
+    return {
+        .origin = {-1, 2, 0.5f},
+        .spacing = 0.25f,
+        .size = {4, 2, 2},
+        .bricks = {
+            {{0, 0, 0}, 1}, {{2, 0, 0}, 0}, {{2, 1, 0}, 0}, {{2, 0, 1}, 0}, {{2, 1, 1}, 0}, {{3, 0, 0}, 0}}};
+}
+
+glm::vec3 random_place(const VolumeGrid& grid, std::mt19937& random, float beyond = 0) {
+    const glm::vec3 extent = grid.spacing * static_cast<float>(kBrickCells) * glm::vec3(grid.size);
+    std::uniform_real_distribution<float> share(-beyond, 1 + beyond);
+    return grid.origin + extent * glm::vec3(share(random), share(random), share(random));
+}
+
+float sum(const VolumeCorners& corners) {
+    return std::accumulate(corners.weights.begin(), corners.weights.end(), 0.0f);
+}
+
+TEST(VolumeWeights, SumToOneWhateverProbesSee) {
+    std::mt19937 random(1);
+    const CompressedVolume volume = test::random_volume(2, false, random, 2);
+    const VolumeLookup lookup(volume.grid, volume.sights);
+    for (int i = 0; i < 2000; ++i) {
+        const VolumeCorners corners = lookup.find(random_place(volume.grid, random, 0.5f),
+                                                  glm::normalize(glm::vec3(1, i % 3 - 1, 0.5f)));
+        EXPECT_NEAR(sum(corners), 1, 1e-5f);
+        EXPECT_GE(std::ranges::min(corners.weights), 0);
+    }
+}
+
+TEST(VolumeWeights, AreThoseOfTheOpenWhereAllAreHidden) {
+    const VolumeGrid grid{
+        .origin = glm::vec3(0), .spacing = 1, .size = {1, 1, 1}, .bricks = {{{0, 0, 0}, 0}}};
+    const std::vector<ProbeSight> open(kBrickProbes, kAllAround), blind(kBrickProbes, ProbeSight{});
+    std::mt19937 random(2);
+    for (int i = 0; i < 100; ++i) {
+        const glm::vec3 place = random_place(grid, random);
+        const VolumeCorners seen = VolumeLookup(grid, open).find(place),
+                            hidden = VolumeLookup(grid, blind).find(place);
+        for (std::size_t c = 0; c < 8; ++c)
+            EXPECT_NEAR(seen.weights[c], hidden.weights[c], 1e-5f);
+    }
+}
+
+TEST(VolumeWeights, AreExactForLinearLightWhereNothingHides) {
+    const VolumeGrid grid = two_levels();
+    const std::vector<ProbeSight> sights(probes_of(grid).size(), kAllAround);
+    const VolumeLookup lookup(grid, sights);
+    const auto linear = [](const glm::vec3& p) { return 3 + 2 * p.x - p.y + 0.5f * p.z; };
+    std::mt19937 random(3);
+    for (int i = 0; i < 2000; ++i) {
+        const glm::vec3 place = random_place(grid, random);
+        const glm::vec3 bricks = (place - grid.origin) / (grid.spacing * static_cast<float>(kBrickCells));
+        if (bricks.x > 3 && (bricks.y > 1 || bricks.z > 1))
+            continue; // of no brick
+        const VolumeCorners corners = lookup.find(place);
+        float light = 0;
+        for (std::size_t c = 0; c < 8; ++c)
+            light +=
+                corners.weights[c] * linear(position_of(grid, lookup.probes().corners[corners.probes[c]]));
+        EXPECT_NEAR(light, linear(place), 2e-5f);
+    }
+}
+
+TEST(VolumeWeights, OfASurfaceAreThoseOfAQuarterOfACellOffIt) {
+    const VolumeGrid grid = two_levels();
+    const std::vector<ProbeSight> sights(probes_of(grid).size(), kAllAround);
+    const VolumeLookup lookup(grid, sights);
+    const glm::vec3 coarse(-0.5f, 2.5f, 1), fine(1.25f, 2.25f, 1), normal(0, 0.6f, -0.8f);
+    for (const auto& [place, cell] : {std::pair(coarse, 0.5f), std::pair(fine, 0.25f)}) {
+        const VolumeCorners surface = lookup.find(place, normal),
+                            off = lookup.find(place + 0.25f * cell * normal);
+        EXPECT_EQ(surface.probes, off.probes);
+        for (std::size_t c = 0; c < 8; ++c)
+            EXPECT_NEAR(surface.weights[c], off.weights[c], 1e-6f);
+    }
+}
+
+TEST(VolumeWeights, OfPlacesOutsideAreThoseOfTheNearestInside) {
+    const VolumeGrid grid{
+        .origin = {1, 2, 3}, .spacing = 0.5f, .size = {2, 1, 1}, .bricks = {{{0, 0, 0}, 0}, {{1, 0, 0}, 0}}};
+    const std::vector<ProbeSight> sights(probes_of(grid).size(), kAllAround);
+    const VolumeLookup lookup(grid, sights);
+    const VolumeCorners outside = lookup.find({9, 3, -20}), inside = lookup.find({5, 3, 3});
+    EXPECT_EQ(outside.probes, inside.probes);
+    EXPECT_EQ(outside.weights, inside.weights);
+}
+
+/// Values of hanging probes are what is interpolated between those of the coarse brick.
+void interpolate_hanging(const VolumeGrid& grid, const VolumeProbes& probes, std::vector<float>& values) {
+    for (const VolumeProbes::Hanging& hanging : probes.hanging) {
+        const VolumeCorners corners =
+            corners_in(grid, probes, hanging.brick, position_of(grid, probes.corners[hanging.probe]));
+        values[hanging.probe] = 0;
+        for (std::size_t c = 0; c < 8; ++c)
+            values[hanging.probe] += corners.weights[c] * values[corners.probes[c]];
+    }
+}
+
+TEST(VolumeWeights, AreContinuousBetweenBricksOfDifferentLevels) {
+    const VolumeGrid grid = two_levels();
+    const VolumeProbes probes = probes_of(grid);
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> value(0, 1);
+    std::vector<float> values(probes.size());
+    for (float& v : values)
+        v = value(random);
+    interpolate_hanging(grid, probes, values);
+    EXPECT_FALSE(probes.hanging.empty());
+    const auto light = [&](std::size_t brick, const glm::vec3& place) {
+        const VolumeCorners corners = corners_in(grid, probes, brick, place);
+        float mixed = 0;
+        for (std::size_t c = 0; c < 8; ++c)
+            mixed += corners.weights[c] * values[corners.probes[c]];
+        return mixed;
+    };
+    const float face = grid.origin.x + 8 * grid.spacing;
+    for (int i = 0; i < 500; ++i) {
+        const glm::vec3 place(face, grid.origin.y + 4 * grid.spacing * value(random),
+                              grid.origin.z + 4 * grid.spacing * value(random));
+        EXPECT_NEAR(light(0, place), light(1, place), 1e-5f); // the coarse brick and {2, 0, 0}
+    }
+}
+
+/// Distances of a probe from where the plane n·x = offset crosses its axes.
+std::array<float, 6> distances_to_plane(const glm::vec3& n, float offset, const glm::vec3& probe) {
+    std::array<float, 6> distances;
+    distances.fill(1e6f);
+    const float above = offset - glm::dot(n, probe); // along n
+    for (int a = 0; a < 3; ++a)
+        if (const float along = above / n[a]; std::isfinite(along))
+            distances[static_cast<std::size_t>(2 * a + (along > 0 ? 1 : 0))] = std::abs(along);
+    return distances;
+}
+
+TEST(SightWeight, HidesExactlyWhatIsBehindAPlane) {
+    std::mt19937 random(5);
+    std::normal_distribution<float> normal;
+    for (int i = 0; i < 1000; ++i) {
+        const glm::vec3 n = glm::normalize(glm::vec3(normal(random), normal(random), normal(random)));
+        const float offset = 0.5f + std::abs(normal(random));
+        auto nearness = distances_to_plane(n, offset, glm::vec3(0));
+        for (float& d : nearness)
+            d = 1 / d;
+        // Along the octant that the plane cuts off; elsewhere axes do not meet it.
+        glm::vec3 d = glm::abs(glm::vec3(normal(random), normal(random), normal(random))) * glm::sign(n);
+        const float passed = glm::dot(n, d) / offset; // 1 in the plane
+        EXPECT_EQ(sight_weight(nearness, d / passed * (kSightFull - 0.01f)), 1);
+        EXPECT_EQ(sight_weight(nearness, d / passed * (kSightNone + 0.01f)), kHiddenWeight);
+        const float half = sight_weight(nearness, d / passed * (kSightFull + kSightNone) / 2.0f);
+        EXPECT_NEAR(half, 0.5f, 1e-4f);
+    }
+}
+
+TEST(VolumeWeights, LeaveOutProbesBehindAWall) {
+    const VolumeGrid grid{
+        .origin = glm::vec3(0), .spacing = 1, .size = {1, 1, 1}, .bricks = {{{0, 0, 0}, 0}}};
+    const VolumeProbes probes = probes_of(grid);
+    constexpr float kWall = 1.5f;
+    std::vector<ProbeSight> sights;
+    for (const glm::ivec3& corner : probes.corners)
+        sights.push_back(sight_of(distances_to_plane({1, 0, 0}, kWall, glm::vec3(corner)), grid.spacing));
+    const VolumeLookup lookup(grid, sights);
+    for (const float x : {1.0f, 1.3f, 1.7f, 1.95f}) {
+        const VolumeCorners corners = lookup.find({x, 1.25f, 2.5f});
+        float leaked = 0;
+        for (std::size_t c = 0; c < 8; ++c)
+            if ((static_cast<float>(probes.corners[corners.probes[c]].x) < kWall) != (x < kWall))
+                leaked += corners.weights[c];
+        EXPECT_LT(leaked, 2e-3f) << x;
+    }
+}
+
+TEST(ProbeSight, TellsDistancesToHalfAStep) {
+    for (const float cell : {0.25f, 3.0f})
+        for (float share = 0; share <= 1; share += 0.01f) {
+            const float distance = kSightCells * cell * share;
+            std::array<float, 6> distances;
+            distances.fill(distance);
+            const std::array<float, 6> again = distances_of(sight_of(distances, cell), cell);
+            for (const float d : again)
+                EXPECT_NEAR(std::sqrt(d / (kSightCells * cell)), std::sqrt(share), 0.5001f / 255);
+            EXPECT_EQ(sight_of(again, cell), sight_of(distances, cell));
+        }
+    std::array<float, 6> far;
+    far.fill(1e9f);
+    EXPECT_EQ(sight_of(far, 1), kAllAround);
+}
+
+TEST(IncidentLight, IsThatOfTheTransferWhichWeightsStandFor) {
+    for (const int order : {2, 3, 4}) {
+        std::mt19937 random(6);
+        const CompressedVolume volume = test::random_volume(order, false, random);
+        Lighting lighting{cone_light(3, {0, 1, 0}, 0.7, {1, 2, 3}), cone_light(3, {1, 0, 0}, 0.2, {3, 2, 1})};
+        lighting.lamps = {{0.5f, 1, 2}};
+        const TransferLayout of_one = volume.compressed.transfer.bases.layout.of_one_output();
+        const std::vector<glm::vec3> columns = light_columns(of_one, lighting);
+        const Transfer transfer = decode(volume.compressed.transfer);
+        const std::vector<glm::vec3> incident = incident_light(volume, lighting);
+        const std::size_t size = of_one.dimension();
+        ASSERT_EQ(incident.size() * size, transfer.vectors.size());
+        for (std::size_t i = 0; i < incident.size(); ++i) {
+            glm::vec3 expected(0);
+            const float* numbers = &transfer.vectors[i * size];
+            const glm::vec3* color = columns.data();
+            for (const TransferPart& part : of_one.parts) {
+                const std::size_t count = of_one.columns_of(part);
+                for (int c = 0; c < 3; ++c)
+                    for (std::size_t n = 0; n < count; ++n)
+                        expected[c] +=
+                            numbers[(part.channels == 1 ? 0 : static_cast<std::size_t>(c)) * count + n] *
+                            color[n][c];
+                numbers += of_one.numbers_of(part);
+                color += count;
+            }
+            EXPECT_LT(glm::distance(incident[i], expected), 1e-4f * std::max(1.0f, glm::length(expected)));
+        }
+    }
+}
+
+TEST(Irradiance, OfASkyWithoutAColorIsItsRadiance) {
+    for (const int order : {2, 3, 4}) {
+        const Light sky = constant_light(order, {1, 2, 3});
+        EXPECT_LT(glm::distance(irradiance_of(sky.coefficients, {0, 0.6f, 0.8f}), {1, 2, 3}), 1e-5f);
+    }
+    // The cosine to +y, clamped: 2/3 of it on what faces +y, from band 1.
+    std::vector<glm::vec3> cosine(4, glm::vec3(0));
+    cosine[1] = glm::vec3(-1 / 0.48860251f); // radiance y
+    EXPECT_NEAR(irradiance_of(cosine, {0, 1, 0}).x, 2.0f / 3, 1e-5f);
+    EXPECT_EQ(irradiance_of(cosine, {0, -1, 0}).x, 0);
+}
+
+} // namespace
+} // namespace prt

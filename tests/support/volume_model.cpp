@@ -1,0 +1,18 @@
+#include "support/volume_model.h"
+
+#include "prt/encode_glb.h"
+#include "prt/gltf.h"
+#include "prt/volume_gltf.h"
+
+#include <string>
+
+namespace prt::test {
+
+GlbFile with_volume(const GlbFile& scene, const CompressedVolume& volume) {
+    const std::string text = scene.bytes();
+    GltfDocument document = parse_gltf(std::as_bytes(std::span(text)), "scene.glb");
+    write_volume(document, extract_scene(document), volume);
+    return glb_of(encode_glb(document));
+}
+
+} // namespace prt::test
