@@ -107,6 +107,11 @@ std::string about_lights(const Evaluation& evaluation) {
                 : "");
 }
 
+/// Nothing where the light that an error is relative to is none.
+Json finite(double value) {
+    return std::isfinite(value) ? Json(value) : Json();
+}
+
 Table lights_table(const Evaluation& evaluation, const SceneFile& baked) {
     Table table{"lights", "Errors by light", about_lights(evaluation), {}, {}};
     const Unit share = Unit::percent;
@@ -125,7 +130,7 @@ Table lights_table(const Evaluation& evaluation, const SceneFile& baked) {
     for (const auto* lights : {&evaluation.named, &evaluation.standard})
         for (const auto& [name, e, suns, judged] : *lights)
             table.rows.push_back(
-                {name, e.rms, e.max, e.percentile_999, e.darker_half_rms, e.crossing.max,
+                {name, e.rms, e.max, e.percentile_999, finite(e.darker_half_rms), e.crossing.max,
                  e.crossing.percentile_99, e.inner.percentile_99, e.mean, e.crossing.edges, e.crossing.rms,
                  e.crossing.edges > 0 ? Json(place_of(baked, e.crossing.worst.first)) : Json(), e.inner.edges,
                  e.inner.rms, e.inner.max, suns, judged});

@@ -33,7 +33,7 @@ std::vector<bool> solid_materials(const SceneFile& model) {
                         layout_of(model).has(PartKind::direct);
     std::vector<bool> solid(scene.materials.size(),
                             !direct); // all of it, where there is indirect light alone
-    if (direct && model.baked && model.baked->transfer.layout.has(PartKind::direct))
+    if (direct && model.baked && !model.lightmap && model.baked->transfer.layout.has(PartKind::direct))
         solid = without_direct_light(scene, model.baked->transfer);
     for (std::size_t m = 0; m < solid.size(); ++m)
         solid[m] = solid[m] || medium_of(scene.materials[m]);

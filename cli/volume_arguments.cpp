@@ -9,11 +9,11 @@
 namespace prt::cli {
 namespace {
 
-VolumeBounds parse_bounds(const std::string& text) {
-    VolumeBounds b;
+VolumeArguments::WorldBounds parse_bounds(const std::string& text) {
+    VolumeArguments::WorldBounds b;
     int used = 0;
-    const int numbers = std::sscanf(text.c_str(), "%f,%f,%f,%f,%f,%f%n", &b.least.x, &b.least.y, &b.least.z,
-                                    &b.most.x, &b.most.y, &b.most.z, &used);
+    const int numbers = std::sscanf(text.c_str(), "%lf,%lf,%lf,%lf,%lf,%lf%n", &b.least.x, &b.least.y,
+                                    &b.least.z, &b.most.x, &b.most.y, &b.most.z, &used);
     bool finite = true;
     for (int a = 0; a < 3; ++a)
         finite = finite && std::isfinite(b.least[a]) && std::isfinite(b.most[a]);
@@ -31,7 +31,7 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
             ->add_option("--volume", volume.spacing,
                          "also bake probes in free space, which light what moves: so many metres apart near "
                          "surfaces, further in the open")
-            ->check(above_zero())
+            ->check(real_in(1e-9, kFarthestVertex))
             ->type_name("METRES");
     command->add_option("--volume-probes", volume.probes, "the same, as close as so many probes allow")
         ->check(CLI::Range(std::size_t{125}, std::size_t{1} << 28))
@@ -66,8 +66,8 @@ void check_volume(const VolumeArguments& arguments) {
 VolumeOptions volume_options(const VolumeArguments& arguments, const Scene& scene) {
     VolumeOptions volume = arguments.volume;
     if (arguments.bounds)
-        volume.bounds = {glm::vec3(glm::dvec3(arguments.bounds->least) - scene.origin),
-                         glm::vec3(glm::dvec3(arguments.bounds->most) - scene.origin)};
+        volume.bounds = {glm::vec3(arguments.bounds->least - scene.origin),
+                         glm::vec3(arguments.bounds->most - scene.origin)};
     return volume;
 }
 

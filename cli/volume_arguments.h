@@ -11,7 +11,10 @@ namespace prt::cli {
 
 struct VolumeArguments {
     VolumeOptions volume{.spacing = 0};
-    std::optional<VolumeBounds> bounds; ///< in the world
+    struct WorldBounds {
+        glm::dvec3 least{0}, most{0};
+    };
+    std::optional<WorldBounds> bounds;
 
     /// Whether one is asked for.
     bool given() const { return volume.spacing > 0 || volume.probes > 0; }

@@ -64,6 +64,11 @@ std::string distance_title(std::size_t i) {
 
 Table empty_table() {
     Table table{"volume_errors", "Errors of the volume in free space", "", {}, {}};
+    table.about =
+        fmt::format("Relative L2 of the coefficients of the light that comes in at {} places in free "
+                    "space, by their distance from surfaces, against path tracing under the whole "
+                    "light; suns that can be lit apart are left to the renderer.",
+                    kPlaces);
     table.columns = {{"light", "light"}, {"volume", "volume"}, {"error", "error", Unit::percent, 2}};
     for (std::size_t i = 0; i < kDistances.size(); ++i)
         table.columns.push_back({fmt::format("error_{}", i), distance_title(i), Unit::percent, 2});
@@ -93,6 +98,22 @@ std::vector<Json> mean_row(const char* volume, std::span<const VolumeErrors> all
     return row_of("root mean square", volume, mean);
 }
 
+/// The volume of the shipped file, if there is one; that belongs to `volume`.
+std::optional<CompressedVolume> shipped_volume(const VolumeErrorsRequest& request,
+                                               const BakedVolume& volume) {
+    if (request.shipped.empty())
+        return std::nullopt;
+    SceneFile shipped = load_scene_file(request.shipped, request.reading);
+    std::optional<CompressedVolume>& small = shipped.compressed_volume;
+    if (!small)
+        throw Error(request.shipped.string() + ": holds no compressed volume");
+    if (small->grid != volume.grid || small->order != volume.order ||
+        small->compressed.record.receivers != volume.baked.record.receivers)
+        throw Error(request.shipped.string() + ": its volume does not belong to that of " +
+                    request.baked.string());
+    return std::move(small);
+}
+
 } // namespace
 
 void add_volume_errors(VolumeErrorsRequest request, SceneFile& baked, Report& report, Session& session) {
@@ -100,17 +121,7 @@ void add_volume_errors(VolumeErrorsRequest request, SceneFile& baked, Report& re
         throw Error(request.baked.string() + ": holds no raw volume; run prt bake --volume first");
     about(request.baked, [&] { leave_out_shadows(baked.scene, request.no_shadow); });
     const BakedVolume& volume = *baked.volume;
-    std::optional<SceneFile> shipped;
-    if (!request.shipped.empty())
-        shipped = load_scene_file(request.shipped, request.reading);
-    const CompressedVolume* const small =
-        shipped && shipped->compressed_volume ? &*shipped->compressed_volume : nullptr;
-    if (shipped && !small)
-        throw Error(request.shipped.string() + ": holds no compressed volume");
-    if (small && (small->grid != volume.grid || small->order != volume.order ||
-                  small->compressed.record.receivers != volume.baked.record.receivers))
-        throw Error(request.shipped.string() + ": its volume does not belong to that of " +
-                    request.baked.string());
+    const std::optional<CompressedVolume> small = shipped_volume(request, volume);
     BudgetLightOptions& options = request.lights;
     options.order = volume.baked.transfer.layout.order;
     options.apart = volume.baked.transfer.layout.has(PartKind::direct);
@@ -144,11 +155,6 @@ void add_volume_errors(VolumeErrorsRequest request, SceneFile& baked, Report& re
         if (small)
             table.rows.push_back(mean_row("shipped", of_small));
     }
-    table.about =
-        fmt::format("Relative L2 of the coefficients of the light that comes in at {} places in free "
-                    "space, by their distance from surfaces, against path tracing under the whole "
-                    "light; suns that can be lit apart are left to the renderer.",
-                    kPlaces);
     report.tables.insert(report.tables.begin(), std::move(table));
 }
 

@@ -138,9 +138,9 @@ inline constexpr std::size_t kSolvedTogether = 65536;
 inline constexpr int kMostSeamSweeps = 10;
 inline constexpr std::size_t kReceiversPerSeamChange = 200;
 /// Cuts of lightmaps: what a squared jump costs against the mean squared error of a receiver, what a receiver
-/// in another cluster costs that is read beside this one, over the mean squared error, and the sweeps in which
-/// they settle. On a room of 196 572 texels with 8 bytes each, under a sunny street, radiance times 0.8 in
-/// sRGB, 99 % of places jump by at most 0.5 of 255 shades, 1.6 without, and 99.9 % by 0.9 instead of 2.4;
+/// in another cluster costs that is read beside this one, over the mean squared error, and the sweeps in
+/// which they settle. On a room of 196 572 texels with 8 bytes each, under a sunny street, radiance times 0.8
+/// in sRGB, 99 % of places jump by at most 0.5 of 255 shades, 1.6 without, and 99.9 % by 0.9 instead of 2.4;
 /// lit_rms grows by 1.9 %. With 20 and 50, 0.4, 0.7 and 3.1 %; with 20 and 0, 0.7, 1.3 and 1.8 %. [preset]
 inline constexpr double kJumpPrice = 16, kJumpBorder = 5;
 inline constexpr int kJumpSweeps = 6;

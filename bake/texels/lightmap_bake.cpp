@@ -260,6 +260,8 @@ private:
             for (const std::size_t p : atlases_[a].primitives)
                 map.layout.places[p] = {a, atlases_[a].uv_set};
         }
+        if (std::optional<std::string> notice = places.check_casters())
+            s.notices.push_back(std::move(*notice));
         s.mean_visibility = mean_visibility(light_.direct, map.areas);
         estimate_error(tracer, places);
         BakedTransfer& baked = map.baked;

@@ -65,8 +65,9 @@ OcclusionMap map_of(const Atlas& atlas, TexelLight light, const Scene& scene) {
 } // namespace
 
 void check_finer(const FinerModel& finer) {
-    if (finer.scene && !(finer.reach > 0 && std::isfinite(finer.reach)))
-        throw Error("how far a finer model may lie off must be finite and above 0");
+    if (finer.scene && !(finer.reach > 0 && finer.reach <= kFarthestVertex))
+        throw Error(fmt::format("how far a finer model may lie off must be above 0, and at most {:g} m",
+                                kFarthestVertex));
 }
 
 OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atlas>& atlases,
@@ -94,6 +95,8 @@ OcclusionMapsStatistics occlusion_maps(const Scene& scene, const std::vector<Atl
         result.rays += light.rays;
         take(map_of(atlases[i], std::move(light), scene));
     }
+    if (std::optional<std::string> notice = places.check_casters())
+        result.notices.push_back(std::move(*notice));
     result.device = traced.tracer().device();
     result.seconds = watch.seconds();
     progress.update(1);

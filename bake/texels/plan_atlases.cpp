@@ -78,7 +78,7 @@ Atlas of_all(const Scene& scene, const TexelOptions& options) {
 }
 
 double overlap(const Scene& scene, const Atlas& atlas) {
-    return sample_texels(chart_triangles(scene, atlas), atlas).overlapping;
+    return std::min(1.0, sample_texels(chart_triangles(scene, atlas), atlas).overlapping); // or in three
 }
 
 } // namespace

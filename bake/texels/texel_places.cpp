@@ -1,5 +1,8 @@
 #include "texels/texel_places.h"
 
+#include "prt/support/error.h"
+
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 namespace prt {
@@ -47,12 +50,31 @@ void TexelPlaces::move_to_casters(Place& place) const {
     };
     const Ray ray{here + reach * place.normal, -place.normal, 0, 2 * reach};
     const std::optional<RayHit> hit = casters_->scene.rays().nearest(ray, faces_alike);
+    ++asked_;
     if (!hit)
         return;
+    ++found_;
     const glm::uvec3& c = surfaces.corners(hit->triangle);
     place.position = at_place(of_casters_.positions, c, hit->uv);
     place.plane = plane_of(of_casters_.positions, c);
     place.normal = unit_or(at_place(of_casters_.normals, c, hit->uv), place.plane);
+}
+
+std::optional<std::string> TexelPlaces::check_casters() const {
+    constexpr double kMany = 0.02;
+    const std::size_t asked = asked_, found = found_;
+    if (asked > 0 && found == 0)
+        throw Error(
+            fmt::format("no texel finds a surface of the finer model within {:g} m: it lies somewhere "
+                        "else, or --reach is too short",
+                        casters_->reach));
+    const double missing = asked > 0 ? 1 - static_cast<double>(found) / static_cast<double>(asked) : 0;
+    if (missing <= kMany)
+        return std::nullopt;
+    return fmt::format(
+        "{:.1f} % of places of texels find no surface of the finer model within {:g} m, and stay "
+        "where they are: --reach looks further",
+        100 * missing, casters_->reach);
 }
 
 double TexelPlaces::area(std::uint32_t triangle) const {

@@ -6,7 +6,11 @@
 #include "prt/trace_scene.h"
 #include "texels/texel_samples.h"
 
+#include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace prt {
@@ -25,6 +29,9 @@ public:
     TexelPlaces(const Scene& scene, const Casters* casters);
     /// Appends a receiver of that area.
     void append(const TexelSample& sample, float area, Receivers& receivers) const;
+    /// A line where many samples so far have found no surface of casters, nothing otherwise. Throws `Error`
+    /// where none has: these are other surfaces.
+    std::optional<std::string> check_casters() const;
     /// Area of a triangle of the scene, m².
     double area(std::uint32_t triangle) const;
 
@@ -37,7 +44,8 @@ private:
     std::vector<glm::uvec3> corners_; ///< [triangles]
     Receivers vertices_, of_casters_;
     const Casters* casters_;
-    glm::vec3 from_scene_{0}; ///< to the origin of the casters
+    mutable std::atomic<std::size_t> asked_ = 0, found_ = 0; ///< samples, of those that casters have
+    glm::vec3 from_scene_{0};                                ///< to the origin of the casters
 };
 
 } // namespace prt

@@ -58,7 +58,8 @@ bool comes_into(const PlacedTriangle& t, const glm::vec3& middle, float half) {
 /// Splits bricks of one grid.
 class Placement {
 public:
-    Placement(const VolumeBounds& bounds, float spacing) {
+    /// Stops beyond `most` bricks.
+    Placement(const VolumeBounds& bounds, float spacing, std::size_t most) : most_(most) {
         const float side = spacing * static_cast<float>(kBrickCells);
         const glm::vec3 extent = bounds.most - bounds.least;
         grid_.spacing = spacing;
@@ -81,7 +82,7 @@ public:
 
 private:
     void add(const VolumeBrick& brick, const std::vector<PlacedTriangle>& triangles) {
-        if (glm::any(glm::greaterThanEqual(brick.place, grid_.size)))
+        if (glm::any(glm::greaterThanEqual(brick.place, grid_.size)) || grid_.bricks.size() > most_)
             return;
         if (brick.level == 0) {
             grid_.bricks.push_back(brick);
@@ -105,6 +106,7 @@ private:
     }
 
     VolumeGrid grid_;
+    std::size_t most_;
 };
 
 void check_bounds(const VolumeBounds& bounds) {
@@ -116,6 +118,11 @@ void check_bounds(const VolumeBounds& bounds) {
 }
 
 void check_spacing(const VolumeBounds& bounds, double spacing) {
+    const glm::vec3 far = glm::max(glm::abs(bounds.least), glm::abs(bounds.most));
+    if (spacing < 64 * 0x1p-24 * static_cast<double>(std::max({far.x, far.y, far.z})))
+        throw Error(fmt::format("probes {:g} m apart are closer than positions can tell so far from the "
+                                "scene: choose other bounds, or a larger distance",
+                                spacing));
     const glm::dvec3 bricks = glm::dvec3(bounds.most - bounds.least) / (kBrickCells * spacing);
     if (std::max({bricks.x, bricks.y, bricks.z}) > kMostBricksAlong)
         throw Error(fmt::format("probes {:g} m apart are more than {} along the volume: make it smaller, or "
@@ -140,23 +147,30 @@ VolumeBounds volume_bounds(const Scene& scene, const VolumeOptions& options) {
     return bounds;
 }
 
-VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options) {
+VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::size_t most_bricks) {
     const std::vector<PlacedTriangle> triangles = triangles_of(scene);
     const VolumeBounds bounds = volume_bounds(scene, options);
     if (options.probes == 0) {
         check_spacing(bounds, options.spacing);
-        return Placement(bounds, static_cast<float>(options.spacing)).place(triangles);
+        VolumeGrid grid =
+            Placement(bounds, static_cast<float>(options.spacing), most_bricks).place(triangles);
+        if (grid.bricks.size() > most_bricks)
+            throw Error(
+                fmt::format("probes {:g} m apart do not fit into memory: set them further apart, or take "
+                            "a lower order",
+                            options.spacing));
+        return grid;
     }
     const glm::dvec3 extent(bounds.most - bounds.least);
     const double longest = std::max({extent.x, extent.y, extent.z});
     double most = longest, least = longest / (kMostBricksAlong * kBrickCells) * 1.01;
-    VolumeGrid grid = Placement(bounds, static_cast<float>(most)).place(triangles);
+    VolumeGrid grid = Placement(bounds, static_cast<float>(most), options.probes).place(triangles);
     // Fewer finest bricks than fill the box with so many probes can only hold fewer.
     least =
         std::max(least, std::cbrt(extent.x * extent.y * extent.z / static_cast<double>(options.probes)) / 16);
     for (int i = 0; i < 14; ++i) {
         const double spacing = std::sqrt(least * most);
-        VolumeGrid finer = Placement(bounds, static_cast<float>(spacing)).place(triangles);
+        VolumeGrid finer = Placement(bounds, static_cast<float>(spacing), options.probes).place(triangles);
         const bool fits = finer.bricks.size() <= options.probes && probes_of(finer).size() <= options.probes;
         (fits ? most : least) = spacing;
         if (fits)

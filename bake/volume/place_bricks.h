@@ -13,6 +13,7 @@ namespace prt {
 VolumeBounds volume_bounds(const Scene& scene, const VolumeOptions& options);
 
 /// Throws `Error` for bounds or a spacing that make no volume, and one that would not fit.
-VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options);
+/// `most` bricks are made before it is known.
+VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::size_t most);
 
 } // namespace prt

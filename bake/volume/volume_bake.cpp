@@ -41,22 +41,32 @@ void check_volume_options(const VolumeOptions& volume, const BakeOptions& option
     if (volume.order < 2 || volume.order > kMostIncidentOrder)
         throw Error(fmt::format("incident light of volumes has 2 to {} bands, not {}", kMostIncidentOrder,
                                 volume.order));
-    if (volume.probes == 0 && !(volume.spacing > 0 && std::isfinite(volume.spacing)))
+    if (volume.probes == 0 && !(volume.spacing > 0 && volume.spacing <= kFarthestVertex))
         throw Error(fmt::format("probes of a volume cannot be {:g} m apart", volume.spacing));
     if (!(volume.fit_points >= 0 && volume.fit_points <= 100))
         throw Error("points of the fit are 0 to 100 for each probe");
 }
 
-/// Values of probes and points, and a copy in parts. Counted, not measured.
-void check_room(const VolumeOptions& volume, double probes, std::size_t numbers, double limit) {
-    const double value = sizeof(float) * static_cast<double>(numbers) * coefficient_count(volume.order),
-                 needed = value * probes * (2.2 + volume.fit_points),
-                 there = limit > 0 ? limit : available_memory();
+/// Bytes that a probe takes: its values, those of its points, and a copy in parts. Counted, not measured.
+double bytes_of_probe(const VolumeOptions& volume, std::size_t numbers) {
+    return sizeof(float) * static_cast<double>(numbers) * coefficient_count(volume.order) *
+           (2.2 + volume.fit_points);
+}
+
+void check_room(const VolumeOptions& volume, double probes, std::size_t numbers, double there) {
+    const double needed = bytes_of_probe(volume, numbers) * probes;
     if (there > 0 && needed > there)
         throw Error(fmt::format("{:.3g} probes of {} numbers each need about {:.2g} GB of memory, and there "
                                 "are {:.2g} GB: set them further apart, or take a lower order",
                                 probes, numbers * static_cast<std::size_t>(coefficient_count(volume.order)),
                                 needed * 1e-9, there * 1e-9));
+}
+
+/// Bricks that there may be: each has at least as many probes of its own as it has cells.
+std::size_t most_bricks(const VolumeOptions& volume, std::size_t numbers, double there) {
+    constexpr double kCells = kBrickCells * kBrickCells * kBrickCells;
+    return there > 0 ? static_cast<std::size_t>(there / (kCells * bytes_of_probe(volume, numbers))) + 1
+                     : std::size_t{1} << 24;
 }
 
 /// Points all over the cells of a volume, as many in each brick, but for those out of its bounds.
@@ -121,11 +131,13 @@ public:
 
     VolumeBake run(const Progress& progress) {
         BakedVolume& baked = result_.volume;
-        baked.grid = place_bricks(scene_, volume_);
+        check_memory(plan_);
+        const double there = options_.memory.limit > 0 ? options_.memory.limit : available_memory();
+        check_room(volume_, static_cast<double>(volume_.probes), plan_.numbers(), there);
+        baked.grid = place_bricks(scene_, volume_, most_bricks(volume_, plan_.numbers(), there));
         baked.order = volume_.order;
         const VolumeProbes probes = probes_of(baked.grid);
-        check_memory(plan_);
-        check_room(volume_, static_cast<double>(probes.size()), plan_.numbers(), options_.memory.limit);
+        check_room(volume_, static_cast<double>(probes.size()), plan_.numbers(), there);
         ProbeTracer tracer = probe_tracer(progress.part(0, 0.2));
         const std::size_t stride = tracer.layout().coefficients() * tracer.layout().numbers();
         std::vector<float> values = trace_probes(tracer, probes, stride, progress.part(0.2, 0.5));

@@ -20,9 +20,9 @@ void check_no_media(const SceneFile& baked) {
     for (const Primitive& primitive : baked.scene.primitives)
         if (solid[primitive.material])
             throw Error(
-                "light of the material '" + baked.scene.materials[primitive.material].name +
-                "' comes out of a medium, which the path tracer that a budget is measured by does not "
-                "enter");
+                "no direct light reaches the material '" + baked.scene.materials[primitive.material].name +
+                "': all of it comes out of a medium, which the path tracer that a budget is measured by does "
+                "not enter, or none at all");
 }
 
 /// Of a bake that is done again.

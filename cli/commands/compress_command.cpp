@@ -141,6 +141,18 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
         ->check(above_zero());
 }
 
+void add_volume_sizes(CLI::App* command, CompressArguments& a) {
+    command
+        ->add_option("--volume-bytes", a.volume.bytes,
+                     "bytes of a probe's weights, where the bake has a volume: a multiple of 4")
+        ->capture_default_str()
+        ->check(CLI::IsMember({4, 8, 12, 16, 20, 24, 28}));
+    command
+        ->add_option("--volume-clusters", a.volume.clusters,
+                     "clusters of probes; otherwise by how many there are")
+        ->check(CLI::Range(1, 256));
+}
+
 /// What the options mean together: u32 where no size is given, a search where a budget is.
 void resolve(const CLI::App& command, CompressArguments& a) {
     SearchOptions& o = a.options;
@@ -237,8 +249,8 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
     return bake;
 }
 
-/// A cluster for so many probes: its bases take about half as many bytes as their weights then.
-constexpr std::size_t kProbesOfCluster = 700;
+/// A cluster for so many probes, and so many at least: more bases than that take more bytes than weights.
+constexpr std::size_t kProbesOfCluster = 700, kLeastClusters = 8;
 
 std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a, const Bake& bake,
                                                       Session& session) {
@@ -247,9 +259,10 @@ std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a
     CompressOptions options;
     options.coding = preset_volume();
     options.coding.bits = 8 * a.volume.bytes - options.coding.cluster_bits;
-    options.clusters = a.volume.clusters > 0 ? a.volume.clusters
-                                             : static_cast<int>(std::clamp<std::size_t>(
-                                                   bake.volume->sights.size() / kProbesOfCluster, 1, 256));
+    options.clusters = a.volume.clusters > 0
+                           ? a.volume.clusters
+                           : static_cast<int>(std::clamp<std::size_t>(
+                                 bake.volume->sights.size() / kProbesOfCluster, kLeastClusters, 256));
     options.bases_count = true;
     options.seed = a.options.compress.seed;
     options.threads = a.options.compress.threads;
@@ -597,15 +610,7 @@ void add_compress(CLI::App& app, Session& session) {
             "of unlit materials")
         ->check(named)
         ->type_name("FILE");
-    command
-        ->add_option("--volume-bytes", a.volume.bytes,
-                     "bytes of a probe's weights, where the bake has a volume: a multiple of 4")
-        ->capture_default_str()
-        ->check(CLI::IsMember({4, 8, 12, 16, 20, 24, 28}));
-    command
-        ->add_option("--volume-clusters", a.volume.clusters,
-                     "clusters of probes; otherwise by how many there are")
-        ->check(CLI::Range(1, 256));
+    add_volume_sizes(command, a);
     command->add_flag("--reorder", a.writing.reorder, "put the vertices of a cluster side by side");
     command->add_flag("--meshopt", a.writing.meshopt, "write vertex data through EXT_meshopt_compression");
     command->add_option("--seed", a.options.compress.seed, "seed of the clustering")

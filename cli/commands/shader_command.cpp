@@ -57,6 +57,8 @@ void write_lightmap_shader(const ShaderArguments& a, const ClusteredTransfer& tr
                            ConstantSource constants, Session& session) {
     const bool old = constants_for(a.language) == ConstantSource::texture;
     const LightmapPass pass = a.fragment || old ? LightmapPass::fragment : LightmapPass::compute;
+    if (constants == ConstantSource::block)
+        warn_of_large_blocks(a.model, transfer);
     session.write(a.output, lightmap_shader(transfer, pass, constants, a.language));
     print(fmt::format("{}: {} clusters, {} rows of constants; a {} shader over the texels of a map\n",
                       printable(a.output.string()), transfer.bases.clusters(), constant_rows(transfer.bases),
@@ -122,9 +124,10 @@ void add_shader(CLI::App& app, Session& session) {
            "buffer, texture where the language has no buffers");
     command->add_flag("--compute", a.compute,
                       "the compute shader that forms the constants instead of the vertex shader");
-    command->add_flag(
-        "--fragment", a.fragment,
-        "of a lightmap: a fragment shader to draw over a map where a compute shader could do it");
+    command
+        ->add_flag("--fragment", a.fragment,
+                   "of a lightmap: a fragment shader to draw over a map where a compute shader could do it")
+        ->excludes("--compute");
     command->add_flag("--volume", a.volume,
                       "the functions that look its volume up, for every language; with --compute the compute "
                       "shader that forms what they read");

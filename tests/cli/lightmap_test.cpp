@@ -4,10 +4,12 @@
 #include "prt/lightmap_file.h"
 #include "road.h"
 #include "support/glb_file.h"
+#include "support/lightmap_model.h"
 
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 namespace prt::test {
@@ -126,6 +128,34 @@ TEST_F(Lightmaps, LeaveNothingBehindWhereVerticesAreBakedAgain) {
     EXPECT_EQ(file.json.dump().find("PRTKIT_lightmap"), std::string::npos);
     EXPECT_TRUE(!file.json.contains("images") || file.json["images"].empty());
     EXPECT_EQ(validator_errors(folder / "again.glb"), 0);
+}
+
+// Receivers are texels, of which there are fewer than vertices: nothing may look them up by vertex.
+TEST_F(Lightmaps, ShowSunsWhereVerticesAreMoreThanTexels) {
+    GlbFile floor = mapped_floor(60);
+    floor.json["meshes"][0]["primitives"].erase(1);
+    floor.write(folder / kScene);
+    ASSERT_EQ(bake({"--size", "8", "--uv", "0"}).status, 0);
+    ASSERT_EQ(
+        prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--clusters", "1", "--bits", "24"}).status,
+        0);
+    const std::string sun =
+        R"({"prtkit_light": 1, "order": 3, "coefficients": {"red": [0,0,0,0,0,0,0,0,0],
+                "green": [0,0,0,0,0,0,0,0,0], "blue": [0,0,0,0,0,0,0,0,0]},
+            "suns": [{"towards": [0, 1, 0], "irradiance": [3, 3, 3], "half_angle_radians": 0.01}]})";
+    std::ofstream(folder / "sun.json") << sun;
+    std::vector<double> brightness;
+    for (const char* model : {"baked.glb", "shipped.glb"}) {
+        const Outcome drawn = prt({"render", at(model), "--env", at("sun.json"), "-o", at("sun.exr"),
+                                   "--size", "32x16", "--backend", "cpu", "--no-background"});
+        ASSERT_EQ(drawn.status, 0) << drawn.err;
+        double sum = 0;
+        for (const glm::vec3& p : load_environment(folder / "sun.exr").environment.image.pixels)
+            sum += static_cast<double>(p.r);
+        brightness.push_back(sum);
+    }
+    EXPECT_GT(brightness[0], 1);
+    EXPECT_NEAR(brightness[0], brightness[1], 0.02 * brightness[1]);
 }
 
 TEST_F(Lightmaps, AreRefusedWhereTheyCannotBe) {

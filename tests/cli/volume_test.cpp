@@ -95,10 +95,13 @@ TEST_F(Volumes, StandBesideLightmaps) {
 }
 
 TEST_F(Volumes, RefuseWhatMakesNone) {
-    expect_refused(bake({"--volume", "1e-6"}), "make it smaller");
+    expect_refused(bake({"--volume", "1e-3"}), "make it smaller");
+    expect_refused(bake({"--volume", "1e-7"}), "closer than positions");
     expect_refused(bake({"--volume-order", "2"}), "say --volume");
     expect_refused(bake({"--volume", "1", "--volume-bounds", "1,1,1,0,0,0"}), "two corners");
     expect_refused(bake({"--volume", "0.05", "--memory-limit", "40MB"}), "memory");
+    expect_refused(bake({"--volume-probes", "100000000", "--memory-limit", "500MB"}), "memory");
+    EXPECT_NE(bake({"--volume", "1e18"}).status, 0);
     EXPECT_NE(bake({"--volume", "-1"}).status, 0);
     EXPECT_NE(bake({"--volume", "nan"}).status, 0);
     EXPECT_NE(bake({"--volume", "1", "--volume-bounds", "0,0,0,1,1"}).status, 0);

@@ -26,7 +26,7 @@ FreePlaces free_places_in(const TraceScene& scene, const VolumeGrid& grid, std::
                           std::uint64_t seed);
 
 struct IncidentOptions {
-    int paths = 512;  ///< of a place, in each half
+    int paths = 512; ///< of a place, in each half
     std::uint64_t seed = 1;
     int threads = 0; ///< 0: all
 };

@@ -64,8 +64,8 @@ void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLa
 void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& layout,
                 std::span<const std::uint32_t> values, std::span<std::uint32_t> words);
 
-/// Sets the clusters of `count` packed receivers from `first` on out of their words. Throws `Error` where there
-/// is none such: "vertex 3 is in cluster 9 of 8", `what` being "vertex".
+/// Sets the clusters of `count` packed receivers from `first` on out of their words. Throws `Error` where
+/// there is none such: "vertex 3 is in cluster 9 of 8", `what` being "vertex".
 void unpack_clusters(std::size_t clusters, std::size_t first, std::size_t count, const char* what,
                      ClusteredReceivers& receivers);
 

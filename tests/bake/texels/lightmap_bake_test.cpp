@@ -276,6 +276,17 @@ TEST(LightmapBake, IsTheSameForAnyNumberOfThreads) {
               bake_lightmap(bowl.scene, bowl.atlases, three).lightmap.baked.transfer.vectors);
 }
 
+TEST(LightmapBake, SaysWhereAFinerModelLiesElsewhere) {
+    const Scene scene = floor_map(SceneBuilder().floor({0, 0, 0}, 1).build());
+    const auto bake_with = [&](const Scene& finer) {
+        return bake_lightmap(scene, {whole(scene, 8)}, options_of(2, 8, 0), {&finer, 0.1});
+    };
+    EXPECT_THROW(bake_with(SceneBuilder().floor({0, 0.2f, 0}, 1).build()), Error);
+    const auto notices = [&](const Scene& finer) { return bake_with(finer).statistics.notices.size(); };
+    EXPECT_GT(notices(SceneBuilder().floor({0.5f, 0.05f, 0}, 1.01f, 4).build()), // over three quarters
+              notices(SceneBuilder().floor({0, 0.05f, 0}, 1.01f, 4).build()));
+}
+
 TEST(LightmapBake, CannotHoldWhatIsKnownAtVerticesAlone) {
     const auto refused = [](Scene scene, BakeOptions options, const std::string& why) {
         scene = floor_map(std::move(scene));
