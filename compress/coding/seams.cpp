@@ -12,8 +12,10 @@
 #include <Eigen/Dense>
 
 #include <array>
+#include <cstdint>
 #include <numeric>
-#include <ranges>
+#include <span>
+#include <vector>
 
 namespace prt {
 namespace {
@@ -161,8 +163,7 @@ private:
     bool find_better(std::size_t p, const Pull& pull, std::ptrdiff_t spare, BetterCode& better) const;
     /// How many components more receivers may have in all.
     std::ptrdiff_t spare_components() const;
-    template <class Indices>
-    std::size_t sweep(const Indices& receivers, std::ptrdiff_t& spare);
+    std::size_t sweep(std::span<const std::uint32_t> receivers, std::ptrdiff_t& spare);
 
     const PointBlocks& points_;
     std::span<const float> significance_;
@@ -355,8 +356,7 @@ bool SeamSmoother::find_better(std::size_t p, const Pull& pull, std::ptrdiff_t s
 }
 
 /// One after the other, so that each sees what its neighbours have become. Returns how many have changed.
-template <class Indices>
-std::size_t SeamSmoother::sweep(const Indices& receivers, std::ptrdiff_t& spare) {
+std::size_t SeamSmoother::sweep(std::span<const std::uint32_t> receivers, std::ptrdiff_t& spare) {
     std::size_t changed = 0;
     Pull pull;
     BetterCode better;
@@ -383,9 +383,10 @@ std::size_t SeamSmoother::sweep(const Indices& receivers, std::ptrdiff_t& spare)
 
 void SeamSmoother::reassign() {
     std::ptrdiff_t spare = spare_components();
+    std::vector<std::uint32_t> all(points_.count);
+    std::iota(all.begin(), all.end(), 0u);
     for (int s = 0; s < tuning::kMostSeamSweeps; ++s)
-        if (sweep(std::views::iota(std::size_t{0}, points_.count), spare) * tuning::kReceiversPerSeamChange <
-            points_.count)
+        if (sweep(all, spare) * tuning::kReceiversPerSeamChange < points_.count)
             break;
 }
 

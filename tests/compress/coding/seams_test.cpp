@@ -110,7 +110,8 @@ struct TwoCharts : Grid {
             for (std::uint32_t x = 0; x < kSize; ++x) {
                 const double u = x < kWidth ? x : x - kWidth + 0.5;
                 for (std::uint32_t i = 0; i < 9; ++i) {
-                    const double along = (1 + i % 3) * u + (1 + i / 3) * y;
+                    const int of_y = 1 + i / 3;
+                    const double along = (1 + i % 3) * u + of_y * y;
                     transfer.vector(y * kSize + x)[i] =
                         (i == 0 ? 2.0f : 0.0f) + static_cast<float>(std::sin(0.05 * along + i * i));
                 }
