@@ -36,15 +36,19 @@ std::vector<SeamJump> seam_jumps(const Scene& scene, const LightmapLayout& layou
         for (const SeamPoint& point : seam_points(scene, atlases[a])) {
             SeamJump jump;
             std::size_t i = 0;
+            bool there = true; // a file may lack texels that its seams read: those jump as they like
             for (const auto& [place, sign] : {std::pair(point.here, 1.0), std::pair(point.there, -1.0)}) {
                 const BilinearTexels filter = bilinear_at(atlases[a], place);
                 for (std::size_t k = 0; k < 4; ++k, ++i) {
-                    const auto found = std::ranges::lower_bound(texels, first[a] + filter.texels[k]);
+                    const std::size_t texel = first[a] + filter.texels[k];
+                    const auto found = std::ranges::lower_bound(texels, texel);
+                    there = there && found != texels.end() && *found == texel;
                     jump.receivers[i] = static_cast<std::uint32_t>(found - texels.begin());
                     jump.weights[i] = static_cast<float>(sign * filter.weights[k]);
                 }
             }
-            jumps.push_back(jump);
+            if (there)
+                jumps.push_back(jump);
         }
     return jumps;
 }
