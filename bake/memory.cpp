@@ -15,7 +15,7 @@ namespace prt {
 namespace {
 
 double memory_there(const BakeOptions& options) {
-    return options.memory.limit > 0 ? options.memory.limit : available_memory();
+    return available_memory(options.memory.limit);
 }
 
 double memory_needed(const BakePlan& plan) {

@@ -99,8 +99,7 @@ std::vector<Json> mean_row(const char* volume, std::span<const VolumeErrors> all
 }
 
 /// The volume of the shipped file, if there is one; that belongs to `volume`.
-std::optional<CompressedVolume> shipped_volume(const VolumeErrorsRequest& request,
-                                               const BakedVolume& volume) {
+std::optional<CompressedVolume> shipped_volume(const BudgetRequest& request, const BakedVolume& volume) {
     if (request.shipped.empty())
         return std::nullopt;
     SceneFile shipped = load_scene_file(request.shipped, request.reading);
@@ -116,7 +115,7 @@ std::optional<CompressedVolume> shipped_volume(const VolumeErrorsRequest& reques
 
 } // namespace
 
-void add_volume_errors(VolumeErrorsRequest request, SceneFile& baked, Report& report, Session& session) {
+void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, Session& session) {
     if (!baked.volume)
         throw Error(request.baked.string() + ": holds no raw volume; run prt bake --volume first");
     about(request.baked, [&] { leave_out_shadows(baked.scene, request.no_shadow); });

@@ -44,14 +44,10 @@ std::optional<float> distance_at(const TraceScene& scene, const glm::vec3& place
         const auto hit = scene.rays().nearest({place, d});
         if (!hit)
             continue;
-        const RayScene::Triangle t = scene.rays().triangle(hit->triangle);
-        const Primitive& primitive = scene.scene().primitives[t.primitive];
-        const std::vector<glm::vec3>& at = scene.scene().vertex_arrays[primitive.vertices].positions;
-        const glm::uvec3& c = primitive.triangles[t.triangle];
-        const glm::vec3 normal = glm::normalize(glm::cross(at[c.y] - at[c.x], at[c.z] - at[c.x]));
-        const float facing = glm::dot(normal, d);
-        nearest = std::min(nearest, hit->distance * std::abs(facing));
-        backs += facing > 0 && !scene.surfaces().two_sided(hit->triangle);
+        const MetSurface met = met_surface(scene.scene(), scene.rays(), {hit->triangle, hit->uv, 0},
+                                           place + d * hit->distance, d);
+        nearest = std::min(nearest, hit->distance * std::abs(glm::dot(met.side.face, d)));
+        backs += met.back && !scene.surfaces().two_sided(hit->triangle);
     }
     if (static_cast<float>(backs) > kMostBacks * kDirections)
         return std::nullopt;
@@ -65,12 +61,7 @@ FreePlaces free_places_in(const TraceScene& scene, const VolumeGrid& grid, std::
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
     const glm::vec3 extent = grid.spacing * static_cast<float>(kBrickCells) * glm::vec3(grid.size);
-    glm::vec3 low(std::numeric_limits<float>::max()), high(std::numeric_limits<float>::lowest());
-    for (const VertexArray& vertices : scene.scene().vertex_arrays)
-        for (const glm::vec3& p : vertices.positions) {
-            low = glm::min(low, p);
-            high = glm::max(high, p);
-        }
+    auto [low, high] = bounds(scene.scene());
     low = glm::max(low, grid.origin);
     high = glm::min(high, grid.origin + extent);
     FreePlaces places;

@@ -80,7 +80,7 @@ void check_room(const std::vector<Atlas>& atlases, std::size_t numbers, double l
         all += static_cast<double>(atlas.texels());
     }
     const double value = sizeof(float) * static_cast<double>(numbers),
-                 needed = value * (1.1 * largest + 3.2 * all), there = limit > 0 ? limit : available_memory();
+                 needed = value * (1.1 * largest + 3.2 * all), there = available_memory(limit);
     if (there > 0 && needed > there)
         throw Error(
             fmt::format("maps of {:.3g} texels with {} numbers each need about {:.2g} GB of memory, and "

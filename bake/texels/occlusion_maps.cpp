@@ -38,7 +38,7 @@ double rms_jump(const Atlas& atlas, std::span<const SeamPoint> seams, std::span<
 /// A texture that does not fit would be killed at its end. Measured: 70 bytes a texel.
 void check_room(const std::vector<Atlas>& atlases, double limit) {
     constexpr double kBytesOfTexel = 80;
-    const double there = limit > 0 ? limit : available_memory();
+    const double there = available_memory(limit);
     for (const Atlas& atlas : atlases)
         if (const double needed = kBytesOfTexel * static_cast<double>(atlas.texels());
             there > 0 && needed > there)

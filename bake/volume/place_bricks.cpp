@@ -32,17 +32,6 @@ std::vector<PlacedTriangle> triangles_of(const Scene& scene) {
     return triangles;
 }
 
-VolumeBounds bounds_of(const std::vector<PlacedTriangle>& triangles) {
-    VolumeBounds bounds{glm::vec3(std::numeric_limits<float>::max()),
-                        glm::vec3(std::numeric_limits<float>::lowest())};
-    for (const PlacedTriangle& t : triangles)
-        for (const glm::vec3& p : {t.a, t.b, t.c}) {
-            bounds.least = glm::min(bounds.least, p);
-            bounds.most = glm::max(bounds.most, p);
-        }
-    return bounds;
-}
-
 /// Whether the triangle comes into the box about `middle`, by its own box and its plane: a few more than do.
 bool comes_into(const PlacedTriangle& t, const glm::vec3& middle, float half) {
     const glm::vec3 a = t.a - middle, b = t.b - middle, c = t.c - middle;
@@ -59,12 +48,12 @@ bool comes_into(const PlacedTriangle& t, const glm::vec3& middle, float half) {
 class Placement {
 public:
     /// Stops beyond `most` bricks.
-    Placement(const VolumeBounds& bounds, float spacing, std::size_t most) : most_(most) {
+    Placement(const Bounds& bounds, float spacing, std::size_t most) : most_(most) {
         const float side = spacing * static_cast<float>(kBrickCells);
-        const glm::vec3 extent = bounds.most - bounds.least;
+        const glm::vec3 extent = bounds.high - bounds.low;
         grid_.spacing = spacing;
         grid_.size = glm::max(glm::ivec3(glm::ceil(extent / side - 1e-3f)), glm::ivec3(1));
-        grid_.origin = bounds.least - 0.5f * (side * glm::vec3(grid_.size) - extent);
+        grid_.origin = bounds.low - 0.5f * (side * glm::vec3(grid_.size) - extent);
     }
 
     VolumeGrid place(const std::vector<PlacedTriangle>& triangles) {
@@ -109,21 +98,21 @@ private:
     std::size_t most_;
 };
 
-void check_bounds(const VolumeBounds& bounds) {
+void check_bounds(const Bounds& bounds) {
     for (int a = 0; a < 3; ++a)
-        if (!(bounds.least[a] < bounds.most[a]) || !(std::abs(bounds.least[a]) <= 1e9f) ||
-            !(std::abs(bounds.most[a]) <= 1e9f))
+        if (!(bounds.low[a] < bounds.high[a]) || !(std::abs(bounds.low[a]) <= 1e9f) ||
+            !(std::abs(bounds.high[a]) <= 1e9f))
             throw Error("the bounds of a volume are two corners, x0,y0,z0,x1,y1,z1, the second beyond the "
                         "first along every axis");
 }
 
-void check_spacing(const VolumeBounds& bounds, double spacing) {
-    const glm::vec3 far = glm::max(glm::abs(bounds.least), glm::abs(bounds.most));
+void check_spacing(const Bounds& bounds, double spacing) {
+    const glm::vec3 far = glm::max(glm::abs(bounds.low), glm::abs(bounds.high));
     if (spacing < 64 * 0x1p-24 * static_cast<double>(std::max({far.x, far.y, far.z})))
         throw Error(fmt::format("probes {:g} m apart are closer than positions can tell so far from the "
                                 "scene: choose other bounds, or a larger distance",
                                 spacing));
-    const glm::dvec3 bricks = glm::dvec3(bounds.most - bounds.least) / (kBrickCells * spacing);
+    const glm::dvec3 bricks = glm::dvec3(bounds.high - bounds.low) / (kBrickCells * spacing);
     if (std::max({bricks.x, bricks.y, bricks.z}) > kMostBricksAlong)
         throw Error(fmt::format("probes {:g} m apart are more than {} along the volume: make it smaller, or "
                                 "their distance larger",
@@ -132,28 +121,26 @@ void check_spacing(const VolumeBounds& bounds, double spacing) {
 
 } // namespace
 
-VolumeBounds volume_bounds(const Scene& scene, const VolumeOptions& options) {
+Bounds volume_bounds(const Scene& scene, const VolumeOptions& options) {
     if (options.bounds) {
         check_bounds(*options.bounds);
         return *options.bounds;
     }
-    const std::vector<PlacedTriangle> triangles = triangles_of(scene);
-    if (triangles.empty())
+    if (scene.triangles() == 0)
         throw Error("a scene without triangles has no bounds for a volume: give it some");
-    VolumeBounds bounds = bounds_of(triangles);
+    Bounds box = bounds(scene);
     // A flat scene has some air above it.
-    bounds.most = glm::max(bounds.most, bounds.least + 1e-3f * glm::length(bounds.most - bounds.least));
-    check_bounds(bounds);
-    return bounds;
+    box.high = glm::max(box.high, box.low + 1e-3f * glm::length(box.high - box.low));
+    check_bounds(box);
+    return box;
 }
 
 VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::size_t most_bricks) {
     const std::vector<PlacedTriangle> triangles = triangles_of(scene);
-    const VolumeBounds bounds = volume_bounds(scene, options);
+    const Bounds box = volume_bounds(scene, options);
     if (options.probes == 0) {
-        check_spacing(bounds, options.spacing);
-        VolumeGrid grid =
-            Placement(bounds, static_cast<float>(options.spacing), most_bricks).place(triangles);
+        check_spacing(box, options.spacing);
+        VolumeGrid grid = Placement(box, static_cast<float>(options.spacing), most_bricks).place(triangles);
         if (grid.bricks.size() > most_bricks)
             throw Error(
                 fmt::format("probes {:g} m apart do not fit into memory: set them further apart, or take "
@@ -161,16 +148,16 @@ VolumeGrid place_bricks(const Scene& scene, const VolumeOptions& options, std::s
                             options.spacing));
         return grid;
     }
-    const glm::dvec3 extent(bounds.most - bounds.least);
+    const glm::dvec3 extent(box.high - box.low);
     const double longest = std::max({extent.x, extent.y, extent.z});
     double most = longest, least = longest / (kMostBricksAlong * kBrickCells) * 1.01;
-    VolumeGrid grid = Placement(bounds, static_cast<float>(most), options.probes).place(triangles);
+    VolumeGrid grid = Placement(box, static_cast<float>(most), options.probes).place(triangles);
     // Fewer finest bricks than fill the box with so many probes can only hold fewer.
     least =
         std::max(least, std::cbrt(extent.x * extent.y * extent.z / static_cast<double>(options.probes)) / 16);
     for (int i = 0; i < 14; ++i) {
         const double spacing = std::sqrt(least * most);
-        VolumeGrid finer = Placement(bounds, static_cast<float>(spacing), options.probes).place(triangles);
+        VolumeGrid finer = Placement(box, static_cast<float>(spacing), options.probes).place(triangles);
         const bool fits = finer.bricks.size() <= options.probes && probes_of(finer).size() <= options.probes;
         (fits ? most : least) = spacing;
         if (fits)

@@ -10,7 +10,7 @@
 namespace prt {
 
 /// Those of the options, or of the scene. Throws `Error` where they are none.
-VolumeBounds volume_bounds(const Scene& scene, const VolumeOptions& options);
+Bounds volume_bounds(const Scene& scene, const VolumeOptions& options);
 
 /// Throws `Error` for bounds or a spacing that make no volume, and one that would not fit.
 /// `most` bricks are made before it is known.

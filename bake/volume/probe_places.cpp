@@ -1,5 +1,6 @@
 #include "volume/probe_places.h"
 
+#include "pictures/lit_side.h"
 #include "prt/support/parallel.h"
 
 #include <glm/geometric.hpp>
@@ -34,22 +35,18 @@ struct Around {
 
 Around look_around(const TraceScene& scene, const glm::vec3& place) {
     static const std::array<glm::vec3, 26> directions = directions_around();
-    const Surfaces& surfaces = scene.surfaces();
     Around around;
     for (const glm::vec3& d : directions) {
         const auto hit = scene.rays().nearest({place, d});
         if (!hit)
             continue;
-        const RayScene::Triangle t = scene.rays().triangle(hit->triangle);
-        const Primitive& primitive = scene.scene().primitives[t.primitive];
-        const std::vector<glm::vec3>& at = scene.scene().vertex_arrays[primitive.vertices].positions;
-        const glm::uvec3& corners = primitive.triangles[t.triangle];
-        const glm::vec3 normal =
-            glm::normalize(glm::cross(at[corners.y] - at[corners.x], at[corners.z] - at[corners.x]));
-        const float facing = glm::dot(normal, d), distance = hit->distance * std::abs(facing);
+        const MetSurface met = met_surface(scene.scene(), scene.rays(), {hit->triangle, hit->uv, 0},
+                                           place + d * hit->distance, d);
+        const float distance = hit->distance * std::abs(glm::dot(met.side.face, d));
         if (distance < around.nearest) {
             around.nearest = distance;
-            around.off = surfaces.two_sided(hit->triangle) && facing > 0 ? -normal : normal;
+            around.off =
+                met.back && !scene.surfaces().two_sided(hit->triangle) ? -met.side.face : met.side.face;
         }
     }
     return around;

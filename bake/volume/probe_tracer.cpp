@@ -69,17 +69,13 @@ ProbeTracer::ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources so
     sky_ = std::move(sources.sky.vectors);
     if (plan.bounces != 0)
         lamps_ = std::move(sources.lamps.vectors);
-    if (!reflectance_.empty())
-        for (auto* exit : {&sky_, &lamps_}) {
-            if (exit->empty())
-                continue;
-            const std::size_t channels =
-                static_cast<std::size_t>(exit == &sky_ ? plan.channels : layout_.lamps.channels());
-            const std::size_t stride = exit->size() / reflectance_.size();
-            for (std::size_t p = 0; p < reflectance_.size(); ++p)
-                for (std::size_t i = 0; i < stride; ++i)
-                    (*exit)[p * stride + i] *= reflectance_[p][static_cast<int>(i / (stride / channels))];
-        }
+    const auto reflect = [&](int bands, int channels, std::vector<float>& exit) {
+        if (!exit.empty())
+            GatherOperator(plan.scene.surfaces(), *plan.transport, 0, channels)
+                .reflect(bands, exit, plan.options.threads);
+    };
+    reflect(layout_.sky.order, plan.channels, sky_);
+    reflect(layout_.lamps.order, layout_.lamps.channels(), lamps_);
     for (const Lamp& lamp : plan.lamps)
         shining_.emplace_back(plan.scene, lamp);
 }

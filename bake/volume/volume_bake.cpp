@@ -70,7 +70,7 @@ std::size_t most_bricks(const VolumeOptions& volume, std::size_t numbers, double
 }
 
 /// Points all over the cells of a volume, as many in each brick, but for those out of its bounds.
-std::vector<glm::vec3> points_between(const VolumeGrid& grid, const VolumeBounds& bounds, double each,
+std::vector<glm::vec3> points_between(const VolumeGrid& grid, const Bounds& bounds, double each,
                                       std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -83,7 +83,7 @@ std::vector<glm::vec3> points_between(const VolumeGrid& grid, const VolumeBounds
         for (; owed >= 1; owed -= 1) {
             const float x = unit(random), y = unit(random), z = unit(random);
             const glm::vec3 point = least + side * glm::vec3(x, y, z);
-            if (glm::clamp(point, bounds.least, bounds.most) == point)
+            if (glm::clamp(point, bounds.low, bounds.high) == point)
                 points.push_back(point);
         }
     }
@@ -132,7 +132,7 @@ public:
     VolumeBake run(const Progress& progress) {
         BakedVolume& baked = result_.volume;
         check_memory(plan_);
-        const double there = options_.memory.limit > 0 ? options_.memory.limit : available_memory();
+        const double there = available_memory(options_.memory.limit);
         check_room(volume_, static_cast<double>(volume_.probes), plan_.numbers(), there);
         baked.grid = place_bricks(scene_, volume_, most_bricks(volume_, plan_.numbers(), there));
         baked.order = volume_.order;

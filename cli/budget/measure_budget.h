@@ -9,6 +9,7 @@
 
 namespace prt::cli {
 
+/// Files whose errors are measured against path tracing.
 struct BudgetRequest {
     Path baked, shipped; ///< shipped: empty where there is none
     GltfOptions reading; ///< of `shipped`

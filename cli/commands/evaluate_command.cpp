@@ -99,6 +99,19 @@ std::vector<Path> check(const EvaluateArguments& a) {
                          inputs);
 }
 
+BudgetRequest budget_request(const EvaluateArguments& a) {
+    return {.baked = a.baked,
+            .shipped = a.shipped,
+            .reading = a.reading,
+            .lights = {.files = a.lights,
+                       .suns = a.suns,
+                       .reading = a.light_options,
+                       .order = {},
+                       .apart = {},
+                       .threads = a.threads},
+            .no_shadow = a.no_shadow};
+}
+
 void run(EvaluateArguments a, Session& session) {
     a.reading.outputs = check(a);
     SceneFile baked = load_scene_file(a.baked, a.reading);
@@ -115,29 +128,9 @@ void run(EvaluateArguments a, Session& session) {
                        baked, lights, report);
     add_sizes_of_bake(a, baked.baked->transfer, report);
     if (a.measures.budget)
-        add_budget({.baked = a.baked,
-                    .shipped = a.shipped,
-                    .reading = a.reading,
-                    .lights = {.files = a.lights,
-                               .suns = a.suns,
-                               .reading = a.light_options,
-                               .order = {},
-                               .apart = {},
-                               .threads = a.threads},
-                    .no_shadow = a.no_shadow},
-                   baked, report, session);
+        add_budget(budget_request(a), baked, report, session);
     if (a.measures.volume)
-        add_volume_errors({.baked = a.baked,
-                           .shipped = a.shipped,
-                           .reading = a.reading,
-                           .lights = {.files = a.lights,
-                                      .suns = a.suns,
-                                      .reading = a.light_options,
-                                      .order = {},
-                                      .apart = {},
-                                      .threads = a.threads},
-                           .no_shadow = a.no_shadow},
-                          baked, report, session);
+        add_volume_errors(budget_request(a), baked, report, session);
     if (a.measures.sweep)
         add_sweep(run_sweep(a, baked, lights, session), report);
     if (baked.lightmap)

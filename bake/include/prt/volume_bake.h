@@ -12,16 +12,11 @@
 
 namespace prt {
 
-/// Metres, in the frame of Scene::origin.
-struct VolumeBounds {
-    glm::vec3 least{0}, most{0};
-};
-
 struct VolumeOptions {
-    double spacing = 1;                      ///< of the finest probes, metres
-    std::size_t probes = 0;                  ///< as many at most, however far apart; 0: by `spacing`
-    std::optional<VolumeBounds> bounds = {}; ///< none: those of the scene
-    int order = 3;                           ///< of incident light, 2 to 4
+    double spacing = 1;                ///< of the finest probes, metres
+    std::size_t probes = 0;            ///< as many at most, however far apart; 0: by `spacing`
+    std::optional<Bounds> bounds = {}; ///< none: those of the scene
+    int order = 3;                     ///< of incident light, 2 to 4
     /// Points for each probe where light between probes is measured, which probes are then fitted to; 0: they
     /// have what comes in where they stand.
     double fit_points = 1;

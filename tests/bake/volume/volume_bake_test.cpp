@@ -28,7 +28,7 @@ BakeOptions rays(int count, int bounces = 0) {
     return options;
 }
 
-VolumeOptions probes(double spacing, const VolumeBounds& bounds) {
+VolumeOptions probes(double spacing, const Bounds& bounds) {
     return {.spacing = spacing, .bounds = bounds, .fit_points = 0};
 }
 
@@ -228,7 +228,7 @@ TEST(VolumeBake, TakesNoMoreProbesThanAsked) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
     for (const std::size_t most : {125u, 1000u, 5000u}) {
         const VolumeOptions volume{
-            .probes = most, .bounds = VolumeBounds{{-4, -1, -4}, {4, 3, 4}}, .fit_points = 0};
+            .probes = most, .bounds = Bounds{{-4, -1, -4}, {4, 3, 4}}, .fit_points = 0};
         const std::size_t got = bake_volume(scene, volume, rays(8)).volume.sights.size();
         EXPECT_LE(got, most);
         EXPECT_GE(got, most / 4);
@@ -237,7 +237,7 @@ TEST(VolumeBake, TakesNoMoreProbesThanAsked) {
 
 TEST(VolumeBake, RefusesWhatMakesNoVolume) {
     const Scene scene = SceneBuilder().floor({0, 0, 0}, 1).build();
-    const VolumeBounds box{{-1, 0, -1}, {1, 1, 1}};
+    const Bounds box{{-1, 0, -1}, {1, 1, 1}};
     EXPECT_THROW(bake_volume(scene, probes(0, box), rays(8)), Error);
     EXPECT_THROW(bake_volume(scene, probes(-1, box), rays(8)), Error);
     EXPECT_THROW(bake_volume(scene, probes(1e-7, box), rays(8)), Error);
