@@ -56,6 +56,10 @@ void apply(const glm::dvec4& value, AnimatedPart part, LocalPose& pose) {
 
 } // namespace
 
+bool has_animations(const GltfDocument& document) {
+    return !document.contents().model.animations.empty();
+}
+
 AnimatedScene::AnimatedScene(const GltfDocument& document) {
     const GltfContents& contents = document.contents();
     try {

@@ -68,6 +68,9 @@ struct MovingVertices {
     std::vector<float> weights;          ///< [vertices][influences], 0: whatever the matrix
 };
 
+/// Whether a file has animations at all; nothing of them is read.
+bool has_animations(const GltfDocument& document);
+
 /// Immutable once made; thread-safe.
 class AnimatedScene {
 public:

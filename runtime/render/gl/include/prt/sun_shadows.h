@@ -33,8 +33,8 @@ public:
     };
     /// What casts shadows beside the scene and moves.
     struct Moving {
-        /// Draws both sides of all of it with a program of sun_caster.vert (and PRT_SKINNED), for map `map` of
-        /// `size` texels: `set_map` sets what the program is told of it. Nothing: none moves.
+        /// Draws both sides of all of it with a program of sun_caster.vert (and PRT_SKINNED), for map `map`
+        /// of `size` texels: `set_map` sets what the program is told of it. Nothing: none moves.
         std::function<void(int map, int size)> draw;
         Bounds box{};              ///< around all of it
         std::uint64_t version = 0; ///< another one where it has moved
@@ -42,10 +42,11 @@ public:
     /// Tells `program`, which is in use, of the map that is drawn.
     static void set_map(const GlObject& program, int map, int size);
 
-    /// Draws the maps for what `view` sees, where suns, view or what moves are others than before. Changes the bound
-    /// framebuffer, the viewport and the program. Throws `Error` for more than kMostShadowedSuns and when
-    /// memory runs out.
-    void draw(std::span<const SunDisc> suns, const View& view, const Moving& moving = {});
+    /// Draws the maps for what `view` sees, where suns, view or what moves are others than before. Changes
+    /// the bound framebuffer, the viewport and the program. Throws `Error` for more than kMostShadowedSuns
+    /// and when memory runs out.
+    void draw(std::span<const SunDisc> suns, const View& view, const Moving& moving);
+    void draw(std::span<const SunDisc> suns, const View& view) { draw(suns, view, Moving()); }
 
     /// Binds all that the shaders read.
     void use() const;
