@@ -7,6 +7,7 @@
 #define PRT_BINDING_RAW_RADIANCE 4
 #define PRT_BINDING_DIFFERENCE 5
 #define PRT_BINDING_TEXEL_RECEIVERS 5
+#define PRT_BINDING_PROBE_PLACES 5
 
 // Texture units.
 #define PRT_UNIT_GBUFFER_BASE 2
@@ -17,5 +18,9 @@
 #define PRT_UNIT_LEFT 2
 #define PRT_UNIT_RIGHT 3
 #define PRT_AO_LEVELS 31 // largest value of five bits
+
+// Probes are spheres of so many cells.
+#define PRT_PROBE_COLUMNS 10
+#define PRT_PROBE_ROWS 6
 
 #endif

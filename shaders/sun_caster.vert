@@ -2,6 +2,9 @@
 
 #include "shared_layout.h"
 #include "sun_view.glsl"
+#ifdef PRT_SKINNED
+#include "skinning.glsl"
+#endif
 
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
 layout(location = PRT_LOCATION_TEXCOORD) in vec2 texcoord;
@@ -20,7 +23,12 @@ void main() {
     surface_texcoord = texcoord;
     surface_color = color;
     surface_glass_texcoord = glass_texcoord;
-    vec3 place = place_in_map(suns_seen.maps[map], position - suns_seen.eye.xyz);
+#ifdef PRT_SKINNED
+    vec3 caster = (vertex_matrix() * vec4(position, 1.0)).xyz;
+#else
+    vec3 caster = position;
+#endif
+    vec3 place = place_in_map(suns_seen.maps[map], caster - suns_seen.eye.xyz);
     depth = place.z;
     gl_Position = vec4(2.0 * vec3(place.xy / map_size, place.z / suns_seen.maps[map].depth) - 1.0, 1.0);
 }

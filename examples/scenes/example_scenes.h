@@ -2,6 +2,7 @@
 
 #include "mesh.h"
 #include "picture.h"
+#include "skeleton.h"
 
 #include <string>
 
@@ -26,6 +27,7 @@ struct Part {
     SharedPicture picture = nullptr; ///< times the base color
     Emission emission = {};
     float opacity = 1; ///< below 1 the part is blended
+    SkinWeights skin = {};
 };
 
 /// `part` with light of its own.
@@ -50,6 +52,7 @@ struct Lamp {
 struct ExampleScene {
     std::vector<Part> parts;
     std::vector<Lamp> lamps = {};
+    Skeleton skeleton = {}; ///< that all parts hang on; without joints they stand still
 };
 
 ExampleScene torus_knot_over_plane();
@@ -63,6 +66,8 @@ ExampleScene terrain();
 ExampleScene tree();
 /// A courtyard with arcades, an orange tree, a fountain, awnings and lanterns; at home from noon to night.
 ExampleScene courtyard();
+/// Somebody of 1.8 m who looks along +Z and can walk: a skinned, animated mesh.
+ExampleScene figure();
 /// Some 15 000 buildings of 1.5 million vertices and 1.8 million triangles, to measure with.
 ExampleScene city();
 

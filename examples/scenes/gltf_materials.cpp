@@ -61,20 +61,6 @@ void set_emission(tinygltf::Model& model, tinygltf::Material& material, const Pa
 
 } // namespace
 
-int add_view(tinygltf::Model& model, const void* bytes, std::size_t size, int target) {
-    std::vector<unsigned char>& data = model.buffers[0].data;
-    data.resize((data.size() + 3) / 4 * 4);
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = data.size();
-    view.byteLength = size;
-    view.target = target;
-    const auto* first = static_cast<const unsigned char*>(bytes);
-    data.insert(data.end(), first, first + size);
-    model.bufferViews.push_back(view);
-    return static_cast<int>(model.bufferViews.size()) - 1;
-}
-
 void use_extension(tinygltf::Model& model, const std::string& name) {
     if (std::find(model.extensionsUsed.begin(), model.extensionsUsed.end(), name) ==
         model.extensionsUsed.end())

@@ -1,13 +1,11 @@
 #pragma once
 
 #include "example_scenes.h"
+#include "gltf_data.h"
 
 #include <tiny_gltf.h>
 
 namespace examples {
-
-/// Appends `bytes` to the model's only buffer and returns the view on them, aligned to four bytes.
-int add_view(tinygltf::Model& model, const void* bytes, std::size_t size, int target);
 
 /// Says that the model uses an extension.
 void use_extension(tinygltf::Model& model, const std::string& name);

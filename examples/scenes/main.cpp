@@ -26,6 +26,7 @@ constexpr NamedScene kScenes[] = {{"knot", examples::torus_knot_over_plane},
                                   {"courtyard", examples::courtyard},
                                   {"terrain", examples::terrain},
                                   {"tree", examples::tree},
+                                  {"figure", examples::figure},
                                   {"plain_room", examples::plain_room, true},
                                   {"city", examples::city, true}};
 

@@ -1,8 +1,8 @@
 #include "write_scene.h"
 
 #include "gltf_materials.h"
+#include "write_skeleton.h"
 
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
@@ -11,43 +11,22 @@
 namespace examples {
 namespace {
 
-/// Adds an accessor on a copy of `values`.
-template <class T>
-int add_accessor(tinygltf::Model& model, const std::vector<T>& values, int component_type, int type,
-                 int target) {
-    tinygltf::Accessor accessor;
-    accessor.bufferView = add_view(model, values.data(), values.size() * sizeof(T), target);
-    accessor.componentType = component_type;
-    accessor.type = type;
-    accessor.count = values.size();
-    model.accessors.push_back(accessor);
-    return static_cast<int>(model.accessors.size()) - 1;
-}
-
-void set_bounds(tinygltf::Accessor& accessor, const std::vector<glm::vec3>& positions) {
-    glm::vec3 low = positions[0], high = positions[0];
-    for (const glm::vec3& p : positions) {
-        low = glm::min(low, p);
-        high = glm::max(high, p);
-    }
-    accessor.minValues = {low.x, low.y, low.z};
-    accessor.maxValues = {high.x, high.y, high.z};
-}
-
 tinygltf::Primitive make_primitive(tinygltf::Model& model, const Part& part) {
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     const auto add_attribute = [&](const char* name, const auto& values, int type) {
         primitive.attributes[name] =
-            add_accessor(model, values, TINYGLTF_COMPONENT_TYPE_FLOAT, type, TINYGLTF_TARGET_ARRAY_BUFFER);
+            add_accessor(model, values, {TINYGLTF_COMPONENT_TYPE_FLOAT, type, TINYGLTF_TARGET_ARRAY_BUFFER});
     };
     add_attribute("POSITION", part.mesh.positions, TINYGLTF_TYPE_VEC3);
     set_bounds(model.accessors.back(), part.mesh.positions);
     add_attribute("NORMAL", part.mesh.normals, TINYGLTF_TYPE_VEC3);
     if (part.picture || part.emission.picture)
         add_attribute("TEXCOORD_0", part.mesh.texcoords, TINYGLTF_TYPE_VEC2);
-    primitive.indices = add_accessor(model, part.mesh.indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
-                                     TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
+    add_skin_attributes(model, primitive, part.skin);
+    primitive.indices = add_accessor(
+        model, part.mesh.indices,
+        {TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER});
     primitive.material = add_material(model, part);
     return primitive;
 }
@@ -118,6 +97,7 @@ void write_scene(const ExampleScene& scene, const std::filesystem::path& path) {
     file_scene.nodes = {0};
     model.scenes.push_back(file_scene);
     model.defaultScene = 0;
+    add_skeleton(model, scene.skeleton, 0);
     add_lamps(model, scene.lamps);
     if (!tinygltf::TinyGLTF().WriteGltfSceneToFile(&model, path.string(), true, true, false, true))
         throw std::runtime_error(path.string() + ": cannot be written");

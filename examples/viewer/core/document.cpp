@@ -26,6 +26,8 @@ std::vector<const prt::TransferLayout*> Document::layouts() const {
         if (model->compressed)
             layouts.push_back(&model->compressed->bases.layout);
     }
+    if (const auto& volume = moving.volume().volume)
+        layouts.push_back(&volume->compressed.transfer.bases.layout);
     return layouts;
 }
 
@@ -35,6 +37,7 @@ void Document::open(const OpenModels& models) {
     occlusion = nullptr;
     repeated = {};
     budget.reset();
+    moving.enter(models.first.model);
     if (!loaded.raw && !loaded.compressed)
         loaded.record.bounces = kBakeBounces;
     if (compressed()) {

@@ -3,6 +3,7 @@
 // The model that is open, and all that was found out about it.
 
 #include "core/findings.h"
+#include "core/moving.h"
 #include "pictures/settings.h"
 
 #include <optional>
@@ -31,6 +32,7 @@ struct Document {
     std::uint64_t transfer_version = 1; ///< counts up with every transfer
     RepeatedBake repeated;
     std::optional<SurfaceBudget> budget; ///< the last that was measured, which may be of another light
+    Moving moving;
 
     const Model* model() const { return loaded.model.get(); } ///< null: nothing is open
     std::string name() const { return model() ? model()->path.filename().string() : std::string(); }

@@ -7,7 +7,9 @@
 #include "pictures/model.h"
 #include "pictures/picture_kind.h"
 
+#include "prt/animation.h"
 #include "prt/error_budget.h"
+#include "prt/transfer_volume.h"
 
 #include <memory>
 #include <string>
@@ -82,11 +84,29 @@ struct SurfaceBudget {
     std::vector<glm::vec3> colors; ///< [receivers] of the total, for `PictureKind::surface_error`
 };
 
+/// Files apart by what they are: those with animations are figures, where others are scenes or one is open.
+struct SortedFiles {
+    std::vector<std::filesystem::path> scenes, figures;
+};
+
+/// A file that was opened as a figure.
+struct FigureFile {
+    std::filesystem::path path;
+    std::shared_ptr<const prt::AnimatedScene> figure;
+};
+
+/// A volume of `model`, and the rays of each probe of a bake that goes on; 0: it is what the file holds.
+struct FoundVolume {
+    std::shared_ptr<const Model> model;
+    std::shared_ptr<const prt::CompressedVolume> volume;
+    int rays = 0;
+};
+
 struct Saved {
     std::filesystem::path path;
 };
 
-enum class JobKind { model, environments, numbers, saving, budget };
+enum class JobKind { model, environments, numbers, saving, budget, figure, volume };
 
 /// A job ended with this message.
 struct Failure {
@@ -94,8 +114,9 @@ struct Failure {
     std::string why;
 };
 
-using Finding = std::variant<OpenModels, Baked, Compressed, Occlusion, EnvironmentFile, NumberPictures,
-                             RepeatedBake, SurfaceBudget, Saved, Failure>;
+using Finding =
+    std::variant<OpenModels, Baked, Compressed, Occlusion, EnvironmentFile, NumberPictures, RepeatedBake,
+                 SurfaceBudget, SortedFiles, FigureFile, FoundVolume, Saved, Failure>;
 
 using Channel = BackgroundWork<Finding>::Channel;
 

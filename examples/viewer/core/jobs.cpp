@@ -1,6 +1,7 @@
 #include "core/jobs.h"
 
 #include "core/budget_work.h"
+#include "core/moving_work.h"
 #include "core/transfer_work.h"
 
 #include "prt/support/error.h"
@@ -75,6 +76,28 @@ void Jobs::compress(const Document& document, const CompressionSettings& how) {
           });
 }
 
+void Jobs::sort(const std::vector<std::filesystem::path>& paths, bool scene_open) {
+    start(JobKind::figure, [paths, scene_open](Channel& channel) {
+        channel.enter(Stage::reading, "reading " + paths.front().filename().string());
+        const SortedFiles sorted = sort_files(paths, scene_open);
+        channel.post(sorted);
+        if (!sorted.figures.empty())
+            channel.post(viewer::read_figure(sorted.figures.back()));
+    });
+}
+
+void Jobs::read_figure(const std::filesystem::path& path) {
+    start(JobKind::figure, [path](Channel& channel) {
+        channel.enter(Stage::reading, "reading " + path.filename().string());
+        channel.post(viewer::read_figure(path));
+    });
+}
+
+void Jobs::find_volume(std::shared_ptr<const Model> model) {
+    start(JobKind::volume,
+          [model = std::move(model)](Channel& channel) { viewer::find_volume(channel, model); });
+}
+
 void Jobs::read_environments(const std::vector<std::filesystem::path>& paths) {
     environments_to_read_.insert(environments_to_read_.end(), paths.begin(), paths.end());
     start(JobKind::environments, [all = environments_to_read_](Channel& channel) {
@@ -110,8 +133,8 @@ void Jobs::save(const Document& document, const std::filesystem::path& output) {
 
 std::vector<Finding> Jobs::collect() {
     std::vector<Finding> all;
-    for (const JobKind kind :
-         {JobKind::environments, JobKind::model, JobKind::numbers, JobKind::saving, JobKind::budget})
+    for (const JobKind kind : {JobKind::environments, JobKind::model, JobKind::numbers, JobKind::saving,
+                               JobKind::budget, JobKind::figure, JobKind::volume})
         std::ranges::move(works_[static_cast<std::size_t>(kind)].collect(), std::back_inserter(all));
     for (const Finding& finding : all)
         if (const auto* read = std::get_if<EnvironmentFile>(&finding))
@@ -120,7 +143,8 @@ std::vector<Finding> Jobs::collect() {
 }
 
 bool Jobs::busy() const {
-    return busy(JobKind::model) || busy(JobKind::environments) || busy(JobKind::saving);
+    return busy(JobKind::model) || busy(JobKind::environments) || busy(JobKind::saving) ||
+           busy(JobKind::figure) || busy(JobKind::volume);
 }
 
 bool Jobs::may_compress() const {

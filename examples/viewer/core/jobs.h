@@ -19,6 +19,11 @@ public:
     void bake(std::shared_ptr<const Model> model);
     /// Compresses what was baked anew; finds the occlusion where it is missing.
     void compress(const Document& document, const CompressionSettings& how);
+    /// Tells figures from scenes and reads the last figure.
+    void sort(const std::vector<std::filesystem::path>& paths, bool scene_open);
+    void read_figure(const std::filesystem::path& path);
+    /// Finds the volume of `model` in its file, or bakes one.
+    void find_volume(std::shared_ptr<const Model> model);
     /// Reads environments; those that were still being read are read, too.
     void read_environments(const std::vector<std::filesystem::path>& paths);
     void find_numbers(const Document& document, const prt::Lighting& lighting, const LampSettings& lamps);
@@ -48,7 +53,7 @@ private:
     const BackgroundWork<Finding>& work(JobKind kind) const { return works_[static_cast<std::size_t>(kind)]; }
     void start(JobKind kind, std::function<void(Channel&)> work);
 
-    std::array<BackgroundWork<Finding>, 5> works_; ///< [JobKind]
+    std::array<BackgroundWork<Finding>, 7> works_; ///< [JobKind]
     std::vector<std::filesystem::path> environments_to_read_;
 };
 

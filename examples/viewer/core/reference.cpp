@@ -1,5 +1,7 @@
 #include "core/reference.h"
 
+#include "pictures/joined_scene.h"
+
 #include "prt/support/parallel.h"
 
 #include <algorithm>
@@ -9,6 +11,21 @@ namespace viewer {
 namespace {
 
 constexpr int kCoarser = 4; ///< the first picture has so many times fewer pixels along each axis
+
+std::vector<prt::Texture> textures_of(const Model& model, const prt::Scene& moving) {
+    std::vector<prt::Texture> textures = model.trace->textures();
+    for (prt::Texture& texture : prt::load_textures(moving, prt::BadTextures::ignore))
+        textures.push_back(std::move(texture));
+    return textures;
+}
+
+/// A model with what stands in it.
+struct WholeScene {
+    WholeScene(const Model& model, const prt::Scene& moving)
+        : scene(joined(model.scene, moving)), trace(scene, textures_of(model, moving)) {}
+    prt::Scene scene;
+    prt::TraceScene trace;
+};
 
 } // namespace
 
@@ -49,7 +66,9 @@ void Reference::show(const Subject& subject, const LightRig& rig) {
 
 void Reference::trace(const Subject& subject, const LightRig& rig, Shared& shared,
                       const std::stop_token& stop) {
-    const Model& model = *subject.model;
+    const std::shared_ptr<const WholeScene> whole =
+        subject.moving ? std::make_shared<const WholeScene>(*subject.model, *subject.moving) : nullptr;
+    const prt::TraceScene& scene = whole ? whole->trace : *subject.model->trace;
     // One thread is left to draw.
     const int threads = std::max(1, prt::thread_count(0) - 1);
     const prt::DistantLight light = rig.distant_light();
@@ -58,7 +77,7 @@ void Reference::trace(const Subject& subject, const LightRig& rig, Shared& share
     coarse.height = std::max(1, coarse.height / kCoarser);
     for (const prt::PathTraceOptions& options : {coarse, subject.options}) {
         const bool fine = options.width == subject.options.width;
-        prt::PathTracer tracer(*model.trace, light, options);
+        prt::PathTracer tracer(scene, light, options);
         const std::vector<bool> surfaces = tracer.surface_mask();
         for (int pass = 0; pass < (fine ? kMostPasses : 4); ++pass) {
             tracer.add_pass(threads, stop);

@@ -23,6 +23,7 @@ public:
         std::shared_ptr<const Model> model;
         prt::PathTraceOptions options;
         std::uint64_t light_version = 0;
+        std::shared_ptr<const prt::Scene> moving = {}; ///< that stands in it; null: nothing
 
         friend bool operator==(const Subject&, const Subject&) = default;
     };

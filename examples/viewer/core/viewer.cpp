@@ -77,11 +77,19 @@ void Viewer::open(const std::vector<std::filesystem::path>& paths) {
         jobs_.read_environments(environments);
     if (models.empty())
         return;
+    const bool scene_open = document_.model() || jobs_.busy(JobKind::model);
+    if (models.size() == 1 && !scene_open)
+        open_scenes(models);
+    else
+        jobs_.sort(models, scene_open);
+}
+
+void Viewer::open_scenes(const std::vector<std::filesystem::path>& paths) {
     statistics_.begin_opening();
     OpenModels before{document_.loaded, document_.beside};
     if (jobs_.baking()) // it is done again, to its end, where the scene stays
         before.first.raw = nullptr;
-    jobs_.open(models, before);
+    jobs_.open(paths, before);
 }
 
 void Viewer::bake_anew() {
@@ -135,6 +143,7 @@ void Viewer::update(double seconds) {
     lighting_.rig.set(lights);
     lighting_.set_lamps(settings.lit.lamps);
     recompress_where_asked();
+    follow_moving(seconds);
 }
 
 // ---- what was found
@@ -186,6 +195,7 @@ GpuModel& Viewer::gpu_model(const SidePicture& picture) const {
 }
 
 void Viewer::upload_models() {
+    upload_moving();
     gpu_->model.reset(); // there may not be room for two
     gpu_->beside.reset();
     gpu_->model = uploaded(document_.loaded);

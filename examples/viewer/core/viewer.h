@@ -30,6 +30,12 @@ public:
     /// Models and environment maps; a message for what is neither. At once: files are read in the background.
     /// A bake and what was compressed of it are shown together, be it that one of them is open already.
     void open(const std::vector<std::filesystem::path>& paths);
+    /// Opens a file as the figure that walks through the scene, in the background.
+    void open_figure(const std::filesystem::path& path);
+    /// Throws `prt::Error` where there is no figure, or it has no such animation.
+    void choose_figure(const FigureChoice& choice);
+    /// It goes on as in so many seconds, at once.
+    void walk_figure(double seconds);
     /// Bakes the model anew, though it may hold transfer.
     void bake_anew();
     /// There is a bake of which the error over the surface can be measured: of vertices.
@@ -102,6 +108,7 @@ private:
         RadianceVersion lit, numbers, budget; ///< that the model is lit by, that were asked for
         GpuTimer frame, vertices;
         MeshRenderer meshes;
+        MovingStage moving;
     };
     /// The screen as it was last drawn.
     struct Seen {
@@ -117,8 +124,14 @@ private:
     void take(const NumberPictures& pictures);
     void take(const RepeatedBake& repeated);
     void take(const SurfaceBudget& budget);
+    void take(const SortedFiles& sorted);
+    void take(const FigureFile& file);
+    void take(const FoundVolume& found);
     void take(const Saved& saved);
     void take(const Failure& failure);
+    void open_scenes(const std::vector<std::filesystem::path>& paths);
+    void follow_moving(double seconds);
+    void upload_moving();
     void upload_models();
     std::unique_ptr<GpuModel> uploaded(const LoadedModel& loaded);
     /// Of the document's model; null: it is of none.

@@ -29,6 +29,10 @@ void Viewer::draw(std::uint32_t framebuffer, int width, int height) {
     follow_light();
     find_numbers();
     follow_budget();
+    gpu_->moving.show(settings.moving);
+    gpu_->moving.pose(document_.moving.pose());
+    if (settings.moving.spheres)
+        gpu_->moving.place(document_.moving.spheres());
     const FrameView view = frame_view();
     gpu_->frame.begin();
     if (!gpu_->model) {
@@ -58,6 +62,7 @@ void Viewer::follow_light() {
         for (GpuModel* model : {gpu_->model.get(), gpu_->beside.get()})
             if (model)
                 model->set_lighting(light().lighting, light().suns, lighting_.lamps());
+        gpu_->moving.set_lighting(light().lighting, light().suns, lighting_.lamps());
         if (document_.compressed())
             statistics_.figures.milliseconds.constants = 1e3 * gpu_->model->seconds_constants();
         gpu_->lit = version();
@@ -105,6 +110,7 @@ FrameView Viewer::frame_view() {
     view.exposure = exposure * std::exp2(settings.exposure_stops);
     view.background = gpu_->background.name() != 0 ? &gpu_->background : nullptr;
     view.background_rotation = lights.rotation;
+    view.moving = &gpu_->moving;
     return view;
 }
 
@@ -178,7 +184,8 @@ void Viewer::show_reference(int side, const FrameView& view) {
                                  .bounces = document_.loaded.record.bounces,
                                  .textured = settings.drawing.textured,
                                  .background = settings.drawing.background},
-                     .light_version = lighting_.rig.version()},
+                     .light_version = lighting_.rig.version(),
+                     .moving = document_.moving.surfaces(settings.moving)},
                     lighting_.rig);
     if (const Reference::Result* result = reference_.result())
         gpu_->renderer.show(side, result->image, result->surfaces);

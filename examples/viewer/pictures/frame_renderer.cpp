@@ -5,6 +5,7 @@
 #include "shared_viewer.h"
 
 #include <epoxy/gl.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/matrix.hpp>
@@ -42,6 +43,13 @@ prt::GlObject make_framebuffer(std::initializer_list<const prt::GlObject*> color
     if (glCheckNamedFramebufferStatus(name, GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         throw prt::Error("this device cannot draw into the textures that the viewer needs");
     return framebuffer;
+}
+
+/// Around the model and what moves.
+prt::Bounds box_of(const GpuModel& model, const FrameView& view) {
+    const prt::Bounds& box = model.model().box;
+    const auto moving = view.moving ? view.moving->box() : std::nullopt;
+    return moving ? prt::Bounds{glm::min(box.low, moving->low), glm::max(box.high, moving->high)} : box;
 }
 
 /// Work groups of viewer_difference.comp.
@@ -106,7 +114,7 @@ void FrameRenderer::fill_screen() const {
 GeometryPass FrameRenderer::geometry_pass(const GpuModel& model, const DrawSettings& settings,
                                           const FrameView& view) const {
     const float aspect = static_cast<float>(size_.width) / static_cast<float>(size_.height);
-    return {.view_projection = prt::view_projection(view.camera, model.model().box, aspect),
+    return {.view_projection = prt::view_projection(view.camera, box_of(model, view), aspect),
             .eye = view.camera.position,
             .culling = settings.culling,
             .textured = settings.textured,
@@ -137,7 +145,9 @@ void FrameRenderer::draw(int index, PictureKind kind, GpuModel& model, const Dra
     side.shows_image = false;
     const bool numbers = shows_numbers(kind);
     const GeometryPass pass = geometry_pass(model, settings, view);
-    model.draw_shadows(kind, {view.camera, size_.width, size_.height});
+    const bool moves = view.moving && view.moving->shows_anything() && !numbers;
+    model.draw_shadows(kind, {view.camera, size_.width, size_.height},
+                       moves ? view.moving->casters() : prt::SunShadows::Moving());
     clear(side, kind, columns);
     if (settings.background && view.background && !numbers)
         draw_background(side, view);
@@ -149,11 +159,23 @@ void FrameRenderer::draw(int index, PictureKind kind, GpuModel& model, const Dra
         glBindFramebuffer(GL_FRAMEBUFFER, side.framebuffer.name());
         model.draw_opaque(kind, pass);
     }
+    if (moves)
+        draw_moving(model, pass, view);
     model.draw_blended(kind, pass);
     if (settings.wireframe)
         model.draw_wires(pass, glm::vec3(numbers ? 0.1f : 0.15f / view.exposure));
     glDisable(GL_SCISSOR_TEST);
     prt::check_gl("drawing");
+}
+
+void FrameRenderer::draw_moving(const GpuModel& model, const GeometryPass& pass,
+                                const FrameView& view) const {
+    model.use_shadows();
+    view.moving->draw({.view_projection = pass.view_projection,
+                       .eye = pass.eye,
+                       .textured = pass.textured,
+                       .exposure = view.exposure,
+                       .irradiance = model.irradiance()});
 }
 
 void FrameRenderer::draw_texel_grid(int index, PictureKind kind, GpuModel& model,
@@ -209,7 +231,7 @@ void FrameRenderer::draw_deferred(int index, PictureKind kind, GpuModel& model, 
 void FrameRenderer::draw_ssao(const Side& side, PictureKind kind, const SsaoSettings& settings,
                               const FrameView& view, const GpuModel& model) const {
     const float aspect = static_cast<float>(size_.width) / static_cast<float>(size_.height);
-    const glm::mat4 matrix = prt::view_projection(view.camera, model.model().box, aspect),
+    const glm::mat4 matrix = prt::view_projection(view.camera, box_of(model, view), aspect),
                     inverse(glm::inverse(glm::dmat4(matrix)));
     const glm::vec3 forward(prt::camera_frame(view.camera).forward);
     glBindTextureUnit(PRT_UNIT_GBUFFER_NORMAL, gbuffer_.normal.name());

@@ -3,6 +3,7 @@
 // Draws pictures of a model into textures, linear and half precision, and puts them on the screen.
 
 #include "pictures/gpu_model.h"
+#include "pictures/moving_stage.h"
 #include "pictures/settings.h"
 
 #include "prt/gl_scene.h"
@@ -17,6 +18,7 @@ struct FrameView {
     float exposure = 1;
     const prt::GlObject* background = nullptr; ///< lat-long; null: black
     float background_rotation = 0;             ///< radians
+    MovingStage* moving = nullptr;             ///< null: nothing moves
 };
 
 /// How two pictures differ over the pixels where both show a surface.
@@ -95,6 +97,7 @@ private:
     void scissor(const Columns& columns) const;
     void clear(const Side& side, PictureKind kind, const Columns& columns) const;
     void draw_background(const Side& side, const FrameView& view) const;
+    void draw_moving(const GpuModel& model, const GeometryPass& pass, const FrameView& view) const;
     void draw_deferred(int side, PictureKind kind, GpuModel& model, const DrawSettings& settings,
                        const FrameView& view) const;
     void draw_ssao(const Side& side, PictureKind kind, const SsaoSettings& settings, const FrameView& view,

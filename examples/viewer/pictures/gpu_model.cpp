@@ -198,12 +198,18 @@ bool GpuModel::takes_suns_as_sky(PictureKind kind) const {
            !prt::has_light_set(*layout);
 }
 
-void GpuModel::draw_shadows(PictureKind kind, const prt::SunShadows::View& view) {
-    if (!shows_suns(kind))
+void GpuModel::draw_shadows(PictureKind kind, const prt::SunShadows::View& view,
+                            const prt::SunShadows::Moving& moving) {
+    if (!shows_suns(kind) && (!moving.draw || lit_.suns.empty()))
         return;
     if (!shadows_)
         shadows_.emplace(scene_);
-    shadows_->draw(lit_.suns, view);
+    shadows_->draw(lit_.suns, view, moving);
+}
+
+void GpuModel::use_shadows() const {
+    if (shadows_)
+        shadows_->use();
 }
 
 bool GpuModel::can_draw(PictureKind kind) const {

@@ -58,7 +58,12 @@ public:
     double seconds_constants() const { return compressed_ ? compressed_->seconds_constants : 0; }
 
     /// Draws shadow maps for what is seen, where `kind` needs them; before what is drawn of that.
-    void draw_shadows(PictureKind kind, const prt::SunShadows::View& view);
+    void draw_shadows(PictureKind kind, const prt::SunShadows::View& view) { draw_shadows(kind, view, {}); }
+    /// The same with what moves, which is lit by suns whatever the picture.
+    void draw_shadows(PictureKind kind, const prt::SunShadows::View& view,
+                      const prt::SunShadows::Moving& moving);
+    /// Binds the maps that were drawn last, where there are any.
+    void use_shadows() const;
     void draw_opaque(PictureKind kind, const GeometryPass& pass);
     /// Always forward.
     void draw_blended(PictureKind kind, const GeometryPass& pass);

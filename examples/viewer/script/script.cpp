@@ -3,6 +3,7 @@
 #include "script/script.h"
 
 #include "gpu/offscreen.h"
+#include "script/figure_step.h"
 #include "script/figures_json.h"
 #include "script/lamp_step.h"
 #include "ui/commands.h"
@@ -236,6 +237,18 @@ void set_lamps(Player& player, const Json& json) {
     set_strengths(player.viewer->settings.lit.lamps.each, json);
 }
 
+/// Opens a figure, says how it moves, and lets it walk for some seconds at once.
+void set_figure(Player& player, const Json& json) {
+    Viewer& viewer = *player.viewer;
+    if (json.contains("file")) {
+        viewer.open_figure(player.path(json.at("file")));
+        player.wait([&] { return !viewer.jobs().busy(JobKind::figure); }, "the figure");
+        player.fail_on_message();
+    }
+    viewer.choose_figure(figure_choice(json));
+    viewer.walk_figure(json.value("seconds", 0.0));
+}
+
 void compress(Player& player, const Json& json) {
     take(json, "order", player.viewer->compression.order);
     take(json, "clusters", player.viewer->compression.clusters);
@@ -379,6 +392,7 @@ constexpr Step kSteps[] = {{"size", set_size},
                            {"no_sky", remove_sky},
                            {"light", add_light},
                            {"lamps", set_lamps},
+                           {"figure", set_figure},
                            {"compress", compress},
                            {"press", press},
                            {"move", move},

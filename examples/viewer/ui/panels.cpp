@@ -281,6 +281,28 @@ void transfer_panel(Viewer& viewer) {
     figure_lines(viewer.figures());
 }
 
+std::string volume_words(const Viewer& viewer) {
+    const FoundVolume& found = viewer.document().moving.volume();
+    if (!found.volume)
+        return "none yet";
+    const std::string probes = fmt::format("{} probes", found.volume->sights.size());
+    return found.rays > 0 ? fmt::format("{}, {} rays", probes, found.rays) : probes;
+}
+
+void moving_panel(Viewer& viewer) {
+    const bool there = viewer.document().moving.figure() != nullptr;
+    ImGui::BeginDisabled(!there);
+    controls(viewer.settings, {"figure", "walks"});
+    controls(viewer.settings, {"walk_speed"});
+    ImGui::EndDisabled();
+    say_why_disabled(there ? "" : "drop an animated model beside the scene");
+    controls(viewer.settings, {"spheres", "probes"});
+    if (viewer.jobs().busy(JobKind::volume))
+        ImGui::ProgressBar(static_cast<float>(viewer.jobs().share(JobKind::volume)), {-1, 0},
+                           viewer.jobs().label(JobKind::volume).c_str());
+    line("volume", volume_words(viewer), "What lights all that moves.");
+}
+
 void lobe_panel(const Viewer& viewer) {
     const auto& hovered = viewer.hovered();
     if (!hovered)
@@ -360,6 +382,8 @@ void draw_panels(Viewer& viewer) {
                 lamp_panel(viewer);
             if (ImGui::CollapsingHeader("Transfer", ImGuiTreeNodeFlags_DefaultOpen))
                 transfer_panel(viewer);
+            if (viewer.document().model() && ImGui::CollapsingHeader("What moves"))
+                moving_panel(viewer);
             if (viewer.document().model() && ImGui::CollapsingHeader("Budget"))
                 budget_panel(viewer);
             if (viewer.settings.lobe)

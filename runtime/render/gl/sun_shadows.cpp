@@ -7,6 +7,7 @@
 #include "prt/support/error.h"
 
 #include <epoxy/gl.h>
+#include <glm/common.hpp>
 
 #include <algorithm>
 #include <bit>
@@ -85,13 +86,17 @@ void SunShadows::resize(int size, int count) {
     size_ = size;
 }
 
-void SunShadows::draw(std::span<const SunDisc> discs, const View& view) {
+void SunShadows::draw(std::span<const SunDisc> discs, const View& view, const Moving& moving) {
     if (discs.size() > kMostShadowedSuns)
         throw Error("OpenGL casts shadows of at most " + std::to_string(kMostShadowedSuns) + " suns, not " +
                     std::to_string(discs.size()));
-    if (size_ > 0 && view == view_ && std::ranges::equal(discs, drawn_, same))
+    if (size_ > 0 && view == drawn_.view && moving.version == drawn_.moved &&
+        std::ranges::equal(discs, drawn_.suns, same))
         return;
-    const SeenScene seen{view.camera, view.width, view.height, box_};
+    Bounds box = box_;
+    if (moving.draw)
+        box = {glm::min(box.low, moving.box.low), glm::max(box.high, moving.box.high)};
+    const SeenScene seen{view.camera, view.width, view.height, box};
     const std::vector<Slice> slices = slices_of(seen);
     const int size = size_of_maps(discs, slices, seen, largest_map_);
     suns::SunsSeen data{};
@@ -115,13 +120,12 @@ void SunShadows::draw(std::span<const SunDisc> discs, const View& view) {
     resize(size, std::max(1, static_cast<int>(discs.size() * slices.size())));
     glNamedBufferSubData(suns_.name(), 0, sizeof(data), &data);
     for (const int map : drawn)
-        draw_map(map);
-    drawn_.assign(discs.begin(), discs.end());
-    view_ = view;
+        draw_map(map, moving);
+    drawn_ = {{discs.begin(), discs.end()}, view, moving.version};
     check_gl("shadow maps");
 }
 
-void SunShadows::draw_map(int map) const {
+void SunShadows::draw_map(int map, const Moving& moving) const {
     constexpr float kFar = 1;
     const GLuint framebuffer = maps_.framebuffer.name();
     glNamedFramebufferTextureLayer(framebuffer, GL_DEPTH_ATTACHMENT, maps_.depth.name(), 0, map);
@@ -137,8 +141,17 @@ void SunShadows::draw_map(int map) const {
     glDepthMask(GL_TRUE);
     glClearNamedFramebufferfv(framebuffer, GL_DEPTH, 0, &kFar);
     draw_blocking(blocking_, map);
+    if (moving.draw) {
+        bind_storage(PRT_BINDING_SUNS, suns_);
+        moving.draw(map, size_);
+    }
     if (layered_)
         draw_partly_blocking(map);
+}
+
+void SunShadows::set_map(const GlObject& program, int map, int size) {
+    glUniform1i(uniform(program, "map"), map);
+    set_uniform(program, "map_size", static_cast<float>(size));
 }
 
 /// Those casters that `program` is for.
@@ -146,8 +159,7 @@ void SunShadows::draw_blocking(const GlObject& program, int map) const {
     const Blocking drawn = &program == &blocking_ ? Blocking::all : Blocking::part;
     glUseProgram(program.name());
     bind_storage(PRT_BINDING_SUNS, suns_);
-    glUniform1i(uniform(program, "map"), map);
-    set_uniform(program, "map_size", static_cast<float>(size_));
+    set_map(program, map, size_);
     const std::vector<Primitive>& primitives = scene_.scene().primitives;
     for (std::size_t p = 0; p < primitives.size(); ++p)
         if (scene_.blocking(primitives[p]) == drawn)

@@ -4,12 +4,14 @@
 #include "flat_normals.h"
 #include "gltf/accessor.h"
 #include "gltf/contents.h"
+#include "gltf/extraction.h"
 #include "gltf/lights.h"
 #include "gltf/material.h"
 #include "gltf/node_transforms.h"
 #include "gltf/scene_size.h"
 #include "gltf/shared_vertices.h"
 #include "gltf/skinning.h"
+#include "gltf/transformed_normal.h"
 #include "gltf/triangles.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
@@ -107,21 +109,11 @@ void apply_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive
     }
 }
 
-/// Normals transform with the cofactors of the matrix: its inverse transposed, times the determinant, which
-/// also exists where the inverse does not.
-glm::dmat3 cofactors(const glm::dmat3& m) {
-    return {glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1])};
-}
-
-glm::vec3 transformed_normal(const glm::vec3& normal, const glm::dmat4& matrix) {
-    const glm::dmat3 linear(matrix);
-    const double side = glm::determinant(linear) < 0 ? -1 : 1;
-    return unit_or_zero(side * (cofactors(linear) * glm::dvec3(normal)));
-}
-
 class SceneExtractor {
 public:
-    explicit SceneExtractor(const GltfContents& contents) : contents_(contents), model_(contents.model) {
+    SceneExtractor(const GltfContents& contents, Keep keep)
+        : contents_(contents), model_(contents.model), keep_(keep),
+          world_(model_.nodes.size(), glm::dmat4(1)) {
         for (std::size_t i = 0; i < contents.images.size(); ++i) {
             const tinygltf::Image& image = model_.images[i];
             const std::string name = !image.uri.empty() ? image.uri : image.name;
@@ -133,11 +125,13 @@ public:
         scene_.notices = contents.notices;
     }
 
-    Scene extract() {
+    Extraction extract() {
         const std::vector<NodeTransform> nodes = world_transforms(model_);
         check_scene_size(model_, nodes, contents_.file_bytes);
         for (const NodeTransform& node : nodes)
-            add_node(node, nodes);
+            world_[static_cast<std::size_t>(node.node)] = node.world;
+        for (const NodeTransform& node : nodes)
+            add_node(node);
         if (scene_.triangles() == 0)
             throw Error("the scene has no triangles");
         place_about_middle();
@@ -149,16 +143,16 @@ public:
             vertices.first_receiver = first;
             first += vertices.size();
         }
-        return std::move(scene_);
+        return {std::move(scene_), std::move(moving_), std::move(skins_)};
     }
 
 private:
-    void add_node(const NodeTransform& transform, const std::vector<NodeTransform>& all) {
+    void add_node(const NodeTransform& transform) {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(transform.node)];
         if (node.mesh < 0)
             return;
         if (!transform.visible) {
-            ++hidden_nodes_;
+            ++seen_.hidden_nodes;
             return;
         }
         if (static_cast<std::size_t>(node.mesh) >= model_.meshes.size())
@@ -167,12 +161,18 @@ private:
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
         for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
             try {
-                add_primitive(transform, all, static_cast<int>(i));
+                add_primitive(transform, static_cast<int>(i));
             } catch (const Error& error) {
                 throw Error("mesh " + std::to_string(node.mesh) + " primitive " + std::to_string(i) + ": " +
                             error.what());
             }
         }
+    }
+
+    const Skin& skin_of(int index) {
+        const auto found = skins_.find(index);
+        return found != skins_.end() ? found->second
+                                     : skins_.emplace(index, read_skin(model_, index)).first->second;
     }
 
     bool has_vertices(const tinygltf::Primitive& file) const {
@@ -181,12 +181,12 @@ private:
         return position >= 0 && (index >= model_.accessors.size() || model_.accessors[index].count > 0);
     }
 
-    void add_primitive(const NodeTransform& transform, const std::vector<NodeTransform>& all, int index) {
+    void add_primitive(const NodeTransform& transform, int index) {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(transform.node)];
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(node.mesh)];
         const tinygltf::Primitive& file = mesh.primitives[static_cast<std::size_t>(index)];
         if (!is_triangle_mode(file.mode) || !has_vertices(file)) {
-            ++skipped_primitives_;
+            ++seen_.skipped_primitives;
             return;
         }
         Primitive primitive{transform.node, node.mesh, index, 0, material_index(file.material), false, {}};
@@ -196,7 +196,7 @@ private:
             shared_.of(transform.node, alone, file, scene_.vertex_arrays.size());
         primitive.vertices = vertices_of;
         if (is_new)
-            add_vertices(transform, all, file, mesh);
+            add_vertices(transform, file, mesh);
         VertexArray& vertices = scene_.vertex_arrays[primitive.vertices];
 
         primitive.triangles = read_triangles(model_, file, vertices.size());
@@ -207,8 +207,8 @@ private:
         scene_.primitives.push_back(std::move(primitive));
     }
 
-    void add_vertices(const NodeTransform& node_transform, const std::vector<NodeTransform>& all,
-                      const tinygltf::Primitive& file, const tinygltf::Mesh& mesh) {
+    void add_vertices(const NodeTransform& node_transform, const tinygltf::Primitive& file,
+                      const tinygltf::Mesh& mesh) {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(node_transform.node)];
         VertexArray vertices;
         vertices.positions = read_vectors<glm::vec3>(model_, attribute(file, "POSITION"));
@@ -216,28 +216,34 @@ private:
             vertices.normals = read_vectors<glm::vec3>(model_, normals);
             check_count(vertices.normals.size(), vertices.size(), "NORMAL");
         }
-        bad_texcoords_ += read_texcoords(model_, file, vertices);
+        seen_.bad_texcoords += read_texcoords(model_, file, vertices);
         read_colors(model_, file, vertices);
         for (glm::vec4& color : vertices.colors)
             range_.clamp(color, "COLOR_0 of vertices");
-        has_morphs_ |= !file.targets.empty();
+        seen_.has_morphs |= !file.targets.empty();
         apply_morph_targets(model_, file, node.weights.empty() ? mesh.weights : node.weights, vertices);
 
-        std::vector<glm::dmat4> skin;
+        MovingVertices moving{static_cast<std::size_t>(node_transform.node), node.skin, {}, {}, 1, {}, {}};
+        std::vector<glm::dmat4> palette = {node_transform.world};
         if (node.skin >= 0) {
-            if (!joints_.contains(node.skin))
-                joints_[node.skin] = joint_matrices(model_, node.skin, all);
-            skin = skin_matrices(model_, joints_[node.skin], file, vertices.size());
+            const Skin& skin = skin_of(node.skin);
+            palette = joint_palette(skin, world_);
+            read_influences(model_, file, skin.joints.size(), vertices.size(), moving);
         }
         std::vector<glm::dvec3> places;
         places.reserve(vertices.size());
+        if (keep_ == Keep::moving)
+            moving.positions = vertices.positions, moving.normals = vertices.normals;
         for (std::size_t i = 0; i < vertices.size(); ++i) {
-            const glm::dmat4& matrix = skin.empty() ? node_transform.world : skin[i];
+            const glm::dmat4 matrix =
+                node.skin < 0 ? node_transform.world : vertex_matrix(palette, moving, i);
             places.emplace_back(matrix * glm::dvec4(vertices.positions[i], 1));
             check_place(places[i], i);
             if (!vertices.normals.empty())
                 vertices.normals[i] = transformed_normal(vertices.normals[i], matrix);
         }
+        if (keep_ == Keep::moving)
+            moving_.push_back(std::move(moving));
         places_.push_back(std::move(places));
         scene_.vertex_arrays.push_back(std::move(vertices));
     }
@@ -266,7 +272,7 @@ private:
             if (!vertices.normals.empty())
                 continue;
             split_for_flat_normals(vertices, primitive.triangles);
-            ++flat_primitives_;
+            ++seen_.flat_primitives;
         }
     }
 
@@ -279,21 +285,21 @@ private:
     }
 
     void add_notices() {
-        if (!joints_.empty())
+        if (!skins_.empty())
             scene_.notices.emplace_back("skinned meshes are taken in the pose of the file");
-        if (has_morphs_)
+        if (seen_.has_morphs)
             scene_.notices.emplace_back("morph targets are taken at the weights of the file");
-        if (flat_primitives_ > 0)
-            scene_.notices.emplace_back(std::to_string(flat_primitives_) +
+        if (seen_.flat_primitives > 0)
+            scene_.notices.emplace_back(std::to_string(seen_.flat_primitives) +
                                         " primitives have no normals and get flat ones");
-        if (skipped_primitives_ > 0)
-            scene_.notices.emplace_back(std::to_string(skipped_primitives_) +
+        if (seen_.skipped_primitives > 0)
+            scene_.notices.emplace_back(std::to_string(seen_.skipped_primitives) +
                                         " primitives of points, lines or nothing are left as they are");
-        if (hidden_nodes_ > 0)
-            scene_.notices.emplace_back(std::to_string(hidden_nodes_) +
+        if (seen_.hidden_nodes > 0)
+            scene_.notices.emplace_back(std::to_string(seen_.hidden_nodes) +
                                         " meshes are hidden (KHR_node_visibility) and left out");
-        if (bad_texcoords_ > 0)
-            scene_.notices.emplace_back(std::to_string(bad_texcoords_) +
+        if (seen_.bad_texcoords > 0)
+            scene_.notices.emplace_back(std::to_string(seen_.bad_texcoords) +
                                         " texture coordinates are not finite and become 0");
         if (!range_.notice().empty())
             scene_.notices.push_back(range_.notice());
@@ -304,22 +310,34 @@ private:
                                         " vertices have no usable normal and get that of their triangles");
     }
 
+    /// What a user should know of.
+    struct Seen {
+        std::size_t flat_primitives = 0, skipped_primitives = 0, hidden_nodes = 0, bad_texcoords = 0;
+        bool has_morphs = false;
+    };
+
     const GltfContents& contents_;
     const tinygltf::Model& model_;
+    Keep keep_;
     Scene scene_;
     std::vector<std::vector<glm::dvec3>> places_; ///< [vertex arrays][vertices] in the world
     SharedVertices shared_;
-    std::map<int, std::vector<glm::dmat4>> joints_; ///< of skins
+    std::map<int, Skin> skins_;
+    std::vector<glm::dmat4> world_; ///< [nodes]
+    std::vector<MovingVertices> moving_;
     UnitRange range_;
-    std::size_t flat_primitives_ = 0, skipped_primitives_ = 0, hidden_nodes_ = 0, bad_texcoords_ = 0;
-    bool has_morphs_ = false;
+    Seen seen_;
 };
 
 } // namespace
 
+Extraction extract(const GltfContents& contents, Keep keep) {
+    return SceneExtractor(contents, keep).extract();
+}
+
 Scene extract_scene(const GltfDocument& document) {
     try {
-        return SceneExtractor(document.contents()).extract();
+        return extract(document.contents(), Keep::scene).scene;
     } catch (const std::exception& error) { // ours, and what the standard library throws
         throw Error(document.contents().path.string() + ": " + in_plain_words(error));
     }

@@ -12,18 +12,17 @@
 namespace prt {
 namespace {
 
-glm::dmat4 local_transform(const tinygltf::Node& node) {
+LocalPose local_pose(const tinygltf::Node& node) {
+    LocalPose pose;
     if (node.matrix.size() == 16)
-        return glm::make_mat4(node.matrix.data());
-    glm::dmat4 local(1);
+        pose.matrix = glm::make_mat4(node.matrix.data());
     if (node.translation.size() == 3)
-        local = glm::translate(local, glm::make_vec3(node.translation.data()));
+        pose.translation = glm::make_vec3(node.translation.data());
     if (node.rotation.size() == 4)
-        local *= glm::mat4_cast(glm::normalize(
-            glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2])));
+        pose.rotation = glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
     if (node.scale.size() == 3)
-        local = glm::scale(local, glm::make_vec3(node.scale.data()));
-    return local;
+        pose.scale = glm::make_vec3(node.scale.data());
+    return pose;
 }
 
 bool is_visible(const tinygltf::Node& node) {
@@ -53,24 +52,57 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
 
 } // namespace
 
-std::vector<NodeTransform> world_transforms(const tinygltf::Model& model) {
-    std::vector<NodeTransform> result;
+glm::dmat4 LocalPose::transform() const {
+    if (matrix)
+        return *matrix;
+    const glm::dmat4 turned =
+        glm::translate(glm::dmat4(1), translation) * glm::mat4_cast(glm::normalize(rotation));
+    return glm::scale(turned, scale);
+}
+
+NodeTree node_tree(const tinygltf::Model& model) {
+    NodeTree tree;
     std::vector<bool> visited(model.nodes.size(), false);
-    const auto add = [&](int node, const NodeTransform& parent) {
+    const auto add = [&](int node, int parent) {
         if (node < 0 || static_cast<std::size_t>(node) >= visited.size())
             throw Error("node " + std::to_string(node) + " is not there");
         if (visited[static_cast<std::size_t>(node)])
             throw Error("node " + std::to_string(node) + " has two parents or is its own ancestor");
         visited[static_cast<std::size_t>(node)] = true;
-        const tinygltf::Node& file = model.nodes[static_cast<std::size_t>(node)];
-        result.push_back({node, parent.world * local_transform(file), parent.visible && is_visible(file)});
+        tree.order.push_back({node, parent});
     };
     for (const int root : root_nodes(model))
-        add(root, {});
-    for (std::size_t i = 0; i < result.size(); ++i) {
-        const NodeTransform parent = result[i];
-        for (const int child : model.nodes[static_cast<std::size_t>(parent.node)].children)
+        add(root, -1);
+    for (std::size_t i = 0; i < tree.order.size(); ++i) {
+        const int parent = tree.order[i].node;
+        for (const int child : model.nodes[static_cast<std::size_t>(parent)].children)
             add(child, parent);
+    }
+    for (const tinygltf::Node& node : model.nodes)
+        tree.poses.push_back(local_pose(node));
+    return tree;
+}
+
+std::vector<glm::dmat4> world_matrices(const NodeTree& tree, std::span<const LocalPose> poses) {
+    std::vector<glm::dmat4> world(poses.size(), glm::dmat4(1));
+    for (const NodeTree::Place& place : tree.order) {
+        const auto node = static_cast<std::size_t>(place.node);
+        const glm::dmat4 local = poses[node].transform();
+        world[node] = place.parent < 0 ? local : world[static_cast<std::size_t>(place.parent)] * local;
+    }
+    return world;
+}
+
+std::vector<NodeTransform> world_transforms(const tinygltf::Model& model) {
+    const NodeTree tree = node_tree(model);
+    const std::vector<glm::dmat4> world = world_matrices(tree, tree.poses);
+    std::vector<bool> visible(model.nodes.size(), true);
+    std::vector<NodeTransform> result;
+    for (const NodeTree::Place& place : tree.order) {
+        const auto node = static_cast<std::size_t>(place.node);
+        visible[node] = (place.parent < 0 || visible[static_cast<std::size_t>(place.parent)]) &&
+                        is_visible(model.nodes[node]);
+        result.push_back({place.node, world[node], visible[node]});
     }
     return result;
 }

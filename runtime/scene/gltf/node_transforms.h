@@ -1,11 +1,40 @@
 #pragma once
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <tiny_gltf.h>
 
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace prt {
+
+/// Where a node is against its parent.
+struct LocalPose {
+    glm::dvec3 translation{0};
+    glm::dquat rotation{1, 0, 0, 0};
+    glm::dvec3 scale{1};
+    std::optional<glm::dmat4> matrix; ///< instead
+
+    glm::dmat4 transform() const;
+};
+
+/// The nodes of a scene, parents before children.
+struct NodeTree {
+    struct Place {
+        int node, parent; ///< -1: a root
+    };
+    std::vector<Place> order;
+    std::vector<LocalPose> poses; ///< [nodes of the file]
+};
+
+/// Of the default scene (or the first; of all root nodes where there is no scene). Throws `Error` when the
+/// hierarchy is no tree.
+NodeTree node_tree(const tinygltf::Model& model);
+
+/// [nodes of the file]; the identity for those of no scene. `poses` as `tree` has them.
+std::vector<glm::dmat4> world_matrices(const NodeTree& tree, std::span<const LocalPose> poses);
 
 struct NodeTransform {
     int node = 0;
@@ -13,8 +42,7 @@ struct NodeTransform {
     bool visible = true; ///< KHR_node_visibility, of the node and all above it
 };
 
-/// World transforms of the nodes of the default scene (or the first; of all root nodes where there is no
-/// scene), parents before children. Throws `Error` when the hierarchy is no tree.
+/// World transforms of the nodes of `node_tree`, in its order.
 std::vector<NodeTransform> world_transforms(const tinygltf::Model& model);
 
 } // namespace prt

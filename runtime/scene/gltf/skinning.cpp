@@ -1,4 +1,4 @@
-// Skins and morph targets in the pose of the file (glTF 2.0, section 3.7.3).
+// Skins (glTF 2.0, section 3.7.3).
 #include "gltf/skinning.h"
 
 #include "gltf/accessor.h"
@@ -6,65 +6,110 @@
 
 #include <glm/gtc/type_ptr.hpp>
 
+#include <algorithm>
 #include <string>
 
 namespace prt {
+namespace {
 
-std::vector<glm::dmat4> joint_matrices(const tinygltf::Model& model, int skin_index,
-                                       const std::vector<NodeTransform>& nodes) {
-    if (static_cast<std::size_t>(skin_index) >= model.skins.size())
-        throw Error("skin " + std::to_string(skin_index) + " is not there");
-    const tinygltf::Skin& skin = model.skins[static_cast<std::size_t>(skin_index)];
-    std::vector<glm::dmat4> world(model.nodes.size(), glm::dmat4(1));
-    for (const NodeTransform& node : nodes)
-        world[static_cast<std::size_t>(node.node)] = node.world;
-    std::vector<float> inverse_bind;
-    if (skin.inverseBindMatrices >= 0)
-        inverse_bind = read_floats(model, skin.inverseBindMatrices, 16);
-    std::vector<glm::dmat4> joints;
-    for (std::size_t j = 0; j < skin.joints.size(); ++j) {
-        const int node = skin.joints[j];
-        if (node < 0 || static_cast<std::size_t>(node) >= world.size())
-            throw Error("a joint of its skin is not there");
-        glm::dmat4 matrix = world[static_cast<std::size_t>(node)];
-        if ((j + 1) * 16 <= inverse_bind.size())
-            matrix *= glm::dmat4(glm::make_mat4(&inverse_bind[j * 16]));
-        joints.push_back(matrix);
+/// Writes set `set` of joints and weights between those of the others.
+void read_set(const tinygltf::Model& model, std::span<const int> accessors, std::size_t set,
+              std::size_t joints, MovingVertices& moving) {
+    const auto indices = read_unsigned(model, accessors[0], 4);
+    const auto weights = read_floats(model, accessors[1], 4);
+    const std::size_t numbers = moving.weights.size() / moving.influences * 4;
+    if (indices.size() != numbers || weights.size() != numbers)
+        throw Error("JOINTS or WEIGHTS have another number of elements than POSITION");
+    for (std::size_t i = 0; i < numbers; ++i) {
+        if (weights[i] == 0)
+            continue;
+        if (indices[i] >= joints)
+            throw Error("joint " + std::to_string(indices[i]) + " is beyond the " + std::to_string(joints) +
+                        " of its skin");
+        const std::size_t at = i / 4 * moving.influences + 4 * set + i % 4;
+        moving.matrices[at] = indices[i];
+        moving.weights[at] = weights[i];
     }
-    return joints;
 }
 
-std::vector<glm::dmat4> skin_matrices(const tinygltf::Model& model, const std::vector<glm::dmat4>& joints,
-                                      const tinygltf::Primitive& primitive, std::size_t vertices) {
-    std::vector<glm::dmat4> matrices(vertices, glm::dmat4(0));
-    std::vector<double> totals(vertices, 0);
+/// Accessors of the sets of joints and weights, two each.
+std::vector<int> influence_accessors(const tinygltf::Primitive& primitive) {
+    std::vector<int> accessors;
     for (int set = 0;; ++set) {
-        const auto joints_attribute = primitive.attributes.find("JOINTS_" + std::to_string(set));
-        const auto weights_attribute = primitive.attributes.find("WEIGHTS_" + std::to_string(set));
-        if (joints_attribute == primitive.attributes.end() || weights_attribute == primitive.attributes.end())
-            break;
-        const auto indices = read_unsigned(model, joints_attribute->second, 4);
-        const auto weights = read_floats(model, weights_attribute->second, 4);
-        if (indices.size() != 4 * vertices || weights.size() != 4 * vertices)
-            throw Error("JOINTS or WEIGHTS have another number of elements than POSITION");
-        for (std::size_t i = 0; i < weights.size(); ++i) {
-            const double weight = weights[i];
-            if (weight == 0)
-                continue;
-            if (indices[i] >= joints.size())
-                throw Error("joint " + std::to_string(indices[i]) + " is beyond the " +
-                            std::to_string(joints.size()) + " of its skin");
-            matrices[i / 4] += weight * joints[indices[i]];
-            totals[i / 4] += weight;
-        }
+        const auto joints = primitive.attributes.find("JOINTS_" + std::to_string(set));
+        const auto weights = primitive.attributes.find("WEIGHTS_" + std::to_string(set));
+        if (joints == primitive.attributes.end() || weights == primitive.attributes.end())
+            return accessors;
+        accessors.insert(accessors.end(), {joints->second, weights->second});
     }
+}
+
+} // namespace
+
+Skin read_skin(const tinygltf::Model& model, int index) {
+    if (index < 0 || static_cast<std::size_t>(index) >= model.skins.size())
+        throw Error("skin " + std::to_string(index) + " is not there");
+    const tinygltf::Skin& file = model.skins[static_cast<std::size_t>(index)];
+    std::vector<float> inverse_bind;
+    if (file.inverseBindMatrices >= 0)
+        inverse_bind = read_floats(model, file.inverseBindMatrices, 16);
+    Skin skin;
+    for (std::size_t j = 0; j < file.joints.size(); ++j) {
+        const int node = file.joints[j];
+        if (node < 0 || static_cast<std::size_t>(node) >= model.nodes.size())
+            throw Error("joint " + std::to_string(j) + " of skin " + std::to_string(index) + " is node " +
+                        std::to_string(node) + ", which is not there");
+        skin.joints.push_back(static_cast<std::size_t>(node));
+        skin.inverse_bind.push_back((j + 1) * 16 <= inverse_bind.size()
+                                        ? glm::dmat4(glm::make_mat4(&inverse_bind[j * 16]))
+                                        : glm::dmat4(1));
+    }
+    return skin;
+}
+
+std::vector<glm::dmat4> joint_palette(const Skin& skin, std::span<const glm::dmat4> world) {
+    std::vector<glm::dmat4> palette;
+    for (std::size_t j = 0; j < skin.joints.size(); ++j)
+        palette.push_back(world[skin.joints[j]] * skin.inverse_bind[j]);
+    palette.emplace_back(1);
+    return palette;
+}
+
+void read_influences(const tinygltf::Model& model, const tinygltf::Primitive& primitive, std::size_t joints,
+                     std::size_t vertices, MovingVertices& moving) {
+    const std::vector<int> accessors = influence_accessors(primitive);
+    moving.influences = std::max<std::size_t>(1, 2 * accessors.size());
+    moving.matrices.assign(vertices * moving.influences, 0);
+    moving.weights.assign(vertices * moving.influences, 0);
+    for (std::size_t set = 0; 2 * set < accessors.size(); ++set)
+        read_set(model, std::span(accessors).subspan(2 * set, 2), set, joints, moving);
     for (std::size_t i = 0; i < vertices; ++i) {
-        if (totals[i] > 0)
-            matrices[i] /= totals[i];
-        else
-            matrices[i] = glm::dmat4(1);
+        const std::size_t first = i * moving.influences;
+        double total = 0;
+        for (std::size_t k = 0; k < moving.influences; ++k)
+            total += moving.weights[first + k];
+        if (total > 0)
+            continue;
+        for (std::size_t k = 0; k < moving.influences; ++k)
+            moving.weights[first + k] = k == 0 ? 1 : 0;
+        moving.matrices[first] = static_cast<std::uint32_t>(joints);
     }
-    return matrices;
+}
+
+glm::dmat4 vertex_matrix(std::span<const glm::dmat4> palette, const MovingVertices& moving,
+                         std::size_t vertex) {
+    if (moving.skin < 0)
+        return palette[0];
+    glm::dmat4 sum(0);
+    double total = 0;
+    for (std::size_t k = vertex * moving.influences; k < (vertex + 1) * moving.influences; ++k) {
+        const double weight = moving.weights[k];
+        if (weight == 0)
+            continue;
+        sum += weight * palette[moving.matrices[k]];
+        total += weight;
+    }
+    return sum / total;
 }
 
 } // namespace prt

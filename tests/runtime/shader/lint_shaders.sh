@@ -31,6 +31,8 @@ compiles() {
 
 packed=(PRT_COMPRESSED PRT_CONSTANTS_BUFFER "PRT_PACKED_WORDS 5" "PRT_CLUSTER_BITS 8")
 guides=(PRT_GUIDE_NORMAL PRT_GUIDE_POSITION "PRT_GUIDE_ORIGIN vec3(1.0, 2.0, 3.0)")
+volume=("PRT_VOLUME_ORDER 3" PRT_VOLUME_LINEAR "PRT_VOLUME_ORIGIN vec3(1.0)" "PRT_VOLUME_SPACING 0.5" "PRT_VOLUME_SIZE ivec3(2)"
+    "PRT_VOLUME_FIRST ivec4(0)" "PRT_VOLUME_BRICKS ivec3(2)")
 alike=("PRT_CLUSTER_ROWS 3" "PRT_SAME_WEIGHTS PRT_ADD(0u, PRT_BITS(8u, 16u)) PRT_ADD(1u, PRT_BITS(24u, 9u))")
 for file in *.vert *.frag *.comp; do
     case $file in
@@ -65,6 +67,17 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" "${packed[@]}"
             compiles "$file" "${packed[@]}" "${alike[@]}"
             compiles "$file" PRT_NORMALIZED_WORDS PRT_CONSTANTS_TEXTURE "PRT_TEXTURE_WIDTH 256" "PRT_PACKED_WORDS 1" "PRT_CLUSTER_BITS 8"
+            ;;
+        viewer_moving.* | viewer_probes.*)
+            for defines in PRT_VOLUME "PRT_VOLUME PRT_SUNS"; do
+                # shellcheck disable=SC2086
+                compiles "$file" "${volume[@]}" $defines
+            done
+            [[ $file == viewer_probes.* ]] || compiles "$file" PRT_SUNS
+            ;;
+        sun_caster.vert)
+            compiles "$file"
+            compiles "$file" PRT_SKINNED
             ;;
         scene.vert | viewer_*)
             compiles "$file"

@@ -5,6 +5,8 @@
 #include "prt/gl_scene.h"
 #include "prt/sun_disc.h"
 
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,10 +31,22 @@ public:
 
         friend bool operator==(const View&, const View&) = default;
     };
-    /// Draws the maps for what `view` sees, where suns or view are others than before. Changes the bound
-    /// framebuffer, the viewport and the program. Throws `Error` for more than kMostShadowedSuns and when
-    /// memory runs out.
-    void draw(std::span<const SunDisc> suns, const View& view);
+    /// What casts shadows beside the scene and moves.
+    struct Moving {
+        /// Draws both sides of all of it with a program of sun_caster.vert (and PRT_SKINNED), for map `map`
+        /// of `size` texels: `set_map` sets what the program is told of it. Nothing: none moves.
+        std::function<void(int map, int size)> draw;
+        Bounds box{};              ///< around all of it
+        std::uint64_t version = 0; ///< another one where it has moved
+    };
+    /// Tells `program`, which is in use, of the map that is drawn.
+    static void set_map(const GlObject& program, int map, int size);
+
+    /// Draws the maps for what `view` sees, where suns, view or what moves are others than before. Changes
+    /// the bound framebuffer, the viewport and the program. Throws `Error` for more than kMostShadowedSuns
+    /// and when memory runs out.
+    void draw(std::span<const SunDisc> suns, const View& view, const Moving& moving);
+    void draw(std::span<const SunDisc> suns, const View& view) { draw(suns, view, Moving()); }
 
     /// Binds all that the shaders read.
     void use() const;
@@ -45,7 +59,7 @@ private:
         int count = 0; ///< layers of the textures
     };
     void resize(int size, int count);
-    void draw_map(int map) const;
+    void draw_map(int map, const Moving& moving) const;
     void draw_blocking(const GlObject& program, int map) const;
     void draw_partly_blocking(int map) const;
 
@@ -57,8 +71,12 @@ private:
     GlObject blocking_, partly_; ///< programs
     Maps maps_;
     GlObject suns_;
-    std::vector<SunDisc> drawn_;
-    View view_{};
+    struct Drawn {
+        std::vector<SunDisc> suns;
+        View view{};
+        std::uint64_t moved = 0;
+    };
+    Drawn drawn_;
 };
 
 } // namespace prt

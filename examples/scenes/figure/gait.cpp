@@ -1,0 +1,148 @@
+// A walk by what is known of people's: feet stand for 60 % of a cycle, heel first and toes last; hips are
+// highest while one leg is straight below them, and turn with the legs; arms swing against them (Perry and
+// Burnfield, Gait Analysis, 2010).
+#include "figure/gait.h"
+
+#include "figure/pose.h"
+
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+#include <numbers>
+
+namespace examples::anatomy {
+namespace {
+
+constexpr float kSpeed = 1.15f; ///< metres per second
+constexpr float kPeriod = 1.1f; ///< seconds, for two steps
+constexpr float kStance = 0.6f; ///< of the cycle, from heel strike to toe off
+constexpr float kStride = kSpeed * kPeriod;
+constexpr float kStepAhead = 0.315f; ///< metres, of the flat foot's ankle before the hips as the heel strikes
+constexpr float kStrikePitch = 0.31f, kOffPitch = -0.84f; ///< radians
+constexpr float kFlatFrom = 0.10f, kFlatTo = 0.32f;       ///< of the cycle: the whole sole is on the ground
+constexpr float kHipsHeight = 0.914f, kBob = 0.014f, kSway = 0.018f; ///< metres
+constexpr float kFootAside = 0.082f;
+constexpr int kWalkKeys = 40, kIdleKeys = 16;
+constexpr float kIdlePeriod = 4;
+
+constexpr glm::vec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
+
+float wave(float phase) {
+    return std::cos(2 * std::numbers::pi_v<float> * phase);
+}
+
+/// From (0, a) to (1, b) with slopes `da` and `db`.
+float hermite(float a, float da, float b, float db, float t) {
+    const float t2 = t * t, t3 = t2 * t;
+    return (2 * t3 - 3 * t2 + 1) * a + (t3 - 2 * t2 + t) * da + (3 * t2 - 2 * t3) * b + (t3 - t2) * db;
+}
+
+/// How far the foot that stands is rolled, toes up.
+float stance_pitch(float phase) {
+    if (phase < kFlatFrom)
+        return hermite(kStrikePitch, -0.8f * kStrikePitch, 0, 0, phase / kFlatFrom);
+    if (phase <= kFlatTo)
+        return 0;
+    return hermite(0, 0, kOffPitch, 0.75f * kOffPitch, (phase - kFlatTo) / (kStance - kFlatTo));
+}
+
+/// The foot that stands: it rolls over its heel, then about the joint of its toes, which lie still.
+FootPlace stance(float phase) {
+    const float pitch = stance_pitch(phase);
+    const glm::vec2 pivot = pitch > 0 ? glm::vec2(0, -kHeelBehind) : glm::vec2(kBallHeight, kBallAhead);
+    const glm::vec2 ankle = glm::vec2(kAnkleHeight, 0) - pivot; // (height, ahead)
+    const glm::vec2 rolled(std::cos(pitch) * ankle.x + std::sin(pitch) * ankle.y,
+                           std::cos(pitch) * ankle.y - std::sin(pitch) * ankle.x);
+    const glm::vec2 place = pivot + rolled + glm::vec2(0, kStepAhead - kStride * phase);
+    return {place.x, place.y, pitch, std::max(-pitch, 0.0f)};
+}
+
+/// The foot in the air goes on as it left the ground, and comes down a little slower than the ground passes.
+FootPlace swing(float phase) {
+    constexpr float kStep = 1e-3f, kRetraction = 0.3f;
+    const float length = 1 - kStance, t = (phase - kStance) / length;
+    const FootPlace before = stance(kStance - kStep), off = stance(kStance), strike = stance(0),
+                    after = stance(kStep);
+    const auto between = [&](float FootPlace::*value, float slower) {
+        return hermite(off.*value, length * (off.*value - before.*value) / kStep, strike.*value,
+                       slower * length * (after.*value - strike.*value) / kStep, t);
+    };
+    return {between(&FootPlace::height, 1), between(&FootPlace::ahead, kRetraction),
+            between(&FootPlace::pitch, 1), between(&FootPlace::toe_bend, 1)};
+}
+
+FootPlace foot_place(float phase) {
+    phase -= std::floor(phase);
+    return phase <= kStance ? stance(phase) : swing(phase);
+}
+
+/// Arms hang closer to the body than at rest, swing forward by `forward` and bend by `bent`, radians.
+void place_arm(Pose& pose, Side side, float forward, float bent) {
+    constexpr float kCloser = 0.20f;
+    const auto arm = static_cast<std::size_t>(upper_arm(side));
+    pose.rotations[arm] = turn(-forward, kX) * turn(-sign_of(side) * kCloser, kZ);
+    pose.rotations[arm + 1] = turn(-bent, kX);
+    pose.rotations[arm + 2] = turn(sign_of(side) * -0.08f, kZ);
+}
+
+/// `phase` is that of the left leg.
+Pose walking(float phase) {
+    const float leg = wave(phase), aside = wave(phase - 0.3f);
+    const float yaw = glm::radians(-6.0f) * leg, roll = glm::radians(2.5f) * aside;
+    Pose pose;
+    pose.hips_position = {kSway * aside, kHipsHeight + kBob * wave(2 * (phase - 0.3f)), 0};
+    pose.rotations[hips] = turn(yaw, kY) * turn(roll, kZ);
+    // The chest turns against the hips, and the head looks ahead.
+    pose.rotations[spine] = turn(-roll, kZ) * turn(-0.85f * yaw, kY) * turn(glm::radians(3.0f), kX);
+    pose.rotations[chest] = turn(-0.85f * yaw, kY);
+    pose.rotations[neck] = turn(0.35f * yaw, kY) * turn(glm::radians(-1.5f), kX);
+    pose.rotations[head] = turn(0.35f * yaw, kY) * turn(glm::radians(-1.5f), kX);
+    for (const Side side : kSides) {
+        const float arm = wave(phase + (side == Side::left ? 0.5f : 0.0f));
+        place_arm(pose, side, glm::radians(3.0f + 23 * arm), glm::radians(24.0f + 12 * arm));
+        place_foot(pose, side, foot_place(phase + (side == Side::left ? 0.0f : 0.5f)), kFootAside);
+    }
+    return pose;
+}
+
+Pose standing(float phase) {
+    const float breath = wave(phase);
+    Pose pose;
+    pose.hips_position = joints()[hips].position;
+    pose.rotations[spine] = turn(glm::radians(0.6f) * breath, kX);
+    pose.rotations[chest] = turn(glm::radians(-1.2f) * breath, kX);
+    pose.rotations[head] =
+        turn(glm::radians(6.0f) * wave(phase - 0.25f), kY) * turn(glm::radians(0.6f) * breath, kX);
+    for (const Side side : kSides)
+        place_arm(pose, side, glm::radians(2.0f + breath), glm::radians(12.0f - breath));
+    return pose;
+}
+
+Movement movement_of(std::string name, Pose (*pose_at)(float phase), float period, int keys) {
+    Movement movement{std::move(name), {}, {}};
+    for (int joint = 0; joint < bone_count; ++joint)
+        movement.tracks.push_back({joint, {}});
+    for (int key = 0; key <= keys; ++key) {
+        const float phase = static_cast<float>(key) / static_cast<float>(keys);
+        const Pose pose = pose_at(key == keys ? 0 : phase); // it ends where it begins
+        movement.times.push_back(period * phase);
+        movement.tracks[hips].positions.push_back(pose.hips_position);
+        for (JointTrack& track : movement.tracks)
+            track.rotations.push_back(pose.rotations[static_cast<std::size_t>(track.joint)]);
+    }
+    return movement;
+}
+
+} // namespace
+
+Movement walk() {
+    Movement movement = movement_of("walk", walking, kPeriod, kWalkKeys);
+    movement.speed = kSpeed;
+    return movement;
+}
+
+Movement idle() {
+    return movement_of("idle", standing, kIdlePeriod, kIdleKeys);
+}
+
+} // namespace examples::anatomy

@@ -1,0 +1,82 @@
+#include "core/moving_work.h"
+
+#include "core/transfer_work.h"
+
+#include "prt/compress_volume.h"
+#include "prt/support/error.h"
+#include "prt/volume_bake.h"
+#include "prt/volume_gltf.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace viewer {
+namespace {
+
+/// A first light at once, then better ones.
+constexpr int kVolumeRays[] = {16, 128, 512};
+/// Of a bake of the viewer's own: seconds on a few cores.
+constexpr std::size_t kMostProbes = 3000;
+constexpr int kProbesOfCluster = 32, kMostClusters = 256;
+
+bool is_animated(const std::filesystem::path& path) {
+    return prt::has_animations(prt::load_gltf(path, {.missing_images = prt::MissingImages::ignore}));
+}
+
+std::shared_ptr<const prt::CompressedVolume> compressed(Channel& channel, const prt::BakedVolume& volume) {
+    channel.enter(Stage::compressing, "compressing the volume");
+    prt::CompressOptions options;
+    options.coding = prt::preset_volume();
+    options.clusters =
+        std::clamp(static_cast<int>(volume.sights.size()) / kProbesOfCluster, 1, kMostClusters);
+    return std::make_shared<const prt::CompressedVolume>(
+        prt::compress_volume(volume, options, channel.progress()).volume);
+}
+
+void bake_in_stages(Channel& channel, const std::shared_ptr<const Model>& model) {
+    for (const int rays : kVolumeRays) {
+        channel.enter(Stage::baking, fmt::format("baking the volume with {} rays", rays));
+        prt::BakeOptions options;
+        options.order = kBakeOrder;
+        options.rays = rays;
+        options.bounces = kBakeBounces;
+        options.repairs.bad_textures = prt::BadTextures::ignore;
+        const prt::VolumeOptions volume{.probes = kMostProbes};
+        const prt::VolumeBake bake = prt::bake_volume(model->scene, volume, options, channel.progress());
+        channel.post(FoundVolume{model, compressed(channel, bake.volume), rays});
+    }
+}
+
+} // namespace
+
+SortedFiles sort_files(const std::vector<std::filesystem::path>& paths, bool scene_open) {
+    SortedFiles sorted;
+    for (const std::filesystem::path& path : paths)
+        (is_animated(path) ? sorted.figures : sorted.scenes).push_back(path);
+    if (!scene_open && sorted.scenes.empty() && !sorted.figures.empty()) {
+        sorted.scenes.push_back(sorted.figures.front());
+        sorted.figures.erase(sorted.figures.begin());
+    }
+    return sorted;
+}
+
+FigureFile read_figure(const std::filesystem::path& path) {
+    return {path, std::make_shared<const prt::AnimatedScene>(prt::load_gltf(path))};
+}
+
+void find_volume(Channel& channel, const std::shared_ptr<const Model>& model) {
+    channel.enter(Stage::reading, "reading the volume");
+    const prt::GltfDocument document = prt::load_gltf(model->path);
+    const prt::Scene scene = prt::extract_scene(document);
+    if (prt::receivers_id(scene) != model->receivers_id)
+        throw prt::Error(model->path.string() + ": has changed since it was opened");
+    if (auto volume = prt::read_compressed_volume(document, scene))
+        return channel.post(
+            FoundVolume{model, std::make_shared<const prt::CompressedVolume>(std::move(*volume)), 0});
+    if (const auto volume = prt::read_volume(document, scene))
+        return channel.post(FoundVolume{model, compressed(channel, *volume), 0});
+    bake_in_stages(channel, model);
+}
+
+} // namespace viewer

@@ -1,0 +1,62 @@
+// What the viewer does about what moves.
+
+#include "core/viewer.h"
+
+#include "prt/support/error.h"
+
+namespace viewer {
+
+void Viewer::open_figure(const std::filesystem::path& path) {
+    jobs_.read_figure(path);
+}
+
+void Viewer::choose_figure(const FigureChoice& choice) {
+    if (!document_.moving.figure() || !document_.model())
+        throw prt::Error("there is no figure in a scene");
+    document_.moving.choose(choice, document_.loaded.model);
+}
+
+void Viewer::walk_figure(double seconds) {
+    document_.moving.advance(seconds, static_cast<double>(settings.moving.speed));
+}
+
+void Viewer::take(const SortedFiles& sorted) {
+    if (!sorted.scenes.empty())
+        open_scenes(sorted.scenes);
+}
+
+void Viewer::take(const FigureFile& file) {
+    document_.moving.set_figure(file);
+    if (document_.model())
+        document_.moving.choose({}, document_.loaded.model);
+    gpu_->moving.set_figure(document_.moving.figure());
+}
+
+void Viewer::take(const FoundVolume& found) {
+    if (found.model != document_.loaded.model)
+        return;
+    document_.moving.set_volume(found);
+    follow_lamps();
+    gpu_->moving.set_volume(found.volume);
+    gpu_->lit = {}; // it may have more bands than there were
+}
+
+void Viewer::upload_moving() {
+    gpu_->moving.set_figure(document_.moving.figure());
+    gpu_->moving.set_volume(document_.moving.volume().volume);
+    gpu_->lit = {};
+}
+
+/// Lets the figure walk, unless it is traced as it stands; asks for a volume where something is lit by it,
+/// once there is time.
+void Viewer::follow_moving(double seconds) {
+    const MovingSettings& shown = settings.moving;
+    Moving& moving = document_.moving;
+    if (shown.walks && !wants(PictureKind::reference))
+        moving.advance(seconds, static_cast<double>(shown.speed));
+    const bool lights = (shown.figure && moving.figure()) || shown.spheres || shown.probes;
+    if (lights && document_.model() && !jobs_.busy(JobKind::model) && moving.ask_for_volume())
+        jobs_.find_volume(document_.loaded.model);
+}
+
+} // namespace viewer

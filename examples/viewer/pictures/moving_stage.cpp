@@ -1,0 +1,189 @@
+#include "pictures/moving_stage.h"
+
+#include "prt/texture.h"
+#include "prt/volume_shader.h"
+#include "shared_layout.h"
+#include "shared_viewer.h"
+
+#include <epoxy/gl.h>
+#include <glm/common.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#include <algorithm>
+
+namespace viewer {
+namespace {
+
+/// The second is of polished metal.
+constexpr std::array kSphereColors = {kMattColor, glm::vec3(0.9f)};
+/// Of a probe's sphere, in finest cells.
+constexpr float kProbeRadius = 0.1f;
+
+bool sees_nothing(const prt::ProbeSight& sight) {
+    return std::ranges::all_of(sight, [](std::uint8_t distance) { return distance == 0; });
+}
+
+std::vector<glm::vec4> places_of_probes(const prt::CompressedVolume& volume) {
+    const prt::VolumeProbes probes = prt::probes_of(volume.grid);
+    std::vector<glm::vec4> places;
+    for (std::size_t p = 0; p < probes.size(); ++p) {
+        const float radius = kProbeRadius * volume.grid.spacing * static_cast<float>(1 << probes.levels[p]);
+        places.emplace_back(prt::position_of(volume.grid, probes.corners[p]),
+                            sees_nothing(volume.sights[p]) ? -radius : radius);
+    }
+    return places;
+}
+
+} // namespace
+
+MovingStage::MovingStage()
+    : caster_(prt::make_program("sun_caster.vert", "sun_caster.frag", "#define PRT_SKINNED\n")),
+      no_vertices_(prt::make_vertex_array()) {}
+
+void MovingStage::set_figure(std::shared_ptr<const prt::AnimatedScene> figure) {
+    figure_.reset();
+    pose_ = {};
+    ++moved_;
+    if (figure)
+        figure_ = std::make_unique<GpuMoving>(scene_before_moving(*figure), figure->vertices(),
+                                              prt::load_textures(figure->scene(), prt::BadTextures::ignore));
+}
+
+void MovingStage::set_volume(std::shared_ptr<const prt::CompressedVolume> volume) {
+    volume_ = {};
+    programs_.clear();
+    probes_ = {};
+    if (!volume)
+        return;
+    volume_.transfer = std::move(volume);
+    volume_.gpu = std::make_unique<prt::GlVolume>(*volume_.transfer);
+    volume_.defines = "#define PRT_VOLUME\n" + prt::volume_defines(*volume_.transfer);
+    const std::vector<glm::vec4> places = places_of_probes(*volume_.transfer);
+    volume_.probe_places = prt::make_buffer(std::span<const glm::vec4>(places));
+    volume_.probes = static_cast<int>(places.size());
+    light_volume();
+}
+
+void MovingStage::pose(const FigurePose& pose) {
+    if (!figure_ || pose.version == pose_.version)
+        return;
+    figure_->move(pose.palettes);
+    pose_ = pose;
+    ++moved_;
+}
+
+void MovingStage::place(const TwoSpheres& spheres) {
+    if (spheres == spheres_)
+        return;
+    spheres_ = spheres;
+    ++moved_;
+    for (std::size_t i = 0; i < 2; ++i) {
+        if (!sphere_models_[i]) {
+            UnitSphere sphere = unit_sphere(kSphereColors[i]);
+            sphere_models_[i] = std::make_unique<GpuMoving>(std::move(sphere.scene), sphere.moving,
+                                                            std::span<const prt::Texture>());
+        }
+        const glm::mat4 at = glm::translate(glm::mat4(1), spheres_.middles[i]);
+        sphere_models_[i]->move({{glm::scale(at, glm::vec3(spheres_.radius))}});
+    }
+}
+
+void MovingStage::set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
+                               const LampSettings& lamps) {
+    lit_ = {lighting, !suns.empty(), lamps};
+    light_volume();
+}
+
+void MovingStage::light_volume() {
+    if (!volume_.gpu || !lit_.lighting)
+        return;
+    const prt::TransferLayout& layout = volume_.gpu->former().layout();
+    if (lit_.lighting->sky.order >= layout.order)
+        volume_.gpu->set_light(with_lamps(*lit_.lighting, lit_.lamps, layout));
+}
+
+/// A volume that keeps no direct light apart has suns in its sky.
+bool MovingStage::adds_suns() const {
+    return lit_.suns && (!has_volume() || volume_.gpu->former().layout().has(prt::PartKind::direct));
+}
+
+std::optional<prt::Bounds> MovingStage::box() const {
+    std::optional<prt::Bounds> all;
+    const auto add = [&](const prt::Bounds& box) {
+        all = all ? prt::Bounds{glm::min(all->low, box.low), glm::max(all->high, box.high)} : box;
+    };
+    if (shows_figure())
+        add(pose_.box);
+    for (const glm::vec3& middle : spheres_.middles)
+        if (shows_spheres())
+            add({middle - spheres_.radius, middle + spheres_.radius});
+    return all;
+}
+
+prt::SunShadows::Moving MovingStage::casters() {
+    if (!shows_figure() && !shows_spheres())
+        return {};
+    const std::uint64_t shown = (shows_figure() ? 1u : 0u) + (shows_spheres() ? 2u : 0u);
+    return {.draw =
+                [this](int map, int size) {
+                    glUseProgram(caster_.name());
+                    prt::SunShadows::set_map(caster_, map, size);
+                    if (shows_figure())
+                        figure_->draw_casters(caster_);
+                    for (const auto& sphere : sphere_models_)
+                        if (shows_spheres())
+                            sphere->draw_casters(caster_);
+                },
+            .box = *box(),
+            .version = 4 * moved_ + shown};
+}
+
+const prt::GlObject& MovingStage::program(bool suns) {
+    prt::GlObject& program = programs_[suns];
+    if (program.name() == 0)
+        program = prt::make_program("viewer_moving.vert", "viewer_moving.frag",
+                                    volume_.defines + (suns ? "#define PRT_SUNS\n" : ""));
+    return program;
+}
+
+void MovingStage::draw(const MovingPass& pass) {
+    if (!lit_.lighting)
+        return;
+    const prt::GlObject& moving = program(adds_suns());
+    glUseProgram(moving.name());
+    if (volume_.gpu)
+        volume_.gpu->bind();
+    glUniformMatrix4fv(prt::uniform(moving, "view_projection"), 1, GL_FALSE,
+                       glm::value_ptr(pass.view_projection));
+    glUniform3fv(prt::uniform(moving, "eye"), 1, glm::value_ptr(pass.eye));
+    glUniform3fv(prt::uniform(moving, "irradiance_sh"), 9, glm::value_ptr(pass.irradiance.front()));
+    glUniform1i(prt::uniform(moving, "textured"), pass.textured);
+    glUniform1i(prt::uniform(moving, "chrome"), 0);
+    if (shows_figure())
+        figure_->draw(moving);
+    for (std::size_t i = 0; i < 2; ++i) {
+        if (!shows_spheres())
+            continue;
+        glUniform1i(prt::uniform(moving, "chrome"), static_cast<int>(i));
+        sphere_models_[i]->draw(moving);
+    }
+    if (shows_probes())
+        draw_probes(pass);
+    prt::check_gl("what moves");
+}
+
+void MovingStage::draw_probes(const MovingPass& pass) {
+    if (probes_.name() == 0)
+        probes_ = prt::make_program("viewer_probes.vert", "viewer_probes.frag", volume_.defines);
+    glUseProgram(probes_.name());
+    glUniformMatrix4fv(prt::uniform(probes_, "view_projection"), 1, GL_FALSE,
+                       glm::value_ptr(pass.view_projection));
+    prt::set_uniform(probes_, "exposure", pass.exposure);
+    prt::bind_storage(PRT_BINDING_PROBE_PLACES, volume_.probe_places);
+    glBindVertexArray(no_vertices_.name());
+    glEnable(GL_CULL_FACE);
+    glDrawArraysInstanced(GL_TRIANGLES, 0, 6 * PRT_PROBE_COLUMNS * PRT_PROBE_ROWS, volume_.probes);
+}
+
+} // namespace viewer

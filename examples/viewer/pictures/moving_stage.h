@@ -1,0 +1,94 @@
+#pragma once
+
+// What moves through the scene that is open, on the GPU, lit by its volume: a figure, two spheres, and the
+// probes.
+
+#include "pictures/gpu_moving.h"
+#include "pictures/lamps.h"
+#include "pictures/settings.h"
+
+#include "prt/gl_volume.h"
+#include "prt/sun_shadows.h"
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace viewer {
+
+/// What one drawing of it needs.
+struct MovingPass {
+    glm::mat4 view_projection{1};
+    glm::vec3 eye{0};
+    bool textured = true;
+    float exposure = 1;
+    const std::array<glm::vec3, 9>& irradiance; ///< of the sky, where there is no volume yet
+};
+
+/// A matt and a mirroring sphere.
+struct TwoSpheres {
+    std::array<glm::vec3, 2> middles{}; ///< the matt one first
+    float radius = 0;                   ///< metres; 0: none
+
+    friend bool operator==(const TwoSpheres&, const TwoSpheres&) = default;
+};
+
+class MovingStage {
+public:
+    MovingStage();
+
+    /// Null: there is none.
+    void set_figure(std::shared_ptr<const prt::AnimatedScene> figure);
+    void set_volume(std::shared_ptr<const prt::CompressedVolume> volume);
+    void pose(const FigurePose& pose);
+    void place(const TwoSpheres& spheres);
+    void show(const MovingSettings& settings) { shown_ = settings; }
+    /// `suns` are apart from `lighting`: they are added at each pixel where the volume keeps direct light
+    /// apart.
+    void set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
+                      const LampSettings& lamps);
+
+    bool has_volume() const { return volume_.gpu != nullptr; }
+    bool shows_anything() const { return shows_figure() || shows_spheres() || shows_probes(); }
+    /// Around what is shown but probes.
+    std::optional<prt::Bounds> box() const;
+    /// What casts shadows into maps of the suns.
+    prt::SunShadows::Moving casters();
+    /// Over what has been drawn of the scene; the maps of its suns are bound.
+    void draw(const MovingPass& pass);
+
+private:
+    struct Volume {
+        std::shared_ptr<const prt::CompressedVolume> transfer;
+        std::unique_ptr<prt::GlVolume> gpu;
+        std::string defines;
+        prt::GlObject probe_places;
+        int probes = 0;
+    };
+    struct Lit {
+        std::optional<prt::Lighting> lighting;
+        bool suns = false;
+        LampSettings lamps;
+    };
+    bool shows_figure() const { return figure_ && shown_.figure && pose_.version > 0; }
+    bool shows_spheres() const { return shown_.spheres && spheres_.radius > 0; }
+    bool shows_probes() const { return shown_.probes && has_volume(); }
+    void light_volume();
+    bool adds_suns() const;
+    const prt::GlObject& program(bool suns);
+    void draw_probes(const MovingPass& pass);
+
+    std::unique_ptr<GpuMoving> figure_;
+    std::array<std::unique_ptr<GpuMoving>, 2> sphere_models_; ///< once they are shown
+    MovingSettings shown_;
+    FigurePose pose_;
+    TwoSpheres spheres_;
+    std::uint64_t moved_ = 1;
+    Volume volume_;
+    Lit lit_;
+    std::map<bool, prt::GlObject> programs_; ///< [suns]
+    prt::GlObject caster_, probes_, no_vertices_;
+};
+
+} // namespace viewer

@@ -1,0 +1,28 @@
+#include "script/figure_step.h"
+
+#include "prt/support/error.h"
+
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cmath>
+
+namespace viewer {
+
+FigureChoice figure_choice(const nlohmann::json& json) {
+    FigureChoice choice;
+    choice.animation = json.value("animation", "");
+    choice.scale = json.value("scale", 1.0);
+    if (!(choice.scale > 0 && choice.scale < 1e6))
+        throw prt::Error("the scale of a figure is above 0");
+    for (const nlohmann::json& point : json.value("path", nlohmann::json::array())) {
+        const auto at = point.get<std::array<double, 3>>();
+        for (const double number : at)
+            if (!std::isfinite(number))
+                throw prt::Error("a place on the figure's path is not finite");
+        choice.path.emplace_back(at[0], at[1], at[2]);
+    }
+    return choice;
+}
+
+} // namespace viewer

@@ -1,0 +1,120 @@
+// Animations of nodes (glTF 2.0, section 3.11).
+#include "gltf/read_animations.h"
+
+#include "gltf/accessor.h"
+#include "prt/support/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace prt {
+namespace {
+
+std::optional<AnimatedPart> animated_part(const std::string& path) {
+    if (path == "translation")
+        return AnimatedPart::translation;
+    if (path == "rotation")
+        return AnimatedPart::rotation;
+    if (path == "scale")
+        return AnimatedPart::scale;
+    return {}; // weights of morph targets, or what an extension points to
+}
+
+Interpolation interpolation_of(const std::string& name) {
+    if (name == "STEP")
+        return Interpolation::step;
+    if (name == "LINEAR" || name.empty())
+        return Interpolation::linear;
+    if (name == "CUBICSPLINE")
+        return Interpolation::cubic_spline;
+    throw Error("there is no interpolation '" + name + "'");
+}
+
+std::vector<float> read_times(const tinygltf::Model& model, int accessor) {
+    std::vector<float> times = read_floats(model, accessor, 1);
+    if (times.empty())
+        throw Error("it has no keys");
+    for (std::size_t i = 0; i < times.size(); ++i)
+        if (!std::isfinite(times[i]))
+            throw Error("the time of key " + std::to_string(i) + " is not finite");
+    if (const auto falls = std::is_sorted_until(times.begin(), times.end()); falls != times.end())
+        throw Error("key " + std::to_string(falls - times.begin()) + " is earlier than the one before it");
+    return times;
+}
+
+std::vector<glm::vec4> read_values(const tinygltf::Model& model, int accessor,
+                                   const AnimationChannel& channel) {
+    const std::size_t components = channel.part == AnimatedPart::rotation ? 4 : 3,
+                      of_key = channel.interpolation == Interpolation::cubic_spline ? 3 : 1;
+    const std::vector<float> numbers = read_floats(model, accessor, static_cast<int>(components));
+    const std::size_t count = numbers.size() / components;
+    if (count != of_key * channel.times.size())
+        throw Error("it has " + std::to_string(count) + " values for " +
+                    std::to_string(channel.times.size()) + " keys of " + std::to_string(of_key) + " each");
+    std::vector<glm::vec4> values(count, glm::vec4(0));
+    for (std::size_t i = 0; i < numbers.size(); ++i) {
+        if (!std::isfinite(numbers[i]))
+            throw Error("value " + std::to_string(i / components) + " is not finite");
+        values[i / components][static_cast<int>(i % components)] = numbers[i];
+    }
+    for (std::size_t key = 0; channel.part == AnimatedPart::rotation && key < channel.times.size(); ++key)
+        if (values[of_key * key + of_key / 2] == glm::vec4(0))
+            throw Error("the rotation of key " + std::to_string(key) + " is 0");
+    return values;
+}
+
+/// Nothing for what moves no node.
+std::optional<AnimationChannel> read_channel(const tinygltf::Model& model,
+                                             const tinygltf::Animation& animation,
+                                             const tinygltf::AnimationChannel& file) {
+    const std::optional<AnimatedPart> part = animated_part(file.target_path);
+    if (!part || file.target_node == -1)
+        return {};
+    const auto node = static_cast<std::size_t>(file.target_node),
+               sampler_at = static_cast<std::size_t>(file.sampler);
+    if (file.target_node < 0 || node >= model.nodes.size())
+        throw Error("it moves node " + std::to_string(file.target_node) + ", which is not there");
+    if (!model.nodes[node].matrix.empty())
+        throw Error("it moves node " + std::to_string(node) + ", which has a matrix");
+    if (file.sampler < 0 || sampler_at >= animation.samplers.size())
+        throw Error("its sampler " + std::to_string(file.sampler) + " is not there");
+    const tinygltf::AnimationSampler& sampler = animation.samplers[sampler_at];
+    AnimationChannel channel{node, *part, interpolation_of(sampler.interpolation), {}, {}};
+    channel.times = read_times(model, sampler.input);
+    channel.values = read_values(model, sampler.output, channel);
+    return channel;
+}
+
+double speed_of(const tinygltf::Value& extras) {
+    if (!extras.IsObject() || !extras.Has("speed") || !extras.Get("speed").IsNumber())
+        return 0;
+    const double speed = extras.Get("speed").GetNumberAsDouble();
+    return std::isfinite(speed) ? speed : 0;
+}
+
+} // namespace
+
+std::vector<Animation> read_animations(const tinygltf::Model& model) {
+    std::vector<Animation> animations;
+    for (std::size_t a = 0; a < model.animations.size(); ++a) {
+        const tinygltf::Animation& file = model.animations[a];
+        Animation animation{file.name, 0, speed_of(file.extras), {}};
+        for (std::size_t c = 0; c < file.channels.size(); ++c) {
+            try {
+                if (std::optional<AnimationChannel> channel = read_channel(model, file, file.channels[c])) {
+                    animation.duration = std::max<double>(animation.duration, channel->times.back());
+                    animation.channels.push_back(std::move(*channel));
+                }
+            } catch (const Error& error) {
+                throw Error("animation " + std::to_string(a) + " channel " + std::to_string(c) + ": " +
+                            error.what());
+            }
+        }
+        animations.push_back(std::move(animation));
+    }
+    return animations;
+}
+
+} // namespace prt

@@ -1,0 +1,62 @@
+// What moves, lit by a volume (PRT_VOLUME), without one as if nothing were in the way. What is blended is drawn whole.
+
+#include "surface.glsl"
+#include "emission.glsl"
+#ifdef PRT_SUNS
+#include "sun_light.glsl"
+#endif
+#ifdef PRT_VOLUME
+#include "prt_volume.glsl"
+#else
+#include "irradiance.glsl"
+#endif
+
+in vec3 place, normal;
+uniform vec3 eye;
+uniform bool chrome;
+out vec4 result;
+
+#ifdef PRT_VOLUME
+vec3 mirrored_radiance(vec3 n, vec3 towards) {
+    vec3 light[PRT_VOLUME_COEFFICIENTS];
+    prt_volume_incident(place, n, light);
+    return prt_incident_radiance(light, towards);
+}
+vec3 matt_radiance(vec3 n) {
+    return prt_volume_irradiance(place, n);
+}
+#else
+vec3 mirrored_radiance(vec3 n, vec3 towards) {
+    return unshadowed_radiance(towards);
+}
+vec3 matt_radiance(vec3 n) {
+    return unshadowed_radiance(n);
+}
+#endif
+
+// A sun is mirrored as a lobe of the same energy (Phong), which is as wide on a screen as a highlight shall be.
+vec3 mirrored_suns(vec3 n, vec3 towards) {
+    vec3 sum = vec3(0.0);
+#ifdef PRT_SUNS
+    const float kExponent = 400.0;
+    for (int i = 0; i < suns_seen.count; ++i) {
+        vec3 sun = suns_seen.suns[i].towards.xyz;
+        float lobe = 0.5 * (kExponent + 1.0) * pow(max(dot(towards, sun), 0.0), kExponent); // times irradiance over pi
+        if (dot(n, sun) > 0.0 && lobe > 1e-4)
+            sum += suns_seen.suns[i].open.rgb * lobe * sun_visibility(i, seen, n);
+    }
+#endif
+    return sum;
+}
+
+void main() {
+    vec3 base = surface_base_color().rgb;
+    vec3 n = normalize(gl_FrontFacing ? normal : -normal);
+    vec3 towards = reflect(normalize(place - eye), n);
+    vec3 lit = chrome ? base * (mirrored_radiance(n, towards) + mirrored_suns(n, towards)) : base * matt_radiance(n);
+#ifdef PRT_SUNS
+    if (!chrome)
+        lit += sun_radiance(base);
+#endif
+    result = vec4(min(lit + emitted_radiance(), vec3(65000.0)), 1.0);
+}

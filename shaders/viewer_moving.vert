@@ -1,0 +1,34 @@
+// What moves through the viewer's scene. PRT_SUNS: for suns apart.
+
+#include "shared_layout.h"
+
+layout(location = PRT_LOCATION_POSITION) in vec3 position;
+layout(location = PRT_LOCATION_TEXCOORD) in vec2 texcoord;
+layout(location = PRT_LOCATION_COLOR) in vec4 color;
+layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;
+
+#include "emission_vertex.glsl"
+#include "skinning.glsl"
+#ifdef PRT_SUNS
+#include "sun_vertex.glsl"
+#endif
+
+uniform mat4 view_projection;
+
+out vec2 surface_texcoord;
+out vec4 surface_color;
+out vec3 place, normal;
+
+void main() {
+    mat4 matrix = vertex_matrix();
+    place = (matrix * vec4(position, 1.0)).xyz;
+    normal = moved_normal(matrix, vertex_normal);
+#ifdef PRT_SUNS
+    take_for_suns(place);
+    sun_normal = normal; // not as it is before it moves
+#endif
+    take_for_emission();
+    surface_texcoord = texcoord;
+    surface_color = color;
+    gl_Position = view_projection * vec4(place, 1.0);
+}

@@ -1,0 +1,334 @@
+// A figure that walks through the scene, and what lights it.
+
+#include "core/ground.h"
+#include "core/viewer.h"
+#include "gpu/offscreen.h"
+#include "pictures/joined_scene.h"
+#include "script/script.h"
+
+#include "prt/gl_context.h"
+#include "prt/support/error.h"
+#include "support/glb_file.h"
+#include "support/scene_builder.h"
+#include "support/temporary_folder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+namespace viewer {
+namespace {
+
+using prt::test::GlbFile;
+using prt::test::SceneBuilder;
+
+constexpr int kWidth = 160, kHeight = 90;
+constexpr float kRadius = 0.4f; ///< of the figure, a ball on the floor
+
+/// A floor of 6 m, and a wall along its -x side.
+prt::Scene floor_and_wall() {
+    return SceneBuilder()
+        .floor({0, 0, 0}, 3, 12)
+        .quad({-3, 0, 3}, {-3, 0, -3}, {-3, 2, -3}, {-3, 2, 3})
+        .build();
+}
+
+/// A grey ball that turns once in a second; `bad` breaks its animation.
+GlbFile ball_figure(bool bad = false) {
+    GlbFile file = prt::test::scene_file(
+        prt::test::painted(SceneBuilder().sphere({0, kRadius, 0}, kRadius, 24).build(), glm::vec3(0.6f)));
+    const float end = bad ? std::numeric_limits<float>::quiet_NaN() : 1.0f;
+    const auto times = file.accessor(std::vector<float>{0, 0.5f, end}, prt::test::kFloat, "SCALAR", 1),
+               turns = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, -1},
+                                     prt::test::kFloat, "VEC4", 4);
+    file.json["animations"] = {
+        {{"name", "walk"},
+         {"samplers", {{{"input", times}, {"output", turns}}}},
+         {"channels", {{{"sampler", 0}, {"target", {{"node", 0}, {"path", "rotation"}}}}}},
+         {"extras", {{"speed", 1.5}}}}};
+    return file;
+}
+
+class FigureTest : public testing::Test {
+protected:
+    void SetUp() override {
+        context = prt::GlContext::create(prt::GlDevice::any);
+        ASSERT_TRUE(context);
+        viewer = std::make_unique<Viewer>();
+        screen = std::make_unique<Offscreen>(kWidth, kHeight);
+        viewer->settings.panels = false;
+        prt::test::scene_file(floor_and_wall()).write(folder / "scene.glb");
+        ball_figure().write(folder / "ball.glb");
+    }
+    void TearDown() override {
+        viewer.reset();
+        screen.reset();
+        context.reset();
+    }
+    void frame(double seconds = 1.0 / 60) {
+        viewer->update(seconds);
+        viewer->draw(screen->framebuffer(), kWidth, kHeight);
+    }
+    template <class Done>
+    void frames_until(Done&& done) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(10);
+        do {
+            frame(0);
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        } while (!done() && std::chrono::steady_clock::now() < end);
+        ASSERT_TRUE(done());
+        frame(0);
+    }
+    void open_both() {
+        viewer->open({folder / "scene.glb", folder / "ball.glb"});
+        frames_until([&] { return !viewer->jobs().busy(); });
+        ASSERT_TRUE(viewer->messages().empty()) << viewer->messages().back();
+    }
+    const Moving& moving() const { return viewer->document().moving; }
+    /// The middle of the figure in the scene.
+    glm::vec3 middle() const { return glm::vec3(moving().pose().node(0) * glm::dvec4(0, kRadius, 0, 1)); }
+    /// So near that the ball fills the picture.
+    void look_at_ball(const glm::vec3& from) {
+        viewer->camera =
+            OrbitCamera({.position = middle() + 1.4f * kRadius * glm::normalize(from), .target = middle()});
+    }
+    glm::dvec3 mean_of_left() {
+        glm::dvec3 sum(0);
+        const prt::Image image = viewer->renderer().read(0);
+        for (const glm::vec3& pixel : image.pixels)
+            sum += glm::dvec3(pixel);
+        return sum / static_cast<double>(image.pixels.size());
+    }
+
+    prt::test::TemporaryFolder folder;
+    std::unique_ptr<prt::GlContext> context;
+    std::unique_ptr<Viewer> viewer;
+    std::unique_ptr<Offscreen> screen;
+};
+
+TEST_F(FigureTest, AnAnimatedFileBesideASceneIsTheFigureAndAloneTheScene) {
+    viewer->open({folder / "ball.glb"});
+    frames_until([&] { return viewer->document().model() != nullptr; });
+    EXPECT_EQ(viewer->document().name(), "ball.glb");
+    EXPECT_FALSE(moving().figure());
+    viewer->open({folder / "scene.glb", folder / "ball.glb"});
+    frames_until([&] { return viewer->document().name() == "scene.glb" && moving().figure(); });
+    EXPECT_EQ(moving().path().filename(), "ball.glb");
+}
+
+TEST_F(FigureTest, StandsOnTheFloorWalksAtItsSpeedAndStopsBeforeTheWall) {
+    open_both();
+    const float floor = static_cast<float>(-viewer->document().model()->scene.origin.y);
+    float way = 0;
+    glm::vec3 last = middle();
+    for (int i = 0; i < 600; ++i) {
+        viewer->update(1.0 / 30);
+        const glm::vec3 now = middle();
+        EXPECT_NEAR(now.y, floor + kRadius, 1e-4f);
+        way += glm::distance(now, last);
+        last = now;
+        const prt::Bounds& box = viewer->document().model()->box;
+        EXPECT_GT(now.x, box.low.x);
+        EXPECT_TRUE(now.x < box.high.x && now.z > box.low.z && now.z < box.high.z);
+    }
+    EXPECT_GT(way, 10); // 30 m but for turns
+    EXPECT_LT(way, 1.01f * 1.5f * 20);
+    viewer->settings.moving.walks = false;
+    viewer->update(1);
+    EXPECT_EQ(middle(), last);
+}
+
+TEST_F(FigureTest, FollowsThePathOfAScriptAtItsSpeed) {
+    open_both();
+    viewer->settings.moving.walks = false;
+    viewer->choose_figure({.animation = "walk", .path = {{-1, 0, -1}, {2, 0, -1}, {2, 0, 1}}});
+    const glm::dvec3 origin = viewer->document().model()->scene.origin;
+    const auto expect_at = [&](const glm::dvec3& place) {
+        EXPECT_LT(glm::distance(glm::dvec3(middle()) + origin, place + glm::dvec3(0, kRadius, 0)), 1e-4);
+    };
+    expect_at({-1, 0, -1});
+    viewer->walk_figure(1); // 1.5 m
+    expect_at({0.5, 0, -1});
+    viewer->settings.moving.speed = 2;
+    viewer->walk_figure(1); // and 3 m more, round the corner
+    expect_at({2, 0, 0.5});
+    EXPECT_THROW(viewer->choose_figure({.animation = "dance"}), prt::Error);
+}
+
+// The mean of what a ball sends to the camera under a day with its sun apart, by the volume and by paths:
+// within what issue 21 allows incident light, 8 %. Its pixels differ by noise of the paths, too.
+TEST_F(FigureTest, IsLitAsPathsLightItWhereItStands) {
+    open_both();
+    ASSERT_TRUE(moving().volume().volume);
+    viewer->settings.moving.walks = false;
+    viewer->choose_figure({.path = {{-2, 0, 0.5}}}); // a metre from the wall
+    viewer->settings.left = PictureKind::prt_compressed;
+    viewer->settings.right = PictureKind::reference;
+    viewer->settings.difference = true;
+    for (const glm::vec3& from :
+         {glm::vec3(0.4f, 0.3f, 1), glm::vec3(-1, 0.5f, -0.3f), glm::vec3(0, -0.2f, -1)}) {
+        look_at_ball(from);
+        frame(0);
+        frames_until([&] { return viewer->figures().reference_passes >= 64; });
+        const Difference difference = viewer->figures().difference;
+        ASSERT_EQ(difference.pixels, kWidth * kHeight);
+        const glm::dvec3 left = mean_of_left();
+        EXPECT_NEAR((left.r + left.g + left.b) / 3 / difference.mean, 1, 0.08);
+        EXPECT_LT(difference.relative_l2, 0.15);
+    }
+}
+
+TEST_F(FigureTest, ChangesWithTheLightAsTheSceneDoes) {
+    open_both();
+    viewer->settings.moving.walks = false;
+    viewer->settings.left = PictureKind::prt_compressed;
+    viewer->settings.split = 1;
+    look_at_ball({0.4f, 0.3f, 1});
+    frame(0);
+    const glm::dvec3 morning = mean_of_left();
+    viewer->lights.day = viewer->lights.environment_on = false; // nothing shines
+    frame(0);
+    EXPECT_LT(mean_of_left().g, 1e-4 * morning.g);
+    viewer->lights.lights.push_back(make_light(LightKind::hemisphere));
+    frame(0);
+    const double once = mean_of_left().g;
+    EXPECT_GT(once, 0);
+    viewer->lights.lights[0].strength *= 2;
+    frame(0);
+    EXPECT_NEAR(mean_of_left().g, 2 * once, 0.02 * once); // half floats, and the window of a new light
+}
+
+// The sun is in the way of nothing but the figure: its shadow is darker than the floor without it.
+TEST_F(FigureTest, CastsItsShadowIntoTheMapsOfTheSuns) {
+    open_both();
+    viewer->settings.moving.walks = false;
+    viewer->choose_figure({.path = {{0, 0, 0}}});
+    viewer->lights.day = viewer->lights.environment_on = false;
+    viewer->lights.lights.push_back(make_light(LightKind::sun));
+    viewer->lights.lights[0].direction = {0, 1, 0};
+    viewer->settings.left = PictureKind::unshadowed;
+    viewer->settings.split = 1;
+    const glm::vec3 under = middle() - glm::vec3(0, kRadius, 0);
+    viewer->camera =
+        OrbitCamera({.position = under + glm::vec3(0.9f, 0.15f, 0), .target = under + glm::vec3(0.2f, 0, 0)});
+    viewer->settings.moving.figure = false;
+    frame(0);
+    const double open = mean_of_left().g;
+    viewer->settings.moving.figure = true;
+    frame(0);
+    const double shadowed = mean_of_left().g;
+    EXPECT_LT(shadowed, 0.8 * open);
+    viewer->walk_figure(0); // and where it is gone again, all is as before
+    viewer->settings.moving.figure = false;
+    frame(0);
+    EXPECT_NEAR(mean_of_left().g, open, 1e-6 * open);
+}
+
+TEST_F(FigureTest, SpheresAndProbesAreShownAndALostContextBringsAllBack) {
+    open_both();
+    viewer->settings.left = PictureKind::prt_compressed;
+    viewer->settings.split = 1;
+    viewer->settings.moving.walks = false;
+    const auto picture = [&] {
+        frame(0);
+        return viewer->renderer().read(0).pixels;
+    };
+    const auto bare = picture();
+    viewer->settings.moving.spheres = true;
+    const auto spheres = picture();
+    viewer->settings.moving.probes = true;
+    const auto probes = picture();
+    EXPECT_NE(bare, spheres);
+    EXPECT_NE(spheres, probes);
+    viewer->release_gpu();
+    screen.reset();
+    context.reset();
+    context = prt::GlContext::create(prt::GlDevice::any);
+    screen = std::make_unique<Offscreen>(kWidth, kHeight);
+    viewer->restore_gpu();
+    EXPECT_EQ(picture(), probes);
+}
+
+TEST_F(FigureTest, WhatIsWrongWithAFigureIsSaidAndTheSceneStays) {
+    open_both();
+    ball_figure(true).write(folder / "bad.glb");
+    viewer->open({folder / "bad.glb"});
+    frames_until([&] { return !viewer->jobs().busy(); });
+    ASSERT_FALSE(viewer->messages().empty());
+    EXPECT_NE(viewer->messages().back().find("time of key 2 is not finite"), std::string::npos)
+        << viewer->messages().back();
+    EXPECT_EQ(viewer->document().name(), "scene.glb");
+    EXPECT_EQ(moving().path().filename(), "ball.glb");
+}
+
+TEST(FigureScript, ChoosesPathsAndSaysWhatIsWrong) {
+    prt::test::TemporaryFolder folder;
+    prt::test::scene_file(floor_and_wall()).write(folder / "scene.glb");
+    ball_figure().write(folder / "ball.glb");
+    const auto said = [&](const char* step) {
+        const auto script =
+            folder.file("script.json", std::string(R"([{"size": [64, 36]}, {"open": "scene.glb"},
+            {"wait": "work"}, )") + step + R"(, {"screenshot": "out.png"}])");
+        try {
+            run_script(script, {});
+            return std::string();
+        } catch (const prt::Error& error) {
+            return std::string(error.what());
+        }
+    };
+    EXPECT_EQ(
+        said(
+            R"({"figure": {"file": "ball.glb", "path": [[0, 0, 0], [1, 0, 0]], "scale": 0.5, "seconds": 2}})"),
+        "");
+    EXPECT_TRUE(std::filesystem::exists(folder / "out.png"));
+    EXPECT_NE(said(R"({"figure": {"animation": "walk"}})").find("there is no figure in a scene"),
+              std::string::npos);
+    EXPECT_NE(
+        said(R"({"figure": {"file": "ball.glb", "animation": "dance"}})").find("no animation called 'dance'"),
+        std::string::npos);
+    EXPECT_NE(said(R"({"figure": {"file": "ball.glb", "scale": 0}})").find("scale of a figure"),
+              std::string::npos);
+}
+
+TEST(JoinedScenes, KeepTheirMaterialsImagesAndReceivers) {
+    prt::Scene first = prt::test::painted(SceneBuilder().floor({0, 0, 0}, 1).build(), glm::vec3(0.5f)),
+               second =
+                   prt::test::painted(SceneBuilder().sphere({0, 1, 0}, 0.5f, 4).build(), glm::vec3(0.25f));
+    first.images.resize(2);
+    second.images.resize(1);
+    second.materials[0].base_color_texture.image = 0;
+    const prt::Scene both = joined(first, second);
+    EXPECT_EQ(both.triangles(), first.triangles() + second.triangles());
+    EXPECT_EQ(both.vertex_arrays[1].first_receiver, first.receivers());
+    const prt::Material& material = both.materials[both.primitives[1].material];
+    EXPECT_EQ(material.base_color, glm::vec4(glm::vec3(0.25f), 1));
+    EXPECT_EQ(material.base_color_texture.image, 2);
+}
+
+TEST(Grounds, EndAtWallsAndEdgesAndStepsThatAreTooHigh) {
+    // A step of 0.2 m at x = 1, one of 1 m at x = 2, an edge at z = 3, a wall at x = -3.
+    const auto model = make_model(SceneBuilder()
+                                      .floor({0, 0, 0}, 3, 2)
+                                      .quad({-3, 0, 3}, {-3, 0, -3}, {-3, 2, -3}, {-3, 2, 3})
+                                      .quad({1, 0.2f, 3}, {2, 0.2f, 3}, {2, 0.2f, -3}, {1, 0.2f, -3})
+                                      .quad({2, 1.2f, 3}, {3, 1.2f, 3}, {3, 1.2f, -3}, {2, 1.2f, -3})
+                                      .build(),
+                                  "steps.glb");
+    const Ground ground(*model, {.height = 1.8f, .width = 0.6f, .step = 0.35f});
+    const auto floor = ground.below({0, 1.5f, 0});
+    ASSERT_TRUE(floor);
+    EXPECT_NEAR(floor->y, 0, 1e-6f);
+    EXPECT_FALSE(ground.below({0, 1.5f, 4})); // beyond the edge
+    EXPECT_NEAR(ground.free_way(*floor, {-1, 0, 0}, 5), 3, 1e-5f);
+    const float to_step = ground.free_way(*floor, {1, 0, 0}, 5),
+                to_edge = ground.free_way(*floor, {0, 0, 1}, 5);
+    EXPECT_TRUE(to_step > 1.3f && to_step <= 2) << to_step; // up the low step, not the high one
+    EXPECT_TRUE(to_edge > 2.3f && to_edge <= 3) << to_edge;
+}
+
+} // namespace
+} // namespace viewer
