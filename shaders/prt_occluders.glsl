@@ -51,18 +51,16 @@ PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
     PrtBlockedCap cap = PrtBlockedCap(vec3(0.0, 1.0, 0.0), 0.0, 0.0);
     if (far < half_reach.w) {
         const float kSide = float(PRT_OCCLUDER_SIDE);
-        vec3 inside = clamp(q, -half_reach.xyz, half_reach.xyz);
+        // Beyond the box, the place on its faces towards the middle: from there on the solid angle falls with the
+        // square of the distance.
+        vec3 sides = q / half_reach.xyz, sizes = abs(sides);
+        float outside = max(max(sizes.x, sizes.y), max(sizes.z, 1.0));
         vec3 texels = vec3(kSide, kSide, float(textureSize(prt_occluder_texture, 0).z));
-        vec3 at = (0.5 * inside / half_reach.xyz + 0.5) * (kSide - 1.0) + 0.5;
+        vec3 at = (0.5 * sides / outside + 0.5) * (kSide - 1.0) + 0.5;
         at.z += kSide * PRT_OCCLUDER_ROWS[5 * i + 4].x;
         vec4 stored = textureLod(prt_occluder_texture, at / texels, 0.0);
-        float root = 0.5 * stored.w + 0.5;
+        float root = (0.5 * stored.w + 0.5) / outside;
         vec3 lean = stored.xyz;
-        if (inside != q) { // the solid angle falls with the square of the distance, and turns to the middle
-            float border = length(inside);
-            root *= border / far;
-            lean += length(lean) * (inside / border - q / far);
-        }
         float blocked = root * root * (1.0 - smoothstep(PRT_OCCLUDER_FADE, 1.0, far / half_reach.w));
         vec3 turned = lean.x * x + lean.y * y + lean.z * z;
         float size = length(turned);

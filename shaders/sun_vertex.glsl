@@ -2,10 +2,8 @@
 // transfer, so it comes from buffers.
 
 #include "sun_view.glsl"
+#include "vertex_normals.glsl"
 
-layout(std430, binding = PRT_BINDING_NORMALS) readonly buffer Normals {
-    float vertex_normals[]; // [vertices][3]
-};
 layout(std430, binding = PRT_BINDING_FACTOR_TEXCOORDS) readonly buffer FactorTexcoords {
     vec2 factor_texcoords[];
 };
@@ -20,9 +18,8 @@ out vec3 sun_normal;
 out vec2 factor_texcoord, tint_texcoord;
 
 void take_for_suns(vec3 position) {
-    int first = 3 * gl_VertexID;
     seen = position - suns_seen.eye.xyz;
-    sun_normal = vec3(vertex_normals[first], vertex_normals[first + 1], vertex_normals[first + 2]);
+    sun_normal = normal_of_vertex();
     factor_texcoord = has_transmission_factor ? factor_texcoords[gl_VertexID] : vec2(0.0);
     tint_texcoord = has_transmission_tint ? tint_texcoords[gl_VertexID] : vec2(0.0);
 }

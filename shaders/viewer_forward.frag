@@ -8,7 +8,7 @@ out vec4 result;
 void main() {
     vec4 base = surface_base_color();
 #ifdef PRT_RADIANCE_GIVEN
-    vec3 lit = max(given_radiance(), vec3(0.0)) * base.rgb;
+    vec3 lit = max(given_radiance(), vec3(0.0)) * base.rgb * left_by_occluders();
 #else
     vec3 lit = unshadowed_radiance(facing_normal()) * occlusion() * base.rgb;
 #endif

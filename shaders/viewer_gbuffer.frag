@@ -24,7 +24,9 @@ void main() {
     target_base = vec4(base.rgb, 1.0 / 255.0);
     target_normal = vec2(0.5);
     target_radiance =
-        vec4(min(max(given_radiance(), vec3(0.0)) * base.rgb + light_beside_the_sky(base.rgb), vec3(65000.0)), 1.0);
+        vec4(min(max(given_radiance(), vec3(0.0)) * base.rgb * left_by_occluders() + light_beside_the_sky(base.rgb),
+                 vec3(65000.0)),
+             1.0);
 #else
     float threshold = dithered ? prt_bayer_threshold(uvec2(gl_FragCoord.xy)) : 0.5;
     float level = prt_dithered_level(occlusion(), float(PRT_AO_LEVELS), threshold);

@@ -7,6 +7,14 @@
 #include "sun_light.glsl"
 #endif
 
+#ifdef PRT_OCCLUDED
+#include "viewer_occluders.glsl"
+#else
+vec3 left_by_occluders() {
+    return vec3(1.0);
+}
+#endif
+
 #if defined(PRT_LIGHTMAP)
 #define PRT_RADIANCE_GIVEN
 #include "lightmap.glsl"

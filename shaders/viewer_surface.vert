@@ -1,8 +1,9 @@
 // Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or from a PRT_VERTEX_RADIANCE
 // attribute, or from a PRT_LIGHTMAP; with none of these, the fragment shader finds it from the normal and an ambient
-// occlusion. PRT_SUNS: for suns apart. What a surface gives off comes on top of all.
+// occlusion. PRT_SUNS: for suns apart. PRT_OCCLUDED: near what moves. What a surface gives off comes on top of all.
 
 #include "shared_layout.h"
+#include "vertex_normals.glsl"
 
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
 layout(location = PRT_LOCATION_TEXCOORD) in vec2 texcoord;
@@ -11,6 +12,9 @@ layout(location = PRT_LOCATION_COLOR) in vec4 color;
 #include "emission_vertex.glsl"
 #ifdef PRT_SUNS
 #include "sun_vertex.glsl"
+#endif
+#ifdef PRT_OCCLUDED
+out vec3 occluded_place, occluded_normal;
 #endif
 #if defined(PRT_LIGHTMAP)
 #include "lightmap_vertex.glsl"
@@ -50,6 +54,10 @@ void main() {
 #endif
 #ifdef PRT_SUNS
     take_for_suns(position);
+#endif
+#ifdef PRT_OCCLUDED
+    occluded_place = position;
+    occluded_normal = normal_of_vertex();
 #endif
     take_for_emission();
     surface_texcoord = texcoord;

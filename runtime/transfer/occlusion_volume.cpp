@@ -126,15 +126,13 @@ BlockedCap blocked_at(const OcclusionVolume& volume, const PlacedOccluder& where
     const float distance = glm::length(q);
     if (!(distance < where.half.w))
         return {};
-    const glm::vec3 half(where.half), inside = glm::clamp(q, -half, half);
-    const glm::vec4 texel = filtered(volume, inside / half);
-    float root = 0.5f * texel.w + 0.5f;
-    glm::vec3 lean(texel);
-    if (inside != q) { // the solid angle falls with the square of the distance, and turns to the middle
-        const float border = glm::length(inside);
-        root *= border / distance;
-        lean += glm::length(lean) * (inside / border - q / distance);
-    }
+    // Beyond the box, the place on its faces towards the middle: from there on the solid angle falls with the
+    // square of the distance.
+    const glm::vec3 sides = q / glm::vec3(where.half);
+    const float outside = std::max({std::abs(sides.x), std::abs(sides.y), std::abs(sides.z), 1.0f});
+    const glm::vec4 texel = filtered(volume, sides / outside);
+    const float root = (0.5f * texel.w + 0.5f) / outside;
+    const glm::vec3 lean(texel);
     const float fade = glm::smoothstep(1.0f, kOccluderFade, distance / where.half.w);
     const glm::vec3 turned = lean.x * glm::vec3(where.to_box[0]) + lean.y * glm::vec3(where.to_box[1]) +
                              lean.z * glm::vec3(where.to_box[2]);

@@ -20,9 +20,9 @@ struct OccluderOptions {
     /// How far the box goes beyond the object on every side, over the mean of its sides.
     double margin = 1;
     /// The object is left out from where it takes less than this of the light of a receiver that faces it.
-    double least = 0.02;
-    TracerChoice tracer;
-    Repairs repairs;
+    double least = 0.01;
+    TracerChoice tracer = {};
+    Repairs repairs = {};
     int threads = 0; ///< 0: all
     std::uint64_t seed = 0;
 };

@@ -9,6 +9,7 @@
 
 #include "prt/animation.h"
 #include "prt/error_budget.h"
+#include "prt/occluder_gltf.h"
 #include "prt/transfer_volume.h"
 
 #include <memory>
@@ -95,6 +96,12 @@ struct FigureFile {
     std::shared_ptr<const prt::AnimatedScene> figure;
 };
 
+/// What the nodes of a figure's file block around them.
+struct FoundOccluders {
+    std::shared_ptr<const prt::AnimatedScene> figure;
+    std::vector<prt::NodeOccluder> occluders;
+};
+
 /// A volume of `model`, and the rays of each probe of a bake that goes on; 0: it is what the file holds.
 struct FoundVolume {
     std::shared_ptr<const Model> model;
@@ -116,7 +123,7 @@ struct Failure {
 
 using Finding =
     std::variant<OpenModels, Baked, Compressed, Occlusion, EnvironmentFile, NumberPictures, RepeatedBake,
-                 SurfaceBudget, SortedFiles, FigureFile, FoundVolume, Saved, Failure>;
+                 SurfaceBudget, SortedFiles, FigureFile, FoundOccluders, FoundVolume, Saved, Failure>;
 
 using Channel = BackgroundWork<Finding>::Channel;
 

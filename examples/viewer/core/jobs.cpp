@@ -82,14 +82,14 @@ void Jobs::sort(const std::vector<std::filesystem::path>& paths, bool scene_open
         const SortedFiles sorted = sort_files(paths, scene_open);
         channel.post(sorted);
         if (!sorted.figures.empty())
-            channel.post(viewer::read_figure(sorted.figures.back()));
+            find_figure(channel, sorted.figures.back());
     });
 }
 
 void Jobs::read_figure(const std::filesystem::path& path) {
     start(JobKind::figure, [path](Channel& channel) {
         channel.enter(Stage::reading, "reading " + path.filename().string());
-        channel.post(viewer::read_figure(path));
+        find_figure(channel, path);
     });
 }
 

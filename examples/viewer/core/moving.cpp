@@ -62,6 +62,7 @@ prt::Bounds box_of(const prt::AnimatedScene& figure, const glm::dmat4& placement
 
 void Moving::set_figure(const FigureFile& file) {
     file_ = file;
+    occluders_.clear();
     choice_ = {};
     seconds_ = 0;
 }

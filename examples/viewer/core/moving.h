@@ -29,6 +29,11 @@ struct FigureChoice {
 class Moving {
 public:
     void set_figure(const FigureFile& file);
+    /// What it blocks, of the figure that is there; of another one it is left out.
+    void set_occluders(const FoundOccluders& found) {
+        if (found.figure == file_.figure)
+            occluders_ = found.occluders;
+    }
     void set_volume(const FoundVolume& found) { volume_ = found; }
     /// Throws `prt::Error` where the figure has no such animation.
     void choose(const FigureChoice& choice, const std::shared_ptr<const Model>& model);
@@ -38,6 +43,7 @@ public:
 
     const std::shared_ptr<const prt::AnimatedScene>& figure() const { return file_.figure; }
     const std::filesystem::path& path() const { return file_.path; }
+    const std::vector<prt::NodeOccluder>& occluders() const { return occluders_; }
     const FoundVolume& volume() const { return volume_; }
     /// For the frame: what lights or shades others by the figure takes its matrices from here.
     const FigurePose& pose() const { return pose_; }
@@ -55,6 +61,7 @@ private:
     void take_pose();
 
     FigureFile file_;
+    std::vector<prt::NodeOccluder> occluders_;
     FoundVolume volume_;
     FigureChoice choice_;
     FigureWalk walk_;

@@ -3,6 +3,8 @@
 #include "core/transfer_work.h"
 
 #include "prt/compress_volume.h"
+#include "prt/occluder_bake.h"
+#include "prt/rigid_parts.h"
 #include "prt/support/error.h"
 #include "prt/volume_bake.h"
 #include "prt/volume_gltf.h"
@@ -18,6 +20,7 @@ namespace {
 constexpr int kVolumeRays[] = {16, 128, 512};
 /// Of a bake of the viewer's own: seconds on a few cores.
 constexpr std::size_t kMostProbes = 3000;
+constexpr int kOccluderRays = 64;
 constexpr int kProbesOfCluster = 32, kMostClusters = 256;
 
 bool is_animated(const std::filesystem::path& path) {
@@ -48,6 +51,20 @@ void bake_in_stages(Channel& channel, const std::shared_ptr<const Model>& model)
     }
 }
 
+std::vector<prt::NodeOccluder> measured_occluders(Channel& channel, const prt::GltfDocument& document,
+                                                  const prt::Scene& scene) {
+    channel.enter(Stage::occlusion, "what the figure blocks");
+    prt::OccluderOptions options;
+    options.rays = kOccluderRays;
+    options.repairs.bad_textures = prt::BadTextures::ignore;
+    std::vector<prt::NodeOccluder> occluders;
+    for (const prt::RigidPart& part : prt::rigid_parts(document, scene)) {
+        channel.progress().check();
+        occluders.push_back({part.node, prt::bake_occluder(part.scene, part.frame, options).volume});
+    }
+    return occluders;
+}
+
 } // namespace
 
 SortedFiles sort_files(const std::vector<std::filesystem::path>& paths, bool scene_open) {
@@ -61,8 +78,14 @@ SortedFiles sort_files(const std::vector<std::filesystem::path>& paths, bool sce
     return sorted;
 }
 
-FigureFile read_figure(const std::filesystem::path& path) {
-    return {path, std::make_shared<const prt::AnimatedScene>(prt::load_gltf(path))};
+void find_figure(Channel& channel, const std::filesystem::path& path) {
+    const prt::GltfDocument document = prt::load_gltf(path);
+    const auto figure = std::make_shared<const prt::AnimatedScene>(document);
+    channel.post(FigureFile{path, figure});
+    std::vector<prt::NodeOccluder> occluders = prt::read_occluders(document);
+    if (occluders.empty())
+        occluders = measured_occluders(channel, document, figure->scene());
+    channel.post(FoundOccluders{figure, std::move(occluders)});
 }
 
 void find_volume(Channel& channel, const std::shared_ptr<const Model>& model) {

@@ -126,6 +126,7 @@ private:
     void take(const SurfaceBudget& budget);
     void take(const SortedFiles& sorted);
     void take(const FigureFile& file);
+    void take(const FoundOccluders& found);
     void take(const FoundVolume& found);
     void take(const Saved& saved);
     void take(const Failure& failure);

@@ -32,6 +32,11 @@ void Viewer::take(const FigureFile& file) {
     gpu_->moving.set_figure(document_.moving.figure());
 }
 
+void Viewer::take(const FoundOccluders& found) {
+    document_.moving.set_occluders(found);
+    gpu_->moving.set_occluders(document_.moving.occluders());
+}
+
 void Viewer::take(const FoundVolume& found) {
     if (found.model != document_.loaded.model)
         return;
@@ -43,6 +48,7 @@ void Viewer::take(const FoundVolume& found) {
 
 void Viewer::upload_moving() {
     gpu_->moving.set_figure(document_.moving.figure());
+    gpu_->moving.set_occluders(document_.moving.occluders());
     gpu_->moving.set_volume(document_.moving.volume().volume);
     gpu_->lit = {};
 }
@@ -54,8 +60,8 @@ void Viewer::follow_moving(double seconds) {
     Moving& moving = document_.moving;
     if (shown.walks && !wants(PictureKind::reference))
         moving.advance(seconds, static_cast<double>(shown.speed));
-    const bool lights = (shown.figure && moving.figure()) || shown.spheres || shown.probes;
-    if (lights && document_.model() && !jobs_.busy(JobKind::model) && moving.ask_for_volume())
+    const bool lit = (shown.figure && moving.figure()) || shown.spheres || shown.probes;
+    if (lit && document_.model() && !jobs_.busy(JobKind::model) && moving.ask_for_volume())
         jobs_.find_volume(document_.loaded.model);
 }
 

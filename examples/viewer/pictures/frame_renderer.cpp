@@ -144,17 +144,19 @@ void FrameRenderer::draw(int index, PictureKind kind, GpuModel& model, const Dra
     Side& side = sides_[static_cast<std::size_t>(index)];
     side.shows_image = false;
     const bool numbers = shows_numbers(kind);
-    const GeometryPass pass = geometry_pass(model, settings, view);
+    GeometryPass pass = geometry_pass(model, settings, view);
     const bool moves = view.moving && view.moving->shows_anything() && !numbers;
     model.draw_shadows(kind, {view.camera, size_.width, size_.height},
                        moves ? view.moving->casters() : prt::SunShadows::Moving());
+    const std::optional<OccluderPass> occluders = moves ? view.moving->occluders() : std::nullopt;
+    pass.occluders = occluders ? &*occluders : nullptr;
     clear(side, kind, columns);
     if (settings.background && view.background && !numbers)
         draw_background(side, view);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     if (!numbers && (settings.deferred || is_ssao(kind))) {
-        draw_deferred(index, kind, model, settings, view);
+        draw_deferred(index, kind, model, pass, settings, view);
     } else {
         glBindFramebuffer(GL_FRAMEBUFFER, side.framebuffer.name());
         model.draw_opaque(kind, pass);
@@ -209,10 +211,9 @@ void FrameRenderer::draw_background(const Side& side, const FrameView& view) con
 }
 
 /// Draws opaque surfaces into the G-buffer and lights that; leaves the side's framebuffer bound.
-void FrameRenderer::draw_deferred(int index, PictureKind kind, GpuModel& model, const DrawSettings& settings,
-                                  const FrameView& view) const {
+void FrameRenderer::draw_deferred(int index, PictureKind kind, GpuModel& model, GeometryPass pass,
+                                  const DrawSettings& settings, const FrameView& view) const {
     const Side& side = sides_[static_cast<std::size_t>(index)];
-    GeometryPass pass = geometry_pass(model, settings, view);
     pass.gbuffer = true;
     if (is_ssao(kind))
         glDisable(GL_SCISSOR_TEST);

@@ -98,8 +98,8 @@ private:
     void clear(const Side& side, PictureKind kind, const Columns& columns) const;
     void draw_background(const Side& side, const FrameView& view) const;
     void draw_moving(const GpuModel& model, const GeometryPass& pass, const FrameView& view) const;
-    void draw_deferred(int side, PictureKind kind, GpuModel& model, const DrawSettings& settings,
-                       const FrameView& view) const;
+    void draw_deferred(int side, PictureKind kind, GpuModel& model, GeometryPass pass,
+                       const DrawSettings& settings, const FrameView& view) const;
     void draw_ssao(const Side& side, PictureKind kind, const SsaoSettings& settings, const FrameView& view,
                    const GpuModel& model) const;
     void light_gbuffer(const Side& side, const GpuModel& model, PictureKind kind) const;

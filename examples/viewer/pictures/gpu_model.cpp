@@ -253,20 +253,24 @@ std::string GpuModel::defines_of(const Surface& surface) const {
 const prt::GlObject& GpuModel::program(const Surface& surface) {
     prt::GlObject& program = programs_.surfaces[surface];
     if (program.name() == 0)
-        program = prt::make_program("viewer_surface.vert",
-                                    surface.gbuffer ? "viewer_gbuffer.frag" : "viewer_forward.frag",
-                                    defines_of(surface) + (surface.suns ? "#define PRT_SUNS\n" : ""));
+        program = prt::make_program(
+            "viewer_surface.vert", surface.gbuffer ? "viewer_gbuffer.frag" : "viewer_forward.frag",
+            defines_of(surface) + surface.occluders + (surface.suns ? "#define PRT_SUNS\n" : ""));
     return program;
 }
 
 const prt::GlObject& GpuModel::use(PictureKind kind, const GeometryPass& pass) {
     const Source source = source_of(kind);
     const bool suns = shows_suns(kind);
-    const prt::GlObject& chosen = program({source, pass.gbuffer, suns});
+    const bool occluded = pass.occluders && (source == Source::raw || source == Source::compressed);
+    const prt::GlObject& chosen = program(
+        {source, pass.gbuffer, suns, occluded ? "#define PRT_OCCLUDED\n" + pass.occluders->defines : ""});
     scene_.shine(emission_of(source));
     glUseProgram(chosen.name());
     set_matrix(chosen, pass.view_projection);
     glUniform1i(prt::uniform(chosen, "textured"), pass.textured && source != Source::numbers);
+    if (occluded)
+        pass.occluders->shadows->use(chosen);
     if (source == Source::normals) {
         glUniform1i(prt::uniform(chosen, "occluded"), kind == PictureKind::baked_ao);
         glUniform1i(prt::uniform(chosen, "dithered"), pass.dithered);

@@ -2,6 +2,7 @@
 
 // A model on the GPU, with all that it can be lit by.
 
+#include "pictures/contact_shadows.h"
 #include "pictures/gpu_lightmap.h"
 #include "pictures/lamps.h"
 #include "pictures/model.h"
@@ -26,6 +27,7 @@ struct GeometryPass {
     glm::vec3 eye{0};
     bool gbuffer = false;
     bool culling = true, textured = true, dithered = true;
+    const OccluderPass* occluders = nullptr; ///< null: nothing moves near
 };
 
 class GpuModel {
@@ -81,6 +83,7 @@ private:
     struct Surface { ///< that a program draws
         Source source;
         bool gbuffer, suns;
+        std::string occluders; ///< defines
 
         friend auto operator<=>(const Surface&, const Surface&) = default;
     };

@@ -43,6 +43,7 @@ MovingStage::MovingStage()
 
 void MovingStage::set_figure(std::shared_ptr<const prt::AnimatedScene> figure) {
     figure_.reset();
+    shadows_.set_figure({});
     pose_ = {};
     ++moved_;
     if (figure)
@@ -119,6 +120,21 @@ std::optional<prt::Bounds> MovingStage::box() const {
         if (shows_spheres())
             add({middle - spheres_.radius, middle + spheres_.radius});
     return all;
+}
+
+std::optional<OccluderPass> MovingStage::occluders() {
+    if (!shown_.contact || (!shows_figure() && !shows_spheres()))
+        return std::nullopt;
+    std::vector<Ball> balls;
+    for (const glm::vec3& middle : spheres_.middles)
+        if (shows_spheres())
+            balls.push_back({middle, spheres_.radius});
+    shadows_.place(shows_figure() ? &pose_ : nullptr, balls);
+    if (shadows_.empty())
+        return std::nullopt;
+    if (volume_.gpu)
+        volume_.gpu->bind();
+    return OccluderPass{&shadows_, volume_.defines};
 }
 
 prt::SunShadows::Moving MovingStage::casters() {

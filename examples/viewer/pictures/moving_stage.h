@@ -3,6 +3,7 @@
 // What moves through the scene that is open, on the GPU, lit by its volume: a figure, two spheres, and the
 // probes.
 
+#include "pictures/contact_shadows.h"
 #include "pictures/gpu_moving.h"
 #include "pictures/lamps.h"
 #include "pictures/settings.h"
@@ -40,6 +41,9 @@ public:
 
     /// Null: there is none.
     void set_figure(std::shared_ptr<const prt::AnimatedScene> figure);
+    void set_occluders(std::vector<prt::NodeOccluder> occluders) {
+        shadows_.set_figure(std::move(occluders));
+    }
     void set_volume(std::shared_ptr<const prt::CompressedVolume> volume);
     void pose(const FigurePose& pose);
     void place(const TwoSpheres& spheres);
@@ -53,6 +57,9 @@ public:
     bool shows_anything() const { return shows_figure() || shows_spheres() || shows_probes(); }
     /// Around what is shown but probes.
     std::optional<prt::Bounds> box() const;
+    /// What it takes from the light of surfaces near it; nothing where nothing is shown that does. Binds the
+    /// volume.
+    std::optional<OccluderPass> occluders();
     /// What casts shadows into maps of the suns.
     prt::SunShadows::Moving casters();
     /// Over what has been drawn of the scene; the maps of its suns are bound.
@@ -84,6 +91,7 @@ private:
     MovingSettings shown_;
     FigurePose pose_;
     TwoSpheres spheres_;
+    ContactShadows shadows_;
     std::uint64_t moved_ = 1;
     Volume volume_;
     Lit lit_;

@@ -53,6 +53,7 @@ struct MovingSettings {
     float speed = 1;      ///< times that of its walk
     bool spheres = false; ///< a matt and a mirroring one
     bool probes = false;  ///< of the volume, in their own light
+    bool contact = true;  ///< they darken what they come near to
 
     friend bool operator==(const MovingSettings&, const MovingSettings&) = default;
 };

@@ -296,7 +296,7 @@ void moving_panel(Viewer& viewer) {
     controls(viewer.settings, {"walk_speed"});
     ImGui::EndDisabled();
     say_why_disabled(there ? "" : "drop an animated model beside the scene");
-    controls(viewer.settings, {"spheres", "probes"});
+    controls(viewer.settings, {"spheres", "probes", "contact"});
     if (viewer.jobs().busy(JobKind::volume))
         ImGui::ProgressBar(static_cast<float>(viewer.jobs().share(JobKind::volume)), {-1, 0},
                            viewer.jobs().label(JobKind::volume).c_str());

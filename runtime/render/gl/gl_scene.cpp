@@ -167,6 +167,7 @@ void GlScene::prepare(const GlObject& program, const GlVertexArrays& arrays, std
     glBindVertexArray(array);
     if (lightmaps_.layout && uniform(program, "lightmap") >= 0)
         prepare_lightmap(array, index);
+    bind_storage(PRT_BINDING_NORMALS, vertices_[primitive.vertices].normals); // shaders/vertex_normals.glsl
     if (uniform(program, "sunlit") >= 0)
         prepare_for_suns(program, primitive);
     if (uniform(program, "emission") >= 0)
@@ -216,7 +217,6 @@ void GlScene::prepare_for_suns(const GlObject& program, const Primitive& primiti
     const auto texcoords = [&](const TextureUse& use) -> const GlObject& {
         return vertices.texcoords[static_cast<std::size_t>(use.texcoord)];
     };
-    bind_storage(PRT_BINDING_NORMALS, vertices.normals);
     if (factor)
         bind_storage(PRT_BINDING_FACTOR_TEXCOORDS, texcoords(transmission.factor_texture));
     if (tint)

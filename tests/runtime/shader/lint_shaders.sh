@@ -88,6 +88,8 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" "${packed[@]}" PRT_SUNS
             compiles "$file" "${packed[@]}" "${guides[@]}" PRT_SUNS
             compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 11" PRT_GUIDE_NORMAL
+            compiles "$file" PRT_VERTEX_RADIANCE PRT_OCCLUDED
+            compiles "$file" "${packed[@]}" PRT_OCCLUDED PRT_SUNS PRT_VOLUME "${volume[@]}"
             ;;
         scene.frag | sun_caster.frag)
             compiles "$file"

@@ -1,0 +1,12 @@
+// Normals of vertices from a buffer: weights of transfer may take the place of every attribute.
+
+#include "shared_suns.h"
+
+layout(std430, binding = PRT_BINDING_NORMALS) readonly buffer Normals {
+    float vertex_normals[]; // [vertices][3]
+};
+
+vec3 normal_of_vertex() {
+    int first = 3 * gl_VertexID;
+    return vec3(vertex_normals[first], vertex_normals[first + 1], vertex_normals[first + 2]);
+}
