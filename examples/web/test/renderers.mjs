@@ -9,11 +9,13 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
-import { DataUtils } from "three";
+import { DataUtils, Euler, Vector3 } from "three";
 import { createServer } from "vite";
 import { clustersOf, lightColumns } from "../src/clusteredPca.js";
+import { volumeOf } from "../src/volumeTransfer.js";
 import { bakedModel, MAPS, texelWords } from "./bakedModel.js";
 import { extensionOf, png } from "./glb.js";
+import { incidentAround, sumOf, volumeModel } from "./volumeModel.js";
 import { radianceOfWords } from "./wordRadiance.js";
 
 const [, , pattern = ""] = process.argv;
@@ -45,6 +47,7 @@ function leafy(json) {
   json.materials[1].extensions = { KHR_materials_unlit: {} };
 }
 const models = Object.fromEntries(["vertices", "weights", "texels"].map((by) => [`${by}.glb`, bakedModel(by)]));
+models["volume.glb"] = volumeModel();
 for (const by of ["vertices", "texels"]) models[`leaf_${by}.glb`] = bakedModel(by, leafy);
 
 /** A page of a browser of its own: where WebGPU in software gives up, it takes the process of all pages along. */
@@ -201,6 +204,64 @@ await check("texels: without an environment, the picture is that of three's own 
   assert.ok(mean < (revision < 184 ? 0.1 : 1), `mean ${mean} of 255`);
   return `mean ${mean.toFixed(3)} of 255`;
 });
+
+const [across, down] = [48, 40];
+const volumeLight = Array.from({ length: 27 }, (_, i) => Math.cos(3 * i + 1) + (i < 3 ? 3 : 0));
+/** Through both bricks and between probes, beyond the box, and where there is no brick. */
+const places = [
+  { place: [-0.53, 0.61, -0.37], turn: [0.3, 0.5, 0.1] },
+  { place: [0.31, 0.13, -0.91], turn: [-1.2, 0.2, 2.1] },
+  { place: [-1.77, -0.41, -1.23], turn: [0.4, 2.6, -0.3] },
+  { place: [0.07, 1.23, 0.29], turn: [1.1, -0.7, 0.9] },
+];
+
+/** The largest difference of what a square shows from plain numbers, over the brightest of them. */
+async function offPlain(askThere, asked, expected) {
+  const { extension, view } = extensionOf(models[asked.model], "PRTKIT_transfer_volume");
+  const volume = volumeOf(extension, view);
+  const columns = lightColumns(volume.clusters, volumeLight, null, [0.5, 2, 0.25]);
+  const pixels = await askThere("lit", { ...asked, light: volumeLight, lamps: { Lantern: [0.5, 2, 0.25] }, size: [across, down] });
+  const turned = new Euler().fromArray(asked.turn);
+  const normal = new Vector3(0, 0, 1).applyEuler(turned).toArray();
+  let [most, brightest] = [0, 0];
+  for (let y = 0; y < down; ++y)
+    for (let x = 0; x < across; ++x) {
+      const row = asked.api === "webgpu" ? down - 1 - y : y;
+      const at = new Vector3((2 * (x + 0.5)) / across - 1, (2 * (y + 0.5)) / down - 1, 0).applyEuler(turned);
+      const incident = incidentAround(volume, asked.place.map((value, a) => value + at.toArray()[a]), normal, columns);
+      expected(incident, normal).forEach((value, c) => {
+        most = Math.max(most, Math.abs(pixels[4 * (row * across + x) + c] - value));
+        brightest = Math.max(brightest, value);
+      });
+    }
+  return most / brightest;
+}
+
+for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebgpu.ask]]) {
+  const matte = { api, model: "volume.glb", material: "matte", kind: "plain" };
+  await check(`${api}: what a volume lights has the light of its place, as plain numbers have it`, async () => {
+    const found = [];
+    for (const floats of [true, false])
+      for (const place of places) found.push(await offPlain(askThere, { ...matte, floats, ...place }, (light, normal) => sumOf(light, normal)));
+    // Filters of half floats take shares of a cell in 256ths, and neighbours differ by as much as all light.
+    assert.ok(Math.max(...found.slice(0, 4)) < 1e-5 && Math.max(...found.slice(4)) < 2 ** -8, found.join());
+    return `${Math.max(...found.slice(0, 4)).toExponential(1)} off in floats, ${Math.max(...found.slice(4)).toExponential(1)} in half floats`;
+  });
+  await check(`${api}: skins, morphs, instances and a scene that is moved are lit where they are`, async () => {
+    for (const kind of ["skinned", "morphed", "instances"]) {
+      const off = await offPlain(askThere, { ...matte, floats: true, kind, ...places[0] }, (light, normal) => sumOf(light, normal));
+      assert.ok(off < 1e-5, `${kind}: ${off}`);
+    }
+    const off = await offPlain(askThere, { ...matte, floats: true, moved: [0.5, -0.25, 2], ...places[1] }, (light, normal) => sumOf(light, normal));
+    assert.ok(off < 1e-5, `moved: ${off}`);
+  });
+  await check(`${api}: chrome mirrors what comes in from there`, async () => {
+    const off = await offPlain(askThere, { ...matte, material: "chrome", floats: true, ...places[1] }, (light, normal) =>
+      sumOf(light, normal, [1, 1, 1, 1]));
+    assert.ok(off < 0.02, `${off}`); // three's fit of what is scattered more than once
+    return `${off.toExponential(1)} off`;
+  });
+}
 
 await check("the plug-in of the other renderer is refused", async () => {
   for (const by of ["vertices", "texels"]) {
