@@ -37,11 +37,13 @@ import { checkVolume, expect, PROBES, TEXELS, VERTICES, viewsOf } from "./wholeE
 export { halfFloatSky, projectEquirectangular } from "./equirectangular.js";
 export { lightOfSuns, readLightFile } from "./lightFile.js";
 export { lightFromProbe } from "./lightProbe.js";
+export { LitTransfer } from "./LitTransfer.js";
 export { PrtkitModel } from "./PrtkitModel.js";
 export { PrtkitVolume } from "./PrtkitVolume.js";
 export { projectInWorker } from "./projectInWorker.js";
 export { ShLight } from "./sphericalHarmonics.js";
 export { SunLights } from "./SunLights.js";
+export { VOLUME as volumeShader } from "./transferShader.js";
 
 /** For `GLTFLoader.register`. Files without transfer load as ever. */
 export class PrtkitPlugin {

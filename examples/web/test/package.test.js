@@ -45,7 +45,7 @@ test("the package loads where it is installed, and is small", () => {
     npm("install", "--offline", "--legacy-peer-deps", "--no-audit", "--no-fund", `./${filename}`);
     mkdirSync(join(folder, "node_modules"), { recursive: true });
     symlinkSync(join(web, "node_modules/three"), join(folder, "node_modules/three"), "dir"); // the game's own
-    const names = [...readFileSync(join(web, exports["."].types), "utf8").matchAll(/^export (?:class|function) (\w+)/gm)].map(([, name]) => name);
+    const names = [...readFileSync(join(web, exports["."].types), "utf8").matchAll(/^export (?:class|function|const) (\w+)/gm)].map(([, name]) => name);
     assert.ok(names.includes("PrtkitPlugin"));
     writeFileSync(
       join(folder, "game.js"),

@@ -242,22 +242,22 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
   await check(`${api}: what a volume lights has the light of its place, as plain numbers have it`, async () => {
     const found = [];
     for (const floats of [true, false])
-      for (const place of places) found.push(await offPlain(askThere, { ...matte, floats, ...place }, (light, normal) => sumOf(light, normal)));
+      for (const place of places) found.push(await offPlain(askThere, { ...matte, floats, ...place }, (incident, normal) => sumOf(incident, normal)));
     // Filters of half floats take shares of a cell in 256ths, and neighbours differ by as much as all light.
     assert.ok(Math.max(...found.slice(0, 4)) < 1e-5 && Math.max(...found.slice(4)) < 2 ** -8, found.join());
     return `${Math.max(...found.slice(0, 4)).toExponential(1)} off in floats, ${Math.max(...found.slice(4)).toExponential(1)} in half floats`;
   });
   await check(`${api}: skins, morphs, instances and a scene that is moved are lit where they are`, async () => {
     for (const kind of ["skinned", "morphed", "instances"]) {
-      const off = await offPlain(askThere, { ...matte, floats: true, kind, ...places[0] }, (light, normal) => sumOf(light, normal));
+      const off = await offPlain(askThere, { ...matte, floats: true, kind, ...places[0] }, (incident, normal) => sumOf(incident, normal));
       assert.ok(off < 1e-5, `${kind}: ${off}`);
     }
-    const off = await offPlain(askThere, { ...matte, floats: true, moved: [0.5, -0.25, 2], ...places[1] }, (light, normal) => sumOf(light, normal));
+    const off = await offPlain(askThere, { ...matte, floats: true, moved: [0.5, -0.25, 2], ...places[1] }, (incident, normal) => sumOf(incident, normal));
     assert.ok(off < 1e-5, `moved: ${off}`);
   });
   await check(`${api}: chrome mirrors what comes in from there`, async () => {
-    const off = await offPlain(askThere, { ...matte, material: "chrome", floats: true, ...places[1] }, (light, normal) =>
-      sumOf(light, normal, [1, 1, 1, 1]));
+    const off = await offPlain(askThere, { ...matte, material: "chrome", floats: true, ...places[1] }, (incident, normal) =>
+      sumOf(incident, normal, [1, 1, 1, 1]));
     assert.ok(off < 0.02, `${off}`); // three's fit of what is scattered more than once
     return `${off.toExponential(1)} off`;
   });

@@ -28,7 +28,7 @@ function random(seed) {
 
 /** Rows of what nothing is in the way of: each coefficient of the light comes in as it is. */
 const openRow = (outputs) =>
-  Array.from({ length: outputs }, (_, o) => Array.from({ length: SIZE }, (_, i) => Number(i === o))).flat();
+  Array.from({ length: outputs }, (_, o) => Float32Array.from({ length: SIZE }, (__, i) => Number(i === o))).flatMap((row) => [...row]);
 
 function rowsOf(outputs, open) {
   const next = random(11);
