@@ -84,6 +84,7 @@ export class PrtkitVolume extends LitTransfer {
     this.steps = null; // of the light that is being formed
     this.isFormed = false; // any light
     this.frame = -1;
+    this.tables = null; // of nodes
     this.beforeRender = (renderer) => this.advance(renderer);
     this.place();
   }
@@ -174,9 +175,9 @@ export class PrtkitVolume extends LitTransfer {
 
   /** Before anything is drawn by it: a step for each picture, all of them before the first. */
   advance(renderer) {
-    const { frame } = renderer.info.render;
-    if (frame === this.frame) return;
-    this.frame = frame;
+    const { frame, calls } = renderer.info.render; // WebGPURenderer counts calls alone
+    if ((frame ?? calls) === this.frame) return;
+    this.frame = frame ?? calls;
     this.place();
     this.followSky();
     if (!this.isFormed) this.settle();
@@ -187,5 +188,6 @@ export class PrtkitVolume extends LitTransfer {
   dispose() {
     this.sky = null;
     for (const name of ["prt_volume_light", "prt_volume_sights", "prt_volume_index"]) this.uniforms[name].value.dispose();
+    for (const { texture } of this.tables ?? []) texture.dispose();
   }
 }

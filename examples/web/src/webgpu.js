@@ -19,6 +19,10 @@ export class PrtkitPlugin extends ForWebGL {
     return nodeMaterial(source, transfer);
   }
 
+  copiedMaterial(source, transfer) {
+    return nodeMaterial(source, transfer);
+  }
+
   checkRenderer(renderer) {
     if (renderer.isWebGLRenderer) throw new Error("prtkit: WebGLRenderer wants the plug-in of prtkit-web");
   }
