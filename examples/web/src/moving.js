@@ -15,7 +15,8 @@ import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { Walk } from "./walk.js";
 
 const RADIUS = 0.25; // metres
-const APART = 0.9; // along the way
+const ASIDE = 0.75; // of who walks, on both sides
+const HIGH = 1.2; // over the ground
 const PROBE_SHARE = 0.06; // of the least distance of probes
 const USUAL_SPEED = 1.2; // metres a second
 
@@ -36,6 +37,7 @@ export class Moving {
     this.group = new Group();
     this.parts = { figure: new Group(), spheres: new Group().add(ball(0xffffff, 1, 0), ball(0xcccccc, 0, 1)), probes: new Group() };
     this.shown = { figure: false, spheres: false, probes: false };
+    this.parts.spheres.children.forEach((sphere, i) => sphere.position.set(i === 0 ? ASIDE : -ASIDE, HIGH, 0));
     this.group.add(...Object.values(this.parts));
     scene.add(this.group);
     this.volume = null;
@@ -114,9 +116,7 @@ export class Moving {
     if (!this.walk) return;
     figure.position.copy(this.walk.at(this.metres));
     figure.rotation.y = this.walk.heading(this.metres);
-    spheres.children.forEach((sphere, i) => {
-      sphere.position.copy(this.walk.at(this.metres - (i + 1) * APART));
-      sphere.position.y += RADIUS;
-    });
+    spheres.position.copy(figure.position);
+    spheres.rotation.copy(figure.rotation);
   }
 }

@@ -194,7 +194,9 @@ export function lightOfVolume(volume) {
       const here = incidentSum(light, direction, bands).toVar();
       if (!environment) return here;
       const alone = incidentSum(open, direction, bands).toVar();
-      return environment.mul(here.div(alone.max(1e-6)).min(1)).add(here.sub(alone).max(0));
+      const share = here.div(alone.max(1e-6)).min(1).toVar();
+      const sharp = environment.mul(share).add(here.sub(alone).max(0));
+      return mix(here, sharp, share.x.min(share.y).min(share.z));
     },
   };
 }

@@ -7,7 +7,7 @@ const root = new URL("../../../", import.meta.url);
 const runtime = ["prt_exit_radiance.glsl", "prt_lightmap.frag", "prt_volume.glsl"];
 
 /** Comments are for who reads shaders/; browsers load the modules. */
-const bare = (text) => text.replace(/[ \t]*\/\/.*$/gm, "").replace(/\n\s*\n/g, "\n").trimStart();
+const bare = (text) => text.replace(/[ \t]*\/\/.*$/gm, "").replace(/\n\s+/g, "\n").trimStart();
 
 /** A module: what it includes that is one itself is imported, so that it is there once. */
 function embed(folder, name) {
