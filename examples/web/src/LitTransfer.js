@@ -26,10 +26,10 @@ export class LitTransfer {
   }
 
   /**
-   * Lights by `light` turned about +Y by `angle` radians. `suns`: those
-   * that three's directional lights add with their shadows; here they light what is lit after a bounce. Where direct light
-   * is not apart they light in full here, and three's lights add nothing. `lamps`: strengths by name, numbers or
-   * [red, green, blue]; those that it does not name shine as in the scene.
+   * Lights by `light` turned about +Y by `angle` radians. `suns`: those that three's directional lights add with their
+   * shadows; here they light what is lit after a bounce. Where direct light is not apart they light in full here, and three's
+   * lights add nothing. `lamps`: strengths by name, numbers or [red, green, blue]; those that it does not name shine as in the
+   * scene.
    */
   setLight(light, angle = 0, suns = null, lamps = {}) {
     this.checkOrders(light, suns);

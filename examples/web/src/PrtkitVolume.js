@@ -84,6 +84,7 @@ export class PrtkitVolume extends LitTransfer {
     this.steps = null; // of the light that is being formed
     this.isFormed = false; // any light
     this.frame = -1;
+    this.renderers = new WeakSet(); // whose textures are long enough
     this.tables = null; // of nodes
     this.beforeRender = (renderer) => this.advance(renderer);
     this.place();
@@ -173,11 +174,23 @@ export class PrtkitVolume extends LitTransfer {
     this.uniforms.prtToVolume.value.copy(this.root.matrixWorld).invert().premultiply(origin);
   }
 
+  /** Throws where a device has no textures as long as the volume's: guaranteed are 256 texels. */
+  checkSize(renderer) {
+    if (this.renderers.has(renderer)) return;
+    const { device, gl = renderer.getContext?.() } = renderer.backend ?? {};
+    const most = device?.limits.maxTextureDimension3D ?? gl?.getParameter(gl.MAX_3D_TEXTURE_SIZE);
+    const { width, height, depth } = this.texture.image;
+    const longest = Math.max(width, height, depth, ...this.source.grid.size);
+    if (longest > most) throw new Error(`prtkit: a volume is ${longest} texels long, longer than this device has textures (${most})`);
+    this.renderers.add(renderer);
+  }
+
   /** Before anything is drawn by it: a step for each picture, all of them before the first. */
   advance(renderer) {
     const { frame, calls } = renderer.info.render; // WebGPURenderer counts calls alone
     if ((frame ?? calls) === this.frame) return;
     this.frame = frame ?? calls;
+    this.checkSize(renderer);
     this.place();
     this.followSky();
     if (!this.isFormed) this.settle();

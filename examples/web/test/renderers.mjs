@@ -15,7 +15,7 @@ import { clustersOf, lightColumns } from "../src/clusteredPca.js";
 import { volumeOf } from "../src/volumeTransfer.js";
 import { bakedModel, MAPS, texelWords } from "./bakedModel.js";
 import { extensionOf, png } from "./glb.js";
-import { incidentAround, sumOf, volumeModel } from "./volumeModel.js";
+import { incidentAround, sumOf, volumeExtension, volumeModel } from "./volumeModel.js";
 import { radianceOfWords } from "./wordRadiance.js";
 
 const [, , pattern = ""] = process.argv;
@@ -47,6 +47,8 @@ function leafy(json) {
   json.materials[1].extensions = { KHR_materials_unlit: {} };
 }
 const models = Object.fromEntries(["vertices", "weights", "texels"].map((by) => [`${by}.glb`, bakedModel(by)]));
+for (const by of ["vertices", "texels"])
+  models[`moving_${by}.glb`] = bakedModel(by, (json, binary) => (json.extensions.PRTKIT_transfer_volume = volumeExtension(binary)));
 models["volume.glb"] = volumeModel();
 for (const by of ["vertices", "texels"]) models[`leaf_${by}.glb`] = bakedModel(by, leafy);
 
@@ -159,6 +161,7 @@ const cases = {
   "clones": { copies: "clones" },
   "a light probe": { probed: true },
   "another model with its own light": { besides: true },
+  "what moves through a volume, in an environment with suns": { model: "moving", environment: true, suns: true, change: "moving" },
 };
 const other = { vertices: "texels.glb", texels: "vertices.glb" };
 const given = (by, { model, besides, ...options }) => ({

@@ -141,6 +141,14 @@ test("a change of light takes several pictures, in which the former light is sho
   assert.notDeepEqual(numbersAt(volume, 5), before);
 });
 
+test("a device whose textures are too small is told so", () => {
+  const volume = new PrtkitVolume(readVolume(), new Group(), new PrtkitPlugin());
+  const gl = { MAX_3D_TEXTURE_SIZE: 7, getParameter: (name) => (name === 7 ? 32 : 0) };
+  volume.setLight(light);
+  const renderer = { info: { render: { frame: 1 } }, getContext: () => gl };
+  assert.throws(() => volume.beforeRender(renderer), /a volume is 35 texels long, longer than this device has textures \(32\)/);
+});
+
 test("a volume goes beside the transfer of surfaces, and is lit with it", async () => {
   const { userData } = await load(bakedModel("vertices", (json, binary) => {
     delete json.textures;

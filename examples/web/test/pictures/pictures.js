@@ -16,6 +16,7 @@ import {
   Matrix4,
   Mesh,
   MeshLambertMaterial,
+  MeshPhysicalMaterial,
   MeshStandardMaterial,
   OrthographicCamera,
   PCFShadowMap,
@@ -26,6 +27,7 @@ import {
   Scene,
   Skeleton,
   SkinnedMesh,
+  SphereGeometry,
   SphericalHarmonics3,
   Uint16BufferAttribute,
   WebGLRenderer,
@@ -202,7 +204,12 @@ async function sceneOf(api, { model, light, environment, suns, shadows, fog, oth
     scene.add(sun);
   }
   const { prtkit } = gltf.userData;
-  const sky = ShLight.fromCoefficients(prtkit.order, light);
+  const { order } = prtkit.volume ?? prtkit;
+  const sky = ShLight.fromCoefficients(order, [...light, ...new Array(3 * order * order - light.length).fill(0)]);
+  if (change === "moving") {
+    const coated = new MeshPhysicalMaterial({ color: 0xcc8844, metalness: 0.5, roughness: 0.3, clearcoat: 1, clearcoatRoughness: 0.1 });
+    scene.add(prtkit.volume.light(new Mesh(new SphereGeometry(0.6, 32, 24), coated).translateY(1.4).translateX(-0.5)));
+  }
   if (probed) {
     scene.environmentRotation.y = scene.backgroundRotation.y = 0.7;
     prtkit.setSky(lightFromProbe(probe(), prtkit.order), scene);
