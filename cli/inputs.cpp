@@ -88,6 +88,7 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
                    .lightmap = std::move(lightmap)};
     file.volume = read_volume(file.document, file.scene);
     file.compressed_volume = read_compressed_volume(file.document, file.scene);
+    file.occluders = read_occluders(file.document);
     return file;
 }
 

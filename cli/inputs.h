@@ -6,6 +6,7 @@
 #include "prt/image_file.h"
 #include "prt/light.h"
 #include "prt/lightmap.h"
+#include "prt/occluder_gltf.h"
 #include "prt/support/error.h"
 #include "prt/volume_gltf.h"
 #include "session.h"
@@ -43,6 +44,7 @@ struct SceneFile {
     /// Of probes, beside transfer of surfaces.
     std::optional<BakedVolume> volume = {};
     std::optional<CompressedVolume> compressed_volume = {};
+    std::vector<NodeOccluder> occluders = {};
 
     /// Order of the transfer, 0 where there is none.
     int order() const;

@@ -31,6 +31,7 @@
 #define PRT_BINDING_LIGHT 3
 #define PRT_BINDING_VOLUME_WORDS 4
 #define PRT_BINDING_VOLUME_PROBES 5
+#define PRT_BINDING_OCCLUDERS 6 // a uniform block
 #define PRT_BINDING_EMISSION_TEXCOORDS 10
 
 // Surfaces: prt::AlphaMode.
@@ -53,6 +54,7 @@
 #define PRT_UNIT_VOLUME_LIGHT 15
 #define PRT_UNIT_VOLUME_SIGHTS 16
 #define PRT_UNIT_VOLUME_INDEX 17
+#define PRT_UNIT_OCCLUDERS 18
 
 // Images.
 #define PRT_IMAGE_LIGHTMAP 0
@@ -64,5 +66,13 @@
 #define PRT_VOLUME_SIGHT_FULL 0.9
 #define PRT_VOLUME_SIGHT_NONE 1.2
 #define PRT_VOLUME_HIDDEN_WEIGHT 0.0001
+
+// Volumes of what moving objects block: prt/occlusion_volume.h says what these are.
+#define PRT_OCCLUDER_SIDE 8
+#define PRT_OCCLUDER_FADE 0.6
+#define PRT_OCCLUDER_BORDER 0.4
+#ifndef PRT_MOST_OCCLUDERS
+#define PRT_MOST_OCCLUDERS 32
+#endif
 
 #endif

@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include "no_shadow.h"
+#include "occluders.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
@@ -25,13 +26,27 @@ struct AoArguments {
     std::string attribute = "COLOR_0";
     TexelArguments textures;
     OcclusionOptions options;
-    bool bent_normals = false;
+    std::optional<int> rays;
+    struct What {
+        bool bent_normals = false, volume = false;
+    } what;
     GltfOptions reading;
 
     bool in_textures() const { return textures.given(); }
 };
 
 constexpr const char* kBentNormal = "_BENT_NORMAL"; ///< attribute
+
+OccluderOptions occluder_options(const AoArguments& a) {
+    OccluderOptions options;
+    options.rays = a.rays.value_or(options.rays);
+    options.tracer = a.options.tracer;
+    options.repairs = a.options.repairs;
+    options.threads = a.options.threads;
+    options.seed = a.options.seed;
+    return options;
+}
+
 /// DISTANCE[:SHARE]
 Falloff::Term parse_term(const std::string& text) {
     const std::size_t colon = text.find(':');
@@ -86,7 +101,7 @@ Report bake_vertices(const AoArguments& a, GltfDocument& document, const Scene& 
         attributes.push_back(shaded_vertex_colors(scene, result.openness.ambient));
     else
         attributes.push_back({a.attribute, 1, result.openness.ambient});
-    if (a.bent_normals) {
+    if (a.what.bent_normals) {
         VertexAttribute& bent = attributes.emplace_back(VertexAttribute{kBentNormal, 3, {}});
         for (const glm::vec3& n : result.openness.bent_normals)
             bent.values.insert(bent.values.end(), {n.x, n.y, n.z});
@@ -121,8 +136,9 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
                             .texcoord = map.atlas.uv_set,
                             .repeats = map.atlas.repeats,
                             .occlusion = grey_png(map.atlas, map.openness.ambient),
-                            .bent_normals = a.bent_normals ? normal_png(map.atlas, map.openness.bent_normals)
-                                                           : std::vector<std::byte>()});
+                            .bent_normals = a.what.bent_normals
+                                                ? normal_png(map.atlas, map.openness.bent_normals)
+                                                : std::vector<std::byte>()});
         maps.push_back({{"width", map.atlas.width},
                         {"height", map.atlas.height},
                         {"primitives", map.atlas.primitives.size()},
@@ -160,14 +176,25 @@ Report bake_textures(const AoArguments& a, GltfDocument& document, const Scene& 
 void check_arguments(const AoArguments& a) {
     if (a.attribute != "COLOR_0" && !a.attribute.starts_with("_"))
         throw Error("--attribute: glTF wants names of own attributes to begin with _, as _AO");
-    if (a.attribute == kBentNormal && a.bent_normals)
+    if (a.attribute == kBentNormal && a.what.bent_normals)
         throw Error("--attribute: _BENT_NORMAL is where --bent-normals go");
     check_texels(a.textures);
+    if (a.what.volume && !a.options.tracer.falloff.blocks_everywhere())
+        throw Error("--falloff and --distance are of surfaces: an occlusion volume ends at its reach");
+}
+
+Report bake_asked(const AoArguments& a, GltfDocument& document, const Scene& scene, const TexelRoom& room,
+                  const Progress& progress) {
+    if (a.what.volume)
+        return bake_occluders(document, scene, occluder_options(a), progress);
+    return a.in_textures() ? bake_textures(a, document, scene, room.atlases, progress)
+                           : bake_vertices(a, document, scene, progress);
 }
 
 void run(AoArguments a, Session& session) {
     choose_gpu(a.options.tracer);
     check_arguments(a);
+    a.options.rays = a.rays.value_or(a.options.rays);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
                                       {a.scene, a.textures.casters});
     if (a.options.repairs.bad_textures == BadTextures::ignore)
@@ -183,10 +210,7 @@ void run(AoArguments a, Session& session) {
     Report report;
     {
         ProgressBar bar = session.progress_bar("occlusion");
-        report = about(a.scene, [&] {
-            return a.in_textures() ? bake_textures(a, document, scene, room.atlases, bar.progress())
-                                   : bake_vertices(a, document, scene, bar.progress());
-        });
+        report = about(a.scene, [&] { return bake_asked(a, document, scene, room, bar.progress()); });
     }
     const std::vector<std::byte> file = about(a.scene, [&] { return encode_glb(document); });
     add_figures(report, room.figures);
@@ -206,9 +230,17 @@ void add_places(CLI::App* command, AoArguments& a) {
         ->capture_default_str()
         ->excludes(in.density)
         ->excludes(in.size);
-    command->add_flag("--bent-normals", a.bent_normals,
+    command->add_flag("--bent-normals", a.what.bent_normals,
                       "where light comes from on average, too: the attribute _BENT_NORMAL, or a texture that "
                       "extras.prtkit of materials names; in the frame of the scene");
+    command
+        ->add_flag("--volume", a.what.volume,
+                   "instead, what each part that moves as one blocks around it: objects, and the bones of "
+                   "skinned figures; for contact shadows on what they come near to")
+        ->excludes(in.density)
+        ->excludes(in.size)
+        ->excludes("--attribute")
+        ->excludes("--bent-normals");
 }
 
 void add_falloff(CLI::App* command, Falloff& falloff) {
@@ -240,8 +272,9 @@ void add_ao(CLI::App& app, Session& session) {
     add_output(command, a.output, "model to write, .glb");
     add_places(command, a);
     add_falloff(command, a.options.tracer.falloff);
-    command->add_option("--rays", a.options.rays, "rays per vertex or texel")
-        ->capture_default_str()
+    command
+        ->add_option("--rays", a.rays,
+                     "rays per vertex or texel (1024 without this), or point of a volume (256)")
         ->check(CLI::Range(1, kMostRays));
     add_fit(
         command, a.options.fit,

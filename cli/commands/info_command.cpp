@@ -148,6 +148,10 @@ void run(InfoArguments a, Session& session) {
     if (model.compressed_volume)
         add_volume(model.compressed_volume->grid, model.compressed_volume->sights.size(),
                    model.compressed_volume->order, report);
+    if (!model.occluders.empty()) {
+        add_figures(report, {{"occlusion_volumes", model.occluders.size()}});
+        report.sentences.push_back("{occlusion_volumes} nodes say what they block around them");
+    }
     if (!model.record())
         report.sentences.emplace_back("no transfer");
     if (model.lightmap)

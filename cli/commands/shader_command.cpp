@@ -2,6 +2,7 @@
 
 #include "options.h"
 #include "outputs.h"
+#include "prt/occlusion_volume.h"
 #include "prt/shader_source.h"
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
@@ -20,7 +21,7 @@ struct ShaderArguments {
     Path model, output;
     ShaderLanguage language = ShaderLanguage::glsl450;
     std::optional<ConstantSource> constants; ///< unset: what the language can do
-    bool compute = false, fragment = false, volume = false;
+    bool compute = false, fragment = false, volume = false, occluders = false;
     GltfOptions reading;
 };
 
@@ -83,9 +84,26 @@ void write_volume_shader(const ShaderArguments& a, const SceneFile& model, Sessi
                       texels.x, texels.y, texels.z));
 }
 
+/// What moving objects block, behind the lookup of the volume that it asks for light.
+void write_occluder_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
+    const std::string lookup =
+        model.compressed_volume
+            ? volume_functions(*model.compressed_volume, VolumeFormat::rgba16, model.scene.origin)
+            : "";
+    session.write(a.output, lookup + shader_part("prt_occluders.glsl", ""));
+    print(fmt::format(
+        "{}: functions to put behind the version line of a shader; {}, lists of up to {} objects\n",
+        printable(a.output.string()),
+        model.compressed_volume ? "light by the volume of the file"
+                                : "no light, as the file has no compressed volume",
+        kMostOccluders));
+}
+
 void run(ShaderArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.output, "--output"}}, {a.model});
     const SceneFile model = load_scene_file(a.model, a.reading);
+    if (a.occluders)
+        return write_occluder_shader(a, model, session);
     if (a.volume || (model.compressed_volume && !model.compressed))
         return write_volume_shader(a, model, session);
     if (!model.compressed)
@@ -131,6 +149,13 @@ void add_shader(CLI::App& app, Session& session) {
     command->add_flag("--volume", a.volume,
                       "the functions that look its volume up, for every language; with --compute the compute "
                       "shader that forms what they read");
+    command
+        ->add_flag(
+            "--occluders", a.occluders,
+            "the functions that darken what moving objects come near to, for every language; behind those "
+            "of the volume where the file has one")
+        ->excludes("--compute")
+        ->excludes("--fragment");
     add_reading(command, a.reading);
 }
 

@@ -5,6 +5,7 @@
 #include "prt/fallback.h"
 #include "prt/gltf.h"
 #include "prt/image_file.h"
+#include "prt/occluder_gltf.h"
 #include "prt/support/file.h"
 #include "support/glb_file.h"
 #include "support/guided.h"
@@ -185,6 +186,16 @@ void write_lightmaps(const Path& folder) {
     test::with_lightmap(scene, spread_over_maps(baked, coded)).write(folder / "lightmap.coded.glb");
 }
 
+/// A skinned triangle whose joint says what it blocks.
+void write_occluder(const Path& folder) {
+    GltfDocument document = document_of(dressed_file());
+    OcclusionVolume volume{glm::vec3(-1), glm::vec3(1), 4, {}};
+    volume.texels.fill(occluder_texel(0.2f, {0, 0.5f, 0}));
+    const NodeOccluder occluders[] = {{1, volume}};
+    write_occluders(document, occluders);
+    save_glb(document, folder / "occluder.glb");
+}
+
 } // namespace
 
 void write_model_seeds(const Path& to) {
@@ -213,6 +224,7 @@ void write_model_seeds(const Path& to) {
     write_with_fallback(folder);
     write_guided(folder);
     write_lightmaps(folder);
+    write_occluder(folder);
 }
 
 } // namespace prt::fuzz

@@ -4,8 +4,11 @@
 #include "prt/constant_former.h"
 #include "prt/lightmap_former.h"
 #include "prt/lightmap_lookup.h"
+#include "prt/occluder_gltf.h"
+#include "prt/rigid_parts.h"
 #include "target.h"
 
+#include <glm/common.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
@@ -99,12 +102,30 @@ void check_lightmap(const Scene& scene, const CompressedLightmap& lightmap) {
         expect(cluster < transfer.bases.clusters(), "a texel is in no cluster");
 }
 
+/// What nodes block, at places in and around their boxes; and the parts that could.
+void check_occluders(const GltfDocument& document, const Scene& scene) {
+    for (const NodeOccluder& occluder : read_occluders(document)) {
+        const PlacedOccluder where = placed(occluder.volume, glm::mat4(1), 0);
+        for (const float at : {0.0f, 0.3f, 1.0f, 1.7f, 40.0f}) {
+            const glm::vec3 place =
+                glm::mix(occluder.volume.low, occluder.volume.high, glm::vec3(at, 0.5f, 0.1f));
+            const float blocked = blocked_cosine(blocked_at(occluder.volume, where, place), {0, 1, 0});
+            expect(blocked >= 0 && blocked <= 1, "an occluder blocks more than there is");
+        }
+    }
+    std::size_t triangles = 0;
+    for (const RigidPart& part : rigid_parts(document, scene))
+        triangles += part.scene.triangles();
+    expect(triangles == scene.triangles(), "parts have other triangles");
+}
+
 } // namespace
 
 WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::path& path) {
     GltfDocument document = parse_gltf(file, path);
     Scene scene = extract_scene(document);
     check_scene(scene);
+    check_occluders(document, scene);
     auto baked = read_transfer(document, scene);
     auto compressed = read_clustered(document, scene);
     if (baked) {

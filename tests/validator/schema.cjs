@@ -1,7 +1,7 @@
 // What the JSON schemas of docs/format.md say of files:
 //   node schema.cjs NODE_MODULES FORMAT FILE...
 // prints a line for each .glb: its name, and "right" or what is wrong. Of every extension of prtkit that the file has at the
-// top level, and on its primitives. Exit status: 1 where one is wrong, 2 where a schema is.
+// top level, on its nodes, and on its primitives. Exit status: 1 where one is wrong, 2 where a schema is.
 const fs = require("fs");
 const path = require("path");
 const [modules, format, ...files] = process.argv.slice(2);
@@ -34,6 +34,7 @@ function wrongFile(file) {
   const primitives = (json.meshes ?? []).flatMap((mesh) => mesh.primitives);
   return [
     ...ours(json).flatMap(([name, value]) => wrong(`${name}, top level`, value)),
+    ...(json.nodes ?? []).flatMap(ours).flatMap(([name, value]) => wrong(`${name}, on a node`, value)),
     ...primitives.flatMap(ours).flatMap(([name, value]) => wrong(`${name}, on a primitive`, value)),
   ];
 }

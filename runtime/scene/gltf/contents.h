@@ -52,6 +52,7 @@ inline constexpr const char* kTransferExtension = "PRTKIT_transfer";
 inline constexpr const char* kClusteredExtension = "PRTKIT_clustered_pca";
 inline constexpr const char* kLightmapExtension = "PRTKIT_lightmap";
 inline constexpr const char* kVolumeExtension = "PRTKIT_transfer_volume";
+inline constexpr const char* kOccluderExtension = "PRTKIT_occlusion_volume"; ///< of nodes
 
 /// What an exception says of the file, without the inner words of the libraries that threw it, as one line of
 /// printable characters.

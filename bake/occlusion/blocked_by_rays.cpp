@@ -1,0 +1,53 @@
+// Bands of what is open from a place, and of the cosine.
+
+#include "occlusion/blocked_by_rays.h"
+
+#include "prt/sh.h"
+#include "prt/sh_basis.h"
+#include "prt/volume_bake.h"
+
+#include <array>
+#include <cmath>
+
+namespace prt {
+
+BakeOptions bake_options(const OccluderOptions& options) {
+    BakeOptions bake;
+    bake.order = 2;
+    bake.rays = options.rays;
+    bake.bounces = 0;
+    bake.tracer = options.tracer;
+    bake.lamps.mode = LampMode::none;
+    bake.repairs = options.repairs;
+    bake.threads = options.threads;
+    bake.seed = options.seed;
+    return bake;
+}
+
+std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<const glm::vec3> places,
+                                                  std::span<const glm::vec3> normals,
+                                                  const BakeOptions& options, const Progress& progress) {
+    // The cosine over pi by bands (Ramamoorthi and Hanrahan 2001); the next that is not 0 is 1/64.
+    constexpr std::array<double, 5> kCosine = {1, 2.0 / 3, 0.25, 0, -1.0 / 24};
+    constexpr int kOrder = static_cast<int>(kCosine.size());
+    BakeOptions finer = options;
+    finer.order = kOrder;
+    const PlacedLight light = bake_places(scene, places, 2, finer, progress);
+    std::vector<std::optional<float>> blocked(places.size());
+    std::array<float, kCosine.size() * kCosine.size()> basis{};
+    for (std::size_t p = 0; p < places.size(); ++p) {
+        if (light.backs[p] > kMostOccluderBacks)
+            continue;
+        evaluate_sh(kOrder, normals[p], basis);
+        // The first row, that of Y00, holds Y00 times the bands of what is open.
+        const std::span<const float> open = light.transfer.vector(4 * p);
+        double left = 0;
+        for (std::size_t i = 0; i < basis.size(); ++i)
+            left += kCosine[static_cast<std::size_t>(std::sqrt(static_cast<double>(i)))] *
+                    static_cast<double>(open[i] * basis[i]) / kY00;
+        blocked[p] = static_cast<float>(1 - left);
+    }
+    return blocked;
+}
+
+} // namespace prt

@@ -1,0 +1,93 @@
+#include "occluders.h"
+
+#include "prt/occluder_gltf.h"
+#include "prt/rigid_parts.h"
+#include "prt/support/error.h"
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt::cli {
+namespace {
+
+/// Lengths of a frame's axes differ by more than a hundredth.
+bool is_uneven(const glm::dmat4& frame) {
+    const double x = glm::length(glm::dvec3(frame[0])), y = glm::length(glm::dvec3(frame[1])),
+                 z = glm::length(glm::dvec3(frame[2]));
+    return std::max({x, y, z}) > 1.01 * std::min({x, y, z});
+}
+
+Table empty_table() {
+    Table table{"occlusion_volumes", "Occlusion volumes", "", {}, {}};
+    table.about =
+        "What each part blocks for receivers at random places of its box, facing anywhere: the mean, and the "
+        "mean difference to rays.";
+    table.columns = {{"part", "part"},
+                     {"triangles", "triangles"},
+                     {"mean_blocked", "blocked", Unit::percent, 2},
+                     {"mean_error", "error", Unit::percent, 2}};
+    return table;
+}
+
+} // namespace
+
+Report bake_occluders(GltfDocument& document, const Scene& scene, const OccluderOptions& options,
+                      const Progress& progress) {
+    const std::vector<RigidPart> parts = rigid_parts(document, scene);
+    std::vector<NodeOccluder> occluders;
+    std::vector<OcclusionVolume> volumes;
+    std::vector<glm::dmat4> frames;
+    Table table = empty_table();
+    Json uneven = Json::array();
+    double error = 0;
+    std::size_t rays = 0;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const RigidPart& part = parts[i];
+        const auto share = [&](std::size_t n) {
+            return static_cast<double>(n) / static_cast<double>(parts.size());
+        };
+        try {
+            const OccluderBake baked =
+                bake_occluder(part.scene, part.frame, options, progress.part(share(i), share(i + 1)));
+            occluders.push_back({part.node, baked.volume});
+            volumes.push_back(baked.volume);
+            frames.push_back(part.frame);
+            table.rows.push_back({part.name, part.scene.triangles(), baked.mean_blocked, baked.mean_error});
+            error += baked.mean_error;
+            rays += baked.rays;
+        } catch (const Cancelled&) {
+            throw;
+        } catch (const Error& failed) {
+            throw Error(fmt::format("{}: {}", part.name, failed.what()));
+        }
+        if (is_uneven(part.frame))
+            uneven.push_back(part.name);
+    }
+    write_occluders(document, occluders);
+    const FloorOcclusion floor = floor_occlusion(scene, volumes, frames, options, progress.part(0.9, 1));
+    Report report;
+    add_figures(report, {{"parts", parts.size()},
+                         {"bytes_volumes", parts.size() * sizeof(OcclusionVolume::texels)},
+                         {"rays", rays},
+                         {"mean_error", error / static_cast<double>(parts.size())},
+                         {"floor_mean_blocked", floor.mean_blocked},
+                         {"floor_mean_error", floor.mean_error},
+                         {"floor_largest_error", floor.largest_error},
+                         {"parts_scaled_unevenly", uneven}});
+    report.sentences = {
+        "{output}: what {parts} parts that move as one block around them, {bytes_volumes} bytes; "
+        "{mean_error:.2f%} of the light of receivers near them off, on average",
+        "all together, on the floor that they stand on: {floor_mean_blocked:.2f%} blocked, "
+        "{floor_mean_error:.2f%} off by rays, {floor_largest_error:.2f%} at most"};
+    if (!uneven.empty())
+        report.sentences.push_back(
+            "of parts that are scaled unevenly directions are those of the nearest turn");
+    report.tables.push_back(std::move(table));
+    return report;
+}
+
+} // namespace prt::cli

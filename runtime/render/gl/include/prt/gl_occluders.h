@@ -1,0 +1,24 @@
+#pragma once
+
+#include "prt/gl_context.h"
+#include "prt/gl_objects.h"
+#include "prt/occlusion_volume.h"
+
+#include <span>
+
+namespace prt {
+
+/// Occlusion volumes on the GPU, for shaders that include `shaders/prt_occluders.glsl`.
+class GlOccluders {
+public:
+    /// Slot i of the texture is volume i. Throws `Error` where the device has no texture as deep.
+    explicit GlOccluders(std::span<const OcclusionVolume> volumes);
+
+    /// Binds the texture, and a block with these objects, kMostOccluders at most, for what is drawn next.
+    void use(std::span<const PlacedOccluder> objects);
+
+private:
+    GlObject texture_, block_;
+};
+
+} // namespace prt

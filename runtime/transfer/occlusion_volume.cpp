@@ -1,0 +1,168 @@
+// Occlusion by objects that move: light that two moments of what they block take away. The cosine of a cap is
+// the form factor of a sphere cut by the horizon (Snyder, Area light sources for real-time graphics, 1996).
+
+#include "prt/occlusion_volume.h"
+
+#include "prt/support/error.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+namespace prt {
+namespace {
+
+/// Share of the cosine-weighted hemisphere of a cap of at most half of the sphere, whose middle has `cosine`
+/// to the normal.
+float cap_cosine(float share, float cosine) {
+    const float squared = 4 * share * (1 - share); // of the sine of the cap's radius
+    if (cosine * cosine >= squared)                // all above the horizon, or all below
+        return std::max(cosine, 0.0f) * squared;
+    const float cotangent = (1 - 2 * share) / std::sqrt(squared), sine = std::sqrt(1 - cosine * cosine);
+    const float cut = std::sqrt(squared - cosine * cosine);
+    const float y = std::clamp(-cosine / sine * cotangent, -1.0f, 1.0f);
+    const float sum =
+        squared * cosine * std::acos(y) - cut * (1 - 2 * share) + std::atan2(cut, 1 - 2 * share);
+    return std::clamp(sum * std::numbers::inv_pi_v<float>, 0.0f, 1.0f);
+}
+
+glm::vec4 decoded(const OccluderTexel& texel) {
+    const glm::vec4 n(texel[0], texel[1], texel[2], texel[3]);
+    return glm::max(n / 127.0f, glm::vec4(-1));
+}
+
+/// Trilinear, at a place of -1..1 along each side of the box.
+glm::vec4 filtered(const OcclusionVolume& volume, const glm::vec3& at) {
+    const glm::vec3 along = (0.5f * at + 0.5f) * static_cast<float>(kOccluderSide - 1);
+    const glm::ivec3 low = glm::clamp(glm::ivec3(along), glm::ivec3(0), glm::ivec3(kOccluderSide - 2));
+    const glm::vec3 over = along - glm::vec3(low), under = 1.0f - over;
+    glm::vec4 sum(0);
+    for (int i = 0; i < 8; ++i) {
+        const glm::ivec3 corner(i & 1, i >> 1 & 1, i >> 2);
+        const glm::ivec3 at_corner = low + corner;
+        const glm::vec3 weight = glm::mix(under, over, glm::vec3(corner));
+        const int texel = (at_corner.z * kOccluderSide + at_corner.y) * kOccluderSide + at_corner.x;
+        sum += weight.x * weight.y * weight.z * decoded(volume.texels[static_cast<std::size_t>(texel)]);
+    }
+    return sum;
+}
+
+} // namespace
+
+BlockedCap cap_of(float blocked, const glm::vec3& lean) {
+    const float length = glm::length(lean);
+    if (!(blocked > 0))
+        return {};
+    const float share = std::max(1 - (1 - blocked) * std::min(length, 1.0f), blocked);
+    return {length > 0 ? lean / length : glm::vec3(0, 1, 0), share, blocked / share};
+}
+
+float blocked_cosine(const BlockedCap& cap, const glm::vec3& normal) {
+    const float cosine = std::clamp(glm::dot(cap.towards, normal), -1.0f, 1.0f);
+    return cap.density *
+           (cap.share > 0.5f ? 1 - cap_cosine(1 - cap.share, -cosine) : cap_cosine(cap.share, cosine));
+}
+
+float blocked_sun(const BlockedCap& cap, const glm::vec3& towards_sun, float half_angle) {
+    const float from_middle = std::acos(std::clamp(glm::dot(cap.towards, towards_sun), -1.0f, 1.0f));
+    const float radius = std::acos(std::clamp(1 - 2 * cap.share, -1.0f, 1.0f));
+    const float border = kOccluderBorder * radius + half_angle;
+    const float inside =
+        std::clamp((radius + border - from_middle) / std::max(2 * border, 1e-6f), 0.0f, 1.0f);
+    return cap.density * inside * inside * (3 - 2 * inside);
+}
+
+OccluderTexel occluder_texel(float blocked, const glm::vec3& lean) {
+    const auto stored = [](float value) {
+        return static_cast<std::int8_t>(std::lround(std::clamp(127 * value, -127.0f, 127.0f)));
+    };
+    const float root = std::sqrt(std::clamp(blocked, 0.0f, 1.0f));
+    return {stored(lean.x), stored(lean.y), stored(lean.z), stored(2 * root - 1)};
+}
+
+void check_occlusion_volume(const OcclusionVolume& volume) {
+    for (int a = 0; a < 3; ++a)
+        if (!(volume.high[a] > volume.low[a]) || !std::isfinite(volume.high[a] - volume.low[a]))
+            throw Error("the box of an occlusion volume is empty or not finite");
+    if (!(volume.reach > 0) || !std::isfinite(volume.reach))
+        throw Error("the reach of an occlusion volume is no length");
+}
+
+glm::vec3 PlacedOccluder::center() const {
+    const glm::mat3 rows(to_box[0], to_box[1],
+                         to_box[2]); // columns of the transposed, for a turn the inverse
+    return -(rows * glm::vec3(to_box[0].w, to_box[1].w, to_box[2].w));
+}
+
+PlacedOccluder placed(const OcclusionVolume& volume, const glm::mat4& to_world, std::size_t slot) {
+    const glm::vec3 middle = 0.5f * (volume.low + volume.high);
+    const glm::mat3 linear(to_world);
+    const float scale = std::cbrt(std::abs(glm::determinant(linear)));
+    PlacedOccluder where{};
+    where.half = glm::vec4(0.5f * scale * (volume.high - volume.low), scale * volume.reach);
+    where.slot = glm::vec4(static_cast<float>(slot), 0, 0, 0);
+    // An object without volume blocks nothing: the rows stay 0, and so does the reach.
+    if (scale > 0) {
+        const glm::mat3 inverse = scale * glm::inverse(linear);
+        const glm::vec3 center(to_world * glm::vec4(middle, 1));
+        for (int a = 0; a < 3; ++a) {
+            const glm::vec3 row(inverse[0][a], inverse[1][a], inverse[2][a]);
+            where.to_box[static_cast<std::size_t>(a)] = glm::vec4(row, -glm::dot(row, center));
+        }
+    }
+    return where;
+}
+
+BlockedCap blocked_at(const OcclusionVolume& volume, const PlacedOccluder& where, const glm::vec3& position) {
+    const glm::vec4 place(position, 1);
+    const glm::vec3 q(glm::dot(where.to_box[0], place), glm::dot(where.to_box[1], place),
+                      glm::dot(where.to_box[2], place));
+    const float distance = glm::length(q);
+    if (!(distance < where.half.w))
+        return {};
+    const glm::vec3 half(where.half), inside = glm::clamp(q, -half, half);
+    const glm::vec4 texel = filtered(volume, inside / half);
+    float root = 0.5f * texel.w + 0.5f;
+    glm::vec3 lean(texel);
+    if (inside != q) { // the solid angle falls with the square of the distance, and turns to the middle
+        const float border = glm::length(inside);
+        root *= border / distance;
+        lean += glm::length(lean) * (inside / border - q / distance);
+    }
+    const float fade = glm::smoothstep(1.0f, kOccluderFade, distance / where.half.w);
+    const glm::vec3 turned = lean.x * glm::vec3(where.to_box[0]) + lean.y * glm::vec3(where.to_box[1]) +
+                             lean.z * glm::vec3(where.to_box[2]);
+    return cap_of(fade * root * root, turned);
+}
+
+std::vector<std::uint32_t> occluders_near(std::span<const PlacedOccluder> placed, const glm::vec3& low,
+                                          const glm::vec3& high, std::size_t most) {
+    std::vector<std::uint32_t> near;
+    std::vector<float> nearness(placed.size());
+    for (std::size_t i = 0; i < placed.size(); ++i) {
+        const glm::vec3 center = placed[i].center();
+        const float distance = glm::distance(center, glm::clamp(center, low, high));
+        nearness[i] = distance - placed[i].reach();
+        if (nearness[i] < 0)
+            near.push_back(static_cast<std::uint32_t>(i));
+    }
+    std::ranges::stable_sort(near, {}, [&](std::uint32_t i) { return nearness[i]; });
+    near.resize(std::min(near.size(), most));
+    return near;
+}
+
+std::vector<OccluderTexel> occluder_texture(std::span<const OcclusionVolume> volumes) {
+    std::vector<OccluderTexel> texels;
+    texels.reserve(volumes.size() * kOccluderTexels);
+    for (const OcclusionVolume& volume : volumes)
+        texels.insert(texels.end(), volume.texels.begin(), volume.texels.end());
+    return texels;
+}
+
+} // namespace prt

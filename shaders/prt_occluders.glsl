@@ -1,0 +1,130 @@
+// What objects that move take from the light of receivers near them (docs/math.md, section 20), for GLSL 4.5 and 3.3,
+// GLSL ES 3.0 and Vulkan:
+//
+//     float prt_occluders_openness(vec3 position, vec3 normal)     how much is left of light from everywhere alike
+//     float prt_occluders_sun(vec3 position, vec3 towards, float half_angle)    of a sun, softly: 0 is all shadow
+// and, where prt_volume.glsl was included before,
+//     vec3 prt_occluders_light(vec3 position, vec3 normal, vec3 light[PRT_VOLUME_COEFFICIENTS])   of that light
+//
+// `position` in metres in the world that occluders are placed in; `normal`, `towards` unit.
+//
+// Objects are the lists of prt::placed and prt::occluders_near: a uniform block here, or, where the includer defines
+//     PRT_OCCLUDER_ROWS     an array of vec4, five for each, and
+//     PRT_OCCLUDER_COUNT    an int,
+// what these name. PRT_MOST_OCCLUDERS: room of the block.
+
+#include "shared_layout.h"
+
+// The program binds by name where the language cannot say it here.
+#if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
+layout(binding = PRT_UNIT_OCCLUDERS) uniform highp sampler3D prt_occluder_texture;
+#else
+uniform highp sampler3D prt_occluder_texture;
+#endif
+
+#ifndef PRT_OCCLUDER_ROWS
+#if defined(VULKAN) || (!defined(GL_ES) && __VERSION__ >= 420)
+layout(std140, binding = PRT_BINDING_OCCLUDERS) uniform PrtOccluders {
+#else
+layout(std140) uniform PrtOccluders {
+#endif
+    vec4 prt_occluder_rows[5 * PRT_MOST_OCCLUDERS];
+    ivec4 prt_occluder_count; // in x
+};
+#define PRT_OCCLUDER_ROWS prt_occluder_rows
+#define PRT_OCCLUDER_COUNT prt_occluder_count.x
+#endif
+
+// A cap of the sphere around a place that is blocked evenly.
+struct PrtBlockedCap {
+    vec3 towards;  // unit, its middle
+    float share;   // of all directions
+    float density; // of what is blocked in it
+};
+
+PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
+    vec4 place = vec4(position, 1.0), half_reach = PRT_OCCLUDER_ROWS[5 * i + 3];
+    vec3 x = PRT_OCCLUDER_ROWS[5 * i].xyz, y = PRT_OCCLUDER_ROWS[5 * i + 1].xyz, z = PRT_OCCLUDER_ROWS[5 * i + 2].xyz;
+    vec3 q = vec3(dot(PRT_OCCLUDER_ROWS[5 * i], place), dot(PRT_OCCLUDER_ROWS[5 * i + 1], place),
+                  dot(PRT_OCCLUDER_ROWS[5 * i + 2], place));
+    float far = length(q);
+    PrtBlockedCap cap = PrtBlockedCap(vec3(0.0, 1.0, 0.0), 0.0, 0.0);
+    if (far < half_reach.w) {
+        const float kSide = float(PRT_OCCLUDER_SIDE);
+        vec3 inside = clamp(q, -half_reach.xyz, half_reach.xyz);
+        vec3 texels = vec3(kSide, kSide, float(textureSize(prt_occluder_texture, 0).z));
+        vec3 at = (0.5 * inside / half_reach.xyz + 0.5) * (kSide - 1.0) + 0.5;
+        at.z += kSide * PRT_OCCLUDER_ROWS[5 * i + 4].x;
+        vec4 stored = textureLod(prt_occluder_texture, at / texels, 0.0);
+        float root = 0.5 * stored.w + 0.5;
+        vec3 lean = stored.xyz;
+        if (inside != q) { // the solid angle falls with the square of the distance, and turns to the middle
+            float border = length(inside);
+            root *= border / far;
+            lean += length(lean) * (inside / border - q / far);
+        }
+        float blocked = root * root * (1.0 - smoothstep(PRT_OCCLUDER_FADE, 1.0, far / half_reach.w));
+        vec3 turned = lean.x * x + lean.y * y + lean.z * z;
+        float size = length(turned);
+        if (blocked > 0.0) {
+            cap.share = max(1.0 - (1.0 - blocked) * min(size, 1.0), blocked);
+            cap.density = blocked / cap.share;
+            cap.towards = size > 0.0 ? turned / size : cap.towards;
+        }
+    }
+    return cap;
+}
+
+// Of the cosine-weighted hemisphere: a cap of at most half of the sphere, whose middle has `cosine` to the normal.
+float prt_cap_cosine(float share, float cosine) {
+    float squared = 4.0 * share * (1.0 - share), rest = squared - cosine * cosine;
+    float sum = max(cosine, 0.0) * squared;
+    if (rest > 0.0) { // the horizon cuts it
+        float cut = sqrt(rest), far = 1.0 - 2.0 * share;
+        float y = clamp(-cosine * far / sqrt((1.0 - cosine * cosine) * squared), -1.0, 1.0);
+        sum = clamp((squared * cosine * acos(y) - cut * far + atan(cut, far)) * 0.318309886, 0.0, 1.0);
+    }
+    return sum;
+}
+
+// How much a cap takes of light from everywhere alike.
+float prt_blocked_cosine(PrtBlockedCap cap, vec3 normal) {
+    float cosine = clamp(dot(cap.towards, normal), -1.0, 1.0);
+    return cap.density *
+           (cap.share > 0.5 ? 1.0 - prt_cap_cosine(1.0 - cap.share, -cosine) : prt_cap_cosine(cap.share, cosine));
+}
+
+float prt_blocked_sun(PrtBlockedCap cap, vec3 towards, float half_angle) {
+    float from_middle = acos(clamp(dot(cap.towards, towards), -1.0, 1.0));
+    float radius = acos(clamp(1.0 - 2.0 * cap.share, -1.0, 1.0)), border = PRT_OCCLUDER_BORDER * radius + half_angle;
+    float inside = clamp((radius + border - from_middle) / max(2.0 * border, 1e-6), 0.0, 1.0);
+    return cap.density * inside * inside * (3.0 - 2.0 * inside);
+}
+
+float prt_occluders_openness(vec3 position, vec3 normal) {
+    float left = 1.0;
+    for (int i = 0; i < PRT_OCCLUDER_COUNT; ++i)
+        left *= 1.0 - prt_blocked_cosine(prt_blocked_cap(i, position), normal);
+    return left;
+}
+
+float prt_occluders_sun(vec3 position, vec3 towards, float half_angle) {
+    float left = 1.0;
+    for (int i = 0; i < PRT_OCCLUDER_COUNT; ++i)
+        left *= 1.0 - prt_blocked_sun(prt_blocked_cap(i, position), towards, half_angle);
+    return left;
+}
+
+#ifdef PRT_VOLUME_ORDER
+// The light that comes from where an object is, over all that arrives: a bright sky behind it is missed more.
+vec3 prt_occluders_light(vec3 position, vec3 normal, vec3 light[PRT_VOLUME_COEFFICIENTS]) {
+    vec3 all = max(prt_incident_irradiance(light, normal), vec3(1e-12)), left = vec3(1.0);
+    for (int i = 0; i < PRT_OCCLUDER_COUNT; ++i) {
+        PrtBlockedCap cap = prt_blocked_cap(i, position);
+        float blocked = prt_blocked_cosine(cap, normal);
+        if (blocked > 0.0)
+            left *= clamp(1.0 - blocked * prt_incident_radiance(light, cap.towards) / all, 0.0, 1.0);
+    }
+    return left;
+}
+#endif

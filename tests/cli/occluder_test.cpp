@@ -1,0 +1,56 @@
+// prt ao --volume: what moving parts block, and what is refused.
+
+#include "prt/gltf.h"
+#include "prt/occluder_gltf.h"
+#include "road.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+namespace prt::test {
+namespace {
+
+class OccluderCommand : public Road {
+protected:
+    void SetUp() override {
+#ifdef PRT_EXAMPLE_SCENES
+        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "knot"}).status, 0);
+#else
+        GTEST_SKIP() << "the example scenes are not built";
+#endif
+    }
+    Outcome ao(const std::vector<std::string>& options) {
+        std::vector<std::string> arguments = {"ao", at("knot.glb"), "-o", at("out.glb"), "--volume"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return prt(arguments);
+    }
+};
+
+TEST_F(OccluderCommand, WritesVolumesAndSaysHowFarTheyAreOff) {
+    const Outcome outcome = ao({"--rays", "32", "--json", at("ao.json")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_EQ(validator_errors(folder / "out.glb"), 0);
+    const nlohmann::json figures = read_json(folder / "ao.json");
+    EXPECT_EQ(read_occluders(load_gltf(folder / "out.glb")).size(), figures["parts"]);
+    EXPECT_GT(figures["floor_mean_blocked"], figures["floor_mean_error"]);
+    EXPECT_LT(figures["mean_error"], 0.05);
+    // The rest of the road leaves them where they are.
+    ASSERT_EQ(prt({"bake", at("out.glb"), "-o", at("baked.glb"), "--rays", "8", "--order", "2"}).status, 0);
+    EXPECT_EQ(read_occluders(load_gltf(folder / "baked.glb")).size(), figures["parts"]);
+    const Outcome info = prt({"info", at("baked.glb")});
+    EXPECT_NE(info.out.find("block around them"), std::string::npos) << info.out;
+}
+
+TEST_F(OccluderCommand, RefusesWhatIsOfSurfaces) {
+    for (const auto& options :
+         std::vector<std::vector<std::string>>{{"--size", "64"}, {"--attribute", "_AO"}, {"--bent-normals"}})
+        EXPECT_EQ(ao(options).status, 2) << options[0];
+    const Outcome outcome = ao({"--distance", "2"});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("of surfaces"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
+}
+
+} // namespace
+} // namespace prt::test
