@@ -73,7 +73,18 @@ export class PrtkitModel extends LitTransfer {
   readonly bytesPerTexel: number;
   /** Light of what moves, where the file has a volume. */
   readonly volume: PrtkitVolume | null;
+  /** What takes light from the surfaces as it passes near them; null: nothing. Throws an Error with WebGPURenderer. */
+  setOccluders(occluders: PrtkitOccluders | null): void;
   /** Frees the tables and lightmaps on the device; materials and geometries are disposed of as all of three's. */
+  dispose(): void;
+}
+
+/** Parts of a file that take light from what they pass (PRTKIT_occlusion_volume): `gltf.userData.prtkitOccluders`. */
+export class PrtkitOccluders {
+  /** How many are shown. */
+  readonly count: number;
+  /** Takes the parts where they are; `PrtkitModel` does so before it is drawn. */
+  update(): void;
   dispose(): void;
 }
 

@@ -26,19 +26,21 @@
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
 import { setFallbackAside } from "./fallback.js";
+import { occludersOf, PrtkitOccluders } from "./PrtkitOccluders.js";
 import { PrtkitVolume } from "./PrtkitVolume.js";
 import { copiedMaterial, relitMaterial, sunTraits } from "./relitMaterial.js";
 import { TexelPass } from "./texelPass.js";
 import { transferOfTexels } from "./texelTransfer.js";
 import { transferOfVertices } from "./vertexTransfer.js";
 import { volumeOf } from "./volumeTransfer.js";
-import { checkVolume, expect, PROBES, TEXELS, VERTICES, viewsOf } from "./wholeExtension.js";
+import { checkVolume, expect, OCCLUDERS, PROBES, TEXELS, VERTICES, viewsOf } from "./wholeExtension.js";
 
 export { halfFloatSky, projectEquirectangular } from "./equirectangular.js";
 export { lightOfSuns, readLightFile } from "./lightFile.js";
 export { lightFromProbe } from "./lightProbe.js";
 export { LitTransfer } from "./LitTransfer.js";
 export { PrtkitModel } from "./PrtkitModel.js";
+export { PrtkitOccluders } from "./PrtkitOccluders.js";
 export { PrtkitVolume } from "./PrtkitVolume.js";
 export { projectInWorker } from "./projectInWorker.js";
 export { ShLight } from "./sphericalHarmonics.js";
@@ -50,6 +52,7 @@ export class PrtkitPlugin {
   constructor(parser) {
     this.parser = parser;
     this.name = VERTICES;
+    this.canOcclude = true;
   }
 
   beforeRoot() {
@@ -59,6 +62,8 @@ export class PrtkitPlugin {
   async afterRoot(gltf) {
     const { [VERTICES]: vertices, [TEXELS]: texels, [PROBES]: probes } = this.parser.json.extensions ?? {};
     expect(!vertices || !texels, "the file has the transfer of texels, too");
+    const parts = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
+    if (parts.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(parts);
     const volume = probes ? await this.volume(probes, gltf.scene) : null;
     if (vertices || texels) gltf.userData.prtkit = Object.assign(await this.surfaces(vertices, texels, gltf), { volume });
     else if (volume) gltf.userData.prtkit = volume;
@@ -68,6 +73,7 @@ export class PrtkitPlugin {
     const { model, of } = vertices
       ? await transferOfVertices(vertices, (list) => this.viewsOf(list, VERTICES), gltf.scene)
       : await transferOfTexels(texels, (list) => this.viewsOf(list, TEXELS), gltf.scene, this.parser, this.passOf);
+    model.canOcclude = this.canOcclude;
     this.convert(gltf, model, of);
     return model;
   }

@@ -42,8 +42,17 @@ export class PrtkitModel extends LitTransfer {
     this.bytesPerTexel = 0;
     this.maps = null; // RelitMaps, where texels have the transfer
     this.volume = null; // PrtkitVolume, where the file has probes, too
-    this.beforeRender = (renderer) => {
+    this.occluders = null; // PrtkitOccluders
+    this.occludedAt = -1; // picture
+    this.occluderUniforms = {
+      prt_occluder_texture: { value: null },
+      prtOccluderRows: { value: [] },
+      prtOccluderCount: { value: 0 },
+    };
+    this.canOcclude = true; // by WebGLRenderer
+    this.beforeRender = (renderer, scene, camera, geometry, object) => {
       this.followSky();
+      this.followOccluders(renderer, object);
       this.maps?.form(renderer, this.constantsTexture.version);
     };
   }
@@ -59,6 +68,29 @@ export class PrtkitModel extends LitTransfer {
     this.volume?.checkOrders(light, suns);
     super.setSky(light, scene, { suns, lamps, keyed });
     this.volume?.setSky(light, scene, { suns, lamps: this.volume.knownOf(lamps), keyed: this.volume.keys.length > 0 ? keyed : [] });
+  }
+
+  /** What passes near the surfaces, and takes from their light: PrtkitOccluders, or null. */
+  setOccluders(occluders) {
+    if (!this.canOcclude) throw new Error("prtkit: what moves takes no light with WebGPURenderer");
+    this.occluders = occluders;
+    this.occludedAt = -1;
+  }
+
+  /** Occluders are in shaders only while there are some. */
+  followOccluders(renderer, object) {
+    const { occluders } = this;
+    for (const material of object ? [object.material].flat() : []) {
+      if (material._transfer?.model !== this || Boolean(occluders) === Boolean(material.defines?.PRT_OCCLUDERS)) continue;
+      if (occluders) material.defines.PRT_OCCLUDERS = 1;
+      else delete material.defines.PRT_OCCLUDERS;
+      material.needsUpdate = true;
+    }
+    if (!occluders || renderer.info.render.frame === this.occludedAt) return;
+    this.occludedAt = renderer.info.render.frame;
+    occluders.update();
+    const { prt_occluder_texture: texture, prtOccluderRows: rows, prtOccluderCount: count } = this.occluderUniforms;
+    [texture.value, rows.value, count.value] = [occluders.texture, occluders.rows, occluders.count];
   }
 
   /** The constants of all clusters, for coefficients in the frame of the bake. */

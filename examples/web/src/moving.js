@@ -12,6 +12,7 @@ import {
   SphereGeometry,
 } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { PrtkitPlugin } from "./PrtkitLoader.js";
 import { Walk } from "./walk.js";
 
 const RADIUS = 0.25; // metres
@@ -40,8 +41,10 @@ export class Moving {
     this.parts.spheres.children.forEach((sphere, i) => sphere.position.set(i === 0 ? ASIDE : -ASIDE, HIGH, 0));
     this.group.add(...Object.values(this.parts));
     scene.add(this.group);
+    this.model = null; // PrtkitModel
     this.volume = null;
     this.walk = null;
+    this.occluders = null; // of the figure
     this.mixer = null; // of the figure, once it is there
     this.speed = USUAL_SPEED;
     this.metres = 0;
@@ -50,7 +53,9 @@ export class Moving {
 
   /** Loads somebody who can walk: the animation "walk", or the first. */
   async load(url, progress) {
-    const { scene, animations } = await new GLTFLoader().loadAsync(url, progress);
+    const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
+    const { scene, animations, userData } = await loader.loadAsync(url, progress);
+    this.occluders = userData.prtkitOccluders ?? null;
     const clip = animations.find(({ name }) => /walk/i.test(name)) ?? animations[0];
     this.parts.figure.add(scene);
     if (clip) {
@@ -59,16 +64,24 @@ export class Moving {
       this.speed = clip.userData?.speed ?? USUAL_SPEED;
     }
     if (this.volume) this.volume.light(scene);
+    this.passBy();
     this.placeAll();
+  }
+
+  /** Takes light from what is baked, as far as it is known how much. */
+  passBy() {
+    if (this.model?.setOccluders && this.walk) this.model.setOccluders(this.occluders);
   }
 
   /** Goes on in another scene: `gltf`, and the way of Walk there. Where it has no volume nothing is shown. */
   enter(gltf, way) {
-    this.volume = gltf.userData.prtkit.volume ?? null;
+    this.model = gltf.userData.prtkit;
+    this.volume = this.model.volume ?? null;
     this.walk = this.volume ? new Walk(gltf.scene, way) : null;
     this.metres = 0;
     this.removeProbes();
     if (this.volume) this.volume.light(this.group);
+    this.passBy();
     this.placeAll();
   }
 

@@ -52,6 +52,7 @@ function light(material, transfer) {
   material.onBeforeCompile = (shader, renderer) => {
     source?.onBeforeCompile.call(material, shader, renderer);
     Object.assign(shader.uniforms, uniforms);
+    Object.assign(shader.uniforms, model.occluderUniforms);
     if (traits) shader.uniforms.prtTransmission = { value: traits.transmission };
     (transfer.source ? addVolume : addTransfer)(shader);
   };

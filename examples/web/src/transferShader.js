@@ -3,7 +3,9 @@
 // specular reflection, normal maps, coats, shadows, fog, tone mapping.
 
 import { ShaderChunk } from "three";
+import { MOST_OCCLUDERS } from "./PrtkitOccluders.js";
 import exitRadiance from "./prt_exit_radiance.glsl.js";
+import occluders from "./prt_occluders.glsl.js";
 import sunLight from "./sunLight.glsl.js";
 import sunLoop from "./sunLoop.glsl.js";
 import transferVertex from "./transferVertex.glsl.js";
@@ -33,6 +35,17 @@ const NO_IRRADIANCE = `
   irradiance = vec3( 0.0 );
   totalEmissiveRadiance *= prtStrength;
 ${sunLoop}`;
+
+// What takes light from baked surfaces, in the world.
+const OCCLUDERS = `
+#ifdef PRT_OCCLUDERS
+#define PRT_MOST_OCCLUDERS ${MOST_OCCLUDERS}
+#define PRT_OCCLUDER_ROWS prtOccluderRows
+#define PRT_OCCLUDER_COUNT prtOccluderCount
+uniform vec4 prtOccluderRows[ 5 * PRT_MOST_OCCLUDERS ];
+uniform int prtOccluderCount;
+${occluders}
+#endif`;
 
 // How shaders of one's own look a volume up: the uniforms of PrtkitVolume.
 export const VOLUME = `
@@ -67,6 +80,9 @@ const TRANSFER = `
   irradiance = vec3( 0.0 );
 #endif
   vec3 prtDiffuse = max( prtRadiance, vec3( 0.0 ) );
+#ifdef PRT_OCCLUDERS
+  prtDiffuse *= prt_occluders_openness( prtPlace, inverseTransformDirection( nonPerturbedNormal, viewMatrix ) );
+#endif
 #if defined( STANDARD ) && ( defined( USE_ENVMAP ) || defined( PRT_VOLUME ) )
   iblIrradiance = PI * prtDiffuse;
 #elif defined( STANDARD )
@@ -92,7 +108,7 @@ function addLight(shader, { vertex, fragment, lights }) {
   const addFragment = (name, text) => add("fragmentShader", name, text);
   add("vertexShader", "common", `${include("common")}\n${vertex}\n${transferVertex}`);
   add("vertexShader", "project_vertex", `${include("project_vertex")}\nprtLight( transformed );`);
-  addFragment("common", `${include("common")}\n${fragment}\nuniform vec3 prtStrength;`);
+  addFragment("common", `${include("common")}\n${fragment}\nuniform vec3 prtStrength;\ncentroid in vec3 prtPlace;`);
   addFragment("shadowmap_pars_fragment", `${include("shadowmap_pars_fragment")}\n#ifdef PRT_SUNS\n${sunLight}\n#endif`);
   addFragment("normal_fragment_begin", `${include("normal_fragment_begin")}${FACE_NORMAL}`);
   addFragment("lights_fragment_begin", `${LIGHTS}${NO_IRRADIANCE}`);
@@ -103,7 +119,7 @@ function addLight(shader, { vertex, fragment, lights }) {
 export function addTransfer(shader) {
   addLight(shader, {
     vertex: `#ifndef PRT_LIGHTMAP\n${exitRadiance}\n#endif`,
-    fragment: "#ifndef PRT_LIGHTMAP\nin vec3 prtRadiance;\n#endif",
+    fragment: `#ifndef PRT_LIGHTMAP\nin vec3 prtRadiance;\n#endif${OCCLUDERS}`,
     lights: "",
   });
   shader.fragmentShader = replaced(shader.fragmentShader, include("aomap_fragment"), OCCLUSION);

@@ -33,7 +33,8 @@ vec3 prtBakedNormal() {
 out vec3 prtRadiance; // of a receiver of albedo 1
 #endif
 
-centroid out vec3 prtPlace; // in the world
+// In the world. Of the part of a pixel that a triangle covers: its middle may be beyond a wall.
+centroid out vec3 prtPlace;
 #ifdef PRT_VOLUME
 uniform mat4 prtToVolume;
 centroid out vec3 prtVolumePlace; // from the origin of the volume

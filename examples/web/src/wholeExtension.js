@@ -3,6 +3,7 @@
 export const VERTICES = "PRTKIT_clustered_pca";
 export const TEXELS = "PRTKIT_lightmap";
 export const PROBES = "PRTKIT_transfer_volume";
+export const OCCLUDERS = "PRTKIT_occlusion_volume";
 /** What is wrong with a file that is not compressed. */
 export const AS_BAKED = "holds transfer as it was baked; make it one to ship: prt compress baked.glb -o shipped.glb";
 
@@ -153,6 +154,17 @@ export function checkVolume(extension) {
   holds(guides === undefined, "probes have no guides");
   holds(packing !== undefined, "the weights of probes are not packed");
   holds([bricks, sights, words].every(isView), "bricks, sights or words are not there");
+}
+
+/** The same of PRTKIT_occlusion_volume of a node. */
+export function checkOccluder(extension) {
+  const holds = (value, what) => expect(value, what, OCCLUDERS);
+  holds(isObject(extension), "the extension is no object");
+  const { version, min, max, reach, texels } = extension;
+  holds(version === 1, `version ${version} is not known, only 1; make it again`);
+  holds(areNumbers(min) && areNumbers(max) && min.every((low, axis) => low < max[axis]), "the box is none");
+  holds(reach > 0 && reach < 1e30, "the reach is no number above 0");
+  holds(isView(texels), "the texels are not there");
 }
 
 /** The buffer views that an extension, which is right, names. */

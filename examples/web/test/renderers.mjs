@@ -9,12 +9,13 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
-import { DataUtils, Euler, Vector3 } from "three";
+import { DataUtils, Euler, Matrix4, Quaternion, Vector3 } from "three";
 import { createServer } from "vite";
 import { clustersOf, lightColumns } from "../src/clusteredPca.js";
 import { volumeOf } from "../src/volumeTransfer.js";
 import { bakedModel, MAPS, texelWords } from "./bakedModel.js";
 import { extensionOf, png } from "./glb.js";
+import { leftAt, occluderModel } from "./occluderModel.js";
 import { incidentAround, sumOf, volumeExtension, volumeModel } from "./volumeModel.js";
 import { radianceOfWords } from "./wordRadiance.js";
 
@@ -50,6 +51,7 @@ const models = Object.fromEntries(["vertices", "weights", "texels"].map((by) => 
 for (const by of ["vertices", "texels"])
   models[`moving_${by}.glb`] = bakedModel(by, (json, binary) => (json.extensions.PRTKIT_transfer_volume = volumeExtension(binary)));
 models["volume.glb"] = volumeModel();
+models["passer.glb"] = occluderModel();
 for (const by of ["vertices", "texels"]) models[`leaf_${by}.glb`] = bakedModel(by, leafy);
 
 /** A page of a browser of its own: where WebGPU in software gives up, it takes the process of all pages along. */
@@ -269,6 +271,30 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
     return `${off.toExponential(1)} off`;
   });
 }
+
+await check("what passes over baked surfaces takes as much of their light as plain numbers say", async () => {
+  const moved = [
+    { place: [0.2, 0.7, -0.3], turn: [0.3, 1.1, -0.2], scale: 1 },
+    { place: [-0.6, 0.3, 0.5], turn: [0, -0.4, 0], scale: 1.5 },
+  ];
+  const matrices = moved.map(({ place, turn, scale }) =>
+    new Matrix4().compose(new Vector3(...place), new Quaternion().setFromEuler(new Euler(...turn)), new Vector3(scale, scale, scale)).toArray());
+  const size = [16, 12];
+  const [open, occluded, after] = await ask("occluded", { model: "vertices.glb", passer: "passer.glb", moved, centre: [0, 0], size, light });
+  assert.deepEqual(after, open);
+  let [most, least] = [0, 1];
+  for (let y = 0; y < size[1]; ++y)
+    for (let x = 0; x < size[0]; ++x) {
+      const position = [(2 * (x + 0.5)) / size[0] - 1, 0, 1 - (2 * (y + 0.5)) / size[1]];
+      const expected = leftAt(matrices, position, [0, 1, 0]);
+      const at = 4 * (y * size[0] + x);
+      least = Math.min(least, expected);
+      for (let c = 0; c < 3; ++c) most = Math.max(most, Math.abs(occluded[at + c] / open[at + c] - expected));
+    }
+  // The numbers integrate over a grid of directions, within 1e-3; filters take shares in 256ths.
+  assert.ok(least < 0.8 && most < 4e-3, `${most}; darkest ${least}`);
+  return `${most.toExponential(1)} off, the darkest is ${least.toFixed(2)}`;
+});
 
 await check("the plug-in of the other renderer is refused", async () => {
   for (const by of ["vertices", "texels"]) {

@@ -108,7 +108,7 @@ const skyEntries = skies.map(({ title, file, center = "x" }) => {
   return { title, file: to, center, light };
 });
 const figure = "models/figure.glb";
-copyFileSync(join(work, "figure.glb"), join(publicFolder, figure));
+run(prt, "ao", join(work, "figure.glb"), "-o", join(publicFolder, figure), "--volume");
 writeFileSync(manifest, JSON.stringify({ models, skies: skyEntries, figure }, null, 2));
 rmSync(work, { recursive: true });
 console.log(`${publicFolder}: models and skies are there`);

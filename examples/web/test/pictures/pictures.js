@@ -344,4 +344,33 @@ async function lit({ api = "webgl", model, floats, kind, material, place, turn, 
   return [...pixels];
 }
 
-globalThis.pictures = { texels, picture, radiance, nodeTexels, lit };
+/** The floor of a model from above, 2 metres wide about `centre`, without and with what passes over it: floats. `moved`: the place,
+ * turn and scale of each part of `passer`. */
+async function occluded({ model, passer, moved, centre, size: [width, height], light }) {
+  const drawing = await rendererOf("webgl");
+  const [gltf, passing] = [await load(model), await load(passer)];
+  const { prtkit } = gltf.userData;
+  prtkit.setLight(ShLight.fromCoefficients(prtkit.order, light));
+  const floor = gltf.scene.children[0];
+  passing.scene.children.forEach((child, i) => {
+    child.position.fromArray(moved[i].place);
+    child.rotation.fromArray(moved[i].turn);
+    child.scale.setScalar(moved[i].scale);
+  });
+  const scene = new Scene().add(floor, passing.scene);
+  const seen = new OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
+  seen.position.set(centre[0], 5, centre[1]);
+  seen.rotation.x = -Math.PI / 2;
+  const target = new WebGLRenderTarget(width, height, { type: FloatType });
+  const pictures = [null, passing.userData.prtkitOccluders, null].map((occluders) => {
+    prtkit.setOccluders(occluders);
+    drawing.setRenderTarget(target);
+    drawing.render(scene, seen);
+    drawing.setRenderTarget(null);
+    return pixelsBy(drawing, target);
+  });
+  prtkit.dispose();
+  return pictures;
+}
+
+globalThis.pictures = { texels, picture, radiance, nodeTexels, lit, occluded };
