@@ -48,6 +48,7 @@ export class PrtkitModel extends LitTransfer {
       prt_occluder_texture: { value: null },
       prtOccluderRows: { value: [] },
       prtOccluderCount: { value: 0 },
+      prtOccluderReach: { value: null },
     };
     this.canOcclude = true; // by WebGLRenderer
     this.beforeRender = (renderer, scene, camera, geometry, object) => {
@@ -89,8 +90,8 @@ export class PrtkitModel extends LitTransfer {
     if (!occluders || renderer.info.render.frame === this.occludedAt) return;
     this.occludedAt = renderer.info.render.frame;
     occluders.update();
-    const { prt_occluder_texture: texture, prtOccluderRows: rows, prtOccluderCount: count } = this.occluderUniforms;
-    [texture.value, rows.value, count.value] = [occluders.texture, occluders.rows, occluders.count];
+    const { prt_occluder_texture: texture, prtOccluderRows: rows, prtOccluderCount: count, prtOccluderReach: reach } = this.occluderUniforms;
+    [texture.value, rows.value, count.value, reach.value] = [occluders.texture, occluders.rows, occluders.count, occluders.reach];
   }
 
   /** The constants of all clusters, for coefficients in the frame of the bake. */

@@ -35,7 +35,7 @@ function isShown(object) {
   return true;
 }
 
-/** Where a part stands, as five rows of the shader: prt::placed. */
+/** Where a part stands, as five rows of the shader: prt::placed. Returns the middle of what it reaches. */
 function place({ object, low, high, reach }, slot, rows) {
   const linear = new Matrix3().setFromMatrix4(object.matrixWorld);
   const scale = Math.cbrt(Math.abs(linear.determinant()));
@@ -47,6 +47,7 @@ function place({ object, low, high, reach }, slot, rows) {
   }
   rows[3].set(...low.map((value, axis) => 0.5 * scale * (high[axis] - value)), scale * reach);
   rows[4].set(slot, 0, 0, 0);
+  return centre;
 }
 
 /** Of one file, `gltf.userData.prtkitOccluders`: given to `setOccluders` of what they pass. */
@@ -60,14 +61,16 @@ export class PrtkitOccluders {
     this.texture.minFilter = this.texture.magFilter = LinearFilter;
     this.rows = Array.from({ length: 5 * MOST_OCCLUDERS }, () => new Vector4());
     this.count = 0;
+    this.reach = new Vector4(); // a sphere, out of which none takes any
   }
 
   /** Takes the parts where they are now; those that are not shown take nothing. */
   update() {
     this.count = 0;
-    this.parts.forEach((part, slot) => {
-      if (isShown(part.object)) place(part, slot, this.rows.slice(5 * this.count++));
-    });
+    const centres = this.parts.flatMap((part, slot) => (isShown(part.object) ? [place(part, slot, this.rows.slice(5 * this.count++))] : []));
+    const middle = centres.reduce((sum, centre) => sum.addScaledVector(centre, 1 / centres.length), new Vector3());
+    const reach = centres.reduce((most, centre, i) => Math.max(most, middle.distanceTo(centre) + this.rows[5 * i + 3].w), 0);
+    this.reach.set(...middle, reach);
   }
 
   dispose() {

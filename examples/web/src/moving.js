@@ -116,6 +116,11 @@ export class Moving {
     return this.walk !== null && ((this.shown.figure && this.mixer !== null) || this.shown.spheres);
   }
 
+  /** Whether the light of the volume that was set is still to be formed; what is not drawn waits for it. */
+  get isWaiting() {
+    return Object.values(this.parts).some(({ visible, children }) => visible && children.length > 0) && !this.volume.isSettled;
+  }
+
   advance(seconds) {
     this.metres += this.speed * seconds;
     this.mixer?.update(seconds);

@@ -370,7 +370,7 @@ export class Picture {
       if (this.gltf && this.light) this.expose();
       this.render();
       if (this.gltf && this.light) ++this.drawn;
-      if (this.isMoving || this.moving.volume?.isSettled === false) this.drawSoon();
+      if (this.gltf && this.light && (this.isMoving || this.moving.isWaiting)) this.drawSoon();
     });
   }
 

@@ -44,6 +44,7 @@ const OCCLUDERS = `
 #define PRT_OCCLUDER_COUNT prtOccluderCount
 uniform vec4 prtOccluderRows[ 5 * PRT_MOST_OCCLUDERS ];
 uniform int prtOccluderCount;
+uniform vec4 prtOccluderReach; // a sphere, out of which none takes any
 ${occluders}
 #endif`;
 
@@ -81,7 +82,8 @@ const TRANSFER = `
 #endif
   vec3 prtDiffuse = max( prtRadiance, vec3( 0.0 ) );
 #ifdef PRT_OCCLUDERS
-  prtDiffuse *= prt_occluders_openness( prtPlace, inverseTransformDirection( nonPerturbedNormal, viewMatrix ) );
+  if ( distance( prtPlace, prtOccluderReach.xyz ) < prtOccluderReach.w )
+    prtDiffuse *= prt_occluders_openness( prtPlace, inverseTransformDirection( nonPerturbedNormal, viewMatrix ) );
 #endif
 #if defined( STANDARD ) && ( defined( USE_ENVMAP ) || defined( PRT_VOLUME ) )
   iblIrradiance = PI * prtDiffuse;
