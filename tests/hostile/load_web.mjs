@@ -55,7 +55,7 @@ function wrongModel(gltf) {
 function wrongRefusal(error) {
   if (!(error instanceof Error)) return "what is thrown is no Error";
   const inOurs = /examples\/web\/src/.test(error.stack.split("\n").find((line) => line.trim().startsWith("at ")) ?? "");
-  const ours = /^PRTKIT_(clustered_pca|lightmap|transfer_volume): [^\n]+$/.test(error.message);
+  const ours = /^PRTKIT_(clustered_pca|lightmap|transfer_volume|occlusion_volume): [^\n]+$/.test(error.message);
   return inOurs && !ours ? `says ${error.name}: ${error.message}` : null;
 }
 

@@ -22,6 +22,7 @@ import { atlasOf, texelOf } from "../src/volumeTextures.js";
 import { volumeOf } from "../src/volumeTransfer.js";
 import { bakedModel } from "./bakedModel.js";
 import { extensionOf } from "./glb.js";
+import { BOXES, occluderModel } from "./occluderModel.js";
 import { GRID, incidentAt, PROBES, volumeExtension, volumeModel } from "./volumeModel.js";
 
 const load = (file) => {
@@ -242,6 +243,43 @@ test("textures are laid out as docs and shader say", () => {
   for (let b = 0; b < 60; ++b) for (let i = 0; i < 125; ++i) used.add(texelOf(atlas, b, i));
   assert.equal(used.size, 60 * 125);
   assert.ok(Math.max(...used) < atlas.texels);
+});
+
+const occluderIn = (json) => json.nodes[1].extensions.PRTKIT_occlusion_volume;
+const wrongOccluders = {
+  "another version": [(e) => (e.version = 2), /version 2 is not known, only 1/],
+  "a box turned inside out": [(e) => ([e.min, e.max] = [e.max, e.min]), /the box is none/],
+  "no reach": [(e) => delete e.reach, /the reach is no number above 0/],
+  "no texels": [(e) => delete e.texels, /the texels are not there/],
+  "short texels": [(e, binary) => (e.texels = { bufferView: binary.view(new Int8Array(7)) }), /node 1 has 7 bytes of texels, not 2048/],
+};
+for (const [what, [change, message]] of Object.entries(wrongOccluders))
+  test(`occluders: ${what}: refused with a reason`, async () => {
+    await assert.rejects(load(occluderModel((json, binary) => change(occluderIn(json), binary))), (error) => {
+      assert.match(error.message, /^PRTKIT_occlusion_volume: /);
+      assert.match(error.message, message);
+      return true;
+    });
+  });
+
+test("parts take light where they are, while they are shown", async () => {
+  const { scene, userData } = await load(occluderModel());
+  const { prtkitOccluders: occluders } = userData;
+  scene.children[0].position.set(1, 2, 3);
+  scene.updateMatrixWorld();
+  occluders.update();
+  assert.equal(occluders.count, 2);
+  const [low, high] = [BOXES[0].min, BOXES[0].max];
+  [0, 1, 2].forEach((a) => assert.ok(Math.abs(occluders.rows[a].w + [1, 2, 3][a] + (low[a] + high[a]) / 2) < 1e-9));
+  assert.ok(Math.abs(occluders.rows[3].w - BOXES[0].reach) < 1e-12);
+  for (let i = 0; i < 2; ++i) {
+    const at = (a) => -occluders.rows[5 * i + a].w; // unturned parts
+    const away = Math.hypot(at(0) - occluders.reach.x, at(1) - occluders.reach.y, at(2) - occluders.reach.z);
+    assert.ok(away + occluders.rows[5 * i + 3].w <= occluders.reach.w + 1e-9);
+  }
+  scene.children[0].visible = false;
+  occluders.update();
+  assert.deepEqual([occluders.count, occluders.rows[4].x], [1, 1]);
 });
 
 const extensionIn = (json) => json.extensions.PRTKIT_transfer_volume;
