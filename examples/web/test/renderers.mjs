@@ -261,7 +261,7 @@ for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebg
       const off = await offPlain(askThere, { ...matte, floats: true, kind, ...places[0] }, (incident, normal) => sumOf(incident, normal));
       assert.ok(off < 1e-5, `${kind}: ${off}`);
     }
-    const off = await offPlain(askThere, { ...matte, floats: true, moved: [0.5, -0.25, 2], ...places[1] }, (incident, normal) => sumOf(incident, normal));
+    const off = await offPlain(askThere, { ...matte, floats: true, moved: { place: [0.5, -0.25, 2], turn: [0.4, 1.3, -0.6] }, ...places[1] }, (incident, normal) => sumOf(incident, normal));
     assert.ok(off < 1e-5, `moved: ${off}`);
   });
   await check(`${api}: chrome mirrors what comes in from there`, async () => {

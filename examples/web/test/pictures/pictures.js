@@ -329,10 +329,11 @@ async function lit({ api = "webgl", model, floats, kind, material, place, turn, 
   const seen = new OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
   seen.position.z = 2;
   holder.add(seen);
-  const scene = new Scene().add(gltf.scene, holder);
-  if (moved) {
-    gltf.scene.position.fromArray(moved); // with all that is in it
-    holder.position.add(gltf.scene.position);
+  const around = new Group().add(holder);
+  const scene = new Scene().add(gltf.scene, around);
+  for (const root of moved ? [gltf.scene, around] : []) {
+    root.position.fromArray(moved.place); // with all that is in it
+    root.rotation.fromArray(moved.turn);
   }
   volume.light(holder);
   const target = new WebGLRenderTarget(width, height, { type: FloatType });
