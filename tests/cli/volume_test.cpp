@@ -1,13 +1,18 @@
 // Volumes through the program: baked, compressed, told of and measured; and what is refused.
 
 #include "prt/gltf.h"
+#include "prt/volume_former.h"
 #include "prt/volume_gltf.h"
 #include "road.h"
 #include "support/glb_file.h"
+#include "support/random_volume.h"
+#include "support/volume_model.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <random>
 
 namespace prt::test {
 namespace {
@@ -106,6 +111,42 @@ TEST_F(Volumes, RefuseWhatMakesNone) {
     EXPECT_NE(bake({"--volume", "nan"}).status, 0);
     EXPECT_NE(bake({"--volume", "1", "--volume-bounds", "0,0,0,1,1"}).status, 0);
     EXPECT_NE(bake({"--volume", "1", "--volume-bounds", "0,0,0,1,nan,1"}).status, 0);
+}
+
+/// What shaders look a volume up in, one behind the other: sights, index, and the light of coefficients
+/// cos(1), cos(2), .. with suns half as strong towards +Y.
+void write_textures(const CompressedVolume& volume, const std::filesystem::path& path) {
+    std::vector<glm::vec3> sky, suns;
+    for (int i = 0; i < coefficient_count(volume.compressed.transfer.bases.layout.order); ++i)
+        sky.emplace_back(std::cos(3 * i + 1), std::cos(3 * i + 2), std::cos(3 * i + 3));
+    for (const glm::vec3& value : sky)
+        suns.push_back(0.5f * value);
+    const VolumeFormer former(volume);
+    std::vector<glm::vec4> constants(former.rows());
+    std::vector<std::byte> texels(former.bytes());
+    former.form_constants({sky, suns}, glm::vec3(0, 1, 0), constants);
+    former.form(constants, texels);
+    const VolumeLookup lookup(volume.grid, volume.sights);
+    std::ofstream file(path, std::ios::binary);
+    for (const auto& words : {sight_texels(volume.grid, lookup.probes(), volume.sights),
+                              index_texels(volume.grid, lookup.index())})
+        file.write(reinterpret_cast<const char*>(words.data()),
+                   static_cast<std::streamsize>(words.size() * sizeof(std::uint32_t)));
+    file.write(reinterpret_cast<const char*>(texels.data()), static_cast<std::streamsize>(texels.size()));
+}
+
+TEST_F(Road, VolumesHaveTheSameTexturesInTheWeb) {
+    if (std::string(PRT_NODE).empty())
+        GTEST_SKIP() << "node is not installed";
+    const std::string script = (std::filesystem::path(PRT_DECODE).parent_path() / "form_web.mjs").string();
+    std::mt19937 random(9);
+    for (const int order : {2, 3, 4}) {
+        const CompressedVolume volume = random_volume(order, false, random);
+        with_volume(triangle_file(), volume).write(folder / "v.glb");
+        write_textures(volume, folder / "textures");
+        const Outcome formed = run(PRT_NODE, {script, at("v.glb"), at("textures")});
+        EXPECT_EQ(formed.status, 0) << "order " << order << ": " << formed.out << formed.err;
+    }
 }
 
 } // namespace

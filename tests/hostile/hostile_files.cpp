@@ -4,9 +4,11 @@
 #include "damage.h"
 #include "shipped_files.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <string>
 
 int main(int count, char** arguments) {
@@ -15,7 +17,8 @@ int main(int count, char** arguments) {
         return std::fprintf(stderr, "usage: hostile_files FOLDER FIRST COUNT\n"), 2;
     const std::filesystem::path folder = arguments[1];
     std::filesystem::create_directories(folder);
-    const std::vector<ShippedFile> files = shipped_files();
+    std::vector<ShippedFile> files = shipped_files();
+    std::ranges::move(volume_files(), std::back_inserter(files));
     const auto first = static_cast<std::uint32_t>(std::strtoul(arguments[2], nullptr, 10)),
                cases = static_cast<std::uint32_t>(std::strtoul(arguments[3], nullptr, 10));
     for (const ShippedFile& shipped : files)

@@ -3,10 +3,8 @@
 
 #include "damage.h"
 #include "fuzz/target.h"
-#include "prt/compress_volume.h"
 #include "prt/prt.h"
-#include "support/random_volume.h"
-#include "support/volume_model.h"
+#include "shipped_files.h"
 
 #include <gtest/gtest.h>
 
@@ -15,15 +13,6 @@
 
 namespace prt::test {
 namespace {
-
-/// Bases that are coded.
-CompressedVolume coded_volume(std::mt19937& random) {
-    const CompressedVolume plain = random_volume(3, false, random);
-    BakedVolume baked{plain.grid, plain.order, plain.sights, {}};
-    baked.baked.transfer = decode(plain.compressed.transfer);
-    baked.baked.transfer.layout.outputs = 1;
-    return compress_volume(baked, {.clusters = 5, .coding = preset_volume()}).volume;
-}
 
 /// Whether it was read.
 bool use(const std::string& file) {
@@ -63,17 +52,15 @@ bool use(const std::string& file) {
 }
 
 TEST(HostileVolumes, AreRefusedInALineOrFormedToFiniteNumbers) {
-    std::mt19937 random(1);
-    const GlbFile files[] = {with_volume(triangle_file(), random_volume(2, false, random)),
-                             with_volume(triangle_file(), coded_volume(random))};
-    for (const GlbFile& file : files)
-        EXPECT_TRUE(use(file.bytes()));
+    const std::vector<ShippedFile> files = volume_files();
+    for (const ShippedFile& shipped : files)
+        EXPECT_TRUE(use(shipped.file.bytes()));
     int read = 0;
     constexpr std::uint32_t kCases = 600;
     for (std::uint32_t seed = 0; seed < kCases; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         try {
-            read += use(damaged(files[seed % 2], seed).bytes());
+            read += use(damaged(files[seed % 2].file, seed).bytes());
         } catch (const std::exception& error) {
             ADD_FAILURE() << error.what();
         }

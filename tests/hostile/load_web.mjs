@@ -12,17 +12,29 @@ const require = createRequire(join(web, "package.json"));
 const module = (name) => import(pathToFileURL(require.resolve(name)).href);
 const { GLTFLoader } = await module("three/examples/jsm/loaders/GLTFLoader.js");
 const { DataTexture, FloatType, RGBAFormat } = await module("three");
-const { PrtkitPlugin, projectEquirectangular } = await import(pathToFileURL(join(web, "src/PrtkitLoader.js")).href);
+const { PrtkitPlugin, PrtkitVolume, projectEquirectangular } = await import(pathToFileURL(join(web, "src/PrtkitLoader.js")).href);
 
 const [folder, verbose] = process.argv.slice(2);
 const white = projectEquirectangular(new DataTexture(new Float32Array([1, 1, 1, 1]), 1, 1, RGBAFormat, FloatType));
 globalThis.createImageBitmap ??= async () => ({}); // node decodes no images
 const SECONDS = 20; // a file takes milliseconds
 
+/** The same of a volume. */
+function wrongVolume(volume) {
+  const floats = new PrtkitVolume(volume.source, volume.root, volume.plugin, { floats: true });
+  floats.setLight(white.deringed(), 0.3);
+  floats.settle();
+  const words = [volume.texture, ...["sights", "index"].map((name) => volume.uniforms[`prt_volume_${name}`].value)];
+  if (words.some(({ image: { data, width, height, depth } }) => data.length < width * height * depth)) return "a texture is too short";
+  return floats.texture.image.data.every(Number.isFinite) ? null : "the light of probes is not finite";
+}
+
 /** What is wrong with a model that was read; nothing where all is right. */
 function wrongModel(gltf) {
   const model = gltf.userData.prtkit;
   if (!model) return null;
+  const wrongProbes = model.volume ? wrongVolume(model.volume) : null;
+  if (wrongProbes || model === model.volume) return wrongProbes;
   model.setLight(white.deringed(), 0.3);
   const { clusters, constantsTexture } = model;
   if (!constantsTexture.image.data.every(Number.isFinite)) return "constants are not finite";
@@ -43,7 +55,7 @@ function wrongModel(gltf) {
 function wrongRefusal(error) {
   if (!(error instanceof Error)) return "what is thrown is no Error";
   const inOurs = /examples\/web\/src/.test(error.stack.split("\n").find((line) => line.trim().startsWith("at ")) ?? "");
-  const ours = /^PRTKIT_(clustered_pca|lightmap): [^\n]+$/.test(error.message);
+  const ours = /^PRTKIT_(clustered_pca|lightmap|transfer_volume|occlusion_volume): [^\n]+$/.test(error.message);
   return inOurs && !ours ? `says ${error.name}: ${error.message}` : null;
 }
 

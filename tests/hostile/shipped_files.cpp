@@ -1,13 +1,16 @@
 #include "shipped_files.h"
 
 #include "prt/compress.h"
+#include "prt/compress_volume.h"
 #include "prt/fallback.h"
 #include "prt/gltf.h"
 #include "support/guided.h"
 #include "support/lightmap_model.h"
 #include "support/random_lightmap.h"
+#include "support/random_volume.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
+#include "support/volume_model.h"
 
 #include <algorithm>
 #include <iterator>
@@ -104,6 +107,14 @@ std::vector<ShippedFile> lightmap_files() {
             {"texels_plain", with_lightmap(scene, plain)}};
 }
 
+CompressedVolume coded_volume(std::mt19937& random) {
+    const CompressedVolume plain = random_volume(3, false, random);
+    BakedVolume baked{plain.grid, plain.order, plain.sights, {}};
+    baked.baked.transfer = decode(plain.compressed.transfer);
+    baked.baked.transfer.layout.outputs = 1;
+    return compress_volume(baked, {.clusters = 5, .coding = preset_volume()}).volume;
+}
+
 std::vector<Recipe> recipes() {
     WeightCoding fixed = preset_u32x4(), free = preset_u64(), floats{.format = WeightFormat::float32},
                  bytes{.format = WeightFormat::snorm8};
@@ -135,6 +146,13 @@ std::vector<ShippedFile> shipped_files() {
         files.push_back({recipe.name, made(recipe)});
     std::ranges::move(lightmap_files(), std::back_inserter(files));
     return files;
+}
+
+std::vector<ShippedFile> volume_files() {
+    std::mt19937 random(1);
+    const GlbFile plain = with_volume(triangle_file(), random_volume(2, false, random)),
+                  coded = with_volume(triangle_file(), coded_volume(random));
+    return {{"probes_plain", plain}, {"probes_coded", coded}};
 }
 
 } // namespace prt::test

@@ -17,4 +17,7 @@ struct ShippedFile {
 /// lightmaps.
 std::vector<ShippedFile> shipped_files();
 
+/// A triangle with a volume whose bases are plain, and one whose bases are coded.
+std::vector<ShippedFile> volume_files();
+
 } // namespace prt::test

@@ -1,4 +1,4 @@
-import type { Box3, DataTexture, DirectionalLight, Group, LightProbe, Object3D, Scene } from "three";
+import type { Box3, Data3DTexture, DataTexture, DirectionalLight, Group, IUniform, LightProbe, Object3D, Scene, Vector3 } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 
 /** Lighting as spherical harmonics that turns about +Y. */
@@ -36,8 +36,8 @@ export interface SkyOptions {
   keyed?: Sun[];
 }
 
-/** The compressed transfer of one file: `gltf.userData.prtkit`. */
-export class PrtkitModel {
+/** What surfaces and volumes have alike: what lights them. */
+export class LitTransfer {
   readonly order: number;
   readonly channels: 1 | 3;
   /** Whether direct light is kept apart, so that suns can be lit with sharp shadows. */
@@ -46,6 +46,23 @@ export class PrtkitModel {
   readonly lamps: string[];
   /** Keys of the light set by which suns can shine: distant lights that are dark until they are set. */
   readonly keys: { name: string; towards: number[] }[];
+  /** Lights all of the file by `light`, all of it or without its suns. `suns`: those that the scene's directional
+   * lights add with their shadows; they light here what is lit after a bounce. Without them, and where `directApart` is
+   * false, three's lights add nothing. Lamps that `lamps` does not name shine as in the scene,
+   * keys do not. Throws a RangeError for a
+   * light of fewer bands than `order`, for lamps that are not there, and for strengths below zero. */
+  setLight(light: ShLight, angle?: number, suns?: ShLight | null, lamps?: LampStrengths): void;
+  /** Lights all of the file by `light` as `scene` shows it, from frame to frame: turned by its environmentRotation and
+   * times its environmentIntensity, or by those of the background where it has no environment; and as `gltf.scene` is turned
+   * itself. Until `setLight` or `setSky` is called again. Throws as setLight does. */
+  setSky(light: ShLight, scene: Scene, options?: SkyOptions): void;
+  /** Strengths of the keys by which `suns` shine without a shadow map, for `lamps` of `setLight` with the same angle; the
+   * suns are then left out of its light. Throws a RangeError where the model has no keys. */
+  strengthsOfSuns(suns: Sun[], angle?: number): Record<string, [number, number, number]>;
+}
+
+/** The compressed transfer of the surfaces of one file: `gltf.userData.prtkit`. Its light is that of `volume`, too. */
+export class PrtkitModel extends LitTransfer {
   /** Vertices that have transfer. */
   readonly vertices: number;
   /** Of the vertex attributes that transfer takes, as they are bound: packed weights in whole 32-bit words, others
@@ -54,24 +71,59 @@ export class PrtkitModel {
   /** Texels of lightmaps that have transfer, where vertices have none, and the bytes of words of each. */
   readonly texels: number;
   readonly bytesPerTexel: number;
-  /** Lights all meshes of the file by `light`, all of it or without its suns. `suns`: those that the scene's directional
-   * lights add with their shadows; they light here what is lit after a bounce. Without them, and where `directApart` is
-   * false, three's lights add nothing. Lamps that `lamps` does not name shine as in the scene,
-   * keys do not. Throws a RangeError for a
-   * light of fewer bands than `order`, for lamps that are not there, and for strengths below zero. */
-  setLight(light: ShLight, angle?: number, suns?: ShLight | null, lamps?: LampStrengths): void;
-  /** Lights all meshes of the file by `light` as `scene` shows it, from frame to frame: turned by its environmentRotation and
-   * times its environmentIntensity, or by those of the background where it has no environment; and as `gltf.scene` is turned
-   * itself. Until `setLight` or `setSky` is called again. Throws as setLight does. */
-  setSky(light: ShLight, scene: Scene, options?: SkyOptions): void;
-  /** Strengths of the keys by which `suns` shine without a shadow map, for `lamps` of `setLight` with the same angle; the
-   * suns are then left out of its light. Throws a RangeError where the model has no keys. */
-  strengthsOfSuns(suns: Sun[], angle?: number): Record<string, [number, number, number]>;
+  /** Light of what moves, where the file has a volume. */
+  readonly volume: PrtkitVolume | null;
+  /** What takes light from the surfaces as it passes near them; null: nothing. Throws an Error with WebGPURenderer. */
+  setOccluders(occluders: PrtkitOccluders | null): void;
   /** Frees the tables and lightmaps on the device; materials and geometries are disposed of as all of three's. */
   dispose(): void;
 }
 
-/** Reads PRTKIT_clustered_pca and PRTKIT_lightmap, for WebGLRenderer; that of `prtkit-web/webgpu` for WebGPURenderer:
+/** Parts of a file that take light from what they pass (PRTKIT_occlusion_volume): `gltf.userData.prtkitOccluders`. */
+export class PrtkitOccluders {
+  /** How many are shown. */
+  readonly count: number;
+  /** Takes the parts where they are; `PrtkitModel` does so before it is drawn. */
+  update(): void;
+  dispose(): void;
+}
+
+/** The probes of a file, beside its surfaces or alone: `gltf.userData.prtkit.volume`. */
+export class PrtkitVolume extends LitTransfer {
+  /** Bands of the light that comes in at probes. */
+  readonly incidentOrder: 2 | 3 | 4;
+  readonly probes: number;
+  /** Of words and sights; the bases are as large for one as for all. */
+  readonly bytesPerProbe: number;
+  /** Itself, as a model has it. */
+  readonly volume: PrtkitVolume;
+  /** Lights `object` and what it holds where it is, from now on: its meshes get copies of their materials, and cast and receive
+   * shadows of suns. What transfer lights, and what has no light of three's, stays what it is. Throws an Error for materials other
+   * than MeshStandardMaterial, MeshPhysicalMaterial and MeshLambertMaterial. Returns `object`. */
+  light<T extends Object3D>(object: T): T;
+  /** A change of light is formed in steps, one before each picture; whether that is done. */
+  readonly isSettled: boolean;
+  /** Does it now. */
+  settle(): this;
+  /** Of a probe in the world of the file, and whether it is inside of something. */
+  placeOfProbe(probe: number): Vector3;
+  isSealed(probe: number): boolean;
+  /** For shaders of your own: what `volumeShader` reads, and the defines that it wants. */
+  readonly uniforms: Record<string, IUniform>;
+  readonly defines: Record<string, number>;
+  /** Brings light and place up to date, before such a shader is drawn. */
+  readonly beforeRender: (renderer: unknown) => void;
+  /** The light of the probes. */
+  readonly texture: Data3DTexture;
+  /** Frees the textures on the device. */
+  dispose(): void;
+}
+
+/** GLSL that looks a volume up, for fragment shaders of your own (GLSL ES 3.0): prt_volume_irradiance and the others of
+ * shaders/prt_volume.glsl, of a place and a normal that prtToVolume has taken there. */
+export const volumeShader: string;
+
+/** Reads PRTKIT_clustered_pca, PRTKIT_lightmap and PRTKIT_transfer_volume, for WebGLRenderer; that of `prtkit-web/webgpu` for WebGPURenderer:
  * `loader.register((parser) => new PrtkitPlugin(parser))`. */
 export class PrtkitPlugin implements GLTFLoaderPlugin {
   readonly name: string;

@@ -19,28 +19,40 @@
 //
 //   prtkit.setLight(sky.deringed(), angle, null, prtkit.strengthsOfSuns(suns, angle));
 //
+// What moves through a model with a volume (`prt bake --volume`) is lit where it is:
+//
+//   prtkit.volume.light(character.scene);
+//
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
 import { setFallbackAside } from "./fallback.js";
-import { relitMaterial, sunTraits } from "./relitMaterial.js";
+import { occludersOf, PrtkitOccluders } from "./PrtkitOccluders.js";
+import { PrtkitVolume } from "./PrtkitVolume.js";
+import { copiedMaterial, relitMaterial, sunTraits } from "./relitMaterial.js";
 import { TexelPass } from "./texelPass.js";
 import { transferOfTexels } from "./texelTransfer.js";
 import { transferOfVertices } from "./vertexTransfer.js";
-import { expect, TEXELS, VERTICES } from "./wholeExtension.js";
+import { volumeOf } from "./volumeTransfer.js";
+import { checkVolume, expect, OCCLUDERS, PROBES, TEXELS, VERTICES, viewsOf } from "./wholeExtension.js";
 
 export { halfFloatSky, projectEquirectangular } from "./equirectangular.js";
 export { lightOfSuns, readLightFile } from "./lightFile.js";
 export { lightFromProbe } from "./lightProbe.js";
+export { LitTransfer } from "./LitTransfer.js";
 export { PrtkitModel } from "./PrtkitModel.js";
+export { PrtkitOccluders } from "./PrtkitOccluders.js";
+export { PrtkitVolume } from "./PrtkitVolume.js";
 export { projectInWorker } from "./projectInWorker.js";
 export { ShLight } from "./sphericalHarmonics.js";
 export { SunLights } from "./SunLights.js";
+export { VOLUME as volumeShader } from "./transferShader.js";
 
 /** For `GLTFLoader.register`. Files without transfer load as ever. */
 export class PrtkitPlugin {
   constructor(parser) {
     this.parser = parser;
     this.name = VERTICES;
+    this.canOcclude = true;
   }
 
   beforeRoot() {
@@ -48,14 +60,28 @@ export class PrtkitPlugin {
   }
 
   async afterRoot(gltf) {
-    const { [VERTICES]: vertices, [TEXELS]: texels } = this.parser.json.extensions ?? {};
-    if (!vertices && !texels) return;
+    const { [VERTICES]: vertices, [TEXELS]: texels, [PROBES]: probes } = this.parser.json.extensions ?? {};
     expect(!vertices || !texels, "the file has the transfer of texels, too");
+    const parts = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
+    if (parts.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(parts);
+    const volume = probes ? await this.volume(probes, gltf.scene) : null;
+    if (vertices || texels) gltf.userData.prtkit = Object.assign(await this.surfaces(vertices, texels, gltf), { volume });
+    else if (volume) gltf.userData.prtkit = volume;
+  }
+
+  async surfaces(vertices, texels, gltf) {
     const { model, of } = vertices
       ? await transferOfVertices(vertices, (list) => this.viewsOf(list, VERTICES), gltf.scene)
       : await transferOfTexels(texels, (list) => this.viewsOf(list, TEXELS), gltf.scene, this.parser, this.passOf);
+    model.canOcclude = this.canOcclude;
     this.convert(gltf, model, of);
-    gltf.userData.prtkit = model;
+    return model;
+  }
+
+  async volume(extension, root) {
+    checkVolume(extension);
+    const bytes = await this.viewsOf(viewsOf(extension), PROBES);
+    return new PrtkitVolume(volumeOf(extension, (i) => bytes.get(i)), root, this);
   }
 
   /** The bytes of buffer views; three knows best whether they are there. */
@@ -77,6 +103,11 @@ export class PrtkitPlugin {
 
   materialOf(source, transfer) {
     return relitMaterial(source, transfer);
+  }
+
+  /** The same of what moves through a volume. */
+  copiedMaterial(source, transfer) {
+    return copiedMaterial(source, transfer);
   }
 
   /** Before a mesh is drawn: another renderer would leave out its light. */

@@ -1,9 +1,8 @@
 // The compressed transfer of one file, shared by its meshes, and what lights it.
 
-import { DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, UnsignedIntType, Vector3 } from "three";
-import { clusterTable, formConstants, lightColumns, shaderRows } from "./clusteredPca.js";
-import { strengthsOfSuns } from "./lightSet.js";
-import { shownBy, turnForModel, turnedBy } from "./turns.js";
+import { DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, UnsignedIntType } from "three";
+import { clusterTable, formConstants, shaderRows } from "./clusteredPca.js";
+import { LitTransfer } from "./LitTransfer.js";
 
 const TEXTURE_WIDTH = 256;
 /** Of the shader: where its tables are. */
@@ -19,11 +18,10 @@ function tableTexture(count, data, format, type) {
   return texture;
 }
 
-export class PrtkitModel {
+export class PrtkitModel extends LitTransfer {
   /** `clusters`: of decodeClusters; `root`: the scene of the file, by whose turn in the world `setSky` lights. */
   constructor(clusters, root = null) {
-    this.root = root;
-    this.clusters = clusters;
+    super(clusters, root);
     this.rows = shaderRows(this.clusters);
     const { rowCount, components } = this.clusters;
     this.constantsTexture = tableTexture(rowCount, new Float32Array(4 * rowCount), RGBAFormat, FloatType);
@@ -33,17 +31,6 @@ export class PrtkitModel {
       RGBAIntegerFormat,
       UnsignedIntType,
     );
-    this.order = this.clusters.order;
-    this.channels = Math.max(...this.clusters.parts.map((part) => part.channels));
-    this.directApart = this.clusters.parts[0].kind === "direct";
-    /** Names of the lamps that can be dimmed. */
-    const lamps = this.clusters.parts.filter(({ kind }) => kind === "lamp");
-    this.lamps = lamps.filter(({ towards }) => !towards).map(({ name }) => name);
-    /** Keys of the light set by which suns can shine: { name, towards }. */
-    this.keys = lamps.filter(({ towards }) => towards);
-    /** By lamp or key, what its strength is; of shining materials, uniforms. */
-    this.strengths = new Map(lamps.map(({ name }) => [name, { value: new Vector3() }]));
-    this.setStrengths({});
     this.uniforms = {
       prt_constants: { value: this.constantsTexture },
       prt_clusters: { value: this.clustersTexture },
@@ -54,108 +41,70 @@ export class PrtkitModel {
     this.texels = 0;
     this.bytesPerTexel = 0;
     this.maps = null; // RelitMaps, where texels have the transfer
-    this.sky = null; // of setSky
-    this.beforeRender = (renderer) => {
+    this.volume = null; // PrtkitVolume, where the file has probes, too
+    this.occluders = null; // PrtkitOccluders
+    this.occludedAt = -1; // picture
+    this.occluderUniforms = {
+      prt_occluder_texture: { value: null },
+      prtOccluderRows: { value: [] },
+      prtOccluderCount: { value: 0 },
+      prtOccluderReach: { value: null },
+    };
+    this.canOcclude = true; // by WebGLRenderer
+    this.beforeRender = (renderer, scene, camera, geometry, object) => {
       this.followSky();
+      this.followOccluders(renderer, object);
       this.maps?.form(renderer, this.constantsTexture.version);
     };
   }
 
-  /**
-   * Lights all meshes by `light` turned about +Y by `angle` radians: forms the constants of all clusters. `suns`: those
-   * that three's directional lights add with their shadows; here they light what is lit after a bounce. Where direct light
-   * is not apart they light in full here, and three's lights add nothing. `lamps`: strengths by name, numbers or
-   * [red, green, blue]; those that it does not name shine as in the scene.
-   */
+  /** As LitTransfer says; the volume of the file is lit alike. */
   setLight(light, angle = 0, suns = null, lamps = {}) {
-    this.checkOrders(light, suns);
-    this.setStrengths(lamps);
-    this.sky = null;
-    this.form(light.coefficients(angle), suns ? suns.coefficients(angle) : null);
+    this.volume?.checkOrders(light, suns);
+    super.setLight(light, angle, suns, lamps);
+    this.volume?.setLight(light, angle, suns, this.volume.knownOf(lamps));
   }
 
-  /**
-   * Lights all meshes by `light` as `scene` shows it, in every frame: turned by its environmentRotation, times its
-   * environmentIntensity, or those of the background where it has no environment; and as the model is turned itself.
-   * `suns`, `lamps`: as of setLight; `keyed`: suns that shine by the keys of a light set, in the place of `suns`.
-   */
   setSky(light, scene, { suns = null, lamps = {}, keyed = [] } = {}) {
-    this.checkOrders(light, suns);
-    if (keyed.length > 0 && this.keys.length === 0) throw new RangeError("the model has no light set");
-    this.setStrengths(lamps);
-    this.sky = { light, scene, suns, lamps, keyed, shown: "" };
-    this.followSky();
+    this.volume?.checkOrders(light, suns);
+    super.setSky(light, scene, { suns, lamps, keyed });
+    this.volume?.setSky(light, scene, { suns, lamps: this.volume.knownOf(lamps), keyed: this.volume.keys.length > 0 ? keyed : [] });
   }
 
-  /** Forms constants where what the sky is shown by has changed since. */
-  followSky() {
-    if (!this.sky) return;
-    const { light, scene, suns, lamps, keyed, shown } = this.sky;
-    const { euler, strength } = shownBy(scene);
-    const now = [euler.x, euler.y, euler.z, euler.order, strength, ...this.root.matrixWorld.elements.slice(0, 11)].join();
-    if (now === shown) return;
-    this.sky.shown = now;
-    const turn = turnForModel(scene, this.root);
-    if (keyed.length > 0) {
-      const turned = keyed.map(({ towards, irradiance }) => ({
-        towards: turnedBy(turn, towards),
-        irradiance: irradiance.map((value) => strength * value),
-      }));
-      this.setStrengths({ ...strengthsOfSuns(this.keys, turned), ...lamps });
+  /** What passes near the surfaces, and takes from their light: PrtkitOccluders, or null. */
+  setOccluders(occluders) {
+    if (!this.canOcclude) throw new Error("prtkit: what moves takes no light with WebGPURenderer");
+    this.occluders = occluders;
+    this.occludedAt = -1;
+  }
+
+  /** Occluders are in shaders only while there are some. */
+  followOccluders(renderer, object) {
+    const { occluders } = this;
+    for (const material of object ? [object.material].flat() : []) {
+      if (material._transfer?.model !== this || Boolean(occluders) === Boolean(material.defines?.PRT_OCCLUDERS)) continue;
+      if (occluders) material.defines.PRT_OCCLUDERS = 1;
+      else delete material.defines.PRT_OCCLUDERS;
+      material.needsUpdate = true;
     }
-    const seen = (source) => source.rotated(turn).times(strength).coefficients();
-    this.form(seen(light), suns ? seen(suns) : null);
-  }
-
-  checkOrders(light, suns) {
-    for (const { order } of suns ? [light, suns] : [light])
-      if (order < this.order) throw new RangeError(`the light has order ${order}, the model needs ${this.order}`);
+    if (!occluders || renderer.info.render.frame === this.occludedAt) return;
+    this.occludedAt = renderer.info.render.frame;
+    occluders.update();
+    const { prt_occluder_texture: texture, prtOccluderRows: rows, prtOccluderCount: count, prtOccluderReach: reach } = this.occluderUniforms;
+    [texture.value, rows.value, count.value, reach.value] = [occluders.texture, occluders.rows, occluders.count, occluders.reach];
   }
 
   /** The constants of all clusters, for coefficients in the frame of the bake. */
   form(sky, suns) {
-    const strengths = [...this.strengths.values()].flatMap(({ value }) => value.toArray());
-    const columns = lightColumns(this.clusters, sky, suns, strengths);
-    formConstants(this.clusters, this.rows, columns, this.constantsTexture.image.data);
+    formConstants(this.clusters, this.rows, this.columns(sky, suns), this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
     this.uniforms.prtSunsApart.value = suns !== null && this.directApart;
-  }
-
-  /**
-   * Strengths of the keys by which `suns` shine, turned as `setLight` turns its light: what `lamps` of it is given beside
-   * those of lamps, in the place of suns that three's lights add.
-   */
-  strengthsOfSuns(suns, angle = 0) {
-    if (this.keys.length === 0) throw new RangeError("the model has no light set");
-    return strengthsOfSuns(this.keys, suns, angle);
-  }
-
-  /** By which what a material of this name shines with is multiplied. */
-  strengthOf(material) {
-    const lamp = this.clusters.parts.find(
-      ({ kind, name, towards, members = [name] }) => kind === "lamp" && !towards && members.includes(material),
-    );
-    return lamp ? this.strengths.get(lamp.name) : { value: new Vector3(1, 1, 1) };
-  }
-
-  setStrengths(lamps) {
-    const given = Object.entries(lamps).map(([name, strength]) => [
-      name,
-      typeof strength === "number" ? [strength, strength, strength] : strength,
-    ]);
-    for (const [name, strength] of given) {
-      if (!this.strengths.has(name)) throw new RangeError(`there is no lamp "${name}"`);
-      if (strength?.length !== 3 || ![...strength].every((value) => value >= 0 && value < Infinity))
-        throw new RangeError(`the strength of lamp "${name}" is neither a number nor three, or below zero`);
-    }
-    for (const { value } of this.strengths.values()) value.set(0, 0, 0);
-    for (const name of this.lamps) this.strengths.get(name).value.set(1, 1, 1);
-    for (const [name, strength] of given) this.strengths.get(name).value.set(...strength);
   }
 
   /** Frees the tables. Materials and geometries are disposed of as three's are. */
   dispose() {
     this.sky = null;
+    this.volume?.dispose();
     this.maps?.dispose();
     this.constantsTexture.dispose();
     this.clustersTexture.dispose();

@@ -21,6 +21,7 @@ export function addressOf(picture, { model, quality, sky, comparing, panel }) {
     angle: Number((degrees - 360 * Math.round(degrees / 360)).toFixed(2)),
     exposure: picture.stops,
     shine: Number(picture.shine),
+    ...Object.fromEntries(Object.entries(picture.moving.shown).map(([part, shown]) => [part, Number(shown)])),
     ...(comparing ? { split: Number(picture.split.toFixed(2)) } : {}),
     camera: rounded(camera.position.toArray()),
     target: rounded(controls.target.toArray()),

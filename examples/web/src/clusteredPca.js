@@ -39,9 +39,9 @@ function checkMagnitudes(values, largest, what) {
 /** Colours that light a part: the coefficients of a sky, or the one strength of a lamp. */
 const columnsOf = (order, { kind }) => (kind === "lamp" ? 1 : order * order);
 
-/** Numbers of a transfer vector: its parts one behind the other, each [channels][columns]. */
-const dimensionOf = ({ order, parts }) =>
-  parts.reduce((sum, part) => sum + part.channels * columnsOf(order, part), 0);
+/** Numbers of a row: for each output a transfer vector, its parts one behind the other, each [channels][columns]. */
+const dimensionOf = ({ order, parts, outputs = 1 }) =>
+  outputs * parts.reduce((sum, part) => sum + part.channels * columnsOf(order, part), 0);
 
 /**
  * The clusters of a file.
@@ -54,20 +54,20 @@ export function decodeClusters(extension, view) {
   return clustersOf(extension, view);
 }
 
-/** The same of an extension that is right, of vertices or of texels. */
-export function clustersOf(extension, view) {
+/** The same of an extension that is right, of vertices, of texels or of probes, which have several `outputs`. */
+export function clustersOf(extension, view, outputs = 1) {
   const { order, parts, components, guides = [], bases, packing } = extension;
   const guideRows = 3 * guides.length;
   let centers = new Int16Array(0);
   if (guideRows > 0) centers = codedRows(view(extension.centers.bufferView), extension.centers.drops, components.length);
-  const dimension = dimensionOf({ order, parts });
+  const dimension = dimensionOf({ order, parts, outputs });
   const firstRows = [];
   let rowCount = 0;
   for (const m of components) {
     firstRows.push(rowCount);
     rowCount += 1 + guideRows + m;
   }
-  const clusters = { order, parts, components, guides, centers, firstRows, rowCount };
+  const clusters = { order, parts, outputs, components, guides, centers, firstRows, rowCount };
   const rows = bases.values
     ? decodedRows(clusters, bases, view)
     : floats(view(bases.bufferView), rowCount * dimension, LARGEST_TRANSFER, "the bases");
@@ -86,8 +86,8 @@ function checkRows(rows, axes, dimension, bytes) {
 }
 
 /** The rows that coded bases stand for. */
-function decodedRows({ order, parts, components, guides, firstRows, rowCount }, bases, view) {
-  const dimension = dimensionOf({ order, parts });
+function decodedRows({ order, parts, outputs, components, guides, firstRows, rowCount }, bases, view) {
+  const dimension = dimensionOf({ order, parts, outputs });
   const axisCount = bases.values.drops.length;
   expect(bases.axes.drops.length === dimension, "the sizes of the coded bases do not fit together");
   const numbers = (part, count, largest, what) => floats(view(bases[part].bufferView), count, largest, what);
@@ -179,12 +179,12 @@ export function lightColumns({ order, parts }, sky, suns = null, lamps = null) {
 }
 
 /**
- * Writes for every row its product with the lighting, RGBA, to `constants` [rows][4]. `columns`: of lightColumns.
+ * Writes for every row its product with the lighting, RGBA, to `constants` [rows][outputs][4]. `columns`: of lightColumns.
  */
 export function formConstants(clusters, rows, columns, constants) {
-  const { order, parts, rowCount } = clusters;
+  const { order, parts, rowCount, outputs = 1 } = clusters;
   let at = 0;
-  for (let r = 0; r < rowCount; ++r) {
+  for (let r = 0; r < rowCount * outputs; ++r) {
     let red = 0;
     let green = 0;
     let blue = 0;

@@ -1,5 +1,5 @@
 // The page: the panel, the pointer, what the address asks for.
-//   ?model=knot&quality=0&sky=0&suns=1&window=auto&angle=40&exposure=0&shine=0&split=0.5&camera=x,y,z&target=x,y,z&fov=35&panel=0
+//   ?model=knot&quality=0&sky=0&suns=1&window=auto&angle=40&exposure=0&shine=0&figure=1&spheres=0&probes=0&split=0.5&camera=x,y,z&target=x,y,z&fov=35&panel=0
 
 import { addressOf, vectorOf } from "./address.js";
 import { Picture } from "./picture.js";
@@ -95,7 +95,7 @@ async function start() {
 
   const response = await fetch("models/models.json");
   if (!response.ok) throw new Error("There are no models: run npm run models.");
-  const { models, skies } = await response.json();
+  const { models, skies, figure } = await response.json();
   const model = () => models[element("model").selectedIndex];
   const quality = () => model().levels[element("quality").selectedIndex];
   const sky = () => skies[element("sky").selectedIndex];
@@ -116,6 +116,7 @@ async function start() {
       ...(prtkit.maps ? ofTexels() : ofVertices()),
       clusters: prtkit.clusters.components.length,
       order: prtkit.order,
+      ...(prtkit.volume ? { probes: prtkit.volume.probes.toLocaleString("en") } : {}),
       ...(litRms === undefined ? {} : { "error (lit rms)": `${(100 * litRms).toFixed(2)} %` }),
       file: `${(fileBytes / 1e6).toFixed(2)} MB`,
       loaded: `${Math.round(milliseconds)} ms`,
@@ -128,13 +129,14 @@ async function start() {
     askedCamera = undefined; // another model has a place of its own
     const began = performance.now();
     try {
-      await loading(model().title, (progress) => picture.setModel(level.file, { keepCamera, camera, progress }));
+      await loading(model().title, (progress) => picture.setModel(level.file, { keepCamera, camera, way: model().way, progress }));
     } catch (error) {
       throw new Error(`${model().title}: ${error.message}`);
     }
     showFigures(level, performance.now() - began);
     showSuns();
     showLamps();
+    showMoving();
     await showBefore();
   }
 
@@ -186,6 +188,23 @@ async function start() {
     if (lamps.length === 0) picture.setDaylight(1);
   }
 
+  /** Whether anything can move through the model, and why not. */
+  function showMoving() {
+    const { volume } = picture.gltf.userData.prtkit;
+    element("moving").disabled = !volume;
+    element("unmoving").hidden = Boolean(volume);
+    element("unmoving").textContent = "This model has no volume to light what moves: bake it with prt bake --volume.";
+  }
+
+  /** Loads who walks when that is first asked for. */
+  async function setFigure(shown) {
+    picture.setMoving("figure", shown);
+    if (!shown || !figure || setFigure.isLoaded) return;
+    setFigure.isLoaded = true;
+    await loading("somebody who walks", (progress) => picture.moving.load(figure, progress));
+    picture.draw();
+  }
+
   /** Whether there is anything to choose. */
   function showSuns() {
     element("suns").disabled = !picture.canSunsBeApart;
@@ -213,6 +232,7 @@ async function start() {
     showFigures(level, performance.now() - began);
     showSuns();
     showLamps();
+    showMoving();
     await showBefore();
   }
 
@@ -269,6 +289,10 @@ async function start() {
   element("suns").checked = picture.sunsApart = asked.get("suns") !== "0";
   picture.setShine((element("shine").checked = asked.get("shine") === "1"));
   picture.setExposure(Number((element("exposure").value = asked.get("exposure") ?? 0)));
+  picture.still = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  for (const [part, usual] of [["spheres", "0"], ["probes", "0"], ["figure", "1"]])
+    element(part).checked = (asked.get(part) ?? usual) === "1";
+  for (const part of ["spheres", "probes"]) picture.setMoving(part, element(part).checked);
   element("compare").checked = asked.has("split");
   picture.setSplit(Number((element("split").value = asked.get("split") ?? 0.5)));
   if (asked.get("panel") === "0") element("panel").classList.add("hidden");
@@ -283,6 +307,11 @@ async function start() {
   element("window").onchange = linked(() => picture.setWindow(windows[element("window").selectedIndex]));
   element("suns").onchange = linked(() => picture.setSunsApart(element("suns").checked));
   element("shine").onchange = linked(() => picture.setShine(element("shine").checked));
+  for (const part of ["spheres", "probes"]) element(part).onchange = linked(() => picture.setMoving(part, element(part).checked));
+  element("figure").onchange = guarded(() => {
+    showAddress();
+    return setFigure(element("figure").checked);
+  });
   element("angle").oninput = linked(() => picture.setAngle((Number(element("angle").value) * Math.PI) / 180));
   element("exposure").oninput = linked(() => picture.setExposure(Number(element("exposure").value)));
   element("split").oninput = linked(() => picture.setSplit(Number(element("split").value)));
@@ -318,7 +347,7 @@ async function start() {
   resize();
   picture.setAngle((Number(asked.get("angle") ?? 0) * Math.PI) / 180);
   element("angle").value = asked.get("angle") ?? 0;
-  await Promise.all([showModel(false), showSky()]);
+  await Promise.all([showModel(false), showSky(), setFigure(element("figure").checked)]);
 }
 
 function turnLight(picture, angle) {

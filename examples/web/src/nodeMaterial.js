@@ -2,6 +2,8 @@
 // transferShader.js; suns that are apart have three's own shadows here.
 
 import {
+  clearcoatNormalView,
+  clearcoatRoughness,
   diffuseColor,
   materialEmissive,
   materialLightMap,
@@ -10,12 +12,14 @@ import {
   normalFlat,
   normalView,
   property,
+  roughness,
   uniform,
   vec3,
 } from "three/tsl";
-import { DoubleSide, LightingNode, MeshLambertNodeMaterial, MeshPhysicalNodeMaterial, MeshStandardNodeMaterial, Vector3, Vector4 } from "three/webgpu";
+import { DoubleSide, LightingNode, MeshLambertNodeMaterial, MeshPhysicalNodeMaterial, MeshStandardNodeMaterial, NodeMaterial, Vector3, Vector4 } from "three/webgpu";
 import { radianceOfVertices } from "./radianceNodes.js";
 import { matte } from "./relitMaterial.js";
+import { lightOfVolume } from "./volumeNodes.js";
 
 // Of the material that is drawn.
 const strength = uniform(new Vector3()).onObjectUpdate(({ material }) => material._transfer.uniforms.prtStrength.value);
@@ -53,6 +57,29 @@ function sunLight(lighting, thin) {
     const behind = cosine.negate().max(0).mul(transmission.a).div(Math.PI);
     reflectedLight.directDiffuse.addAssign(directDiffuse.mul(transmission.a.oneMinus()).add(lightColor.mul(transmission.rgb).mul(behind)));
   };
+}
+
+/** Changes what a lighting model of three's adds up, of what moves: the light of a volume is its diffuse light, and what it mirrors.
+ * As transferShader.js has it. */
+function moving(lighting, { volume, reflects }) {
+  lighting.direct = sunLight(lighting, false);
+  if (lighting.indirectSpecular === undefined) {
+    lighting.indirect = ({ context: { reflectedLight } }) =>
+      reflectedLight.indirectDiffuse.addAssign(lightOfVolume(volume).irradianceOverPi(normalView).mul(diffuseColor.rgb));
+    return lighting;
+  }
+  const { indirectDiffuse } = lighting;
+  lighting.indirectDiffuse = (builder) => {
+    indirectDiffuse.call(lighting, builder);
+    const { irradianceOverPi, mirrored } = lightOfVolume(volume);
+    const { iblIrradiance, radiance } = builder.context;
+    iblIrradiance.assign(irradianceOverPi(normalView).mul(Math.PI));
+    radiance.assign(mirrored(normalView, roughness, reflects ? radiance : null));
+    const { clearcoatRadiance } = lighting;
+    if (clearcoatRadiance)
+      clearcoatRadiance.assign(mirrored(clearcoatNormalView, clearcoatRoughness, reflects ? clearcoatRadiance : null));
+  };
+  return lighting;
 }
 
 /** Changes what a lighting model of three's adds up: the transfer's `radiance` is its diffuse light around. */
@@ -107,7 +134,7 @@ const lit = (Base) =>
     /** Of whom the same nodes are: all of a model whose attributes, coordinates and suns are alike. */
     customProgramCacheKey() {
       const { model, defines, traits, lightMap } = this._transfer;
-      const parts = [model.constantsTexture.id, JSON.stringify(defines), traits?.lit, traits?.transmission.w > 0, lightMap?.channel];
+      const parts = [(model.constantsTexture ?? model.texture).id, JSON.stringify(defines), traits?.lit, traits?.transmission.w > 0, lightMap?.channel];
       return `${super.customProgramCacheKey()}:prtkit:${parts.join(":")}`;
     }
 
@@ -140,7 +167,8 @@ const lit = (Base) =>
     }
 
     setupLightingModel(builder) {
-      const { model, defines, traits } = this._transfer;
+      const { model, defines, traits, source } = this._transfer;
+      if (source) return moving(super.setupLightingModel(builder), { volume: model, reflects: this._reflects });
       if (builder.renderer.backend.isWebGPUBackend && defines.PRT_WEIGHT_VECTORS > 5)
         throw new Error("prtkit: WebGPU has no room for so many weights of a vertex: run prt compress with fewer components, or packed");
       return relit(super.setupLightingModel(builder), {
@@ -165,6 +193,7 @@ const LitLambert = lit(MeshLambertNodeMaterial);
 export function nodeMaterial(source, transfer) {
   const Material = source.isMeshPhysicalMaterial ? LitPhysical : source.isMeshStandardMaterial ? LitStandard : LitLambert;
   const material = new Material();
-  take(material, source.isMeshStandardMaterial ? source : matte(source));
+  if (source.isNodeMaterial) NodeMaterial.prototype.copy.call(material, source); // with its own nodes
+  take(material, source.isMeshStandardMaterial || transfer.source ? source : matte(source));
   return material.light(transfer);
 }

@@ -22,6 +22,7 @@ import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
+import { Moving } from "./moving.js";
 import { halfFloatSky, lightOfSuns, PrtkitPlugin, projectInWorker, readLightFile, SunLights } from "./PrtkitLoader.js";
 import { AS_BAKED } from "./wholeExtension.js";
 import { skyImage } from "./skyImage.js";
@@ -95,6 +96,9 @@ export class Picture {
     this.background.renderOrder = -1;
     this.background.visible = false;
     this.scene.add(this.background);
+    this.moving = new Moving(this.scene);
+    this.movedAt = null; // milliseconds, of the picture before
+    this.isMetered = false; // for what the light and the camera are
     this.gltf = null;
     this.before = null; // the same model before it was compressed
     this.split = 0.5; // before it on the left, as a share of the width
@@ -110,19 +114,32 @@ export class Picture {
     this.daylight = 1; // times the sky and its suns
     this.lamps = {}; // strengths by name
     this.stops = 0;
+    this.still = false; // nobody walks
     this.drawn = 0;
     this.pending = false;
   }
 
-  /** Shows the model at `url`; the camera stays where a model was shown before and `keepCamera` is set. */
-  async setModel(url, { keepCamera = false, camera, progress } = {}) {
+  /** Shows the model at `url`; the camera stays where a model was shown before and `keepCamera` is set. `way`: of Walk. */
+  async setModel(url, { keepCamera = false, camera, way, progress } = {}) {
     const gltf = await loadModel(url, progress);
     this.removeModel();
     this.gltf = gltf;
     this.lamps = {};
     this.scene.add(gltf.scene);
     if (!keepCamera) this.frame(camera);
+    this.moving.enter(gltf, way);
     this.formLight();
+  }
+
+  /** Shows or hides "figure", "spheres" or "probes". */
+  setMoving(part, shown) {
+    this.moving.show(part, shown);
+    this.updateShadows();
+    this.draw();
+  }
+
+  updateShadows() {
+    for (const { shadow } of this.sunLights?.lights ?? []) shadow.needsUpdate = true;
   }
 
   /** Shows the model at `url`, the same one before it was compressed, left of `split`; null: no longer. */
@@ -325,25 +342,50 @@ export class Picture {
     this.camera.updateProjectionMatrix();
   }
 
+  /** Of the model without what moves through it, so that it does not change as that comes and goes. */
   expose() {
+    if (this.isMetered) return;
+    this.isMetered = true;
     const { visible } = this.background;
-    this.background.visible = false;
+    this.background.visible = this.moving.group.visible = false;
     if (this.before) [this.before.scene.visible, this.gltf.scene.visible] = [false, true];
     const metered = this.meter.exposure(this.scene, this.camera);
     this.background.visible = visible;
+    this.moving.group.visible = true;
     this.renderer.toneMappingExposure = (metered ?? 0.25 / this.light.meanLuminance()) * 2 ** this.stops;
   }
 
   /** Once, before the browser shows the next frame. */
   draw() {
+    this.isMetered = false;
+    this.drawSoon();
+  }
+
+  drawSoon() {
     if (this.pending) return;
     this.pending = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((now) => {
       this.pending = false;
+      this.move(now);
       if (this.gltf && this.light) this.expose();
       this.render();
       if (this.gltf && this.light) ++this.drawn;
+      if (this.gltf && this.light && (this.isMoving || this.moving.isWaiting)) this.drawSoon();
     });
+  }
+
+  /** Whether there is something to see that goes on by itself. */
+  get isMoving() {
+    return this.moving.isWalking && !this.still;
+  }
+
+  /** A picture that took long, or a page that was hidden, does not make it jump. */
+  move(now) {
+    if (this.isMoving && this.movedAt !== null) {
+      this.moving.advance(Math.min((now - this.movedAt) / 1000, 0.1));
+      this.updateShadows();
+    }
+    this.movedAt = this.isMoving ? now : null;
   }
 
   /** All of the picture, or the model before it was compressed on the left and after on the right. */

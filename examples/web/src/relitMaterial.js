@@ -1,7 +1,7 @@
 // Materials as GLTFLoader makes them, lit by transfer, and by suns that are apart from it.
 
-import { DoubleSide, MeshLambertMaterial, Vector4 } from "three";
-import { addTransfer, PACKED_SHADOW_MAPS } from "./transferShader.js";
+import { DoubleSide, MeshLambertMaterial, Vector3, Vector4 } from "three";
+import { addTransfer, addVolume, PACKED_SHADOW_MAPS } from "./transferShader.js";
 
 /**
  * How suns meet a material of the glTF: { lit, transmission, casts }. A medium has all of its light from transfer; shadow
@@ -39,22 +39,27 @@ export function matte(source) {
   });
 }
 
-/** Gives `material` its light, and its clones theirs: three copies neither defines nor what is done before compiling. */
+/** Gives `material` its light, and its clones theirs: three copies neither defines nor what is done before compiling. What the
+ * source of one that moves does then, is done. */
 function light(material, transfer) {
-  const { uniforms, defines, traits, lightMap, model } = transfer;
+  const { uniforms, defines, traits, lightMap, model, source } = transfer;
   material.defines = { ...material.defines, ...defines };
   if (traits?.lit) material.defines.PRT_SUNS = 1;
   if (PACKED_SHADOW_MAPS) material.defines.PRT_PACKED_SHADOW_MAPS = 1;
   // Radiance of what has albedo 1; three has irradiance in light maps.
   if (lightMap) Object.assign(material, { lightMap, lightMapIntensity: Math.PI });
   material.shadowSide = DoubleSide; // every triangle blocks from both sides
-  material.onBeforeCompile = (shader) => {
+  material.onBeforeCompile = (shader, renderer) => {
+    source?.onBeforeCompile.call(material, shader, renderer);
     Object.assign(shader.uniforms, uniforms);
+    Object.assign(shader.uniforms, model.occluderUniforms);
     if (traits) shader.uniforms.prtTransmission = { value: traits.transmission };
-    addTransfer(shader);
+    (transfer.source ? addVolume : addTransfer)(shader);
   };
-  material.customProgramCacheKey = () => `prtkit:${JSON.stringify(material.defines)}`;
+  const ownKey = source?.customProgramCacheKey() ?? "";
+  material.customProgramCacheKey = () => `prtkit:${JSON.stringify(material.defines)}${ownKey}`;
   material.onBeforeRender = model.beforeRender;
+  Object.defineProperty(material, "_transfer", { value: transfer });
   material.clone = () => light(Object.getPrototypeOf(material).clone.call(material), transfer);
   return material;
 }
@@ -67,3 +72,29 @@ function light(material, transfer) {
 export function relitMaterial(source, transfer) {
   return light(source.isMeshStandardMaterial ? source.clone() : matte(source), transfer);
 }
+
+/** Whether a volume can light a material: what three has no light for stays what it is. Throws for what it cannot. */
+function takesVolume({ isMeshStandardMaterial, isMeshLambertMaterial, isMeshPhongMaterial, isMeshToonMaterial, lights, type }) {
+  if (isMeshStandardMaterial || isMeshLambertMaterial) return true;
+  if (isMeshPhongMaterial || isMeshToonMaterial || lights === true)
+    throw new Error(`prtkit: a volume lights MeshStandardMaterial, MeshPhysicalMaterial and MeshLambertMaterial, not ${type}`);
+  return false;
+}
+
+/** What of a volume lights a material of what moves: as the transfer of relitMaterial. */
+export function transferOfVolume(source, volume) {
+  const traits = { lit: true, transmission: new Vector4(1, 1, 1, 0) };
+  const uniforms = { ...volume.uniforms, prtStrength: { value: new Vector3(1, 1, 1) } };
+  return { uniforms, defines: volume.defines, traits, model: volume, source };
+}
+
+/** A copy of `source` that `volume` lights, which stays what it is; itself where nothing is to be done. */
+export function movingMaterial(source, volume, copied) {
+  const transfer = source._transfer;
+  if (transfer && (!transfer.source || transfer.model === volume)) return source; // baked, or lit by it
+  const own = transfer?.source ?? source;
+  return takesVolume(own) ? copied(own, transferOfVolume(own, volume)) : source;
+}
+
+/** `source` lit by the transfer of a volume, by WebGLRenderer; its own shader is kept. */
+export const copiedMaterial = (source, transfer) => light(source.clone(), transfer);

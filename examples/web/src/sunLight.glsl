@@ -4,8 +4,6 @@
 
 uniform bool prtSunsApart;
 uniform vec4 prtTransmission; // color of what passes a thin sheet, and how much
-// In the world. Of the part of a pixel that a triangle covers: its middle may be beyond a wall.
-centroid in vec3 prtPlace;
 
 #if NUM_DIR_LIGHTS > 0
 

@@ -1,10 +1,10 @@
 // Models whose texels have the transfer: PRTKIT_lightmap.
 
 import { clustersOf } from "./clusteredPca.js";
+import { wordsOf } from "./packedWords.js";
 import { PrtkitModel, TABLES } from "./PrtkitModel.js";
 import { RelitMaps } from "./RelitMaps.js";
-import { wordsOf } from "./vertexWeights.js";
-import { checkLightmap, expect, ofTexels, TEXELS, viewsOf } from "./wholeExtension.js";
+import { checkLightmap, expect, inNameOf, TEXELS, viewsOf } from "./wholeExtension.js";
 import { wordTexture } from "./wordImages.js";
 
 const holds = (value, what) => expect(value, what, TEXELS);
@@ -22,7 +22,7 @@ function coordinatesOf({ geometry }, { texCoord }) {
 export async function transferOfTexels(extension, views, root, parser, passOf) {
   checkLightmap(extension, parser.json.images?.length ?? 0);
   const bytes = await views(viewsOf(extension));
-  const clusters = ofTexels(() => clustersOf(extension, (i) => bytes.get(i)));
+  const clusters = inNameOf(TEXELS, () => clustersOf(extension, (i) => bytes.get(i)));
   const words = wordsOf(clusters);
   holds(words === extension.maps[0].images.length, `a texel has ${extension.maps[0].images.length} words, not ${words}`);
   const maps = [];

@@ -1,12 +1,16 @@
-// What transfer adds to the shaders of three's lit materials, as `onBeforeCompile` is given them: exit radiance in the place of
-// the diffuse light that three would find around, and suns that are apart. All else is three's: specular reflection, normal
-// maps, coats, shadows, fog, tone mapping.
+// What transfer adds to the shaders of three's lit materials, as `onBeforeCompile` is given them: exit radiance, or the light of
+// a volume, in the place of the diffuse light that three would find around, and suns that are apart. All else is three's:
+// specular reflection, normal maps, coats, shadows, fog, tone mapping.
 
 import { ShaderChunk } from "three";
+import { MOST_OCCLUDERS } from "./PrtkitOccluders.js";
 import exitRadiance from "./prt_exit_radiance.glsl.js";
+import occluders from "./prt_occluders.glsl.js";
 import sunLight from "./sunLight.glsl.js";
 import sunLoop from "./sunLoop.glsl.js";
 import transferVertex from "./transferVertex.glsl.js";
+import volume from "./prt_volume.glsl.js";
+import volumeLight from "./volumeLight.glsl.js";
 
 // Three packed the depths of its shadow maps into colors until release 181.
 export const PACKED_SHADOW_MAPS = ShaderChunk.shadowmap_pars_fragment.includes("unpackRGBAToDepth");
@@ -32,6 +36,43 @@ const NO_IRRADIANCE = `
   totalEmissiveRadiance *= prtStrength;
 ${sunLoop}`;
 
+// What takes light from baked surfaces, in the world.
+const OCCLUDERS = `
+#ifdef PRT_OCCLUDERS
+#define PRT_MOST_OCCLUDERS ${MOST_OCCLUDERS}
+#define PRT_OCCLUDER_ROWS prtOccluderRows
+#define PRT_OCCLUDER_COUNT prtOccluderCount
+uniform vec4 prtOccluderRows[ 5 * PRT_MOST_OCCLUDERS ];
+uniform int prtOccluderCount;
+uniform vec4 prtOccluderReach; // a sphere, out of which none takes any
+${occluders}
+#endif`;
+
+// How shaders of one's own look a volume up: the uniforms of PrtkitVolume.
+export const VOLUME = `
+#define PRT_VOLUME_ORIGIN vec3( 0.0 ) // prtToVolume has taken it off
+#define PRT_VOLUME_SPACING prtVolumeSpacing
+#define PRT_VOLUME_SIZE prtVolumeSize
+#define PRT_VOLUME_FIRST prtVolumeFirst
+#define PRT_VOLUME_BRICKS prtVolumeBricks
+uniform highp float prtVolumeSpacing;
+uniform highp ivec3 prtVolumeSize, prtVolumeBricks;
+uniform highp ivec4 prtVolumeFirst;
+${volume}`;
+
+// Of what moves: by the normal of the surface for where it is looked up, by that of the pixel for what it is lit with.
+const INCIDENT = `
+  vec3 prtIncident[ PRT_VOLUME_COEFFICIENTS ];
+  prt_volume_incident( prtVolumePlace, prtTowards( nonPerturbedNormal ), prtIncident );
+  vec3 prtRadiance = prt_incident_irradiance( prtIncident, prtTowards( normal ) );
+#ifdef STANDARD
+  radiance = prtMirrored( prtIncident, geometryNormal, geometryViewDir, material.roughness, radiance );
+#ifdef USE_CLEARCOAT
+  clearcoatRadiance =
+    prtMirrored( prtIncident, geometryClearcoatNormal, geometryViewDir, material.clearcoatRoughness, clearcoatRadiance );
+#endif
+#endif`;
+
 // With an environment the transfer is what three calls the irradiance of it, and shares energy with the specular reflection as
 // that does. Without, nothing is reflected but diffusely, and rough metals as bounces have them (docs/math.md, section 6).
 const TRANSFER = `
@@ -40,7 +81,11 @@ const TRANSFER = `
   irradiance = vec3( 0.0 );
 #endif
   vec3 prtDiffuse = max( prtRadiance, vec3( 0.0 ) );
-#if defined( STANDARD ) && defined( USE_ENVMAP )
+#ifdef PRT_OCCLUDERS
+  if ( distance( prtPlace, prtOccluderReach.xyz ) < prtOccluderReach.w )
+    prtDiffuse *= prt_occluders_openness( prtPlace, inverseTransformDirection( nonPerturbedNormal, viewMatrix ) );
+#endif
+#if defined( STANDARD ) && ( defined( USE_ENVMAP ) || defined( PRT_VOLUME ) )
   iblIrradiance = PI * prtDiffuse;
 #elif defined( STANDARD )
   reflectedLight.indirectDiffuse += prtDiffuse * diffuseColor.rgb * ( 1.0 - metalnessFactor * ( 1.0 - roughnessFactor * roughnessFactor ) );
@@ -57,17 +102,32 @@ const FACE_NORMAL = `
   vec3 prtFace = normalize( cross( dFdx( vViewPosition ), dFdy( vViewPosition ) ) ); // on the side that shows
   if ( ! ( dot( normal, normal ) > 0.5 ) ) normal = prtFace;`;
 
+const include = (name) => `#include <${name}>`;
+
+/** What both have: `vertex` and `fragment` before main, `lights` behind three's own. */
+function addLight(shader, { vertex, fragment, lights }) {
+  const add = (stage, name, text) => (shader[stage] = replaced(shader[stage], include(name), text));
+  const addFragment = (name, text) => add("fragmentShader", name, text);
+  add("vertexShader", "common", `${include("common")}\n${vertex}\n${transferVertex}`);
+  add("vertexShader", "project_vertex", `${include("project_vertex")}\nprtLight( transformed );`);
+  addFragment("common", `${include("common")}\n${fragment}\nuniform vec3 prtStrength;\ncentroid in vec3 prtPlace;`);
+  addFragment("shadowmap_pars_fragment", `${include("shadowmap_pars_fragment")}\n#ifdef PRT_SUNS\n${sunLight}\n#endif`);
+  addFragment("normal_fragment_begin", `${include("normal_fragment_begin")}${FACE_NORMAL}`);
+  addFragment("lights_fragment_begin", `${LIGHTS}${NO_IRRADIANCE}`);
+  addFragment("lights_fragment_maps", `${include("lights_fragment_maps")}${lights}${TRANSFER}`);
+}
+
 /** Adds transfer to the shaders of MeshStandardMaterial, MeshPhysicalMaterial or MeshLambertMaterial. */
 export function addTransfer(shader) {
-  const chunk = (name) => `#include <${name}>`;
-  const vertex = (name, text) => (shader.vertexShader = replaced(shader.vertexShader, chunk(name), text));
-  const fragment = (name, text) => (shader.fragmentShader = replaced(shader.fragmentShader, chunk(name), text));
-  vertex("common", `${chunk("common")}\n#ifndef PRT_LIGHTMAP\n${exitRadiance}\n#endif\n${transferVertex}`);
-  vertex("project_vertex", `${chunk("project_vertex")}\nprtLight( transformed );`);
-  fragment("common", `${chunk("common")}\n#ifndef PRT_LIGHTMAP\nin vec3 prtRadiance;\n#endif\nuniform vec3 prtStrength;`);
-  fragment("shadowmap_pars_fragment", `${chunk("shadowmap_pars_fragment")}\n#ifdef PRT_SUNS\n${sunLight}\n#endif`);
-  fragment("normal_fragment_begin", `${chunk("normal_fragment_begin")}${FACE_NORMAL}`);
-  fragment("lights_fragment_begin", `${LIGHTS}${NO_IRRADIANCE}`);
-  fragment("lights_fragment_maps", `${chunk("lights_fragment_maps")}${TRANSFER}`);
-  fragment("aomap_fragment", OCCLUSION);
+  addLight(shader, {
+    vertex: `#ifndef PRT_LIGHTMAP\n${exitRadiance}\n#endif`,
+    fragment: `#ifndef PRT_LIGHTMAP\nin vec3 prtRadiance;\n#endif${OCCLUDERS}`,
+    lights: "",
+  });
+  shader.fragmentShader = replaced(shader.fragmentShader, include("aomap_fragment"), OCCLUSION);
+}
+
+/** Adds the light of a volume to them. Occlusion of its own is what a thing that moves has in textures: it stays. */
+export function addVolume(shader) {
+  addLight(shader, { vertex: "", fragment: `${VOLUME}\n${volumeLight}`, lights: INCIDENT });
 }

@@ -1,7 +1,7 @@
 // From the attributes of a mesh to the frame of the bake, in which guides are; the place is seen from their origin.
 // Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl. Attributes and matrices without
-// prt are three's. Define PRT_LIGHTMAP where texels have the transfer, not vertices.
-#ifndef PRT_LIGHTMAP
+// prt are three's. Define PRT_LIGHTMAP where texels have the transfer, PRT_VOLUME where probes have it, not vertices.
+#if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
 #if !defined(PRT_GUIDE_NORMAL) && !defined(PRT_GUIDE_POSITION)
 vec3 prtBakedPlace() {
   return vec3(0.0);
@@ -33,16 +33,28 @@ vec3 prtBakedNormal() {
 out vec3 prtRadiance; // of a receiver of albedo 1
 #endif
 
-centroid out vec3 prtPlace; // in the world
+// In the world. Of the part of a pixel that a triangle covers: its middle may be beyond a wall.
+centroid out vec3 prtPlace;
+#ifdef PRT_VOLUME
+uniform mat4 prtToVolume;
+centroid out vec3 prtVolumePlace; // from the origin of the volume
+#endif
 
 // `transformed`: the vertex as its skin and its morph targets have moved it.
 void prtLight(vec3 transformed) {
-#ifndef PRT_LIGHTMAP
+#if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
   prtRadiance = prt_exit_radiance(prtBakedPlace(), prtBakedNormal());
 #endif
   vec4 place = vec4(transformed, 1.0);
+#ifdef USE_BATCHING
+  place = batchingMatrix * place;
+#endif
 #ifdef USE_INSTANCING
   place = instanceMatrix * place;
 #endif
-  prtPlace = (modelMatrix * place).xyz;
+  place = modelMatrix * place;
+  prtPlace = place.xyz;
+#ifdef PRT_VOLUME
+  prtVolumePlace = (prtToVolume * place).xyz;
+#endif
 }

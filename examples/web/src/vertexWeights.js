@@ -1,6 +1,7 @@
 // Clusters and weights of vertices, from the attributes of a file to those of the shader.
 
 import { BufferAttribute } from "three";
+import { wordsOf } from "./packedWords.js";
 import { expect, LARGEST_WEIGHT } from "./wholeExtension.js";
 
 /** Bytes of accessors of VEC4 of bytes, one after the other for each vertex, as 32-bit words [vertices][groups]. */
@@ -24,10 +25,6 @@ function wordAttribute(words, stride, first) {
     for (let w = 0; w < size; ++w) part[v * size + w] = words[v * stride + first + w];
   return new BufferAttribute(part, size);
 }
-
-/** 32-bit words of packed weights that a vertex or texel has: those of the cluster with most bits. */
-export const wordsOf = ({ widths, clusterBits }) =>
-  Math.max(1, ...widths.map((own) => Math.ceil(own.reduce((sum, width) => sum + width, clusterBits) / 32)));
 
 /** The first `count` groups of weights, taken out of a geometry with all of them. */
 function takeGroups(geometry, count) {

@@ -11,11 +11,20 @@ export * from "./PrtkitLoader.js";
 
 /** For `GLTFLoader.register`: materials are nodes. */
 export class PrtkitPlugin extends ForWebGL {
+  constructor(parser) {
+    super(parser);
+    this.canOcclude = false;
+  }
+
   passOf(model, { PRT_CLUSTER_BITS: clusterBits }) {
     return new NodeTexelPass(model, clusterBits);
   }
 
   materialOf(source, transfer) {
+    return nodeMaterial(source, transfer);
+  }
+
+  copiedMaterial(source, transfer) {
     return nodeMaterial(source, transfer);
   }
 

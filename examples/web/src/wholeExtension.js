@@ -1,7 +1,9 @@
-// What the JSON of PRTKIT_clustered_pca and PRTKIT_lightmap must be before anything is computed from it (docs/format.md).
+// What the JSON of PRTKIT_clustered_pca, PRTKIT_lightmap and PRTKIT_transfer_volume must be before anything is computed from it (docs/format.md).
 
 export const VERTICES = "PRTKIT_clustered_pca";
 export const TEXELS = "PRTKIT_lightmap";
+export const PROBES = "PRTKIT_transfer_volume";
+export const OCCLUDERS = "PRTKIT_occlusion_volume";
 /** What is wrong with a file that is not compressed. */
 export const AS_BAKED = "holds transfer as it was baked; make it one to ship: prt compress baked.glb -o shipped.glb";
 
@@ -10,12 +12,12 @@ export function expect(holds, what, name = VERTICES) {
   if (!holds) throw new Error(`${name}: ${what}`);
 }
 
-/** What `work` returns; what it finds wrong with clusters is wrong with a lightmap. */
-export function ofTexels(work) {
+/** What `work` returns; what it finds wrong with clusters is wrong with the extension `name`. */
+export function inNameOf(name, work) {
   try {
     return work();
   } catch (error) {
-    throw new Error(error.message.replace(VERTICES, TEXELS), { cause: error });
+    throw new Error(error.message.replace(VERTICES, name), { cause: error });
   }
 }
 
@@ -124,7 +126,7 @@ export function checkLightmap(extension, images) {
   const { version, raw, guides, packing, maps } = extension;
   holds(version === 1, `version ${version} is not known, only 1; compress the model again`);
   holds(raw === undefined, AS_BAKED);
-  ofTexels(() => checkClusters(extension));
+  inNameOf(TEXELS, () => checkClusters(extension));
   holds(guides === undefined, "texels have no guides");
   holds(packing !== undefined, "the weights of texels are not packed");
   holds(Array.isArray(maps) && maps.length > 0 && maps.every(isMap), "the maps are wrong");
@@ -136,9 +138,39 @@ export function checkLightmap(extension, images) {
     );
 }
 
+const areNumbers = (v) => Array.isArray(v) && v.length === 3 && v.every((x) => Number.isFinite(x) && Math.abs(x) < 1e30);
+
+/** As checkExtension, of PRTKIT_transfer_volume. */
+export function checkVolume(extension) {
+  const holds = (value, what) => expect(value, what, PROBES);
+  holds(isObject(extension), "the extension is no object");
+  const { version, raw, guides, packing, incidentOrder, origin, spacing, size, bricks, sights, words } = extension;
+  holds(version === 1, `version ${version} is not known, only 1; compress the model again`);
+  holds(raw === undefined, AS_BAKED);
+  holds(isWhole(incidentOrder, 2, 4), "the order of incident light is not 2 to 4");
+  holds(areNumbers(origin) && spacing > 0 && spacing < 1e18, "the spacing or the origin is no usable number");
+  holds(Array.isArray(size) && size.length === 3 && size.every((n) => isWhole(n, 1, 1024)), "the size is not 1 to 1024 bricks along each axis");
+  inNameOf(PROBES, () => checkClusters(extension));
+  holds(guides === undefined, "probes have no guides");
+  holds(packing !== undefined, "the weights of probes are not packed");
+  holds([bricks, sights, words].every(isView), "bricks, sights or words are not there");
+}
+
+/** The same of PRTKIT_occlusion_volume of a node. */
+export function checkOccluder(extension) {
+  const holds = (value, what) => expect(value, what, OCCLUDERS);
+  holds(isObject(extension), "the extension is no object");
+  const { version, min, max, reach, texels } = extension;
+  holds(version === 1, `version ${version} is not known, only 1; make it again`);
+  holds(areNumbers(min) && areNumbers(max) && min.every((low, axis) => low < max[axis]), "the box is none");
+  holds(reach > 0 && reach < 1e30, "the reach is no number above 0");
+  holds(isView(texels), "the texels are not there");
+}
+
 /** The buffer views that an extension, which is right, names. */
-export function viewsOf({ packing, centers, guides, bases }) {
+export function viewsOf({ packing, centers, guides, bases, bricks, sights, words }) {
   const { origin, units, scales, axes, values } = bases;
-  const used = [packing, guides && centers, ...(values ? [origin, units, scales, axes, values] : [bases])];
+  const coded = values ? [origin, units, scales, axes, values] : [bases];
+  const used = [packing, guides && centers, ...coded, bricks, sights, words];
   return used.filter((part) => part !== undefined).map(({ bufferView }) => bufferView);
 }

@@ -52,7 +52,8 @@ async function check(name, body) {
   await page.close();
 }
 
-const url = (query) => `http://127.0.0.1:${port}/?${new URLSearchParams(query)}`;
+// Nobody walks through, but where a check is of that: prt renders what is baked.
+const url = (query) => `http://127.0.0.1:${port}/?${new URLSearchParams({ figure: 0, ...query })}`;
 const picture = (page, past = 0) =>
   page.waitForFunction((n) => globalThis.prtkitPicture?.drawn > n, past, { timeout: 120_000 });
 const drawn = (page) => page.evaluate(() => globalThis.prtkitPicture.drawn);
@@ -621,6 +622,46 @@ await check("the light turns by itself", async (page, errors) => {
   assert.ok((await drawn(page)) <= count + 1, "it goes on");
   const turned = (await lightAngle()) - sunBefore - ((await angle()) - before);
   assert.ok(Math.abs(Math.sin(turned / 2)) < 1e-6, "suns turn with the sky");
+  assert.deepEqual(errors, []);
+});
+
+await check("somebody walks through a model with a volume, and casts a shadow; one without says so", async (page, errors) => {
+  await page.goto(url({ model: "tree", figure: 1, suns: 1, panel: 1 }));
+  await page.waitForFunction(() => globalThis.prtkitPicture?.moving.mixer && globalThis.prtkitPicture.moving.metres > 0.1);
+  const shown = await page.evaluate(() => {
+    const { moving } = globalThis.prtkitPicture;
+    moving.group.updateMatrixWorld(true);
+    const [foot, ground] = [moving.parts.figure.position, moving.walk.at(moving.metres)];
+    let lit = 0;
+    moving.parts.figure.traverse(({ material, castShadow }) => (lit += material?._transfer?.model === moving.volume && castShadow ? 1 : 0));
+    return { apart: foot.distanceTo(ground), lit, formed: moving.volume.isFormed };
+  });
+  assert.ok(shown.apart < 1e-6 && shown.lit > 0 && shown.formed, JSON.stringify(shown));
+  if (screenshots) await page.screenshot({ path: join(screenshots, "figure.png") });
+  // Standing still, with and without it: some of the picture is another, and so is the ground where its shadow is.
+  const still = (figure) =>
+    page.evaluate(async (isShown) => {
+      const shownPicture = globalThis.prtkitPicture;
+      shownPicture.still = true;
+      shownPicture.setMoving("figure", isShown);
+      const count = shownPicture.drawn;
+      while (shownPicture.drawn <= count) await new Promise((next) => setTimeout(next, 20));
+      return document.getElementById("view").toDataURL("image/png");
+    }, figure);
+  const [with_, without] = [await still(true), await still(false)];
+  const d = await difference(page, with_, without);
+  assert.ok(d.far > 0.002 && d.far < 0.5, `${d.far}`);
+  for (const part of ["spheres", "probes"]) await page.locator(`#${part}`).check();
+  const probes = await page.evaluate(() => {
+    const { volume, parts } = globalThis.prtkitPicture.moving;
+    return [volume.probes, ...parts.probes.children.map(({ count }) => count)];
+  });
+  assert.equal(probes[1] + probes[2], probes[0]);
+  assert.ok(probes[2] > 0, "probes below the ground are sealed");
+  await page.locator("#model").selectOption({ label: "knot" });
+  await page.waitForSelector("#moving:disabled");
+  assert.match(await page.locator("#unmoving").innerText(), /no volume/);
+  assert.equal(await page.evaluate(() => globalThis.prtkitPicture.moving.isWalking), false);
   assert.deepEqual(errors, []);
 });
 

@@ -9,11 +9,14 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { chromium } from "playwright-core";
-import { DataUtils } from "three";
+import { DataUtils, Euler, Matrix4, Quaternion, Vector3 } from "three";
 import { createServer } from "vite";
 import { clustersOf, lightColumns } from "../src/clusteredPca.js";
+import { volumeOf } from "../src/volumeTransfer.js";
 import { bakedModel, MAPS, texelWords } from "./bakedModel.js";
 import { extensionOf, png } from "./glb.js";
+import { leftAt, occluderModel } from "./occluderModel.js";
+import { incidentAround, sumOf, volumeExtension, volumeModel } from "./volumeModel.js";
 import { radianceOfWords } from "./wordRadiance.js";
 
 const [, , pattern = ""] = process.argv;
@@ -45,6 +48,10 @@ function leafy(json) {
   json.materials[1].extensions = { KHR_materials_unlit: {} };
 }
 const models = Object.fromEntries(["vertices", "weights", "texels"].map((by) => [`${by}.glb`, bakedModel(by)]));
+for (const by of ["vertices", "texels"])
+  models[`moving_${by}.glb`] = bakedModel(by, (json, binary) => (json.extensions.PRTKIT_transfer_volume = volumeExtension(binary)));
+models["volume.glb"] = volumeModel();
+models["passer.glb"] = occluderModel();
 for (const by of ["vertices", "texels"]) models[`leaf_${by}.glb`] = bakedModel(by, leafy);
 
 /** A page of a browser of its own: where WebGPU in software gives up, it takes the process of all pages along. */
@@ -156,6 +163,7 @@ const cases = {
   "clones": { copies: "clones" },
   "a light probe": { probed: true },
   "another model with its own light": { besides: true },
+  "what moves through a volume, in an environment with suns": { model: "moving", environment: true, suns: true, change: "moving" },
 };
 const other = { vertices: "texels.glb", texels: "vertices.glb" };
 const given = (by, { model, besides, ...options }) => ({
@@ -200,6 +208,92 @@ await check("texels: without an environment, the picture is that of three's own 
   // Later releases take off what is reflected, though nothing is.
   assert.ok(mean < (revision < 184 ? 0.1 : 1), `mean ${mean} of 255`);
   return `mean ${mean.toFixed(3)} of 255`;
+});
+
+const [across, down] = [48, 40];
+const volumeLight = Array.from({ length: 27 }, (_, i) => Math.cos(3 * i + 1) + (i < 3 ? 3 : 0));
+/** Through both bricks and between probes, beyond the box, and where there is no brick. */
+const places = [
+  { place: [-0.53, 0.61, -0.37], turn: [0.3, 0.5, 0.1] },
+  { place: [0.31, 0.13, -0.91], turn: [-1.2, 0.2, 2.1] },
+  { place: [-1.77, -0.41, -1.23], turn: [0.4, 2.6, -0.3] },
+  { place: [0.07, 1.23, 0.29], turn: [1.1, -0.7, 0.9] },
+];
+
+/** The largest difference of what a square shows from plain numbers, over the brightest of them. */
+async function offPlain(askThere, asked, expected) {
+  const { extension, view } = extensionOf(models[asked.model], "PRTKIT_transfer_volume");
+  const volume = volumeOf(extension, view);
+  const columns = lightColumns(volume.clusters, volumeLight, null, [0.5, 2, 0.25]);
+  const pixels = await askThere("lit", { ...asked, light: volumeLight, lamps: { Lantern: [0.5, 2, 0.25] }, size: [across, down] });
+  const turned = new Euler().fromArray(asked.turn);
+  const normal = new Vector3(0, 0, 1).applyEuler(turned).toArray();
+  let [most, brightest] = [0, 0];
+  for (let y = 0; y < down; ++y)
+    for (let x = 0; x < across; ++x) {
+      const row = asked.api === "webgpu" ? down - 1 - y : y;
+      const at = new Vector3((2 * (x + 0.5)) / across - 1, (2 * (y + 0.5)) / down - 1, 0).applyEuler(turned);
+      const incident = incidentAround(volume, asked.place.map((value, a) => value + at.toArray()[a]), normal, columns);
+      // Nodes of three look from one place with orthographic cameras, too.
+      const towards = asked.api === "webgl" ? normal : new Vector3(0, 0, 2).applyEuler(turned).sub(at).normalize().toArray();
+      const cosine = normal.reduce((sum, value, a) => sum + value * towards[a], 0);
+      const mirrored = normal.map((value, a) => 2 * cosine * value - towards[a]);
+      expected(incident, normal, mirrored).forEach((value, c) => {
+        most = Math.max(most, Math.abs(pixels[4 * (row * across + x) + c] - value));
+        brightest = Math.max(brightest, value);
+      });
+    }
+  return most / brightest;
+}
+
+for (const [api, askThere] of [["webgl", ask], ["nodes", ask], ["webgpu", onWebgpu.ask]]) {
+  const matte = { api, model: "volume.glb", material: "matte", kind: "plain" };
+  await check(`${api}: what a volume lights has the light of its place, as plain numbers have it`, async () => {
+    const found = [];
+    for (const floats of [true, false])
+      for (const place of places) found.push(await offPlain(askThere, { ...matte, floats, ...place }, (incident, normal) => sumOf(incident, normal)));
+    // Filters of half floats take shares of a cell in 256ths, and neighbours differ by as much as all light.
+    assert.ok(Math.max(...found.slice(0, 4)) < 1e-5 && Math.max(...found.slice(4)) < 2 ** -8, found.join());
+    return `${Math.max(...found.slice(0, 4)).toExponential(1)} off in floats, ${Math.max(...found.slice(4)).toExponential(1)} in half floats`;
+  });
+  await check(`${api}: skins, morphs, instances and a scene that is moved are lit where they are`, async () => {
+    for (const kind of ["skinned", "morphed", "instances"]) {
+      const off = await offPlain(askThere, { ...matte, floats: true, kind, ...places[0] }, (incident, normal) => sumOf(incident, normal));
+      assert.ok(off < 1e-5, `${kind}: ${off}`);
+    }
+    const off = await offPlain(askThere, { ...matte, floats: true, moved: { place: [0.5, -0.25, 2], turn: [0.4, 1.3, -0.6] }, ...places[1] }, (incident, normal) => sumOf(incident, normal));
+    assert.ok(off < 1e-5, `moved: ${off}`);
+  });
+  await check(`${api}: chrome mirrors what comes in from there`, async () => {
+    const off = await offPlain(askThere, { ...matte, material: "chrome", floats: true, ...places[1] }, (incident, normal, mirrored) =>
+      sumOf(incident, mirrored, [1, 1, 1, 1]));
+    assert.ok(off < 0.02, `${off}`); // three's fit of what is scattered more than once
+    return `${off.toExponential(1)} off`;
+  });
+}
+
+await check("what passes over baked surfaces takes as much of their light as plain numbers say", async () => {
+  const moved = [
+    { place: [0.2, 0.7, -0.3], turn: [0.3, 1.1, -0.2], scale: 1 },
+    { place: [-0.6, 0.3, 0.5], turn: [0, -0.4, 0], scale: 1.5 },
+  ];
+  const matrices = moved.map(({ place, turn, scale }) =>
+    new Matrix4().compose(new Vector3(...place), new Quaternion().setFromEuler(new Euler(...turn)), new Vector3(scale, scale, scale)).toArray());
+  const size = [16, 12];
+  const [open, occluded, after] = await ask("occluded", { model: "vertices.glb", passer: "passer.glb", moved, centre: [0, 0], size, light });
+  assert.deepEqual(after, open);
+  let [most, least] = [0, 1];
+  for (let y = 0; y < size[1]; ++y)
+    for (let x = 0; x < size[0]; ++x) {
+      const position = [(2 * (x + 0.5)) / size[0] - 1, 0, 1 - (2 * (y + 0.5)) / size[1]];
+      const expected = leftAt(matrices, position, [0, 1, 0]);
+      const at = 4 * (y * size[0] + x);
+      least = Math.min(least, expected);
+      for (let c = 0; c < 3; ++c) most = Math.max(most, Math.abs(occluded[at + c] / open[at + c] - expected));
+    }
+  // The numbers integrate over a grid of directions, within 1e-3; filters take shares in 256ths.
+  assert.ok(least < 0.8 && most < 4e-3, `${most}; darkest ${least}`);
+  return `${most.toExponential(1)} off, the darkest is ${least.toFixed(2)}`;
 });
 
 await check("the plug-in of the other renderer is refused", async () => {

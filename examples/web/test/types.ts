@@ -1,5 +1,5 @@
 // Compiled, never run: the declarations fit three's.
-import { FloatType, LightProbe, Scene } from "three";
+import { FloatType, Group, LightProbe, Mesh, Scene, ShaderMaterial } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import {
@@ -8,11 +8,13 @@ import {
   lightOfSuns,
   PrtkitModel,
   PrtkitPlugin,
+  PrtkitVolume,
   projectEquirectangular,
   projectInWorker,
   readLightFile,
   ShLight,
   SunLights,
+  volumeShader,
 } from "../src/PrtkitLoader.js";
 import { PrtkitPlugin as NodePlugin, PrtkitModel as Model } from "../src/webgpu.js";
 
@@ -38,6 +40,16 @@ export async function show(scene: Scene): Promise<number> {
   model.setSky(await projectInWorker(sky, 6, { center: "z" }), scene, { suns: lightOfSuns(lighting.suns), keyed: [] });
   model.setSky(lightFromProbe(new LightProbe()).rotated([1, 0, 0, 0, 1, 0, 0, 0, 1]), scene);
   suns.follow(scene).lights[0].shadow.autoUpdate = false;
+  const volume: PrtkitVolume | null = model.volume;
+  if (volume) {
+    const character: Group = volume.light(new Group());
+    // @ts-expect-error a number does not move
+    volume.light(3);
+    volume.settle().setLight(light, 1);
+    const own = new ShaderMaterial({ uniforms: volume.uniforms, defines: volume.defines, fragmentShader: volumeShader });
+    scene.add(character, new Mesh(undefined, own));
+    if (!volume.isSettled && volume.isSealed(0)) scene.position.copy(volume.placeOfProbe(0));
+  }
   const nodes: Model = (await new GLTFLoader().register((parser) => new NodePlugin(parser)).loadAsync("model.glb")).userData.prtkit;
   return model.bytesPerVertex * model.vertices + nodes.bytesPerTexel * nodes.texels;
 }

@@ -1,18 +1,30 @@
-// Makes GLSL JavaScript modules, with what it includes: those of shaders/, of which there is one source, and what stands in
-// src/.
+// Makes GLSL JavaScript modules, with what it includes and without its comments: those of shaders/, of which there is one
+// source, and what stands in src/.
 import { readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
 const root = new URL("../../../", import.meta.url);
+const runtime = ["prt_exit_radiance.glsl", "prt_lightmap.frag", "prt_occluders.glsl", "prt_volume.glsl"];
 
+/** Comments are for who reads shaders/; browsers load the modules. */
+const bare = (text) => text.replace(/[ \t]*\/\/.*$/gm, "").replace(/\n\s+/g, "\n").trimStart();
+
+/** A module: what it includes that is one itself is imported, so that it is there once. */
 function embed(folder, name) {
+  const imports = [];
   const resolve = (file) =>
-    readFileSync(new URL(folder + file, root), "utf8").replace(/^#include "(.+)"$/gm, (_, included) => resolve(included));
+    bare(readFileSync(new URL(folder + file, root), "utf8")).replace(/^#include "(.+)"$/gm, (_, included) => {
+      if (!runtime.includes(included)) return resolve(included);
+      imports.push(included);
+      return `\0${imports.length - 1}\0`;
+    });
+  const pieces = resolve(name).split("\0").map((piece, i) => (i % 2 === 0 ? JSON.stringify(piece) : `included${piece}`));
+  const lines = imports.map((included, i) => `import included${i} from "./${included}.js";\n`);
   writeFileSync(
     fileURLToPath(new URL(`../src/${name}.js`, import.meta.url)),
-    `// Made from ${folder}${name} by tools/embed-shader.mjs.\nexport default ${JSON.stringify(resolve(name))};\n`,
+    `// Made from ${folder}${name} by tools/embed-shader.mjs.\n${lines.join("")}export default ${pieces.join(" + ")};\n`,
   );
 }
 
-for (const name of ["prt_exit_radiance.glsl", "prt_lightmap.frag"]) embed("shaders/", name);
-for (const name of ["sunLight", "sunLoop", "transferVertex"]) embed("examples/web/src/", `${name}.glsl`);
+for (const name of runtime) embed("shaders/", name);
+for (const name of ["sunLight", "sunLoop", "transferVertex", "volumeLight"]) embed("examples/web/src/", `${name}.glsl`);

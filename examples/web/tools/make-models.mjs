@@ -29,7 +29,7 @@ mkdirSync(join(publicFolder, "models"), { recursive: true });
 mkdirSync(join(publicFolder, "skies"), { recursive: true });
 const names = process.env.PRT_SCENES?.split(",") ?? ["knot", "room", "tree", "terrain", "night_room", "courtyard"];
 const times = process.env.PRT_SCENES ? [] : ["noon", "evening", "night"]; // for what has lamps
-if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work, ...names, ...times, "sky"); // the sky is written last
+if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work, ...names, "figure", ...times, "sky"); // the sky is written last
 
 const levels = [
   { name: "u32", title: "small", options: ["--preset", "u32"] },
@@ -44,6 +44,14 @@ const cameras = {
   terrain: { position: [1, 4.5, 11], target: [0, 2.6, 0] },
   night_room: { position: [0.6, 1.7, 2.6], target: [0, 1.8, -6], fieldOfView: 50 },
   courtyard: { position: [3.9, 1.75, 4.9], target: [-1.3, 2.75, -6], fieldOfView: 46 },
+};
+/** Ways of who walks through, and how far apart the probes of the light there are, in metres. */
+const walks = {
+  room: { spacing: 0.5, way: { points: [[0, -1.2], [0.9, -3.5], [0.4, -7.8], [-0.4, -8.6], [-1, -5.5], [-0.6, -2.2]], from: 2 } },
+  tree: { spacing: 0.5, way: { points: [[1.9, 1.6], [0, 2.2], [-1.9, 1.4], [-1.6, -1.6], [1.6, -1.7]], from: 1 } },
+  terrain: { spacing: 0.75, way: { points: [[3.5, 2.5], [0.5, 4], [-3.4, 2.2], [-3.6, -2], [0, -3.6], [3.6, -2]], from: 9 } },
+  night_room: { spacing: 0.5, way: { points: [[0, -1.2], [0.9, -3.5], [0.4, -7.2], [-0.4, -7.4], [-0.9, -4.8], [-0.6, -2.2]], from: 2 } },
+  courtyard: { spacing: 1, way: { points: [[2.6, 0.5], [1.6, -4.4], [-1.8, -4.8], [-3, 0], [-0.5, 3]], from: 2 } },
 };
 const large = new Set(["courtyard"]); // fewer rays, and one file: it would take an hour
 const scenes = names.map((name) => ({ name, file: join(work, `${name}.glb`) }));
@@ -63,7 +71,8 @@ const models = scenes.map(({ name, file }, i) => {
   const baked = join(work, `${name}.${count}.baked.glb`);
   if (!isNewer(baked, file)) {
     console.log(`baking ${name} (${i + 1} of ${scenes.length})`);
-    run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", String(count), "--lamp-rays", "32");
+    const volume = walks[name] ? ["--volume", String(walks[name].spacing)] : [];
+    run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", String(count), "--lamp-rays", "32", ...volume);
   }
   console.log(`compressing ${name} (${i + 1} of ${scenes.length})`);
   const compressed = (suffix, options) => {
@@ -83,6 +92,7 @@ const models = scenes.map(({ name, file }, i) => {
     name,
     title: name,
     camera: cameras[name],
+    way: walks[name]?.way,
     before: before && { file: before.file, bytes: Math.round(before.bytesPerVertexWithBases), litRms: before.litRms },
     levels: levels
       .filter((level) => !large.has(name) || level.name === "u64")
@@ -97,6 +107,8 @@ const skyEntries = skies.map(({ title, file, center = "x" }) => {
   run(prt, "project", file, "-o", join(publicFolder, light), "--suns", "auto", "--order", "10", "--env-center", center);
   return { title, file: to, center, light };
 });
-writeFileSync(manifest, JSON.stringify({ models, skies: skyEntries }, null, 2));
+const figure = "models/figure.glb";
+run(prt, "ao", join(work, "figure.glb"), "-o", join(publicFolder, figure), "--volume");
+writeFileSync(manifest, JSON.stringify({ models, skies: skyEntries, figure }, null, 2));
 rmSync(work, { recursive: true });
 console.log(`${publicFolder}: models and skies are there`);

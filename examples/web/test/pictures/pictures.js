@@ -3,27 +3,39 @@
 import {
   ACESFilmicToneMapping,
   AmbientLight,
+  Bone,
   DataTexture,
   DirectionalLight,
   EquirectangularReflectionMapping,
+  Float32BufferAttribute,
   FloatType,
   Fog,
+  Group,
   InstancedMesh,
   LightProbe,
   Matrix4,
+  Mesh,
+  MeshLambertMaterial,
+  MeshPhysicalMaterial,
   MeshStandardMaterial,
+  OrthographicCamera,
   PCFShadowMap,
   PerspectiveCamera,
+  PlaneGeometry,
   PointLight,
   RGBAFormat,
   Scene,
+  Skeleton,
+  SkinnedMesh,
+  SphereGeometry,
   SphericalHarmonics3,
+  Uint16BufferAttribute,
   WebGLRenderer,
   WebGLRenderTarget,
 } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { WebGPURenderer } from "three/webgpu";
-import { halfFloatSky, lightFromProbe, PrtkitPlugin, ShLight } from "../../src/PrtkitLoader.js";
+import { halfFloatSky, lightFromProbe, PrtkitPlugin, PrtkitVolume, ShLight } from "../../src/PrtkitLoader.js";
 import { PrtkitPlugin as NodePlugin } from "../../src/webgpu.js";
 
 const renderer = new WebGLRenderer({ antialias: false });
@@ -192,7 +204,12 @@ async function sceneOf(api, { model, light, environment, suns, shadows, fog, oth
     scene.add(sun);
   }
   const { prtkit } = gltf.userData;
-  const sky = ShLight.fromCoefficients(prtkit.order, light);
+  const { order } = prtkit.volume ?? prtkit;
+  const sky = ShLight.fromCoefficients(order, [...light, ...new Array(3 * order * order - light.length).fill(0)]);
+  if (change === "moving") {
+    const coated = new MeshPhysicalMaterial({ color: 0xcc8844, metalness: 0.5, roughness: 0.3, clearcoat: 1, clearcoatRoughness: 0.1 });
+    scene.add(prtkit.volume.light(new Mesh(new SphereGeometry(0.6, 32, 24), coated).translateY(1.4).translateX(-0.5)));
+  }
   if (probed) {
     scene.environmentRotation.y = scene.backgroundRotation.y = 0.7;
     prtkit.setSky(lightFromProbe(probe(), prtkit.order), scene);
@@ -261,4 +278,100 @@ async function nodeTexels({ api, ...asked }) {
   return { maps, drawn };
 }
 
-globalThis.pictures = { texels, picture, radiance, nodeTexels };
+/** A square about the origin that looks along +Z, as what moves may be. */
+function squares(kind, material) {
+  const geometry = new PlaneGeometry(2, 2);
+  if (kind === "instances") {
+    const mesh = new InstancedMesh(geometry, material, 1);
+    mesh.setMatrixAt(0, new Matrix4().makeTranslation(0, 0, 0.25));
+    mesh.position.z = -0.25;
+    return mesh;
+  }
+  if (kind === "morphed") {
+    geometry.morphAttributes.position = [new Float32BufferAttribute(new Array(4).fill([0, 0, 0.5]).flat(), 3)];
+    geometry.morphTargetsRelative = true;
+    const mesh = new Mesh(geometry, material);
+    mesh.morphTargetInfluences[0] = 0.5;
+    mesh.position.z = -0.25;
+    return mesh;
+  }
+  if (kind !== "skinned") return new Mesh(geometry, material);
+  geometry.setAttribute("skinIndex", new Uint16BufferAttribute(new Array(16).fill(0), 4));
+  geometry.setAttribute("skinWeight", new Float32BufferAttribute(new Array(4).fill([1, 0, 0, 0]).flat(), 4));
+  const bone = new Bone();
+  const mesh = new SkinnedMesh(geometry, material);
+  mesh.add(bone);
+  mesh.bind(new Skeleton([bone], [new Matrix4()]));
+  bone.position.z = 0.25;
+  mesh.position.z = -0.25;
+  return mesh;
+}
+
+const MATERIALS = {
+  matte: () => new MeshLambertMaterial({ color: 0xffffff, reflectivity: 0 }),
+  chrome: () => new MeshStandardMaterial({ color: 0xffffff, metalness: 1, roughness: 0 }),
+};
+
+/**
+ * What a square sends out that a volume lights, floats from below upwards, red, green, blue and alpha, without a tone curve. It is
+ * a `kind` of mesh, 2 metres wide, at `place` turned by `turn` (Euler angles), and the camera looks at it along its normal.
+ */
+async function lit({ api = "webgl", model, floats, kind, material, place, turn, light, lamps, moved, size: [width, height] }) {
+  const drawing = await rendererOf(api);
+  const gltf = await load(model, api === "webgl" ? PrtkitPlugin : NodePlugin);
+  let { volume } = gltf.userData.prtkit;
+  if (floats) volume = new PrtkitVolume(volume.source, gltf.scene, volume.plugin, { floats });
+  volume.setLight(ShLight.fromCoefficients(volume.order, light), 0, null, lamps);
+  const holder = new Group();
+  holder.add(squares(kind, MATERIALS[material]()));
+  holder.position.fromArray(place);
+  holder.rotation.fromArray(turn);
+  const seen = new OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
+  seen.position.z = 2;
+  holder.add(seen);
+  const around = new Group().add(holder);
+  const scene = new Scene().add(gltf.scene, around);
+  for (const root of moved ? [gltf.scene, around] : []) {
+    root.position.fromArray(moved.place); // with all that is in it
+    root.rotation.fromArray(moved.turn);
+  }
+  volume.light(holder);
+  const target = new WebGLRenderTarget(width, height, { type: FloatType });
+  drawing.setRenderTarget(target);
+  drawing.render(scene, seen);
+  const pixels = drawing.isWebGLRenderer ? pixelsBy(drawing, target) : await drawing.readRenderTargetPixelsAsync(target, 0, 0, width, height);
+  drawing.setRenderTarget(null);
+  volume.dispose();
+  return [...pixels];
+}
+
+/** The floor of a model from above, 2 metres wide about `centre`, without and with what passes over it: floats. `moved`: the place,
+ * turn and scale of each part of `passer`. */
+async function occluded({ model, passer, moved, centre, size: [width, height], light }) {
+  const drawing = await rendererOf("webgl");
+  const [gltf, passing] = [await load(model), await load(passer)];
+  const { prtkit } = gltf.userData;
+  prtkit.setLight(ShLight.fromCoefficients(prtkit.order, light));
+  const floor = gltf.scene.children[0];
+  passing.scene.children.forEach((child, i) => {
+    child.position.fromArray(moved[i].place);
+    child.rotation.fromArray(moved[i].turn);
+    child.scale.setScalar(moved[i].scale);
+  });
+  const scene = new Scene().add(floor, passing.scene);
+  const seen = new OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
+  seen.position.set(centre[0], 5, centre[1]);
+  seen.rotation.x = -Math.PI / 2;
+  const target = new WebGLRenderTarget(width, height, { type: FloatType });
+  const pictures = [null, passing.userData.prtkitOccluders, null].map((occluders) => {
+    prtkit.setOccluders(occluders);
+    drawing.setRenderTarget(target);
+    drawing.render(scene, seen);
+    drawing.setRenderTarget(null);
+    return pixelsBy(drawing, target);
+  });
+  prtkit.dispose();
+  return pictures;
+}
+
+globalThis.pictures = { texels, picture, radiance, nodeTexels, lit, occluded };

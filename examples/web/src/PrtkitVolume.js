@@ -1,0 +1,206 @@
+// Light of what moves through a scene: the probes of a file, formed into textures, in three's materials.
+
+import {
+  Data3DTexture,
+  FloatType,
+  HalfFloatType,
+  LinearFilter,
+  Matrix4,
+  NearestFilter,
+  Object3D,
+  RedIntegerFormat,
+  RGBAFormat,
+  RGIntegerFormat,
+  UnsignedIntType,
+  Vector3,
+} from "three";
+import { LitTransfer } from "./LitTransfer.js";
+import { movingMaterial } from "./relitMaterial.js";
+import { VolumeFormer } from "./VolumeFormer.js";
+import { placeOf, SIDE } from "./volumeGrid.js";
+import { atlasOf, indexTexels, sightTexels } from "./volumeTextures.js";
+
+/** Products with the light that are formed in a frame, and probes: some 4 ms each. */
+const PRODUCTS_AT_ONCE = 3e6;
+const PROBES_AT_ONCE = 6144;
+
+function texture3d(data, size, format, type) {
+  const texture = new Data3DTexture(data, ...size);
+  Object.assign(texture, { format, type, minFilter: NearestFilter, magFilter: NearestFilter, needsUpdate: true });
+  return texture;
+}
+
+/** Unit, to where most of the light of suns comes from, which for one is the sun itself; null where there is none. */
+function directionOf(coefficients) {
+  const [y, z, x] = [1, 2, 3].map((i) => [0.2126, 0.7152, 0.0722].reduce((sum, share, c) => sum + share * coefficients[3 * i + c], 0));
+  const length = Math.hypot(x, y, z);
+  return length > 0 ? [-x / length, -y / length, z / length] : null;
+}
+
+/** What is asked of the volume's light, as steps of a few milliseconds. */
+function* forming(former, clusters, { columns, sun }, texels) {
+  const count = clusters.components.length;
+  const rows = clusters.rowCount / count;
+  const atOnce = Math.max(1, Math.floor(PRODUCTS_AT_ONCE / (rows * (former.rows.length / clusters.rowCount))));
+  for (let k = 0; k < count; k += atOnce) yield former.formConstants(columns, sun, k, Math.min(k + atOnce, count));
+  for (let p = 0; p < former.probes; p += PROBES_AT_ONCE)
+    yield former.form(p, Math.min(p + PROBES_AT_ONCE, former.probes), texels);
+}
+
+export class PrtkitVolume extends LitTransfer {
+  /** `volume`: of volumeOf; `root`: the scene of the file. `plugin`: has the materials of its renderer. `floats`: light as floats,
+   * which are not filtered, not as half floats. */
+  constructor(volume, root, plugin, { floats = false } = {}) {
+    super(volume.clusters, root);
+    this.source = volume;
+    this.plugin = plugin;
+    const { grid, order, sights } = volume;
+    this.incidentOrder = order;
+    this.probes = grid.levels.length;
+    this.bytesPerProbe = 4 * volume.stride + 6;
+    this.atlas = atlasOf(grid, order);
+    this.former = new VolumeFormer(volume, this.atlas);
+    const Texels = floats ? Float32Array : Uint16Array;
+    this.spare = new Texels(4 * this.atlas.texels * this.atlas.planes);
+    const [x, y, z] = this.atlas.bricks.map((bricks) => SIDE * bricks);
+    this.texture = texture3d(this.spare.slice(), [x, y, z * this.atlas.planes], RGBAFormat, floats ? FloatType : HalfFloatType);
+    if (!floats) this.texture.minFilter = this.texture.magFilter = LinearFilter;
+    const sightsTexture = texture3d(sightTexels(grid, sights, this.atlas), [x, y, z], RGIntegerFormat, UnsignedIntType);
+    const indexTexture = texture3d(indexTexels(grid), grid.size, RedIntegerFormat, UnsignedIntType);
+    this.defines = { PRT_VOLUME: 1, PRT_VOLUME_ORDER: order, ...(floats ? {} : { PRT_VOLUME_LINEAR: 1 }) };
+    this.uniforms = {
+      prt_volume_light: { value: this.texture },
+      prt_volume_sights: { value: sightsTexture },
+      prt_volume_index: { value: indexTexture },
+      prtVolumeSpacing: { value: grid.spacing },
+      prtVolumeSize: { value: grid.size },
+      prtVolumeFirst: { value: [...grid.bricks.subarray(0, 4)] },
+      prtVolumeBricks: { value: this.atlas.bricks },
+      prtToVolume: { value: new Matrix4() },
+      prtSkyLight: { value: Array.from({ length: order * order }, () => new Vector3()) },
+      prtSunsApart: { value: false },
+    };
+    this.asked = null; // light that is to be formed
+    this.steps = null; // of the light that is being formed
+    this.isFormed = false; // any light
+    this.frame = -1;
+    this.renderers = new WeakSet(); // whose textures are long enough
+    this.tables = null; // of nodes
+    this.beforeRender = (renderer) => this.advance(renderer);
+    this.place();
+  }
+
+  /** Files have it beside the transfer of surfaces, or alone. */
+  get volume() {
+    return this;
+  }
+
+  /**
+   * Lights `object` and what it holds where it is, from now on: its meshes get copies of their materials, and cast and receive
+   * shadows of suns. What transfer lights, and what has no light of three's, stays what it is. Throws an Error for materials of
+   * other kinds.
+   */
+  light(object) {
+    object.traverse((mesh) => {
+      if (!mesh.isMesh) return;
+      const lit = (material) => movingMaterial(material, this, this.plugin.copiedMaterial);
+      const { material } = mesh;
+      mesh.material = Array.isArray(material) ? material.map(lit) : lit(material);
+      const materials = [mesh.material].flat().filter(({ _transfer }) => _transfer?.model === this);
+      if (materials.length === 0) return;
+      mesh.receiveShadow = true;
+      mesh.castShadow = materials.some(({ transparent, transmission = 0 }) => !transparent && transmission === 0);
+      if (mesh.onBeforeRender === Object3D.prototype.onBeforeRender) mesh.onBeforeRender = this.plugin.checkRenderer;
+    });
+    return object;
+  }
+
+  /** Where a probe is, in the world of the file. */
+  placeOfProbe(probe) {
+    return new Vector3(...placeOf(this.source.grid, probe));
+  }
+
+  /** Whether a probe is inside of something, and gives no light. */
+  isSealed(probe) {
+    return this.source.sights.subarray(6 * probe, 6 * probe + 6).every((sight) => sight === 0);
+  }
+
+  /** Of `lamps` those that the volume has. */
+  knownOf(lamps) {
+    return Object.fromEntries(Object.entries(lamps).filter(([name]) => this.strengths.has(name)));
+  }
+
+  /** Notes what light is to be formed, for coefficients in the frame of the bake: it is formed when something is drawn by it. */
+  form(sky, suns) {
+    const apart = suns !== null && this.directApart;
+    const open = sky.map((value, i) => value + (suns && !apart ? suns[i] : 0));
+    this.asked = { columns: this.columns(sky, suns), sun: apart ? directionOf(suns) : null, apart, open };
+  }
+
+  /** Whether the light that was set is what is drawn: a change takes a few frames. */
+  get isSettled() {
+    return !this.asked && !this.steps;
+  }
+
+  /** Forms the light that was set at once. */
+  settle() {
+    this.followSky();
+    while (!this.isSettled) this.step();
+    return this;
+  }
+
+  step() {
+    if (!this.steps) {
+      this.forming = this.asked;
+      this.asked = null;
+      this.steps = forming(this.former, this.clusters, this.forming, this.spare);
+    }
+    if (this.steps.next().done) this.show(this.forming);
+  }
+
+  /** Puts what was formed in the place of what was shown. */
+  show({ apart, open }) {
+    this.steps = null;
+    this.isFormed = true;
+    [this.spare, this.texture.image.data] = [this.texture.image.data, this.spare];
+    this.texture.needsUpdate = true;
+    this.uniforms.prtSunsApart.value = apart;
+    this.uniforms.prtSkyLight.value.forEach((light, i) => light.fromArray(open, 3 * i));
+  }
+
+  /** Where the file's scene is now. */
+  place() {
+    const origin = new Matrix4().makeTranslation(...this.source.grid.origin.map((value) => -value));
+    this.uniforms.prtToVolume.value.copy(this.root.matrixWorld).invert().premultiply(origin);
+  }
+
+  /** Throws where a device has no textures as long as the volume's: guaranteed are 256 texels. */
+  checkSize(renderer) {
+    if (this.renderers.has(renderer)) return;
+    const { device, gl = renderer.getContext?.() } = renderer.backend ?? {};
+    const most = device?.limits.maxTextureDimension3D ?? gl?.getParameter(gl.MAX_3D_TEXTURE_SIZE);
+    const { width, height, depth } = this.texture.image;
+    const longest = Math.max(width, height, depth, ...this.source.grid.size);
+    if (longest > most) throw new Error(`prtkit: a volume is ${longest} texels long, longer than this device has textures (${most})`);
+    this.renderers.add(renderer);
+  }
+
+  /** Before anything is drawn by it: a step for each picture, all of them before the first. */
+  advance(renderer) {
+    const { frame, calls } = renderer.info.render; // WebGPURenderer counts calls alone
+    if ((frame ?? calls) === this.frame) return;
+    this.frame = frame ?? calls;
+    this.checkSize(renderer);
+    this.place();
+    this.followSky();
+    if (!this.isFormed) this.settle();
+    else if (!this.isSettled) this.step();
+  }
+
+  /** Frees the textures on the device. */
+  dispose() {
+    this.sky = null;
+    for (const name of ["prt_volume_light", "prt_volume_sights", "prt_volume_index"]) this.uniforms[name].value.dispose();
+    for (const { texture } of this.tables ?? []) texture.dispose();
+  }
+}

@@ -1,0 +1,140 @@
+// What moves through the scene and is lit by its volume: somebody who walks, two spheres to judge the light by, and the probes.
+
+import {
+  AnimationMixer,
+  Group,
+  IcosahedronGeometry,
+  InstancedMesh,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  MeshStandardMaterial,
+  SphereGeometry,
+} from "three";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { PrtkitPlugin } from "./PrtkitLoader.js";
+import { Walk } from "./walk.js";
+
+const RADIUS = 0.25; // metres
+const ASIDE = 0.75; // of who walks, on both sides
+const HIGH = 1.2; // over the ground
+const PROBE_SHARE = 0.06; // of the least distance of probes
+const USUAL_SPEED = 1.2; // metres a second
+
+function ball(color, metalness, roughness) {
+  return new Mesh(new SphereGeometry(RADIUS, 48, 32), new MeshStandardMaterial({ color, metalness, roughness }));
+}
+
+/** A small sphere at each of `probes`. */
+function spheresAt(volume, probes, material) {
+  const size = PROBE_SHARE * volume.source.grid.spacing;
+  const spheres = new InstancedMesh(new IcosahedronGeometry(size, 2), material, probes.length);
+  probes.forEach((probe, i) => spheres.setMatrixAt(i, new Matrix4().setPosition(volume.placeOfProbe(probe))));
+  return spheres;
+}
+
+export class Moving {
+  constructor(scene) {
+    this.group = new Group();
+    this.parts = { figure: new Group(), spheres: new Group().add(ball(0xffffff, 1, 0), ball(0xcccccc, 0, 1)), probes: new Group() };
+    this.shown = { figure: false, spheres: false, probes: false };
+    this.parts.spheres.children.forEach((sphere, i) => sphere.position.set(i === 0 ? ASIDE : -ASIDE, HIGH, 0));
+    this.group.add(...Object.values(this.parts));
+    scene.add(this.group);
+    this.model = null; // PrtkitModel
+    this.volume = null;
+    this.walk = null;
+    this.occluders = null; // of the figure
+    this.mixer = null; // of the figure, once it is there
+    this.speed = USUAL_SPEED;
+    this.metres = 0;
+    this.placeAll();
+  }
+
+  /** Loads somebody who can walk: the animation "walk", or the first. */
+  async load(url, progress) {
+    const loader = new GLTFLoader().register((parser) => new PrtkitPlugin(parser));
+    const { scene, animations, userData } = await loader.loadAsync(url, progress);
+    this.occluders = userData.prtkitOccluders ?? null;
+    const clip = animations.find(({ name }) => /walk/i.test(name)) ?? animations[0];
+    this.parts.figure.add(scene);
+    if (clip) {
+      this.mixer = new AnimationMixer(scene);
+      this.mixer.clipAction(clip).play();
+      this.speed = clip.userData?.speed ?? USUAL_SPEED;
+    }
+    if (this.volume) this.volume.light(scene);
+    this.passBy();
+    this.placeAll();
+  }
+
+  /** Takes light from what is baked, as far as it is known how much. */
+  passBy() {
+    if (this.model?.setOccluders && this.walk) this.model.setOccluders(this.occluders);
+  }
+
+  /** Goes on in another scene: `gltf`, and the way of Walk there. Where it has no volume nothing is shown. */
+  enter(gltf, way) {
+    this.model = gltf.userData.prtkit;
+    this.volume = this.model.volume ?? null;
+    this.walk = this.volume ? new Walk(gltf.scene, way) : null;
+    this.metres = 0;
+    this.removeProbes();
+    if (this.volume) this.volume.light(this.group);
+    this.passBy();
+    this.placeAll();
+  }
+
+  removeProbes() {
+    for (const spheres of this.parts.probes.children) {
+      spheres.geometry.dispose();
+      spheres.material.dispose();
+      spheres.dispose();
+    }
+    this.parts.probes.clear();
+  }
+
+  /** The probes, each lit by what is around it; those inside of something are red. */
+  makeProbes() {
+    const { volume } = this;
+    const all = Array.from({ length: volume.probes }, (_, probe) => probe);
+    const open = spheresAt(volume, all.filter((probe) => !volume.isSealed(probe)), new MeshStandardMaterial({ roughness: 1 }));
+    const sealed = spheresAt(volume, all.filter((probe) => volume.isSealed(probe)), new MeshBasicMaterial({ color: 0xff0000, toneMapped: false }));
+    volume.light(open);
+    open.castShadow = open.receiveShadow = false;
+    this.parts.probes.add(open, sealed);
+  }
+
+  /** `part`: "figure", "spheres" or "probes". */
+  show(part, shown) {
+    this.shown[part] = shown;
+    this.placeAll();
+  }
+
+  /** Whether anything changes from picture to picture. */
+  get isWalking() {
+    return this.walk !== null && ((this.shown.figure && this.mixer !== null) || this.shown.spheres);
+  }
+
+  /** Whether the light of the volume that was set is still to be formed; what is not drawn waits for it. */
+  get isWaiting() {
+    return Object.values(this.parts).some(({ visible, children }) => visible && children.length > 0) && !this.volume.isSettled;
+  }
+
+  advance(seconds) {
+    this.metres += this.speed * seconds;
+    this.mixer?.update(seconds);
+    this.placeAll();
+  }
+
+  placeAll() {
+    const { figure, spheres, probes } = this.parts;
+    for (const [name, part] of Object.entries(this.parts)) part.visible = this.walk !== null && this.shown[name];
+    if (probes.visible && probes.children.length === 0) this.makeProbes();
+    if (!this.walk) return;
+    figure.position.copy(this.walk.at(this.metres));
+    figure.rotation.y = this.walk.heading(this.metres);
+    spheres.position.copy(figure.position);
+    spheres.rotation.copy(figure.rotation);
+  }
+}

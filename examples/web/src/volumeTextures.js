@@ -1,0 +1,66 @@
+// What shaders/prt_volume.glsl looks up, as numbers: runtime/include/prt/volume_textures.h says what is where. No three.js here.
+
+import { BRICK_PROBES, NO_BRICK, SIDE } from "./volumeGrid.js";
+
+const GUARANTEED_TEXELS = 256; // along a side of a 3D texture
+/** Of shared_layout.h: how far a probe sees at most, in cells, and where it begins to count less. */
+const SIGHT_CELLS = 4;
+const SIGHT_FULL = 0.9;
+const ROOM = 1e-3; // for rounding
+const BLIND = 1e18;
+
+/** Bricks along each axis of the textures, and planes of four numbers: as few layers as there can be, then as little unused. */
+export function atlasOf({ bricks }, order) {
+  const along = Math.floor(GUARANTEED_TEXELS / SIDE);
+  const count = bricks.length / 4;
+  const z = Math.max(1, Math.ceil(count / along ** 2));
+  const y = Math.max(1, Math.ceil(count / (along * z)));
+  const x = Math.max(1, Math.ceil(count / (y * z)));
+  return { bricks: [x, y, z], planes: Math.ceil((3 * order ** 2 + 1) / 4), texels: SIDE ** 3 * x * y * z };
+}
+
+/** Texel of corner `i` of brick `b` in a plane. */
+export function texelOf({ bricks: [x, y] }, b, i) {
+  const place = [b % x, Math.floor(b / x) % y, Math.floor(b / (x * y))];
+  const step = [i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE ** 2)];
+  const [u, v, w] = place.map((n, axis) => SIDE * n + step[axis]);
+  return (w * SIDE * y + v) * SIDE * x + u;
+}
+
+/** Whether a probe with `sights`, as corner `step` (bits of x, y and z) of a cell, sees all of it. `width`: of its own cells. */
+function seesCell(sights, probe, step, width) {
+  let passed = 0; // at the corner that is opposite: 1 is where a surface is
+  for (let axis = 0; axis < 3; ++axis) {
+    const sight = sights[6 * probe + 2 * axis + ((step >> axis) & 1 ? 0 : 1)] / 255;
+    passed += sight > 0 ? 1 / (SIGHT_CELLS * width * sight ** 2) : BLIND;
+  }
+  return passed <= SIGHT_FULL - ROOM;
+}
+
+/** [texels][2]: bytes -x, +x, -y, +y, then -z, +z, the level of the probe less that of the brick, and 1 where all eight corners of
+ * the cell above see all of it: there weights are trilinear. */
+export function sightTexels({ bricks, ofBrick, levels }, sights, atlas) {
+  const texels = new Uint32Array(2 * atlas.texels);
+  const coarser = (b, i) => levels[ofBrick[BRICK_PROBES * b + i]] - bricks[4 * b + 3];
+  const corner = (low, step) => low + (step & 1) + SIDE * ((step >> 1) & 1) + SIDE ** 2 * (step >> 2);
+  const isSeen = (b, low) => {
+    for (let step = 0; step < 8; ++step) {
+      const i = corner(low, step);
+      if (!seesCell(sights, ofBrick[BRICK_PROBES * b + i], step, 2 ** coarser(b, i))) return false;
+    }
+    return true;
+  };
+  for (let b = 0; b < bricks.length / 4; ++b)
+    for (let i = 0; i < BRICK_PROBES; ++i) {
+      const s = sights.subarray(6 * ofBrick[BRICK_PROBES * b + i]);
+      const isCell = [i % SIDE, Math.floor(i / SIDE) % SIDE, Math.floor(i / SIDE ** 2)].every((step) => step < SIDE - 1);
+      const at = 2 * texelOf(atlas, b, i);
+      texels[at] = (s[0] | (s[1] << 8) | (s[2] << 16) | (s[3] << 24)) >>> 0;
+      texels[at + 1] = s[4] | (s[5] << 8) | (coarser(b, i) << 16) | (Number(isCell && isSeen(b, i)) << 24);
+    }
+  return texels;
+}
+
+/** 4 · brick + level, where there is a brick. */
+export const indexTexels = ({ index, bricks }) =>
+  index.map((brick) => (brick === NO_BRICK ? NO_BRICK : 4 * brick + bricks[4 * brick + 3]));

@@ -1,0 +1,46 @@
+// The textures of examples/web for a volume against those of the runtime:
+//   node form_web.mjs SHIPPED TEXTURES
+// TEXTURES: words of sights and of the index, and bits of half floats of light, one behind the other, under a sky of coefficients
+// cos(1), cos(2), .. and suns half as strong towards +Y. Says what differs; status 1 then. Half floats may be neighbours: both
+// sum in another order.
+import { readFileSync } from "node:fs";
+import { lightColumns } from "../../examples/web/src/clusteredPca.js";
+import { halfFloat } from "../../examples/web/src/halfFloat.js";
+import { VolumeFormer } from "../../examples/web/src/VolumeFormer.js";
+import { atlasOf, indexTexels, sightTexels } from "../../examples/web/src/volumeTextures.js";
+import { volumeOf } from "../../examples/web/src/volumeTransfer.js";
+
+const file = readFileSync(process.argv[2]);
+const length = file.readUInt32LE(12);
+const json = JSON.parse(file.subarray(20, 20 + length).toString("utf8"));
+const view = (i) => {
+  const { byteOffset = 0, byteLength } = json.bufferViews[i];
+  return new Uint8Array(file.subarray(28 + length + byteOffset, 28 + length + byteOffset + byteLength));
+};
+const volume = volumeOf(json.extensions.PRTKIT_transfer_volume, view);
+const { grid, sights, order, clusters } = volume;
+const atlas = atlasOf(grid, order);
+const sky = Array.from({ length: 3 * clusters.order ** 2 }, (_, i) => Math.cos(i + 1));
+const former = new VolumeFormer(volume, atlas);
+former.formConstants(lightColumns(clusters, sky, sky.map((value) => value / 2)), [0, 1, 0], 0, clusters.components.length);
+const light = new Uint16Array(4 * atlas.texels * atlas.planes);
+former.form(0, former.probes, light);
+
+const bytes = new Uint8Array(readFileSync(process.argv[3]));
+const expected = (Type, begin, count) => new Type(bytes.buffer.slice(begin, begin + count * Type.BYTES_PER_ELEMENT));
+let wrong = 0;
+let begin = 0;
+for (const [name, words] of [["sights", sightTexels(grid, sights, atlas)], ["index", indexTexels(grid)]]) {
+  const own = expected(Uint32Array, begin, words.length);
+  const i = words.findIndex((word, j) => word !== own[j]);
+  if (i >= 0) console.log(`${name} ${i}: ${words[i]}, not ${own[i]}`, ++wrong);
+  begin += 4 * words.length;
+}
+const halves = expected(Uint16Array, begin, light.length);
+const largest = halves.reduce((most, half) => Math.max(most, Math.abs(halfFloat(half))), 0);
+halves.forEach((half, i) => {
+  const off = Math.abs(halfFloat(light[i]) - halfFloat(half));
+  if (!(off <= 2 ** -10 * Math.abs(halfFloat(half)) + 1e-6 * largest)) ++wrong;
+});
+console.log(`${wrong} of ${halves.length} differ`);
+process.exitCode = wrong > 0 || begin + 2 * halves.length !== bytes.length ? 1 : 0;
