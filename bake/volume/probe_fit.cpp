@@ -18,7 +18,7 @@ namespace {
 using Shares = ProbeFit::Shares;
 
 /// What a probe's own measurement counts beside points: one point that stands where it is has 1.
-constexpr float kOwnWeight = 0.3f;
+constexpr float kOwnWeight = 1;
 constexpr int kMostGradientSteps = 40;
 /// Residual at which a column is solved, over what it began with.
 constexpr double kSolved = 1e-3;

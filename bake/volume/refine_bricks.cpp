@@ -1,6 +1,7 @@
 #include "volume/refine_bricks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace prt {
@@ -86,7 +87,7 @@ std::vector<bool> bricks_to_split(const VolumeGrid& grid, std::span<const BrickE
         if (grid.bricks[b].level == 0)
             continue;
         splits[b] = true;
-        left -= (1 - kLeft) * shares[b];
+        left -= (1 - std::pow(kLeft, grid.bricks[b].level)) * shares[b]; // as far down as it goes
     }
     return splits;
 }
