@@ -37,6 +37,13 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
         ->check(CLI::Range(std::size_t{125}, std::size_t{1} << 28))
         ->excludes(spacing);
     command
+        ->add_option(
+            "--volume-error", volume.error,
+            "split cells where light between probes errs most, down to a quarter, until it errs by so "
+            "much over all (relative L2); 0: no cell")
+        ->capture_default_str()
+        ->check(real_in(0, 0.99));
+    command
         ->add_option_function<std::string>(
             "--volume-bounds",
             [&arguments](const std::string& text) { arguments.bounds = parse_bounds(text); },
@@ -57,9 +64,10 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
 void check_volume(const VolumeArguments& arguments) {
     const VolumeOptions usual;
     const VolumeOptions& volume = arguments.volume;
-    if (!arguments.given() &&
-        (arguments.bounds || volume.order != usual.order || volume.fit_points != usual.fit_points))
-        throw Error("--volume-bounds, --volume-order and --volume-fit are of volumes: say --volume or "
+    if (!arguments.given() && (arguments.bounds || volume.order != usual.order ||
+                               volume.fit_points != usual.fit_points || volume.error != usual.error))
+        throw Error("--volume-bounds, --volume-error, --volume-order and --volume-fit are of volumes: say "
+                    "--volume or "
                     "--volume-probes, too");
 }
 

@@ -67,7 +67,8 @@ Table empty_table() {
     table.about =
         fmt::format("Relative L2 of the coefficients of the light that comes in at {} places in free "
                     "space, by their distance from surfaces, against path tracing under the whole "
-                    "light; suns that can be lit apart are left to the renderer.",
+                    "light; suns that can be lit apart are left to the renderer. Lamps are dark under "
+                    "skies, and shine as in the scene without one.",
                     kPlaces);
     table.columns = {{"light", "light"}, {"volume", "volume"}, {"error", "error", Unit::percent, 2}};
     for (std::size_t i = 0; i < kDistances.size(); ++i)
@@ -113,6 +114,33 @@ std::optional<CompressedVolume> shipped_volume(const BudgetRequest& request, con
     return std::move(small);
 }
 
+/// A light that the volume is measured under.
+struct VolumeLight {
+    std::string name;
+    const MeasuredLight& measured;
+    Lighting lighting;
+    const SceneLamps* lamps = nullptr;
+};
+
+/// No light at all.
+BudgetLight dark() {
+    const Light black = constant_light(kMaxOrder, glm::vec3(0));
+    return {"lamps", {DistantLight({}), {}, {}, black, black}};
+}
+
+/// The skies with dark lamps, and lamps in the dark where any shines; those are `lamps`.
+std::vector<VolumeLight> volume_lights(std::span<const BudgetLight> skies, const BudgetLight& night,
+                                       const TransferLayout& layout, const SceneLamps& lamps) {
+    std::vector<VolumeLight> lights;
+    for (const BudgetLight& sky : skies) {
+        lights.push_back({sky.name, sky.measured, sky.lighting(layout.order)});
+        lights.back().lighting.lamps.assign(layout.lamps(), glm::vec3(0));
+    }
+    if (lamps.has_lights() || lamps.has_surfaces())
+        lights.push_back({night.name, night.measured, night.lighting(layout.order), &lamps});
+    return lights;
+}
+
 } // namespace
 
 void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, Session& session) {
@@ -129,17 +157,21 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
     const TraceScene traced(baked.scene, load_textures(baked.scene), {.threads = options.threads});
     const FreePlaces places = free_places_in(traced, volume.grid, kPlaces, 1);
     const VolumeLookup lookup(volume.grid, volume.sights);
-    const std::vector<BudgetLight> lights = budget_lights(options);
+    const TransferLayout layout = volume.baked.transfer.layout.of_one_output();
+    const std::vector<BudgetLight> skies = budget_lights(options);
+    const BudgetLight night = dark();
+    const SceneLamps lamps(traced, layout.lamp_parts(), strengths_of_scene(layout));
+    const std::vector<VolumeLight> lights = volume_lights(skies, night, layout, lamps);
     Table table = empty_table();
     std::vector<VolumeErrors> of_baked, of_small;
     const auto share = [&](std::size_t i) {
         return static_cast<double>(i) / static_cast<double>(lights.size());
     };
     for (std::size_t i = 0; i < lights.size(); ++i) {
-        const auto truth =
-            incident_reference(traced, places.positions, volume.order, lights[i].measured,
-                               {.threads = options.threads}, progress.part(share(i), share(i + 1)));
-        const Lighting lighting = lights[i].lighting(volume.baked.transfer.layout.order);
+        const auto truth = incident_reference(traced, places.positions, volume.order, lights[i].measured,
+                                              {.lamps = lights[i].lamps, .threads = options.threads},
+                                              progress.part(share(i), share(i + 1)));
+        const Lighting& lighting = lights[i].lighting;
         of_baked.push_back(errors_of(lookup, exit_radiance(volume.baked.transfer, lighting, options.threads),
                                      places, truth));
         table.rows.push_back(row_of(lights[i].name, "baked", of_baked.back()));

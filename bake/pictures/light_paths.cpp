@@ -52,7 +52,7 @@ std::optional<SurfaceHit> LightPaths::nearest(const Ray& ray) const {
     const MetSurface surface = met_surface(scene.scene(), scene.rays(), point,
                                            ray.origin + ray.direction * met->distance, ray.direction);
     return SurfaceHit{met->distance, point, surface.side,
-                      !surface.back || scene.surfaces().two_sided(met->triangle)};
+                      !surface.back || scene.surfaces().two_sided(met->triangle), surface.back};
 }
 
 void LightPaths::add_background(LightPath& path) const {
@@ -93,6 +93,33 @@ void LightPaths::add_direct_light(const LitSide& side, LightPath& path, PathSamp
     }
 }
 
+void LightPaths::add_lamp_light(const LitSide& side, LightPath& path, PathSamples& samples) const {
+    const auto add = [&](const SceneLamps::Sample& sample) {
+        if (sample.irradiance == glm::vec3(0) || !side.faces(sample.towards))
+            return;
+        const float cosine = glm::dot(side.normal, sample.towards) / kPi;
+        path.radiance += path.throughput * sample.irradiance *
+                         (cosine * sample.balance(cosine) * light.lamps->open(side.origin(), sample));
+    };
+    if (light.lamps->has_lights())
+        add(light.lamps->sample_light(side.origin(), samples.next()));
+    if (light.lamps->has_surfaces())
+        add(light.lamps->sample_surface(side.origin(), samples.next()));
+}
+
+/// Of a surface that shines, as far as samples of it do not count it.
+void LightPaths::add_emission(const SurfaceHit& hit, LightPath& path) const {
+    const glm::vec3 radiance = light.lamps->radiance(hit.point, hit.back);
+    if (radiance == glm::vec3(0))
+        return;
+    const float cosine = std::abs(glm::dot(hit.side.face, path.ray.direction));
+    const float weight = path.from_camera()
+                             ? 1.0f
+                             : *path.density / (*path.density + light.lamps->density(hit.point.triangle,
+                                                                                     hit.distance, cosine));
+    path.radiance += path.throughput * radiance * weight;
+}
+
 /// Goes on in a direction by the cosine.
 bool LightPaths::bounce(const LitSide& side, LightPath& path, PathSamples& samples) const {
     const glm::vec3 direction = cosine_direction(side.normal, samples.next());
@@ -116,6 +143,8 @@ bool LightPaths::scatter(const SurfaceHit& hit, LightPath& path, PathSamples& sa
     if (!side)
         return false;
     add_direct_light(*side, path, samples);
+    if (light.lamps)
+        add_lamp_light(*side, path, samples);
     return bounce(*side, path, samples);
 }
 
@@ -130,8 +159,12 @@ bool LightPaths::follow(LightPath& path, PathSamples& samples) const {
         if ((path.from_camera() && !hit->scatters) ||
             samples.next().x >= scene.surfaces().coverage(hit->point))
             path.ray.from = std::nextafter(hit->distance, kFarAway);
-        else if (!scatter(*hit, path, samples))
-            return false;
+        else {
+            if (light.lamps)
+                add_emission(*hit, path);
+            if (!scatter(*hit, path, samples))
+                return false;
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include "pictures/lit_side.h"
 #include "prt/distant_light.h"
+#include "prt/scene_lamps.h"
 #include "prt/trace_scene.h"
 #include "trace/sample_sequence.h"
 
@@ -31,6 +32,7 @@ struct SurfaceHit {
     SurfacePoint point;
     LitSide side;  ///< that was met
     bool scatters; ///< that side of it
+    bool back;     ///< of the triangle
 };
 
 struct LightPath {
@@ -46,6 +48,7 @@ struct LightPath {
 /// adds some of it at the first by itself.
 struct PathLight {
     const DistantLight &first, &bounced;
+    const SceneLamps* lamps = nullptr; ///< none: they are dark
 };
 
 struct PathRules {
@@ -72,6 +75,8 @@ private:
     void add_background(LightPath& path) const;
     std::optional<LitSide> choose_side(const SurfaceHit& hit, LightPath& path, PathSamples& samples) const;
     void add_direct_light(const LitSide& side, LightPath& path, PathSamples& samples) const;
+    void add_lamp_light(const LitSide& side, LightPath& path, PathSamples& samples) const;
+    void add_emission(const SurfaceHit& hit, LightPath& path) const;
     bool bounce(const LitSide& side, LightPath& path, PathSamples& samples) const;
 };
 

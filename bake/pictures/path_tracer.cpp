@@ -18,19 +18,20 @@ glm::vec3 unit_direction(const CameraFrame& frame, const PathTraceOptions& optio
     return glm::vec3(glm::normalize(view_direction(frame, options.width, options.height, x, y)));
 }
 
-LightPaths paths_of(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options) {
-    return {scene, {light, light}, {options.bounces, options.textured, options.background}};
+LightPaths paths_of(const TraceScene& scene, const PathLight& light, const PathTraceOptions& options) {
+    return {scene, light, {options.bounces, options.textured, options.background}};
 }
 
 } // namespace
 
-PathTracer::PathTracer(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options)
-    : scene_(scene), light_(light), options_(options), frame_(camera_frame(options.camera)),
+PathTracer::PathTracer(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options,
+                       const SceneLamps* lamps)
+    : scene_(scene), light_(light), lamps_(lamps), options_(options), frame_(camera_frame(options.camera)),
       sums_(static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height)),
       counts_(static_cast<std::size_t>(options.height)) {}
 
 void PathTracer::add_pass(int threads, std::stop_token stop) {
-    const LightPaths paths = paths_of(scene_, light_, options_);
+    const LightPaths paths = paths_of(scene_, {light_, light_, lamps_}, options_);
     const auto pass = static_cast<std::uint32_t>(passes_);
     parallel_for(counts_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
         for (std::size_t y = begin; y < end; ++y) {
@@ -62,7 +63,7 @@ Image PathTracer::image() const {
 }
 
 std::vector<bool> PathTracer::surface_mask() const {
-    const LightPaths paths = paths_of(scene_, light_, options_);
+    const LightPaths paths = paths_of(scene_, {light_, light_}, options_);
     std::vector<bool> mask;
     for (int y = 0; y < options_.height; ++y)
         for (int x = 0; x < options_.width; ++x) {

@@ -23,13 +23,40 @@ namespace prt {
 namespace {
 
 constexpr float kMostBacks = 0.25f;
-/// Density of the first ray: unlike a camera's it does not look through backs of surfaces.
-constexpr float kNoCamera = 1e30f;
+/// Density of the first ray, which unlike a camera's does not look through backs of surfaces.
+constexpr float kEven = 1 / (4 * std::numbers::pi_v<float>);
 
 glm::vec3 direction_of(const glm::vec2& u) {
     const float z = 1 - 2 * u.x, radius = std::sqrt(std::max(0.0f, 1 - z * z)),
                 angle = 2 * std::numbers::pi_v<float> * u.y;
     return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+
+/// Coefficients of what comes in from one direction after the other.
+struct IncidentSum {
+    int order;
+    std::span<glm::vec3> coefficients;
+
+    void add(const glm::vec3& from, const glm::vec3& irradiance) {
+        std::array<float, kMostIncidentOrder * kMostIncidentOrder> basis{};
+        evaluate_sh(order, from, std::span(basis).first(coefficients.size()));
+        for (std::size_t o = 0; o < coefficients.size(); ++o)
+            coefficients[o] += basis[o] * irradiance;
+    }
+};
+
+/// Light that comes to `place` from lamps themselves: of those that rays meet too, their samples' share.
+void add_lamps(const SceneLamps& lamps, const glm::vec3& place, PathSamples& samples, float weight,
+               IncidentSum& sum) {
+    const auto add = [&](const SceneLamps::Sample& sample) {
+        if (sample.irradiance != glm::vec3(0))
+            sum.add(sample.towards,
+                    weight * sample.balance(kEven) * lamps.open(place, sample) * sample.irradiance);
+    };
+    if (lamps.has_lights())
+        add(lamps.sample_light(place, samples.next()));
+    if (lamps.has_surfaces())
+        add(lamps.sample_surface(place, samples.next()));
 }
 
 /// Distance of the nearest surface, nothing where the place is inside of something.
@@ -82,7 +109,7 @@ std::array<std::vector<glm::vec3>, 2>
 incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& places, int order,
                    const MeasuredLight& light, const IncidentOptions& options, const Progress& progress) {
     // A surface that is seen is lit by all light: what the renderer adds is that of the place itself.
-    const LightPaths paths{scene, {light.all, light.all}, {kEndlessBounces, true, false}};
+    const LightPaths paths{scene, {light.all, light.all, options.lamps}, {kEndlessBounces, true, false}};
     const auto coefficients = static_cast<std::size_t>(coefficient_count(order));
     const float weight = 4 * std::numbers::pi_v<float> / static_cast<float>(options.paths);
     std::array<std::vector<glm::vec3>, 2> halves;
@@ -91,19 +118,20 @@ incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& places
     std::vector<std::uint32_t> all(places.size());
     std::iota(all.begin(), all.end(), 0u);
     for_each_receiver(all, options.threads, progress, [&](std::uint32_t p) {
-        std::array<float, kMostIncidentOrder * kMostIncidentOrder> basis{};
-        for (std::size_t h = 0; h < halves.size(); ++h)
+        for (std::size_t h = 0; h < halves.size(); ++h) {
+            IncidentSum sum{order, std::span(halves[h]).subspan(p * coefficients, coefficients)};
             for (int i = 0; i < options.paths; ++i) {
                 PathSamples samples(receiver_seed(2 * p + static_cast<std::uint32_t>(h), options.seed),
                                     static_cast<std::uint32_t>(i));
                 const glm::vec3 d = direction_of(samples.next());
-                LightPath path{.ray = {places[p], d}, .density = kNoCamera};
+                if (options.lamps)
+                    add_lamps(*options.lamps, places[p], samples, 1 / static_cast<float>(options.paths), sum);
+                LightPath path{.ray = {places[p], d}, .density = kEven};
                 const bool open = paths.follow(path, samples) && path.vertices == 0;
                 const glm::vec3 radiance = open ? light.seen().radiance(d) : path.radiance;
-                evaluate_sh(order, d, std::span(basis).first(coefficients));
-                for (std::size_t o = 0; o < coefficients; ++o)
-                    halves[h][p * coefficients + o] += weight * basis[o] * radiance;
+                sum.add(d, weight * radiance);
             }
+        }
     });
     return halves;
 }

@@ -44,7 +44,7 @@ SurfaceHit hit_at(const TraceScene& scene, const SurfacePoints& points, std::siz
     const glm::vec3 anywhere(0);
     return {0, point,
             met_surface(scene.scene(), scene.rays(), point, points.receivers.positions[p], anywhere).side,
-            true};
+            true, false};
 }
 
 /// Of the sequence of a point.

@@ -1,28 +1,30 @@
 #include "volume/probe_fit.h"
 
 #include "prt/support/parallel.h"
+#include "prt/support/vector_lanes.h"
 #include "prt/volume_weights.h"
-
-#include <Eigen/SparseCore>
+#include "transport/sparse_rows.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numeric>
 
 namespace prt {
 namespace {
 
-using Sparse = Eigen::SparseMatrix<float, Eigen::RowMajor>;
-using Columns = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Shares = ProbeFit::Shares;
 
 /// What a probe's own measurement counts beside points: one point that stands where it is has 1.
-constexpr float kOwnWeight = 0.3f;
+constexpr float kOwnWeight = 1;
 constexpr int kMostGradientSteps = 40;
 /// Residual at which a column is solved, over what it began with.
-constexpr float kSolved = 1e-3f;
-constexpr std::size_t kColumnsAtOnce = 32;
-
-using Shares = std::vector<std::pair<std::uint32_t, float>>;
+constexpr double kSolved = 1e-3;
+/// As many as sparse rows multiply with at once.
+constexpr int kProductOrder = 4, kProductChannels = 3;
+constexpr std::size_t kColumns = kProductChannels * coefficient_count(kProductOrder);
 
 /// Of each hanging probe those that it is interpolated from, with their shares; of others themselves.
 std::vector<Shares> shares_of(const VolumeGrid& grid, const VolumeProbes& probes) {
@@ -42,42 +44,154 @@ std::vector<Shares> shares_of(const VolumeGrid& grid, const VolumeProbes& probes
     return shares;
 }
 
-/// Weights of probes that are no others' mixture, [points][probes].
-Sparse weights_of(const FitPoints& points, const std::vector<Shares>& shares) {
-    std::vector<Eigen::Triplet<float>> triplets;
-    for (std::size_t r = 0; r < points.corners.size(); ++r)
-        for (std::size_t i = 0; i < 8; ++i)
-            for (const auto& [probe, share] : shares[points.corners[r].probes[i]])
-                triplets.emplace_back(static_cast<int>(r), static_cast<int>(probe),
-                                      points.corners[r].weights[i] * share);
-    Sparse weights(static_cast<Eigen::Index>(points.corners.size()),
-                   static_cast<Eigen::Index>(shares.size()));
-    weights.setFromTriplets(triplets.begin(), triplets.end());
-    return weights;
-}
+/// The symmetric matrix of a fit, rows one behind the other.
+struct FitMatrix {
+    std::vector<SparseRow> rows;
+    std::vector<std::uint32_t> sources;
+    std::vector<float> weights;
+    std::vector<float> inverse_diagonal;
 
-/// Solves A x = b for some columns side by side by conjugate gradients with the diagonal as preconditioner.
-void solve(const Sparse& a, const Eigen::ArrayXf& inverse_diagonal, const Columns& b, Columns& x) {
-    Columns r = b - a * x;
-    Columns z = inverse_diagonal.matrix().asDiagonal() * r;
-    Columns d = z;
-    const Eigen::ArrayXf start = b.colwise().squaredNorm().array().max(1e-30f);
-    Eigen::ArrayXf rz = (r.array() * z.array()).colwise().sum();
-    for (int step = 0; step < kMostGradientSteps; ++step) {
-        if ((r.colwise().squaredNorm().transpose().array() <= kSolved * kSolved * start).all())
-            return;
-        const Columns ad = a * d;
-        const Eigen::ArrayXf dad = (d.array() * ad.array()).colwise().sum();
-        const Eigen::ArrayXf alpha = (dad > 0).select(rz / dad.max(1e-30f), 0);
-        x += d * alpha.matrix().asDiagonal();
-        r -= ad * alpha.matrix().asDiagonal();
-        z = inverse_diagonal.matrix().asDiagonal() * r;
-        const Eigen::ArrayXf next = (r.array() * z.array()).colwise().sum();
-        const Eigen::ArrayXf beta = (rz > 0).select(next / rz.max(1e-30f), 0);
-        d = z + d * beta.matrix().asDiagonal();
-        rz = next;
+    /// `upper` [rows]: columns from the row's own on. `own` is added to the diagonal.
+    FitMatrix(std::span<const Shares> upper, float own) : inverse_diagonal(upper.size()) {
+        std::vector<std::uint32_t> counts(upper.size(), 0);
+        for (std::uint32_t p = 0; p < upper.size(); ++p)
+            for (const auto& [q, weight] : upper[p]) {
+                ++counts[p];
+                counts[q] += q != p ? 1 : 0;
+            }
+        std::vector<std::size_t> at(upper.size() + 1, 0);
+        for (std::size_t p = 0; p < upper.size(); ++p)
+            at[p + 1] = at[p] + counts[p];
+        sources.resize(at.back());
+        weights.resize(at.back());
+        for (std::size_t p = 0; p < upper.size(); ++p)
+            rows.push_back({counts[p], &sources[at[p]], &weights[at[p]]});
+        const auto put = [&](std::uint32_t p, std::uint32_t q, float weight) {
+            sources[at[p]] = q;
+            weights[at[p]++] = weight;
+        };
+        for (std::uint32_t p = 0; p < upper.size(); ++p)
+            for (const auto& [q, weight] : upper[p]) {
+                put(p, q, q == p ? weight + own : weight);
+                if (q != p)
+                    put(q, p, weight);
+                else
+                    inverse_diagonal[p] = 1 / (weight + own);
+            }
+    }
+
+    void multiply(const std::vector<float>& x, std::vector<float>& to) const {
+        apply_rows(kProductOrder, kProductChannels, true, rows, x.data(), to.data());
+    }
+};
+
+using ColumnSums = std::array<double, kColumns>;
+
+/// sums[c] = sum over rows of a[row][c] b[row][c], some rows in float at a time.
+PRT_TARGET_CLONES
+void dot_columns(const float* a, const float* b, std::size_t rows, ColumnSums& sums) {
+    sums.fill(0);
+    for (std::size_t begin = 0; begin < rows; begin += 64) {
+        std::array<float, kColumns> some{};
+        for (std::size_t r = begin; r < std::min(rows, begin + 64); ++r)
+            for (std::size_t c = 0; c < kColumns; ++c)
+                some[c] += a[r * kColumns + c] * b[r * kColumns + c];
+        for (std::size_t c = 0; c < kColumns; ++c)
+            sums[c] += static_cast<double>(some[c]);
     }
 }
+
+/// x += alpha d, r -= alpha ad, column by column.
+PRT_TARGET_CLONES
+void step_columns(const std::array<float, kColumns>& alpha, const float* d, const float* ad, std::size_t rows,
+                  float* x, float* r) {
+    for (std::size_t i = 0; i < rows; ++i)
+        for (std::size_t c = 0; c < kColumns; ++c) {
+            x[i * kColumns + c] += alpha[c] * d[i * kColumns + c];
+            r[i * kColumns + c] -= alpha[c] * ad[i * kColumns + c];
+        }
+}
+
+/// z = scale[row] r.
+PRT_TARGET_CLONES
+void scale_rows(const float* scale, const float* r, std::size_t rows, float* z) {
+    for (std::size_t i = 0; i < rows; ++i)
+        for (std::size_t c = 0; c < kColumns; ++c)
+            z[i * kColumns + c] = scale[i] * r[i * kColumns + c];
+}
+
+/// d = z + beta d, column by column.
+PRT_TARGET_CLONES
+void turn_columns(const std::array<float, kColumns>& beta, const float* z, std::size_t rows, float* d) {
+    for (std::size_t i = 0; i < rows; ++i)
+        for (std::size_t c = 0; c < kColumns; ++c)
+            d[i * kColumns + c] = z[i * kColumns + c] + beta[c] * d[i * kColumns + c];
+}
+
+std::array<float, kColumns> ratios(const ColumnSums& over, const ColumnSums& under) {
+    std::array<float, kColumns> ratio;
+    for (std::size_t c = 0; c < kColumns; ++c)
+        ratio[c] = under[c] > 0 ? static_cast<float>(over[c] / under[c]) : 0.0f;
+    return ratio;
+}
+
+/// Some columns side by side, [probes][kColumns].
+struct FitColumns {
+    std::vector<float> start, b, x, r, d, z, ad;
+
+    explicit FitColumns(std::size_t probes)
+        : start(probes * kColumns), b(start), x(start), r(start), d(start), z(start), ad(start) {}
+
+    /// Takes `width` columns from `first` on of what probes have, and of the sums of points.
+    void load(const ProbeVectors& vectors, std::span<const float> sums, std::size_t first,
+              std::size_t width) {
+        for (std::size_t p = 0; p * kColumns < b.size(); ++p) {
+            std::fill_n(&start[p * kColumns], kColumns, 0.0f);
+            std::fill_n(&b[p * kColumns], kColumns, 0.0f);
+            std::copy_n(&vectors.of(p)[first], width, &start[p * kColumns]);
+            std::copy_n(&sums[p * vectors.stride + first], width, &b[p * kColumns]);
+        }
+    }
+
+    /// Residual of what probes have.
+    void begin(const FitMatrix& a) {
+        x = start;
+        a.multiply(x, r);
+        for (std::size_t i = 0; i < r.size(); ++i)
+            r[i] = b[i] + kOwnWeight * start[i] - r[i];
+    }
+
+    /// sum |e|² less the squared error at points: with g = b - (sum w wᵀ) x it is x·b + x·g.
+    double explained() const {
+        double sum = 0;
+        for (std::size_t i = 0; i < x.size(); ++i)
+            sum += static_cast<double>(x[i] * (b[i] + r[i] - kOwnWeight * (start[i] - x[i])));
+        return sum;
+    }
+
+    /// Goes on from x with residual r by conjugate gradients with the diagonal as preconditioner.
+    void solve(const FitMatrix& a) {
+        const std::size_t rows = a.rows.size();
+        ColumnSums rz, next, dad, rest, solved;
+        dot_columns(b.data(), b.data(), rows, solved);
+        for (double& square : solved)
+            square *= kSolved * kSolved;
+        scale_rows(a.inverse_diagonal.data(), r.data(), rows, d.data());
+        dot_columns(r.data(), d.data(), rows, rz);
+        for (int step = 0; step < kMostGradientSteps; ++step) {
+            dot_columns(r.data(), r.data(), rows, rest);
+            if (std::ranges::equal(rest, solved, std::ranges::less_equal()))
+                return;
+            a.multiply(d, ad);
+            dot_columns(d.data(), ad.data(), rows, dad);
+            step_columns(ratios(rz, dad), d.data(), ad.data(), rows, x.data(), r.data());
+            scale_rows(a.inverse_diagonal.data(), r.data(), rows, z.data());
+            dot_columns(r.data(), z.data(), rows, next);
+            turn_columns(ratios(next, rz), z.data(), rows, d.data());
+            rz = next;
+        }
+    }
+};
 
 } // namespace
 
@@ -131,53 +245,79 @@ void settle_hanging(const VolumeGrid& grid, const VolumeProbes& probes, const Pr
     }
 }
 
-double error_at(const FitPoints& points, const ProbeVectors& vectors) {
-    double error = 0, norm = 0;
-    for (std::size_t r = 0; r < points.corners.size(); ++r) {
-        const VolumeCorners& corners = points.corners[r];
-        for (std::size_t i = 0; i < vectors.stride; ++i) {
-            float sum = 0;
-            for (std::size_t c = 0; c < 8; ++c)
-                sum += corners.weights[c] * vectors.values[corners.probes[c] * vectors.stride + i];
-            const float truth = points.vectors[r * vectors.stride + i];
-            error += static_cast<double>((sum - truth) * (sum - truth));
-            norm += static_cast<double>(truth * truth);
-        }
-    }
-    return norm > 0 ? std::sqrt(error / norm) : 0;
+ProbeFit::ProbeFit(const VolumeGrid& grid, const VolumeProbes& probes, std::size_t stride)
+    : shares_(shares_of(grid, probes)), stride_(stride), rows_(probes.size()),
+      sums_(probes.size() * stride, 0.0f) {
+    for (std::uint32_t p = 0; p < rows_.size(); ++p)
+        rows_[p] = {{p, 0.0f}};
 }
 
-void fit_probes(const VolumeGrid& grid, const VolumeProbes& probes, const FitPoints& points,
-                const ProbeVectors& vectors, int threads, const Progress& progress) {
-    const Sparse weights = weights_of(points, shares_of(grid, probes));
-    Sparse a = Sparse(weights.transpose()) * weights;
-    Sparse own(a.rows(), a.cols());
-    own.setIdentity();
-    a += kOwnWeight * own;
-    const Eigen::ArrayXf inverse_diagonal = a.diagonal().array().inverse();
-    const Sparse back = weights.transpose();
-    const auto count = static_cast<Eigen::Index>(probes.size()),
-               of_points = static_cast<Eigen::Index>(points.corners.size());
+ProbeFit::Shares ProbeFit::shares_at(const VolumeCorners& point) const {
+    Shares mixed;
+    for (std::size_t i = 0; i < 8; ++i)
+        for (const auto& [probe, share] : shares_[point.probes[i]])
+            mixed.emplace_back(probe, point.weights[i] * share);
+    std::ranges::sort(mixed);
+    Shares shares;
+    for (const auto& [probe, share] : mixed)
+        if (!shares.empty() && shares.back().first == probe)
+            shares.back().second += share;
+        else if (share > 0)
+            shares.emplace_back(probe, share);
+    return shares;
+}
+
+void ProbeFit::add(std::span<const VolumeCorners> points, std::span<const float> vectors, int threads) {
+    std::vector<Shares> shares;
+    for (const VolumeCorners& point : points)
+        shares.push_back(shares_at(point));
+    for (const Shares& s : shares)
+        for (auto p = s.begin(); p != s.end(); ++p)
+            for (auto q = p; q != s.end(); ++q) {
+                Shares& row = rows_[p->first];
+                const auto at = std::ranges::lower_bound(row, q->first, {}, &Shares::value_type::first);
+                if (at != row.end() && at->first == q->first)
+                    at->second += p->second * q->second;
+                else
+                    row.insert(at, {q->first, p->second * q->second});
+            }
+    // By columns, so that sums do not depend on the number of threads.
+    parallel_for(stride_, kColumns, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t r = 0; r < shares.size(); ++r)
+            for (const auto& [probe, share] : shares[r])
+                for (std::size_t i = begin; i < end; ++i)
+                    sums_[probe * stride_ + i] += share * vectors[r * stride_ + i];
+    });
+    for (const float v : vectors)
+        norm_ += static_cast<double>(v) * static_cast<double>(v);
+    points_ += points.size();
+}
+
+ProbeFit::Errors ProbeFit::solve(const ProbeVectors& vectors, int threads, const Progress& progress) const {
+    if (!(norm_ > 0))
+        return {};
+    const FitMatrix a(rows_, kOwnWeight);
+    const std::size_t probes = rows_.size(), blocks = (stride_ + kColumns - 1) / kColumns;
+    std::vector<double> before(blocks), after(blocks);
     progress.check();
-    parallel_for(vectors.stride, kColumnsAtOnce, threads, [&](std::size_t begin, std::size_t end) {
-        const auto width = static_cast<Eigen::Index>(end - begin);
-        Columns e(of_points, width), x(count, width);
-        for (Eigen::Index r = 0; r < of_points; ++r)
-            for (Eigen::Index c = 0; c < width; ++c)
-                e(r, c) = points.vectors[static_cast<std::size_t>(r) * vectors.stride + begin +
-                                         static_cast<std::size_t>(c)];
-        for (Eigen::Index p = 0; p < count; ++p)
-            for (Eigen::Index c = 0; c < width; ++c)
-                x(p, c) = vectors.values[static_cast<std::size_t>(p) * vectors.stride + begin +
-                                         static_cast<std::size_t>(c)];
-        const Columns b = back * e + kOwnWeight * x;
-        solve(a, inverse_diagonal, b, x);
-        for (Eigen::Index p = 0; p < count; ++p)
-            for (Eigen::Index c = 0; c < width; ++c)
-                vectors.values[static_cast<std::size_t>(p) * vectors.stride + begin +
-                               static_cast<std::size_t>(c)] = x(p, c);
+    parallel_for(blocks, 1, threads, [&](std::size_t first, std::size_t last) {
+        FitColumns columns(probes);
+        for (std::size_t block = first; block < last; ++block) {
+            const std::size_t begin = block * kColumns, width = std::min(kColumns, stride_ - begin);
+            columns.load(vectors, sums_, begin, width);
+            columns.begin(a);
+            before[block] = columns.explained();
+            columns.solve(a);
+            after[block] = columns.explained();
+            for (std::size_t p = 0; p < probes; ++p)
+                std::copy_n(&columns.x[p * kColumns], width, &vectors.of(p)[begin]);
+        }
     });
     progress.update(1);
+    const auto relative = [&](const std::vector<double>& explained) {
+        return std::sqrt(std::max(0.0, 1 - std::accumulate(explained.begin(), explained.end(), 0.0) / norm_));
+    };
+    return {relative(before), relative(after)};
 }
 
 } // namespace prt

@@ -57,8 +57,7 @@ struct ProbeTracer::Space {
 };
 
 ProbeTracer::ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources sources, int order)
-    : plan_(plan), tracer_(tracer), rays_along_(std::max(1, (plan.options.rays + kSides - 1) / kSides)),
-      whole_(kChunk), last_((rays_along_ - 1) % kChunk + 1),
+    : plan_(plan), tracer_(tracer), whole_(kChunk), last_(1),
       reflectance_(shared_reflectance(plan.scene.surfaces(), *plan.transport)) {
     layout_.order = order;
     layout_.sky = layout_of_one(plan.options.order, 1, PartKind::direct);
@@ -82,6 +81,9 @@ ProbeTracer::ProbeTracer(const BakePlan& plan, Tracer& tracer, BouncedSources so
 
 void ProbeTracer::trace(const Task& task, const Progress& progress,
                         const std::function<void(std::size_t, const PlaceSeen&)>& take) {
+    sight_ = task.sight;
+    rays_along_ = std::max(1, (task.rays + kSides - 1) / kSides);
+    last_ = SobolChunk((rays_along_ - 1) % kChunk + 1);
     for (std::size_t begin = 0; begin < task.places.size(); begin += kPlacesAtOnce) {
         progress.check();
         trace_batch(task, begin, std::min(begin + kPlacesAtOnce, task.places.size()), take);
@@ -113,7 +115,7 @@ void ProbeTracer::trace_batch(const Task& task, std::size_t begin, std::size_t e
     parallel_for(count, 16, plan_.options.threads, [&](std::size_t first, std::size_t last) {
         Space space;
         for (std::size_t i = first; i < last; ++i) {
-            see({.places = task.places.subspan(begin, count), .sight = task.sight, .seed = options.seed}, i,
+            see({.places = task.places.subspan(begin, count), .seed = options.seed}, i,
                 std::span(hits).subspan(i * kSides, kSides), space);
             if (!plan_.lamps.empty())
                 of_lamps += add_lamps(task, begin + i, space);
@@ -127,7 +129,7 @@ void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::
                       Space& space) const {
     const std::size_t coefficients = layout_.coefficients(), direct = layout_.direct(),
                       numbers = layout_.numbers();
-    space.sight = SightSums(task.sight);
+    space.sight = SightSums(sight_);
     space.shut = space.backs = 0;
     space.blocked.begin(coefficients, direct);
     space.all.begin(coefficients, direct);
@@ -148,7 +150,9 @@ void ProbeTracer::see(const Task& task, std::size_t place, std::span<const std::
         }
         std::copy_n(space.reflected.row(o).begin(), numbers - direct, &space.vectors[o * numbers + direct]);
     }
-    space.seen = {space.vectors, static_cast<float>(space.backs / rays), space.sight.distances()};
+    space.seen = {space.vectors, static_cast<float>(space.backs / rays)};
+    if (asks_sight())
+        space.seen.distances = space.sight.distances();
 }
 
 float ProbeTracer::look(const glm::vec3& d, Space& space) const {
@@ -178,7 +182,8 @@ void ProbeTracer::add_hit(const Hit& hit, const glm::vec3& from, Space& space) c
     const float weight = hit.weight * look(d, space);
     space.shut += static_cast<double>(hit.weight);
     add_direction(weight, space, space.blocked);
-    space.sight.add_hit(d, distance, hit.weight);
+    if (asks_sight())
+        space.sight.add_hit(d, distance, hit.weight);
     if (hit.back && !plan_.scene.surfaces().two_sided(hit.triangle))
         space.backs += static_cast<double>(hit.weight);
     else if (!sky_.empty() || !lamps_.empty())
@@ -187,6 +192,8 @@ void ProbeTracer::add_hit(const Hit& hit, const glm::vec3& from, Space& space) c
 
 /// What rays meet is not asked: where most directions are open it does not matter either.
 void ProbeTracer::add_rays(const Task& task, std::size_t place, bool mostly_open, Space& space) const {
+    if (mostly_open && !asks_sight())
+        return;
     for (int s = 0; s < kSides; ++s)
         for (int first = 0; first < rays_along_; first += kChunk) {
             const int rays = std::min(kChunk, rays_along_ - first);
@@ -197,7 +204,8 @@ void ProbeTracer::add_rays(const Task& task, std::size_t place, bool mostly_open
                 tangent_frame(side(s)), space.directions);
             for (std::size_t r = 0; r < static_cast<std::size_t>(rays); ++r) {
                 const glm::vec3 d(space.directions.x[r], space.directions.y[r], space.directions.z[r]);
-                space.sight.add_ray(d);
+                if (asks_sight())
+                    space.sight.add_ray(d);
                 if (!mostly_open)
                     add_direction(look(d, space), space, space.all);
             }

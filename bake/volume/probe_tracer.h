@@ -53,7 +53,9 @@ public:
 
     struct Task {
         std::span<const glm::vec3> places;
-        float sight = 1; ///< metres that matter of how far a place sees
+        /// Metres that matter of how far a place sees; 0: it is not asked.
+        float sight = 0;
+        int rays = 1024; ///< from each place, about
         std::uint64_t seed = 0;
     };
     /// Calls `take` for each of the places, from several threads.
@@ -67,6 +69,7 @@ private:
     void see(const Task& task, std::size_t place, std::span<const std::vector<Hit>> hits, Space& space) const;
     /// Evaluates the basis in unit `d`; returns the solid angle that a ray stands for.
     float look(const glm::vec3& d, Space& space) const;
+    bool asks_sight() const { return sight_ > 0; }
     void add_direction(float weight, const Space& space, OuterSums& sums) const;
     void add_hit(const Hit& hit, const glm::vec3& from, Space& space) const;
     void add_rays(const Task& task, std::size_t place, bool mostly_open, Space& space) const;
@@ -76,7 +79,8 @@ private:
     const BakePlan& plan_;
     Tracer& tracer_;
     IncidentLayout layout_;
-    int rays_along_ = 1; ///< of each of the six directions
+    float sight_ = 0;    ///< of what is traced
+    int rays_along_ = 1; ///< in each of the six directions
     SobolChunk whole_, last_;
     std::vector<glm::vec3> reflectance_;
     std::vector<float> sky_, lamps_; ///< exit light of all receivers, reflected where that is theirs alone

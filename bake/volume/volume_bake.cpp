@@ -9,13 +9,16 @@
 #include "parts.h"
 #include "prt/error_measures.h"
 #include "prt/support/error.h"
+#include "prt/support/parallel.h"
 #include "prt/support/stopwatch.h"
 #include "record.h"
 #include "trace/scrambles.h"
+#include "volume/light_error.h"
 #include "volume/place_bricks.h"
 #include "volume/probe_fit.h"
-#include "volume/probe_places.h"
+#include "volume/probe_states.h"
 #include "volume/probe_tracer.h"
+#include "volume/refine_bricks.h"
 
 #include <fmt/core.h>
 
@@ -29,9 +32,6 @@
 namespace prt {
 namespace {
 
-/// A place is inside of something where more of its rays end at backs of surfaces that have no light there.
-constexpr float kMostBacks = 0.25f;
-
 void check_volume_options(const VolumeOptions& volume, const BakeOptions& options) {
     check_options(options);
     if (options.tracer.method == BakeMethod::raster)
@@ -43,14 +43,34 @@ void check_volume_options(const VolumeOptions& volume, const BakeOptions& option
                                 volume.order));
     if (volume.probes == 0 && !(volume.spacing > 0 && volume.spacing <= kFarthestVertex))
         throw Error(fmt::format("probes of a volume cannot be {:g} m apart", volume.spacing));
+    if (!(volume.error >= 0 && volume.error < 1))
+        throw Error(
+            fmt::format("an error that light between probes may have is 0 to 1, not {:g}", volume.error));
+    if (volume.error > 0 && volume.probes > 0)
+        throw Error("an error to reach takes as many probes as it needs: give a spacing to begin with");
     if (!(volume.fit_points >= 0 && volume.fit_points <= 100))
         throw Error("points of the fit are 0 to 100 for each probe");
 }
 
-/// Bytes that a probe takes: its values, those of its points, and a copy in parts. Counted, not measured.
+/// Points for each cell by which it is seen where light errs.
+constexpr double kSurveyed = 0.25;
+/// Points of the fit that are kept in memory.
+constexpr std::size_t kPointsAtOnce = 2048;
+/// Of the rays of a probe, what goes to points of its fit. Halves were measured to err more by noise.
+constexpr double kFitShare = 0.25;
+
+int rays_of_probe(const VolumeOptions& volume, const BakeOptions& options) {
+    return volume.fit_points > 0 ? static_cast<int>(std::ceil((1 - kFitShare) * options.rays)) : options.rays;
+}
+
+int rays_of_point(const VolumeOptions& volume, const BakeOptions& options) {
+    return static_cast<int>(std::ceil(kFitShare * options.rays / volume.fit_points));
+}
+
+/// Bytes that a probe takes: its values, sums of its points, and a copy in parts. Counted, not measured.
 double bytes_of_probe(const VolumeOptions& volume, std::size_t numbers) {
     return sizeof(float) * static_cast<double>(numbers) * coefficient_count(volume.order) *
-           (2.2 + volume.fit_points);
+           (2.2 + (volume.fit_points > 0 ? 1 : 0));
 }
 
 void check_room(const VolumeOptions& volume, double probes, std::size_t numbers, double there) {
@@ -70,35 +90,32 @@ std::size_t most_bricks(const VolumeOptions& volume, std::size_t numbers, double
 }
 
 /// Points all over the cells of a volume, as many in each brick, but for those out of its bounds.
-std::vector<glm::vec3> points_between(const VolumeGrid& grid, const Bounds& bounds, double each,
-                                      std::uint64_t seed) {
+struct PointsBetween {
+    std::vector<glm::vec3> places;
+    std::vector<std::uint32_t> bricks; ///< that they are in, in order
+};
+
+/// `each` for every cell.
+PointsBetween points_between(const VolumeGrid& grid, const Bounds& bounds, double each, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<float> unit(0, 1);
-    std::vector<glm::vec3> points;
+    PointsBetween points;
     double owed = 0;
-    for (const VolumeBrick& brick : grid.bricks) {
+    for (std::uint32_t b = 0; b < grid.bricks.size(); ++b) {
+        const VolumeBrick& brick = grid.bricks[b];
         owed += each * kBrickCells * kBrickCells * kBrickCells;
         const float side = grid.spacing * static_cast<float>(kBrickCells << brick.level);
         const glm::vec3 least = position_of(grid, kBrickCells * brick.place);
         for (; owed >= 1; owed -= 1) {
             const float x = unit(random), y = unit(random), z = unit(random);
             const glm::vec3 point = least + side * glm::vec3(x, y, z);
-            if (glm::clamp(point, bounds.low, bounds.high) == point)
-                points.push_back(point);
+            if (glm::clamp(point, bounds.low, bounds.high) == point) {
+                points.places.push_back(point);
+                points.bricks.push_back(b);
+            }
         }
     }
     return points;
-}
-
-/// Distances that are seen from the corner of a probe that was measured `way` off it.
-std::array<float, 6> seen_from(std::array<float, 6> distances, const glm::vec3& way) {
-    for (int a = 0; a < 3; ++a) {
-        float& low = distances[static_cast<std::size_t>(2 * a)];
-        float& high = distances[static_cast<std::size_t>(2 * a + 1)];
-        low = std::max(low - way[a], 0.02f * low);
-        high = std::max(high + way[a], 0.02f * high);
-    }
-    return distances;
 }
 
 /// Vectors [places][coefficients][numbers] taken apart into what a file holds.
@@ -136,17 +153,17 @@ public:
         check_room(volume_, static_cast<double>(volume_.probes), plan_.numbers(), there);
         baked.grid = place_bricks(scene_, volume_, most_bricks(volume_, plan_.numbers(), there));
         baked.order = volume_.order;
-        const VolumeProbes probes = probes_of(baked.grid);
-        check_room(volume_, static_cast<double>(probes.size()), plan_.numbers(), there);
+        check_room(volume_, static_cast<double>(probes_of(baked.grid).size()), plan_.numbers(), there);
         ProbeTracer tracer = probe_tracer(progress.part(0, 0.2));
-        const std::size_t stride = tracer.layout().coefficients() * tracer.layout().numbers();
-        std::vector<float> values = trace_probes(tracer, probes, stride, progress.part(0.2, 0.5));
-        const ProbeVectors vectors{values, stride};
-        fill_blind(probes, blind_, vectors);
+        ProbeStates states = measured(tracer, there, progress.part(0.2, 0.5));
+        count_probes(states);
+        const ProbeVectors vectors = states.vectors();
+        const VolumeProbes probes = probes_of(baked.grid);
+        fill_blind(probes, states.blind_ones(), vectors);
         settle_hanging(baked.grid, probes, vectors);
         if (volume_.fit_points > 0)
             fit(tracer, vectors, progress.part(0.5, 1));
-        finish(tracer, values);
+        finish(tracer, states.values);
         progress.update(1);
         return std::move(result_);
     }
@@ -157,11 +174,11 @@ public:
         std::vector<float> values(places.size() * stride);
         PlacedLight light;
         light.backs.resize(places.size());
-        tracer.trace({places, 1, options_.seed}, progress.part(0.4, 1),
-                     [&](std::size_t p, const PlaceSeen& seen) {
-                         std::ranges::copy(seen.vectors, &values[p * stride]);
-                         light.backs[p] = seen.backs;
-                     });
+        const ProbeTracer::Task task{.places = places, .rays = options_.rays, .seed = options_.seed};
+        tracer.trace(task, progress.part(0.4, 1), [&](std::size_t p, const PlaceSeen& seen) {
+            std::ranges::copy(seen.vectors, &values[p * stride]);
+            light.backs[p] = seen.backs;
+        });
         light.transfer = in_parts_of(tracer.layout(), plan_, values);
         return light;
     }
@@ -177,71 +194,140 @@ private:
         return {plan_, *tracer_, std::move(sources), volume_.order};
     }
 
-    std::vector<float> trace_probes(ProbeTracer& tracer, const VolumeProbes& probes, std::size_t stride,
-                                    const Progress& progress) {
-        const VolumeGrid& grid = result_.volume.grid;
-        std::vector<float> values(probes.size() * stride);
-        std::vector<glm::vec3> corners;
-        std::vector<float> cells;
-        for (std::size_t p = 0; p < probes.size(); ++p) {
-            corners.push_back(position_of(grid, probes.corners[p]));
-            cells.push_back(grid.spacing * static_cast<float>(1 << probes.levels[p]));
+    /// Places the bricks at last, and measures their probes.
+    ProbeStates measured(ProbeTracer& tracer, double room, const Progress& progress) {
+        VolumeGrid& grid = result_.volume.grid;
+        const ProbeTask task{traced_, tracer, rays_of_probe(volume_, options_), options_.seed,
+                             options_.threads};
+        if (volume_.error > 0)
+            grid = with_finer_levels(std::move(grid));
+        ProbeStates states = measure_probes(task, grid, probes_of(grid), {}, progress.part(0, 0.4));
+        for (int round = 1; volume_.error > 0 && round <= kMostRefinements; ++round) {
+            const VolumeGrid finer = refined(tracer, states, round);
+            if (finer == grid)
+                break;
+            const VolumeProbes probes = probes_of(finer);
+            check_room(volume_, static_cast<double>(probes.size()), plan_.numbers(), room);
+            states = measure_probes(task, finer, probes, std::move(states),
+                                    progress.part(0.4 * round, 0.4 * round + 0.2));
+            grid = finer;
         }
-        const std::vector<glm::vec3> places = free_places(traced_, corners, cells, options_.threads);
-        std::vector<char> blind(places.size());
-        std::vector<ProbeSight>& sights = result_.volume.sights;
-        sights.resize(places.size());
-        const float most = kSightCells * grid.spacing * static_cast<float>(1 << kMostBrickLevel);
-        tracer.trace({places, most, options_.seed}, progress, [&](std::size_t p, const PlaceSeen& seen) {
-            std::ranges::copy(seen.vectors, &values[p * stride]);
-            blind[p] = seen.backs > kMostBacks;
-            sights[p] = blind[p] ? ProbeSight{}
-                                 : sight_of(seen_from(seen.distances, places[p] - corners[p]), cells[p]);
-        });
-        blind_.assign(blind.begin(), blind.end());
+        result_.volume.sights = states.sights(grid);
+        grid = without_unused_levels(std::move(grid));
+        return states;
+    }
+
+    /// The grid with bricks split where light errs most, by points between probes.
+    VolumeGrid refined(ProbeTracer& tracer, const ProbeStates& states, int round) {
+        const VolumeGrid& grid = result_.volume.grid;
+        const VolumeLookup lookup(grid, states.sights(grid));
+        const PointsBetween points = points_between(grid, volume_bounds(scene_, volume_), kSurveyed,
+                                                    options_.seed + static_cast<std::uint64_t>(round));
+        const LightError error_of(tracer.layout());
+        std::vector<BrickError> of_points(points.places.size());
+        for (std::size_t begin = 0; begin < points.places.size(); begin += kPointsAtOnce) {
+            const std::size_t count = std::min(kPointsAtOnce, points.places.size() - begin);
+            const PointsSeen seen =
+                see_twice(tracer, std::span(points.places).subspan(begin, count),
+                          options_.seed + static_cast<std::uint64_t>(round) * kSecondScramble + begin);
+            parallel_for(count, 16, options_.threads, [&](std::size_t first, std::size_t last) {
+                for (std::size_t p = first; p < last; ++p)
+                    if (seen.free[p])
+                        of_points[begin + p] =
+                            error_of(lookup.find(points.places[begin + p]), states, seen.of(p));
+            });
+        }
+        std::vector<BrickError> errors(grid.bricks.size());
+        for (std::size_t p = 0; p < of_points.size(); ++p) {
+            const std::uint32_t b = points.bricks[p];
+            errors[b].add(std::pow(8.0, grid.bricks[b].level), of_points[p]);
+        }
+        return with_split_bricks(grid, bricks_to_split(grid, errors, volume_.error));
+    }
+
+    /// What points see, by half of a probe's rays and by as many others.
+    struct PointsSeen {
+        std::size_t stride;
+        std::array<std::vector<float>, 2> vectors;
+        std::vector<char> free;
+
+        std::array<std::span<const float>, 2> of(std::size_t p) const {
+            return {std::span(vectors[0]).subspan(p * stride, stride),
+                    std::span(vectors[1]).subspan(p * stride, stride)};
+        }
+    };
+
+    PointsSeen see_twice(ProbeTracer& tracer, std::span<const glm::vec3> places, std::uint64_t seed) {
+        PointsSeen points{tracer.layout().coefficients() * tracer.layout().numbers(), {}, {}};
+        points.free.assign(places.size(), 1);
+        for (std::size_t half = 0; half < 2; ++half) {
+            points.vectors[half].resize(places.size() * points.stride);
+            const ProbeTracer::Task task{.places = places,
+                                         .rays = (rays_of_probe(volume_, options_) + 1) / 2,
+                                         .seed = seed ^ (half << 40)};
+            tracer.trace(task, {}, [&](std::size_t p, const PlaceSeen& seen) {
+                std::ranges::copy(seen.vectors, &points.vectors[half][p * points.stride]);
+                if (seen.backs > kMostBacks)
+                    points.free[p] = 0;
+            });
+        }
+        return points;
+    }
+
+    void count_probes(const ProbeStates& states) {
         VolumeStatistics::Probes& counts = statistics().probes;
-        counts.all = places.size();
-        for (std::size_t p = 0; p < places.size(); ++p)
-            counts.moved += places[p] != corners[p] ? 1 : 0;
-        counts.blind = static_cast<std::size_t>(std::ranges::count(blind_, true));
-        counts.hanging = probes.hanging.size();
-        counts.bricks = grid.bricks.size();
+        counts.all = states.size();
+        counts.moved = static_cast<std::size_t>(std::ranges::count(states.moved, 1));
+        counts.blind = static_cast<std::size_t>(std::ranges::count(states.blind, 1));
+        counts.hanging = probes_of(result_.volume.grid).hanging.size();
+        counts.bricks = result_.volume.grid.bricks.size();
         if (counts.blind == counts.all)
             throw Error("no probe of the volume is in free space: all see backs of surfaces. Choose other "
                         "bounds, or let materials be double-sided");
         statistics().seconds.probes = watch_.seconds() - statistics().seconds.sources;
-        return values;
     }
 
     void fit(ProbeTracer& tracer, const ProbeVectors& vectors, const Progress& progress) {
         const VolumeGrid& grid = result_.volume.grid;
         const VolumeLookup lookup(grid, result_.volume.sights);
         const std::vector<glm::vec3> places =
-            points_between(grid, volume_bounds(scene_, volume_), volume_.fit_points, options_.seed);
-        FitPoints points;
-        points.vectors.resize(places.size() * vectors.stride);
+            points_between(grid, volume_bounds(scene_, volume_), volume_.fit_points, options_.seed).places;
+        ProbeFit probe_fit(grid, lookup.probes(), vectors.stride);
+        for (std::size_t begin = 0; begin < places.size(); begin += kPointsAtOnce) {
+            const std::size_t count = std::min(kPointsAtOnce, places.size() - begin);
+            add_points(tracer, lookup, std::span(places).subspan(begin, count), begin, probe_fit);
+            progress.update(0.7 * static_cast<double>(begin + count) / static_cast<double>(places.size()));
+        }
+        const ProbeFit::Errors errors = probe_fit.solve(vectors, options_.threads, progress.part(0.7, 1));
+        settle_hanging(grid, lookup.probes(), vectors);
+        statistics().probes.fit_points = probe_fit.points();
+        statistics().fit_before = errors.before;
+        statistics().fit_after = errors.after;
+        statistics().seconds.fit =
+            watch_.seconds() - statistics().seconds.sources - statistics().seconds.probes;
+    }
+
+    /// Measures points, the first of which is the `first`.
+    void add_points(ProbeTracer& tracer, const VolumeLookup& lookup, std::span<const glm::vec3> places,
+                    std::size_t first, ProbeFit& probe_fit) {
+        const std::size_t stride = tracer.layout().coefficients() * tracer.layout().numbers();
+        std::vector<float> values(places.size() * stride);
         std::vector<char> kept(places.size());
-        tracer.trace({places, 1, options_.seed + kSecondScramble}, progress.part(0, 0.7),
-                     [&](std::size_t p, const PlaceSeen& seen) {
-                         std::ranges::copy(seen.vectors, &points.vectors[p * vectors.stride]);
+        tracer.trace({.places = places,
+                      .rays = rays_of_point(volume_, options_),
+                      .seed = options_.seed + kSecondScramble + first},
+                     {}, [&](std::size_t p, const PlaceSeen& seen) {
+                         std::ranges::copy(seen.vectors, &values[p * stride]);
                          kept[p] = seen.backs <= kMostBacks;
                      });
-        std::size_t count = 0;
+        std::vector<VolumeCorners> corners;
         for (std::size_t p = 0; p < places.size(); ++p) {
             if (!kept[p])
                 continue;
-            points.corners.push_back(lookup.find(places[p]));
-            std::copy_n(&points.vectors[p * vectors.stride], vectors.stride,
-                        &points.vectors[count++ * vectors.stride]);
+            std::copy_n(&values[p * stride], stride, &values[corners.size() * stride]);
+            corners.push_back(lookup.find(places[p]));
         }
-        points.vectors.resize(count * vectors.stride);
-        statistics().probes.fit_points = count;
-        statistics().fit_before = error_at(points, vectors);
-        fit_probes(grid, lookup.probes(), points, vectors, options_.threads, progress.part(0.7, 1));
-        settle_hanging(grid, lookup.probes(), vectors);
-        statistics().fit_after = error_at(points, vectors);
-        statistics().seconds.fit =
-            watch_.seconds() - statistics().seconds.sources - statistics().seconds.probes;
+        probe_fit.add(corners, std::span(values).first(corners.size() * stride), options_.threads);
     }
 
     void finish(const ProbeTracer& tracer, std::span<const float> values) {
@@ -273,7 +359,6 @@ private:
     TraceScene traced_;
     BakePlan plan_;
     std::unique_ptr<Tracer> tracer_;
-    std::vector<bool> blind_;
     int bounces_ = 0;
     VolumeBake result_;
 };

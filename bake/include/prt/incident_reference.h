@@ -2,6 +2,7 @@
 
 // What comes in at places in free space by path tracing: the reference of volumes. Experimental.
 
+#include "prt/scene_lamps.h"
 #include "prt/surface_radiance.h"
 #include "prt/transfer_volume.h"
 
@@ -27,13 +28,16 @@ FreePlaces free_places_in(const TraceScene& scene, const VolumeGrid& grid, std::
 
 struct IncidentOptions {
     int paths = 512; ///< of a place, in each half
+    /// That shine beside the light; none: all are dark.
+    const SceneLamps* lamps = nullptr;
     std::uint64_t seed = 1;
     int threads = 0; ///< 0: all
 };
 
 /// Coefficients of the light that comes in, [places][order²], twice and independently, so that a product of
 /// differences from both has no noise in the mean: of the light itself, without direct light of suns that the
-/// renderer adds. Surfaces are as `PathTracer` takes them. Throws `Cancelled` when asked to stop.
+/// renderer adds, and of lamps, directly too. Surfaces are as `PathTracer` takes them. Throws `Cancelled`
+/// when asked to stop.
 std::array<std::vector<glm::vec3>, 2>
 incident_reference(const TraceScene& scene, const std::vector<glm::vec3>& places, int order,
                    const MeasuredLight& light, const IncidentOptions& options, const Progress& progress = {});

@@ -6,6 +6,7 @@
 #include "prt/bake.h"
 #include "prt/camera.h"
 #include "prt/distant_light.h"
+#include "prt/scene_lamps.h"
 #include "prt/trace_scene.h"
 
 #include <cstdint>
@@ -33,8 +34,9 @@ struct PathTraceOptions {
 /// Surfaces are as the baker takes them: Lambertian, cut out, blended, transmitting; media are not entered.
 class PathTracer {
 public:
-    /// Keeps references to all but the options.
-    PathTracer(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options);
+    /// Keeps references to all but the options. `lamps` shine beside the light; none: all are dark.
+    PathTracer(const TraceScene& scene, const DistantLight& light, const PathTraceOptions& options,
+               const SceneLamps* lamps = nullptr);
 
     /// Traces one path more for every pixel. Throws `Cancelled` within a row when asked to stop; the rows
     /// that are done count. `threads` 0: all.
@@ -49,6 +51,7 @@ public:
 private:
     const TraceScene& scene_;
     const DistantLight& light_;
+    const SceneLamps* lamps_;
     PathTraceOptions options_;
     CameraFrame frame_;
     int passes_ = 0;

@@ -16,7 +16,10 @@ struct VolumeOptions {
     double spacing = 1;                ///< of the finest probes, metres
     std::size_t probes = 0;            ///< as many at most, however far apart; 0: by `spacing`
     std::optional<Bounds> bounds = {}; ///< none: those of the scene
-    int order = 3;                     ///< of incident light, 2 to 4
+    /// Relative L2 that light between probes shall have over all, by as few smaller cells as it takes where
+    /// it errs most, down to a quarter of `spacing`; 0: all cells are as surfaces ask.
+    double error = 0;
+    int order = 3; ///< of incident light, 2 to 4
     /// Points for each probe where light between probes is measured, which probes are then fitted to; 0: they
     /// have what comes in where they stand.
     double fit_points = 1;

@@ -155,7 +155,7 @@ TEST(VolumeBake, AFitErrsLessBetweenProbes) {
     const auto error = [&](double fit) {
         VolumeOptions volume = probes(0.7, {{-2, -1, -1}, {2, 1, 1}});
         volume.fit_points = fit;
-        const VolumeBake bake = bake_volume(scene, volume, rays(6 * 128, 2));
+        const VolumeBake bake = bake_volume(scene, volume, rays(6 * 1024, 2)); // noise is not asked
         const VolumeLookup lookup(bake.volume.grid, bake.volume.sights);
         const Transfer& t = bake.volume.baked.transfer;
         double sum = 0;

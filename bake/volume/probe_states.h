@@ -1,0 +1,46 @@
+#pragma once
+
+// Probes as they were measured. Those that a finer grid still has are not measured again.
+
+#include "prt/trace_scene.h"
+#include "prt/transfer_volume.h"
+#include "volume/probe_fit.h"
+#include "volume/probe_tracer.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace prt {
+
+/// A place is inside of something where more of its rays end at backs of surfaces that have no light there.
+inline constexpr float kMostBacks = 0.25f;
+
+struct ProbeStates {
+    std::size_t stride = 0;
+    std::vector<glm::ivec3> corners;             ///< [probes] as VolumeProbes has them
+    std::vector<std::uint8_t> levels;            ///< [probes]
+    std::vector<float> values;                   ///< [probes][stride]
+    std::vector<std::array<float, 6>> distances; ///< [probes] that are seen from the corner, metres
+    std::vector<char> blind, moved;              ///< [probes]
+
+    std::size_t size() const { return corners.size(); }
+    ProbeVectors vectors() { return {values, stride}; }
+    std::vector<ProbeSight> sights(const VolumeGrid& grid) const;
+    std::vector<bool> blind_ones() const { return {blind.begin(), blind.end()}; }
+};
+
+struct ProbeTask {
+    const TraceScene& scene;
+    ProbeTracer& tracer;
+    int rays = 1024;
+    std::uint64_t seed = 0;
+    int threads = 0;
+};
+
+/// States of the probes of `grid`: those of `before` at the same corners and levels, others measured.
+ProbeStates measure_probes(const ProbeTask& task, const VolumeGrid& grid, const VolumeProbes& probes,
+                           ProbeStates before, const Progress& progress);
+
+} // namespace prt
