@@ -39,8 +39,9 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
     command
         ->add_option(
             "--volume-error", volume.error,
-            "split cells where light between probes errs most, down to a quarter, until it errs by so "
-            "much over all (relative L2); 0: no cell")
+            "split cells where light between probes errs most, down to a quarter, until coefficients "
+            "of transfer err by so much over all (relative L2, low bands count more; light itself errs by "
+            "about twice that under skies with bright parts); 0: no cell")
         ->capture_default_str()
         ->check(real_in(0, 0.99));
     command
@@ -67,8 +68,7 @@ void check_volume(const VolumeArguments& arguments) {
     if (!arguments.given() && (arguments.bounds || volume.order != usual.order ||
                                volume.fit_points != usual.fit_points || volume.error != usual.error))
         throw Error("--volume-bounds, --volume-error, --volume-order and --volume-fit are of volumes: say "
-                    "--volume or "
-                    "--volume-probes, too");
+                    "--volume or --volume-probes, too");
 }
 
 VolumeOptions volume_options(const VolumeArguments& arguments, const Scene& scene) {

@@ -20,7 +20,8 @@ out vec4 result;
 vec3 mirrored_radiance(vec3 n, vec3 towards) {
     vec3 light[PRT_VOLUME_COEFFICIENTS];
     prt_volume_incident(place, n, light);
-    return prt_incident_radiance(light, towards);
+    const vec4 kHann = vec4(1.0, 0.75, 0.25, 0.0); // without it what is bright leaves black rings about it
+    return prt_incident_sum(light, towards, kHann);
 }
 vec3 matt_radiance(vec3 n) {
     return prt_volume_irradiance(place, n);
