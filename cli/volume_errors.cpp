@@ -2,7 +2,9 @@
 
 #include "no_shadow.h"
 #include "prt/incident_reference.h"
+#include "prt/sh.h"
 #include "prt/support/error.h"
+#include "sky_occlusion.h"
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
@@ -10,6 +12,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numbers>
+#include <utility>
 
 namespace prt::cli {
 namespace {
@@ -28,7 +33,52 @@ struct ErrorSum {
 struct VolumeErrors {
     ErrorSum all;
     std::array<ErrorSum, kDistances.size()> by_distance;
+    ErrorSum irradiance; ///< of surfaces that face anywhere
 };
+
+/// Even over the sphere (a spiral of equal areas).
+std::vector<glm::vec3> normals_all_round() {
+    constexpr int kNormals = 32;
+    std::vector<glm::vec3> normals;
+    for (int i = 0; i < kNormals; ++i) {
+        const double y = 1 - (2 * i + 1.0) / kNormals, turn = 2 * std::numbers::pi * i / std::numbers::phi;
+        const double radius = std::sqrt(1 - y * y);
+        normals.emplace_back(radius * std::cos(turn), y, radius * std::sin(turn));
+    }
+    return normals;
+}
+
+/// Irradiance over pi; below 0 where coefficients say so.
+glm::dvec3 unclamped_irradiance(std::span<const glm::vec3> light, std::span<const float> basis) {
+    constexpr std::array<double, 4> kCosine = {1, 2.0 / 3, 0.25, 0};
+    glm::dvec3 sum(0);
+    for (std::size_t o = 0; o < light.size(); ++o)
+        sum += kCosine[static_cast<std::size_t>(std::sqrt(static_cast<double>(o)))] *
+               static_cast<double>(basis[o]) * glm::dvec3(light[o]);
+    return sum;
+}
+
+/// Of `found(place, normal)`.
+ErrorSum irradiance_error(const FreePlaces& places, const std::array<std::vector<glm::vec3>, 2>& truth,
+                          const std::function<glm::vec3(std::size_t, const glm::vec3&)>& found) {
+    const std::size_t coefficients = truth[0].size() / places.positions.size();
+    const int order = static_cast<int>(std::lround(std::sqrt(static_cast<double>(coefficients))));
+    std::vector<float> basis(coefficients);
+    ErrorSum sum;
+    for (const glm::vec3& normal : normals_all_round()) {
+        evaluate_sh(order, normal, basis);
+        for (std::size_t p = 0; p < places.positions.size(); ++p) {
+            const auto half = [&](std::size_t h) {
+                return unclamped_irradiance(std::span(truth[h]).subspan(p * coefficients, coefficients),
+                                            basis);
+            };
+            const glm::dvec3 a = half(0), b = half(1), x(found(p, normal));
+            sum.error += glm::dot(a - x, b - x);
+            sum.norm += glm::dot(a, b);
+        }
+    }
+    return sum;
+}
 
 /// What comes in at probes: [probes][coefficients].
 VolumeErrors errors_of(const VolumeLookup& lookup, std::span<const glm::vec3> incident,
@@ -52,6 +102,10 @@ VolumeErrors errors_of(const VolumeLookup& lookup, std::span<const glm::vec3> in
             sum->norm += here.norm;
         }
     }
+    errors.irradiance = irradiance_error(places, truth, [&](std::size_t p, const glm::vec3& normal) {
+        mix_incident(lookup.find(places.positions[p]), incident, light);
+        return irradiance_of(light, normal);
+    });
     return errors;
 }
 
@@ -64,15 +118,18 @@ std::string distance_title(std::size_t i) {
 
 Table empty_table() {
     Table table{"volume_errors", "Errors of the volume in free space", "", {}, {}};
-    table.about =
-        fmt::format("Relative L2 of the coefficients of the light that comes in at {} places in free "
-                    "space, by their distance from surfaces, against path tracing under the whole "
-                    "light; suns that can be lit apart are left to the renderer. Lamps are dark under "
-                    "skies, and shine as in the scene without one.",
-                    kPlaces);
+    table.about = fmt::format(
+        "Relative L2 of the coefficients of the light that comes in at {} places in free "
+        "space, by their distance from surfaces, against path tracing under the whole "
+        "light; suns that can be lit apart are left to the renderer. Lamps are dark under "
+        "skies, and shine as in the scene without one. The last column is of surfaces that face "
+        "anywhere, over all places; sky occlusion is what other engines keep at the same probes: how "
+        "much of a grey sky arrives, times the sky's own irradiance.",
+        kPlaces);
     table.columns = {{"light", "light"}, {"volume", "volume"}, {"error", "error", Unit::percent, 2}};
     for (std::size_t i = 0; i < kDistances.size(); ++i)
         table.columns.push_back({fmt::format("error_{}", i), distance_title(i), Unit::percent, 2});
+    table.columns.push_back({"irradiance_error", "irradiance", Unit::percent, 2});
     return table;
 }
 
@@ -80,6 +137,7 @@ std::vector<Json> row_of(const std::string& light, const char* volume, const Vol
     std::vector<Json> row = {light, volume, errors.all.relative()};
     for (const ErrorSum& sum : errors.by_distance)
         row.push_back(sum.norm > 0 ? Json(sum.relative()) : Json());
+    row.emplace_back(errors.irradiance.relative());
     return row;
 }
 
@@ -93,6 +151,7 @@ std::vector<Json> mean_row(const char* volume, std::span<const VolumeErrors> all
     };
     for (const VolumeErrors& one : all) {
         add(mean.all, one.all);
+        add(mean.irradiance, one.irradiance);
         for (std::size_t i = 0; i < kDistances.size(); ++i)
             add(mean.by_distance[i], one.by_distance[i]);
     }
@@ -141,6 +200,25 @@ std::vector<VolumeLight> volume_lights(std::span<const BudgetLight> skies, const
     return lights;
 }
 
+/// The same light by what other engines keep at probes: rows with irradiance alone.
+void add_sky_occlusion(const VolumeLight& light, const SkyOcclusion& occlusion, const VolumeLookup& lookup,
+                       const FreePlaces& places, const std::array<std::vector<glm::vec3>, 2>& truth,
+                       Table& table) {
+    using Kind = SkyOcclusionKind;
+    for (const auto& [kind, name] : {std::pair(Kind::number, "sky occlusion, 1 number"),
+                                     std::pair(Kind::linear, "sky occlusion, 4 numbers"),
+                                     std::pair(Kind::directed, "the same and a direction")}) {
+        const ErrorSum sum = irradiance_error(places, truth, [&](std::size_t p, const glm::vec3& normal) {
+            return occlusion.irradiance(lookup.find(places.positions[p]), normal, light.lighting.sky, kind);
+        });
+        std::vector<Json> row(table.columns.size());
+        row.front() = light.name;
+        row[1] = name;
+        row.back() = sum.relative();
+        table.rows.push_back(std::move(row));
+    }
+}
+
 } // namespace
 
 void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, Session& session) {
@@ -162,6 +240,7 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
     const BudgetLight night = dark();
     const SceneLamps lamps(traced, layout.lamp_parts(), strengths_of_scene(layout));
     const std::vector<VolumeLight> lights = volume_lights(skies, night, layout, lamps);
+    const SkyOcclusion occlusion(volume, options.threads);
     Table table = empty_table();
     std::vector<VolumeErrors> of_baked, of_small;
     const auto share = [&](std::size_t i) {
@@ -175,6 +254,8 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
         of_baked.push_back(errors_of(lookup, exit_radiance(volume.baked.transfer, lighting, options.threads),
                                      places, truth));
         table.rows.push_back(row_of(lights[i].name, "baked", of_baked.back()));
+        if (!lights[i].lamps && layout.order >= 3)
+            add_sky_occlusion(lights[i], occlusion, lookup, places, truth, table);
         if (!small)
             continue;
         of_small.push_back(

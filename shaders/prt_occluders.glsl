@@ -73,6 +73,11 @@ PrtBlockedCap prt_blocked_cap(int i, vec3 position) {
     return cap;
 }
 
+// Drivers' own may be off by 1e-4.
+float prt_angle_of(float cosine) {
+    return atan(sqrt(max(1.0 - cosine * cosine, 0.0)), cosine);
+}
+
 // Of the cosine-weighted hemisphere: a cap of at most half of the sphere, whose middle has `cosine` to the normal.
 float prt_cap_cosine(float share, float cosine) {
     float squared = 4.0 * share * (1.0 - share), rest = squared - cosine * cosine;
@@ -80,7 +85,7 @@ float prt_cap_cosine(float share, float cosine) {
     if (rest > 0.0) { // the horizon cuts it
         float cut = sqrt(rest), far = 1.0 - 2.0 * share;
         float y = clamp(-cosine * far / sqrt((1.0 - cosine * cosine) * squared), -1.0, 1.0);
-        sum = clamp((squared * cosine * acos(y) - cut * far + atan(cut, far)) * 0.318309886, 0.0, 1.0);
+        sum = clamp((squared * cosine * prt_angle_of(y) - cut * far + atan(cut, far)) * 0.318309886, 0.0, 1.0);
     }
     return sum;
 }
@@ -93,8 +98,9 @@ float prt_blocked_cosine(PrtBlockedCap cap, vec3 normal) {
 }
 
 float prt_blocked_sun(PrtBlockedCap cap, vec3 towards, float half_angle) {
-    float from_middle = acos(clamp(dot(cap.towards, towards), -1.0, 1.0));
-    float radius = acos(clamp(1.0 - 2.0 * cap.share, -1.0, 1.0)), border = PRT_OCCLUDER_BORDER * radius + half_angle;
+    float from_middle = prt_angle_of(clamp(dot(cap.towards, towards), -1.0, 1.0));
+    float radius = prt_angle_of(clamp(1.0 - 2.0 * cap.share, -1.0, 1.0)),
+          border = PRT_OCCLUDER_BORDER * radius + half_angle;
     float inside = clamp((radius + border - from_middle) / max(2.0 * border, 1e-6), 0.0, 1.0);
     return cap.density * inside * inside * (3.0 - 2.0 * inside);
 }

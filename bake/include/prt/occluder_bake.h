@@ -18,7 +18,7 @@ namespace prt {
 struct OccluderOptions {
     int rays = 256; ///< of a point where the object is looked at
     /// How far the box goes beyond the object on every side, over the mean of its sides.
-    double margin = 1;
+    double margin = 0.6;
     /// The object is left out from where it takes less than this of the light of a receiver that faces it.
     double least = 0.01;
     TracerChoice tracer = {};

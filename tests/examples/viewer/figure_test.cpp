@@ -6,8 +6,13 @@
 #include "pictures/joined_scene.h"
 #include "script/script.h"
 
+#include "prt/bake.h"
+#include "prt/compress_volume.h"
+#include "prt/encode_glb.h"
 #include "prt/gl_context.h"
 #include "prt/support/error.h"
+#include "prt/volume_bake.h"
+#include "prt/volume_gltf.h"
 #include "support/glb_file.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
@@ -53,15 +58,33 @@ GlbFile ball_figure(bool bad = false) {
     return file;
 }
 
+/// With its transfer and a volume, so that the viewer has nothing to bake.
+std::vector<std::byte> baked_scene(std::size_t probes, int rays) {
+    const std::string bare = prt::test::scene_file(floor_and_wall()).bytes();
+    prt::GltfDocument document = prt::parse_gltf(std::as_bytes(std::span(bare)), "scene.glb");
+    const prt::Scene scene = prt::extract_scene(document);
+    prt::BakeOptions options;
+    options.rays = rays;
+    options.bounces = 3;
+    const prt::BakedVolume volume = prt::bake_volume(scene, {.probes = probes}, options).volume;
+    prt::CompressOptions compress;
+    compress.coding = prt::preset_volume();
+    compress.clusters = static_cast<int>(probes / 100);
+    prt::write_transfer(document, scene, prt::bake(scene, options).baked);
+    prt::write_volume(document, scene, prt::compress_volume(volume, compress).volume);
+    return prt::encode_glb(document);
+}
+
 class FigureTest : public testing::Test {
 protected:
+    static void SetUpTestSuite() { baked_ = baked_scene(800, 64); }
     void SetUp() override {
         context = prt::GlContext::create(prt::GlDevice::any);
         ASSERT_TRUE(context);
         viewer = std::make_unique<Viewer>();
         screen = std::make_unique<Offscreen>(kWidth, kHeight);
         viewer->settings.panels = false;
-        prt::test::scene_file(floor_and_wall()).write(folder / "scene.glb");
+        prt::test::glb_of(baked_).write(folder / "scene.glb");
         ball_figure().write(folder / "ball.glb");
     }
     void TearDown() override {
@@ -108,6 +131,9 @@ protected:
     std::unique_ptr<prt::GlContext> context;
     std::unique_ptr<Viewer> viewer;
     std::unique_ptr<Offscreen> screen;
+
+private:
+    static inline std::vector<std::byte> baked_;
 };
 
 TEST_F(FigureTest, AnAnimatedFileBesideASceneIsTheFigureAndAloneTheScene) {
@@ -162,6 +188,7 @@ TEST_F(FigureTest, FollowsThePathOfAScriptAtItsSpeed) {
 // The mean of what a ball sends to the camera under a day with its sun apart, by the volume and by paths:
 // within what issue 21 allows incident light, 8 %. Its pixels differ by noise of the paths, too.
 TEST_F(FigureTest, IsLitAsPathsLightItWhereItStands) {
+    prt::test::glb_of(baked_scene(3000, 512)).write(folder / "scene.glb");
     open_both();
     ASSERT_TRUE(moving().volume().volume);
     viewer->settings.moving.walks = false;
@@ -202,30 +229,54 @@ TEST_F(FigureTest, ChangesWithTheLightAsTheSceneDoes) {
     EXPECT_NEAR(mean_of_left().g, 2 * once, 0.02 * once); // half floats, and the window of a new light
 }
 
-// The sun is in the way of nothing but the figure: its shadow is darker than the floor without it.
+// Nothing but the figure is in the way of the only sun: in its shadow no light is left.
 TEST_F(FigureTest, CastsItsShadowIntoTheMapsOfTheSuns) {
     open_both();
     viewer->settings.moving.walks = false;
     viewer->choose_figure({.path = {{0, 0, 0}}});
     viewer->lights.day = viewer->lights.environment_on = false;
     viewer->lights.lights.push_back(make_light(LightKind::sun));
-    viewer->lights.lights[0].direction = {0, 1, 0};
+    viewer->lights.lights[0].direction = glm::normalize(glm::vec3(1, 1, 0));
     viewer->settings.left = PictureKind::unshadowed;
     viewer->settings.split = 1;
-    const glm::vec3 under = middle() - glm::vec3(0, kRadius, 0);
-    viewer->camera =
-        OrbitCamera({.position = under + glm::vec3(0.9f, 0.15f, 0), .target = under + glm::vec3(0.2f, 0, 0)});
+    const glm::vec3 behind = middle() - glm::vec3(0.55f, kRadius, 0); // the shadow's middle is 0.4 m aside
+    viewer->camera = OrbitCamera({.position = behind + glm::vec3(-0.05f, 0.15f, 0.02f), .target = behind});
     viewer->settings.moving.figure = false;
     frame(0);
     const double open = mean_of_left().g;
     viewer->settings.moving.figure = true;
     frame(0);
     const double shadowed = mean_of_left().g;
-    EXPECT_LT(shadowed, 0.8 * open);
+    EXPECT_GT(open, 0.1);
+    EXPECT_LT(shadowed, 0.05 * open);
     viewer->walk_figure(0); // and where it is gone again, all is as before
     viewer->settings.moving.figure = false;
     frame(0);
     EXPECT_NEAR(mean_of_left().g, open, 1e-6 * open);
+}
+
+// Under an even sky the floor loses the form factor of the ball that stands on it, all of which is above the
+// horizon.
+TEST_F(FigureTest, TakesFromTheFloorBesideItWhatItBlocks) {
+    open_both();
+    viewer->settings.moving.walks = false;
+    viewer->choose_figure({.path = {{1, 0, 0}}}); // far from the wall
+    viewer->lights.day = viewer->lights.environment_on = false;
+    viewer->lights.lights.push_back(make_light(LightKind::hemisphere));
+    viewer->settings.left = PictureKind::prt_compressed;
+    viewer->settings.split = 1;
+    constexpr float kAside = 0.6f;
+    const glm::vec3 spot = middle() + glm::vec3(kAside, -kRadius, 0);
+    viewer->camera = OrbitCamera({.position = spot + glm::vec3(0.05f, 0.15f, 0.02f), .target = spot});
+    viewer->settings.moving.contact = false;
+    frame(0);
+    const double without = mean_of_left().g;
+    viewer->settings.moving.contact = true;
+    frame(0);
+    const double left = mean_of_left().g / without;
+    const double distance = std::hypot(kAside, kRadius), ratio = static_cast<double>(kRadius) / distance;
+    // Texels are 0.25 m apart, and three bands know the hemisphere's light.
+    EXPECT_NEAR(left, 1 - ratio * ratio * static_cast<double>(kRadius) / distance, 0.06);
 }
 
 TEST_F(FigureTest, SpheresAndProbesAreShownAndALostContextBringsAllBack) {
@@ -267,7 +318,7 @@ TEST_F(FigureTest, WhatIsWrongWithAFigureIsSaidAndTheSceneStays) {
 
 TEST(FigureScript, ChoosesPathsAndSaysWhatIsWrong) {
     prt::test::TemporaryFolder folder;
-    prt::test::scene_file(floor_and_wall()).write(folder / "scene.glb");
+    prt::test::glb_of(baked_scene(800, 64)).write(folder / "scene.glb");
     ball_figure().write(folder / "ball.glb");
     const auto said = [&](const char* step) {
         const auto script =

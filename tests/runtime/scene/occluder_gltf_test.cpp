@@ -89,8 +89,9 @@ TEST(RigidParts, ThatAreSmallGoWithWhatCarriesThem) {
     turn(file, 1);
     turn(file, 2);
     EXPECT_EQ(parts_of(file).size(), 3u);
-    // Every triangle has a diagonal of 1.41, the whole one of 3.16.
-    EXPECT_EQ(names_of(parts_of(file, 0.5)), (std::vector<std::string>{"root"}));
+    // Every triangle has a diagonal of 1.41, two of 2.24, the whole one of 3.16.
+    EXPECT_EQ(names_of(parts_of(file, 0.5)), (std::vector<std::string>{"root", "arm"}));
+    EXPECT_EQ(names_of(parts_of(file, 0.8)), (std::vector<std::string>{"root"}));
 }
 
 /// Two triangles, each skinned to a joint of its own, one of which is a metre up.
