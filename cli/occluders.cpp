@@ -21,7 +21,7 @@ bool is_uneven(const glm::dmat4& frame) {
     return std::max({x, y, z}) > 1.01 * std::min({x, y, z});
 }
 
-Table empty_table() {
+Table table_of_parts() {
     Table table{"occlusion_volumes", "Occlusion volumes", "", {}, {}};
     table.about =
         "What each part blocks for receivers at random places of its box, facing anywhere: the mean, and the "
@@ -33,60 +33,72 @@ Table empty_table() {
     return table;
 }
 
-} // namespace
-
-Report bake_occluders(GltfDocument& document, const Scene& scene, const OccluderOptions& options,
-                      const Progress& progress) {
-    const std::vector<RigidPart> parts = rigid_parts(document, scene);
+/// Volumes of all parts, and what is told of them.
+struct BakedParts {
     std::vector<NodeOccluder> occluders;
     std::vector<OcclusionVolume> volumes;
     std::vector<glm::dmat4> frames;
-    Table table = empty_table();
+    Table table = table_of_parts();
     Json uneven = Json::array();
     double error = 0;
     std::size_t rays = 0;
+};
+
+BakedParts bake_parts(const std::vector<RigidPart>& parts, const OccluderOptions& options,
+                      const Progress& progress) {
+    BakedParts all;
+    const auto share = [&](std::size_t n) {
+        return static_cast<double>(n) / static_cast<double>(parts.size());
+    };
     for (std::size_t i = 0; i < parts.size(); ++i) {
         const RigidPart& part = parts[i];
-        const auto share = [&](std::size_t n) {
-            return static_cast<double>(n) / static_cast<double>(parts.size());
-        };
         try {
-            const OccluderBake baked =
+            const OccluderBake one =
                 bake_occluder(part.scene, part.frame, options, progress.part(share(i), share(i + 1)));
-            occluders.push_back({part.node, baked.volume});
-            volumes.push_back(baked.volume);
-            frames.push_back(part.frame);
-            table.rows.push_back({part.name, part.scene.triangles(), baked.mean_blocked, baked.mean_error});
-            error += baked.mean_error;
-            rays += baked.rays;
+            all.occluders.push_back({part.node, one.volume});
+            all.volumes.push_back(one.volume);
+            all.frames.push_back(part.frame);
+            all.table.rows.push_back({part.name, part.scene.triangles(), one.mean_blocked, one.mean_error});
+            all.error += one.mean_error;
+            all.rays += one.rays;
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& failed) {
             throw Error(fmt::format("{}: {}", part.name, failed.what()));
         }
         if (is_uneven(part.frame))
-            uneven.push_back(part.name);
+            all.uneven.push_back(part.name);
     }
-    write_occluders(document, occluders);
-    const FloorOcclusion floor = floor_occlusion(scene, volumes, frames, options, progress.part(0.9, 1));
+    return all;
+}
+
+} // namespace
+
+Report bake_occluders(GltfDocument& document, const Scene& scene, const OccluderOptions& options,
+                      const Progress& progress) {
+    const std::vector<RigidPart> parts = rigid_parts(document, scene);
+    const BakedParts baked = bake_parts(parts, options, progress.part(0, 0.9));
+    write_occluders(document, baked.occluders);
+    const FloorOcclusion floor =
+        floor_occlusion(scene, baked.volumes, baked.frames, options, progress.part(0.9, 1));
     Report report;
     add_figures(report, {{"parts", parts.size()},
                          {"bytes_volumes", parts.size() * sizeof(OcclusionVolume::texels)},
-                         {"rays", rays},
-                         {"mean_error", error / static_cast<double>(parts.size())},
+                         {"rays", baked.rays},
+                         {"mean_error", baked.error / static_cast<double>(parts.size())},
                          {"floor_mean_blocked", floor.mean_blocked},
                          {"floor_mean_error", floor.mean_error},
                          {"floor_largest_error", floor.largest_error},
-                         {"parts_scaled_unevenly", uneven}});
+                         {"parts_scaled_unevenly", baked.uneven}});
     report.sentences = {
         "{output}: what {parts} parts that move as one block around them, {bytes_volumes} bytes; "
         "{mean_error:.2f%} of the light of receivers near them off, on average",
         "all together, on the floor that they stand on: {floor_mean_blocked:.2f%} blocked, "
         "{floor_mean_error:.2f%} off by rays, {floor_largest_error:.2f%} at most"};
-    if (!uneven.empty())
+    if (!baked.uneven.empty())
         report.sentences.push_back(
             "of parts that are scaled unevenly directions are those of the nearest turn");
-    report.tables.push_back(std::move(table));
+    report.tables.push_back(baked.table);
     return report;
 }
 

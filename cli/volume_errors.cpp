@@ -219,12 +219,25 @@ void add_sky_occlusion(const VolumeLight& light, const SkyOcclusion& occlusion, 
     }
 }
 
-} // namespace
+/// Root mean squares over all lights, where there are several.
+void add_means(std::span<const VolumeErrors> of_baked, std::span<const VolumeErrors> of_small, Table& table) {
+    if (of_baked.size() < 2)
+        return;
+    table.rows.push_back(mean_row("baked", of_baked));
+    if (!of_small.empty())
+        table.rows.push_back(mean_row("shipped", of_small));
+}
 
-void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, Session& session) {
+void check_request(const BudgetRequest& request, SceneFile& baked) {
     if (!baked.volume)
         throw Error(request.baked.string() + ": holds no raw volume; run prt bake --volume first");
     about(request.baked, [&] { leave_out_shadows(baked.scene, request.no_shadow); });
+}
+
+} // namespace
+
+void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, Session& session) {
+    check_request(request, baked);
     const BakedVolume& volume = *baked.volume;
     const std::optional<CompressedVolume> small = shipped_volume(request, volume);
     BudgetLightOptions& options = request.lights;
@@ -262,11 +275,7 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
             errors_of(lookup, incident_light(*small, lighting, options.threads), places, truth));
         table.rows.push_back(row_of(lights[i].name, "shipped", of_small.back()));
     }
-    if (lights.size() > 1) {
-        table.rows.push_back(mean_row("baked", of_baked));
-        if (small)
-            table.rows.push_back(mean_row("shipped", of_small));
-    }
+    add_means(of_baked, of_small, table);
     report.tables.insert(report.tables.begin(), std::move(table));
 }
 

@@ -24,7 +24,7 @@ namespace prt {
 namespace {
 
 /// Points for each cell of the box: with 343 cells, eight for each texel.
-constexpr std::size_t kPoints = 4096, kOtherPoints = 1024;
+constexpr std::size_t kFitPoints = 4096, kJudgePoints = 1024;
 
 /// The object's frame without its scale.
 class Frame {
@@ -166,7 +166,7 @@ OccluderBake bake_occluder(const Scene& part, const glm::dmat4& to_scene, const 
     place_box(part, frame, options.margin, baked.volume);
     BakeOptions bake = bake_options(options);
     Seen seen =
-        look(part, points_in(baked.volume, frame, kPoints, options.seed), bake, progress.part(0, 0.8));
+        look(part, points_in(baked.volume, frame, kFitPoints, options.seed), bake, progress.part(0, 0.8));
     if (seen.points.empty())
         throw Error("all places around the object see backs of surfaces");
     baked.volume.reach = reach_of(baked.volume, seen, frame, options.least);
@@ -174,9 +174,9 @@ OccluderBake bake_occluder(const Scene& part, const glm::dmat4& to_scene, const 
         point.lean = frame.lean_from_scene(point.lean);
     fit_texels(seen.points, baked.volume);
     bake.seed += kSecondScramble;
-    judge(part, points_in(baked.volume, frame, kOtherPoints, bake.seed), bake,
+    judge(part, points_in(baked.volume, frame, kJudgePoints, bake.seed), bake,
           placed(baked.volume, glm::mat4(to_scene), 0), progress.part(0.8, 1), baked);
-    baked.rays = (kPoints + kOtherPoints) * static_cast<std::size_t>(options.rays);
+    baked.rays = (kFitPoints + kJudgePoints) * static_cast<std::size_t>(options.rays);
     return baked;
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr int kTexels = static_cast<int>(kOccluderTexels);
 
 /// The corners of the cell that a place is in, with trilinear weights.
-struct Corners {
+struct CellCorners {
     std::array<int, 8> texels;
     std::array<double, 8> weights;
 };
@@ -26,11 +26,11 @@ int texel_of(const glm::ivec3& corner) {
     return (corner.z * kOccluderSide + corner.y) * kOccluderSide + corner.x;
 }
 
-Corners corners_of(const glm::vec3& at) {
+CellCorners corners_of(const glm::vec3& at) {
     const glm::vec3 along = at * static_cast<float>(kOccluderSide - 1);
     const glm::ivec3 low = glm::clamp(glm::ivec3(along), glm::ivec3(0), glm::ivec3(kOccluderSide - 2));
     const glm::dvec3 over(along - glm::vec3(low));
-    Corners corners{};
+    CellCorners corners{};
     for (std::size_t i = 0; i < 8; ++i) {
         const glm::ivec3 corner(i & 1, i >> 1 & 1, i >> 2);
         const glm::dvec3 weight = glm::mix(1.0 - over, over, glm::dvec3(corner));
@@ -45,7 +45,7 @@ class Equations {
 public:
     Equations() : a_(Eigen::MatrixXd::Zero(kTexels, kTexels)), b_(Eigen::MatrixX3d::Zero(kTexels, 3)) {}
 
-    void add(const Corners& corners, double weight, const glm::dvec3& value) {
+    void add(const CellCorners& corners, double weight, const glm::dvec3& value) {
         for (std::size_t i = 0; i < 8; ++i) {
             const double w = weight * corners.weights[i];
             for (std::size_t j = 0; j < 8; ++j)
@@ -91,7 +91,7 @@ void fit_texels(std::span<const BlockedPoint> points, OcclusionVolume& volume) {
     Equations much, where;
     double all = 0;
     for (const BlockedPoint& point : points) {
-        const Corners corners = corners_of(point.at);
+        const CellCorners corners = corners_of(point.at);
         const auto root = std::sqrt(static_cast<double>(point.blocked));
         much.add(corners, 1, {root, 0, 0});
         where.add(corners, root, glm::dvec3(point.lean));

@@ -29,9 +29,9 @@ void Viewer::draw(std::uint32_t framebuffer, int width, int height) {
     follow_light();
     find_numbers();
     follow_budget();
-    gpu_->moving.show(settings.moving);
+    gpu_->moving.show(settings.drawing.moving);
     gpu_->moving.pose(document_.moving.pose());
-    if (settings.moving.spheres)
+    if (settings.drawing.moving.spheres)
         gpu_->moving.place(document_.moving.spheres());
     const FrameView view = frame_view();
     gpu_->frame.begin();
@@ -185,7 +185,7 @@ void Viewer::show_reference(int side, const FrameView& view) {
                                  .textured = settings.drawing.textured,
                                  .background = settings.drawing.background},
                      .light_version = lighting_.rig.version(),
-                     .moving = document_.moving.surfaces(settings.moving)},
+                     .moving = document_.moving.surfaces(settings.drawing.moving)},
                     lighting_.rig);
     if (const Reference::Result* result = reference_.result())
         gpu_->renderer.show(side, result->image, result->surfaces);

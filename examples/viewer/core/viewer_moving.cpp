@@ -17,7 +17,7 @@ void Viewer::choose_figure(const FigureChoice& choice) {
 }
 
 void Viewer::walk_figure(double seconds) {
-    document_.moving.advance(seconds, static_cast<double>(settings.moving.speed));
+    document_.moving.advance(seconds, static_cast<double>(settings.drawing.moving.speed));
 }
 
 void Viewer::take(const SortedFiles& sorted) {
@@ -56,7 +56,7 @@ void Viewer::upload_moving() {
 /// Lets the figure walk, unless it is traced as it stands; asks for a volume where something is lit by it,
 /// once there is time.
 void Viewer::follow_moving(double seconds) {
-    const MovingSettings& shown = settings.moving;
+    const MovingSettings& shown = settings.drawing.moving;
     Moving& moving = document_.moving;
     if (shown.walks && !wants(PictureKind::reference))
         moving.advance(seconds, static_cast<double>(shown.speed));

@@ -38,7 +38,7 @@ std::vector<glm::vec4> places_of_probes(const prt::CompressedVolume& volume) {
 } // namespace
 
 MovingStage::MovingStage()
-    : caster_(prt::make_program("sun_caster.vert", "sun_caster.frag", "#define PRT_SKINNED\n")),
+    : programs_{{}, prt::make_program("sun_caster.vert", "sun_caster.frag", "#define PRT_SKINNED\n"), {}},
       no_vertices_(prt::make_vertex_array()) {}
 
 void MovingStage::set_figure(std::shared_ptr<const prt::AnimatedScene> figure) {
@@ -53,8 +53,8 @@ void MovingStage::set_figure(std::shared_ptr<const prt::AnimatedScene> figure) {
 
 void MovingStage::set_volume(std::shared_ptr<const prt::CompressedVolume> volume) {
     volume_ = {};
-    programs_.clear();
-    probes_ = {};
+    programs_.surfaces.clear();
+    programs_.probes = {};
     if (!volume)
         return;
     volume_.transfer = std::move(volume);
@@ -143,20 +143,20 @@ prt::SunShadows::Moving MovingStage::casters() {
     const std::uint64_t shown = (shows_figure() ? 1u : 0u) + (shows_spheres() ? 2u : 0u);
     return {.draw =
                 [this](int map, int size) {
-                    glUseProgram(caster_.name());
-                    prt::SunShadows::set_map(caster_, map, size);
+                    glUseProgram(programs_.caster.name());
+                    prt::SunShadows::set_map(programs_.caster, map, size);
                     if (shows_figure())
-                        figure_->draw_casters(caster_);
+                        figure_->draw_casters(programs_.caster);
                     for (const auto& sphere : sphere_models_)
                         if (shows_spheres())
-                            sphere->draw_casters(caster_);
+                            sphere->draw_casters(programs_.caster);
                 },
             .box = *box(),
             .version = 4 * moved_ + shown};
 }
 
 const prt::GlObject& MovingStage::program(bool suns) {
-    prt::GlObject& program = programs_[suns];
+    prt::GlObject& program = programs_.surfaces[suns];
     if (program.name() == 0)
         program = prt::make_program("viewer_moving.vert", "viewer_moving.frag",
                                     volume_.defines + (suns ? "#define PRT_SUNS\n" : ""));
@@ -190,12 +190,12 @@ void MovingStage::draw(const MovingPass& pass) {
 }
 
 void MovingStage::draw_probes(const MovingPass& pass) {
-    if (probes_.name() == 0)
-        probes_ = prt::make_program("viewer_probes.vert", "viewer_probes.frag", volume_.defines);
-    glUseProgram(probes_.name());
-    glUniformMatrix4fv(prt::uniform(probes_, "view_projection"), 1, GL_FALSE,
+    if (programs_.probes.name() == 0)
+        programs_.probes = prt::make_program("viewer_probes.vert", "viewer_probes.frag", volume_.defines);
+    glUseProgram(programs_.probes.name());
+    glUniformMatrix4fv(prt::uniform(programs_.probes, "view_projection"), 1, GL_FALSE,
                        glm::value_ptr(pass.view_projection));
-    prt::set_uniform(probes_, "exposure", pass.exposure);
+    prt::set_uniform(programs_.probes, "exposure", pass.exposure);
     prt::bind_storage(PRT_BINDING_PROBE_PLACES, volume_.probe_places);
     glBindVertexArray(no_vertices_.name());
     glEnable(GL_CULL_FACE);

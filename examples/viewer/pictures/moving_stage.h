@@ -95,8 +95,12 @@ private:
     std::uint64_t moved_ = 1;
     Volume volume_;
     Lit lit_;
-    std::map<bool, prt::GlObject> programs_; ///< [suns]
-    prt::GlObject caster_, probes_, no_vertices_;
+    struct Programs {
+        std::map<bool, prt::GlObject> surfaces; ///< [suns]
+        prt::GlObject caster, probes;
+    };
+    Programs programs_;
+    prt::GlObject no_vertices_;
 };
 
 } // namespace viewer

@@ -23,6 +23,17 @@ struct LightmapSides {
     friend bool operator==(const LightmapSides&, const LightmapSides&) = default;
 };
 
+/// What moves through the scene, or could.
+struct MovingSettings {
+    bool figure = true, walks = true;
+    float speed = 1;      ///< times that of its walk
+    bool spheres = false; ///< a matt and a mirroring one
+    bool probes = false;  ///< of the volume, in their own light
+    bool contact = true;  ///< they darken what they come near to
+
+    friend bool operator==(const MovingSettings&, const MovingSettings&) = default;
+};
+
 /// How the model is drawn.
 struct DrawSettings {
     bool wireframe = false;
@@ -35,6 +46,7 @@ struct DrawSettings {
     bool textured = true;
     int samples = 1; ///< per pixel along each axis
     SsaoSettings ssao;
+    MovingSettings moving;
 
     friend bool operator==(const DrawSettings&, const DrawSettings&) = default;
 };
@@ -47,17 +59,6 @@ struct LitBy {
     friend bool operator==(const LitBy&, const LitBy&) = default;
 };
 
-/// What moves through the scene, or could.
-struct MovingSettings {
-    bool figure = true, walks = true;
-    float speed = 1;      ///< times that of its walk
-    bool spheres = false; ///< a matt and a mirroring one
-    bool probes = false;  ///< of the volume, in their own light
-    bool contact = true;  ///< they darken what they come near to
-
-    friend bool operator==(const MovingSettings&, const MovingSettings&) = default;
-};
-
 struct Settings {
     PictureKind left = PictureKind::unshadowed, right = PictureKind::prt_compressed;
     float split = 0.5f;      ///< of the width
@@ -65,7 +66,6 @@ struct Settings {
     float white = 0.3f;      ///< difference that is white, over the mean radiance of the right picture
     DrawSettings drawing;
     LitBy lit;
-    MovingSettings moving;
     bool lobe = false;        ///< of the receiver under the pointer
     float exposure_stops = 0; ///< beside the automatic exposure
     bool day_runs = false;    ///< an hour a second

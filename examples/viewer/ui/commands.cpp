@@ -19,7 +19,7 @@ Place place(Settings& settings) {
 
 constexpr auto kDrawing = &Settings::drawing;
 constexpr auto kLit = &Settings::lit;
-constexpr auto kMoving = &Settings::moving;
+constexpr auto kMoving = &DrawSettings::moving;
 constexpr auto kLamps = &LitBy::lamps;
 constexpr auto kLightmap = &DrawSettings::lightmap;
 constexpr auto kSsao = &DrawSettings::ssao;
@@ -73,19 +73,19 @@ constexpr Command kCommands[] = {
     {"", ' ', "let the day run", "let the day run", "An hour a second. Space.", place<&Settings::day_runs>},
     {"figure", 'F', "figure that walks through the scene", "figure",
      "The animated model that was opened beside the scene, lit by the scene's volume. Key F.",
-     place<kMoving, &MovingSettings::figure>},
+     place<kDrawing, kMoving, &MovingSettings::figure>},
     {"walks", 'V', "let the figure walk", "walks",
      "On; off, it stands as it is. While the reference is shown it stands, too. Key V.",
-     place<kMoving, &MovingSettings::walks>},
+     place<kDrawing, kMoving, &MovingSettings::walks>},
     {"spheres", 'E', "a matt and a mirroring sphere", "spheres",
      "Two spheres lit by the volume, to judge its light by. Key E.",
-     place<kMoving, &MovingSettings::spheres>},
+     place<kDrawing, kMoving, &MovingSettings::spheres>},
     {"probes", 'K', "probes of the volume", "probes",
      "The probes of the volume in their own light; those inside of something are red. Key K.",
-     place<kMoving, &MovingSettings::probes>},
+     place<kDrawing, kMoving, &MovingSettings::probes>},
     {"contact", 0, "", "contact shadows",
      "The figure and the spheres take light from what they come near to (prt ao --volume).",
-     place<kMoving, &MovingSettings::contact>},
+     place<kDrawing, kMoving, &MovingSettings::contact>},
     {"samples", 'A', "samples per pixel: 1, 4", "", "", place<kDrawing, &DrawSettings::samples>,
      switch_samples},
     {"", '[', "darker", "", "", nullptr, [](Controls& c) { c.viewer().settings.exposure_stops -= 0.25f; }},
@@ -125,7 +125,7 @@ constexpr Command kCommands[] = {
      "",
      "speed",
      "Of the figure, times that of its walk.",
-     place<kMoving, &MovingSettings::speed>,
+     place<kDrawing, kMoving, &MovingSettings::speed>,
      nullptr,
      {0, 3, "%.2f", false, true}},
     {"lamp_strength",

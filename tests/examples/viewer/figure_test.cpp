@@ -163,14 +163,14 @@ TEST_F(FigureTest, StandsOnTheFloorWalksAtItsSpeedAndStopsBeforeTheWall) {
     }
     EXPECT_GT(way, 10); // 30 m but for turns
     EXPECT_LT(way, 1.01f * 1.5f * 20);
-    viewer->settings.moving.walks = false;
+    viewer->settings.drawing.moving.walks = false;
     viewer->update(1);
     EXPECT_EQ(middle(), last);
 }
 
 TEST_F(FigureTest, FollowsThePathOfAScriptAtItsSpeed) {
     open_both();
-    viewer->settings.moving.walks = false;
+    viewer->settings.drawing.moving.walks = false;
     viewer->choose_figure({.animation = "walk", .path = {{-1, 0, -1}, {2, 0, -1}, {2, 0, 1}}});
     const glm::dvec3 origin = viewer->document().model()->scene.origin;
     const auto expect_at = [&](const glm::dvec3& place) {
@@ -179,7 +179,7 @@ TEST_F(FigureTest, FollowsThePathOfAScriptAtItsSpeed) {
     expect_at({-1, 0, -1});
     viewer->walk_figure(1); // 1.5 m
     expect_at({0.5, 0, -1});
-    viewer->settings.moving.speed = 2;
+    viewer->settings.drawing.moving.speed = 2;
     viewer->walk_figure(1); // and 3 m more, round the corner
     expect_at({2, 0, 0.5});
     EXPECT_THROW(viewer->choose_figure({.animation = "dance"}), prt::Error);
@@ -191,7 +191,7 @@ TEST_F(FigureTest, IsLitAsPathsLightItWhereItStands) {
     prt::test::glb_of(baked_scene(3000, 512)).write(folder / "scene.glb");
     open_both();
     ASSERT_TRUE(moving().volume().volume);
-    viewer->settings.moving.walks = false;
+    viewer->settings.drawing.moving.walks = false;
     viewer->choose_figure({.path = {{-2, 0, 0.5}}}); // a metre from the wall
     viewer->settings.left = PictureKind::prt_compressed;
     viewer->settings.right = PictureKind::reference;
@@ -211,7 +211,7 @@ TEST_F(FigureTest, IsLitAsPathsLightItWhereItStands) {
 
 TEST_F(FigureTest, ChangesWithTheLightAsTheSceneDoes) {
     open_both();
-    viewer->settings.moving.walks = false;
+    viewer->settings.drawing.moving.walks = false;
     viewer->settings.left = PictureKind::prt_compressed;
     viewer->settings.split = 1;
     look_at_ball({0.4f, 0.3f, 1});
@@ -232,7 +232,7 @@ TEST_F(FigureTest, ChangesWithTheLightAsTheSceneDoes) {
 // Nothing but the figure is in the way of the only sun: in its shadow no light is left.
 TEST_F(FigureTest, CastsItsShadowIntoTheMapsOfTheSuns) {
     open_both();
-    viewer->settings.moving.walks = false;
+    viewer->settings.drawing.moving.walks = false;
     viewer->choose_figure({.path = {{0, 0, 0}}});
     viewer->lights.day = viewer->lights.environment_on = false;
     viewer->lights.lights.push_back(make_light(LightKind::sun));
@@ -241,16 +241,16 @@ TEST_F(FigureTest, CastsItsShadowIntoTheMapsOfTheSuns) {
     viewer->settings.split = 1;
     const glm::vec3 behind = middle() - glm::vec3(0.55f, kRadius, 0); // the shadow's middle is 0.4 m aside
     viewer->camera = OrbitCamera({.position = behind + glm::vec3(-0.05f, 0.15f, 0.02f), .target = behind});
-    viewer->settings.moving.figure = false;
+    viewer->settings.drawing.moving.figure = false;
     frame(0);
     const double open = mean_of_left().g;
-    viewer->settings.moving.figure = true;
+    viewer->settings.drawing.moving.figure = true;
     frame(0);
     const double shadowed = mean_of_left().g;
     EXPECT_GT(open, 0.1);
     EXPECT_LT(shadowed, 0.05 * open);
     viewer->walk_figure(0); // and where it is gone again, all is as before
-    viewer->settings.moving.figure = false;
+    viewer->settings.drawing.moving.figure = false;
     frame(0);
     EXPECT_NEAR(mean_of_left().g, open, 1e-6 * open);
 }
@@ -259,7 +259,7 @@ TEST_F(FigureTest, CastsItsShadowIntoTheMapsOfTheSuns) {
 // horizon.
 TEST_F(FigureTest, TakesFromTheFloorBesideItWhatItBlocks) {
     open_both();
-    viewer->settings.moving.walks = false;
+    viewer->settings.drawing.moving.walks = false;
     viewer->choose_figure({.path = {{1, 0, 0}}}); // far from the wall
     viewer->lights.day = viewer->lights.environment_on = false;
     viewer->lights.lights.push_back(make_light(LightKind::hemisphere));
@@ -268,10 +268,10 @@ TEST_F(FigureTest, TakesFromTheFloorBesideItWhatItBlocks) {
     constexpr float kAside = 0.6f;
     const glm::vec3 spot = middle() + glm::vec3(kAside, -kRadius, 0);
     viewer->camera = OrbitCamera({.position = spot + glm::vec3(0.05f, 0.15f, 0.02f), .target = spot});
-    viewer->settings.moving.contact = false;
+    viewer->settings.drawing.moving.contact = false;
     frame(0);
     const double without = mean_of_left().g;
-    viewer->settings.moving.contact = true;
+    viewer->settings.drawing.moving.contact = true;
     frame(0);
     const double left = mean_of_left().g / without;
     const double distance = std::hypot(kAside, kRadius), ratio = static_cast<double>(kRadius) / distance;
@@ -283,15 +283,15 @@ TEST_F(FigureTest, SpheresAndProbesAreShownAndALostContextBringsAllBack) {
     open_both();
     viewer->settings.left = PictureKind::prt_compressed;
     viewer->settings.split = 1;
-    viewer->settings.moving.walks = false;
+    viewer->settings.drawing.moving.walks = false;
     const auto picture = [&] {
         frame(0);
         return viewer->renderer().read(0).pixels;
     };
     const auto bare = picture();
-    viewer->settings.moving.spheres = true;
+    viewer->settings.drawing.moving.spheres = true;
     const auto spheres = picture();
-    viewer->settings.moving.probes = true;
+    viewer->settings.drawing.moving.probes = true;
     const auto probes = picture();
     EXPECT_NE(bare, spheres);
     EXPECT_NE(spheres, probes);
