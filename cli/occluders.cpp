@@ -39,7 +39,7 @@ struct BakedParts {
     std::vector<OcclusionVolume> volumes;
     std::vector<glm::dmat4> frames;
     Table table = table_of_parts();
-    Json uneven = Json::array();
+    Json uneven = Json::array(), left_out = Json::array();
     double error = 0;
     std::size_t rays = 0;
 };
@@ -64,11 +64,14 @@ BakedParts bake_parts(const std::vector<RigidPart>& parts, const OccluderOptions
         } catch (const Cancelled&) {
             throw;
         } catch (const Error& failed) {
-            throw Error(fmt::format("{}: {}", part.name, failed.what()));
+            all.left_out.push_back(fmt::format("{}: {}", part.name, failed.what()));
+            continue;
         }
         if (is_uneven(part.frame))
             all.uneven.push_back(part.name);
     }
+    if (all.occluders.empty())
+        throw Error(all.left_out.front().get<std::string>());
     return all;
 }
 
@@ -82,10 +85,11 @@ Report bake_occluders(GltfDocument& document, const Scene& scene, const Occluder
     const FloorOcclusion floor =
         floor_occlusion(scene, baked.volumes, baked.frames, options, progress.part(0.9, 1));
     Report report;
-    add_figures(report, {{"parts", parts.size()},
-                         {"bytes_volumes", parts.size() * sizeof(OcclusionVolume::texels)},
+    add_figures(report, {{"parts", baked.occluders.size()},
+                         {"parts_left_out", baked.left_out},
+                         {"bytes_volumes", baked.occluders.size() * sizeof(OcclusionVolume::texels)},
                          {"rays", baked.rays},
-                         {"mean_error", baked.error / static_cast<double>(parts.size())},
+                         {"mean_error", baked.error / static_cast<double>(baked.occluders.size())},
                          {"floor_mean_blocked", floor.mean_blocked},
                          {"floor_mean_error", floor.mean_error},
                          {"floor_largest_error", floor.largest_error},
@@ -96,8 +100,9 @@ Report bake_occluders(GltfDocument& document, const Scene& scene, const Occluder
         "all together, on the floor that they stand on: {floor_mean_blocked:.2f%} blocked, "
         "{floor_mean_error:.2f%} off by rays, {floor_largest_error:.2f%} at most"};
     if (!baked.uneven.empty())
-        report.sentences.push_back(
-            "of parts that are scaled unevenly directions are those of the nearest turn");
+        report.sentences.push_back("of parts that are scaled unevenly directions are about right alone");
+    for (std::size_t i = 0; i < baked.left_out.size(); ++i)
+        report.sentences.push_back(fmt::format("left out: {{parts_left_out/{}}}", i));
     report.tables.push_back(baked.table);
     return report;
 }

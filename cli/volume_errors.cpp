@@ -205,15 +205,16 @@ void add_sky_occlusion(const VolumeLight& light, const SkyOcclusion& occlusion, 
                        const FreePlaces& places, const std::array<std::vector<glm::vec3>, 2>& truth,
                        Table& table) {
     using Kind = SkyOcclusionKind;
-    for (const auto& [kind, name] : {std::pair(Kind::number, "sky occlusion, 1 number"),
-                                     std::pair(Kind::linear, "sky occlusion, 4 numbers"),
-                                     std::pair(Kind::directed, "the same and a direction")}) {
+    for (const auto& row_kind : {std::pair(Kind::number, "sky occlusion, 1 number"),
+                                 std::pair(Kind::linear, "sky occlusion, 4 numbers"),
+                                 std::pair(Kind::directed, "the same and a direction")}) {
         const ErrorSum sum = irradiance_error(places, truth, [&](std::size_t p, const glm::vec3& normal) {
-            return occlusion.irradiance(lookup.find(places.positions[p]), normal, light.lighting.sky, kind);
+            return occlusion.irradiance(lookup.find(places.positions[p]), normal, light.lighting.sky,
+                                        row_kind.first);
         });
         std::vector<Json> row(table.columns.size());
         row.front() = light.name;
-        row[1] = name;
+        row[1] = row_kind.second;
         row.back() = sum.relative();
         table.rows.push_back(std::move(row));
     }

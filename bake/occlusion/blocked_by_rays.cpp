@@ -6,6 +6,7 @@
 #include "prt/sh_basis.h"
 #include "prt/volume_bake.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -45,7 +46,7 @@ std::vector<std::optional<float>> blocked_by_rays(const Scene& scene, std::span<
         for (std::size_t i = 0; i < basis.size(); ++i)
             left += kCosine[static_cast<std::size_t>(std::sqrt(static_cast<double>(i)))] *
                     static_cast<double>(open[i] * basis[i]) / kY00;
-        blocked[p] = static_cast<float>(1 - left);
+        blocked[p] = static_cast<float>(std::clamp(1 - left, 0.0, 1.0));
     }
     return blocked;
 }

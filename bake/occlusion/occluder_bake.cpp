@@ -170,6 +170,7 @@ OccluderBake bake_occluder(const Scene& part, const glm::dmat4& to_scene, const 
     if (seen.points.empty())
         throw Error("all places around the object see backs of surfaces");
     baked.volume.reach = reach_of(baked.volume, seen, frame, options.least);
+    check_occlusion_volume(baked.volume);
     for (BlockedPoint& point : seen.points)
         point.lean = frame.lean_from_scene(point.lean);
     fit_texels(seen.points, baked.volume);

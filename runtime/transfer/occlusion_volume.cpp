@@ -95,9 +95,9 @@ void check_occlusion_volume(const OcclusionVolume& volume) {
 }
 
 glm::vec3 PlacedOccluder::center() const {
-    const glm::mat3 rows(to_box[0], to_box[1],
-                         to_box[2]); // columns of the transposed, for a turn the inverse
-    return -(rows * glm::vec3(to_box[0].w, to_box[1].w, to_box[2].w));
+    const glm::mat3 columns{glm::vec3(to_box[0]), glm::vec3(to_box[1]), glm::vec3(to_box[2])};
+    const glm::vec3 moved(to_box[0].w, to_box[1].w, to_box[2].w);
+    return glm::determinant(columns) == 0 ? glm::vec3(0) : -(glm::inverse(glm::transpose(columns)) * moved);
 }
 
 PlacedOccluder placed(const OcclusionVolume& volume, const glm::mat4& to_world, std::size_t slot) {

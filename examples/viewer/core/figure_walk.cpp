@@ -9,9 +9,11 @@
 namespace viewer {
 namespace {
 
-constexpr float kPi = std::numbers::pi_v<float>;
+constexpr float kHalfTurn = std::numbers::pi_v<float>;
 /// Metres that are walked before what is ahead is looked at again.
 constexpr float kLook = 0.1f;
+/// As far as it goes at once; a file may name any speed.
+constexpr double kMostMetres = 1e4;
 /// Radians of turning for each metre walked.
 constexpr float kTurn = 1.6f;
 constexpr float kLookAhead = 1.5f; ///< metres
@@ -29,11 +31,11 @@ float free_heading(const Ground& ground, const glm::vec3& position, float headin
     constexpr int kTurns = 12;
     for (int i = 1; i <= kTurns; ++i)
         for (const float side : {1.0f, -1.0f}) {
-            const float tried = heading + side * kPi * static_cast<float>(i) / kTurns;
+            const float tried = heading + side * kHalfTurn * static_cast<float>(i) / kTurns;
             if (ground.free_way(position, ahead(tried), kLookAhead) >= kLookAhead)
                 return tried;
         }
-    return heading + kPi;
+    return heading + kHalfTurn;
 }
 
 } // namespace
@@ -58,7 +60,7 @@ void FigureWalk::advance(double metres) {
         follow_path();
         return;
     }
-    for (double left = metres; left > 0; left -= kLook)
+    for (double left = std::min(metres, kMostMetres); left > 0; left -= kLook)
         wander(static_cast<float>(std::min<double>(left, kLook)));
 }
 

@@ -60,7 +60,13 @@ std::vector<prt::NodeOccluder> measured_occluders(Channel& channel, const prt::G
     std::vector<prt::NodeOccluder> occluders;
     for (const prt::RigidPart& part : prt::rigid_parts(document, scene)) {
         channel.progress().check();
-        occluders.push_back({part.node, prt::bake_occluder(part.scene, part.frame, options).volume});
+        try {
+            occluders.push_back({part.node, prt::bake_occluder(part.scene, part.frame, options).volume});
+        } catch (const prt::Cancelled&) {
+            throw;
+        } catch (const prt::Error&) {
+            channel.progress().check(); // a part without extent blocks nothing
+        }
     }
     return occluders;
 }

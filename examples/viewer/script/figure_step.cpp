@@ -9,6 +9,9 @@
 
 namespace viewer {
 
+/// Metres: rays and paths stay exact there.
+constexpr double kFarthest = 1e6;
+
 FigureChoice figure_choice(const nlohmann::json& json) {
     FigureChoice choice;
     choice.animation = json.value("animation", "");
@@ -18,8 +21,8 @@ FigureChoice figure_choice(const nlohmann::json& json) {
     for (const nlohmann::json& point : json.value("path", nlohmann::json::array())) {
         const auto at = point.get<std::array<double, 3>>();
         for (const double number : at)
-            if (!std::isfinite(number))
-                throw prt::Error("a place on the figure's path is not finite");
+            if (!(std::abs(number) <= kFarthest))
+                throw prt::Error("a place on the figure's path is not finite, or farther than 1e6 m away");
         choice.path.emplace_back(at[0], at[1], at[2]);
     }
     return choice;

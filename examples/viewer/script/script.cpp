@@ -246,7 +246,10 @@ void set_figure(Player& player, const Json& json) {
         player.fail_on_message();
     }
     viewer.choose_figure(figure_choice(json));
-    viewer.walk_figure(json.value("seconds", 0.0));
+    const double seconds = json.value("seconds", 0.0);
+    if (!(seconds >= 0 && seconds <= 3600))
+        throw prt::Error("a figure walks for 0 to 3600 seconds at once");
+    viewer.walk_figure(seconds);
 }
 
 void compress(Player& player, const Json& json) {

@@ -70,8 +70,8 @@ struct PlacedOccluder {
     float reach() const { return half.w; }
 };
 
-/// `to_world` turns, moves and scales the object's frame. Where it scales unevenly, directions are those of
-/// the nearest turn.
+/// `to_world` turns, moves and scales the object's frame. Where it scales unevenly, directions are about
+/// right alone: leans turn as normals do.
 PlacedOccluder placed(const OcclusionVolume& volume, const glm::mat4& to_world, std::size_t slot);
 
 /// What the object blocks at a position in the world.

@@ -370,7 +370,7 @@ std::string in_plain_words(const std::exception& error) {
         return "is damaged glTF: an index points outside of what the file holds";
     if (dynamic_cast<const std::bad_alloc*>(&error) || dynamic_cast<const std::length_error*>(&error))
         return "there is not enough memory to read it";
-    return what;
+    return what.empty() ? "is damaged glTF" : what;
 }
 
 } // namespace prt

@@ -91,7 +91,7 @@ double speed_of(const tinygltf::Value& extras) {
     if (!extras.IsObject() || !extras.Has("speed") || !extras.Get("speed").IsNumber())
         return 0;
     const double speed = extras.Get("speed").GetNumberAsDouble();
-    return std::isfinite(speed) ? speed : 0;
+    return speed >= 0 && speed <= 1e3 ? speed : 0; // faster than sound is a mistake
 }
 
 } // namespace

@@ -51,7 +51,7 @@ public:
     int above(int carrier) const { return parent(carrier) < 0 ? -1 : of(parent(carrier)); }
     std::size_t depth(int node) const {
         std::size_t steps = 0;
-        for (int at = parent(node); at >= 0; at = parent(at))
+        for (int at = parent(node); at >= 0 && steps < parents_.size(); at = parent(at)) // or it is a cycle
             ++steps;
         return steps;
     }
@@ -232,17 +232,18 @@ std::vector<RigidPart> rigid_parts(const GltfDocument& document, const Scene& sc
     return named(document, [&](const GltfContents& contents) {
         const tinygltf::Model& model = contents.model;
         const Carriers carriers(model);
-        std::map<int, Triangles> triangles = carried(model, scene, carriers);
-        const Bounds box = bounds(scene);
-        join_small(scene, carriers,
-                   options.least_share * static_cast<double>(glm::distance(box.low, box.high)), triangles);
         std::map<int, glm::dmat4> worlds;
         for (const NodeTransform& node : world_transforms(model))
             worlds[node.node] = node.world;
+        std::map<int, Triangles> triangles = carried(model, scene, carriers);
+        for (const auto& part : triangles)
+            if (!worlds.contains(part.first))
+                throw Error("joint " + std::to_string(part.first) + " of a skin is not in the scene");
+        const Bounds box = bounds(scene);
+        join_small(scene, carriers,
+                   options.least_share * static_cast<double>(glm::distance(box.low, box.high)), triangles);
         std::vector<RigidPart> parts;
         for (const auto& [node, chosen] : triangles) {
-            if (!worlds.contains(node))
-                throw Error("joint " + std::to_string(node) + " of a skin is not in the scene");
             parts.push_back({node, name_of(model, node),
                              glm::translate(glm::dmat4(1), -scene.origin) * worlds[node],
                              part_of(scene, chosen)});

@@ -13,6 +13,7 @@
 #include <random>
 
 namespace prt {
+namespace baked_occluders { // joined sources share one scope
 namespace {
 
 using test::SceneBuilder;
@@ -114,4 +115,5 @@ TEST(Occluder, WithoutExtentOrScaleIsRefused) {
 }
 
 } // namespace
+} // namespace baked_occluders
 } // namespace prt

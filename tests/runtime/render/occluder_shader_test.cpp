@@ -16,6 +16,7 @@
 #include <random>
 
 namespace prt::test {
+namespace occluder_shaders { // joined sources share one scope
 namespace {
 
 constexpr float kHalfAngle = 0.05f;
@@ -215,4 +216,5 @@ TEST_P(OccluderLanguages, BlockWhatCppBlocks) {
 }
 
 } // namespace
+} // namespace occluder_shaders
 } // namespace prt::test

@@ -13,6 +13,7 @@
 #include <random>
 
 namespace prt {
+namespace occluders_of_files { // joined sources share one scope
 namespace {
 
 using test::GlbFile;
@@ -204,4 +205,5 @@ TEST(Occluders, ThatAreDamagedAreRefusedByTheirNode) {
 }
 
 } // namespace
+} // namespace occluders_of_files
 } // namespace prt

@@ -15,6 +15,7 @@
 #include <random>
 
 namespace prt {
+namespace occlusion_volumes { // joined sources share one scope
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -199,4 +200,5 @@ TEST(OccluderList, HoldsTheNearestWhoseReachComesIntoABox) {
 }
 
 } // namespace
+} // namespace occlusion_volumes
 } // namespace prt
