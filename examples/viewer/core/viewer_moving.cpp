@@ -54,8 +54,8 @@ void Viewer::follow_moving(double seconds) {
     Moving& moving = document_.moving;
     if (shown.walks && !wants(PictureKind::reference))
         moving.advance(seconds, static_cast<double>(shown.speed));
-    const bool lights = (shown.figure && moving.figure()) || shown.spheres || shown.probes;
-    if (lights && document_.model() && !jobs_.busy(JobKind::model) && moving.ask_for_volume())
+    const bool lit = (shown.figure && moving.figure()) || shown.spheres || shown.probes;
+    if (lit && document_.model() && !jobs_.busy(JobKind::model) && moving.ask_for_volume())
         jobs_.find_volume(document_.loaded.model);
 }
 
