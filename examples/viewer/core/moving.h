@@ -20,7 +20,7 @@ namespace viewer {
 
 /// What a script may say of the figure.
 struct FigureChoice {
-    std::string animation;             ///< empty: the one called like a walk, else the first
+    std::string animation = {};        ///< empty: the one called like a walk, else the first
     double scale = 1;                  ///< of the file
     std::vector<glm::dvec3> path = {}; ///< in the world of the model's file; empty: wherever there is room
 };
