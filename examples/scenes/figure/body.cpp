@@ -22,17 +22,17 @@ SoftMesh torso() {
         Section{0.87f, 0.170f, 0.118f},           Section{0.95f, 0.166f, 0.118f},
         Section{1.03f, 0.153f, 0.108f},           Section{1.12f, 0.150f, 0.104f},
         Section{1.22f, 0.164f, 0.114f, 0.003f},   Section{1.31f, 0.178f, 0.122f, 0.006f},
-        Section{1.385f, 0.182f, 0.116f},          Section{1.44f, 0.158f, 0.096f, -0.008f},
-        Section{1.485f, 0.096f, 0.072f, -0.012f}, Section{1.52f, 0.064f, 0.062f, -0.010f}};
+        Section{1.385f, 0.182f, 0.116f},          Section{1.44f, 0.172f, 0.096f, -0.008f},
+        Section{1.483f, 0.112f, 0.074f, -0.012f}, Section{1.52f, 0.064f, 0.062f, -0.010f}};
     constexpr std::array held = {HeldBy{hips}, HeldBy{spine, 1.04f, 0.07f}, HeldBy{chest, 1.22f, 0.08f}};
     return soft_limb({glm::vec3(0), kUp, kAhead}, sections, held, {.segments = 28, .squareness = 2.4f});
 }
 
 SoftMesh sleeve(Side side) {
-    constexpr std::array sections = {Section{-0.035f, 0.050f, 0.052f}, Section{0.03f, 0.060f, 0.063f},
-                                     Section{0.11f, 0.053f, 0.057f},   Section{0.20f, 0.047f, 0.050f},
-                                     Section{0.29f, 0.042f, 0.044f},   Section{0.36f, 0.042f, 0.043f},
-                                     Section{0.45f, 0.036f, 0.037f},   Section{0.545f, 0.031f, 0.033f}};
+    constexpr std::array sections = {
+        Section{-0.03f, 0.030f, 0.032f}, Section{0.005f, 0.048f, 0.052f}, Section{0.05f, 0.057f, 0.061f},
+        Section{0.11f, 0.053f, 0.057f},  Section{0.20f, 0.047f, 0.050f},  Section{0.29f, 0.042f, 0.044f},
+        Section{0.36f, 0.042f, 0.043f},  Section{0.45f, 0.036f, 0.037f},  Section{0.545f, 0.031f, 0.033f}};
     const int arm = upper_arm(side);
     const std::array held = {HeldBy{chest}, HeldBy{arm, 0.01f, 0.05f}, HeldBy{arm + 1, kUpperArm, 0.055f}};
     return soft_limb({rest_position(arm), arm_direction(side), kAhead}, sections, held, {.segments = 16});

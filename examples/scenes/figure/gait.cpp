@@ -21,6 +21,7 @@ constexpr float kStepAhead = 0.315f; ///< metres, of the flat foot's ankle befor
 constexpr float kStrikePitch = 0.31f, kOffPitch = -0.84f; ///< radians
 constexpr float kFlatFrom = 0.10f, kFlatTo = 0.32f;       ///< of the cycle: the whole sole is on the ground
 constexpr float kHipsHeight = 0.914f, kBob = 0.014f, kSway = 0.018f; ///< metres
+constexpr float kLift = 0.025f; ///< metres, of the foot in the air, so that its toes do not drag
 constexpr float kFootAside = 0.082f;
 constexpr int kWalkKeys = 40, kIdleKeys = 16;
 constexpr float kIdlePeriod = 4;
@@ -67,7 +68,8 @@ FootPlace swing(float phase) {
         return hermite(off.*value, length * (off.*value - before.*value) / kStep, strike.*value,
                        slower * length * (after.*value - strike.*value) / kStep, t);
     };
-    return {between(&FootPlace::height, 1), between(&FootPlace::ahead, kRetraction),
+    const float lifted = 6.75f * kLift * t * (1 - t) * (1 - t); // most at a third of the way
+    return {between(&FootPlace::height, 1) + lifted, between(&FootPlace::ahead, kRetraction),
             between(&FootPlace::pitch, 1), between(&FootPlace::toe_bend, 1)};
 }
 

@@ -16,8 +16,12 @@
 namespace viewer {
 namespace {
 
-/// A first light at once, then better ones.
-constexpr int kVolumeRays[] = {16, 128, 512};
+/// A first light at once, then better ones. What compression takes grows with the square of the bands'
+/// numbers, so that the first have few.
+struct VolumeStage {
+    int rays, order;
+};
+constexpr VolumeStage kVolumeStages[] = {{32, 2}, {128, 3}, {512, kBakeOrder}};
 /// Of a bake of the viewer's own: seconds on a few cores.
 constexpr std::size_t kMostProbes = 3000;
 constexpr int kOccluderRays = 64;
@@ -38,10 +42,10 @@ std::shared_ptr<const prt::CompressedVolume> compressed(Channel& channel, const 
 }
 
 void bake_in_stages(Channel& channel, const std::shared_ptr<const Model>& model) {
-    for (const int rays : kVolumeRays) {
+    for (const auto& [rays, order] : kVolumeStages) {
         channel.enter(Stage::baking, fmt::format("baking the volume with {} rays", rays));
         prt::BakeOptions options;
-        options.order = kBakeOrder;
+        options.order = order;
         options.rays = rays;
         options.bounces = kBakeBounces;
         options.repairs.bad_textures = prt::BadTextures::ignore;

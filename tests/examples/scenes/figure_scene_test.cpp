@@ -1,0 +1,83 @@
+// The figure that example_scenes makes: its size, and that its feet stand still on ground that passes.
+
+#include "prt/animation.h"
+#include "support/temporary_folder.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace prt {
+namespace {
+
+constexpr double kOnGround =
+    0.0015; ///< metres: what is lower bears weight, what leaves the ground is higher a step later
+
+AnimatedScene figure() {
+    const test::TemporaryFolder folder;
+    const std::string command =
+        std::string(PRT_EXAMPLE_SCENES) + " '" + folder.path().string() + "' figure >/dev/null";
+    EXPECT_EQ(std::system(command.c_str()), 0);
+    return AnimatedScene(load_gltf(folder / "figure.glb"));
+}
+
+const Animation& walk_of(const AnimatedScene& scene) {
+    return *std::ranges::find(scene.animations(), "walk", &Animation::name);
+}
+
+/// All vertices at a time of the walk.
+std::vector<glm::vec3> places_at(const AnimatedScene& scene, double seconds) {
+    const Animation& walk = walk_of(scene);
+    const Scene posed = scene.posed(scene.pose(walk, std::fmod(seconds, walk.duration)), glm::dmat4(1));
+    std::vector<glm::vec3> places;
+    for (const VertexArray& vertices : posed.vertex_arrays)
+        places.insert(places.end(), vertices.positions.begin(), vertices.positions.end());
+    return places;
+}
+
+TEST(ExampleFigure, IsSomebodyOfOrdinarySize) {
+    const AnimatedScene scene = figure();
+    const Bounds box = bounds(scene.scene());
+    EXPECT_NEAR(box.high.y - box.low.y, 1.8, 0.02);
+    EXPECT_NEAR(scene.scene().world(box.low).y, 0, 1e-3);
+    EXPECT_TRUE(scene.scene().receivers() >= 3000 && scene.scene().receivers() <= 6000)
+        << scene.scene().receivers();
+    ASSERT_EQ(scene.skins().size(), 1u);
+    EXPECT_TRUE(scene.skins()[0].joints.size() >= 15 && scene.skins()[0].joints.size() <= 20);
+    EXPECT_NE(std::ranges::find(scene.animations(), "idle", &Animation::name), scene.animations().end());
+}
+
+TEST(ExampleFigure, ItsFeetDoNotSlideAndItsWalkLoops) {
+    const AnimatedScene scene = figure();
+    const Animation& walk = walk_of(scene);
+    ASSERT_GT(walk.speed, 1);
+    constexpr int kSteps = 220;
+    const double step = walk.duration / kSteps;
+    std::vector<glm::vec3> before = places_at(scene, 0);
+    for (int i = 1; i <= kSteps; ++i) {
+        const std::vector<glm::vec3> now = places_at(scene, i * step);
+        std::size_t bearing = 0;
+        double lowest = 1;
+        for (std::size_t v = 0; v < now.size(); ++v) {
+            lowest = std::min<double>(lowest, now[v].y);
+            if (before[v].y > kOnGround || now[v].y > kOnGround)
+                continue;
+            ++bearing;
+            // The ground passes by 5.75 mm; a foot that is rolling turns about what it stands on.
+            EXPECT_NEAR(now[v].z - before[v].z, -walk.speed * step, 1e-3) << i;
+            EXPECT_NEAR(now[v].x, before[v].x, 1e-3) << i;
+        }
+        EXPECT_GT(bearing, 0u) << i;
+        EXPECT_GT(lowest, -4 * kOnGround) << i; // soles are of a mesh, and bend at the toes
+        before = now;
+    }
+    const auto first = places_at(scene, 0), last = places_at(scene, walk.duration - 1e-9);
+    for (std::size_t v = 0; v < first.size(); ++v)
+        ASSERT_LT(glm::distance(first[v], last[v]), 1e-5f);
+}
+
+} // namespace
+} // namespace prt
