@@ -9,7 +9,7 @@
 namespace viewer {
 namespace {
 
-constexpr float kHalfTurn = std::numbers::pi_v<float>;
+constexpr float kTurnAround = std::numbers::pi_v<float>;
 /// Metres that are walked before what is ahead is looked at again.
 constexpr float kLook = 0.1f;
 /// As far as it goes at once; a file may name any speed.
@@ -31,11 +31,11 @@ float free_heading(const Ground& ground, const glm::vec3& position, float headin
     constexpr int kTurns = 12;
     for (int i = 1; i <= kTurns; ++i)
         for (const float side : {1.0f, -1.0f}) {
-            const float tried = heading + side * kHalfTurn * static_cast<float>(i) / kTurns;
+            const float tried = heading + side * kTurnAround * static_cast<float>(i) / kTurns;
             if (ground.free_way(position, ahead(tried), kLookAhead) >= kLookAhead)
                 return tried;
         }
-    return heading + kHalfTurn;
+    return heading + kTurnAround;
 }
 
 } // namespace

@@ -12,12 +12,12 @@ namespace {
 
 constexpr glm::vec3 kDown(0, -1, 0);
 /// Cosine of the steepest floor, 45 degrees.
-constexpr float kSteepest = 0.7f;
+constexpr float kSteepestGround = 0.7f;
 /// Probed along each side of the scene for somewhere to stand.
 constexpr int kCandidates = 12;
 constexpr int kDirections = 8;
 
-glm::vec3 direction(int i, int count) {
+glm::vec3 direction_round(int i, int count) {
     const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(i) / static_cast<float>(count);
     return {std::sin(angle), 0, std::cos(angle)};
 }
@@ -37,7 +37,7 @@ std::optional<glm::vec3> Ground::below(const glm::vec3& place) const {
     const glm::uvec3& t = primitive.triangles[at.triangle];
     const std::vector<glm::vec3>& p = model_.scene.vertex_arrays[primitive.vertices].positions;
     const glm::vec3 normal = glm::cross(p[t.y] - p[t.x], p[t.z] - p[t.x]);
-    if (normal.y < kSteepest * glm::length(normal))
+    if (normal.y < kSteepestGround * glm::length(normal))
         return {};
     const glm::vec3 stand = place + floor->distance * kDown;
     const float knee = 0.2f * walker_.height; // above what lies on the floor
@@ -78,7 +78,7 @@ float Ground::room_about(const glm::vec3& floor) const {
     constexpr float kEnough = 4;
     float sum = 0, least = kEnough;
     for (int i = 0; i < kDirections; ++i) {
-        const float way = free_way(floor, direction(i, kDirections), kEnough);
+        const float way = free_way(floor, direction_round(i, kDirections), kEnough);
         sum += way;
         least = std::min(least, way);
     }
