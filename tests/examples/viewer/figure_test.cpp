@@ -31,8 +31,8 @@ namespace {
 using prt::test::GlbFile;
 using prt::test::SceneBuilder;
 
-constexpr int kWidth = 160, kHeight = 90;
-constexpr float kRadius = 0.4f; ///< of the figure, a ball on the floor
+constexpr int kFigureWidth = 160, kFigureHeight = 90;
+constexpr float kBallRadius = 0.4f; ///< of the figure, a ball on the floor
 
 /// A floor of 6 m, and a wall along its -x side.
 prt::Scene floor_and_wall() {
@@ -44,8 +44,8 @@ prt::Scene floor_and_wall() {
 
 /// A grey ball that turns once in a second; `bad` breaks its animation.
 GlbFile ball_figure(bool bad = false) {
-    GlbFile file = prt::test::scene_file(
-        prt::test::painted(SceneBuilder().sphere({0, kRadius, 0}, kRadius, 24).build(), glm::vec3(0.6f)));
+    GlbFile file = prt::test::scene_file(prt::test::painted(
+        SceneBuilder().sphere({0, kBallRadius, 0}, kBallRadius, 24).build(), glm::vec3(0.6f)));
     const float end = bad ? std::numeric_limits<float>::quiet_NaN() : 1.0f;
     const auto times = file.accessor(std::vector<float>{0, 0.5f, end}, prt::test::kFloat, "SCALAR", 1),
                turns = file.accessor(std::vector<float>{0, 0, 0, 1, 0, 1, 0, 0, 0, 0, 0, -1},
@@ -82,7 +82,7 @@ protected:
         context = prt::GlContext::create(prt::GlDevice::any);
         ASSERT_TRUE(context);
         viewer = std::make_unique<Viewer>();
-        screen = std::make_unique<Offscreen>(kWidth, kHeight);
+        screen = std::make_unique<Offscreen>(kFigureWidth, kFigureHeight);
         viewer->settings.panels = false;
         prt::test::glb_of(baked_).write(folder / "scene.glb");
         ball_figure().write(folder / "ball.glb");
@@ -94,7 +94,7 @@ protected:
     }
     void frame(double seconds = 1.0 / 60) {
         viewer->update(seconds);
-        viewer->draw(screen->framebuffer(), kWidth, kHeight);
+        viewer->draw(screen->framebuffer(), kFigureWidth, kFigureHeight);
     }
     template <class Done>
     void frames_until(Done&& done) {
@@ -113,11 +113,11 @@ protected:
     }
     const Moving& moving() const { return viewer->document().moving; }
     /// The middle of the figure in the scene.
-    glm::vec3 middle() const { return glm::vec3(moving().pose().node(0) * glm::dvec4(0, kRadius, 0, 1)); }
+    glm::vec3 middle() const { return glm::vec3(moving().pose().node(0) * glm::dvec4(0, kBallRadius, 0, 1)); }
     /// So near that the ball fills the picture.
     void look_at_ball(const glm::vec3& from) {
-        viewer->camera =
-            OrbitCamera({.position = middle() + 1.4f * kRadius * glm::normalize(from), .target = middle()});
+        viewer->camera = OrbitCamera(
+            {.position = middle() + 1.4f * kBallRadius * glm::normalize(from), .target = middle()});
     }
     glm::dvec3 mean_of_left() {
         glm::dvec3 sum(0);
@@ -154,7 +154,7 @@ TEST_F(FigureTest, StandsOnTheFloorWalksAtItsSpeedAndStopsBeforeTheWall) {
     for (int i = 0; i < 600; ++i) {
         viewer->update(1.0 / 30);
         const glm::vec3 now = middle();
-        EXPECT_NEAR(now.y, floor + kRadius, 1e-4f);
+        EXPECT_NEAR(now.y, floor + kBallRadius, 1e-4f);
         way += glm::distance(now, last);
         last = now;
         const prt::Bounds& box = viewer->document().model()->box;
@@ -174,7 +174,7 @@ TEST_F(FigureTest, FollowsThePathOfAScriptAtItsSpeed) {
     viewer->choose_figure({.animation = "walk", .path = {{-1, 0, -1}, {2, 0, -1}, {2, 0, 1}}});
     const glm::dvec3 origin = viewer->document().model()->scene.origin;
     const auto expect_at = [&](const glm::dvec3& place) {
-        EXPECT_LT(glm::distance(glm::dvec3(middle()) + origin, place + glm::dvec3(0, kRadius, 0)), 1e-4);
+        EXPECT_LT(glm::distance(glm::dvec3(middle()) + origin, place + glm::dvec3(0, kBallRadius, 0)), 1e-4);
     };
     expect_at({-1, 0, -1});
     viewer->walk_figure(1); // 1.5 m
@@ -202,7 +202,7 @@ TEST_F(FigureTest, IsLitAsPathsLightItWhereItStands) {
         frame(0);
         frames_until([&] { return viewer->figures().reference_passes >= 64; });
         const Difference difference = viewer->figures().difference;
-        ASSERT_EQ(difference.pixels, kWidth * kHeight);
+        ASSERT_EQ(difference.pixels, kFigureWidth * kFigureHeight);
         const glm::dvec3 left = mean_of_left();
         EXPECT_NEAR((left.r + left.g + left.b) / 3 / difference.mean, 1, 0.08);
         EXPECT_LT(difference.relative_l2, 0.15);
@@ -239,7 +239,8 @@ TEST_F(FigureTest, CastsItsShadowIntoTheMapsOfTheSuns) {
     viewer->lights.lights[0].direction = glm::normalize(glm::vec3(1, 1, 0));
     viewer->settings.left = PictureKind::unshadowed;
     viewer->settings.split = 1;
-    const glm::vec3 behind = middle() - glm::vec3(0.55f, kRadius, 0); // the shadow's middle is 0.4 m aside
+    const glm::vec3 behind =
+        middle() - glm::vec3(0.55f, kBallRadius, 0); // the shadow's middle is 0.4 m aside
     viewer->camera = OrbitCamera({.position = behind + glm::vec3(-0.05f, 0.15f, 0.02f), .target = behind});
     viewer->settings.drawing.moving.figure = false;
     frame(0);
@@ -266,7 +267,7 @@ TEST_F(FigureTest, TakesFromTheFloorBesideItWhatItBlocks) {
     viewer->settings.left = PictureKind::prt_compressed;
     viewer->settings.split = 1;
     constexpr float kAside = 0.6f;
-    const glm::vec3 spot = middle() + glm::vec3(kAside, -kRadius, 0);
+    const glm::vec3 spot = middle() + glm::vec3(kAside, -kBallRadius, 0);
     viewer->camera = OrbitCamera({.position = spot + glm::vec3(0.05f, 0.15f, 0.02f), .target = spot});
     viewer->settings.drawing.moving.contact = false;
     frame(0);
@@ -274,9 +275,10 @@ TEST_F(FigureTest, TakesFromTheFloorBesideItWhatItBlocks) {
     viewer->settings.drawing.moving.contact = true;
     frame(0);
     const double left = mean_of_left().g / without;
-    const double distance = std::hypot(kAside, kRadius), ratio = static_cast<double>(kRadius) / distance;
+    const double distance = std::hypot(kAside, kBallRadius),
+                 ratio = static_cast<double>(kBallRadius) / distance;
     // Texels are 0.25 m apart, and three bands know the hemisphere's light.
-    EXPECT_NEAR(left, 1 - ratio * ratio * static_cast<double>(kRadius) / distance, 0.06);
+    EXPECT_NEAR(left, 1 - ratio * ratio * static_cast<double>(kBallRadius) / distance, 0.06);
 }
 
 TEST_F(FigureTest, SpheresAndProbesAreShownAndALostContextBringsAllBack) {
@@ -299,7 +301,7 @@ TEST_F(FigureTest, SpheresAndProbesAreShownAndALostContextBringsAllBack) {
     screen.reset();
     context.reset();
     context = prt::GlContext::create(prt::GlDevice::any);
-    screen = std::make_unique<Offscreen>(kWidth, kHeight);
+    screen = std::make_unique<Offscreen>(kFigureWidth, kFigureHeight);
     viewer->restore_gpu();
     EXPECT_EQ(picture(), probes);
 }
