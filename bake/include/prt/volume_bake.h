@@ -16,8 +16,9 @@ struct VolumeOptions {
     double spacing = 1;                ///< of the finest probes, metres
     std::size_t probes = 0;            ///< as many at most, however far apart; 0: by `spacing`
     std::optional<Bounds> bounds = {}; ///< none: those of the scene
-    /// Relative L2 that transfer between probes shall have over all, bands as 1 / (l + 1)², by as few smaller cells as it takes where
-    /// it errs most, down to a quarter of `spacing`; 0: all cells are as surfaces ask.
+    /// Relative L2 that transfer between probes shall have over all, bands as 1 / (l + 1)², by as few smaller
+    /// cells as it takes where it errs most, down to a quarter of `spacing`; 0: all cells are as surfaces
+    /// ask.
     double error = 0;
     int order = 3; ///< of incident light, 2 to 4
     /// Points for each probe where light between probes is measured, which probes are then fitted to; 0: they
