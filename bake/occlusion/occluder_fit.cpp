@@ -86,7 +86,8 @@ private:
 } // namespace
 
 void fit_texels(std::span<const BlockedPoint> points, OcclusionVolume& volume) {
-    // A tenth of what one point says of a texel that it is at: it decides where there are none, and no more.
+    // A fiftieth of what one point says of a texel that it is at: it decides where there are none, and no
+    // more.
     constexpr double kSmooth = 0.02;
     Equations much, where;
     double all = 0;
