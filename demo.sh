@@ -11,11 +11,12 @@ mkdir -p out
 build/release/examples/scenes/example_scenes out/scenes
 sky=out/scenes/sky.exr
 
-# name, bounces, preset of the compressor, options of the camera; the sky and the rays of a vertex where they are others
+# name, bounces, preset of the compressor, options of the camera; the sky, the rays of a vertex and metres between
+# probes where they are others
 road() {
     local name=$1 bounces=$2 preset=$3
     echo
-    $prt bake "out/scenes/$name.glb" -o "out/$name.baked.glb" --bounces "$bounces" --rays "${rays:-1024}"
+    $prt bake "out/scenes/$name.glb" -o "out/$name.baked.glb" --bounces "$bounces" --rays "${rays:-1024}" ${volume:+--volume "$volume"}
     $prt compress "out/$name.baked.glb" -o "out/$name.shipped.glb" --preset "$preset"
     look_at "$name" "${@:4}"
 }
@@ -33,7 +34,7 @@ look_at() {
     $prt evaluate "out/$name.baked.glb" "out/$name.shipped.glb" --lights "$sky" ${budget:+--budget} --html "out/$name.html" --json "out/$name.json"
 }
 made knot
-road room 3 u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
+volume=0.5 road room 3 u32 --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
 road tree 3 u64 --camera 1.5,1.7,5.5 --look-at 0,1.9,0
 made terrain --camera 1,4.5,11 --look-at 0,2.6,0
 rays=256 sky=out/scenes/night.exr road night_room 3 u64 --camera 0.6,1.7,2.6 --look-at 0,1.8,-6 --fov 50
@@ -42,8 +43,8 @@ rays=128 sky=out/scenes/noon.exr road courtyard 3 u64 --camera 3.9,1.75,4.9 --lo
 echo
 # The room again, with its light in the texels of a map instead of at vertices.
 $prt bake out/scenes/room.glb -o out/room.lightmap.baked.glb --size 256 --unwrap --bounces 3 --rays 1024
-$prt compress out/room.lightmap.baked.glb -o out/room.lightmap.glb --preset u64
-$prt render out/room.lightmap.glb --env "$sky" -o out/room.lightmap.png --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
+$prt compress out/room.lightmap.baked.glb -o out/room.lightmap.shipped.glb --preset u64
+$prt render out/room.lightmap.shipped.glb --env "$sky" -o out/room.lightmap.png --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
 echo
 $prt render out/knot.shipped.glb --env "$sky" --show clusters -o out/knot.clusters.png
 $prt render out/knot.shipped.glb --env "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png

@@ -3,6 +3,8 @@
 #include "options.h"
 #include "prt/support/error.h"
 
+#include <fmt/core.h>
+
 #include <cmath>
 #include <cstdio>
 
@@ -56,9 +58,9 @@ void add_volume(CLI::App* command, VolumeArguments& arguments) {
         ->check(CLI::Range(2, kMostIncidentOrder));
     command
         ->add_option("--volume-fit", volume.fit_points,
-                     "points for each probe where light between probes is measured, which probes are then "
-                     "fitted to; 0: none")
-        ->capture_default_str()
+                     fmt::format("points for each probe where light between probes is measured, which probes "
+                                 "are then fitted to; 0: none; otherwise 1 from {} rays on",
+                                 kRaysWorthAFit))
         ->check(real_in(0, 100));
 }
 

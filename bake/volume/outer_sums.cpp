@@ -34,7 +34,6 @@ OuterSums::Room OuterSums::add() {
     if (count_ == kAtOnce)
         flush();
     const std::span<float> values = std::span(values_).subspan(count_ * columns_, columns_);
-    std::ranges::fill(values, 0.0f);
     return {std::span(weights_[count_++]).first(rows_), values};
 }
 

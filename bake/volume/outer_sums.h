@@ -19,9 +19,9 @@ public:
 
     struct Room {
         std::span<float> weights; ///< [rows], to be written
-        std::span<float> values;  ///< [columns or a few more], zero
+        std::span<float> values;  ///< [columns or a few more], the first of which are to be written
     };
-    /// Adds what is written there until the next call.
+    /// Adds what is written there until the next call; more columns stay zero.
     Room add();
 
     /// Row `row`, [columns or a few more].

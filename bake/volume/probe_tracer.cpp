@@ -26,7 +26,8 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kPlacesAtOnce = 1024;
+/// As many as leave what their rays meet in a cache.
+constexpr std::size_t kPlacesAtOnce = 128;
 constexpr int kSides = 6;
 
 glm::vec3 side(int i) {
@@ -40,6 +41,14 @@ PRT_TARGET_CLONES
 void add_scaled(float weight, const float* from, std::size_t count, float* to) {
     for (std::size_t i = 0; i < count; ++i)
         to[i] += weight * from[i];
+}
+
+/// to = the sum of three rows, each times its weight.
+PRT_TARGET_CLONES
+void mix_rows(const glm::vec3& weights, const std::array<const float*, 3>& rows, std::size_t count,
+              float* to) {
+    for (std::size_t i = 0; i < count; ++i)
+        to[i] = weights.x * rows[0][i] + weights.y * rows[1][i] + weights.z * rows[2][i];
 }
 
 } // namespace
@@ -212,6 +221,22 @@ void ProbeTracer::add_rays(const Task& task, std::size_t place, bool mostly_open
         }
 }
 
+/// What leaves the front of a surface whose receivers each reflect alike.
+void ProbeTracer::mix_reflected(const Hit& hit, std::span<float> to) const {
+    const std::size_t sky = layout_.sky.dimension() - layout_.direct(),
+                      lamps = lamps_.empty() ? 0 : layout_.lamps.dimension();
+    const glm::vec3 barycentrics(1 - hit.u - hit.v, hit.u, hit.v);
+    const glm::uvec3& corners = plan_.scene.surfaces().corners(hit.triangle);
+    const auto mix = [&](const std::vector<float>& from, std::size_t stride, float* values) {
+        if (stride > 0)
+            mix_rows(barycentrics,
+                     {&from[corners.x * stride], &from[corners.y * stride], &from[corners.z * stride]},
+                     stride, values);
+    };
+    mix(sky_, sky, to.data());
+    mix(lamps_, lamps, to.data() + sky);
+}
+
 /// What leaves the surface that was met in the direction of `space.basis`.
 void ProbeTracer::add_reflected(const Hit& hit, float weight, Space& space) const {
     const Surfaces& surfaces = plan_.scene.surfaces();
@@ -221,6 +246,9 @@ void ProbeTracer::add_reflected(const Hit& hit, float weight, Space& space) cons
     const OuterSums::Room room = space.reflected.add();
     for (std::size_t o = 0; o < room.weights.size(); ++o)
         room.weights[o] = weight * space.basis[o];
+    if (!reflectance_.empty() && !hit.back)
+        return mix_reflected(hit, room.values);
+    std::ranges::fill(room.values, 0.0f);
     const glm::vec3 barycentrics(1 - hit.u - hit.v, hit.u, hit.v);
     std::optional<Scattering> scattering;
     if (reflectance_.empty())

@@ -74,6 +74,7 @@ private:
     void add_hit(const Hit& hit, const glm::vec3& from, Space& space) const;
     void add_rays(const Task& task, std::size_t place, bool mostly_open, Space& space) const;
     void add_reflected(const Hit& hit, float weight, Space& space) const;
+    void mix_reflected(const Hit& hit, std::span<float> to) const;
     std::size_t add_lamps(const Task& task, std::size_t place, Space& space) const;
 
     const BakePlan& plan_;

@@ -48,7 +48,7 @@ void check_volume_options(const VolumeOptions& volume, const BakeOptions& option
             fmt::format("an error that light between probes may have is 0 to 1, not {:g}", volume.error));
     if (volume.error > 0 && volume.probes > 0)
         throw Error("an error to reach takes as many probes as it needs: give a spacing to begin with");
-    if (!(volume.fit_points >= 0 && volume.fit_points <= 100))
+    if (volume.fit_points && !(*volume.fit_points >= 0 && *volume.fit_points <= 100))
         throw Error("points of the fit are 0 to 100 for each probe");
 }
 
@@ -59,18 +59,28 @@ constexpr std::size_t kPointsAtOnce = 2048;
 /// Of the rays of a probe, what goes to points of its fit. Halves were measured to err more by noise.
 constexpr double kFitShare = 0.25;
 
+VolumeOptions with_points(VolumeOptions volume, const BakeOptions& options) {
+    if (!volume.fit_points)
+        volume.fit_points = options.rays >= kRaysWorthAFit ? 1 : 0;
+    return volume;
+}
+
+bool is_fitted(const VolumeOptions& volume) {
+    return *volume.fit_points > 0;
+}
+
 int rays_of_probe(const VolumeOptions& volume, const BakeOptions& options) {
-    return volume.fit_points > 0 ? static_cast<int>(std::ceil((1 - kFitShare) * options.rays)) : options.rays;
+    return is_fitted(volume) ? static_cast<int>(std::ceil((1 - kFitShare) * options.rays)) : options.rays;
 }
 
 int rays_of_point(const VolumeOptions& volume, const BakeOptions& options) {
-    return static_cast<int>(std::ceil(kFitShare * options.rays / volume.fit_points));
+    return static_cast<int>(std::ceil(kFitShare * options.rays / *volume.fit_points));
 }
 
 /// Bytes that a probe takes: its values, sums of its points, and a copy in parts. Counted, not measured.
 double bytes_of_probe(const VolumeOptions& volume, std::size_t numbers) {
     return sizeof(float) * static_cast<double>(numbers) * coefficient_count(volume.order) *
-           (2.2 + (volume.fit_points > 0 ? 1 : 0));
+           (2.2 + (is_fitted(volume) ? 1 : 0));
 }
 
 void check_room(const VolumeOptions& volume, double probes, std::size_t numbers, double there) {
@@ -142,9 +152,9 @@ Transfer in_parts_of(const IncidentLayout& layout, const BakePlan& plan, std::sp
 class VolumeBaker {
 public:
     VolumeBaker(const Scene& scene, const VolumeOptions& volume, const BakeOptions& options)
-        : scene_(scene), volume_(volume), options_(options), media_(choose_media(scene, options)),
-          traced_(trace_scene(scene, media_, options)), plan_(plan_bake(traced_, media_, options)),
-          tracer_(make_tracer(traced_, options.tracer)) {}
+        : scene_(scene), volume_(with_points(volume, options)), options_(options),
+          media_(choose_media(scene, options)), traced_(trace_scene(scene, media_, options)),
+          plan_(plan_bake(traced_, media_, options)), tracer_(make_tracer(traced_, options.tracer)) {}
 
     VolumeBake run(const Progress& progress) {
         BakedVolume& baked = result_.volume;
@@ -161,7 +171,7 @@ public:
         const VolumeProbes probes = probes_of(baked.grid);
         fill_blind(probes, states.blind_ones(), vectors);
         settle_hanging(baked.grid, probes, vectors);
-        if (volume_.fit_points > 0)
+        if (is_fitted(volume_))
             fit(tracer, vectors, progress.part(0.5, 1));
         finish(tracer, states.values);
         progress.update(1);
@@ -291,7 +301,7 @@ private:
         const VolumeGrid& grid = result_.volume.grid;
         const VolumeLookup lookup(grid, result_.volume.sights);
         const std::vector<glm::vec3> places =
-            points_between(grid, volume_bounds(scene_, volume_), volume_.fit_points, options_.seed).places;
+            points_between(grid, volume_bounds(scene_, volume_), *volume_.fit_points, options_.seed).places;
         ProbeFit probe_fit(grid, lookup.probes(), vectors.stride);
         for (std::size_t begin = 0; begin < places.size(); begin += kPointsAtOnce) {
             const std::size_t count = std::min(kPointsAtOnce, places.size() - begin);
@@ -353,7 +363,7 @@ private:
 
     Stopwatch watch_;
     const Scene& scene_;
-    const VolumeOptions& volume_;
+    const VolumeOptions volume_;
     const BakeOptions& options_;
     Media media_;
     TraceScene traced_;

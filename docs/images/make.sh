@@ -10,11 +10,12 @@ prt=$build/cli/prt
 work=$PWD/build/pictures
 mkdir -p "$work"
 npm --silent --prefix examples/web install --no-audit --no-fund --no-package-lock
-[ -f "$work/sky.exr" ] || "$build/examples/scenes/example_scenes" "$work" >/dev/null
-sky=$work/sky.exr
+scenes=$work/scenes
+[ -f "$scenes/sky.exr" ] || "$build/examples/scenes/example_scenes" "$scenes" >/dev/null
+sky=$scenes/sky.exr
 
 # From a scene of that name: bake with the options that follow, and what is shipped of it.
-bake() { [ -f "$work/$2.baked.glb" ] || "$prt" bake "$work/$1.glb" -o "$work/$2.baked.glb" "${@:3}" >/dev/null; }
+bake() { [ -f "$work/$2.baked.glb" ] || "$prt" bake "$scenes/$1.glb" -o "$work/$2.baked.glb" "${@:3}" >/dev/null; }
 ship() { "$prt" compress "$work/$1.baked.glb" -o "$work/$1.shipped.glb" --preset "$2" >/dev/null; }
 render() { "$prt" render "$work/$1.glb" --env "$sky" -o "$work/$2.png" --size 840x472 --samples 4 "${@:3}"; }
 room_view=(--camera "1.2,1.9,4.2" --look-at "0,1.8,-5" --fov 45)
@@ -25,7 +26,7 @@ bake courtyard courtyard --bounces 3 --rays 256 --lamp-rays 16
 ship courtyard u64
 echo '{ "*": 0 }' > "$work/off.json"
 court() {
-    "$prt" render "$work/courtyard.shipped.glb" --env "$work/$1.exr" -o "$work/court.$1.png" --size 1280x720 --samples 3 \
+    "$prt" render "$work/courtyard.shipped.glb" --env "$scenes/$1.exr" -o "$work/court.$1.png" --size 1280x720 --samples 3 \
         --camera 3.9,1.75,4.9 --look-at -1.3,2.75,-6 --fov 46 "${@:2}"
 }
 court noon --lamps "$work/off.json"
@@ -33,7 +34,7 @@ court night --exposure auto-0.7
 node $images/sheet.mjs $images/courtyard.jpg 2 700 "$work"/court.{noon,night}.png
 
 bake knot knot --bounces 1
-bake room room --bounces 3
+bake room room --bounces 3 --volume 0.5
 bake tree tree --bounces 3
 bake terrain terrain --bounces 1
 ship knot u32
@@ -62,7 +63,7 @@ node -e '
   delete json.extensionsUsed;
   file.fill(" ", 20, 20 + length);
   file.write(JSON.stringify(json), 20);
-  writeFileSync(process.argv[2], file);' "$work/tree.glb" "$work/opaque.glb"
+  writeFileSync(process.argv[2], file);' "$scenes/tree.glb" "$scenes/opaque.glb"
 bake opaque opaque --bounces 3
 # Exposure of the second picture for the first, too.
 pair() {

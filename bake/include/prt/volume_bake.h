@@ -12,6 +12,10 @@
 
 namespace prt {
 
+/// Rays of a probe from which the fit errs less than the same rays at probes alone: below, what is measured
+/// at points is noise (docs/benchmarks.md, "Volumes").
+constexpr int kRaysWorthAFit = 2048;
+
 struct VolumeOptions {
     double spacing = 1;                ///< of the finest probes, metres
     std::size_t probes = 0;            ///< as many at most, however far apart; 0: by `spacing`
@@ -22,8 +26,8 @@ struct VolumeOptions {
     double error = 0;
     int order = 3; ///< of incident light, 2 to 4
     /// Points for each probe where light between probes is measured, which probes are then fitted to; 0: they
-    /// have what comes in where they stand.
-    double fit_points = 1;
+    /// have what comes in where they stand; none: 1 from `kRaysWorthAFit` rays on, else 0.
+    std::optional<double> fit_points = {};
 };
 
 struct VolumeStatistics {
