@@ -285,6 +285,8 @@ void add_ao(CLI::App& app, Session& session) {
                 "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
     add_gpu(command, a.options.tracer.gpu);
     add_inside(command, a.options.repairs.inside);
+    for (const char* of_vertices : {"--fit", "--inside"})
+        command->get_option("--volume")->excludes(command->get_option(of_vertices));
     add_bad_textures(command, a.options.repairs.bad_textures);
     command->add_option("--seed", a.options.seed, "seed of the samples")
         ->capture_default_str()

@@ -43,8 +43,11 @@ TEST_F(OccluderCommand, WritesVolumesAndSaysHowFarTheyAreOff) {
 }
 
 TEST_F(OccluderCommand, RefusesWhatIsOfSurfaces) {
-    for (const auto& options :
-         std::vector<std::vector<std::string>>{{"--size", "64"}, {"--attribute", "_AO"}, {"--bent-normals"}})
+    for (const auto& options : std::vector<std::vector<std::string>>{{"--size", "64"},
+                                                                     {"--attribute", "_AO"},
+                                                                     {"--bent-normals"},
+                                                                     {"--fit", "surface"},
+                                                                     {"--inside", "leave"}})
         EXPECT_EQ(ao(options).status, 2) << options[0];
     const Outcome outcome = ao({"--distance", "2"});
     EXPECT_EQ(outcome.status, 1);
