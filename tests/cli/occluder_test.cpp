@@ -47,7 +47,7 @@ TEST_F(OccluderCommand, RefusesWhatIsOfSurfaces) {
                                                                      {"--attribute", "_AO"},
                                                                      {"--bent-normals"},
                                                                      {"--fit", "surface"},
-                                                                     {"--inside", "leave"}})
+                                                                     {"--inside", "keep"}})
         EXPECT_EQ(ao(options).status, 2) << options[0];
     const Outcome outcome = ao({"--distance", "2"});
     EXPECT_EQ(outcome.status, 1);
