@@ -83,8 +83,8 @@ PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const 
     const Scene scene = model.posed(pose.nodes, glm::translate(glm::dmat4(1), -model.scene().origin));
     check_places(scene, pose);
     const BakeResult result = bake(scene, bake_options_of(options), progress);
-    PoseTransfer baked{as_whole(result.baked.transfer, options.threads), receiver_areas(scene), {},
-                       result.statistics.rays};
+    PoseTransfer baked{
+        as_whole(result.baked.transfer, options.threads), receiver_areas(scene), {}, result.statistics.rays};
     baked.sealed.resize(baked.areas.size());
     for (const std::uint32_t v : result.sealed) {
         baked.sealed[v] = true;

@@ -14,9 +14,9 @@ namespace prt {
 namespace {
 
 constexpr std::size_t kCoefficients = kMostLobeOrder * kMostLobeOrder;
-constexpr int kSweeps = 3;       ///< over the lobes of a vertex, in each round
-constexpr int kAxisCodes = 255;  ///< of a byte: 255 is 254 again
-constexpr double kSteps = 255;   ///< of a factor
+constexpr int kSweeps = 3;            ///< over the lobes of a vertex, in each round
+constexpr int kAxisCodes = 255;       ///< of a byte: 255 is 254 again
+constexpr double kSteps = 255;        ///< of a factor
 constexpr double kFurnace = 1 + 1e-6; ///< sum of the first gains at most: floats of profiles round
 
 using Coefficients = std::array<float, kCoefficients>;
@@ -101,9 +101,9 @@ private:
         const LobeProfile& profile = model_.profiles[word[2]];
         for (int l = 0, i = 0; l < targets_.order; ++l)
             for (int m = -l; m <= l; ++m, ++i)
-                from[static_cast<std::size_t>(i)] -= factor(word) *
-                                                     static_cast<double>(profile[static_cast<std::size_t>(l)] *
-                                                                         basis[static_cast<std::size_t>(i)]);
+                from[static_cast<std::size_t>(i)] -=
+                    factor(word) * static_cast<double>(profile[static_cast<std::size_t>(l)] *
+                                                       basis[static_cast<std::size_t>(i)]);
     }
     Rest rest_of(std::size_t vertex, const LobeWord& without) {
         Rest rest;

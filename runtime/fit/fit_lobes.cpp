@@ -22,8 +22,8 @@ namespace {
 /// instead of gains that cancel. A ten-thousandth of a cosine lobe's squares loses 1e-7 of its size.
 constexpr double kLeastCost = 1e-8;
 
-/// Residuals are those of the coefficients, then of the gains themselves. Parameters: an axis, then the gains,
-/// of one lobe after the other.
+/// Residuals are those of the coefficients, then of the gains themselves. Parameters: an axis, then the
+/// gains, of one lobe after the other.
 class LobeCost : public ceres::CostFunction {
 public:
     LobeCost(int order, std::span<const double> target, const LobeFitOptions& options)
@@ -62,9 +62,7 @@ public:
 private:
     static int band_of(int i) { return i < 1 ? 0 : i < 4 ? 1 : i < 9 ? 2 : 3; }
     double weight_of(int i) const { return weights_[static_cast<std::size_t>(band_of(i))]; }
-    double cost_of_gain(int l) const {
-        return std::sqrt(kLeastCost) * weights_[static_cast<std::size_t>(l)];
-    }
+    double cost_of_gain(int l) const { return std::sqrt(kLeastCost) * weights_[static_cast<std::size_t>(l)]; }
     void write_axis(const glm::dvec3& towards, const double* gains, double* jacobian) const {
         std::fill_n(jacobian, 3 * num_residuals(), 0.0);
         const auto gradients = sh_gradients(towards);

@@ -114,8 +114,8 @@ LobeProfile cosine_profile(int order) {
     return profile;
 }
 
-std::vector<LobeProfile> shared_profiles(int order, std::span<const Lobe> lobes,
-                                         std::span<const float> areas, const LobeFitOptions& options) {
+std::vector<LobeProfile> shared_profiles(int order, std::span<const Lobe> lobes, std::span<const float> areas,
+                                         const LobeFitOptions& options) {
     const Shape costs = profile_costs(order, options);
     const std::vector<Sized> all = sized(lobes, areas, costs);
     const Lobe cosine{{0, 0, 1}, cosine_profile(order)};

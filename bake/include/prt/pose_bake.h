@@ -44,7 +44,7 @@ struct PoseBakeOptions {
 
 /// The self-transfer of one pose: light from everywhere around the model alone.
 struct PoseTransfer {
-    Transfer transfer; ///< `whole`, of one channel or three, in the world
+    Transfer transfer;        ///< `whole`, of one channel or three, in the world
     std::vector<float> areas; ///< m²; 0 of vertices that are sealed in: nobody sees them
     std::vector<bool> sealed;
     std::size_t rays = 0;

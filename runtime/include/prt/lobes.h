@@ -63,8 +63,8 @@ struct LobeModel {
     void decode(std::size_t vertex, std::span<Lobe> to) const;
 };
 
-/// Throws `Error` unless order, number of lobes and profiles are such as the comments above say, and all words
-/// have a profile.
+/// Throws `Error` unless order, number of lobes and profiles are such as the comments above say, and all
+/// words have a profile.
 void check_lobes(const LobeModel& model);
 
 /// How the axes of a vertex turn with the matrix that it goes by, blended by its skin's weights and not
