@@ -5,8 +5,6 @@
 #include "prt/sh.h"
 #include "prt/support/parallel.h"
 
-#include <glm/vec2.hpp>
-
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +18,9 @@ constexpr double kSteps = 255;        ///< of a factor
 constexpr double kFurnace = 1 + 1e-6; ///< sum of the first gains at most: floats of profiles round
 
 using Coefficients = std::array<float, kCoefficients>;
+/// What is left of a vertex's target.
+using Left = std::array<double, kCoefficients>;
+constexpr std::array<std::size_t, kCoefficients> kBandOf = {0, 1, 1, 1, 2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3};
 
 /// The basis along every axis that two bytes can say.
 class AxisTable {
@@ -83,9 +84,14 @@ public:
     }
 
 private:
+    /// Vertices that have a lobe of each profile.
+    std::vector<std::vector<std::uint32_t>> users_of_profiles();
+    /// One profile, against `left` [vertices] by all lobes, which follows.
+    void refit(std::size_t p, std::span<const std::uint32_t> users, std::span<Left> left);
+
     /// What is left of a vertex's target without one of its lobes.
     struct Rest {
-        std::array<double, kCoefficients> left{};
+        Left left{};
         double first_gains = 0; ///< of the other lobes
     };
 
@@ -191,44 +197,52 @@ private:
     LobeModel& model_;
 };
 
-void Coder::refit_profiles() {
-    const std::size_t c = targets_.coefficients(), vertices = model_.vertices();
-    std::vector<std::array<double, kCoefficients>> left(vertices);
+std::vector<std::vector<std::uint32_t>> Coder::users_of_profiles() {
     std::vector<std::vector<std::uint32_t>> users(model_.profiles.size());
-    for (std::size_t v = 0; v < vertices; ++v) {
-        left[v] = rest_of(v, {}).left; // without none
+    for (std::size_t v = 0; v < model_.vertices(); ++v)
         for (const LobeWord& word : words_of(v))
-            if (word[3] > 0 && (users[word[2]].empty() || users[word[2]].back() != v))
-                users[word[2]].push_back(static_cast<std::uint32_t>(v));
-    }
-    for (std::size_t p = 1; p < users.size(); ++p) {
-        std::vector<std::array<double, kCoefficients>> unit(users[p].size());
-        std::array<double, kMostLobeOrder> along{}, square{};
-        for (std::size_t u = 0; u < users[p].size(); ++u) {
-            const std::size_t v = users[p][u];
-            for (const LobeWord& word : words_of(v))
-                if (word[2] == p)
-                    for (std::size_t i = 0; i < c; ++i)
-                        unit[u][i] += factor(word) * static_cast<double>(axes_.of(word)[i]);
-            for (std::size_t i = 0; i < c; ++i) {
-                const auto l = static_cast<std::size_t>(std::sqrt(i));
-                const double area = static_cast<double>(targets_.areas[v]);
-                along[l] += area * unit[u][i] * left[v][i];
-                square[l] += area * unit[u][i] * unit[u][i];
-            }
+            if (std::vector<std::uint32_t>& own = users[word[2]];
+                word[3] > 0 && (own.empty() || own.back() != v))
+                own.push_back(static_cast<std::uint32_t>(v));
+    return users;
+}
+
+void Coder::refit(std::size_t p, std::span<const std::uint32_t> users, std::span<Left> left) {
+    const std::size_t c = targets_.coefficients();
+    std::vector<Left> unit(users.size()); // of each vertex, its lobes of profile 1
+    std::array<double, kMostLobeOrder> along{}, square{}, change{};
+    for (std::size_t u = 0; u < users.size(); ++u) {
+        const std::size_t v = users[u];
+        for (const LobeWord& word : words_of(v))
+            if (word[2] == p)
+                for (std::size_t i = 0; i < c; ++i)
+                    unit[u][i] += factor(word) * static_cast<double>(axes_.of(word)[i]);
+        const double area = static_cast<double>(targets_.areas[v]);
+        for (std::size_t i = 0; i < c; ++i) {
+            along[kBandOf[i]] += area * unit[u][i] * left[v][i];
+            square[kBandOf[i]] += area * unit[u][i] * unit[u][i];
         }
-        LobeProfile change{};
-        for (std::size_t l = 0; l < change.size(); ++l)
-            if (square[l] > 1e-12)
-                change[l] = static_cast<float>(along[l] / square[l]);
-        for (std::size_t u = 0; u < users[p].size(); ++u)
-            for (std::size_t i = 0; i < c; ++i)
-                left[users[p][u]][i] -=
-                    static_cast<double>(change[static_cast<std::size_t>(std::sqrt(i))]) * unit[u][i];
-        for (std::size_t l = 0; l < change.size(); ++l)
-            model_.profiles[p][l] =
-                std::clamp(model_.profiles[p][l] + change[l], -kLargestGain, kLargestGain);
     }
+    LobeProfile& profile = model_.profiles[p];
+    for (std::size_t l = 0; l < change.size(); ++l)
+        if (square[l] > 1e-12) {
+            const auto before = static_cast<double>(profile[l]);
+            const auto most = static_cast<double>(kLargestGain);
+            profile[l] = static_cast<float>(std::clamp(before + along[l] / square[l], -most, most));
+            change[l] = static_cast<double>(profile[l]) - before;
+        }
+    for (std::size_t u = 0; u < users.size(); ++u)
+        for (std::size_t i = 0; i < c; ++i)
+            left[users[u]][i] -= change[kBandOf[i]] * unit[u][i];
+}
+
+void Coder::refit_profiles() {
+    std::vector<Left> left(model_.vertices());
+    for (std::size_t v = 0; v < left.size(); ++v)
+        left[v] = rest_of(v, {}).left; // without none
+    const std::vector<std::vector<std::uint32_t>> users = users_of_profiles();
+    for (std::size_t p = 1; p < users.size(); ++p)
+        refit(p, users[p], left);
 }
 
 } // namespace

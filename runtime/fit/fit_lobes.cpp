@@ -85,6 +85,16 @@ private:
     std::array<double, kMostLobeOrder> weights_{};
 };
 
+/// A lobe is the same about the opposite axis with its odd bands negated. Of the two it is the one whose
+/// light comes from where its axis points, so that profiles are of one kind.
+void face_forward(FreeLobe& lobe) {
+    if (lobe.profile[1] >= 0)
+        return;
+    lobe.axis = -lobe.axis;
+    lobe.profile[1] *= -1;
+    lobe.profile[3] *= -1;
+}
+
 void fit_vertex(int order, std::span<const double> target, const LobeFitOptions& options,
                 std::span<Lobe> to) {
     std::array<FreeLobe, kMostLobes> room;
@@ -107,6 +117,7 @@ void fit_vertex(int order, std::span<const double> target, const LobeFitOptions&
     ceres::Solver::Summary summary;
     ceres::Solve(solver, &problem, &summary); // where it fails, what it began with stands
     for (std::size_t k = 0; k < lobes.size(); ++k) {
+        face_forward(lobes[k]);
         to[k] = {glm::vec3(lobes[k].axis), {}};
         for (std::size_t l = 0; l < static_cast<std::size_t>(order); ++l)
             to[k].profile[l] = static_cast<float>(lobes[k].profile[l]);
@@ -151,8 +162,10 @@ double lobe_error(const LobeTargets& targets, std::span<const Lobe> lobes, const
         lobe_transfer(lobes.subspan(v * options.lobes, options.lobes), targets.order, found);
         const std::span<const double> target = targets.vector(v);
         for (std::size_t i = 0; i < found.size(); ++i) {
-            const double cost = static_cast<double>(targets.areas[v]) *
-                                options.band_costs[static_cast<std::size_t>(std::sqrt(i))];
+            const double cost = static_cast<double>(targets.areas[v]) * options.band_costs[i < 1   ? 0
+                                                                                           : i < 4 ? 1
+                                                                                           : i < 9 ? 2
+                                                                                                   : 3];
             error += cost * (target[i] - static_cast<double>(found[i])) *
                      (target[i] - static_cast<double>(found[i]));
             norm += cost * target[i] * target[i];
