@@ -14,7 +14,8 @@ namespace prt::cli {
 namespace {
 
 /// Transfer of a vertex that turns with its skin, in the order of the columns.
-enum Method { shipped, best, rest, unshadowed, kMethods };
+enum class Method { shipped, best, rest, unshadowed };
+constexpr std::size_t kMethods = 4;
 using ByMethod = std::array<double, kMethods>;
 
 struct SkyLight {
@@ -59,7 +60,7 @@ public:
 private:
     void write(Method method, std::size_t v, std::span<double> to) const {
         const MeanTransfer& mean = request_.mean;
-        if (method == shipped) {
+        if (method == Method::shipped) {
             std::array<Lobe, kMostLobes> lobes;
             request_.lobes.decode(v, lobes);
             for (Lobe& lobe : lobes)
@@ -67,10 +68,10 @@ private:
             std::vector<float> vector(to.size());
             lobe_transfer(lobes, mean.order, vector);
             std::copy(vector.begin(), vector.end(), to.begin());
-        } else if (method == unshadowed) {
+        } else if (method == Method::unshadowed) {
             clamped_cosine_lobe(mean.order, glm::dvec3(normals_[v]), to);
         } else {
-            const std::vector<double>& all = method == best ? mean.vectors : mean.rest;
+            const std::vector<double>& all = method == Method::best ? mean.vectors : mean.rest;
             frames_.to_world(mean.order, v, std::span(all).subspan(v * to.size(), to.size()), to);
         }
     }
@@ -130,9 +131,8 @@ void add_lobe_errors(const LobeErrorRequest& request, const Progress& progress, 
             bake_pose(request.model, pose, request.options, progress.part(from, from + 1 / frames));
         const LobeFrame frame(request, pose);
         ByMethod of_frame{};
-        for (int method = 0; method < kMethods; ++method) {
-            const Transfer transfer = frame.transfer(static_cast<Method>(method));
-            const auto m = static_cast<std::size_t>(method);
+        for (std::size_t m = 0; m < kMethods; ++m) {
+            const Transfer transfer = frame.transfer(static_cast<Method>(m));
             for (std::size_t i = 0; i < lights.size(); ++i) {
                 const double error =
                     lit_rms(exit_radiance(truth.transfer, lights[i].light, request.options.threads),

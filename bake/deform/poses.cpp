@@ -8,7 +8,7 @@
 namespace prt {
 namespace {
 
-std::vector<const Animation*> chosen(const AnimatedScene& model, const std::string& only) {
+std::vector<const Animation*> chosen_animations(const AnimatedScene& model, const std::string& only) {
     if (model.animations().empty())
         throw Error("has no animation to take poses from");
     std::vector<const Animation*> animations;
@@ -53,7 +53,7 @@ void check_count(int count) {
 
 std::vector<ModelPose> poses_of(const AnimatedScene& model, int count, const std::string& only) {
     check_count(count);
-    const std::vector<const Animation*> animations = chosen(model, only);
+    const std::vector<const Animation*> animations = chosen_animations(model, only);
     std::vector<ModelPose> poses = {{"", 0, model.rest()}};
     add_poses(model, animations, count, 0.5, poses);
     return poses;
@@ -61,7 +61,7 @@ std::vector<ModelPose> poses_of(const AnimatedScene& model, int count, const std
 
 std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const std::string& only) {
     check_count(count);
-    const std::vector<const Animation*> animations = chosen(model, only);
+    const std::vector<const Animation*> animations = chosen_animations(model, only);
     std::vector<ModelPose> poses;
     add_poses(model, animations, count, 0, poses);
     return poses;

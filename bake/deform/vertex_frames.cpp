@@ -13,14 +13,14 @@
 namespace prt {
 namespace {
 
-double size_of(const glm::dmat3& m) {
+double stretch_of(const glm::dmat3& m) {
     return std::sqrt((glm::dot(m[0], m[0]) + glm::dot(m[1], m[1]) + glm::dot(m[2], m[2])) / 3);
 }
 
 /// The rotation next to `matrix`, whose determinant is positive. What is nearly flat has none of its own and
 /// gets the identity.
 glm::dmat3 polar_rotation(const glm::dmat3& matrix) {
-    const double size = size_of(matrix);
+    const double size = stretch_of(matrix);
     if (!(size > 0) || !std::isfinite(size))
         return glm::dmat3(1);
     glm::dmat3 rotation = matrix / size;
@@ -28,7 +28,7 @@ glm::dmat3 polar_rotation(const glm::dmat3& matrix) {
         return glm::dmat3(1);
     for (int i = 0; i < 60; ++i) { // halves the logarithm of every stretch until it is about 1, then squares
         const glm::dmat3 next = 0.5 * (rotation + glm::transpose(glm::inverse(rotation)));
-        const double change = size_of(next - rotation);
+        const double change = stretch_of(next - rotation);
         rotation = next;
         if (change < 1e-12)
             break;

@@ -132,7 +132,7 @@ void add_volume(const VolumeGrid& grid, std::size_t probes, int order, Report& r
     report.sentences.push_back(grid_sentence("volume"));
 }
 
-void add_lobes(const StoredLobes& lobes, Report& report) {
+void add_stored_lobes(const StoredLobes& lobes, Report& report) {
     const LobeModel& model = lobes.model;
     add_figures(report, {{"lobes",
                           {{"order", model.order},
@@ -174,7 +174,7 @@ void run(InfoArguments a, Session& session) {
         report.sentences.push_back("{occlusion_volumes} nodes say what they block around them");
     }
     if (model.lobes)
-        add_lobes(*model.lobes, report);
+        add_stored_lobes(*model.lobes, report);
     if (!model.record() && !model.lobes)
         report.sentences.emplace_back("no transfer");
     if (model.lightmap)

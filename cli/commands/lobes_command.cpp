@@ -113,8 +113,8 @@ Report report_of(const LobesArguments& a, const Made& made, std::size_t poses) {
     return report;
 }
 
-void measure(const LobesArguments& a, const AnimatedScene& model, const Made& made, Session& session,
-             Report& report) {
+void measure_frames(const LobesArguments& a, const AnimatedScene& model, const Made& made, Session& session,
+                    Report& report) {
     if (a.frames == 0)
         return;
     ProgressBar bar = session.progress_bar("measuring");
@@ -144,7 +144,7 @@ void run(LobesArguments a, Session& session) {
         const std::vector<ModelPose> poses = poses_of(model, a.poses, a.animation);
         const Made made = make_lobes(a, model, poses, session);
         report = report_of(a, made, poses.size());
-        measure(a, model, made, session, report);
+        measure_frames(a, model, made, session, report);
         write_lobes(document, model.scene(),
                     {made.lobes,
                      {.poses = static_cast<int>(poses.size()),

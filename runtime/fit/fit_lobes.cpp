@@ -124,7 +124,7 @@ void fit_vertex(int order, std::span<const double> target, const LobeFitOptions&
     }
 }
 
-void check(const LobeTargets& targets, const LobeFitOptions& options) {
+void check_targets(const LobeTargets& targets, const LobeFitOptions& options) {
     if (targets.order < 2 || targets.order > kMostLobeOrder || options.lobes < 1 ||
         options.lobes > kMostLobes || options.profiles < 1 || options.profiles > kMostProfiles)
         throw Error("lobes are 1 to 3 of order 2 to 4, with 1 to 256 profiles");
@@ -138,7 +138,7 @@ void check(const LobeTargets& targets, const LobeFitOptions& options) {
 
 std::vector<Lobe> fit_lobes(const LobeTargets& targets, const LobeFitOptions& options,
                             const Progress& progress) {
-    check(targets, options);
+    check_targets(targets, options);
     const std::size_t vertices = targets.areas.size();
     std::vector<Lobe> lobes(vertices * options.lobes);
     constexpr std::size_t kBlock = 2048; // between two looks at the progress
@@ -155,7 +155,7 @@ std::vector<Lobe> fit_lobes(const LobeTargets& targets, const LobeFitOptions& op
 }
 
 double lobe_error(const LobeTargets& targets, std::span<const Lobe> lobes, const LobeFitOptions& options) {
-    check(targets, options);
+    check_targets(targets, options);
     double error = 0, norm = 0;
     std::vector<float> found(targets.coefficients());
     for (std::size_t v = 0; v < targets.areas.size(); ++v) {

@@ -15,7 +15,7 @@ namespace {
 
 using Shape = std::array<double, kMostLobeOrder>;
 
-constexpr int kRounds = 12; ///< after which assignments hardly move
+constexpr int kMeansRounds = 12; ///< after which assignments hardly move
 
 /// A lobe in units in which squared distance is what an error costs.
 struct Sized {
@@ -122,7 +122,7 @@ std::vector<LobeProfile> shared_profiles(int order, std::span<const Lobe> lobes,
     const float one = 1;
     std::vector<Shape> shapes =
         first_shapes(all, sized({&cosine, 1}, {&one, 1}, costs).front().shape, options.profiles);
-    for (int round = 0; round < kRounds; ++round)
+    for (int round = 0; round < kMeansRounds; ++round)
         move_shapes(all, shapes);
     std::vector<double> largest(shapes.size());
     for (const Sized& lobe : all) {

@@ -15,7 +15,7 @@
 namespace prt {
 namespace {
 
-constexpr int kDirections = 96; ///< 20 degrees from each other; the fit goes on from there
+constexpr int kPursuitDirections = 96; ///< 20 degrees from each other; the fit goes on from there
 
 using Coefficients = std::array<double, kMostLobeOrder * kMostLobeOrder>;
 
@@ -34,8 +34,8 @@ Direction direction_of(const glm::dvec3& towards) {
 const std::vector<Direction>& directions() {
     static const std::vector<Direction> all = [] {
         std::vector<Direction> lattice;
-        for (int i = 0; i < kDirections; ++i) {
-            const double z = 1 - (2 * i + 1.0) / kDirections, radius = std::sqrt(1 - z * z);
+        for (int i = 0; i < kPursuitDirections; ++i) {
+            const double z = 1 - (2 * i + 1.0) / kPursuitDirections, radius = std::sqrt(1 - z * z);
             const double angle = 2 * std::numbers::pi * 0.61803398875 * i;
             lattice.push_back(direction_of({radius * std::cos(angle), radius * std::sin(angle), z}));
         }

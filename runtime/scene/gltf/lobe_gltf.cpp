@@ -22,8 +22,8 @@ std::string attribute_name(std::size_t lobe) {
 }
 
 /// One lobe of the vertices of an array.
-std::size_t write_words(GltfContents& contents, const LobeModel& model, const VertexArray& vertices,
-                        std::size_t lobe) {
+std::size_t write_lobe_words(GltfContents& contents, const LobeModel& model, const VertexArray& vertices,
+                             std::size_t lobe) {
     std::vector<LobeWord> words(vertices.size());
     for (std::size_t v = 0; v < words.size(); ++v)
         words[v] = model.words[(vertices.first_receiver + v) * model.lobes + lobe];
@@ -34,8 +34,8 @@ std::size_t write_words(GltfContents& contents, const LobeModel& model, const Ve
          {"type", "VEC4"}});
 }
 
-void read_words(const GltfContents& contents, const Json& attributes, const VertexArray& vertices,
-                LobeModel& model) {
+void read_lobe_words(const GltfContents& contents, const Json& attributes, const VertexArray& vertices,
+                     LobeModel& model) {
     for (std::size_t k = 0; k < model.lobes; ++k) {
         const std::string name = attribute_name(k);
         const int accessor = attributes.at(name).get<int>();
@@ -95,7 +95,7 @@ void write_lobes(GltfDocument& document, const Scene& scene, const StoredLobes& 
         for (const VertexArray& vertices : scene.vertex_arrays) {
             Json& added = attributes.emplace_back(Json::object());
             for (std::size_t k = 0; k < lobes.model.lobes; ++k)
-                added[attribute_name(k)] = write_words(contents, lobes.model, vertices, k);
+                added[attribute_name(k)] = write_lobe_words(contents, lobes.model, vertices, k);
         }
         for (std::size_t i = 0; i < primitives.size(); ++i)
             (*primitives[i])["attributes"].update(attributes[scene.primitives[i].vertices]);
@@ -137,7 +137,7 @@ std::optional<StoredLobes> read_lobes(const GltfDocument& document, const Scene&
             if (!read.is_new(primitive, own))
                 continue;
             try {
-                read_words(contents, attributes, scene.vertex_arrays[primitive.vertices], model);
+                read_lobe_words(contents, attributes, scene.vertex_arrays[primitive.vertices], model);
             } catch (const std::exception& error) {
                 throw Error(primitive_name(primitive) + ": " + in_plain_words(error));
             }
