@@ -17,7 +17,7 @@ constexpr int kAxisCodes = 255;       ///< of a byte: 255 is 254 again
 constexpr double kSteps = 255;        ///< of a factor
 constexpr double kFurnace = 1 + 1e-6; ///< sum of the first gains at most: floats of profiles round
 
-using Coefficients = std::array<float, kCoefficients>;
+using Basis = std::array<float, kCoefficients>;
 /// What is left of a vertex's target.
 using Left = std::array<double, kCoefficients>;
 constexpr std::array<std::size_t, kCoefficients> kBandOf = {0, 1, 1, 1, 2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 3};
@@ -32,12 +32,12 @@ public:
                             decoded_axis(static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y)),
                             std::span(basis_[static_cast<std::size_t>(y * kAxisCodes + x)]));
     }
-    const Coefficients& of(const LobeWord& word) const {
+    const Basis& of(const LobeWord& word) const {
         return basis_[static_cast<std::size_t>(word[1]) * kAxisCodes + word[0]];
     }
 
 private:
-    std::vector<Coefficients> basis_;
+    std::vector<Basis> basis_;
 };
 
 /// What a lobe may be in the word of a vertex, and how much squared error it takes away.
@@ -103,7 +103,7 @@ private:
         return factor(word) * static_cast<double>(model_.profiles[word[2]][0]);
     }
     void subtract(const LobeWord& word, std::span<double> from) const {
-        const Coefficients& basis = axes_.of(word);
+        const Basis& basis = axes_.of(word);
         const LobeProfile& profile = model_.profiles[word[2]];
         for (int l = 0, i = 0; l < targets_.order; ++l)
             for (int m = -l; m <= l; ++m, ++i)
@@ -170,7 +170,7 @@ private:
                 if (std::min(x, y) < 0 || std::max(x, y) >= kAxisCodes)
                     continue;
                 const LobeWord axis = {static_cast<std::uint8_t>(x), static_cast<std::uint8_t>(y), 0, 0};
-                const Coefficients& basis = axes_.of(axis);
+                const Basis& basis = axes_.of(axis);
                 std::array<double, kMostLobeOrder> found{};
                 for (int l = 0, i = 0; l < targets_.order; ++l) {
                     const auto band = static_cast<std::size_t>(l);

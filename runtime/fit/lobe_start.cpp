@@ -17,11 +17,11 @@ namespace {
 
 constexpr int kPursuitDirections = 96; ///< 20 degrees from each other; the fit goes on from there
 
-using Coefficients = std::array<double, kMostLobeOrder * kMostLobeOrder>;
+using Residual = std::array<double, kMostLobeOrder * kMostLobeOrder>;
 
 struct Direction {
     glm::dvec3 towards;
-    Coefficients basis{};
+    Residual basis{};
 };
 
 Direction direction_of(const glm::dvec3& towards) {
@@ -45,7 +45,7 @@ const std::vector<Direction>& directions() {
 }
 
 /// Sum over m of left_lm Y_lm(axis), which is 1 / `band_square` times the best profile.
-double along(int l, const Coefficients& left, const Direction& direction) {
+double along(int l, const Residual& left, const Direction& direction) {
     double sum = 0;
     for (int i = l * l; i < (l + 1) * (l + 1); ++i)
         sum += left[static_cast<std::size_t>(i)] * direction.basis[static_cast<std::size_t>(i)];
@@ -58,8 +58,7 @@ double band_square(int l) {
 }
 
 /// By how much the best lobe about an axis lowers the squared error.
-double gain_of(int order, const Coefficients& left, const Direction& direction,
-               const LobeFitOptions& options) {
+double gain_of(int order, const Residual& left, const Direction& direction, const LobeFitOptions& options) {
     double gain = 0;
     for (int l = 0; l < order; ++l) {
         const double found = along(l, left, direction);
@@ -68,7 +67,7 @@ double gain_of(int order, const Coefficients& left, const Direction& direction,
     return gain;
 }
 
-Direction best_direction(int order, const Coefficients& left, const LobeFitOptions& options) {
+Direction best_direction(int order, const Residual& left, const LobeFitOptions& options) {
     Direction best = directions().front();
     double most = -1;
     const auto ask = [&](const Direction& direction) {
@@ -91,7 +90,7 @@ Direction best_direction(int order, const Coefficients& left, const LobeFitOptio
 
 void start_lobes(int order, std::span<const double> target, const LobeFitOptions& options,
                  std::span<FreeLobe> lobes) {
-    Coefficients left{};
+    Residual left{};
     std::copy(target.begin(), target.end(), left.begin());
     for (FreeLobe& lobe : lobes) {
         const Direction direction = best_direction(order, left, options);
