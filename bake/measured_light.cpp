@@ -23,12 +23,12 @@ SealedIn find_sealed_in(const BakePlan& plan, Tracer& tracer, const Transfer& di
             dark.push_back(p);
     const Sealed sealed =
         find_sealed(tracer, plan.scene, plan.receivers(), std::move(dark), plan.options.seed, stop);
-    const auto fronts = static_cast<std::ptrdiff_t>(plan.transport->fronts);
     SealedIn found;
     found.rays = sealed.rays;
-    found.receivers = static_cast<std::size_t>(
-        std::count(sealed.receivers.begin(), sealed.receivers.begin() + fronts, true));
-    if (found.receivers > 0 && plan.options.repairs.inside == Inside::refill)
+    for (std::uint32_t p = 0; p < plan.transport->fronts; ++p)
+        if (sealed.receivers[p])
+            found.receivers.push_back(p);
+    if (!found.receivers.empty() && plan.options.repairs.inside == Inside::refill)
         found.refill = Refill(MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts),
                               sealed.receivers);
     return found;

@@ -24,10 +24,10 @@ std::vector<std::string> notices_of(const BakePlan& plan, const DirectLight& dir
     std::vector<std::string> notices = plan.notices;
     notices.insert(notices.end(), direct.notices.begin(), direct.notices.end());
     const std::size_t refilled = sealed.refill.size();
-    if (sealed.receivers > 0)
+    if (!sealed.receivers.empty())
         notices.push_back(fmt::format(
             "{} receivers are sealed in by backs of faces; {} of them take the light of their neighbours{}",
-            sealed.receivers, refilled, refilled < sealed.receivers ? ", the others stay dark" : ""));
+            sealed.receivers.size(), refilled, refilled < sealed.receivers.size() ? ", the others stay dark" : ""));
     if (!exit.converged)
         notices.push_back(fmt::format("the sum over all bounces still changes by {:.2g} after {} steps",
                                       exit.remaining, exit.bounces));
@@ -41,7 +41,7 @@ BakeStatistics statistics_of(const BakePlan& plan, const DirectLight& direct, co
     s.receivers = {.all = fronts,
                    .traced = traced_fronts(plan),
                    .back_sides = plan.receivers().size() - fronts,
-                   .sealed = sealed.receivers,
+                   .sealed = sealed.receivers.size(),
                    .refilled = sealed.refill.size()};
     s.rays = direct.rays + sealed.rays;
     s.mean_visibility = direct.mean_visibility;
@@ -86,6 +86,7 @@ TransferStorage storage_for(const StorageErrors& errors, std::vector<std::string
 BakeResult record(const BakePlan& plan, const Tracer& tracer, const DirectLight& direct,
                   const SealedIn& sealed, Propagated exit) {
     BakeResult result;
+    result.sealed = sealed.receivers;
     result.statistics = statistics_of(plan, direct, sealed, exit);
     result.statistics.device = tracer.device();
     BakedTransfer& baked = result.baked;

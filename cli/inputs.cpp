@@ -89,6 +89,7 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
     file.volume = read_volume(file.document, file.scene);
     file.compressed_volume = read_compressed_volume(file.document, file.scene);
     file.occluders = read_occluders(file.document);
+    file.lobes = read_lobes(file.document, file.scene);
     return file;
 }
 

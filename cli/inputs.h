@@ -6,6 +6,7 @@
 #include "prt/image_file.h"
 #include "prt/light.h"
 #include "prt/lightmap.h"
+#include "prt/lobe_gltf.h"
 #include "prt/occluder_gltf.h"
 #include "prt/support/error.h"
 #include "prt/volume_gltf.h"
@@ -45,6 +46,7 @@ struct SceneFile {
     std::optional<BakedVolume> volume = {};
     std::optional<CompressedVolume> compressed_volume = {};
     std::vector<NodeOccluder> occluders = {};
+    std::optional<StoredLobes> lobes = {};
 
     /// Order of the transfer, 0 where there is none.
     int order() const;

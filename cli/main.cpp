@@ -37,6 +37,7 @@ void add_commands(CLI::App& app, Session& session) {
     add_bench(app, session);
     add_compress(app, session);
     add_evaluate(app, session);
+    add_lobes(app, session);
     add_project(app, session);
     add_relight(app, session);
     add_render(app, session);

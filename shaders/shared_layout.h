@@ -32,6 +32,7 @@
 #define PRT_BINDING_VOLUME_WORDS 4
 #define PRT_BINDING_VOLUME_PROBES 5
 #define PRT_BINDING_OCCLUDERS 6 // a uniform block
+#define PRT_BINDING_LOBES 7 // a uniform block
 #define PRT_BINDING_EMISSION_TEXCOORDS 10
 #define PRT_BINDING_PALETTE 11 // what moves: skinning.glsl
 #define PRT_BINDING_INFLUENCES 12
@@ -73,6 +74,9 @@
 #define PRT_OCCLUDER_SIDE 8
 #define PRT_OCCLUDER_FADE 0.6
 #define PRT_OCCLUDER_BORDER 0.4
+// Profiles of lobes: prt/lobes.h.
+#define PRT_MOST_PROFILES 256
+
 #ifndef PRT_MOST_OCCLUDERS
 #define PRT_MOST_OCCLUDERS 32
 #endif

@@ -178,13 +178,13 @@ SealedIn leave_out_sealed(const BakePlan& plan, Tracer& tracer, const SurfaceSam
             equations.rows[s].unknowns.fill(kNoReceiver);
     }
     std::vector<bool> inside(plan.receivers().size());
-    for (std::size_t p = 0; p < inside.size(); ++p) {
+    for (std::uint32_t p = 0; p < inside.size(); ++p) {
         const std::uint32_t u = equations.unknown_of[p];
         inside[p] = u != kNoReceiver && asked[u] && !told[u];
         if (p < plan.transport->fronts && inside[p])
-            ++result.receivers;
+            result.receivers.push_back(p);
     }
-    if (result.receivers > 0 && plan.options.repairs.inside == Inside::refill)
+    if (!result.receivers.empty() && plan.options.repairs.inside == Inside::refill)
         result.refill =
             Refill(MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts), inside);
     return result;

@@ -16,6 +16,7 @@ void add_bench(CLI::App& app, Session& session);
 void add_compress(CLI::App& app, Session& session);
 void add_evaluate(CLI::App& app, Session& session);
 void add_info(CLI::App& app, Session& session);
+void add_lobes(CLI::App& app, Session& session);
 void add_make(CLI::App& app, Session& session);
 void add_project(CLI::App& app, Session& session);
 void add_relight(CLI::App& app, Session& session);

@@ -132,6 +132,27 @@ void add_volume(const VolumeGrid& grid, std::size_t probes, int order, Report& r
     report.sentences.push_back(grid_sentence("volume"));
 }
 
+void add_stored_lobes(const StoredLobes& lobes, Report& report) {
+    const LobeModel& model = lobes.model;
+    add_figures(report, {{"lobes",
+                          {{"order", model.order},
+                           {"lobes_per_vertex", model.lobes},
+                           {"bytes_bound_per_vertex", model.lobes * sizeof(LobeWord)},
+                           {"profiles", model.profiles.size()},
+                           {"poses", lobes.record.poses},
+                           {"rays_per_receiver", lobes.record.rays},
+                           {"bounces", lobes.record.bounces},
+                           {"seed", lobes.record.seed}}}});
+    report.sentences.push_back(
+        fmt::format("lobes that turn with the skin: order {{lobes/order}}, {} and "
+                    "{{lobes/bytes_bound_per_vertex}} bytes per vertex, {{lobes/profiles}} profiles",
+                    counted("lobes/lobes_per_vertex", model.lobes, "lobe")));
+    report.sentences.push_back(fmt::format(
+        "fitted to {}, {{lobes/rays_per_receiver}} rays per vertex in each, {}, seed {{lobes/seed}}",
+        counted("lobes/poses", static_cast<std::size_t>(lobes.record.poses), "pose"),
+        counted("lobes/bounces", static_cast<std::size_t>(lobes.record.bounces), "bounce")));
+}
+
 void run(InfoArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.json, "--json", {".json"}}}, {a.file});
     const SceneFile model = load_scene_file(a.file, a.reading);
@@ -152,7 +173,9 @@ void run(InfoArguments a, Session& session) {
         add_figures(report, {{"occlusion_volumes", model.occluders.size()}});
         report.sentences.push_back("{occlusion_volumes} nodes say what they block around them");
     }
-    if (!model.record())
+    if (model.lobes)
+        add_stored_lobes(*model.lobes, report);
+    if (!model.record() && !model.lobes)
         report.sentences.emplace_back("no transfer");
     if (model.lightmap)
         say_texels(report);

@@ -2,6 +2,7 @@
 
 #include "options.h"
 #include "outputs.h"
+#include "prt/lobe_shader.h"
 #include "prt/occlusion_volume.h"
 #include "prt/shader_source.h"
 #include "prt/support/error.h"
@@ -21,7 +22,7 @@ struct ShaderArguments {
     Path model, output;
     ShaderLanguage language = ShaderLanguage::glsl450;
     std::optional<ConstantSource> constants; ///< unset: what the language can do
-    bool compute = false, fragment = false, volume = false, occluders = false;
+    bool compute = false, fragment = false, volume = false, occluders = false, lobes = false;
     GltfOptions reading;
 };
 
@@ -99,9 +100,30 @@ void write_occluder_shader(const ShaderArguments& a, const SceneFile& model, Ses
         kMostOccluders));
 }
 
+/// Transfer that turns with a skin, behind the lookup of the volume that lights it.
+void write_lobe_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
+    if (!model.lobes)
+        throw Error(a.model.string() + ": holds no lobes; run prt lobes first");
+    const LobeModel& lobes = model.lobes->model;
+    const std::string lookup =
+        model.compressed_volume
+            ? volume_functions(*model.compressed_volume, VolumeFormat::rgba16, model.scene.origin)
+            : "";
+    session.write(a.output, lobe_functions(lobes, lookup));
+    print(fmt::format(
+        "{}: functions to put behind the version line of a shader; {} of _PRT_LOBE_0 on, profiles in "
+        "a uniform block of {} bytes{}\n",
+        printable(a.output.string()),
+        lobes.lobes == 1 ? "one attribute" : fmt::format("{} attributes", lobes.lobes),
+        kMostProfiles * sizeof(glm::vec4),
+        model.compressed_volume ? ", light by the volume of the file" : ""));
+}
+
 void run(ShaderArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.output, "--output"}}, {a.model});
     const SceneFile model = load_scene_file(a.model, a.reading);
+    if (a.lobes)
+        return write_lobe_shader(a, model, session);
     if (a.occluders)
         return write_occluder_shader(a, model, session);
     if (a.volume || (model.compressed_volume && !model.compressed))
@@ -156,6 +178,13 @@ void add_shader(CLI::App& app, Session& session) {
             "of the volume where the file has one")
         ->excludes("--compute")
         ->excludes("--fragment");
+    command
+        ->add_flag("--lobes", a.lobes,
+                   "the functions that light what prt lobes wrote, for every language; behind those of the "
+                   "volume where the file has one")
+        ->excludes("--compute")
+        ->excludes("--fragment")
+        ->excludes("--occluders");
     add_reading(command, a.reading);
 }
 

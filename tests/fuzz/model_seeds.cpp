@@ -5,6 +5,7 @@
 #include "prt/fallback.h"
 #include "prt/gltf.h"
 #include "prt/image_file.h"
+#include "prt/lobe_gltf.h"
 #include "prt/occluder_gltf.h"
 #include "prt/support/file.h"
 #include "support/glb_file.h"
@@ -196,6 +197,20 @@ void write_occluder(const Path& folder) {
     save_glb(document, folder / "occluder.glb");
 }
 
+/// A skinned triangle with two lobes a vertex.
+void write_lobed(const Path& folder) {
+    GltfDocument document = document_of(dressed_file());
+    const Scene scene = extract_scene(document);
+    StoredLobes lobes;
+    lobes.model.order = 3;
+    lobes.model.lobes = 2;
+    lobes.model.profiles = {{1, 0.6f, 0.25f}, {0.5f, -0.25f, 0.125f}};
+    for (std::size_t v = 0; v < scene.receivers(); ++v)
+        lobes.model.words.insert(lobes.model.words.end(), {{127, 200, 0, 255}, {10, 90, 1, 40}});
+    write_lobes(document, scene, lobes);
+    save_glb(document, folder / "lobes.glb");
+}
+
 } // namespace
 
 void write_model_seeds(const Path& to) {
@@ -225,6 +240,7 @@ void write_model_seeds(const Path& to) {
     write_guided(folder);
     write_lightmaps(folder);
     write_occluder(folder);
+    write_lobed(folder);
 }
 
 } // namespace prt::fuzz

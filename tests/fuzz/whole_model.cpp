@@ -2,8 +2,10 @@
 #include "whole_model.h"
 
 #include "prt/constant_former.h"
+#include "prt/light.h"
 #include "prt/lightmap_former.h"
 #include "prt/lightmap_lookup.h"
+#include "prt/lobe_gltf.h"
 #include "prt/occluder_gltf.h"
 #include "prt/rigid_parts.h"
 #include "target.h"
@@ -119,6 +121,21 @@ void check_occluders(const GltfDocument& document, const Scene& scene) {
     expect(triangles == scene.triangles(), "parts have other triangles");
 }
 
+/// Every vertex by its lobes, whatever their bytes.
+void check_lobes_of(const GltfDocument& document, const Scene& scene) {
+    const std::optional<StoredLobes> stored = read_lobes(document, scene);
+    if (!stored)
+        return;
+    expect(stored->model.vertices() == scene.receivers(), "lobes of other vertices");
+    const Light light = constant_light(kMostLobeOrder, glm::vec3(1));
+    std::array<Lobe, kMostLobes> lobes;
+    for (std::size_t v = 0; v < stored->model.vertices(); ++v) {
+        stored->model.decode(v, lobes);
+        const glm::vec3 radiance = lobe_radiance(lobes, light.coefficients, kMostLobeOrder);
+        expect_finite(std::span(&radiance.x, 3), "light by lobes");
+    }
+}
+
 } // namespace
 
 WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::path& path) {
@@ -126,6 +143,7 @@ WholeModel read_whole(std::span<const std::byte> file, const std::filesystem::pa
     Scene scene = extract_scene(document);
     check_scene(scene);
     check_occluders(document, scene);
+    check_lobes_of(document, scene);
     auto baked = read_transfer(document, scene);
     auto compressed = read_clustered(document, scene);
     if (baked) {

@@ -141,6 +141,8 @@ struct BakeStatistics {
 
 struct BakeResult {
     BakedTransfer baked;
+    /// Receivers inside geometry, where no light reaches, ascending: nobody sees them.
+    std::vector<std::uint32_t> sealed;
     BakeStatistics statistics;
 };
 

@@ -1,8 +1,9 @@
-// Somebody who walks: limbs of elliptical sections on a skeleton.
+// Somebody who walks, stands and dances: limbs of elliptical sections on a skeleton.
 
 #include "example_scenes.h"
 #include "figure/body.h"
 #include "figure/bones.h"
+#include "figure/dance.h"
 #include "figure/gait.h"
 
 namespace examples {
@@ -20,7 +21,7 @@ ExampleScene figure() {
     return {.parts = {soft_part("shirt", {0.62f, 0.24f, 0.13f}, anatomy::shirt()),
                       soft_part("dark", {0.11f, 0.14f, 0.21f}, anatomy::dark_parts()),
                       soft_part("skin", {0.72f, 0.50f, 0.38f}, anatomy::skin_parts())},
-            .skeleton = {anatomy::joints(), {anatomy::walk(), anatomy::idle()}}};
+            .skeleton = {anatomy::joints(), {anatomy::walk(), anatomy::idle(), anatomy::dance()}}};
 }
 
 } // namespace examples

@@ -3,12 +3,11 @@
 // Burnfield, Gait Analysis, 2010).
 #include "figure/gait.h"
 
-#include "figure/pose.h"
+#include "figure/movement.h"
 
 #include <glm/trigonometric.hpp>
 
 #include <cmath>
-#include <numbers>
 
 namespace examples::anatomy {
 namespace {
@@ -25,12 +24,6 @@ constexpr float kLift = 0.025f; ///< metres, of the foot in the air, so that its
 constexpr float kFootAside = 0.082f;
 constexpr int kWalkKeys = 40, kIdleKeys = 16;
 constexpr float kIdlePeriod = 4;
-
-constexpr glm::vec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
-
-float wave(float phase) {
-    return std::cos(2 * std::numbers::pi_v<float> * phase);
-}
 
 /// From (0, a) to (1, b) with slopes `da` and `db`.
 float hermite(float a, float da, float b, float db, float t) {
@@ -118,21 +111,6 @@ Pose standing(float phase) {
     for (const Side side : kSides)
         place_arm(pose, side, glm::radians(2.0f + breath), glm::radians(12.0f - breath));
     return pose;
-}
-
-Movement movement_of(std::string name, Pose (*pose_at)(float phase), float period, int keys) {
-    Movement movement{std::move(name), {}, {}};
-    for (int joint = 0; joint < bone_count; ++joint)
-        movement.tracks.push_back({joint, {}});
-    for (int key = 0; key <= keys; ++key) {
-        const float phase = static_cast<float>(key) / static_cast<float>(keys);
-        const Pose pose = pose_at(key == keys ? 0 : phase); // it ends where it begins
-        movement.times.push_back(period * phase);
-        movement.tracks[hips].positions.push_back(pose.hips_position);
-        for (JointTrack& track : movement.tracks)
-            track.rotations.push_back(pose.rotations[static_cast<std::size_t>(track.joint)]);
-    }
-    return movement;
 }
 
 } // namespace

@@ -51,6 +51,7 @@ struct GltfContents {
 inline constexpr const char* kTransferExtension = "PRTKIT_transfer";
 inline constexpr const char* kClusteredExtension = "PRTKIT_clustered_pca";
 inline constexpr const char* kLightmapExtension = "PRTKIT_lightmap";
+inline constexpr const char* kLobeExtension = "PRTKIT_lobes";
 inline constexpr const char* kVolumeExtension = "PRTKIT_transfer_volume";
 inline constexpr const char* kOccluderExtension = "PRTKIT_occlusion_volume"; ///< of nodes
 

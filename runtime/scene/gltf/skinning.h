@@ -22,8 +22,4 @@ std::vector<glm::dmat4> joint_palette(const Skin& skin, std::span<const glm::dma
 void read_influences(const tinygltf::Model& model, const tinygltf::Primitive& primitive, std::size_t joints,
                      std::size_t vertices, MovingVertices& moving);
 
-/// The matrix that takes a vertex to the world.
-glm::dmat4 vertex_matrix(std::span<const glm::dmat4> palette, const MovingVertices& moving,
-                         std::size_t vertex);
-
 } // namespace prt

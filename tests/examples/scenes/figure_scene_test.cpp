@@ -28,14 +28,18 @@ const Animation& walk_of(const AnimatedScene& scene) {
     return *std::ranges::find(scene.animations(), "walk", &Animation::name);
 }
 
-/// All vertices at a time of the walk.
-std::vector<glm::vec3> places_at(const AnimatedScene& scene, double seconds) {
-    const Animation& walk = walk_of(scene);
-    const Scene posed = scene.posed(scene.pose(walk, std::fmod(seconds, walk.duration)), glm::dmat4(1));
+/// All vertices at a time of a movement.
+std::vector<glm::vec3> places_of(const AnimatedScene& scene, const Animation& movement, double seconds) {
+    const Scene posed =
+        scene.posed(scene.pose(movement, std::fmod(seconds, movement.duration)), glm::dmat4(1));
     std::vector<glm::vec3> places;
     for (const VertexArray& vertices : posed.vertex_arrays)
         places.insert(places.end(), vertices.positions.begin(), vertices.positions.end());
     return places;
+}
+
+std::vector<glm::vec3> places_at(const AnimatedScene& scene, double seconds) {
+    return places_of(scene, walk_of(scene), seconds);
 }
 
 TEST(ExampleFigure, IsSomebodyOfOrdinarySize) {
@@ -77,6 +81,28 @@ TEST(ExampleFigure, ItsFeetDoNotSlideAndItsWalkLoops) {
     const auto first = places_at(scene, 0), last = places_at(scene, walk.duration - 1e-9);
     for (std::size_t v = 0; v < first.size(); ++v)
         ASSERT_LT(glm::distance(first[v], last[v]), 1e-5f);
+}
+
+TEST(ExampleFigure, ItsDanceLoopsOnTheGround) {
+    const AnimatedScene scene = figure();
+    const auto dance = std::ranges::find(scene.animations(), "dance", &Animation::name);
+    ASSERT_NE(dance, scene.animations().end());
+    EXPECT_DOUBLE_EQ(dance->duration, 2); // 60 frames at 30 in a second
+    const std::vector<glm::vec3> first = places_of(scene, *dance, 0);
+    float moved = 0;
+    for (int i = 0; i < 20; ++i) {
+        const std::vector<glm::vec3> now = places_of(scene, *dance, 0.1 * i);
+        float lowest = 1;
+        for (std::size_t v = 0; v < now.size(); ++v) {
+            lowest = std::min(lowest, now[v].y);
+            moved = std::max(moved, glm::distance(now[v], first[v]));
+        }
+        EXPECT_NEAR(lowest, 0, 0.01f) << i; // a foot stands at all times
+    }
+    EXPECT_GT(moved, 0.8f); // hands go from the thighs to above the head
+    const std::vector<glm::vec3> last = places_of(scene, *dance, dance->duration - 1e-6);
+    for (std::size_t v = 0; v < first.size(); ++v)
+        ASSERT_LT(glm::distance(first[v], last[v]), 1e-4f);
 }
 
 } // namespace

@@ -68,6 +68,10 @@ struct MovingVertices {
     std::vector<float> weights;          ///< [vertices][influences], 0: whatever the matrix
 };
 
+/// The matrix that takes a vertex to the world, blended of `palette`: AnimatedScene::matrices of its array.
+glm::dmat4 vertex_matrix(std::span<const glm::dmat4> palette, const MovingVertices& moving,
+                         std::size_t vertex);
+
 /// Whether a file has animations at all; nothing of them is read.
 bool has_animations(const GltfDocument& document);
 

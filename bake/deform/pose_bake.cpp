@@ -1,0 +1,128 @@
+// Bakes poses, and takes their mean in the frames of the vertices.
+
+#include "prt/pose_bake.h"
+
+#include "prt/support/error.h"
+#include "prt/support/parallel.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace prt {
+namespace {
+
+/// Of a vertex that a pose seals in, its light, which is that of its neighbours, beside that of poses that
+/// show it: next to nothing, but there where no pose does.
+constexpr double kSealedWeight = 1e-6;
+
+constexpr std::size_t kGrain = 512; ///< vertices of a task
+
+BakeOptions bake_options_of(const PoseBakeOptions& options) {
+    BakeOptions bake;
+    bake.order = options.order;
+    bake.rays = options.rays;
+    bake.bounces = options.bounces;
+    bake.tracer = options.tracer;
+    bake.lamps.mode = LampMode::none;
+    bake.repairs.bad_textures = options.bad_textures;
+    bake.threads = options.threads;
+    bake.seed = options.seed;
+    return bake;
+}
+
+/// Values of animations are finite, but what they make of vertices need not be.
+void check_places(const Scene& scene, const ModelPose& pose) {
+    for (const VertexArray& vertices : scene.vertex_arrays)
+        for (const glm::vec3& p : vertices.positions)
+            if (!(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) <=
+                  static_cast<float>(kFarthestVertex)))
+                throw Error("animation '" + pose.animation + "' takes vertices beyond " +
+                            std::to_string(static_cast<long>(kFarthestVertex)) + " m at " +
+                            std::to_string(pose.seconds) + " s");
+}
+
+void add_pose(const PoseTransfer& baked, const VertexFrames& frames, int threads,
+              std::vector<double>& weights, MeanTransfer& mean) {
+    const bool first = mean.rest.empty();
+    if (first)
+        mean.rest.resize(mean.vectors.size());
+    const std::size_t c = mean.coefficients();
+    parallel_for(mean.vertices(), kGrain, threads, [&](std::size_t begin, std::size_t end) {
+        std::vector<double> vector(c);
+        for (std::size_t v = begin; v < end; ++v) {
+            grey_vector(baked.transfer, v, vector);
+            frames.from_world(mean.order, v, vector, vector);
+            const double weight = baked.sealed[v] ? kSealedWeight : 1;
+            weights[v] += weight;
+            for (std::size_t i = 0; i < c; ++i)
+                mean.vectors[v * c + i] += weight * vector[i];
+            if (first)
+                std::copy(vector.begin(), vector.end(),
+                          mean.rest.begin() + static_cast<std::ptrdiff_t>(v * c));
+        }
+    });
+}
+
+} // namespace
+
+void grey_vector(const Transfer& transfer, std::size_t receiver, std::span<double> grey) {
+    const std::span<const float> vector = transfer.vector(receiver);
+    const auto channels = static_cast<std::size_t>(transfer.layout.channels());
+    for (std::size_t i = 0; i < grey.size(); ++i) {
+        grey[i] = 0;
+        for (std::size_t c = 0; c < channels; ++c)
+            grey[i] += static_cast<double>(vector[c * grey.size() + i]) / static_cast<double>(channels);
+    }
+}
+
+PoseTransfer bake_pose(const AnimatedScene& model, const ModelPose& pose, const PoseBakeOptions& options,
+                       const Progress& progress) {
+    // Seen from where the model stands, floats are fine enough.
+    const Scene scene = model.posed(pose.nodes, glm::translate(glm::dmat4(1), -model.scene().origin));
+    check_places(scene, pose);
+    const BakeResult result = bake(scene, bake_options_of(options), progress);
+    PoseTransfer baked{
+        as_whole(result.baked.transfer, options.threads), receiver_areas(scene), {}, result.statistics.rays};
+    baked.sealed.resize(baked.areas.size());
+    for (const std::uint32_t v : result.sealed) {
+        baked.sealed[v] = true;
+        baked.areas[v] = 0;
+    }
+    return baked;
+}
+
+MeanTransfer mean_of_poses(const AnimatedScene& model, std::span<const ModelPose> poses,
+                           const PoseBakeOptions& options, const Progress& progress) {
+    const std::size_t vertices = model.scene().receivers();
+    MeanTransfer mean;
+    mean.order = options.order;
+    mean.areas.resize(vertices);
+    mean.vectors.resize(vertices * mean.coefficients());
+    std::vector<double> weights(vertices);
+    const auto share = [&](std::size_t p) {
+        return static_cast<double>(p) / static_cast<double>(poses.size());
+    };
+    for (std::size_t p = 0; p < poses.size(); ++p) {
+        PoseBakeOptions of_pose = options;
+        of_pose.seed = options.seed + p; // noise of several poses averages out
+        const PoseTransfer baked = bake_pose(model, poses[p], of_pose, progress.part(share(p), share(p + 1)));
+        add_pose(baked, VertexFrames(model, poses[p]), options.threads, weights, mean);
+        for (std::size_t v = 0; v < vertices; ++v)
+            mean.areas[v] += baked.areas[v] / static_cast<float>(poses.size());
+        mean.rays += baked.rays;
+    }
+    const std::vector<float> standing = receiver_areas(model.scene());
+    for (std::size_t v = 0; v < vertices; ++v) {
+        for (std::size_t i = 0; i < mean.coefficients(); ++i)
+            mean.vectors[v * mean.coefficients() + i] /= weights[v];
+        if (weights[v] >= 1)
+            continue;
+        ++mean.hidden;
+        mean.areas[v] = 0.01f * standing[v];
+    }
+    return mean;
+}
+
+} // namespace prt

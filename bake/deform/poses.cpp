@@ -1,0 +1,70 @@
+// At which times a model is looked at.
+
+#include "prt/pose_bake.h"
+#include "prt/support/error.h"
+
+#include <algorithm>
+
+namespace prt {
+namespace {
+
+std::vector<const Animation*> chosen_animations(const AnimatedScene& model, const std::string& only) {
+    if (model.animations().empty())
+        throw Error("has no animation to take poses from");
+    std::vector<const Animation*> animations;
+    for (const Animation& animation : model.animations())
+        if (only.empty() || animation.name == only)
+            animations.push_back(&animation);
+    if (!animations.empty())
+        return animations;
+    std::string names;
+    for (const Animation& animation : model.animations())
+        names += (names.empty() ? "" : ", ") + animation.name;
+    throw Error("has no animation '" + only + "'; it has " + names);
+}
+
+ModelPose pose_at(const AnimatedScene& model, const Animation& animation, double seconds) {
+    return {animation.name, seconds, model.pose(animation, seconds)};
+}
+
+/// Poses at (i + offset) / count of the time of all animations.
+void add_poses(const AnimatedScene& model, std::span<const Animation* const> animations, int count,
+               double offset, std::vector<ModelPose>& poses) {
+    double all = 0;
+    for (const Animation* animation : animations)
+        all += animation->duration;
+    for (int i = 0; i < count; ++i) {
+        double seconds = (i + offset) / count * all;
+        std::size_t which = 0;
+        while (which + 1 < animations.size() && seconds >= animations[which]->duration)
+            seconds -= animations[which++]->duration;
+        if (all == 0) // poses that stand still
+            which = static_cast<std::size_t>(i) % animations.size();
+        poses.push_back(pose_at(model, *animations[which], seconds));
+    }
+}
+
+void check_count(int count) {
+    if (count < 1)
+        throw Error("poses are 1 or more");
+}
+
+} // namespace
+
+std::vector<ModelPose> poses_of(const AnimatedScene& model, int count, const std::string& only) {
+    check_count(count);
+    const std::vector<const Animation*> animations = chosen_animations(model, only);
+    std::vector<ModelPose> poses = {{"", 0, model.rest()}};
+    add_poses(model, animations, count, 0.5, poses);
+    return poses;
+}
+
+std::vector<ModelPose> frames_of(const AnimatedScene& model, int count, const std::string& only) {
+    check_count(count);
+    const std::vector<const Animation*> animations = chosen_animations(model, only);
+    std::vector<ModelPose> poses;
+    add_poses(model, animations, count, 0, poses);
+    return poses;
+}
+
+} // namespace prt

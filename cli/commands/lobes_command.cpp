@@ -1,0 +1,208 @@
+#include "commands/commands.h"
+
+#include "lobe_errors.h"
+#include "options.h"
+#include "outputs.h"
+#include "prt/encode_glb.h"
+#include "prt/light_metric.h"
+#include "prt/lobe_fit.h"
+#include "prt/lobe_gltf.h"
+#include "prt/support/error.h"
+#include "prt/support/stopwatch.h"
+#include "terminal.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace prt::cli {
+namespace {
+
+struct LobesArguments {
+    Path model, output, json;
+    std::string animation;
+    int poses = 8, frames = 6;
+    PoseBakeOptions bake;
+    LobeFitOptions fit;
+    GltfOptions reading;
+};
+
+/// What a skin moves needs weights: without them the skin would turn nothing.
+void check_weights(const AnimatedScene& model) {
+    for (const Primitive& primitive : model.scene().primitives) {
+        const MovingVertices& moving = model.vertices()[primitive.vertices];
+        if (moving.skin < 0)
+            continue;
+        const std::size_t identity = model.skins()[static_cast<std::size_t>(moving.skin)].joints.size();
+        const bool weighted =
+            std::ranges::any_of(moving.matrices, [&](std::uint32_t matrix) { return matrix != identity; });
+        if (!weighted)
+            throw Error(fmt::format("mesh {} primitive {} has a skin, but no weights: JOINTS_0 and WEIGHTS_0",
+                                    primitive.mesh, primitive.primitive));
+    }
+}
+
+/// The mean square of lighting in each band, whichever way up.
+void set_band_costs(int order, LobeFitOptions& options) {
+    const LightMetric metric = natural_metric(layout_of_one(order, 1));
+    const auto size = static_cast<std::size_t>(coefficient_count(order));
+    options.band_costs.fill(0);
+    for (int l = 0; l < order; ++l) {
+        const auto i = static_cast<std::size_t>(sh_index(l, 0));
+        options.band_costs[static_cast<std::size_t>(l)] = metric.moments[i * size + i];
+    }
+}
+
+struct Made {
+    LobeModel lobes;
+    MeanTransfer mean;
+    double bake_seconds = 0, fit_seconds = 0;
+    double fit_error = 0, coded_error = 0; ///< against the mean, before and after bytes
+};
+
+Made make_lobes(const LobesArguments& a, const AnimatedScene& model, std::span<const ModelPose> poses,
+                Session& session) {
+    Made made;
+    const Stopwatch baking;
+    {
+        ProgressBar bar = session.progress_bar("baking poses");
+        made.mean = mean_of_poses(model, poses, a.bake, bar.progress());
+    }
+    made.bake_seconds = baking.seconds();
+    const Stopwatch fitting;
+    ProgressBar bar = session.progress_bar("fitting lobes");
+    const LobeTargets targets{a.bake.order, made.mean.vectors, made.mean.areas};
+    const std::vector<Lobe> fitted = fit_lobes(targets, a.fit, bar.progress().part(0, 0.5));
+    made.lobes = code_lobes(targets, fitted, a.fit, bar.progress().part(0.5, 1));
+    made.fit_seconds = fitting.seconds();
+    made.fit_error = lobe_error(targets, fitted, a.fit);
+    made.coded_error = lobe_error(targets, decoded(made.lobes), a.fit);
+    return made;
+}
+
+Report report_of(const LobesArguments& a, const Made& made, std::size_t poses) {
+    const LobeModel& lobes = made.lobes;
+    Report report;
+    add_figures(report, {{"vertices", lobes.vertices()},
+                         {"vertices_hidden", made.mean.hidden},
+                         {"order", lobes.order},
+                         {"lobes_per_vertex", lobes.lobes},
+                         {"bytes_bound_per_vertex", lobes.lobes * sizeof(LobeWord)},
+                         {"profiles", lobes.profiles.size()},
+                         {"bytes_profiles",
+                          lobes.profiles.size() * sizeof(float) * static_cast<std::size_t>(lobes.order)},
+                         {"poses", poses},
+                         {"rays", made.mean.rays},
+                         {"rays_per_receiver", a.bake.rays},
+                         {"bounces", a.bake.bounces},
+                         {"fit_relative_l2", made.fit_error},
+                         {"coded_relative_l2", made.coded_error},
+                         {"bake_seconds", made.bake_seconds},
+                         {"fit_seconds", made.fit_seconds}});
+    report.sentences = {
+        fmt::format(
+            "{{output}}: {} lobe{} for each of {{vertices}} vertices, {{bytes_bound_per_vertex}} bytes "
+            "a vertex, {{profiles}} profiles of {{bytes_profiles}} bytes",
+            lobes.lobes, lobes.lobes == 1 ? "" : "s"),
+        "fitted to {poses} poses: {fit_relative_l2:.2f%} off their mean, {coded_relative_l2:.2f%} in bytes",
+        "poses baked in {bake_seconds:.2f} s, lobes fitted in {fit_seconds:.2f} s"};
+    if (made.mean.hidden > 0)
+        report.sentences.emplace_back(
+            "{vertices_hidden} vertices are inside geometry in all poses and have the "
+            "light of their neighbours");
+    return report;
+}
+
+void measure_frames(const LobesArguments& a, const AnimatedScene& model, const Made& made, Session& session,
+                    Report& report) {
+    if (a.frames == 0)
+        return;
+    ProgressBar bar = session.progress_bar("measuring");
+    PoseBakeOptions options = a.bake;
+    options.seed += 0x51ed270b; // far from those of the poses, which follow each other
+    add_lobe_errors({.model = model,
+                     .lobes = made.lobes,
+                     .mean = made.mean,
+                     .frames = frames_of(model, a.frames, a.animation),
+                     .options = options},
+                    bar.progress(), report);
+}
+
+void run(LobesArguments a, Session& session) {
+    choose_gpu(a.bake.tracer);
+    a.reading.outputs =
+        check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}}, {a.model});
+    if (a.bake.bad_textures == BadTextures::ignore)
+        a.reading.missing_images = MissingImages::ignore;
+    a.fit.threads = a.bake.threads;
+    set_band_costs(a.bake.order, a.fit);
+    GltfDocument document = load_gltf(a.model, a.reading);
+    const AnimatedScene model(document);
+    Report report;
+    about(a.model, [&] {
+        check_weights(model);
+        const std::vector<ModelPose> poses = poses_of(model, a.poses, a.animation);
+        const Made made = make_lobes(a, model, poses, session);
+        report = report_of(a, made, poses.size());
+        measure_frames(a, model, made, session, report);
+        write_lobes(document, model.scene(),
+                    {made.lobes,
+                     {.poses = static_cast<int>(poses.size()),
+                      .rays = a.bake.rays,
+                      .bounces = a.bake.bounces,
+                      .seed = a.bake.seed}});
+    });
+    const std::vector<std::byte> file = about(a.model, [&] { return encode_glb(document); });
+    add_figures(report, {{"output", a.output.string()}, {"bytes_file", session.write(a.output, file)}});
+    publish(report, a.json, session);
+}
+
+void add_what(CLI::App* command, LobesArguments& a) {
+    command->add_option("--lobes", a.fit.lobes, "lobes of a vertex, four bytes each")
+        ->capture_default_str()
+        ->check(CLI::Range(std::size_t{1}, kMostLobes));
+    command->add_option("--order", a.bake.order, "bands of a lobe")
+        ->capture_default_str()
+        ->check(CLI::Range(2, kMostLobeOrder));
+    command
+        ->add_option("--poses", a.poses,
+                     "poses to fit to beside that of the file, evenly over the animations")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 4096));
+    command->add_option("--animation", a.animation, "the animation to take poses from; otherwise all");
+    command
+        ->add_option("--frames", a.frames,
+                     "frames, evenly over the animations, to measure against bakes of their own; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 4096));
+    command->add_option("--rays", a.bake.rays, "rays per vertex and pose")
+        ->capture_default_str()
+        ->check(CLI::Range(1, kMostRays));
+    command->add_option("--bounces", a.bake.bounces, "bounces between the surfaces of the model")
+        ->capture_default_str()
+        ->check(CLI::Range(0, kMostBounces));
+}
+
+} // namespace
+
+void add_lobes(CLI::App& app, Session& session) {
+    CLI::App* command = app.add_subcommand(
+        "lobes", "Write transfer that turns with a skin: zonal lobes of vertices, fitted to poses");
+    auto& a = arguments_for<LobesArguments>(command,
+                                            [&session](const LobesArguments& given) { run(given, session); });
+    command->add_option("model", a.model, "glTF 2.0 model with animations, .gltf or .glb")
+        ->required()
+        ->check(named);
+    add_output(command, a.output, "model to write, .glb");
+    add_what(command, a);
+    add_backend(command, a.bake.tracer.backend,
+                "gpu: Vulkan 1.2 of any kind; auto: a hardware GPU, else the CPU");
+    add_gpu(command, a.bake.tracer.gpu);
+    add_bad_textures(command, a.bake.bad_textures);
+    command->add_option("--seed", a.bake.seed, "seed of the samples")->capture_default_str()->check(seed());
+    add_reading(command, a.reading);
+    add_threads(command, a.bake.threads);
+    add_json(command, a.json);
+}
+
+} // namespace prt::cli

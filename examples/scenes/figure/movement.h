@@ -1,0 +1,20 @@
+#pragma once
+
+// From poses of a cycle to a movement that loops.
+
+#include "figure/pose.h"
+
+#include <string>
+
+namespace examples::anatomy {
+
+inline constexpr glm::vec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
+
+/// A cosine of period 1.
+float wave(float phase);
+
+/// `keys` + 1 keys of a cycle of `period` seconds; `pose_at` takes phases of 0 to 1, and it ends where it
+/// begins.
+Movement movement_of(std::string name, Pose (*pose_at)(float phase), float period, int keys);
+
+} // namespace examples::anatomy

@@ -1,0 +1,184 @@
+// Zonal lobes of one vertex by nonlinear least squares (Ceres): axes on the sphere, and a gain for each band
+// of each lobe. Sloan, Luna and Snyder 2005 minimise the same, for bands alike.
+
+#include "prt/lobe_fit.h"
+
+#include "lobe_start.h"
+#include "prt/sh.h"
+#include "prt/support/error.h"
+#include "prt/support/parallel.h"
+#include "sh_gradient.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+namespace prt {
+namespace {
+
+/// What a gain costs for itself, of what its band weighs: lobes that the others leave nothing to do get none,
+/// instead of gains that cancel. A ten-thousandth of a cosine lobe's squares loses 1e-7 of its size.
+constexpr double kLeastCost = 1e-8;
+
+/// Residuals are those of the coefficients, then of the gains themselves. Parameters: an axis, then the
+/// gains, of one lobe after the other.
+class LobeCost : public ceres::CostFunction {
+public:
+    LobeCost(int order, std::span<const double> target, const LobeFitOptions& options)
+        : order_(order), lobes_(static_cast<int>(options.lobes)), target_(target) {
+        for (std::size_t l = 0; l < weights_.size(); ++l)
+            weights_[l] = std::sqrt(options.band_costs[l]);
+        set_num_residuals(order * order + lobes_ * order);
+        for (int k = 0; k < lobes_; ++k) {
+            mutable_parameter_block_sizes()->push_back(3);
+            mutable_parameter_block_sizes()->push_back(order);
+        }
+    }
+
+    bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+        const int coefficients = order_ * order_;
+        for (int i = 0; i < coefficients; ++i)
+            residuals[i] = -weight_of(i) * target_[static_cast<std::size_t>(i)];
+        for (int k = 0; k < lobes_; ++k) {
+            const double* axis = parameters[2 * k];
+            const double* gains = parameters[2 * k + 1];
+            std::array<double, kMostLobeOrder * kMostLobeOrder> basis{};
+            const glm::dvec3 towards(axis[0], axis[1], axis[2]);
+            evaluate_sh(order_, towards, std::span(basis).first(static_cast<std::size_t>(coefficients)));
+            for (int i = 0; i < coefficients; ++i)
+                residuals[i] += weight_of(i) * gains[band_of(i)] * basis[static_cast<std::size_t>(i)];
+            for (int l = 0; l < order_; ++l)
+                residuals[coefficients + k * order_ + l] = cost_of_gain(l) * gains[l];
+            if (jacobians && jacobians[2 * k])
+                write_axis(towards, gains, jacobians[2 * k]);
+            if (jacobians && jacobians[2 * k + 1])
+                write_gains(k, basis, jacobians[2 * k + 1]);
+        }
+        return true;
+    }
+
+private:
+    static int band_of(int i) { return i < 1 ? 0 : i < 4 ? 1 : i < 9 ? 2 : 3; }
+    double weight_of(int i) const { return weights_[static_cast<std::size_t>(band_of(i))]; }
+    double cost_of_gain(int l) const { return std::sqrt(kLeastCost) * weights_[static_cast<std::size_t>(l)]; }
+    void write_axis(const glm::dvec3& towards, const double* gains, double* jacobian) const {
+        std::fill_n(jacobian, 3 * num_residuals(), 0.0);
+        const auto gradients = sh_gradients(towards);
+        for (int i = 0; i < order_ * order_; ++i)
+            for (int a = 0; a < 3; ++a)
+                jacobian[3 * i + a] =
+                    weight_of(i) * gains[band_of(i)] * gradients[static_cast<std::size_t>(i)][a];
+    }
+    void write_gains(int k, std::span<const double> basis, double* jacobian) const {
+        std::fill_n(jacobian, order_ * num_residuals(), 0.0);
+        const int coefficients = order_ * order_;
+        for (int i = 0; i < coefficients; ++i)
+            jacobian[order_ * i + band_of(i)] = weight_of(i) * basis[static_cast<std::size_t>(i)];
+        for (int l = 0; l < order_; ++l)
+            jacobian[order_ * (coefficients + k * order_ + l) + l] = cost_of_gain(l);
+    }
+
+    int order_, lobes_;
+    std::span<const double> target_;
+    std::array<double, kMostLobeOrder> weights_{};
+};
+
+/// A lobe is the same about the opposite axis with its odd bands negated. Of the two it is the one whose
+/// light comes from where its axis points, so that profiles are of one kind.
+void face_forward(FreeLobe& lobe) {
+    if (lobe.profile[1] >= 0)
+        return;
+    lobe.axis = -lobe.axis;
+    lobe.profile[1] *= -1;
+    lobe.profile[3] *= -1;
+}
+
+void fit_vertex(int order, std::span<const double> target, const LobeFitOptions& options,
+                std::span<Lobe> to) {
+    std::array<FreeLobe, kMostLobes> room;
+    const std::span<FreeLobe> lobes = std::span(room).first(options.lobes);
+    start_lobes(order, target, options, lobes);
+    ceres::Problem problem;
+    std::vector<double*> blocks;
+    for (FreeLobe& lobe : lobes) {
+        blocks.push_back(&lobe.axis.x);
+        blocks.push_back(lobe.profile.data());
+    }
+    problem.AddResidualBlock(std::make_unique<LobeCost>(order, target, options).release(), nullptr, blocks);
+    for (FreeLobe& lobe : lobes)
+        problem.SetManifold(&lobe.axis.x, std::make_unique<ceres::SphereManifold<3>>().release());
+    ceres::Solver::Options solver;
+    solver.linear_solver_type = ceres::DENSE_QR;
+    solver.logging_type = ceres::SILENT;
+    solver.max_num_iterations = 40;
+    solver.function_tolerance = 1e-8;
+    ceres::Solver::Summary summary;
+    ceres::Solve(solver, &problem, &summary); // where it fails, what it began with stands
+    for (std::size_t k = 0; k < lobes.size(); ++k) {
+        face_forward(lobes[k]);
+        to[k] = {glm::vec3(lobes[k].axis), {}};
+        for (std::size_t l = 0; l < static_cast<std::size_t>(order); ++l)
+            to[k].profile[l] = static_cast<float>(lobes[k].profile[l]);
+    }
+}
+
+void check_targets(const LobeTargets& targets, const LobeFitOptions& options) {
+    if (targets.order < 2 || targets.order > kMostLobeOrder || options.lobes < 1 ||
+        options.lobes > kMostLobes || options.profiles < 1 || options.profiles > kMostProfiles)
+        throw Error("lobes are 1 to 3 of order 2 to 4, with 1 to 256 profiles");
+    if (targets.vectors.size() != targets.areas.size() * targets.coefficients())
+        throw Error("there are transfer vectors of another number of vertices than there are areas");
+    if (!std::ranges::all_of(targets.vectors, [](double v) { return std::isfinite(v); }))
+        throw Error("transfer that lobes shall be fitted to is not finite");
+}
+
+} // namespace
+
+std::vector<Lobe> fit_lobes(const LobeTargets& targets, const LobeFitOptions& options,
+                            const Progress& progress) {
+    check_targets(targets, options);
+    const std::size_t vertices = targets.areas.size();
+    std::vector<Lobe> lobes(vertices * options.lobes);
+    constexpr std::size_t kBlock = 2048; // between two looks at the progress
+    for (std::size_t first = 0; first < vertices; first += kBlock) {
+        progress.update(static_cast<double>(first) / static_cast<double>(vertices));
+        parallel_for(std::min(kBlock, vertices - first), 32, options.threads,
+                     [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t v = first + begin; v < first + end; ++v)
+                             fit_vertex(targets.order, targets.vector(v), options,
+                                        std::span(lobes).subspan(v * options.lobes, options.lobes));
+                     });
+    }
+    return lobes;
+}
+
+double lobe_error(const LobeTargets& targets, std::span<const Lobe> lobes, const LobeFitOptions& options) {
+    check_targets(targets, options);
+    double error = 0, norm = 0;
+    std::vector<float> found(targets.coefficients());
+    for (std::size_t v = 0; v < targets.areas.size(); ++v) {
+        lobe_transfer(lobes.subspan(v * options.lobes, options.lobes), targets.order, found);
+        const std::span<const double> target = targets.vector(v);
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            const double cost = static_cast<double>(targets.areas[v]) * options.band_costs[i < 1   ? 0
+                                                                                           : i < 4 ? 1
+                                                                                           : i < 9 ? 2
+                                                                                                   : 3];
+            error += cost * (target[i] - static_cast<double>(found[i])) *
+                     (target[i] - static_cast<double>(found[i]));
+            norm += cost * target[i] * target[i];
+        }
+    }
+    return norm > 0 ? std::sqrt(error / norm) : 0;
+}
+
+std::vector<Lobe> decoded(const LobeModel& model) {
+    std::vector<Lobe> lobes(model.words.size());
+    for (std::size_t v = 0; v < model.vertices(); ++v)
+        model.decode(v, std::span(lobes).subspan(v * model.lobes, model.lobes));
+    return lobes;
+}
+
+} // namespace prt

@@ -1,0 +1,109 @@
+// prt lobes: transfer that turns with a skin, and what is refused.
+
+#include "prt/lobe_gltf.h"
+#include "road.h"
+#include "support/glb_file.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <limits>
+
+namespace prt::test {
+namespace {
+
+class LobesCommand : public Road {
+protected:
+    void SetUp() override {
+#ifdef PRT_EXAMPLE_SCENES
+        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "figure"}).status, 0);
+#else
+        GTEST_SKIP() << "the example scenes are not built";
+#endif
+    }
+    Outcome lobes(const char* model, std::vector<std::string> options = {}) {
+        options.insert(options.begin(), {"lobes", at(model), "-o", at("out.glb")});
+        return prt(options);
+    }
+    /// One line that says why, and no file.
+    void expect_refusal(const char* model, const std::string& why, std::vector<std::string> options = {}) {
+        const Outcome outcome = lobes(model, std::move(options));
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find(at(model)), std::string::npos) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "out.glb"));
+    }
+};
+
+TEST_F(LobesCommand, WritesLobesAndMeasuresThemOverFrames) {
+    const Outcome outcome = lobes("figure.glb", {"--animation", "dance", "--rays", "64", "--poses", "4",
+                                                 "--frames", "2", "--json", at("lobes.json")});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_LE(validator_errors(folder / "out.glb"), 0);
+    const nlohmann::json figures = read_json(folder / "lobes.json");
+    EXPECT_EQ(figures["poses"], 5); // with that of the file
+    EXPECT_EQ(figures["bytes_bound_per_vertex"], 8);
+    EXPECT_EQ(figures["lobe_errors_by_frame"].size(), 2u);
+    EXPECT_LT(figures["lit_rms"], figures["lit_rms_rest"]);
+    EXPECT_LT(figures["lit_rms_rest"], figures["lit_rms_unshadowed"]);
+    EXPECT_LT(figures["lit_rms"], 1.1 * figures["lit_rms_best"].get<double>());
+    const GltfDocument document = load_gltf(folder / "out.glb");
+    const std::optional<StoredLobes> stored = read_lobes(document, extract_scene(document));
+    ASSERT_TRUE(stored);
+    EXPECT_EQ(stored->model.vertices(), figures["vertices"]);
+    EXPECT_NE(prt({"info", at("out.glb")}).out.find("lobes that turn with the skin: order 4, 2 lobes"),
+              std::string::npos);
+    ASSERT_EQ(prt({"shader", at("out.glb"), "-o", at("lobes.glsl"), "--lobes"}).status, 0);
+    EXPECT_GT(std::filesystem::file_size(folder / "lobes.glsl"), 1000u);
+    EXPECT_EQ(prt({"shader", at("figure.glb"), "-o", at("x.glsl"), "--lobes"}).status, 1);
+}
+
+TEST_F(LobesCommand, GivesTheSameBytesForAnyNumberOfThreads) {
+    const std::vector<std::string> options = {"--rays",   "16", "--poses", "2",
+                                              "--frames", "0",  "--lobes", "1"};
+    std::vector<std::string> one = options;
+    one.insert(one.end(), {"--threads", "1"});
+    ASSERT_EQ(lobes("figure.glb", one).status, 0);
+    std::filesystem::rename(folder / "out.glb", folder / "one.glb");
+    ASSERT_EQ(lobes("figure.glb", options).status, 0);
+    EXPECT_EQ(read_glb(folder / "out.glb").binary, read_glb(folder / "one.glb").binary);
+}
+
+TEST_F(LobesCommand, RefusesWhatDoesNotMove) {
+    GlbFile still = read_glb(folder / "figure.glb");
+    still.json.erase("animations");
+    still.write(folder / "still.glb");
+    expect_refusal("still.glb", "has no animation to take poses from");
+    expect_refusal("figure.glb", "has no animation 'fly'; it has walk, idle, dance", {"--animation", "fly"});
+}
+
+TEST_F(LobesCommand, RefusesASkinWithoutWeights) {
+    GlbFile bare = read_glb(folder / "figure.glb");
+    for (auto& mesh : bare.json["meshes"])
+        for (auto& primitive : mesh["primitives"])
+            for (const char* name : {"JOINTS_0", "WEIGHTS_0"})
+                primitive["attributes"].erase(name);
+    bare.write(folder / "bare.glb");
+    expect_refusal("bare.glb", "mesh 0 primitive 0 has a skin, but no weights");
+}
+
+TEST_F(LobesCommand, RefusesAnimationsThatAreNoNumbers) {
+    GlbFile bad = read_glb(folder / "figure.glb");
+    const std::size_t output = bad.json["animations"][0]["samplers"][0]["output"];
+    const std::size_t view = bad.json["accessors"][output]["bufferView"];
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    std::memcpy(&bad.binary[bad.json["bufferViews"][view]["byteOffset"].get<std::size_t>()], &nan,
+                sizeof nan);
+    bad.write(folder / "bad.glb");
+    expect_refusal("bad.glb", "not finite");
+}
+
+TEST_F(LobesCommand, RefusesOptionsOutOfRange) {
+    for (const auto& options : std::vector<std::vector<std::string>>{
+             {"--lobes", "4"}, {"--lobes", "0"}, {"--order", "6"}, {"--poses", "0"}, {"--rays", "-1"}})
+        EXPECT_EQ(lobes("figure.glb", options).status, 2) << options[0];
+}
+
+} // namespace
+} // namespace prt::test
