@@ -11,10 +11,10 @@
 namespace examples::anatomy {
 namespace {
 
-constexpr float kPeriod = 2; ///< seconds: 60 frames at 30 in a second
+constexpr float kDancePeriod = 2; ///< seconds: 60 frames at 30 in a second
 constexpr int kKeys = 60;
-constexpr float kHipsHigh = 0.885f, kBend = 0.055f, kSway = 0.09f; ///< metres
-constexpr float kFootAside = 0.13f;
+constexpr float kHipsHigh = 0.885f, kBend = 0.055f, kHipsAside = 0.09f; ///< metres
+constexpr float kDancerFootAside = 0.13f;
 constexpr float kKickHeight = 0.42f, kKickAhead = 0.46f; ///< metres, of the ankle
 
 /// 0 but for half of a cycle, in which it goes up to 1 and back.
@@ -25,7 +25,7 @@ float beat(float phase) {
 
 /// Hangs as `lift` is 0, stands up beside the head as it is 1; as `across` is 1 the forearm lies before the
 /// chest.
-void place_arm(Pose& pose, Side side, float lift, float across) {
+void raise_arm(Pose& pose, Side side, float lift, float across) {
     const auto arm = static_cast<std::size_t>(upper_arm(side));
     const float sign = sign_of(side);
     pose.rotations[arm] = turn(sign * (-0.18f + 2.6f * lift), kZ) * turn(-1.05f * across - 0.35f * lift, kX) *
@@ -43,7 +43,7 @@ Pose dancing(float phase) {
     const float aside = wave(phase), step = wave(2 * phase);
     const float yaw = glm::radians(22.0f) * wave(phase - 0.25f), roll = glm::radians(-7.0f) * aside;
     Pose pose;
-    pose.hips_position = {kSway * aside, kHipsHigh - kBend * (0.5f + 0.5f * step), 0};
+    pose.hips_position = {kHipsAside * aside, kHipsHigh - kBend * (0.5f + 0.5f * step), 0};
     pose.rotations[hips] = turn(yaw, kY) * turn(roll, kZ);
     pose.rotations[spine] = turn(-1.6f * roll, kZ) * turn(-0.7f * yaw, kY) * turn(glm::radians(8.0f), kX);
     pose.rotations[chest] = turn(-1.2f * yaw, kY) * turn(-0.8f * roll, kZ);
@@ -51,8 +51,8 @@ Pose dancing(float phase) {
     pose.rotations[head] = turn(0.4f * yaw, kY) * turn(glm::radians(9.0f) * aside, kZ);
     for (const Side side : kSides) {
         const float own = phase + (side == Side::left ? 0.0f : 0.5f); // half a cycle apart
-        place_arm(pose, side, beat(own + 0.1f), beat(own + 0.55f));
-        place_foot(pose, side, foot_at(beat(own + 0.25f)), kFootAside);
+        raise_arm(pose, side, beat(own + 0.1f), beat(own + 0.55f));
+        place_foot(pose, side, foot_at(beat(own + 0.25f)), kDancerFootAside);
     }
     return pose;
 }
@@ -60,7 +60,7 @@ Pose dancing(float phase) {
 } // namespace
 
 Movement dance() {
-    return movement_of("dance", dancing, kPeriod, kKeys);
+    return movement_of("dance", dancing, kDancePeriod, kKeys);
 }
 
 } // namespace examples::anatomy
