@@ -27,7 +27,8 @@ std::vector<std::string> notices_of(const BakePlan& plan, const DirectLight& dir
     if (!sealed.receivers.empty())
         notices.push_back(fmt::format(
             "{} receivers are sealed in by backs of faces; {} of them take the light of their neighbours{}",
-            sealed.receivers.size(), refilled, refilled < sealed.receivers.size() ? ", the others stay dark" : ""));
+            sealed.receivers.size(), refilled,
+            refilled < sealed.receivers.size() ? ", the others stay dark" : ""));
     if (!exit.converged)
         notices.push_back(fmt::format("the sum over all bounces still changes by {:.2g} after {} steps",
                                       exit.remaining, exit.bounces));

@@ -10,7 +10,7 @@ namespace prt {
 /// Receivers of the scene that are sealed in, and what becomes of them.
 struct SealedIn {
     std::vector<std::uint32_t> receivers; ///< ascending
-    std::size_t rays = 0; ///< traced to find out
+    std::size_t rays = 0;                 ///< traced to find out
     Refill refill;
 };
 

@@ -4,9 +4,9 @@
 //     PrtLobe prt_lobe(vec4 bytes)                        of _PRT_LOBE_k, 0..255, in the frame of NORMAL
 //     mat3 prt_lobe_turn(mat3 matrix)                     of the matrix that moves the vertex, blended by its weights
 //     PrtLobe prt_turned_lobe(PrtLobe lobe, mat3 turn)    into the world
-//     PrtLobe prt_mapped_lobe(PrtLobe lobe, vec3 from, vec3 to)   for a normal map: `from` the vertex's normal, `to` the map's
-//     vec3 prt_lobe_sum(PrtLobe lobe, vec3 light[PRT_LOBE_COEFFICIENTS])   of one lobe; may be negative
-//     vec3 prt_lobes_radiance(PrtLobe lobes[PRT_LOBES], vec3 light[PRT_LOBE_COEFFICIENTS])   exit radiance for albedo 1
+//     PrtLobe prt_mapped_lobe(PrtLobe lobe, vec3 from, vec3 to)   for a normal map: `from` the vertex's normal, `to`
+//     the map's vec3 prt_lobe_sum(PrtLobe lobe, vec3 light[PRT_LOBE_COEFFICIENTS])   of one lobe; may be negative vec3
+//     prt_lobes_radiance(PrtLobe lobes[PRT_LOBES], vec3 light[PRT_LOBE_COEFFICIENTS])   exit radiance for albedo 1
 // and, where prt_volume.glsl was included before,
 //     vec3 prt_lobes_in_volume(PrtLobe lobes[PRT_LOBES], vec3 position, vec3 normal)   by the light at a place
 //

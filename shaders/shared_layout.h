@@ -32,7 +32,7 @@
 #define PRT_BINDING_VOLUME_WORDS 4
 #define PRT_BINDING_VOLUME_PROBES 5
 #define PRT_BINDING_OCCLUDERS 6 // a uniform block
-#define PRT_BINDING_LOBES 7 // a uniform block
+#define PRT_BINDING_LOBES 7     // a uniform block
 #define PRT_BINDING_EMISSION_TEXCOORDS 10
 #define PRT_BINDING_PALETTE 11 // what moves: skinning.glsl
 #define PRT_BINDING_INFLUENCES 12

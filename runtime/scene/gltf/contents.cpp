@@ -176,7 +176,7 @@ void erase_views(GltfContents& contents, const std::set<std::size_t>& views) {
 
 /// Of transfer of surfaces.
 constexpr const char* kOwnExtensions[] = {kTransferExtension, kClusteredExtension, kLightmapExtension,
-                                           kLobeExtension};
+                                          kLobeExtension};
 
 /// Calls `visit` with every member that says which image a texture has.
 template <class Visit>

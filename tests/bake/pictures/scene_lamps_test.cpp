@@ -176,7 +176,8 @@ TEST(SceneLamps, TheBakersLampsAreThoseOfTheReference) {
     walls.floor({0, 0, 0}, 3, 48);
     for (int i = 0; i < 256; ++i) {
         const int column = i % 16, row = i / 16;
-        const glm::vec3 corner(-1 + 0.125f * static_cast<float>(column), 0.125f * static_cast<float>(row), -1),
+        const glm::vec3 corner(-1 + 0.125f * static_cast<float>(column), 0.125f * static_cast<float>(row),
+                               -1),
             right(0.125f, 0, 0), up(0, 0.125f, 0);
         walls.quad(corner, corner + right, corner + right + up, corner + up);
     }
