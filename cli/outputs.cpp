@@ -12,9 +12,10 @@
 #include <system_error>
 
 namespace prt::cli {
-namespace {
 
 using Path = std::filesystem::path;
+
+namespace {
 
 /// Suffixes that say what a file holds.
 constexpr std::array<std::string_view, 15> kTelling = {".glb",  ".gltf", ".bin", ".png", ".jpg",
