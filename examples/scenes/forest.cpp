@@ -33,7 +33,7 @@ Part trunk(float height, float radius, const glm::vec3& color) {
 /// Skirts of branches, each with its underside.
 std::vector<Part> spruce() {
     Mesh needles;
-    constexpr int kSkirts = 6;
+    constexpr int kSkirts = 5;
     for (int i = 0; i < kSkirts; ++i) {
         const float low = 0.7f + 0.85f * static_cast<float>(i),
                     radius = 1.55f - 0.22f * static_cast<float>(i);
@@ -44,7 +44,7 @@ std::vector<Part> spruce() {
                                {radius, low},
                                {0.55f * radius, low + 0.55f},
                                {0.06f, low + 1.3f}},
-                              14));
+                              8));
     }
     return {{"needles", {0.06f, 0.13f, 0.05f}, needles}, trunk(2.2f, 0.14f, {0.20f, 0.14f, 0.10f})};
 }
@@ -52,7 +52,7 @@ std::vector<Part> spruce() {
 /// A crown of lumps: an ellipsoid whose radius is noise.
 Mesh crown(const glm::vec3& center, const glm::vec3& radii, float lumps, float seed) {
     return parametric_surface(26, 19, [&](float u, float v) {
-        const float polar = 0.5f * kTurn * glm::clamp(v, 0.0f, 1.0f), turn = kTurn * u;
+        const float polar = 0.5f * kTurn * glm::clamp(0.01f + 0.98f * v, 0.01f, 0.99f), turn = kTurn * u;
         const glm::vec3 out(std::sin(polar) * std::sin(turn), -std::cos(polar),
                             std::sin(polar) * std::cos(turn));
         const float bump = noise(seed + 2.3f * out.x + 3 * out.y, 7.7f * seed + 2.3f * out.z - 2 * out.y);
