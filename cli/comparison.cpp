@@ -2,6 +2,7 @@
 
 #include "cluster_shares.h"
 #include "evaluation_lights.h"
+#include "instance_errors.h"
 #include "prt/dering.h"
 #include "prt/error_measures.h"
 #include "prt/lightmap_file.h"
@@ -203,6 +204,18 @@ public:
         add_figure(report, {"bytes_bases", "bytes of bases"}, basis_bytes(t.bases));
         add_figure(report, {"clusters", "clusters"}, t.bases.clusters());
         add_figure(report, {"components_most", "components, at most"}, t.bases.max_components());
+    }
+
+    /// Errors of instances that share transfer, each over its own vertices, under what the verdict goes by.
+    void add_instances(const std::vector<SplitLight>& lights, Report& report) const {
+        if (!model_.instanced)
+            return;
+        std::vector<std::vector<double>> errors;
+        for (const SplitLight& light : lights)
+            errors.push_back(instance_errors(*model_.instanced, model_.scene, areas_,
+                                             wanted_under(judged(light)), shipped_under(judged(light)),
+                                             wanted_under({light.whole})));
+        report.tables.push_back(instances_table(lights, errors));
     }
 
     Verdict verdict(const Evaluation& evaluation) const {
@@ -426,6 +439,7 @@ void add_comparison(const ComparisonOptions& options, SceneFile& baked, const st
     add_figure(report, {"worst_directional_light"}, evaluation.worst_sun);
     comparison.add_sizes(report);
     report.tables.push_back(lights_table(evaluation, baked));
+    comparison.add_instances(lights, report);
     if (!evaluation.clusters.empty())
         report.tables.push_back(clusters_table(evaluation));
     if (options.pictures && baked.lightmap)

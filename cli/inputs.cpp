@@ -2,6 +2,7 @@
 
 #include "light_file.h"
 #include "outputs.h"
+#include "prt/encode_glb.h"
 #include "prt/lightmap_file.h"
 #include "prt/reorder.h"
 #include "prt/support/error.h"
@@ -65,10 +66,39 @@ SceneFile load_scene_file(const Path& path, const GltfOptions& options) {
     return scene_file_of(load_gltf(path, options), path);
 }
 
+namespace {
+
+/// Reads what instances share, and makes `baked` of it, of all vertices of `scene`.
+std::optional<InstancedFile> instanced_file(const Path& path, const GltfDocument& document,
+                                            const Scene& scene, std::optional<BakedTransfer>& baked) {
+    const GltfDocument apart =
+        parse_gltf(encode_glb(document), path,
+                   {.missing_images = MissingImages::ignore, .instancing = Instancing::apart});
+    InstancedFile file{extract_scene(apart), {}, {}};
+    baked = read_transfer(apart, file.stored);
+    file.compressed = read_clustered(apart, file.stored);
+    if (!baked && !file.compressed)
+        throw Error(path.string() + ": its instances share transfer that it does not hold");
+    if (!baked)
+        baked = BakedTransfer{decode(file.compressed->transfer), file.compressed->record};
+    file.instances = read_instances(document, scene, file.stored);
+    baked->transfer = expanded(document, scene, file.stored, baked->transfer);
+    return file;
+}
+
+} // namespace
+
 SceneFile scene_file_of(GltfDocument document, const Path& path) {
     Scene scene = extract_scene(document);
-    auto baked = read_transfer(document, scene);
-    auto compressed = read_clustered(document, scene);
+    std::optional<BakedTransfer> baked;
+    std::optional<CompressedTransfer> compressed;
+    std::optional<InstancedFile> instanced;
+    if (shares_instances(document)) {
+        instanced = instanced_file(path, document, scene, baked);
+    } else {
+        baked = read_transfer(document, scene);
+        compressed = read_clustered(document, scene);
+    }
     std::optional<LightmapOfFile> lightmap;
     if (std::optional<BakedLightmap> raw = read_lightmap(document, scene)) {
         std::vector<Edge> edges = lightmap_edges(raw->layout, raw->texels, raw->seams);
@@ -90,6 +120,7 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
     file.compressed_volume = read_compressed_volume(file.document, file.scene);
     file.occluders = read_occluders(file.document);
     file.lobes = read_lobes(file.document, file.scene);
+    file.instanced = std::move(instanced);
     return file;
 }
 

@@ -4,6 +4,7 @@
 
 #include "prt/gltf.h"
 #include "prt/image_file.h"
+#include "prt/instances_gltf.h"
 #include "prt/light.h"
 #include "prt/lightmap.h"
 #include "prt/lobe_gltf.h"
@@ -34,6 +35,13 @@ struct LightmapOfFile {
     std::vector<Edge> edges = {};
 };
 
+/// What a file holds whose instances share transfer.
+struct InstancedFile {
+    Scene stored;                                 ///< meshes once, in their own frames
+    std::optional<CompressedTransfer> compressed; ///< of its receivers; else it was raw
+    std::vector<FileInstance> instances;
+};
+
 /// A scene file with whatever transfer it holds. Notices go to stderr.
 struct SceneFile {
     GltfDocument document;
@@ -47,6 +55,8 @@ struct SceneFile {
     std::optional<CompressedVolume> compressed_volume = {};
     std::vector<NodeOccluder> occluders = {};
     std::optional<StoredLobes> lobes = {};
+    /// Set where instances share transfer: `baked` is then what all vertices have by it.
+    std::optional<InstancedFile> instanced = {};
 
     /// Order of the transfer, 0 where there is none.
     int order() const;

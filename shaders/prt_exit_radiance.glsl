@@ -41,8 +41,15 @@ layout(std430 PRT_BINDING(PRT_BINDING_CONSTANTS)) readonly buffer PrtConstants {
 };
 #endif
 
+#ifdef PRT_INSTANCE_ROWS
+uint prt_first_row = 0u; // of the lighting that the constants are of: prt_instances.glsl
+#endif
+
 // Row `row` of the constants of all clusters.
 vec3 prt_constant(uint row) {
+#ifdef PRT_INSTANCE_ROWS
+    row += prt_first_row;
+#endif
 #ifdef PRT_CONSTANTS_TEXTURE
     return texelFetch(prt_constants, ivec2(row % uint(PRT_TEXTURE_WIDTH), row / uint(PRT_TEXTURE_WIDTH)), 0).rgb;
 #else

@@ -1,5 +1,6 @@
 #include "commands/commands.h"
 
+#include "instance_arguments.h"
 #include "light_set.h"
 #include "no_shadow.h"
 #include "options.h"
@@ -11,6 +12,7 @@
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "report/bake_report.h"
+#include "report/instance_report.h"
 #include "report/lightmap_report.h"
 #include "report/volume_report.h"
 #include "texel_arguments.h"
@@ -31,6 +33,7 @@ struct BakeArguments {
     std::size_t most_vertices = 0;      ///< of a refined scene; 0: as many as `refine` allows
     TexelArguments texels;              ///< given: instead of vertices
     VolumeArguments volume;             ///< given: beside them
+    InstanceArguments instances;
     BakeOptions options;
     GltfOptions reading;
 };
@@ -300,6 +303,27 @@ void run_texels(const BakeArguments& a, GltfDocument& document, Scene& scene, co
     publish(report, a.json, session);
 }
 
+void run_instances(const BakeArguments& a, const SharedMeshes& meshes, GltfDocument& document, Scene& scene,
+                   Session& session) {
+    leave_out_shadows(scene, a.no_shadow);
+    InstancedBake baked = about(a.scene, [&] {
+        ProgressBar bar = session.progress_bar("baking");
+        return bake_shared(a.instances, {document, scene, a.no_shadow}, meshes, a.options, bar.progress());
+    });
+    if (!baked.document) { // all of them err too much
+        run_vertices(a, document, scene, session);
+        return;
+    }
+    const std::vector<std::byte> file = with_volume(a, *baked.document, scene, std::nullopt);
+    Report report = instance_report({.output = a.output.string(),
+                                     .options = a.options,
+                                     .scene = scene,
+                                     .baked = baked,
+                                     .error = a.instances.error,
+                                     .bytes = session.write(a.output, file)});
+    publish(report, a.json, session);
+}
+
 void check_arguments(const BakeArguments& a) {
     check_texels(a.texels);
     check_volume(a.volume);
@@ -322,8 +346,14 @@ void run(BakeArguments a, Session& session) {
     if (a.texels.given())
         room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
     add_light_set(a, scene);
+    const SharedMeshes meshes = about(a.scene, [&] {
+        return meshes_to_share(a.instances, document, scene,
+                               {a.options, a.texels.given() || a.refine.has_value() || a.volume.given()});
+    });
     if (a.texels.given())
         run_texels(a, document, scene, room, session);
+    else if (!meshes.meshes.empty())
+        run_instances(a, meshes, document, scene, session);
     else
         run_vertices(a, document, scene, session);
 }
@@ -362,6 +392,7 @@ void add_bake(CLI::App& app, Session& session) {
     add_refinement(command, a);
     add_texels(command, a.texels, "into a lightmap instead of vertices");
     add_volume(command, a.volume);
+    add_instances(command, a.instances);
     choice(command, "--storage", a.options.memory.storage, kStorages,
            "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
     command->add_option("--seed", a.options.seed, "seed of the samples")

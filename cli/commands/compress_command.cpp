@@ -7,6 +7,7 @@
 #include "prt/compress_volume.h"
 #include "prt/encode_glb.h"
 #include "prt/error_measures.h"
+#include "prt/instances_gltf.h"
 #include "prt/jumps.h"
 #include "prt/lightmap_bake.h"
 #include "prt/lightmap_file.h"
@@ -240,7 +241,9 @@ Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& pat
 }
 
 Bake load_bake(const Path& path, const GltfOptions& reading) {
-    GltfDocument document = load_gltf(path, reading);
+    GltfOptions options = reading;
+    options.instancing = Instancing::apart; // meshes once, as their transfer is stored
+    GltfDocument document = load_gltf(path, options);
     const Scene scene = extract_scene(document);
     std::optional<BakedVolume> volume = read_volume(document, scene);
     discard_volume(document);
@@ -355,7 +358,8 @@ auto readable(const CompressArguments& a, Read&& read) {
 /// Stages the file and reads it back; its bytes stay in memory no longer than it takes to parse them.
 Written written(const CompressArguments& a, std::vector<std::byte> file,
                 const std::optional<BakedLightmap>& lightmap, Session& session) {
-    GltfDocument document = readable(a, [&] { return parse_gltf(file, a.output); });
+    GltfDocument document =
+        readable(a, [&] { return parse_gltf(file, a.output, {.instancing = Instancing::apart}); });
     const std::uintmax_t bytes = session.write(a.output, file);
     file = {};
     SceneFile read = readable(a, [&] { return scene_file_of(std::move(document), a.output); });
@@ -534,6 +538,10 @@ void run(CompressArguments a, Session& session) {
     const int threads = options.compress.threads;
     std::optional<Fallback> fallback =
         load_fallback(a.writing.fallback, transfer.layout().order, a.metric.light_options, threads);
+    if (fallback && holds_instances(bake.document))
+        throw Error(a.baked.string() +
+                    ": --fallback writes colors of vertices, and instances share theirs: leave "
+                    "it out, or bake with --instances own");
     std::optional<SceneSurface> surface = surface_of(bake, options);
     std::vector<NamedLighting> skies = given_lights(a.metric, transfer.layout(), threads);
     ErrorTerms terms = error_terms(a.metric, skies, transfer, surface->areas, threads);

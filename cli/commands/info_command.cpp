@@ -121,6 +121,17 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     report.sentences.push_back(record_sentence(own + "bake", compressed.record));
 }
 
+void add_instances(const InstancedFile& file, Report& report) {
+    add_figures(report, {{"instances",
+                          {{"count", file.instances.size()},
+                           {"vertices_stored", file.stored.receivers()},
+                           {"bytes_per_instance", kInstanceNumbers * sizeof(std::uint16_t)}}}});
+    report.sentences.emplace_back(
+        "{instances/count} instances share the transfer of their meshes, by "
+        "{instances/bytes_per_instance} bytes of factors each; {instances/vertices_stored} "
+        "vertices have transfer");
+}
+
 void add_lightmap(const SceneFile& model, Report& report) {
     const LightmapLayout& layout = model.lightmap->layout;
     add_figures(report, {{"lightmap", {{"maps", maps_figures(layout)}, {"texels", layout.texels()}}}});
@@ -160,8 +171,13 @@ void run(InfoArguments a, Session& session) {
     add_scene(a.file, model.scene, report);
     if (model.lightmap)
         add_lightmap(model, report);
-    if (model.baked)
+    const bool shared = model.instanced && model.instanced->compressed;
+    if (model.instanced)
+        add_instances(*model.instanced, report);
+    if (model.baked && !shared)
         add_baked(*model.baked, report);
+    if (shared)
+        add_compressed(*model.instanced->compressed, report);
     if (model.compressed)
         add_compressed(*model.compressed, report);
     if (model.volume)

@@ -2,6 +2,7 @@
 
 #include "options.h"
 #include "outputs.h"
+#include "prt/instance_shader.h"
 #include "prt/lobe_shader.h"
 #include "prt/occlusion_volume.h"
 #include "prt/shader_source.h"
@@ -22,7 +23,8 @@ struct ShaderArguments {
     Path model, output;
     ShaderLanguage language = ShaderLanguage::glsl450;
     std::optional<ConstantSource> constants; ///< unset: what the language can do
-    bool compute = false, fragment = false, volume = false, occluders = false, lobes = false;
+    bool compute = false, fragment = false, volume = false, occluders = false, lobes = false,
+         instances = false;
     GltfOptions reading;
 };
 
@@ -119,6 +121,23 @@ void write_lobe_shader(const ShaderArguments& a, const SceneFile& model, Session
         model.compressed_volume ? ", light by the volume of the file" : ""));
 }
 
+/// What positions of compressed transfer are seen from.
+glm::dvec3 origin_of(const SceneFile& model) {
+    return model.instanced ? model.instanced->stored.origin : model.scene.origin;
+}
+
+void write_instance_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
+    if (!model.instanced)
+        throw Error(a.model.string() + ": has no instances that share transfer, which --instances is for");
+    if (a.constants.value_or(ConstantSource::buffer) != ConstantSource::buffer)
+        throw Error("--instances reads constants from storage buffers: leave --constants out");
+    const ClusteredTransfer& transfer = model.instanced->compressed->transfer;
+    session.write(a.output, instance_shader(transfer, a.language, origin_of(model)));
+    print(fmt::format("{}: {} instances, {} rows of constants for each mode of each turn\n",
+                      printable(a.output.string()), model.instanced->instances.size(),
+                      constant_rows(transfer.bases)));
+}
+
 void run(ShaderArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.output, "--output"}}, {a.model});
     const SceneFile model = load_scene_file(a.model, a.reading);
@@ -128,17 +147,20 @@ void run(ShaderArguments a, Session& session) {
         return write_occluder_shader(a, model, session);
     if (a.volume || (model.compressed_volume && !model.compressed))
         return write_volume_shader(a, model, session);
-    if (!model.compressed)
+    const std::optional<CompressedTransfer>& compressed =
+        model.instanced ? model.instanced->compressed : model.compressed;
+    if (!compressed)
         throw Error(a.model.string() + ": holds no compressed transfer; run prt compress first");
-    const ClusteredTransfer& transfer = model.compressed->transfer;
+    const ClusteredTransfer& transfer = compressed->transfer;
+    if (a.instances)
+        return write_instance_shader(a, model, session);
     const ConstantSource constants = a.constants.value_or(constants_for(a.language));
     if (a.fragment && !model.lightmap)
         throw Error(a.model.string() + ": holds no lightmap, which --fragment is for");
     if (model.lightmap && !a.compute)
         return write_lightmap_shader(a, transfer, constants, session);
-    const std::string source = a.compute
-                                   ? constants_shader(transfer, a.language)
-                                   : relight_shader(transfer, constants, a.language, model.scene.origin);
+    const std::string source = a.compute ? constants_shader(transfer, a.language)
+                                         : relight_shader(transfer, constants, a.language, origin_of(model));
     if (!a.compute && constants == ConstantSource::block)
         warn_of_large_blocks(a.model, transfer);
     session.write(a.output, source);
@@ -168,6 +190,12 @@ void add_shader(CLI::App& app, Session& session) {
         ->add_flag("--fragment", a.fragment,
                    "of a lightmap: a fragment shader to draw over a map where a compute shader could do it")
         ->excludes("--compute");
+    command
+        ->add_flag(
+            "--instances", a.instances,
+            "the vertex shader of instances that share transfer; that of all other meshes is the usual one")
+        ->excludes("--compute")
+        ->excludes("--fragment");
     command->add_flag("--volume", a.volume,
                       "the functions that look its volume up, for every language; with --compute the compute "
                       "shader that forms what they read");

@@ -49,10 +49,25 @@ struct Lamp {
     float inner_cone = 0, outer_cone = 0.78539816f;
 };
 
+/// Where a model stands: scaled, turned about +Y, counter-clockwise seen from above, then moved.
+struct Placement {
+    glm::vec3 origin; ///< metres
+    float degrees = 0;
+    float scale = 1;
+};
+
+/// A mesh that is drawn in many places: EXT_mesh_gpu_instancing.
+struct Model {
+    std::string name;
+    std::vector<Part> parts;
+    std::vector<Placement> placements;
+};
+
 struct ExampleScene {
     std::vector<Part> parts;
     std::vector<Lamp> lamps = {};
     Skeleton skeleton = {}; ///< that all parts hang on; without joints they stand still
+    std::vector<Model> models = {};
 };
 
 ExampleScene torus_knot_over_plane();
@@ -70,5 +85,9 @@ ExampleScene courtyard();
 ExampleScene figure();
 /// Some 15 000 buildings of 1.5 million vertices and 1.8 million triangles, to measure with.
 ExampleScene city();
+/// Trees of three kinds on a wavy meadow, some 600 vertices each, drawn as instances.
+ExampleScene forest(int trees);
+/// Houses of five kinds along both sides of a street, drawn as instances.
+ExampleScene street(int houses);
 
 } // namespace examples

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 #include <exception>
 #include <span>
@@ -30,6 +31,32 @@ constexpr NamedScene kScenes[] = {{"knot", examples::torus_knot_over_plane},
                                   {"plain_room", examples::plain_room, true},
                                   {"city", examples::city, true}};
 
+/// Scenes of as many things as are asked for: NAME:COUNT.
+struct CountedScene {
+    std::string_view name;
+    examples::ExampleScene (*make)(int count);
+    int usual; ///< where no count is given
+};
+
+constexpr CountedScene kCountedScenes[] = {{"forest", examples::forest, 2000},
+                                           {"street", examples::street, 40}};
+constexpr int kMostCounted = 100'000;
+
+std::string_view bare_name(std::string_view argument) {
+    return argument.substr(0, argument.find(':'));
+}
+
+/// The number behind the colon, 0 where it is none in 1 to kMostCounted; `usual` where there is no colon.
+int count_of(std::string_view argument, int usual) {
+    const std::size_t colon = argument.find(':');
+    if (colon == std::string_view::npos)
+        return usual;
+    int count = 0;
+    const char* const end = argument.data() + argument.size();
+    const auto [rest, error] = std::from_chars(argument.data() + colon + 1, end, count);
+    return error == std::errc() && rest == end && count >= 1 && count <= kMostCounted ? count : 0;
+}
+
 struct NamedSky {
     std::string_view name;
     prt::Environment (*make)();
@@ -47,7 +74,11 @@ const NamedSky kSkies[] = {
     {"night", [] { return examples::night_sky(512, glm::normalize(glm::dvec3(0.5, 0.8, 0.6))); }},
     {"sky", [] { return examples::preetham_sky(256, 3, glm::normalize(glm::dvec3(0.9, 0.75, 0.6))); }}};
 
-bool is_known(std::string_view name) {
+bool is_known(std::string_view argument) {
+    for (const CountedScene& scene : kCountedScenes)
+        if (scene.name == bare_name(argument))
+            return count_of(argument, scene.usual) > 0;
+    const std::string_view name = argument;
     const auto is_named = [&](const auto& entry) { return entry.name == name; };
     return std::any_of(std::begin(kScenes), std::end(kScenes), is_named) ||
            std::any_of(std::begin(kSkies), std::end(kSkies), is_named);
@@ -67,15 +98,22 @@ void write(const std::filesystem::path& folder, std::span<char* const> names) {
     for (const NamedScene& scene : kScenes)
         if (is_wanted(scene.name, scene.asked_for))
             examples::write_scene(scene.make(), written(scene.name, ".glb"));
+    for (const CountedScene& scene : kCountedScenes)
+        for (const std::string_view name : names)
+            if (bare_name(name) == scene.name)
+                examples::write_scene(scene.make(count_of(name, scene.usual)), written(scene.name, ".glb"));
     for (const NamedSky& sky : kSkies)
         if (is_wanted(sky.name, false))
             prt::write_exr(written(sky.name, ".exr"), sky.make().image, prt::EnvironmentLayout::lat_long);
 }
 
 void print_usage(std::FILE* to) {
-    std::fprintf(to, "usage: example_scenes FOLDER [NAME...]\nWithout names all but city. Scenes:");
+    std::fprintf(
+        to, "usage: example_scenes FOLDER [NAME...]\nWithout names all but city, forest and street. Scenes:");
     for (const NamedScene& scene : kScenes)
         std::fprintf(to, " %s", scene.name.data());
+    for (const CountedScene& scene : kCountedScenes)
+        std::fprintf(to, " %s[:COUNT, otherwise %d]", scene.name.data(), scene.usual);
     std::fprintf(to, "; skies:");
     for (const NamedSky& sky : kSkies)
         std::fprintf(to, " %s", sky.name.data());

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <cmath>
 #include <stdexcept>
 
 namespace examples {
@@ -64,6 +65,51 @@ tinygltf::Node lamp_node(const Lamp& lamp, int index) {
     return node;
 }
 
+tinygltf::Mesh make_mesh(tinygltf::Model& model, const std::string& name, const std::vector<Part>& parts) {
+    tinygltf::Mesh mesh;
+    mesh.name = name;
+    for (const Part& part : parts)
+        mesh.primitives.push_back(make_primitive(model, part));
+    return mesh;
+}
+
+/// A node that draws mesh number `mesh` wherever `drawn` stands.
+tinygltf::Node instancing_node(tinygltf::Model& model, const Model& drawn, int mesh) {
+    std::vector<glm::vec3> translations, scales;
+    std::vector<glm::vec4> rotations; // x, y, z, w
+    for (const Placement& placement : drawn.placements) {
+        const float half = placement.degrees * kTurn / 720;
+        translations.push_back(placement.origin);
+        rotations.emplace_back(0, std::sin(half), 0, std::cos(half));
+        scales.emplace_back(placement.scale);
+    }
+    tinygltf::Value::Object attributes, extension;
+    const auto add = [&](const char* name, const auto& values, int type) {
+        attributes[name] =
+            tinygltf::Value(add_accessor(model, values, {TINYGLTF_COMPONENT_TYPE_FLOAT, type}));
+    };
+    add("TRANSLATION", translations, TINYGLTF_TYPE_VEC3);
+    add("ROTATION", rotations, TINYGLTF_TYPE_VEC4);
+    add("SCALE", scales, TINYGLTF_TYPE_VEC3);
+    extension["attributes"] = tinygltf::Value(attributes);
+    tinygltf::Node node;
+    node.name = drawn.name;
+    node.mesh = mesh;
+    node.extensions["EXT_mesh_gpu_instancing"] = tinygltf::Value(extension);
+    return node;
+}
+
+void add_models(tinygltf::Model& model, const std::vector<Model>& models) {
+    for (const Model& drawn : models) {
+        if (drawn.placements.empty())
+            continue;
+        model.meshes.push_back(make_mesh(model, drawn.name, drawn.parts));
+        model.nodes.push_back(instancing_node(model, drawn, static_cast<int>(model.meshes.size()) - 1));
+        model.scenes[0].nodes.push_back(static_cast<int>(model.nodes.size()) - 1);
+        use_extension(model, "EXT_mesh_gpu_instancing");
+    }
+}
+
 void add_lamps(tinygltf::Model& model, const std::vector<Lamp>& lamps) {
     if (lamps.empty())
         return;
@@ -86,10 +132,7 @@ void write_scene(const ExampleScene& scene, const std::filesystem::path& path) {
     model.asset.version = "2.0";
     model.asset.generator = "prtkit example scenes";
     model.buffers.emplace_back();
-    tinygltf::Mesh mesh;
-    for (const Part& part : scene.parts)
-        mesh.primitives.push_back(make_primitive(model, part));
-    model.meshes.push_back(mesh);
+    model.meshes.push_back(make_mesh(model, {}, scene.parts));
     tinygltf::Node node;
     node.mesh = 0;
     model.nodes.push_back(node);
@@ -98,6 +141,7 @@ void write_scene(const ExampleScene& scene, const std::filesystem::path& path) {
     model.scenes.push_back(file_scene);
     model.defaultScene = 0;
     add_skeleton(model, scene.skeleton, 0);
+    add_models(model, scene.models);
     add_lamps(model, scene.lamps);
     if (!tinygltf::TinyGLTF().WriteGltfSceneToFile(&model, path.string(), true, true, false, true))
         throw std::runtime_error(path.string() + ": cannot be written");

@@ -60,8 +60,9 @@ export class PrtkitPlugin {
   }
 
   async afterRoot(gltf) {
-    const { [VERTICES]: vertices, [TEXELS]: texels, [PROBES]: probes } = this.parser.json.extensions ?? {};
+    const { [VERTICES]: vertices, [TEXELS]: texels, [PROBES]: probes, PRTKIT_instances: instances } = this.parser.json.extensions ?? {};
     expect(!vertices || !texels, "the file has the transfer of texels, too");
+    expect(!instances, "instances share transfer, which this plug-in does not read; bake with --instances own", "PRTKIT_instances");
     const parts = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
     if (parts.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(parts);
     const volume = probes ? await this.volume(probes, gltf.scene) : null;

@@ -205,6 +205,7 @@ std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, c
         const Json* extension = find_extension(contents, kClusteredExtension, kClusteredVersion);
         if (!extension)
             return std::nullopt;
+        check_one_to_one(contents);
         CompressedTransfer compressed;
         ClusteredBases& bases = compressed.transfer.bases;
         ClusteredReceivers& receivers = compressed.transfer.receivers;

@@ -188,6 +188,23 @@ void for_each_source(Json& json, Visit&& visit) {
         });
 }
 
+/// Takes what nodes and the file say of instances that share transfer out.
+void take_instances(Json& json, const std::function<void(Json&)>& take_view) {
+    const auto take = [](Json& owner) {
+        if (!extension_of(owner, kInstancesExtension))
+            return;
+        owner["extensions"].erase(kInstancesExtension);
+        if (owner["extensions"].empty())
+            owner.erase("extensions");
+    };
+    if (extension_of(json, kInstancesExtension))
+        for_each_object(json["extensions"][kInstancesExtension], take_view);
+    take(json);
+    if (json.contains("nodes"))
+        for (Json& node : json["nodes"])
+            take(node);
+}
+
 /// Takes those of `images` out that no texture shows; their views join `views`.
 void remove_images(GltfContents& contents, std::set<std::size_t> images, std::set<std::size_t>& views) {
     Json& json = contents.json;
@@ -337,10 +354,14 @@ void GltfContents::remove_transfer() {
         primitive["attributes"] = std::move(kept);
     });
     take_extensions(json);
+    if (apart.empty()) // else what is written belongs to it
+        take_instances(json, take_view);
     remove_images(*this, std::move(of_lightmaps), views);
     remove_unused(std::move(accessors), std::move(views));
     for (const char* name : kOwnExtensions)
         drop_extension(name);
+    if (apart.empty())
+        drop_extension(kInstancesExtension);
 }
 
 void GltfContents::remove_unused(std::set<std::size_t> accessors, std::set<std::size_t> views) {

@@ -17,6 +17,19 @@ namespace prt {
 
 using Json = nlohmann::ordered_json;
 
+/// A node whose instances became nodes `first` and so on, and what it had of EXT_mesh_gpu_instancing.
+struct ExpandedNode {
+    std::size_t node, first, count;
+    Json extension;
+};
+
+/// A mesh that node `stand_in` draws in its own frame as long as the document is in memory; in the file
+/// `drawers` draw it.
+struct MeshApart {
+    std::size_t stand_in;
+    std::vector<std::size_t> drawers;
+};
+
 struct GltfContents {
     std::filesystem::path path;
     tinygltf::Model model; ///< as read; edits of `json` do not reach it, but its views follow the bytes
@@ -24,6 +37,8 @@ struct GltfContents {
     std::vector<std::vector<std::byte>> images; ///< encoded, by image index
     std::vector<std::string> notices;           ///< what was changed when it was read, a line each
     std::size_t file_bytes = 0;                 ///< of the file and of the buffers beside it
+    std::vector<ExpandedNode> expanded;
+    std::vector<MeshApart> apart;
 
     /// The one buffer that all views of `json`, and of `model`, point into.
     std::vector<unsigned char>& binary() { return model.buffers.front().data; }
@@ -53,6 +68,8 @@ inline constexpr const char* kClusteredExtension = "PRTKIT_clustered_pca";
 inline constexpr const char* kLightmapExtension = "PRTKIT_lightmap";
 inline constexpr const char* kLobeExtension = "PRTKIT_lobes";
 inline constexpr const char* kVolumeExtension = "PRTKIT_transfer_volume";
+inline constexpr const char* kInstancesExtension = "PRTKIT_instances"; ///< of nodes, and at the top level
+inline constexpr const char* kInstancingExtension = "EXT_mesh_gpu_instancing";
 inline constexpr const char* kOccluderExtension = "PRTKIT_occlusion_volume"; ///< of nodes
 
 /// What an exception says of the file, without the inner words of the libraries that threw it, as one line of

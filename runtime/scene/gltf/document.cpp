@@ -10,6 +10,7 @@
 #include "gltf/fallback.h"
 #include "gltf/glb.h"
 #include "gltf/instances.h"
+#include "gltf/meshes_apart.h"
 #include "gltf/json_text.h"
 #include "gltf/meshopt_views.h"
 #include "gltf/side_files.h"
@@ -31,11 +32,12 @@ namespace {
 
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
 /// base color is used. Textures of other formats are missed only where they are needed.
-constexpr std::array<std::string_view, 32> kSupportedExtensions = {
+constexpr std::array<std::string_view, 33> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
     kLightmapExtension,
     kVolumeExtension,
+    kInstancesExtension,
     kMeshoptExtension,
     kDracoExtension,
     "EXT_mesh_gpu_instancing",
@@ -240,6 +242,7 @@ std::vector<std::byte> glb_bytes(const GltfContents& contents, BufferCompression
     } else {
         glb.json = contents.json;
     }
+    put_meshes_back(contents.apart, glb.json);
     if (!binary.empty() && !glb.json.contains("buffers"))
         glb.json["buffers"] = Json::array({Json{{"byteLength", binary.size()}}});
     return make_glb(glb.json.dump(-1, ' ', false, Json::error_handler_t::replace), binary);
@@ -293,6 +296,8 @@ GltfDocument parse_gltf(std::span<const std::byte> file, const std::filesystem::
             contents->cut_unused_bytes();
         check_data(*contents);
         set_fallback_aside(*contents);
+        if (options.instancing == Instancing::apart)
+            set_meshes_apart(*contents);
         expand_instances(*contents);
         embed_images(*contents);
     } catch (const std::exception& error) { // ours, and those of the standard and the JSON library

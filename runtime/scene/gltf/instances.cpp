@@ -12,7 +12,6 @@
 namespace prt {
 namespace {
 
-constexpr const char* kInstancing = "EXT_mesh_gpu_instancing";
 /// Accessors without data claim any number.
 constexpr std::size_t kMostInstances = 1'000'000;
 /// Bytes of a node, in JSON and in the model, and of each of its weights.
@@ -57,11 +56,16 @@ std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
     Json& nodes = contents.json["nodes"];
     std::size_t count = 0;
     const auto attributes =
-        read_attributes(contents, nodes[n]["extensions"][kInstancing].at("attributes"), count);
+        read_attributes(contents, nodes[n]["extensions"][kInstancingExtension].at("attributes"), count);
     bytes += static_cast<double>(count) *
              (kNode + kWeight * static_cast<double>(contents.model.nodes[n].weights.size()));
     check_allowed(bytes, contents.file_bytes, "its instances");
-    nodes[n]["extensions"].erase(kInstancing);
+    ExpandedNode expanded{n, nodes.size(), count, std::move(nodes[n]["extensions"][kInstancingExtension])};
+    Json shared = Json::object(); // of the first instance
+    if (const Json* found = extension_of(nodes[n], kInstancesExtension))
+        shared = *found;
+    for (const char* name : {kInstancingExtension, kInstancesExtension})
+        nodes[n]["extensions"].erase(name);
     if (nodes[n]["extensions"].empty())
         nodes[n].erase("extensions");
     Json common = Json::object();
@@ -84,11 +88,16 @@ std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
             model.*attribute.member = {values, values + attribute.components};
             child[attribute.key] = model.*attribute.member;
         }
+        if (!shared.empty()) {
+            shared["first"] = shared.value("first", std::size_t{0}) + (i > 0 ? 1 : 0);
+            extensions_of(child)[kInstancesExtension] = shared;
+        }
         member(nodes[n], "children", Json::value_t::array).push_back(nodes.size());
         contents.model.nodes[n].children.push_back(static_cast<int>(nodes.size()));
         nodes.push_back(std::move(child));
         contents.model.nodes.push_back(std::move(model));
     }
+    contents.expanded.push_back(std::move(expanded));
     return count;
 }
 
@@ -97,11 +106,15 @@ std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
 void expand_instances(GltfContents& contents) {
     std::size_t instances = 0;
     double bytes = 0;
-    bool found = false;
+    bool found = false, kept = false;
     const std::size_t before = contents.model.nodes.size();
     for (std::size_t n = 0; n < before; ++n) {
-        if (!extension_of(contents.json["nodes"][n], kInstancing))
+        if (!extension_of(contents.json["nodes"][n], kInstancingExtension))
             continue;
+        if (!contents.apart.empty() && extension_of(contents.json["nodes"][n], kInstancesExtension)) {
+            kept = true;
+            continue;
+        }
         try {
             instances += expand(contents, n, bytes);
             found = true;
@@ -113,7 +126,8 @@ void expand_instances(GltfContents& contents) {
     }
     if (!found)
         return;
-    contents.drop_extension(kInstancing);
+    if (!kept)
+        contents.drop_extension(kInstancingExtension);
     contents.notices.push_back("its " + std::to_string(instances) +
                                " instances (EXT_mesh_gpu_instancing) become nodes of their own");
 }

@@ -67,6 +67,7 @@ std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const S
         const Json* extension = find_extension(contents, kTransferExtension, kTransferVersion);
         if (!extension)
             return std::nullopt;
+        check_one_to_one(contents);
         BakedTransfer baked;
         Transfer& transfer = baked.transfer;
         transfer.layout = read_layout(*extension);
@@ -90,6 +91,7 @@ std::optional<StoredBake> read_stored_transfer(const GltfDocument& document, con
         const Json* extension = find_extension(contents, kTransferExtension, kTransferVersion);
         if (!extension)
             return std::nullopt;
+        check_one_to_one(contents);
         StoredBake bake;
         StoredTransfer& transfer = bake.transfer;
         transfer.layout = read_layout(*extension);

@@ -123,6 +123,19 @@ const Json* find_extension(const GltfContents& contents, const char* name, int e
     return extension;
 }
 
+void check_one_to_one(const GltfContents& contents) {
+    const bool told = extension_of(contents.json, kInstancesExtension) != nullptr;
+    if (contents.apart.empty() && told)
+        throw Error("its instances share their transfer, which this reader does not expand");
+    bool drawn = !contents.apart.empty();
+    if (contents.json.contains("nodes"))
+        for (const Json& node : contents.json["nodes"])
+            drawn = drawn || extension_of(node, kInstancesExtension);
+    if (drawn && !told)
+        throw Error(std::string("nodes have ") + kInstancesExtension +
+                    ", and the file does not say what they share");
+}
+
 Json parts_json(const TransferLayout& layout) {
     Json parts = Json::array();
     for (const TransferPart& part : layout.parts) {

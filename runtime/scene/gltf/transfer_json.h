@@ -23,6 +23,9 @@ BakeRecord read_record(const Json& json);
 /// another version.
 const Json* find_extension(const GltfContents& contents, const char* name, int expected_version);
 
+/// Throws `Error` where instances share transfer and are nodes: the scene has more vertices than the file.
+void check_one_to_one(const GltfContents& contents);
+
 /// [{"kind": "direct", "channels": 1}, ...]
 Json parts_json(const TransferLayout& layout);
 /// Order and parts of an extension. Throws `Error` when they make no sense.

@@ -47,6 +47,10 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" "${packed[@]}"
             compiles "$file" "${packed[@]}" "${alike[@]}" "PRT_LIGHTMAP_FORMAT r11f_g11f_b10f"
             ;;
+        prt_instances.vert)
+            compiles "$file" "${packed[@]}" "${guides[@]}" "PRT_INSTANCE_ROWS 40"
+            compiles "$file" PRT_CONSTANTS_BUFFER "PRT_WEIGHT_VECTORS 2" "PRT_INSTANCE_ROWS 40"
+            ;;
         prt_volume.comp)
             for order in 2 3 4; do
                 compiles "$file" "${packed[@]}" "PRT_VOLUME_ORDER $order"

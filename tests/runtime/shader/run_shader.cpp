@@ -156,10 +156,19 @@ GLuint compiled(GLenum stage, const std::string& source) {
 
 std::vector<glm::vec3> radiance_of_shader(const ClusteredTransfer& transfer, const Lighting& lighting,
                                           ShaderLanguage language, ConstantSource source) {
+    const ConstantFormer former(transfer);
+    std::vector<glm::vec4> constants(former.rows());
+    former.form(lighting, constants);
+    return radiance_of_vertices(transfer, relight_shader(transfer, source, language, kSceneOrigin), constants,
+                                language, source);
+}
+
+std::vector<glm::vec3> radiance_of_vertices(const ClusteredTransfer& transfer,
+                                            const std::string& vertex_shader,
+                                            const std::vector<glm::vec4>& constants, ShaderLanguage language,
+                                            ConstantSource source) {
     const GLuint program = glCreateProgram();
-    const glm::vec3 scene_origin(3, -1, 2);
-    glAttachShader(program,
-                   compiled(GL_VERTEX_SHADER, relight_shader(transfer, source, language, scene_origin)));
+    glAttachShader(program, compiled(GL_VERTEX_SHADER, vertex_shader));
     const std::string header = language == ShaderLanguage::essl300
                                    ? "#version 300 es\nprecision highp float;\n"
                                : language == ShaderLanguage::glsl330 ? "#version 330 core\n"
@@ -177,14 +186,11 @@ std::vector<glm::vec3> radiance_of_shader(const ClusteredTransfer& transfer, con
     EXPECT_TRUE(linked) << log;
     glUseProgram(program);
 
-    const ConstantFormer former(transfer);
-    std::vector<glm::vec4> constants(former.rows());
-    former.form(lighting, constants);
     GLuint vertex_array = 0, output = 0;
     glGenVertexArrays(1, &vertex_array);
     glBindVertexArray(vertex_array);
     bind_receivers(transfer.receivers);
-    bind_guides(transfer, scene_origin);
+    bind_guides(transfer, kSceneOrigin);
     bind_constants(program, source, constants, cluster_layouts(transfer.bases));
     bind_small_framebuffer();
     const std::size_t count = transfer.receivers.size(), bytes = count * sizeof(glm::vec3);

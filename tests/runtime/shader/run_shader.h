@@ -44,6 +44,16 @@ void bind_buffer(GLenum target, GLuint binding, const std::vector<T>& values) {
     glBindBufferBase(target, binding, name);
 }
 
+/// Where positions of guides are seen from.
+inline constexpr glm::vec3 kSceneOrigin{3, -1, 2};
+
+/// What a vertex shader writes as `radiance` for every receiver, from these constants; what else it reads is
+/// bound.
+std::vector<glm::vec3> radiance_of_vertices(const ClusteredTransfer& transfer,
+                                            const std::string& vertex_shader,
+                                            const std::vector<glm::vec4>& constants, ShaderLanguage language,
+                                            ConstantSource source);
+
 /// Exit radiance of every receiver by relight_shader.
 std::vector<glm::vec3> radiance_of_shader(const ClusteredTransfer& transfer, const Lighting& lighting,
                                           ShaderLanguage language, ConstantSource source);

@@ -34,6 +34,12 @@ private:
 /// What to do about images whose files are not there, or not to be read.
 enum class MissingImages { error, ignore };
 
+/// How meshes are read whose instances share their transfer (PRTKIT_instances).
+enum class Instancing {
+    nodes, ///< each instance is a node
+    apart, ///< each mesh is there once, in its own frame: as its transfer is stored
+};
+
 struct GltfOptions {
     MissingImages missing_images = MissingImages::error;
     /// Whether URIs may name files outside the folder of the scene, by "..", by links or from the root.
@@ -41,6 +47,7 @@ struct GltfOptions {
     bool allow_outside = false;
     /// Files that will be written: a scene whose buffers or images are among them is refused.
     std::vector<std::filesystem::path> outputs = {};
+    Instancing instancing = Instancing::nodes;
 };
 
 /// Reads .gltf or .glb with its buffers and images. Throws `Error` that names the file and the place in it.
@@ -62,7 +69,8 @@ void write_transfer(GltfDocument& document, const Scene& scene, const BakedTrans
 /// Writes PRTKIT_clustered_pca and takes PRTKIT_transfer out.
 void write_clustered(GltfDocument& document, const Scene& scene, const CompressedTransfer& compressed);
 
-/// The transfer in the file; nothing when it holds none. Throws `Error` when it is damaged.
+/// The transfer in the file; nothing when it holds none. Throws `Error` when it is damaged, and where its
+/// instances share transfer, unless it was read with `Instancing::apart` (prt/instances_gltf.h).
 std::optional<BakedTransfer> read_transfer(const GltfDocument& document, const Scene& scene);
 std::optional<CompressedTransfer> read_clustered(const GltfDocument& document, const Scene& scene);
 

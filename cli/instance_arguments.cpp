@@ -1,0 +1,151 @@
+#include "instance_arguments.h"
+
+#include "no_shadow.h"
+#include "options.h"
+#include "outputs.h"
+#include "prt/receivers.h"
+#include "prt/support/error.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+namespace prt::cli {
+namespace {
+
+const std::map<std::string, InstanceMode> kModes = {
+    {"own", InstanceMode::own}, {"shared", InstanceMode::shared}, {"auto", InstanceMode::automatic}};
+
+std::size_t vertices_of(const Scene& scene, int node) {
+    std::size_t count = 0;
+    std::vector<bool> seen(scene.vertex_arrays.size());
+    for (const Primitive& primitive : scene.primitives)
+        if (primitive.node == node && !seen[primitive.vertices]) {
+            seen[primitive.vertices] = true;
+            count += scene.vertex_arrays[primitive.vertices].size();
+        }
+    return count;
+}
+
+/// Whether sharing leaves a quarter of the receivers to trace, or less.
+bool pays(const InstanceArguments& arguments, const SharedMeshes& meshes, const Scene& scene) {
+    std::size_t all = 0, traced = 0;
+    for (const SharedMesh& mesh : meshes.meshes) {
+        const std::size_t vertices = vertices_of(scene, mesh.placements.front().node);
+        all += vertices * mesh.placements.size();
+        traced +=
+            vertices +
+            mesh.placements.size() *
+                std::min(vertices, static_cast<std::size_t>(arguments.bake.rays * arguments.bake.samples));
+    }
+    return all >= 4 * traced;
+}
+
+/// Takes the placements out that err too much, and meshes that one at most is left of.
+SharedMeshes without_bad_ones(const SharedMeshes& meshes, const std::vector<double>& errors, double most) {
+    SharedMeshes kept = meshes;
+    kept.meshes.clear();
+    std::size_t i = 0;
+    for (const SharedMesh& mesh : meshes.meshes) {
+        SharedMesh good{mesh.mesh, {}};
+        for (const MeshPlacement& placement : mesh.placements)
+            if (errors[i++] <= most)
+                good.placements.push_back(placement);
+        if (good.placements.size() >= 2)
+            kept.meshes.push_back(std::move(good));
+    }
+    return kept;
+}
+
+} // namespace
+
+void add_instances(CLI::App* command, InstanceArguments& arguments) {
+    choice(
+        command, "--instances", arguments.mode, kModes,
+        "meshes that nodes or EXT_mesh_gpu_instancing draw often: own: each has transfer of its own; shared: "
+        "that of their mesh, which is baked once, times factors of their place; auto: shared where that can "
+        "be "
+        "and spares three quarters of the vertices",
+        "own");
+    command
+        ->add_option(
+            "--instance-error", arguments.error,
+            "instances whose light errs by more, in relative L2 under soft skies, are baked alone: 0.1 is "
+            "10 %")
+        ->capture_default_str()
+        ->check(real_in(0, 1e9));
+    command
+        ->add_option("--instance-samples", arguments.bake.samples,
+                     "vertices of each instance that are traced where it stands, with a quarter of the rays")
+        ->capture_default_str()
+        ->check(CLI::Range(8, 1 << 20));
+}
+
+SharedMeshes meshes_to_share(const InstanceArguments& arguments, const GltfDocument& document,
+                             const Scene& scene, const AskedFor& asked) {
+    if (arguments.mode == InstanceMode::own)
+        return {};
+    const bool must = arguments.mode == InstanceMode::shared;
+    if (asked.other) {
+        if (must)
+            throw Error(
+                "--instances shared is for vertices as they are: leave out texels, volumes and --refine");
+        return {};
+    }
+    SharedMeshes meshes = shared_meshes(document, scene);
+    const bool other_light =
+        asked.options.target_error || asked.options.fit == FitMode::surface ||
+        asked.options.tracer.method == BakeMethod::raster || !asked.options.subsurface.media.empty() ||
+        (asked.options.lamps.mode != LampMode::none &&
+         (!scene.lights.empty() || std::ranges::any_of(scene.materials,
+                                                       [](const Material& material) {
+                                                           return material.emission.radiance != glm::vec3(0);
+                                                       }))) ||
+        std::ranges::any_of(scene.materials,
+                            [](const Material& material) { return medium_of(material).has_value(); });
+    if (!must && (other_light || !pays(arguments, meshes, scene)))
+        return {};
+    if (must && meshes.meshes.empty())
+        throw Error("no mesh is drawn twice by nodes that turn, move and scale it evenly: nothing is shared");
+    if (meshes.mirrored + meshes.uneven + meshes.bent > 0)
+        print_notices(
+            "instances",
+            {fmt::format("{} are mirrored, {} singular, sheared or scaled unevenly, and {} bent by skins "
+                         "or morph targets: these are baked alone",
+                         meshes.mirrored, meshes.uneven, meshes.bent)});
+    return meshes;
+}
+
+InstancedBake bake_shared(const InstanceArguments& arguments, const FlatScene& flat, SharedMeshes meshes,
+                          const BakeOptions& options, const Progress& progress) {
+    InstancedBake result;
+    const std::size_t all = meshes.placements();
+    for (const bool last : {false, true}) {
+        SharedDocument shared = with_shared_meshes(flat.document, meshes.meshes);
+        Scene stored = extract_scene(shared.document);
+        leave_out_shadows(stored, flat.no_shadow);
+        result.bake = bake_instances({flat.scene, stored, meshes.meshes, shared.stand_ins, shared.node_of},
+                                     options, arguments.bake, progress.part(last ? 0.5 : 0, 1));
+        result.seconds += result.bake.statistics.seconds;
+        result.rays += result.bake.statistics.rays;
+        if (!last) {
+            result.first_errors = result.bake.errors;
+            const SharedMeshes good = without_bad_ones(meshes, result.bake.errors, arguments.error);
+            if (good.placements() < all) {
+                result.baked_alone = all - good.placements();
+                meshes = good;
+                if (meshes.meshes.empty())
+                    return result;
+                continue;
+            }
+        }
+        write_transfer(shared.document, stored, result.bake.baked);
+        write_instances(shared.document, result.bake.instances);
+        result.document = std::move(shared.document);
+        break;
+    }
+    result.meshes = std::move(meshes);
+    return result;
+}
+
+} // namespace prt::cli

@@ -1,0 +1,56 @@
+#include "instance_errors.h"
+
+#include "report/instance_report.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+
+namespace prt::cli {
+
+std::vector<double> instance_errors(const InstancedFile& file, const Scene& scene,
+                                    std::span<const float> areas, std::span<const glm::vec3> wanted,
+                                    std::span<const glm::vec3> lit, std::span<const glm::vec3> scale) {
+    std::vector<double> errors;
+    for (const FileInstance& instance : file.instances) {
+        double wrong = 0, all = 0;
+        for (const std::size_t array : instance.arrays) {
+            const VertexArray& vertices = scene.vertex_arrays[array];
+            for (std::size_t r = vertices.first_receiver; r < vertices.first_receiver + vertices.size();
+                 ++r) {
+                const glm::vec3 off = lit[r] - wanted[r];
+                wrong += static_cast<double>(areas[r] * glm::dot(off, off));
+                all += static_cast<double>(areas[r] * glm::dot(scale[r], scale[r]));
+            }
+        }
+        errors.push_back(all > 0 ? std::sqrt(wrong / all) : 0);
+    }
+    return errors;
+}
+
+Table instances_table(const std::vector<SplitLight>& lights, const std::vector<std::vector<double>>& errors) {
+    Table table{
+        "instances",
+        "Errors of instances by light",
+        "lit_rms of each instance that shares the transfer of its mesh, over its own vertices and relative "
+        "to its own radiance under the whole light; suns are apart where transfer keeps them so",
+        {},
+        {}};
+    const Unit share = Unit::percent;
+    table.columns = {{"light", "light"},
+                     {"count", "instances"},
+                     {"median", "median", share, 2},
+                     {"percentile_90", "90 %", share, 2},
+                     {"percentile_99", "99 %", share, 2},
+                     {"most", "most", share, 2}};
+    for (std::size_t l = 0; l < lights.size(); ++l) {
+        if (errors[l].empty())
+            continue;
+        const Json of = percentiles(errors[l]);
+        table.rows.push_back({lights[l].sky.name, errors[l].size(), of["median"], of["percentile_90"],
+                              of["percentile_99"], of["most"]});
+    }
+    return table;
+}
+
+} // namespace prt::cli

@@ -1,0 +1,23 @@
+#pragma once
+
+#include "inputs.h"
+#include "report/report.h"
+#include "split_light.h"
+
+#include <glm/vec3.hpp>
+
+#include <span>
+#include <vector>
+
+namespace prt::cli {
+
+/// lit_rms of each instance of the file, over its own vertices. `wanted`, `lit` [receivers], as `areas`;
+/// `scale` [receivers]: what errors are relative to.
+std::vector<double> instance_errors(const InstancedFile& file, const Scene& scene,
+                                    std::span<const float> areas, std::span<const glm::vec3> wanted,
+                                    std::span<const glm::vec3> lit, std::span<const glm::vec3> scale);
+
+/// Percentiles of such errors [lights][instances].
+Table instances_table(const std::vector<SplitLight>& lights, const std::vector<std::vector<double>>& errors);
+
+} // namespace prt::cli

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "instance_arguments.h"
+#include "report/report.h"
+
+#include <cstdint>
+#include <string>
+
+namespace prt::cli {
+
+/// A bake whose instances share transfer, and what came of it.
+struct InstanceOutcome {
+    std::string output;
+    const BakeOptions& options;
+    const Scene& scene; ///< flat
+    const InstancedBake& baked;
+    double error = 0;         ///< that instances may have
+    std::uintmax_t bytes = 0; ///< of the file
+};
+
+Report instance_report(const InstanceOutcome& outcome);
+
+/// {"median", "percentile_90", "percentile_99", "most"} of errors, of which there are some.
+Json percentiles(std::vector<double> errors);
+
+} // namespace prt::cli

@@ -1,0 +1,254 @@
+// Factors of instances in glTF files: PRTKIT_instances of docs/format.md.
+#include "prt/instances_gltf.h"
+
+#include "gltf/allowance.h"
+#include "gltf/even_placement.h"
+#include "gltf/node_transforms.h"
+#include "gltf/transfer_json.h"
+#include "prt/support/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace prt {
+namespace {
+
+constexpr int kInstancesVersion = 1;
+constexpr int kMostInstances = 1'000'000;
+
+Json three(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+glm::vec3 read_three(const Json& json) {
+    if (json.size() != 3)
+        throw Error("a box of its instances has no three numbers");
+    return {json[0].get<float>(), json[1].get<float>(), json[2].get<float>()};
+}
+
+InstanceBox read_box(const Json& json) {
+    const InstanceBox box{read_three(json.at("middle")), read_three(json.at("half"))};
+    for (int i = 0; i < 3; ++i)
+        if (!(std::abs(box.middle[i]) <= 1e9f && box.half[i] > 0 && box.half[i] <= 1e9f))
+            throw Error("a box of its instances is none");
+    return box;
+}
+
+StoredInstances read_stored(const GltfContents& contents) {
+    const Json& extension = *find_extension(contents, kInstancesExtension, kInstancesVersion);
+    const auto count = static_cast<std::size_t>(
+        whole_number(extension.at("count"), "count of instances", 1, kMostInstances));
+    std::vector<float> numbers(count * kInstanceNumbers);
+    read_float_view(contents, extension.at("factors"), numbers, "the factors of its instances");
+    StoredInstances stored;
+    for (std::size_t i = 0; i < count; ++i)
+        stored.factors.push_back(
+            factors_of(std::span(numbers).subspan(i * kInstanceNumbers, kInstanceNumbers)));
+    for (const Json& box : extension.at("boxes"))
+        stored.boxes.push_back(read_box(box));
+    return stored;
+}
+
+/// The instance of the extension of a node, without what it is drawn with.
+FileInstance read_instance(const StoredInstances& stored, int node, const Json& extension,
+                           const glm::dmat4& world) {
+    const auto number =
+        static_cast<std::size_t>(whole_number(extension.at("first"), "first of node " + std::to_string(node),
+                                              0, static_cast<int>(stored.factors.size()) - 1));
+    const auto box =
+        static_cast<std::size_t>(whole_number(extension.at("box"), "box of node " + std::to_string(node), 0,
+                                              static_cast<int>(stored.boxes.size()) - 1));
+    const std::optional<MeshPlacement> placement = even_placement(node, world);
+    if (!placement)
+        throw Error("node " + std::to_string(node) +
+                    " draws an instance that shares its transfer, and mirrors it or scales it unevenly");
+    return {node, number, {stored.factors[number], placement->rotation, stored.boxes[box]}, {}, {}};
+}
+
+bool same_vertices(const Scene& scene, std::size_t array, const Scene& stored, std::size_t other) {
+    return scene.vertex_arrays[array].size() == stored.vertex_arrays[other].size();
+}
+
+/// Which vertex array of `stored` each of `scene` has its transfer from: [vertex arrays of scene]. Meshes of
+/// instances come last in `stored`, the others in the same order.
+std::vector<std::size_t> stored_arrays(const GltfContents& contents, const Scene& scene, const Scene& stored,
+                                       const std::map<int, FileInstance>& instances) {
+    std::map<std::pair<int, int>, std::size_t> of_mesh; // (mesh, primitive) -> primitive of `stored`
+    std::size_t plain = 0;
+    for (const Primitive& primitive : scene.primitives)
+        plain += instances.contains(primitive.node) ? 0 : 1;
+    for (std::size_t p = plain; p < stored.primitives.size(); ++p)
+        of_mesh[{stored.primitives[p].mesh, stored.primitives[p].primitive}] = p;
+    std::vector<std::size_t> result(scene.vertex_arrays.size());
+    std::size_t next = 0;
+    for (const Primitive& primitive : scene.primitives) {
+        std::size_t from = next;
+        if (instances.contains(primitive.node)) {
+            const Json& mesh = contents.json["nodes"][static_cast<std::size_t>(primitive.node)]["mesh"];
+            const auto found = of_mesh.find({mesh.get<int>(), primitive.primitive});
+            from = found == of_mesh.end() ? stored.primitives.size() : found->second;
+        } else {
+            ++next;
+        }
+        if (from >= stored.primitives.size() ||
+            !same_vertices(scene, primitive.vertices, stored, stored.primitives[from].vertices))
+            throw Error(primitive_name(primitive) + " is not drawn as its transfer is stored");
+        result[primitive.vertices] = stored.primitives[from].vertices;
+    }
+    return result;
+}
+
+std::map<int, FileInstance> instances_of(const GltfContents& contents, const Scene& scene) {
+    const StoredInstances factors = read_stored(contents);
+    std::map<int, FileInstance> instances;
+    std::map<int, glm::dmat4> world;
+    for (const NodeTransform& transform : world_transforms(contents.model))
+        world[transform.node] = transform.world;
+    for (const Primitive& primitive : scene.primitives) {
+        const Json& node = contents.json["nodes"][static_cast<std::size_t>(primitive.node)];
+        if (const Json* extension = extension_of(node, kInstancesExtension))
+            if (!instances.contains(primitive.node))
+                instances.emplace(primitive.node, read_instance(factors, primitive.node, *extension,
+                                                                world.at(primitive.node)));
+    }
+    return instances;
+}
+
+/// The modes of a mesh whose instances see the world's up alike.
+struct MeshModes {
+    std::size_t array;
+    glm::dvec3 up;
+    SharedTransfer shared;
+    std::vector<glm::vec3> positions;
+};
+
+class Expansion {
+public:
+    Expansion(const Scene& stored, const Transfer& transfer, int threads)
+        : stored_(stored), transfer_(transfer), threads_(threads) {}
+
+    void write(const PlacedInstance& placed, std::size_t array, std::span<float> to) {
+        const MeshModes& modes = modes_of(array, glm::transpose(placed.rotation) * glm::dvec3(0, 1, 0));
+        expand_instance(modes.shared, placed, modes.positions, to);
+    }
+    /// Makes what `write` needs for it, so that threads may share the rest.
+    void prepare(const PlacedInstance& placed, std::size_t array) {
+        modes_of(array, glm::transpose(placed.rotation) * glm::dvec3(0, 1, 0));
+    }
+    std::span<const float> vectors_of(std::size_t array) const {
+        const VertexArray& vertices = stored_.vertex_arrays[array];
+        return std::span(transfer_.vectors)
+            .subspan(vertices.first_receiver * transfer_.dimension(),
+                     vertices.size() * transfer_.dimension());
+    }
+
+private:
+    const MeshModes& modes_of(std::size_t array, const glm::dvec3& up) {
+        constexpr double kSame = 1e-5;
+        for (const MeshModes& modes : modes_)
+            if (modes.array == array && glm::distance(modes.up, up) < kSame)
+                return modes;
+        const std::span<const float> vectors = vectors_of(array);
+        std::vector<glm::vec3> positions;
+        for (const glm::vec3& position : stored_.vertex_arrays[array].positions)
+            positions.emplace_back(stored_.world(position));
+        modes_.push_back({array, up,
+                          SharedTransfer({transfer_.layout, {vectors.begin(), vectors.end()}},
+                                         glm::normalize(up), threads_),
+                          std::move(positions)});
+        return modes_.back();
+    }
+
+    const Scene& stored_;
+    const Transfer& transfer_;
+    int threads_;
+    std::vector<MeshModes> modes_;
+};
+
+} // namespace
+
+void write_instances(GltfDocument& document, const StoredInstances& instances) {
+    named(document, [&](GltfContents& contents) {
+        std::vector<float> numbers;
+        for (const InstanceFactors& factors : instances.factors)
+            std::ranges::copy(numbers_of(factors), std::back_inserter(numbers));
+        check_magnitudes(numbers, kLargestFactor, "the factors of instances");
+        Json boxes = Json::array();
+        for (const InstanceBox& box : instances.boxes)
+            boxes.push_back({{"middle", three(box.middle)}, {"half", three(box.half)}});
+        extensions_of(contents.json)[kInstancesExtension] = {{"version", kInstancesVersion},
+                                                             {"count", instances.factors.size()},
+                                                             {"boxes", std::move(boxes)},
+                                                             {"factors", write_half_view(contents, numbers)}};
+    });
+}
+
+bool holds_instances(const GltfDocument& document) {
+    return extension_of(document.contents().json, kInstancesExtension) != nullptr;
+}
+
+bool shares_instances(const GltfDocument& document) {
+    return document.contents().apart.empty() && holds_instances(document);
+}
+
+std::vector<FileInstance> read_instances(const GltfDocument& document, const Scene& scene,
+                                         const Scene& stored) {
+    return named(document, [&](const GltfContents& contents) {
+        std::map<int, FileInstance> instances = instances_of(contents, scene);
+        const std::vector<std::size_t> from = stored_arrays(contents, scene, stored, instances);
+        std::vector<FileInstance> result;
+        for (const Primitive& primitive : scene.primitives) {
+            const auto found = instances.find(primitive.node);
+            if (found == instances.end())
+                continue;
+            FileInstance& instance = found->second;
+            if (std::ranges::find(instance.arrays, primitive.vertices) != instance.arrays.end())
+                continue;
+            instance.arrays.push_back(primitive.vertices);
+            instance.stored_arrays.push_back(from[primitive.vertices]);
+        }
+        for (auto& [node, instance] : instances)
+            result.push_back(std::move(instance));
+        return result;
+    });
+}
+
+Transfer expanded(const GltfDocument& document, const Scene& scene, const Scene& stored,
+                  const Transfer& transfer, int threads) {
+    const std::vector<FileInstance> instances = read_instances(document, scene, stored);
+    return named(document, [&](const GltfContents& contents) {
+        const std::size_t dimension = transfer.dimension();
+        // Sixteen times what else may be described without being held: vectors are made of few.
+        check_allowed(static_cast<double>(scene.receivers() * dimension * sizeof(float)) / 16,
+                      contents.file_bytes, "the transfer of its instances");
+        std::map<int, FileInstance> by_node;
+        for (const FileInstance& instance : instances)
+            by_node.emplace(instance.node, instance);
+        const std::vector<std::size_t> from = stored_arrays(contents, scene, stored, by_node);
+        Transfer all = zero_transfer(transfer.layout, scene.receivers());
+        const auto vectors = [&](std::size_t array) {
+            const VertexArray& vertices = scene.vertex_arrays[array];
+            return std::span(all.vectors)
+                .subspan(vertices.first_receiver * dimension, vertices.size() * dimension);
+        };
+        Expansion expansion(stored, transfer, threads);
+        std::vector<const FileInstance*> owner(scene.vertex_arrays.size(), nullptr);
+        for (const FileInstance& instance : instances)
+            for (const std::size_t array : instance.arrays) {
+                owner[array] = &instance;
+                expansion.prepare(instance.placed, from[array]);
+            }
+        parallel_for(scene.vertex_arrays.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t array = begin; array < end; ++array) {
+                if (owner[array])
+                    expansion.write(owner[array]->placed, from[array], vectors(array));
+                else
+                    std::ranges::copy(expansion.vectors_of(from[array]), vectors(array).begin());
+            }
+        });
+        return all;
+    });
+}
+
+} // namespace prt

@@ -1,0 +1,90 @@
+// Finds the meshes that nodes draw often, turned, moved and scaled evenly.
+#include "prt/instances_gltf.h"
+
+#include "gltf/contents.h"
+#include "gltf/even_placement.h"
+#include "gltf/node_transforms.h"
+#include "prt/support/error.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace prt {
+namespace {
+
+bool is_bent(const tinygltf::Model& model, const tinygltf::Node& node) {
+    if (node.skin >= 0)
+        return true;
+    for (const tinygltf::Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+        if (!primitive.targets.empty())
+            return true;
+    return false;
+}
+
+} // namespace
+
+std::optional<MeshPlacement> even_placement(int node, const glm::dmat4& world) {
+    constexpr double kRounding = 1e-5; // of an element, of the scale: matrices of files are float
+    const glm::dmat3 linear(world);
+    const double determinant = glm::determinant(linear);
+    if (!(determinant > 0))
+        return std::nullopt;
+    const double scale = std::cbrt(determinant);
+    const glm::dmat3 rotation = linear / scale, square = glm::transpose(rotation) * rotation;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j)
+            if (!(std::abs(square[i][j] - (i == j ? 1.0 : 0.0)) < kRounding))
+                return std::nullopt;
+    return MeshPlacement{node, rotation, scale};
+}
+
+std::size_t SharedMeshes::placements() const {
+    std::size_t count = 0;
+    for (const SharedMesh& mesh : meshes)
+        count += mesh.placements.size();
+    return count;
+}
+
+SharedMeshes shared_meshes(const GltfDocument& document, const Scene& scene) {
+    const tinygltf::Model& model = document.contents().model;
+    std::map<int, glm::dmat4> world;
+    for (const NodeTransform& transform : world_transforms(model))
+        world[transform.node] = transform.world;
+    struct Drawn {
+        std::size_t nodes = 0, mirrored = 0, uneven = 0, bent = 0;
+        SharedMesh mesh;
+    };
+    std::map<int, Drawn> drawn;
+    std::set<int> seen;
+    for (const Primitive& primitive : scene.primitives) {
+        if (!seen.insert(primitive.node).second)
+            continue;
+        Drawn& here = drawn[primitive.mesh];
+        here.mesh.mesh = primitive.mesh;
+        ++here.nodes;
+        const glm::dmat4& matrix = world.at(primitive.node);
+        if (is_bent(model, model.nodes[static_cast<std::size_t>(primitive.node)]))
+            ++here.bent;
+        else if (const std::optional<MeshPlacement> placement = even_placement(primitive.node, matrix))
+            here.mesh.placements.push_back(*placement);
+        else
+            ++(glm::determinant(glm::dmat3(matrix)) < 0 ? here.mirrored : here.uneven);
+    }
+    SharedMeshes result;
+    for (auto& [mesh, here] : drawn) {
+        if (here.nodes < 2)
+            continue;
+        result.mirrored += here.mirrored;
+        result.uneven += here.uneven;
+        result.bent += here.bent;
+        if (here.mesh.placements.size() >= 2)
+            result.meshes.push_back(std::move(here.mesh));
+    }
+    return result;
+}
+
+} // namespace prt

@@ -1,0 +1,187 @@
+// Modes of the lighting of instances (docs/math.md, section 21), and transfer under each of them.
+
+#include "prt/instances.h"
+
+#include "prt/sh.h"
+#include "prt/support/error.h"
+#include "prt/support/parallel.h"
+#include "sh/gauss_legendre.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace prt {
+namespace {
+
+std::size_t coefficients_of(int order) {
+    return static_cast<std::size_t>(coefficient_count(order));
+}
+
+/// Two unit vectors square to `up` and each other.
+std::array<glm::dvec3, 2> level_axes(const glm::dvec3& up) {
+    const glm::dvec3 other = std::abs(up.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 across = glm::normalize(glm::cross(up, other));
+    return {across, glm::cross(across, up)};
+}
+
+/// Calls `take(direction, solid angle)` so that integrals over the half sphere about `up` are exact for
+/// polynomials of 2 order - 1: what is left after the azimuth is a polynomial of the height.
+template <class Take>
+void over_upper_half(int order, const glm::dvec3& up, const Take& take) {
+    const GaussLegendre heights(order + 1);
+    const int around = 2 * order + 2;
+    const auto [across, along] = level_axes(up);
+    for (std::size_t i = 0; i < heights.nodes.size(); ++i) {
+        const double height = 0.5 * (heights.nodes[i] + 1), radius = std::sqrt(1 - height * height);
+        for (int j = 0; j < around; ++j) {
+            const double angle = 2 * std::numbers::pi * j / around;
+            take(height * up + radius * (std::cos(angle) * across + std::sin(angle) * along),
+                 0.5 * heights.weights[i] * 2 * std::numbers::pi / around);
+        }
+    }
+}
+
+/// What a vector of one channel makes of 1, sqrt(3) x, sqrt(3) y and sqrt(3) z.
+std::array<float, kAddedModes> response(std::span<const float> vector) {
+    const auto scale = static_cast<float>(std::sqrt(4 * std::numbers::pi));
+    if (vector.size() == 1)
+        return {scale * vector[0], 0, 0, 0};
+    return {scale * vector[0], -scale * vector[3], -scale * vector[1], scale * vector[2]};
+}
+
+} // namespace
+
+InstanceModes::InstanceModes(int order, const glm::dvec3& up) : order_(order) {
+    check_order(order);
+    const std::size_t count = coefficients_of(order);
+    std::vector<double> sums(kPassingModes * count * count), basis(count);
+    over_upper_half(order, up, [&](const glm::dvec3& direction, double weight) {
+        evaluate_sh(order, direction, basis);
+        const double root = std::sqrt(3.0);
+        const std::array<double, 4> factors = {1, root * direction.x, root * direction.y, root * direction.z};
+        for (std::size_t m = 0; m < factors.size(); ++m)
+            for (std::size_t i = 0; i < count; ++i)
+                for (std::size_t j = 0; j < count; ++j)
+                    sums[(m * count + i) * count + j] += weight * factors[m] * basis[i] * basis[j];
+    });
+    double* const below = &sums[(kPassingModes - 1) * count * count];
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j)
+            below[i * count + j] = (i == j ? 1.0 : 0.0) - sums[i * count + j];
+    matrices_.assign(sums.begin(), sums.end());
+    clamped_cosine_lobe(order, up, basis);
+    level_.assign(basis.begin(), basis.end());
+}
+
+std::span<const float> InstanceModes::matrix(std::size_t mode) const {
+    const std::size_t size = level_.size() * level_.size();
+    return std::span(matrices_).subspan(mode * size, size);
+}
+
+std::array<Lighting, kInstanceModes> InstanceModes::lightings(const Lighting& lighting) const {
+    if (!lighting.lamps.empty())
+        throw Error("instances that share their transfer know no lamps");
+    if (lighting.sky.order < order_ || (lighting.suns && lighting.suns->order < order_))
+        throw Error("the lighting has fewer bands than the transfer of instances");
+    const std::size_t count = level_.size();
+    const auto through = [&](std::size_t mode, const Light& light) {
+        Light result{order_, std::vector<glm::vec3>(count, glm::vec3(0))};
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t j = 0; j < count; ++j)
+                result.coefficients[i] += matrix(mode)[i * count + j] * light.coefficients[j];
+        return result;
+    };
+    std::array<Lighting, kInstanceModes> result;
+    for (std::size_t m = 0; m < kPassingModes; ++m) {
+        result[m].sky = through(m, lighting.sky);
+        if (lighting.suns)
+            result[m].suns = through(m, *lighting.suns);
+    }
+    glm::vec3 on_level(0);
+    for (std::size_t i = 0; i < count; ++i)
+        on_level += level_[i] * (lighting.sky.coefficients[i] +
+                                 (lighting.suns ? lighting.suns->coefficients[i] : glm::vec3(0)));
+    // 1, sqrt(3) x, .. times what level ground gets: Y_11 is -x, and Y_1-1 is -y.
+    const auto root = static_cast<float>(std::sqrt(4 * std::numbers::pi));
+    constexpr std::array<std::size_t, kAddedModes> kCoefficient = {0, 3, 1, 2};
+    for (std::size_t k = 0; k < kAddedModes; ++k) {
+        Light& light = result[kPassingModes + k].sky;
+        light = {order_, std::vector<glm::vec3>(count, glm::vec3(0))};
+        if (kCoefficient[k] < count)
+            light.coefficients[kCoefficient[k]] = (k == 1 || k == 2 ? -root : root) * on_level;
+    }
+    return result;
+}
+
+SharedTransfer::SharedTransfer(const Transfer& transfer, const glm::dvec3& up, int threads)
+    : layout_(transfer.layout), modes_(transfer.layout.order, up) {
+    if (layout_.lamps() > 0 || layout_.outputs != 1)
+        throw Error("transfer of lamps is not shared by instances");
+    const std::size_t dimension = layout_.dimension(), count = modes_.level().size(),
+                      receivers = transfer.receivers();
+    passing_.resize(receivers * kPassingModes * dimension);
+    responses_.resize(receivers);
+    parallel_for(receivers, 64, threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t r = begin; r < end; ++r) {
+            const std::span<const float> from = transfer.vector(r);
+            float* to = &passing_[r * kPassingModes * dimension];
+            for (std::size_t m = 0; m < kPassingModes; ++m)
+                for (std::size_t first = 0; first < dimension; first += count)
+                    for (std::size_t i = 0; i < count; ++i, ++to)
+                        for (std::size_t j = 0; j < count; ++j)
+                            *to += modes_.matrix(m)[i * count + j] * from[first + j];
+            responses_[r] = {};
+            std::size_t first = 0;
+            for (const TransferPart& part : layout_.parts)
+                for (int c = 0; c < part.channels; ++c, first += count) {
+                    const auto answers = response(from.subspan(first, count));
+                    for (std::size_t k = 0; k < kAddedModes; ++k)
+                        for (int color = part.channels == 1 ? 0 : c; color <= (part.channels == 1 ? 2 : c);
+                             ++color)
+                            responses_[r][k][color] += answers[k];
+                }
+        }
+    });
+}
+
+void SharedTransfer::sum(std::size_t receiver, std::span<const glm::vec3> factors,
+                         std::span<float> vector) const {
+    std::ranges::fill(vector, 0.0f);
+    for (std::size_t m = 0; m < kPassingModes; ++m) {
+        const std::span<const float> from = passing(receiver, m);
+        const float factor = factors[m].x;
+        for (std::size_t i = 0; i < vector.size(); ++i)
+            vector[i] += factor * from[i];
+    }
+    const TransferPart& last = layout_.parts.back();
+    if (last.kind == PartKind::direct)
+        return;
+    const std::size_t count = level().size(), channels = static_cast<std::size_t>(last.channels);
+    for (std::size_t c = 0; c < channels; ++c) {
+        float added = 0;
+        for (std::size_t k = 0; k < kAddedModes; ++k)
+            added += factors[kPassingModes + k][static_cast<int>(c)] *
+                     responses_[receiver][k][static_cast<int>(c)];
+        float* const to = &vector[vector.size() - (channels - c) * count];
+        for (std::size_t i = 0; i < count; ++i)
+            to[i] += added * level()[i];
+    }
+}
+
+void expand_instance(const SharedTransfer& shared, const PlacedInstance& instance,
+                     std::span<const glm::vec3> positions, std::span<float> vectors) {
+    const std::size_t dimension = shared.layout().dimension(), count = shared.level().size();
+    const InstanceFactors factors = in_axes_of_mesh(instance.factors, instance.rotation);
+    const ShRotation turn(shared.layout().order, instance.rotation);
+    for (std::size_t r = 0; r < shared.receivers(); ++r) {
+        const std::span<float> vector = vectors.subspan(r * dimension, dimension);
+        shared.sum(r, mode_factors(factors, instance.box.place_of(positions[r])), vector);
+        for (std::size_t first = 0; first < dimension; first += count)
+            turn.apply(vector.subspan(first, count), vector.subspan(first, count));
+    }
+}
+
+} // namespace prt

@@ -1,0 +1,177 @@
+// Factors of instances: their numbers, their axes and their turns.
+
+#include "prt/instances.h"
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+namespace prt {
+namespace {
+
+/// Angle between two rotations, degrees.
+double degrees_between(const glm::dmat3& a, const glm::dmat3& b) {
+    const glm::dmat3 turn = glm::transpose(a) * b;
+    const double cosine = 0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1);
+    return std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+bool is_upright(const glm::dmat3& rotation) {
+    constexpr double kRounding = 1e-6; // of quaternions in float
+    return glm::distance(rotation[1], glm::dvec3(0, 1, 0)) < kRounding;
+}
+
+double yaw_of(const glm::dmat3& upright) {
+    return std::atan2(upright[2].x, upright[0].x);
+}
+
+glm::dmat3 yaw_matrix(double yaw) {
+    return {glm::dvec3(std::cos(yaw), 0, -std::sin(yaw)), glm::dvec3(0, 1, 0),
+            glm::dvec3(std::sin(yaw), 0, std::cos(yaw))};
+}
+
+/// Modes from `first` on answer to x, y and z: new mode j is the sum over i of axes[i][j] mode i.
+template <class Modes>
+void turn_modes(const glm::dmat3& axes, std::size_t first, Modes& modes) {
+    const Modes old = modes;
+    for (std::size_t j = 0; j < 3; ++j) {
+        modes[first + j] = {};
+        for (std::size_t i = 0; i < 3; ++i)
+            modes[first + j] +=
+                static_cast<float>(axes[static_cast<int>(i)][static_cast<int>(j)]) * old[first + i];
+    }
+}
+
+InstanceFactors turned(InstanceFactors factors, const glm::dmat3& axes) {
+    turn_modes(axes, 1, factors.passing);
+    turn_modes(axes, 1, factors.added);
+    return factors;
+}
+
+} // namespace
+
+InstanceFactors open_factors() {
+    InstanceFactors factors;
+    factors.passing.front() = factors.passing.back() = glm::vec4(0, 0, 0, 1);
+    return factors;
+}
+
+std::array<float, kInstanceNumbers> numbers_of(const InstanceFactors& factors) {
+    std::array<float, kInstanceNumbers> numbers;
+    auto to = numbers.begin();
+    for (const glm::vec4& row : factors.passing)
+        for (int i = 0; i < 4; ++i)
+            *to++ = row[i];
+    for (const glm::vec3& color : factors.added)
+        for (int c = 0; c < 3; ++c)
+            *to++ = color[c];
+    return numbers;
+}
+
+InstanceFactors factors_of(std::span<const float> numbers) {
+    InstanceFactors factors;
+    auto from = numbers.begin();
+    for (glm::vec4& row : factors.passing)
+        for (int i = 0; i < 4; ++i)
+            row[i] = *from++;
+    for (glm::vec3& color : factors.added)
+        for (int c = 0; c < 3; ++c)
+            color[c] = *from++;
+    return factors;
+}
+
+InstanceBox box_round(std::span<const glm::vec3> positions) {
+    glm::vec3 low = positions.front(), high = low;
+    for (const glm::vec3& position : positions) {
+        low = glm::min(low, position);
+        high = glm::max(high, position);
+    }
+    const glm::vec3 half = 0.5f * (high - low);
+    const float widest = std::max({half.x, half.y, half.z, 1e-12f});
+    return {0.5f * (low + high), glm::max(half, glm::vec3(1e-3f * widest))}; // of what is flat
+}
+
+std::array<glm::vec3, kInstanceModes> mode_factors(const InstanceFactors& factors, const glm::vec3& place) {
+    std::array<glm::vec3, kInstanceModes> result;
+    for (std::size_t m = 0; m < kPassingModes; ++m)
+        result[m] = glm::vec3(glm::dot(factors.passing[m], glm::vec4(place, 1)));
+    std::ranges::copy(factors.added, result.begin() + kPassingModes);
+    return result;
+}
+
+InstanceFactors in_axes_of_mesh(const InstanceFactors& factors, const glm::dmat3& rotation) {
+    return turned(factors, glm::transpose(rotation)); // w_j = sum_i w_i R_ij, R_ij = rotation[j][i]
+}
+
+InstanceFactors in_axes_of_world(const InstanceFactors& factors, const glm::dmat3& rotation) {
+    return turned(factors, rotation);
+}
+
+InstanceTurns instance_turns(std::span<const glm::dmat3> rotations, int bins, double degrees) {
+    InstanceTurns turns;
+    std::vector<std::uint32_t> of_bin(static_cast<std::size_t>(std::max(bins, 0)), ~0u);
+    const auto add = [&](const glm::dmat3& rotation) {
+        turns.rotations.push_back(rotation);
+        return static_cast<std::uint32_t>(turns.rotations.size() - 1);
+    };
+    for (const glm::dmat3& rotation : rotations) {
+        std::uint32_t turn = ~0u;
+        if (bins > 0 && is_upright(rotation)) {
+            const double share = yaw_of(rotation) / (2 * std::numbers::pi);
+            const auto bin = static_cast<std::size_t>(std::lround((share + 1) * bins)) % of_bin.size();
+            if (of_bin[bin] == ~0u)
+                of_bin[bin] = add(yaw_matrix(2 * std::numbers::pi * static_cast<double>(bin) / bins));
+            turn = of_bin[bin];
+        } else {
+            const auto same = std::ranges::find_if(turns.rotations, [&](const glm::dmat3& other) {
+                return degrees_between(other, rotation) <= degrees;
+            });
+            turn = same == turns.rotations.end() ? add(rotation)
+                                                 : static_cast<std::uint32_t>(same - turns.rotations.begin());
+        }
+        turns.most_degrees = std::max(turns.most_degrees, degrees_between(turns.rotations[turn], rotation));
+        turns.of.push_back(turn);
+    }
+    return turns;
+}
+
+std::vector<glm::vec4> instance_table(std::span<const InstanceFactors> factors,
+                                      std::span<const InstanceBox> boxes,
+                                      std::span<const std::uint32_t> turns) {
+    std::vector<glm::vec4> rows;
+    for (std::size_t i = 0; i < factors.size(); ++i) {
+        std::ranges::copy(factors[i].passing, std::back_inserter(rows));
+        for (std::size_t k = 0; k < kAddedModes; ++k)
+            rows.emplace_back(factors[i].added[k], k == 0 ? static_cast<float>(turns[i]) : 0.0f);
+        rows.emplace_back(boxes[i].middle, 0.0f);
+        rows.emplace_back(1.0f / boxes[i].half, 0.0f);
+    }
+    return rows;
+}
+
+glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& place,
+                        std::span<const glm::vec3, kInstanceModes> of_modes) {
+    const std::array<glm::vec3, kInstanceModes> weights = mode_factors(factors, place);
+    glm::vec3 radiance(0);
+    for (std::size_t m = 0; m < kInstanceModes; ++m)
+        radiance += weights[m] * of_modes[m];
+    return radiance;
+}
+
+std::array<Lighting, kInstanceModes> turned_into(const glm::dmat3& rotation,
+                                                 std::array<Lighting, kInstanceModes> lightings) {
+    const ShRotation turn(lightings.front().sky.order, glm::transpose(rotation));
+    for (Lighting& lighting : lightings) {
+        turn.apply(std::span(lighting.sky.coefficients));
+        if (lighting.suns)
+            turn.apply(std::span(lighting.suns->coefficients));
+    }
+    return lightings;
+}
+
+} // namespace prt

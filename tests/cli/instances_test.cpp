@@ -1,0 +1,267 @@
+// Instances that share transfer, through the program: baked, compressed, told of, measured and drawn; and
+// what is refused.
+
+#include "prt/instances_gltf.h"
+#include "prt/light.h"
+#include "prt/support/error.h"
+#include "road.h"
+#include "support/glb_file.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+namespace prt::test {
+namespace shared_transfer {
+
+class SharedInstances : public Road {
+protected:
+    void make(const char* scene) {
+#ifdef PRT_EXAMPLE_SCENES
+        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), scene, "sky"}).status, 0);
+#else
+        GTEST_SKIP() << "the example scenes are not built";
+#endif
+    }
+    Outcome bake(const char* scene, const char* output, const char* mode,
+                 const std::vector<std::string>& options = {}) {
+        std::vector<std::string> arguments = {"bake",    at(scene), "-o",    at(output), "--rays",      "32",
+                                              "--order", "3",       "--fit", "vertex",   "--instances", mode};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return prt(arguments);
+    }
+    /// Boxes on no ground: `places` of their middles. Sides are a metre long.
+    GlbFile boxes(const std::vector<float>& places) const {
+        GlbFile file;
+        std::vector<float> positions, normals;
+        std::vector<unsigned> indices;
+        for (int axis = 0; axis < 3; ++axis)
+            for (const float side : {-0.5f, 0.5f}) {
+                const auto first = static_cast<unsigned>(positions.size() / 3);
+                for (int corner = 0; corner < 4; ++corner) {
+                    float p[3];
+                    p[axis] = side;
+                    p[(axis + 1) % 3] = corner % 2 == 0 ? -0.5f : 0.5f;
+                    p[(axis + 2) % 3] = corner / 2 == 0 ? -0.5f : 0.5f;
+                    positions.insert(positions.end(), p, p + 3);
+                    for (int i = 0; i < 3; ++i)
+                        normals.push_back(i == axis ? 2 * side : 0);
+                }
+                const bool turned = side < 0;
+                for (const unsigned i : {0u, 1u, 3u, 0u, 3u, 2u})
+                    indices.push_back(first + i);
+                if (turned)
+                    std::reverse(indices.end() - 6, indices.end());
+            }
+        const std::size_t position = file.accessor(positions, kFloat, "VEC3", 3),
+                          normal = file.accessor(normals, kFloat, "VEC3", 3),
+                          index = file.accessor(indices, kUnsignedInt, "SCALAR", 1),
+                          translation = file.accessor(places, kFloat, "VEC3", 3);
+        file.json["meshes"] = {
+            {{"primitives",
+              {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}, {"indices", index}}}}}};
+        file.json["nodes"] = {
+            {{"mesh", 0},
+             {"extensions",
+              {{"EXT_mesh_gpu_instancing", {{"attributes", {{"TRANSLATION", translation}}}}}}}}};
+        file.json["scenes"] = {{{"nodes", {0}}}};
+        file.json["scene"] = 0;
+        file.json["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+        return file;
+    }
+    std::vector<FileInstance> instances_of(const char* name) const {
+        const GltfDocument document = load_gltf(folder / name),
+                           apart = load_gltf(folder / name, {.instancing = Instancing::apart});
+        return read_instances(document, extract_scene(document), extract_scene(apart));
+    }
+};
+
+TEST_F(SharedInstances, GoAllTheRoad) {
+    make("forest:12");
+    ASSERT_EQ(bake("forest.glb", "own.glb", "own", {"--bounces", "1"}).status, 0);
+    ASSERT_EQ(bake("forest.glb", "shared.glb", "shared",
+                   {"--bounces", "1", "--instance-error", "1", "--json", at("bake.json")})
+                  .status,
+              0);
+    const nlohmann::json baked = read_json(folder / "bake.json");
+    EXPECT_EQ(baked["instances"]["shared"], 12);
+    EXPECT_EQ(baked["instances"]["baked_alone"], 0);
+    EXPECT_LT(baked["receivers_stored"], baked["receivers"]);
+    EXPECT_EQ(validator_errors(folder / "shared.glb"), 0);
+
+    ASSERT_EQ(prt({"compress", at("shared.glb"), "-o", at("shipped.glb")}).status, 0);
+    EXPECT_EQ(validator_errors(folder / "shipped.glb"), 0);
+    for (const char* name : {"shared.glb", "shipped.glb"}) {
+        ASSERT_EQ(
+            prt({"evaluate", at("own.glb"), at(name), "--lights", at("sky.exr"), "--json", at("errors.json")})
+                .status,
+            0);
+        const nlohmann::json errors = read_json(folder / "errors.json");
+        EXPECT_LT(errors["lights"][0]["lit_rms"], 0.15) << name;
+        EXPECT_EQ(errors["instances"][0]["count"], 12);
+        EXPECT_GE(errors["instances"][0]["percentile_99"], errors["instances"][0]["median"]);
+        const Outcome info = prt({"info", at(name), "--json", at("info.json")});
+        EXPECT_EQ(info.status, 0);
+        EXPECT_EQ(read_json(folder / "info.json")["instances"]["count"], 12);
+    }
+    EXPECT_LT(std::filesystem::file_size(folder / "shipped.glb"),
+              std::filesystem::file_size(folder / "own.glb") / 10);
+    EXPECT_EQ(prt({"render", at("shipped.glb"), "--env", at("sky.exr"), "-o", at("a.png"), "--size", "64x48",
+                   "--backend", "cpu"})
+                  .status,
+              0);
+}
+
+TEST_F(SharedInstances, ThoseThatErrTooMuchAreBakedAlone) {
+    make("forest:6");
+    ASSERT_EQ(bake("forest.glb", "shared.glb", "shared", {"--instance-error", "0", "--bounces", "1"}).status,
+              0);
+    EXPECT_FALSE(holds_instances(load_gltf(folder / "shared.glb")));
+    ASSERT_EQ(bake("forest.glb", "all.glb", "shared",
+                   {"--instance-error", "1", "--bounces", "1", "--json", at("all.json")})
+                  .status,
+              0);
+    std::vector<double> errors = read_json(folder / "all.json")["instances"]["errors_relative_l2"];
+    std::ranges::sort(errors);
+    ASSERT_EQ(bake("forest.glb", "some.glb", "shared",
+                   {"--instance-error", std::to_string(0.5 * (errors[4] + errors[5])), "--bounces", "1",
+                    "--json", at("some.json")})
+                  .status,
+              0);
+    const nlohmann::json some = read_json(folder / "some.json");
+    EXPECT_GE(some["instances"]["baked_alone"], 1);
+    EXPECT_EQ(validator_errors(folder / "some.glb"), 0);
+    ASSERT_EQ(bake("forest.glb", "own.glb", "own", {"--bounces", "1"}).status, 0);
+    ASSERT_EQ(prt({"evaluate", at("own.glb"), at("some.glb"), "--json", at("errors.json")}).status, 0);
+    EXPECT_LT(read_json(folder / "errors.json")["relative_l2"], 0.5);
+}
+
+TEST_F(SharedInstances, AnInstanceInTheOpenHasFactorOne) {
+    boxes({0, 0, 0, 0, 1000, 0}).write(folder / "boxes.glb"); // none of the rays of so few meets the other
+    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--bounces", "2", "--json", at("bake.json")}).status,
+              0);
+    EXPECT_EQ(read_json(folder / "bake.json")["instances"]["in_the_open"], 2);
+    const std::vector<FileInstance> instances = instances_of("shared.glb");
+    ASSERT_EQ(instances.size(), 2u);
+    for (const FileInstance& instance : instances)
+        EXPECT_EQ(instance.placed.factors, open_factors());
+}
+
+TEST_F(SharedInstances, NeighboursTakeLightFromEachOther) {
+    boxes({0, 0, 0, 0, 1.2f, 0}).write(folder / "boxes.glb");
+    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--instance-error", "9", "--rays", "256"}).status,
+              0);
+    const std::vector<FileInstance> instances = instances_of("shared.glb");
+    ASSERT_EQ(instances.size(), 2u);
+    // The box below is shadowed from above; the one above is not.
+    const auto above = [](const FileInstance& instance) { return instance.placed.factors.passing[0].w; };
+    EXPECT_LT(above(instances[0]), 0.8f);
+    EXPECT_GT(above(instances[1]), 0.8f);
+}
+
+/// The furnace: white boxes that light each other without end.
+TEST_F(SharedInstances, WhiteNeighboursGiveBackAtMostWhatComes) {
+    boxes({0, 0, 0, 0, 1.5f, 0, 1.3f, 0, 0.2f}).write(folder / "boxes.glb");
+    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared",
+                   {"--instance-error", "9", "--rays", "512", "--bounces", "inf"})
+                  .status,
+              0);
+    const GltfDocument document = load_gltf(folder / "shared.glb"),
+                       apart = load_gltf(folder / "shared.glb", {.instancing = Instancing::apart});
+    const Scene scene = extract_scene(document), stored = extract_scene(apart);
+    EXPECT_EQ(stored.receivers(), 24u);
+    const Transfer transfer = expanded(document, scene, stored, read_transfer(apart, stored)->transfer);
+    double sum = 0;
+    for (const glm::vec3& radiance : exit_radiance(transfer, constant_light(3, glm::vec3(1)))) {
+        EXPECT_LT(radiance.x, 1.06f);
+        sum += static_cast<double>(radiance.x);
+    }
+    EXPECT_NEAR(sum / static_cast<double>(scene.receivers()), 1, 0.02);
+}
+
+TEST_F(SharedInstances, MatricesThatDoNotFitHaveTransferOfTheirOwn) {
+    GlbFile file = boxes({0, 0, 0});
+    file.json["nodes"] = nlohmann::ordered_json::array();
+    for (const auto& node : std::vector<nlohmann::ordered_json>{
+             {{"translation", {0, 0, 0}}, {"rotation", {0, 0.6, 0, 0.8}}, {"scale", {2, 2, 2}}},
+             {{"translation", {5, 0, 0}}},
+             {{"translation", {10, 0, 0}}, {"scale", {-1, 1, 1}}},
+             {{"translation", {15, 0, 0}}, {"scale", {1, 2, 1}}},
+             {{"translation", {20, 0, 0}}, {"scale", {1, 0, 1}}}}) {
+        file.json["nodes"].push_back(node);
+        file.json["nodes"].back()["mesh"] = 0;
+    }
+    file.json["scenes"] = {{{"nodes", {0, 1, 2, 3, 4}}}};
+    file.json.erase("extensionsUsed");
+    file.write(folder / "boxes.glb");
+    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--json", at("bake.json"), "--instance-error", "9"})
+                  .status,
+              0);
+    const nlohmann::json told = read_json(folder / "bake.json")["instances"];
+    EXPECT_EQ(told["shared"], 2);
+    EXPECT_EQ(told["mirrored"], 1);
+    EXPECT_EQ(told["uneven"], 2);
+    EXPECT_EQ(validator_errors(folder / "shared.glb"), 0);
+    EXPECT_EQ(prt({"info", at("shared.glb")}).status, 0);
+}
+
+TEST_F(SharedInstances, WhatCannotBeSharedIsRefused) {
+    GlbFile alone = boxes({0, 0, 0});
+    alone.write(folder / "boxes.glb");
+    const Outcome one = bake("boxes.glb", "shared.glb", "shared");
+    EXPECT_EQ(one.status, 1);
+    EXPECT_NE(one.err.find("nothing is shared"), std::string::npos) << one.err;
+    EXPECT_EQ(bake("boxes.glb", "auto.glb", "auto").status, 0);
+    boxes({0, 0, 0, 3, 0, 0}).write(folder / "two.glb");
+    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+             {"--texels", "4"}, {"--volume", "1"}, {"--refine", "0.1"}, {"--subsurface", "marble"}})
+        EXPECT_EQ(bake("two.glb", "shared.glb", "shared", options).status, 1) << options[0];
+    EXPECT_FALSE(std::filesystem::exists(folder / "shared.glb"));
+    ASSERT_EQ(bake("two.glb", "shared.glb", "shared", {"--bounces", "1"}).status, 0);
+    const Outcome fallback =
+        prt({"compress", at("shared.glb"), "-o", at("shipped.glb"), "--fallback", at("sky.exr")});
+    EXPECT_EQ(fallback.status, 1);
+}
+
+TEST_F(SharedInstances, ZeroAndMillionsOfInstancesAreToldBeforeWork) {
+    GlbFile none = boxes({0, 0, 0});
+    none.json["accessors"][3]["count"] = 0;
+    none.write(folder / "none.glb");
+    EXPECT_EQ(bake("none.glb", "shared.glb", "shared").status, 1);
+    GlbFile many = boxes({0, 0, 0});
+    many.json["accessors"][3]["count"] = 1'000'000;
+    many.json["accessors"][3].erase("bufferView"); // zeros
+    many.write(folder / "many.glb");
+    const Outcome outcome = bake("many.glb", "shared.glb", "shared");
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find(" MB"), std::string::npos) << outcome.err;
+}
+
+TEST_F(SharedInstances, DamagedFactorsAreRefused) {
+    boxes({0, 0, 0, 0, 1.2f, 0}).write(folder / "boxes.glb");
+    ASSERT_EQ(bake("boxes.glb", "shared.glb", "shared", {"--instance-error", "9"}).status, 0);
+    const auto damaged = [&](auto&& change) {
+        GlbFile file = read_glb(folder / "shared.glb");
+        change(file.json);
+        file.write(folder / "damaged.glb");
+        const Outcome outcome = prt({"info", at("damaged.glb")});
+        EXPECT_NE(outcome.err.find("damaged.glb: "), std::string::npos) << outcome.err;
+        return outcome.status;
+    };
+    const char* const name = "PRTKIT_instances";
+    EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["version"] = 2; }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["count"] = 3; }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["count"] = 0; }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name].erase("factors"); }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["boxes"][0]["half"][1] = 0; }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["nodes"][0]["extensions"][name]["first"] = 1; }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["nodes"][0]["extensions"][name]["box"] = 7; }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["nodes"][0].erase("mesh"); }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["nodes"][0]["scale"] = {1, 2, 1}; }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["extensions"].erase(name); }), 1);
+}
+
+} // namespace shared_transfer
+} // namespace prt::test

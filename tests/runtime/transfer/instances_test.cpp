@@ -1,0 +1,198 @@
+// Modes and factors of instances, against quadrature, turned lighting, and each other.
+
+#include "prt/instances.h"
+
+#include "prt/error_measures.h"
+#include "prt/sh.h"
+#include "prt/support/error.h"
+#include "support/quadrature.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace prt {
+namespace of_instances {
+
+constexpr int kOrder = 5;
+
+struct Draw {
+    std::mt19937 random{7};
+    std::normal_distribution<float> normal;
+
+    float number() { return normal(random); }
+    glm::vec3 vector() {
+        const float x = number(), y = number(), z = number();
+        return {x, y, z};
+    }
+    Light light() {
+        Light result{kOrder, {}};
+        for (int i = 0; i < coefficient_count(kOrder); ++i)
+            result.coefficients.push_back(vector());
+        return result;
+    }
+    Transfer transfer(std::size_t receivers) {
+        Transfer result =
+            zero_transfer({kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}, receivers);
+        for (float& value : result.vectors)
+            value = number();
+        return result;
+    }
+    InstanceFactors factors() {
+        std::array<float, kInstanceNumbers> numbers;
+        for (float& value : numbers)
+            value = number();
+        return factors_of(numbers);
+    }
+    glm::dmat3 rotation() {
+        const glm::dvec3 axis = glm::normalize(glm::dvec3(vector()));
+        return glm::dmat3(glm::angleAxis(2.0 * static_cast<double>(number()), axis));
+    }
+};
+
+/// Exit radiance of vectors.
+std::vector<glm::vec3> lit(const TransferLayout& layout, std::vector<float> vectors,
+                           const Lighting& lighting) {
+    return exit_radiance(Transfer{layout, std::move(vectors)}, lighting);
+}
+
+std::vector<float> expanded_vectors(const Transfer& transfer, const PlacedInstance& placed,
+                                    const std::vector<glm::vec3>& positions) {
+    const SharedTransfer shared(transfer, glm::transpose(placed.rotation) * glm::dvec3(0, 1, 0));
+    std::vector<float> vectors(transfer.vectors.size());
+    expand_instance(shared, placed, positions, vectors);
+    return vectors;
+}
+
+void expect_near(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b, float tolerance) {
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i)
+        EXPECT_LT(glm::distance(a[i], b[i]), tolerance * std::max(1.0f, glm::length(a[i]))) << i;
+}
+
+TEST(Instances, InTheOpenAnInstanceIsItsMesh) {
+    Draw draw;
+    const Transfer transfer = draw.transfer(5);
+    const std::vector<float> vectors =
+        expanded_vectors(transfer, {open_factors(), glm::dmat3(1), {}}, std::vector<glm::vec3>(5));
+    for (std::size_t i = 0; i < vectors.size(); ++i)
+        EXPECT_NEAR(vectors[i], transfer.vectors[i], 1e-5f);
+}
+
+TEST(Instances, ATurnedInstanceIsLitAsItsMeshByTurnedLight) {
+    Draw draw;
+    const Transfer transfer = draw.transfer(6);
+    const glm::dmat3 rotation = draw.rotation();
+    Lighting lighting{draw.light(), draw.light()};
+    const auto turned_mesh =
+        lit(transfer.layout,
+            expanded_vectors(transfer, {open_factors(), rotation, {}}, std::vector<glm::vec3>(6)), lighting);
+    const ShRotation back(kOrder, glm::transpose(rotation));
+    back.apply(std::span(lighting.sky.coefficients));
+    back.apply(std::span(lighting.suns->coefficients));
+    expect_near(turned_mesh, exit_radiance(transfer, lighting), 1e-4f);
+}
+
+/// What a shader computes, by lightings of modes, is what the file stands for.
+TEST(Instances, ModesOfLightDoWhatModesOfTransferDo) {
+    Draw draw;
+    const Transfer transfer = draw.transfer(7);
+    const Lighting lighting{draw.light(), draw.light()};
+    std::vector<glm::vec3> positions;
+    for (int i = 0; i < 7; ++i)
+        positions.push_back(draw.vector());
+    const PlacedInstance placed{draw.factors(), draw.rotation(), box_round(positions)};
+    const auto by_transfer = lit(transfer.layout, expanded_vectors(transfer, placed, positions), lighting);
+
+    const auto lightings = turned_into(placed.rotation, InstanceModes(kOrder).lightings(lighting));
+    std::array<std::vector<glm::vec3>, kInstanceModes> of_modes;
+    for (std::size_t m = 0; m < kInstanceModes; ++m)
+        of_modes[m] = exit_radiance(transfer, lightings[m]);
+    std::vector<glm::vec3> by_light;
+    for (std::size_t r = 0; r < positions.size(); ++r) {
+        std::array<glm::vec3, kInstanceModes> of_receiver;
+        for (std::size_t m = 0; m < kInstanceModes; ++m)
+            of_receiver[m] = of_modes[m][r];
+        by_light.push_back(exit_radiance(placed.factors, placed.box.place_of(positions[r]), of_receiver));
+    }
+    expect_near(by_transfer, by_light, 2e-4f);
+}
+
+TEST(Instances, PassingModesAreIntegralsOverHalvesOfTheSphere) {
+    const glm::dvec3 up = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
+    const InstanceModes modes(3, up);
+    // Midpoints of a fine grid: of a step no quadrature is exact.
+    constexpr int kSteps = 400;
+    std::array<double, kPassingModes> sums{};
+    for (int i = 0; i < kSteps; ++i)
+        for (int j = 0; j < kSteps; ++j) {
+            const double z = 2 * (i + 0.5) / kSteps - 1, angle = 2 * M_PI * (j + 0.5) / kSteps;
+            const double r = std::sqrt(1 - z * z);
+            const glm::dvec3 d(r * std::cos(angle), r * std::sin(angle), z);
+            std::array<double, 9> basis;
+            evaluate_sh(3, d, basis);
+            const bool above = glm::dot(d, up) > 0;
+            const double product = basis[2] * basis[7] * 4 * M_PI / (kSteps * kSteps);
+            sums[0] += above ? product : 0;
+            sums[2] += above ? std::sqrt(3.0) * d.y * product : 0;
+            sums[4] += above ? 0 : product;
+        }
+    for (const std::size_t m : {0u, 2u, 4u})
+        EXPECT_NEAR(modes.matrix(m)[2 * 9 + 7], sums[m], 2e-4) << m;
+}
+
+TEST(Instances, LightThatIsAddedIsThatOfLevelGround) {
+    const auto lightings = InstanceModes(kOrder).lightings({constant_light(kOrder, glm::vec3(2, 1, 0.5f))});
+    const glm::vec3 everywhere = radiance(lightings[kPassingModes].sky, glm::vec3(0, 0, 1));
+    EXPECT_LT(glm::distance(everywhere, glm::vec3(2, 1, 0.5f)), 1e-5f);
+    const glm::vec3 from_x = radiance(lightings[kPassingModes + 1].sky, glm::vec3(1, 0, 0));
+    EXPECT_NEAR(from_x.y, std::sqrt(3.0f), 1e-5f);
+}
+
+TEST(Instances, FactorsTurnThereAndBack) {
+    Draw draw;
+    const InstanceFactors factors = draw.factors();
+    const glm::dmat3 rotation = draw.rotation();
+    const auto again = numbers_of(in_axes_of_world(in_axes_of_mesh(factors, rotation), rotation));
+    const auto before = numbers_of(factors);
+    for (std::size_t i = 0; i < kInstanceNumbers; ++i)
+        EXPECT_NEAR(again[i], before[i], 1e-5f);
+}
+
+TEST(Instances, UprightOnesShareTheTurnsOfFewYaws) {
+    std::vector<glm::dmat3> rotations;
+    for (int i = 0; i < 100; ++i)
+        rotations.push_back(glm::dmat3(glm::angleAxis(0.37 * i, glm::dvec3(0, 1, 0))));
+    rotations.push_back(glm::dmat3(glm::angleAxis(0.5, glm::dvec3(1, 0, 0))));
+    const InstanceTurns turns = instance_turns(rotations, 16);
+    EXPECT_EQ(turns.rotations.size(), 17u);
+    EXPECT_LE(turns.most_degrees, 11.26);
+    EXPECT_GT(turns.most_degrees, 8);
+    const InstanceTurns exact = instance_turns(rotations, 0);
+    EXPECT_LT(exact.most_degrees, 0.011);
+    for (std::size_t i = 0; i < rotations.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_LT(glm::distance(exact.rotations[exact.of[i]][c], rotations[i][c]), 3e-4);
+}
+
+TEST(Instances, LampsAreRefused) {
+    TransferLayout layout = layout_of_one(3, 1);
+    layout.parts.push_back({PartKind::lamp, 1, "Lantern"});
+    EXPECT_THROW(SharedTransfer(zero_transfer(layout, 1), {0, 1, 0}), Error);
+    EXPECT_THROW(InstanceModes(3).lightings({constant_light(2, glm::vec3(1))}), Error);
+    EXPECT_THROW(InstanceModes(0), Error);
+}
+
+TEST(Instances, ABoxOfAFlatMeshHasNoZeroWidth) {
+    const std::vector<glm::vec3> flat = {{0, 1, 0}, {2, 1, 0}, {0, 1, 4}};
+    const InstanceBox box = box_round(flat);
+    EXPECT_EQ(box.middle, glm::vec3(1, 1, 2));
+    EXPECT_GT(box.half.y, 0);
+    EXPECT_EQ(box.place_of({2, 1, 4}), glm::vec3(1, 0, 1));
+}
+
+} // namespace of_instances
+} // namespace prt
