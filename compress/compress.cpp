@@ -107,27 +107,41 @@ void round_frame(const Task& task, Coding& coding) {
     encode_in_place(coding.points, coding.coded.clusters, coding.coded.codes, task.options.threads);
 }
 
-/// Clusters without receivers take no place in the file.
-void drop_empty(QuantisedClusters& clusters, Codes& codes) {
-    std::vector<std::uint32_t> new_index(clusters.clusters(), 0);
-    for (const std::uint32_t k : codes.clusters)
-        new_index[k] = 1;
-    const std::size_t most = clusters.max_components;
-    std::uint32_t kept = 0;
-    for (std::size_t k = 0; k < clusters.clusters(); ++k) {
-        if (!new_index[k])
-            continue;
-        std::copy_n(clusters.mean(k), clusters.dimension, clusters.mean(kept));
-        std::copy_n(clusters.center(k), clusters.guides, clusters.center(kept));
-        std::copy_n(clusters.slope(k, 0), clusters.guides * clusters.dimension, clusters.slope(kept, 0));
-        if (most > 0) {
-            std::copy_n(clusters.row(k, 0), most * clusters.dimension, clusters.row(kept, 0));
-            std::copy_n(&clusters.grids[k * most], most, &clusters.grids[kept * most]);
+/// Clusters that have receivers, by the middle of the first and the last of these: those of one mesh follow
+/// each other, and constants of its instances are few (prt/instance_former.h).
+std::vector<std::uint32_t> clusters_in_order(std::span<const std::uint32_t> of_receivers, std::size_t count) {
+    std::vector<std::size_t> first(count), last(count);
+    std::vector<std::uint32_t> order;
+    for (std::size_t p = 0; p < of_receivers.size(); ++p) {
+        const std::uint32_t k = of_receivers[p];
+        if (last[k] == 0) {
+            order.push_back(k);
+            first[k] = p;
         }
-        clusters.components[kept] = clusters.components[k];
-        new_index[k] = kept++;
+        last[k] = p + 1;
     }
-    clusters.components.resize(kept);
+    std::ranges::stable_sort(order, {}, [&](std::uint32_t k) { return first[k] + last[k]; });
+    return order;
+}
+
+void put_in_order(QuantisedClusters& clusters, Codes& codes) {
+    const std::vector<std::uint32_t> order = clusters_in_order(codes.clusters, clusters.clusters());
+    const QuantisedClusters before = clusters;
+    std::vector<std::uint32_t> new_index(clusters.clusters(), 0);
+    const std::size_t most = clusters.max_components;
+    for (std::uint32_t k = 0; k < order.size(); ++k) {
+        const std::uint32_t from = order[k];
+        std::copy_n(before.mean(from), before.dimension, clusters.mean(k));
+        std::copy_n(before.center(from), before.guides, clusters.center(k));
+        std::copy_n(before.slope(from, 0), before.guides * before.dimension, clusters.slope(k, 0));
+        if (most > 0) {
+            std::copy_n(before.row(from, 0), most * before.dimension, clusters.row(k, 0));
+            std::copy_n(&before.grids[from * most], most, &clusters.grids[k * most]);
+        }
+        clusters.components[k] = before.components[from];
+        new_index[from] = k;
+    }
+    clusters.components.resize(order.size());
     for (std::uint32_t& k : codes.clusters)
         k = new_index[k];
 }
@@ -180,7 +194,7 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
                       .threads = options.threads},
                      coded.codes);
     coding.points = {};
-    drop_empty(coded.clusters, coded.codes);
+    put_in_order(coded.clusters, coded.codes);
     fill_up(options.coding.fixed_bits, coded.clusters, coded.codes);
     progress.update(0.9);
     return encode(coding.frame, coding.coded_frame, coded.clusters, coded.codes, coding.guides,

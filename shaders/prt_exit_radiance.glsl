@@ -41,21 +41,29 @@ layout(std430 PRT_BINDING(PRT_BINDING_CONSTANTS)) readonly buffer PrtConstants {
 };
 #endif
 
-#ifdef PRT_INSTANCE_ROWS
-uint prt_first_row = 0u; // of the lighting that the constants are of: prt_instances.glsl
-#endif
-
-// Row `row` of the constants of all clusters.
-vec3 prt_constant(uint row) {
-#ifdef PRT_INSTANCE_ROWS
-    row += prt_first_row;
-#endif
+vec4 prt_constant_at(uint at) {
 #ifdef PRT_CONSTANTS_TEXTURE
-    return texelFetch(prt_constants, ivec2(row % uint(PRT_TEXTURE_WIDTH), row / uint(PRT_TEXTURE_WIDTH)), 0).rgb;
+    return texelFetch(prt_constants, ivec2(at % uint(PRT_TEXTURE_WIDTH), at / uint(PRT_TEXTURE_WIDTH)), 0);
 #else
-    return prt_constants[row].rgb;
+    return prt_constants[at];
 #endif
 }
+
+// Row `row` of the constants of all clusters.
+#ifdef PRT_INSTANCES
+uint prt_first_row; // of the instance, and where the vertex lies in the box of its mesh: prt_instances.glsl
+vec4 prt_place;
+
+vec3 prt_constant(uint row) {
+    uint at = 3u * (prt_first_row + row);
+    return vec3(dot(prt_constant_at(at), prt_place), dot(prt_constant_at(at + 1u), prt_place),
+                dot(prt_constant_at(at + 2u), prt_place));
+}
+#else
+vec3 prt_constant(uint row) {
+    return prt_constant_at(row).rgb;
+}
+#endif
 
 // The table of clusters.
 #ifndef PRT_CLUSTER_ROWS

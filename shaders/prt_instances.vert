@@ -1,5 +1,5 @@
-// The whole vertex shader of instances that share transfer: a start for one of your own. The instance is that of
-// gl_InstanceID, from `first_instance` on; where it stands is the program's own.
+// The whole vertex shader of instances that share transfer: a start for one of your own. Where an instance stands, and
+// what prt::InstanceFormer::table says of it, are attributes that step from instance to instance.
 
 #include "prt_instances.glsl"
 
@@ -9,22 +9,24 @@ layout(location = PRT_LOCATION_NORMAL) in vec3 normal;
 #else
 const vec3 normal = vec3(0.0);
 #endif
+layout(location = PRT_LOCATION_INSTANCE_0) in vec4 instance_0;
+layout(location = PRT_LOCATION_INSTANCE_1) in vec4 instance_1;
+layout(location = PRT_LOCATION_INSTANCE_X) in vec4 world_x; // rows of the matrix into the world
+layout(location = PRT_LOCATION_INSTANCE_Y) in vec4 world_y;
+layout(location = PRT_LOCATION_INSTANCE_Z) in vec4 world_z;
 
 #ifdef VULKAN
 layout(push_constant) uniform Camera {
     mat4 view_projection;
-    uint first_instance;
 };
-#define PRT_INSTANCE_INDEX uint(gl_InstanceIndex)
 layout(location = 0) out vec3 radiance;
 #else
 uniform mat4 view_projection;
-uniform uint first_instance;
-#define PRT_INSTANCE_INDEX uint(gl_InstanceID)
 out vec3 radiance;
 #endif
 
 void main() {
-    radiance = prt_instance_radiance(first_instance + PRT_INSTANCE_INDEX, position, normal);
-    gl_Position = view_projection * vec4(position, 1.0);
+    radiance = prt_instance_radiance(instance_0, instance_1, position, normal);
+    vec4 place = vec4(position, 1.0);
+    gl_Position = view_projection * vec4(dot(world_x, place), dot(world_y, place), dot(world_z, place), 1.0);
 }

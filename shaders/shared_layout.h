@@ -20,6 +20,11 @@
 #define PRT_LOCATION_WEIGHTS_9 13
 #define PRT_LOCATION_WEIGHTS_10 14
 #define PRT_LOCATION_WEIGHTS_11 15
+#define PRT_LOCATION_INSTANCE_X 10 // of an instance, whose mesh has 24 weights at most: its matrix
+#define PRT_LOCATION_INSTANCE_Y 11
+#define PRT_LOCATION_INSTANCE_Z 12
+#define PRT_LOCATION_INSTANCE_0 13 // its rows of prt::InstanceFormer::table
+#define PRT_LOCATION_INSTANCE_1 14
 #define PRT_LOCATION_AO 4       // where there are no weights
 #define PRT_LOCATION_LIGHTMAP 4 // the same
 #define PRT_LOCATION_NORMAL 15  // shares its place with the last weights, which no model with guides has

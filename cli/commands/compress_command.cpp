@@ -283,7 +283,9 @@ SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
             seam_jumps(extract_scene(bake.document), bake.lightmap->layout, bake.lightmap->texels);
         return surface;
     }
-    SceneSurface surface(extract_scene(bake.document));
+    const Scene scene = extract_scene(bake.document);
+    SceneSurface surface(scene);
+    surface.areas = shown_areas(bake.document, scene);
     const bool chooses = options.budget.any() && options.choose_guides;
     if (!chooses && options.compress.guides != GuideChoice::normal_and_position)
         surface.positions = {};
@@ -367,7 +369,7 @@ Written written(const CompressArguments& a, std::vector<std::byte> file,
     if (lightmap)
         return {std::move(read.scene), picked_texels(transfer, lightmap->texels), lightmap->areas,
                 lightmap_edges(lightmap->layout, lightmap->texels, lightmap->seams), bytes};
-    std::vector<float> areas = receiver_areas(read.scene);
+    std::vector<float> areas = shown_areas(read.document, read.scene);
     std::vector<Edge> edges = mesh_edges(read.scene);
     return {std::move(read.scene), std::move(transfer), std::move(areas), std::move(edges), bytes};
 }

@@ -129,13 +129,12 @@ glm::dvec3 origin_of(const SceneFile& model) {
 void write_instance_shader(const ShaderArguments& a, const SceneFile& model, Session& session) {
     if (!model.instanced)
         throw Error(a.model.string() + ": has no instances that share transfer, which --instances is for");
-    if (a.constants.value_or(ConstantSource::buffer) != ConstantSource::buffer)
-        throw Error("--instances reads constants from storage buffers: leave --constants out");
+    const ConstantSource constants = a.constants.value_or(constants_for(a.language));
     const ClusteredTransfer& transfer = model.instanced->compressed->transfer;
-    session.write(a.output, instance_shader(transfer, a.language, origin_of(model)));
-    print(fmt::format("{}: {} instances, {} rows of constants for each mode of each turn\n",
-                      printable(a.output.string()), model.instanced->instances.size(),
-                      constant_rows(transfer.bases)));
+    session.write(a.output, instance_shader(transfer, constants, a.language, origin_of(model)));
+    print(fmt::format("{}: {} instances; attributes from prt_instances.glsl, two of each instance from "
+                      "prt::InstanceFormer\n",
+                      printable(a.output.string()), model.instanced->instances.size()));
 }
 
 void run(ShaderArguments a, Session& session) {

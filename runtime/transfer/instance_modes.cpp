@@ -1,4 +1,4 @@
-// Modes of the lighting of instances (docs/math.md, section 21), and transfer under each of them.
+// Modes of the lighting of instances (docs/math.md, section 22), and transfer under each of them.
 
 #include "prt/instances.h"
 

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 namespace prt {
@@ -138,20 +137,6 @@ InstanceTurns instance_turns(std::span<const glm::dmat3> rotations, int bins, do
         turns.of.push_back(turn);
     }
     return turns;
-}
-
-std::vector<glm::vec4> instance_table(std::span<const InstanceFactors> factors,
-                                      std::span<const InstanceBox> boxes,
-                                      std::span<const std::uint32_t> turns) {
-    std::vector<glm::vec4> rows;
-    for (std::size_t i = 0; i < factors.size(); ++i) {
-        std::ranges::copy(factors[i].passing, std::back_inserter(rows));
-        for (std::size_t k = 0; k < kAddedModes; ++k)
-            rows.emplace_back(factors[i].added[k], k == 0 ? static_cast<float>(turns[i]) : 0.0f);
-        rows.emplace_back(boxes[i].middle, 0.0f);
-        rows.emplace_back(1.0f / boxes[i].half, 0.0f);
-    }
-    return rows;
 }
 
 glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& place,

@@ -1,7 +1,7 @@
 #pragma once
 
 // Bakes meshes that are drawn often once, alone in the open, and for each instance a few factors that say
-// what its place does to light (docs/math.md, section 21). Experimental.
+// what its place does to light (docs/math.md, section 22). Experimental.
 
 #include "prt/bake.h"
 #include "prt/instances_gltf.h"

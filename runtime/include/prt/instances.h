@@ -1,16 +1,16 @@
 #pragma once
 
 // Instances that share the transfer of their mesh: what the place of each does to light, in a few factors
-// (docs/math.md, section 21; docs/format.md, PRTKIT_instances).
+// (docs/math.md, section 22; docs/format.md, PRTKIT_instances).
 //
 // A mesh is baked alone in the open. Where one of its instances stands, light is blocked above the horizon
 // and below it, and the neighbourhood throws light back: nine modes of lighting, the same for all instances,
 // each with a factor that is linear in the place within the mesh's box, or a color. Each frame:
 //     modes.lightings(lighting)                      // once for all instances
-// then per vertex, in shaders/prt_instances.glsl or here:
+// then per vertex:
 //     R = sum over modes of factor(instance, place) R_mode
 // with R_mode the vertex's exit radiance under that mode's lighting, turned into the frame of the instance.
-// Experimental.
+// prt/instance_former.h works the factors into constants for shaders. Experimental.
 
 #include "prt/sh_rotation.h"
 #include "prt/support/glm_layout.h"
@@ -35,8 +35,6 @@ inline constexpr std::size_t kAddedModes = 4;
 inline constexpr std::size_t kInstanceModes = kPassingModes + kAddedModes;
 /// Numbers of `InstanceFactors`.
 inline constexpr std::size_t kInstanceNumbers = 4 * kPassingModes + 3 * kAddedModes;
-/// Rows of four of an instance in `instance_table`.
-inline constexpr std::size_t kInstanceTableRows = kInstanceModes + 2;
 /// Largest magnitude of a factor that files hold.
 inline constexpr float kLargestFactor = 6e4f;
 
@@ -149,11 +147,6 @@ InstanceTurns instance_turns(std::span<const glm::dmat3> rotations, int bins, do
 /// The lightings of all modes in the frame of a turn: what constants of instances are formed with.
 std::array<Lighting, kInstanceModes> turned_into(const glm::dmat3& rotation,
                                                  std::array<Lighting, kInstanceModes> lightings);
-
-/// What the shader reads, [instances][kInstanceTableRows]: factors, the turn, and the box of each.
-std::vector<glm::vec4> instance_table(std::span<const InstanceFactors> factors,
-                                      std::span<const InstanceBox> boxes,
-                                      std::span<const std::uint32_t> turns);
 
 /// Exit radiance for albedo 1 of a vertex: `of_modes`, its radiance under each of them.
 glm::vec3 exit_radiance(const InstanceFactors& factors, const glm::vec3& place,

@@ -1,13 +1,13 @@
 // The vertex shader of instances against C++, through compressed transfer with guides.
 
 #include "prt/compress.h"
-#include "prt/constant_former.h"
 #include "prt/gl_renderer.h"
+#include "prt/instance_former.h"
 #include "prt/instance_shader.h"
-#include "prt/instances.h"
+#include "prt/support/error.h"
 
 #include "run_shader.h"
-#include "shared_instances.h"
+#include "shared_layout.h"
 #include "support/guided.h"
 
 #include <glm/geometric.hpp>
@@ -18,9 +18,6 @@
 
 namespace prt {
 namespace instances_in_shaders {
-
-static_assert(PRT_INSTANCE_PASSING == kPassingModes && PRT_INSTANCE_MODES == kInstanceModes &&
-              PRT_INSTANCE_TABLE_ROWS == kInstanceTableRows);
 
 constexpr int kOrder = 3;
 constexpr std::size_t kVertices = 300;
@@ -49,67 +46,89 @@ InstanceFactors random_factors(std::mt19937& random) {
     return factors_of(numbers);
 }
 
+/// What the nine modes of an instance are evaluated to, one by one.
+std::vector<glm::vec3> radiance_of(const ClusteredTransfer& mesh, const PlacedInstance& instance,
+                                   const Lighting& lighting) {
+    std::array<std::vector<glm::vec3>, kInstanceModes> of_modes;
+    const auto lightings = turned_into(instance.rotation, InstanceModes(kOrder).lightings(lighting));
+    for (std::size_t m = 0; m < kInstanceModes; ++m)
+        of_modes[m] = exit_radiance(mesh, lightings[m]);
+    const std::size_t guide_rows = mesh.bases.guide_rows(), of_position = guide_rows - 3;
+    std::vector<glm::vec3> radiance;
+    for (std::size_t v = 0; v < kVertices; ++v) {
+        std::array<glm::vec3, kInstanceModes> of_vertex;
+        for (std::size_t m = 0; m < kInstanceModes; ++m)
+            of_vertex[m] = of_modes[m][v];
+        const float* x = &mesh.receivers.guides[v * guide_rows + of_position];
+        const glm::vec3 position =
+            glm::vec3(x[0], x[1], x[2]) + mesh.bases.guides.back().origin + test::kSceneOrigin;
+        radiance.push_back(exit_radiance(instance.factors, instance.box.place_of(position), of_vertex));
+    }
+    return radiance;
+}
+
+Lighting random_lighting(std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    Lighting lighting{constant_light(kOrder, glm::vec3(1)), constant_light(kOrder, glm::vec3(0.2f))};
+    for (glm::vec3& c : lighting.sky.coefficients)
+        c += 0.3f * glm::vec3(normal(random), normal(random), normal(random));
+    return lighting;
+}
+
+/// In the context that is current.
+void expect_agreement(ShaderLanguage language, ConstantSource source) {
+    std::mt19937 random(3);
+    const ClusteredTransfer mesh = random_mesh(random);
+    const Lighting lighting = random_lighting(random);
+    const std::vector<FormedInstance> instances = {
+        {{random_factors(random), glm::dmat3(1), {glm::vec3(3, -1, 2), glm::vec3(2, 1, 3)}},
+         rows_of(mesh, 0, kVertices)},
+        {{random_factors(random), glm::dmat3(glm::angleAxis(1.1, glm::dvec3(0, 1, 0))),
+          {glm::vec3(2, 0, 2), glm::vec3(1, 4, 2)}},
+         rows_of(mesh, 0, kVertices)}};
+    const InstanceFormer former(mesh, instances, 0);
+    std::vector<glm::vec4> constants(former.size());
+    former.form(lighting, constants);
+    const std::vector<glm::vec4> table = former.table();
+    const std::string shader = instance_shader(mesh, source, language, test::kSceneOrigin);
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        glVertexAttrib4f(PRT_LOCATION_INSTANCE_X, 1, 0, 0, 0);
+        glVertexAttrib4f(PRT_LOCATION_INSTANCE_Y, 0, 1, 0, 0);
+        glVertexAttrib4f(PRT_LOCATION_INSTANCE_Z, 0, 0, 1, 0);
+        glVertexAttrib4fv(PRT_LOCATION_INSTANCE_0, &table[2 * i].x);
+        glVertexAttrib4fv(PRT_LOCATION_INSTANCE_1, &table[2 * i + 1].x);
+        const auto measured = test::radiance_of_vertices(mesh, shader, constants, language, source);
+        const auto expected = radiance_of(mesh, instances[i].placed, lighting);
+        for (std::size_t v = 0; v < kVertices; ++v)
+            EXPECT_LT(glm::distance(expected[v], measured[v]),
+                      2e-4f * std::max(1.0f, glm::length(expected[v])))
+                << i << " " << v;
+    }
+}
+
 TEST(InstanceShader, AgreesWithCppOnEveryModeAndTurn) {
     std::string why;
     const auto context = GlContext::create(GlDevice::any, &why);
     ASSERT_TRUE(context) << why;
-    std::mt19937 random(3);
-    std::normal_distribution<float> normal;
-    const ClusteredTransfer mesh = random_mesh(random);
-    Lighting lighting{constant_light(kOrder, glm::vec3(1)), constant_light(kOrder, glm::vec3(0.2f))};
-    for (glm::vec3& c : lighting.sky.coefficients)
-        c += 0.3f * glm::vec3(normal(random), normal(random), normal(random));
-
-    const std::array rotations = {glm::dmat3(1), glm::dmat3(glm::angleAxis(1.1, glm::dvec3(0, 1, 0)))};
-    const InstanceTurns turns = instance_turns(rotations, 0);
-    const ConstantFormer former(mesh);
-    const std::size_t rows = former.rows();
-    std::vector<glm::vec4> constants(turns.rotations.size() * kInstanceModes * rows);
-    for (std::size_t turn = 0; turn < turns.rotations.size(); ++turn) {
-        const auto lightings = turned_into(turns.rotations[turn], InstanceModes(kOrder).lightings(lighting));
-        for (std::size_t m = 0; m < kInstanceModes; ++m)
-            former.form(lightings[m], std::span(constants).subspan((turn * kInstanceModes + m) * rows, rows));
-    }
-    const std::vector<InstanceFactors> factors = {random_factors(random), random_factors(random)};
-    const std::vector<InstanceBox> boxes = {{glm::vec3(3, -1, 2), glm::vec3(2, 1, 3)},
-                                            {glm::vec3(2, 0, 2), glm::vec3(1, 4, 2)}};
-    test::bind_buffer(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_INSTANCES,
-                      instance_table(factors, boxes, turns.of));
-
-    std::string source = instance_shader(mesh, ShaderLanguage::glsl450, test::kSceneOrigin);
-    source.replace(source.find("first_instance + PRT_INSTANCE_INDEX"), 35, "PRT_TEST_INSTANCE");
-    const std::size_t guide_rows = mesh.bases.guide_rows(), of_position = guide_rows - 3;
-    for (std::size_t i = 0; i < factors.size(); ++i) {
-        const std::size_t behind_version = source.find('\n') + 1;
-        std::string of_instance = source;
-        of_instance.insert(behind_version, "#define PRT_TEST_INSTANCE " + std::to_string(i) + "u\n");
-        const auto measured = test::radiance_of_vertices(mesh, of_instance, constants,
-                                                         ShaderLanguage::glsl450, ConstantSource::buffer);
-        std::array<std::vector<glm::vec3>, kInstanceModes> of_modes;
-        for (std::size_t m = 0; m < kInstanceModes; ++m) {
-            of_modes[m].resize(kVertices);
-            evaluate(mesh, std::span(constants).subspan((turns.of[i] * kInstanceModes + m) * rows, rows),
-                     of_modes[m]);
-        }
-        for (std::size_t v = 0; v < kVertices; ++v) {
-            std::array<glm::vec3, kInstanceModes> of_vertex;
-            for (std::size_t m = 0; m < kInstanceModes; ++m)
-                of_vertex[m] = of_modes[m][v];
-            const float* x = &mesh.receivers.guides[v * guide_rows + of_position];
-            const glm::vec3 position =
-                glm::vec3(x[0], x[1], x[2]) + mesh.bases.guides.back().origin + test::kSceneOrigin;
-            const glm::vec3 expected = exit_radiance(factors[i], boxes[i].place_of(position), of_vertex);
-            EXPECT_LT(glm::distance(expected, measured[v]), 2e-4f * std::max(1.0f, glm::length(expected)))
-                << v;
-        }
-    }
+    expect_agreement(ShaderLanguage::glsl450, ConstantSource::buffer);
+    expect_agreement(ShaderLanguage::glsl330, ConstantSource::texture);
 }
 
-TEST(InstanceShader, LanguagesWithoutStorageBuffersAreRefused) {
+TEST(InstanceShader, AgreesWithCppInEs) {
+    const test::EsContext context;
+    if (!context.current())
+        GTEST_SKIP() << "no OpenGL ES 3.0";
+    expect_agreement(ShaderLanguage::essl300, ConstantSource::texture);
+}
+
+TEST(InstanceShader, BlocksAndManyWeightsAreRefused) {
     std::mt19937 random(3);
-    EXPECT_THROW(instance_shader(random_mesh(random), ShaderLanguage::essl300), Error);
-    EXPECT_NE(instance_shader(random_mesh(random), ShaderLanguage::vulkan).find("prt_instances["),
-              std::string::npos);
+    ClusteredTransfer mesh = random_mesh(random);
+    EXPECT_THROW(instance_shader(mesh, ConstantSource::block), Error);
+    EXPECT_THROW(instance_shader(mesh, ConstantSource::buffer, ShaderLanguage::essl300), Error);
+    mesh.receivers.format = WeightFormat::snorm8;
+    mesh.bases.components.front() = 25;
+    EXPECT_THROW(instance_shader(mesh), Error);
 }
 
 } // namespace instances_in_shaders

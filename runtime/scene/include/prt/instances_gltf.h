@@ -73,6 +73,10 @@ struct FileInstance {
 std::vector<FileInstance> read_instances(const GltfDocument& document, const Scene& scene,
                                          const Scene& stored);
 
+/// Areas of the receivers of `stored`, the scene of `document` with its meshes apart: those of a mesh that
+/// instances share as large as it is drawn, and as often.
+std::vector<float> shown_areas(const GltfDocument& document, const Scene& stored);
+
 /// Transfer of all receivers of `scene`, in the world's frame: that of instances is what their mesh's becomes
 /// where they stand. `transfer`: of the receivers of `stored`.
 Transfer expanded(const GltfDocument& document, const Scene& scene, const Scene& stored,

@@ -6,15 +6,16 @@
 
 namespace prt {
 
-/// The lines that `prt_instances.glsl` wants for a model: `relight_defines`, and the rows of a lighting's
-/// constants.
+/// The lines that `prt_instances.glsl` wants for a model: `relight_defines` and one more. Throws `Error` for
+/// uniform blocks, and for weights that leave no attributes to instances.
 std::string instance_defines(const ClusteredTransfer& transfer,
+                             ConstantSource constants = ConstantSource::buffer,
                              ShaderLanguage language = ShaderLanguage::glsl450,
                              const glm::dvec3& seen_from = glm::dvec3(0));
 
-/// A complete vertex shader (shaders/prt_instances.vert), for languages with storage buffers. Throws `Error`
-/// for others.
+/// A complete vertex shader (shaders/prt_instances.vert). Throws `Error` as `instance_defines`.
 std::string instance_shader(const ClusteredTransfer& transfer,
+                            ConstantSource constants = ConstantSource::buffer,
                             ShaderLanguage language = ShaderLanguage::glsl450,
                             const glm::dvec3& seen_from = glm::dvec3(0));
 

@@ -1,0 +1,67 @@
+// Areas of meshes that instances share, as all of these show them.
+#include "prt/instances_gltf.h"
+
+#include "gltf/accessor.h"
+#include "gltf/node_transforms.h"
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include <cmath>
+#include <map>
+
+namespace prt {
+namespace {
+
+/// By how much the instances of a node are larger than itself, one after the other.
+double area_of_instances(const GltfContents& contents, const Json& node) {
+    const Json* extension = extension_of(node, kInstancingExtension);
+    if (!extension)
+        return 1;
+    const Json& attributes = extension->at("attributes");
+    if (attributes.contains("SCALE")) {
+        double sum = 0;
+        const std::vector<float> scales = read_floats(contents.model, attributes["SCALE"].get<int>(), 3);
+        for (std::size_t i = 0; i + 2 < scales.size(); i += 3)
+            sum += static_cast<double>(scales[i]) * static_cast<double>(scales[i]); // it is even
+        return sum;
+    }
+    for (const auto& item : attributes.items())
+        return static_cast<double>(contents.model.accessors.at(item.value().get<std::size_t>()).count);
+    return 0;
+}
+
+/// [stand-ins] what areas of their meshes are multiplied with.
+std::map<int, double> areas_of_meshes(const GltfContents& contents) {
+    std::map<int, double> of_node, of_stand_in;
+    for (const NodeTransform& transform : world_transforms(contents.model))
+        of_node[transform.node] = std::pow(std::abs(glm::determinant(glm::dmat3(transform.world))), 2.0 / 3);
+    for (const MeshApart& apart : contents.apart)
+        for (const std::size_t drawer : apart.drawers)
+            if (const auto found = of_node.find(static_cast<int>(drawer)); found != of_node.end())
+                of_stand_in[static_cast<int>(apart.stand_in)] +=
+                    found->second * area_of_instances(contents, contents.json["nodes"][drawer]);
+    return of_stand_in;
+}
+
+} // namespace
+
+std::vector<float> shown_areas(const GltfDocument& document, const Scene& stored) {
+    return named(document, [&](const GltfContents& contents) {
+        std::vector<float> areas = receiver_areas(stored);
+        const std::map<int, double> of_meshes = areas_of_meshes(contents);
+        std::vector<bool> seen(stored.vertex_arrays.size());
+        for (const Primitive& primitive : stored.primitives) {
+            const auto found = of_meshes.find(primitive.node);
+            if (found == of_meshes.end() || seen[primitive.vertices])
+                continue;
+            seen[primitive.vertices] = true;
+            const VertexArray& vertices = stored.vertex_arrays[primitive.vertices];
+            for (std::size_t v = 0; v < vertices.size(); ++v)
+                areas[vertices.first_receiver + v] *= static_cast<float>(found->second);
+        }
+        return areas;
+    });
+}
+
+} // namespace prt

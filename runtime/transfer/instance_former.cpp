@@ -1,0 +1,115 @@
+// Constants of instances: those of each mode, by a turn, times the factors of each instance in it.
+
+#include "prt/instance_former.h"
+
+#include "prt/support/error.h"
+#include "prt/support/parallel.h"
+
+#include <algorithm>
+#include <cassert>
+#include <limits>
+
+namespace prt {
+namespace {
+
+std::vector<glm::dmat3> rotations_of(std::span<const FormedInstance> instances) {
+    std::vector<glm::dmat3> rotations;
+    for (const FormedInstance& instance : instances)
+        rotations.push_back(instance.placed.rotation);
+    return rotations;
+}
+
+/// What a shader adds to three times a row to find the three vectors of an instance's red, green and blue.
+std::uint32_t offset_of(std::size_t begin, const ConstantRows& rows) {
+    return static_cast<std::uint32_t>(begin / 3) - rows.first; // wraps around, as the sum does
+}
+
+/// Constants of a mode of lighting each, [modes][rows].
+using ModeConstants = std::array<std::vector<glm::vec4>, kInstanceModes>;
+
+/// The row of an instance, as red, green and blue of a place (u, 1).
+void write_row(const InstanceFactors& factors, const ModeConstants& modes, std::size_t row,
+               std::span<glm::vec4, 3> colors) {
+    glm::vec3 added(0);
+    for (std::size_t k = 0; k < kAddedModes; ++k)
+        added += factors.added[k] * glm::vec3(modes[kPassingModes + k][row]);
+    for (int c = 0; c < 3; ++c) {
+        glm::vec4 color(0, 0, 0, added[c]);
+        for (std::size_t m = 0; m < kPassingModes; ++m)
+            color += factors.passing[m] * modes[m][row][c];
+        colors[static_cast<std::size_t>(c)] = color;
+    }
+}
+
+} // namespace
+
+ConstantRows rows_of(const ClusteredTransfer& transfer, std::size_t first, std::size_t count) {
+    if (count == 0)
+        return {};
+    const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
+    const auto clusters = std::span(transfer.receivers.clusters).subspan(first, count);
+    const auto [low, high] = std::ranges::minmax(clusters);
+    const auto end = high + 1u < layouts.size()
+                         ? layouts[high + 1u].first_row
+                         : static_cast<std::uint32_t>(constant_rows(transfer.bases));
+    return {layouts[low].first_row, end - layouts[low].first_row};
+}
+
+ConstantRows joined(const ConstantRows& a, const ConstantRows& b) {
+    if (a.count == 0 || b.count == 0)
+        return a.count == 0 ? b : a;
+    const std::uint32_t first = std::min(a.first, b.first);
+    return {first, std::max(a.first + a.count, b.first + b.count) - first};
+}
+
+InstanceFormer::InstanceFormer(const ClusteredTransfer& transfer, std::span<const FormedInstance> instances,
+                               int yaws)
+    : former_(transfer), modes_(transfer.bases.layout.order),
+      turns_(instance_turns(rotations_of(instances), yaws)), instances_(instances.begin(), instances.end()),
+      of_(turns_.rotations.size()) {
+    if (transfer.bases.layout.outputs != 1 || transfer.bases.layout.lamps() > 0)
+        throw Error("transfer of lamps is not shared by instances");
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        of_[turns_.of[i]].push_back(static_cast<std::uint32_t>(i));
+        begins_.push_back(size_);
+        size_ += 3 * std::size_t{instances_[i].rows.count};
+    }
+    if (size_ * sizeof(glm::vec4) > std::numeric_limits<std::uint32_t>::max())
+        throw Error("constants of " + std::to_string(instances_.size()) + " instances take " +
+                    std::to_string(size_ * sizeof(glm::vec4) >> 20) + " MB: more than a buffer holds");
+}
+
+std::vector<glm::vec4> InstanceFormer::table() const {
+    std::vector<glm::vec4> rows;
+    rows.reserve(2 * instances_.size());
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        const InstanceBox& box = instances_[i].placed.box;
+        const std::uint32_t offset = offset_of(begins_[i], instances_[i].rows);
+        rows.emplace_back(box.middle, static_cast<float>(offset & 0xffffu));
+        rows.emplace_back(1.0f / box.half, static_cast<float>(offset >> 16));
+    }
+    return rows;
+}
+
+void InstanceFormer::form(const Lighting& lighting, std::span<glm::vec4> constants, int threads) const {
+    assert(constants.size() >= size_);
+    const std::array<Lighting, kInstanceModes> lightings = modes_.lightings(lighting);
+    parallel_for(of_.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
+        ModeConstants modes;
+        modes.fill(std::vector<glm::vec4>(former_.rows()));
+        for (std::size_t turn = begin; turn < end; ++turn) {
+            const auto turned = turned_into(turns_.rotations[turn], lightings);
+            ConstantRows all;
+            for (const std::uint32_t i : of_[turn])
+                all = joined(all, instances_[i].rows);
+            for (std::size_t m = 0; m < kInstanceModes; ++m)
+                former_.form(turned[m], modes[m], all.first, all.first + all.count);
+            for (const std::uint32_t i : of_[turn])
+                for (std::size_t row = 0; row < instances_[i].rows.count; ++row)
+                    write_row(instances_[i].placed.factors, modes, instances_[i].rows.first + row,
+                              constants.subspan(begins_[i] + 3 * row).first<3>());
+        }
+    });
+}
+
+} // namespace prt
