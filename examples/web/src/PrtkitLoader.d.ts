@@ -1,4 +1,4 @@
-import type { Box3, Data3DTexture, DataTexture, DirectionalLight, Group, IUniform, LightProbe, Object3D, Scene, Vector3 } from "three";
+import type { Box3, Data3DTexture, DataTexture, DirectionalLight, Group, InstancedMesh, IUniform, LightProbe, Object3D, Scene, Vector3 } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 
 /** Lighting as spherical harmonics that turns about +Y. */
@@ -73,10 +73,22 @@ export class PrtkitModel extends LitTransfer {
   readonly bytesPerTexel: number;
   /** Light of what moves, where the file has a volume. */
   readonly volume: PrtkitVolume | null;
+  /** What is drawn of instances that share the transfer of their mesh, where the file has some. */
+  readonly instances: PrtkitInstances | null;
   /** What takes light from the surfaces as it passes near them; null: nothing. Throws an Error with WebGPURenderer. */
   setOccluders(occluders: PrtkitOccluders | null): void;
   /** Frees the tables and lightmaps on the device; materials and geometries are disposed of as all of three's. */
   dispose(): void;
+}
+
+/** Instances that share the transfer of their mesh (PRTKIT_instances): `gltf.userData.prtkit.instances`. */
+export class PrtkitInstances {
+  /** How many are drawn, by `meshes`: one for each primitive of the meshes that they share. */
+  readonly count: number;
+  readonly meshes: InstancedMesh[];
+  /** What the file has of each, and on average their constants on the device. */
+  readonly bytesPerInstance: number;
+  readonly constantsBytesPerInstance: number;
 }
 
 /** Parts of a file that take light from what they pass (PRTKIT_occlusion_volume): `gltf.userData.prtkitOccluders`. */

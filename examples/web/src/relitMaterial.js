@@ -54,7 +54,7 @@ function light(material, transfer) {
     Object.assign(shader.uniforms, uniforms);
     Object.assign(shader.uniforms, model.occluderUniforms);
     if (traits) shader.uniforms.prtTransmission = { value: traits.transmission };
-    (transfer.source ? addVolume : addTransfer)(shader);
+    (transfer.source ? addVolume : addTransfer)(shader, material.defines);
   };
   const ownKey = source?.customProgramCacheKey() ?? "";
   material.customProgramCacheKey = () => `prtkit:${JSON.stringify(material.defines)}${ownKey}`;

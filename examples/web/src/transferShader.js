@@ -5,6 +5,7 @@
 import { ShaderChunk } from "three";
 import { MOST_OCCLUDERS } from "./PrtkitOccluders.js";
 import exitRadiance from "./prt_exit_radiance.glsl.js";
+import instanceRadiance from "./prt_instances.glsl.js";
 import occluders from "./prt_occluders.glsl.js";
 import sunLight from "./sunLight.glsl.js";
 import sunLoop from "./sunLoop.glsl.js";
@@ -117,10 +118,10 @@ function addLight(shader, { vertex, fragment, lights }) {
   addFragment("lights_fragment_maps", `${include("lights_fragment_maps")}${lights}${TRANSFER}`);
 }
 
-/** Adds transfer to the shaders of MeshStandardMaterial, MeshPhysicalMaterial or MeshLambertMaterial. */
-export function addTransfer(shader) {
+/** Adds transfer to the shaders of MeshStandardMaterial, MeshPhysicalMaterial or MeshLambertMaterial with these defines. */
+export function addTransfer(shader, { PRT_INSTANCES }) {
   addLight(shader, {
-    vertex: `#ifndef PRT_LIGHTMAP\n${exitRadiance}\n#endif`,
+    vertex: `#ifndef PRT_LIGHTMAP\n${PRT_INSTANCES ? instanceRadiance : exitRadiance}\n#endif`,
     fragment: `#ifndef PRT_LIGHTMAP\nin vec3 prtRadiance;\n#endif${OCCLUDERS}`,
     lights: "",
   });

@@ -1,21 +1,29 @@
 // From the attributes of a mesh to the frame of the bake, in which guides are; the place is seen from their origin.
-// Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl. Attributes and matrices without
+// Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl or prt_instances.glsl. Attributes and matrices without
 // prt are three's. Define PRT_LIGHTMAP where texels have the transfer, PRT_VOLUME where probes have it, not vertices.
 #if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
-#if !defined(PRT_GUIDE_NORMAL) && !defined(PRT_GUIDE_POSITION)
+#if defined(PRT_BAKED_ATTRIBUTES)
+in vec3 prt_baked_place, prt_baked_normal;
+vec3 prtBakedPlace() {
+  return prt_baked_place;
+}
+vec3 prtBakedNormal() {
+  return prt_baked_normal;
+}
+#elif defined(PRT_INSTANCES)
+// Its own frame is that of the bake of a mesh that instances share.
+vec3 prtBakedPlace() {
+  return position;
+}
+vec3 prtBakedNormal() {
+  return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0);
+}
+#elif !defined(PRT_GUIDE_NORMAL) && !defined(PRT_GUIDE_POSITION)
 vec3 prtBakedPlace() {
   return vec3(0.0);
 }
 vec3 prtBakedNormal() {
   return vec3(0.0);
-}
-#elif defined(PRT_BAKED_ATTRIBUTES)
-in vec3 prt_place, prt_normal;
-vec3 prtBakedPlace() {
-  return prt_place;
-}
-vec3 prtBakedNormal() {
-  return prt_normal;
 }
 #else
 uniform mat4 prtToBake;
@@ -30,6 +38,9 @@ vec3 prtBakedNormal() {
 }
 #endif
 
+#ifdef PRT_INSTANCES
+in vec4 prt_instance_0, prt_instance_1;
+#endif
 out vec3 prtRadiance; // of a receiver of albedo 1
 #endif
 
@@ -43,7 +54,11 @@ centroid out vec3 prtVolumePlace; // from the origin of the volume
 // `transformed`: the vertex as its skin and its morph targets have moved it.
 void prtLight(vec3 transformed) {
 #if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
+#ifdef PRT_INSTANCES
+  prtRadiance = prt_instance_radiance(prt_instance_0, prt_instance_1, prtBakedPlace(), prtBakedNormal());
+#else
   prtRadiance = prt_exit_radiance(prtBakedPlace(), prtBakedNormal());
+#endif
 #endif
   vec4 place = vec4(transformed, 1.0);
 #ifdef USE_BATCHING
