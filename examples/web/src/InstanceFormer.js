@@ -29,7 +29,11 @@ function writeRows(constants, at, { first, count }, modes, responses, factors, a
     const response = 3 * ADDED_MODES * row;
     for (let color = 0; color < 3; ++color, to += 4) {
       const from = 4 * row + color;
-      const [above, alongX, alongY, alongZ, below] = [a[from], b[from], c[from], d[from], e[from]];
+      const above = a[from];
+      const alongX = b[from];
+      const alongY = c[from];
+      const alongZ = d[from];
+      const below = e[from];
       constants[to] = a0 * above + b0 * alongX + c0 * alongY + d0 * alongZ + e0 * below;
       constants[to + 1] = a1 * above + b1 * alongX + c1 * alongY + d1 * alongZ + e1 * below;
       constants[to + 2] = a2 * above + b2 * alongX + c2 * alongY + d2 * alongZ + e2 * below;

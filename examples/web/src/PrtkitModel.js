@@ -1,10 +1,10 @@
 // The compressed transfer of one file, shared by its meshes, and what lights it.
 
 import { formConstants, shaderRows } from "./clusteredPca.js";
-import { LitTransfer } from "./LitTransfer.js";
+import { LitSurfaces } from "./LitSurfaces.js";
 import { clustersTextureOf, constantsTextureOf } from "./tables.js";
 
-export class PrtkitModel extends LitTransfer {
+export class PrtkitModel extends LitSurfaces {
   /** `clusters`: of decodeClusters; `root`: the scene of the file, by whose turn in the world `setSky` lights. */
   constructor(clusters, root = null) {
     super(clusters, root);
@@ -21,7 +21,6 @@ export class PrtkitModel extends LitTransfer {
     this.texels = 0;
     this.bytesPerTexel = 0;
     this.maps = null; // RelitMaps, where texels have the transfer
-    this.volume = null; // PrtkitVolume, where the file has probes, too
     this.instances = null; // PrtkitInstances, where some share the transfer of their mesh
     this.occluders = null; // PrtkitOccluders
     this.occludedAt = -1; // picture
@@ -38,19 +37,6 @@ export class PrtkitModel extends LitTransfer {
       this.followOccluders(renderer, object);
       this.maps?.form(renderer, this.constantsTexture.version);
     };
-  }
-
-  /** As LitTransfer says; the volume of the file is lit alike. */
-  setLight(light, angle = 0, suns = null, lamps = {}) {
-    this.volume?.checkOrders(light, suns);
-    super.setLight(light, angle, suns, lamps);
-    this.volume?.setLight(light, angle, suns, this.volume.knownOf(lamps));
-  }
-
-  setSky(light, scene, { suns = null, lamps = {}, keyed = [] } = {}) {
-    this.volume?.checkOrders(light, suns);
-    super.setSky(light, scene, { suns, lamps, keyed });
-    this.volume?.setSky(light, scene, { suns, lamps: this.volume.knownOf(lamps), keyed: this.volume.keys.length > 0 ? keyed : [] });
   }
 
   /** What passes near the surfaces, and takes from their light: PrtkitOccluders, or null. */

@@ -1,7 +1,7 @@
 // Materials as GLTFLoader makes them, lit by transfer, and by suns that are apart from it.
 
 import { DoubleSide, MeshLambertMaterial, Vector3, Vector4 } from "three";
-import { addTransfer, addVolume, PACKED_SHADOW_MAPS } from "./transferShader.js";
+import { addLobes, addTransfer, addVolume, PACKED_SHADOW_MAPS } from "./transferShader.js";
 
 /**
  * How suns meet a material of the glTF: { lit, transmission, casts }. A medium has all of its light from transfer; shadow
@@ -54,7 +54,8 @@ function light(material, transfer) {
     Object.assign(shader.uniforms, uniforms);
     Object.assign(shader.uniforms, model.occluderUniforms);
     if (traits) shader.uniforms.prtTransmission = { value: traits.transmission };
-    (transfer.source ? addVolume : addTransfer)(shader, material.defines);
+    const add = transfer.source ? addVolume : defines.PRT_LOBES ? addLobes : addTransfer;
+    add(shader, material.defines);
   };
   const ownKey = source?.customProgramCacheKey() ?? "";
   material.customProgramCacheKey = () => `prtkit:${JSON.stringify(material.defines)}${ownKey}`;

@@ -6,6 +6,7 @@ import { ShaderChunk } from "three";
 import { MOST_OCCLUDERS } from "./PrtkitOccluders.js";
 import exitRadiance from "./prt_exit_radiance.glsl.js";
 import instanceRadiance from "./prt_instances.glsl.js";
+import lobes from "./prt_lobes.glsl.js";
 import occluders from "./prt_occluders.glsl.js";
 import sunLight from "./sunLight.glsl.js";
 import sunLoop from "./sunLoop.glsl.js";
@@ -125,6 +126,28 @@ export function addTransfer(shader, { PRT_INSTANCES }) {
     fragment: `#ifndef PRT_LIGHTMAP\nin vec3 prtRadiance;\n#endif${OCCLUDERS}`,
     lights: "",
   });
+  shader.fragmentShader = replaced(shader.fragmentShader, include("aomap_fragment"), OCCLUSION);
+}
+
+// Axes of lobes turn as normals do: with all that moves a vertex. `skinMatrix` is three's.
+const LOBE_TURN = `
+  mat3 prtMoved = mat3( modelMatrix );
+#ifdef USE_INSTANCING
+  prtMoved = prtMoved * mat3( instanceMatrix );
+#endif
+#ifdef USE_SKINNING
+  prtMoved = prtMoved * mat3( skinMatrix );
+#endif
+  prtRadiance = prtLobeRadiance( prt_lobe_turn( prtMoved ) );`;
+
+const PROFILES = `
+uniform highp sampler2D prt_lobe_profiles;
+#define PRT_LOBE_PROFILE(i) texelFetch( prt_lobe_profiles, ivec2( i, 0 ), 0 )`;
+
+/** Adds transfer that turns with a skin to them. */
+export function addLobes(shader) {
+  addLight(shader, { vertex: `${PROFILES}\n${lobes}`, fragment: "in vec3 prtRadiance;", lights: "" });
+  shader.vertexShader = replaced(shader.vertexShader, "prtLight( transformed );", `prtLight( transformed );${LOBE_TURN}`);
   shader.fragmentShader = replaced(shader.fragmentShader, include("aomap_fragment"), OCCLUSION);
 }
 

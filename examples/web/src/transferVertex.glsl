@@ -1,7 +1,32 @@
 // From the attributes of a mesh to the frame of the bake, in which guides are; the place is seen from their origin.
 // Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl or prt_instances.glsl. Attributes and matrices without
-// prt are three's. Define PRT_LIGHTMAP where texels have the transfer, PRT_VOLUME where probes have it, not vertices.
-#if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
+// prt are three's. Define PRT_LIGHTMAP where texels have the transfer, PRT_VOLUME where probes have it, not vertices; PRT_LOBES where
+// vertices have it as lobes.
+#if defined(PRT_LOBES)
+// Behind prt_lobes.glsl.
+in vec4 prt_lobe_0;
+#if PRT_LOBES > 1
+in vec4 prt_lobe_1;
+#endif
+#if PRT_LOBES > 2
+in vec4 prt_lobe_2;
+#endif
+uniform vec3 prtLobeLight[PRT_LOBE_COEFFICIENTS];
+out vec3 prtRadiance;
+
+// `turn`: of prt_lobe_turn, from the mesh to the world.
+vec3 prtLobeRadiance(mat3 turn) {
+  PrtLobe lobes[PRT_LOBES];
+  lobes[0] = prt_turned_lobe(prt_lobe(prt_lobe_0), turn);
+#if PRT_LOBES > 1
+  lobes[1] = prt_turned_lobe(prt_lobe(prt_lobe_1), turn);
+#endif
+#if PRT_LOBES > 2
+  lobes[2] = prt_turned_lobe(prt_lobe(prt_lobe_2), turn);
+#endif
+  return prt_lobes_radiance(lobes, prtLobeLight);
+}
+#elif !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
 #if defined(PRT_BAKED_ATTRIBUTES)
 in vec3 prt_baked_place, prt_baked_normal;
 vec3 prtBakedPlace() {
@@ -53,7 +78,7 @@ centroid out vec3 prtVolumePlace; // from the origin of the volume
 
 // `transformed`: the vertex as its skin and its morph targets have moved it.
 void prtLight(vec3 transformed) {
-#if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
+#if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME) && !defined(PRT_LOBES)
 #ifdef PRT_INSTANCES
   prtRadiance = prt_instance_radiance(prt_instance_0, prt_instance_1, prtBakedPlace(), prtBakedNormal());
 #else

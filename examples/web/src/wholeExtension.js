@@ -5,6 +5,7 @@ export const TEXELS = "PRTKIT_lightmap";
 export const PROBES = "PRTKIT_transfer_volume";
 export const OCCLUDERS = "PRTKIT_occlusion_volume";
 export const INSTANCES = "PRTKIT_instances";
+export const LOBES = "PRTKIT_lobes";
 /** What is wrong with a file that is not compressed. */
 export const AS_BAKED = "holds transfer as it was baked; make it one to ship: prt compress baked.glb -o shipped.glb";
 
@@ -187,6 +188,16 @@ export function checkInstances(extension) {
 export function checkInstanceNode(extension, n, count, boxes) {
   const isRight = isObject(extension) && isWhole(extension.first, 0, count - 1) && isWhole(extension.box, 0, boxes - 1);
   expect(isRight, `node ${n} has an instance or a box that is not there`, INSTANCES);
+}
+
+/** As checkExtension, of PRTKIT_lobes. */
+export function checkLobes(extension) {
+  const holds = (value, what) => expect(value, what, LOBES);
+  holds(isObject(extension), "the extension is no object");
+  const { version, order, lobes, profiles } = extension;
+  holds(version === 1, `version ${version} is not known, only 1; run prt lobes again`);
+  holds(isWhole(order, 2, 4) && isWhole(lobes, 1, 3), "the order is not 2 to 4, or a vertex has not 1 to 3 lobes");
+  holds(areFloats(profiles) && isWhole(profiles.count, 1, 256), "the profiles are not 1 to 256 of floats");
 }
 
 /** The buffer views that an extension, which is right, names. */
