@@ -5,27 +5,31 @@
 import { formConstants, lightColumns } from "./clusteredPca.js";
 import { ADDED_MODES, InstanceModes, instanceTurns, PASSING_MODES, responsesOf } from "./instanceModes.js";
 import { rotationMatrices, turnedBands } from "./sphericalHarmonics.js";
+import { formAtYaw, polarRows, termsOf, turnTerms, yawSeries } from "./yawHarmonics.js";
 
-/** Turns about +Y in which light is formed: 2.8 degrees off at most. */
-const YAWS = 64;
+/** Turns about +Y in which light is formed: 1.4 degrees off at most. */
+const YAWS = 128;
 
-/** Rows from the lowest to the highest of clusters with these numbers: { first, count }. */
-export function rowsOf({ firstRows, rowCount }, numbers) {
-  let [low, high] = [Infinity, -1];
-  for (const number of numbers) {
-    low = Math.min(low, number);
-    high = Math.max(high, number);
-  }
-  if (high < 0) return { first: 0, count: 0 };
-  return { first: firstRows[low], count: (firstRows[high + 1] ?? rowCount) - firstRows[low] };
+/** The rows of the clusters that a mesh has, in their order, and at which of these the rows of each cluster begin. `numbers`: of
+ * the clusters of its vertices. */
+export function rowsOf({ components, firstRows, rowCount }, numbers) {
+  const used = new Set(numbers);
+  const list = [];
+  const begins = components.map((_, k) => {
+    const begin = list.length;
+    if (used.has(k)) for (let row = firstRows[k]; row < (firstRows[k + 1] ?? rowCount); ++row) list.push(row);
+    return begin;
+  });
+  return { list: Uint32Array.from(list), begins };
 }
 
 /** Writes numbers of an instance in the place of its rows: `factors` as files have them, `added` [ADDED_MODES][3] of its light, in
  * the axes of the mesh. */
-function writeRows(constants, at, { first, count }, modes, responses, factors, added) {
+function writeRows(constants, at, rows, modes, responses, factors, added) {
   const [a, b, c, d, e] = modes;
   const [a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3, e0, e1, e2, e3] = factors;
-  for (let row = first, to = at; row < first + count; ++row) {
+  for (let n = 0, to = at; n < rows.length; ++n) {
+    const row = rows[n];
     const response = 3 * ADDED_MODES * row;
     for (let color = 0; color < 3; ++color, to += 4) {
       const from = 4 * row + color;
@@ -63,7 +67,7 @@ function addedBy(factors, rotation, onLevel, added) {
 export class InstanceFormer {
   /**
    * `rows`: of shaderRows. `instances`: { factors, rotation, box, rows } of each: its numbers as files have them; from the frame of
-   * the mesh into the world, [9] by columns; the box of the mesh; of rowsOf.
+   * the mesh into the world, [9] by columns; the box of the mesh; the list of rowsOf.
    */
   constructor(clusters, rows, instances, yaws = YAWS) {
     this.clusters = clusters;
@@ -72,15 +76,23 @@ export class InstanceFormer {
     this.modes = new InstanceModes(clusters.order);
     this.responses = responsesOf(clusters, rows);
     this.constantsOfModes = Array.from({ length: PASSING_MODES }, () => new Float64Array(4 * clusters.rowCount));
-    const { rotations, of } = instanceTurns(instances.map(({ rotation }) => rotation), yaws);
-    this.turns = rotations.map((rotation) => ({ rotation, matrices: rotationMatrices(clusters.order, rotation), instances: [] }));
+    const { order, rowCount } = clusters;
+    const turns = instanceTurns(instances.map(({ rotation }) => rotation), yaws);
+    const { rotations, of } = turns;
+    this.turns = rotations.map((rotation, t) => {
+      const yaw = turns.yaws[t];
+      return { rotation, instances: [], ...(yaw === null ? { matrices: rotationMatrices(order, rotation) } : { terms: turnTerms(order, yaw) }) };
+    });
+    const isUpright = this.turns.some(({ terms }) => terms);
+    this.polarRows = isUpright ? polarRows(clusters, rows) : null;
+    this.series = this.constantsOfModes.map(() => (isUpright ? new Float64Array(3 * termsOf(order) * rowCount) : null));
     of.forEach((turn, i) => this.turns[turn].instances.push(i));
     /** Of the constants of each instance, in vectors of four; and of all. */
     this.begins = new Float64Array(instances.length);
     this.size = 0;
-    instances.forEach(({ rows: { count } }, i) => {
+    instances.forEach(({ rows: { length } }, i) => {
       this.begins[i] = this.size;
-      this.size += 3 * count;
+      this.size += 3 * length;
     });
   }
 
@@ -89,8 +101,8 @@ export class InstanceFormer {
   table(first, count) {
     const [low, high] = [new Float32Array(4 * count), new Float32Array(4 * count)];
     for (let i = 0; i < count; ++i) {
-      const { box: { middle, half }, rows } = this.instances[first + i];
-      const offset = (this.begins[first + i] / 3 - rows.first) >>> 0; // wraps around, as the sum does
+      const { middle, half } = this.instances[first + i].box;
+      const offset = this.begins[first + i] / 3;
       low.set([...middle, offset & 0xffff], 4 * i);
       high.set([...half.map((width) => 1 / width), offset >>> 16], 4 * i);
     }
@@ -98,15 +110,17 @@ export class InstanceFormer {
   }
 
   /** The constants of the passing modes under `skies` and, where there are any, `suns`, for the rows that a turn has use for. */
-  formModes({ matrices, instances }, skies, suns) {
+  formModes({ matrices, terms, instances }, skies, suns) {
     const { clusters, rows } = this;
     let [first, end] = [Infinity, 0];
     for (const i of instances) {
       const used = this.instances[i].rows;
-      first = Math.min(first, used.first);
-      end = Math.max(end, used.first + used.count);
+      if (used.length === 0) continue;
+      first = Math.min(first, used[0]);
+      end = Math.max(end, used[used.length - 1] + 1);
     }
     if (!(first < end)) return;
+    if (terms) return this.constantsOfModes.forEach((constants, m) => formAtYaw(this.series[m], terms, first, end, constants));
     const size = rows.length / clusters.rowCount;
     const part = { ...clusters, rowCount: end - first };
     this.constantsOfModes.forEach((constants, m) => {
@@ -122,6 +136,8 @@ export class InstanceFormer {
     const passed = suns ? this.modes.passing(suns) : null;
     const onLevel = this.modes.onLevel(suns ? sky.map((value, i) => value + suns[i]) : sky);
     const added = new Float64Array(3 * ADDED_MODES);
+    const both = passed?.map((light, m) => light.map((value, i) => value + skies[m][i])) ?? skies;
+    if (this.polarRows) this.series.forEach((series, m) => yawSeries(this.clusters, this.polarRows, skies[m], both[m], series));
     for (const turn of this.turns) {
       this.formModes(turn, skies, passed);
       for (const i of turn.instances) {

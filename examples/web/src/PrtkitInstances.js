@@ -26,12 +26,6 @@ function* clustersOfVertices({ attributes: { position, prt_words_0: words, prt_c
     yield words ? words.array[v * words.itemSize] & (2 ** clusterBits - 1) : cluster.getX(v);
 }
 
-/** Of both. */
-function joined(a, b) {
-  const first = Math.min(a.first, b.first);
-  return { first, count: Math.max(a.first + a.count, b.first + b.count) - first };
-}
-
 /** Guides as the shader of instances has them, which does not take their origin off before. */
 function originOf(guides) {
   const { origin } = guides.find(({ kind }) => kind === "position") ?? {};
@@ -113,23 +107,25 @@ export class PrtkitInstances {
     const copied = new Set();
     for (const group of groups) {
       group.primitives = group.primitives.filter(({ mesh }) => mesh.isMesh && definesOf(mesh.geometry));
-      const rows = group.primitives.map(({ mesh }) => rowsOf(clusters, clustersOfVertices(mesh.geometry, clusters)));
-      group.rows = rows.length > 0 ? rows.reduce(joined) : { first: 0, count: 0 };
+      const numbers = group.primitives.flatMap(({ mesh }) => [...new Set(clustersOfVertices(mesh.geometry, clusters))]);
+      group.rows = rowsOf(clusters, numbers);
     }
-    const all = groups.flatMap(({ instances, rows }) => instances.map((instance) => ({ ...instance, rows })));
+    const all = groups.flatMap(({ instances, rows }) => instances.map((instance) => ({ ...instance, rows: rows.list })));
     this.former = new InstanceFormer(clusters, model.rows, all);
     const { size } = this.former;
     expect(size <= MOST_TEXELS, `constants of ${all.length} instances would take ${Math.round((16 * size) / 1e6)} MB`, INSTANCES);
     this.width = widthFor(size);
     this.constantsTexture = constantsTextureOf(size, this.width);
-    this.clustersTexture = clustersTextureOf(clusters, this.width);
-    const uniforms = { prt_constants: { value: this.constantsTexture }, prt_clusters: { value: this.clustersTexture } };
+    this.clustersTextures = []; // each mesh has but the rows of its own clusters
     const tables = { ...tablesOf(this.width), PRT_INSTANCES: 1 };
     for (const group of groups) {
       const number = group.instances.length;
       const table = this.former.table(this.count, number).map((array) => new InstancedBufferAttribute(array, 4));
       this.count += number;
       let matrices = null;
+      const clustersTexture = clustersTextureOf({ ...clusters, firstRows: group.rows.begins }, this.width);
+      const uniforms = { prt_constants: { value: this.constantsTexture }, prt_clusters: { value: clustersTexture } };
+      this.clustersTextures.push(clustersTexture);
       for (const { mesh, primitive } of group.primitives) {
         const defines = definesOf(mesh.geometry);
         const geometry = copied.has(mesh.geometry) ? shared(mesh.geometry) : mesh.geometry;
@@ -177,7 +173,7 @@ export class PrtkitInstances {
   /** Frees the tables on the device. */
   dispose() {
     this.constantsTexture.dispose();
-    this.clustersTexture.dispose();
+    for (const texture of this.clustersTextures) texture.dispose();
   }
 }
 

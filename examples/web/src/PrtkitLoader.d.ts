@@ -91,6 +91,19 @@ export class PrtkitInstances {
   readonly constantsBytesPerInstance: number;
 }
 
+/** Transfer of a figure that turns with its skin (PRTKIT_lobes): `gltf.userData.prtkit` of files of `prt lobes`. Suns that are apart
+ * light it by three's directional lights and their shadow maps. */
+export class PrtkitLobes extends LitTransfer {
+  /** Of each vertex, four bytes each. */
+  readonly lobes: 1 | 2 | 3;
+  readonly vertices: number;
+  readonly bytesPerVertex: number;
+  /** Light of what moves, where the file has a volume, too. */
+  readonly volume: PrtkitVolume | null;
+  /** Frees the table of profiles on the device. */
+  dispose(): void;
+}
+
 /** Parts of a file that take light from what they pass (PRTKIT_occlusion_volume): `gltf.userData.prtkitOccluders`. */
 export class PrtkitOccluders {
   /** How many are shown. */
@@ -135,7 +148,7 @@ export class PrtkitVolume extends LitTransfer {
  * shaders/prt_volume.glsl, of a place and a normal that prtToVolume has taken there. */
 export const volumeShader: string;
 
-/** Reads PRTKIT_clustered_pca, PRTKIT_lightmap and PRTKIT_transfer_volume, for WebGLRenderer; that of `prtkit-web/webgpu` for WebGPURenderer:
+/** Reads PRTKIT_clustered_pca, PRTKIT_instances, PRTKIT_lightmap, PRTKIT_lobes and PRTKIT_transfer_volume, for WebGLRenderer; that of `prtkit-web/webgpu` for WebGPURenderer:
  * `loader.register((parser) => new PrtkitPlugin(parser))`. */
 export class PrtkitPlugin implements GLTFLoaderPlugin {
   readonly name: string;

@@ -91,19 +91,25 @@ function yawMatrix(angle) {
 }
 
 /**
- * The turn that each rotation, [9] by columns, is lit in, so that light is formed for few: `rotations`, and which of them, `of`.
+ * The turn that each rotation, [9] by columns, is lit in, so that light is formed for few: `rotations`, which of them, `of`, and
+ * `yaws`, about +Y, null for others.
  * Turns about +Y fall into `bins` of even yaw; of others those that are alike are one, and of all where `bins` is 0.
  */
 export function instanceTurns(all, bins) {
   const rotations = [];
+  const yaws = [];
   const known = new Map();
   const of = Uint32Array.from(all, (rotation) => {
     const isUpright = Math.hypot(rotation[3], rotation[4] - 1, rotation[5]) < ROUNDING;
     const bin = Math.round((Math.atan2(rotation[6], rotation[0]) / (2 * Math.PI) + 1) * bins) % bins;
     const binned = bins > 0 && isUpright;
     const key = binned ? bin : rotation.map((value) => Math.round(value / SAME)).join();
-    if (!known.has(key)) known.set(key, rotations.push(binned ? yawMatrix((2 * Math.PI * bin) / bins) : rotation) - 1);
+    if (!known.has(key)) {
+      const yaw = binned ? (2 * Math.PI * bin) / bins : null;
+      known.set(key, rotations.push(binned ? yawMatrix(yaw) : rotation) - 1);
+      yaws.push(yaw);
+    }
     return known.get(key);
   });
-  return { rotations, of };
+  return { rotations, yaws, of };
 }

@@ -90,8 +90,8 @@ function bandMatrices(order, turn) {
   return matrices;
 }
 
-/** What turns coefficients about the polar axis +Y, azimuth from +Z to +X, into those about +Z. */
-const polarMatrices = (order) => bandMatrices(order, (x, y, z) => [z, x, y]);
+/** Matrices of bands that turn coefficients about the polar axis +Y, azimuth from +Z to +X, into those about +Z. */
+export const polarMatrices = (order) => bandMatrices(order, (x, y, z) => [z, x, y]);
 
 /** What light of the world is in axes that `rotation` takes into the world's, [9] by columns: for `turnedBands`. */
 export const rotationMatrices = (order, [a, b, c, d, e, f, g, h, k]) =>

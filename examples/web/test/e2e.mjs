@@ -226,10 +226,10 @@ async function matte(page) {
 }
 
 // What turns with its skin has no bake that prt renders; radiance of instances that share theirs prt writes to nodes of its own.
-const baked = models.filter(({ clip }) => !clip);
+const poseless = models.filter(({ clip }) => !clip);
 const normal = ({ levels }) => levels[1] ?? levels[0];
 
-for (const [i, model] of baked.filter(({ shares }) => !shares).entries())
+for (const [i, model] of poseless.filter(({ shares }) => !shares).entries())
   for (const angle of [25 + 40 * i, 200])
     await check(`${model.name}, turned by ${angle}: suns light as prt relight does by rays`, async (page, errors) => {
       const view = { fieldOfView: 35, ...(model.camera ?? standardCamera) };
@@ -248,7 +248,7 @@ for (const [i, model] of baked.filter(({ shares }) => !shares).entries())
       assert.ok(d.rms < 0.02, `${d.rms}`);
     });
 
-for (const [i, model] of baked.entries())
+for (const [i, model] of poseless.entries())
   for (const [quality, level] of model.levels.entries())
     await check(`${model.name}, ${level.title}: the picture is that of prt render`, async (page, errors) => {
       const view = { fieldOfView: 35, ...(model.camera ?? standardCamera) };
@@ -264,7 +264,7 @@ for (const [i, model] of baked.entries())
       assert.ok(d.far < FAR_SHARE, `${d.far} of the pixels differ`);
     });
 
-for (const [i, model] of baked.entries())
+for (const [i, model] of poseless.entries())
   await check(`${model.name}: with suns apart the picture is that of prt render by rays`, async (page, errors) => {
     const view = { fieldOfView: 35, ...(model.camera ?? standardCamera) };
     const angle = 15 + 50 * i;
@@ -282,6 +282,32 @@ for (const [i, model] of baked.entries())
     assert.deepEqual(errors, []);
     assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`);
     assert.ok(d.far < 2 * FAR_SHARE, `${d.far} of the pixels differ`);
+  });
+
+for (const model of models.filter(({ clip }) => clip))
+  await check(`${model.name} dances in its own light`, async (page, errors) => {
+    await page.goto(url({ model: model.name, angle: 40, suns: 0, panel: 0 }));
+    await picture(page, 3);
+    const lit = await page.evaluate(() => {
+      const shown = globalThis.prtkitPicture;
+      shown.still = true;
+      const { prtkit } = shown.gltf.userData;
+      return [prtkit.lobes, prtkit.vertices, shown.dance.time];
+    });
+    assert.ok(lit[0] >= 1 && lit[1] > 1000 && lit[2] > 0, lit.join());
+    const count = await drawn(page);
+    await page.evaluate(() => globalThis.prtkitPicture.draw());
+    await picture(page, count);
+    const before = await canvas(page);
+    if (screenshots) writeFileSync(join(screenshots, `${model.name}.dance.png`), Buffer.from(before.split(",")[1], "base64"));
+    const next = await drawn(page);
+    await page.evaluate(() => {
+      globalThis.prtkitPicture.dance.update(0.4);
+      globalThis.prtkitPicture.draw();
+    });
+    await picture(page, next);
+    assert.ok((await difference(page, before, await canvas(page))).mean > 0.1, "it moves");
+    assert.deepEqual(errors, []);
   });
 
 /** A Radiance file of flat RGBE pixels: sky above, ground below, a warm side. */
@@ -417,7 +443,7 @@ await check("files that are dropped are shown and listed", async (page, errors) 
   await page.waitForFunction(() => document.querySelector("#sky").selectedOptions[0].text === "warm.hdr");
   await picture(page, count);
   count = await drawn(page);
-  const other = baked.at(-1);
+  const other = poseless.at(-1);
   await dropped(page, { "mine.glb": join(distFolder, normal(other).file) });
   await page.waitForFunction(() => document.querySelector("#model").selectedOptions[0].text === "mine.glb");
   await picture(page, count);

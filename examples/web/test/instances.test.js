@@ -210,11 +210,11 @@ test("an instance in the open has the light of its mesh", async () => {
   prtkit.setLight(lightOf(2, 3), 0.3);
   const constants = prtkit.constantsTexture.image.data; // of what is not turned
   const { instances: { constantsTexture, former } } = prtkit;
-  const { first, count } = former.instances[0].rows;
-  for (let row = 0; row < count; ++row)
+  const { rows } = former.instances[0];
+  for (let row = 0; row < rows.length; ++row)
     for (let c = 0; c < 3; ++c) {
       const at = 4 * (3 * row + c);
-      near(constantsTexture.image.data[at + 3], constants[4 * (first + row) + c], 1e-5);
+      near(constantsTexture.image.data[at + 3], constants[4 * rows[row] + c], 1e-5);
       assert.ok([0, 1, 2].every((k) => Math.abs(constantsTexture.image.data[at + k]) < 1e-6));
     }
 });
@@ -304,11 +304,12 @@ test("the shader is that of the runtime for instances, and others have none of i
 test("tables are freed, and textures that a device does not have are refused", async () => {
   const { prtkit } = (await load(instanceModel())).userData;
   const freed = [];
-  for (const name of ["constantsTexture", "clustersTexture"]) prtkit.instances[name].addEventListener("dispose", () => freed.push(name));
+  const { constantsTexture, clustersTextures } = prtkit.instances;
+  for (const texture of [constantsTexture, ...clustersTextures]) texture.addEventListener("dispose", () => freed.push(texture));
   assert.throws(() => prtkit.instances.checkSize({ capabilities: { maxTextureSize: 64 } }), /constants of 6 instances want a texture of 256 x/);
   prtkit.instances.checkSize({ capabilities: { maxTextureSize: 4096 } });
   prtkit.dispose();
-  assert.deepEqual(freed, ["constantsTexture", "clustersTexture"]);
+  assert.deepEqual(freed, [constantsTexture, ...clustersTextures]);
 });
 
 test("WebGPURenderer does not draw them", async () => {
