@@ -7,8 +7,8 @@ import { ADDED_MODES, InstanceModes, instanceTurns, PASSING_MODES, responsesOf }
 import { rotationMatrices, turnedBands } from "./sphericalHarmonics.js";
 import { formAtYaw, polarRows, termsOf, turnTerms, yawSeries } from "./yawHarmonics.js";
 
-/** Turns about +Y in which light is formed: 1.4 degrees off at most. */
-const YAWS = 128;
+/** Turns about +Y in which light is formed: 0.7 degrees off at most. */
+const YAWS = 256;
 
 /** The rows of the clusters that a mesh has, in their order, and at which of these the rows of each cluster begin. `numbers`: of
  * the clusters of its vertices. */

@@ -46,7 +46,7 @@ const cameras = {
   terrain: { position: [1, 4.5, 11], target: [0, 2.6, 0] },
   night_room: { position: [0.6, 1.7, 2.6], target: [0, 1.8, -6], fieldOfView: 50 },
   courtyard: { position: [3.9, 1.75, 4.9], target: [-1.3, 2.75, -6], fieldOfView: 46 },
-  forest: { position: [9, 8.5, 21], target: [-1, 1, 0] },
+  forest: { position: [13, 12, 34], target: [0, 2, 0] },
   figure: { position: [1.3, 1.7, 3.4], target: [0, 0.95, 0] },
 };
 /** Ways of who walks through, and how far apart the probes of the light there are, in metres. */
