@@ -121,7 +121,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     report.sentences.push_back(record_sentence(own + "bake", compressed.record));
 }
 
-void add_instances(const InstancedFile& file, Report& report) {
+void add_instances(const InstancedModel& file, Report& report) {
     add_figures(report, {{"instances",
                           {{"count", file.instances.size()},
                            {"vertices_stored", file.stored.receivers()},

@@ -63,7 +63,7 @@ FileInstance read_instance(const StoredInstances& stored, int node, const Json& 
     if (!placement)
         throw Error("node " + std::to_string(node) +
                     " draws an instance that shares its transfer, and mirrors it or scales it unevenly");
-    return {node, number, {stored.factors[number], placement->rotation, stored.boxes[box]}, {}, {}};
+    return {node, number, {stored.factors[number], placement->rotation, stored.boxes[box]}, {}, {}, world};
 }
 
 bool same_vertices(const Scene& scene, std::size_t array, const Scene& stored, std::size_t other) {
