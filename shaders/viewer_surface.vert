@@ -21,12 +21,10 @@ out vec3 occluded_place, occluded_normal;
 #if defined(PRT_LIGHTMAP)
 #include "lightmap_vertex.glsl"
 #elif defined(PRT_COMPRESSED)
-#ifdef PRT_INSTANCES
 #include "prt_instances.glsl"
+#ifdef PRT_INSTANCES
 layout(location = PRT_LOCATION_INSTANCE_0) in vec4 instance_0;
 layout(location = PRT_LOCATION_INSTANCE_1) in vec4 instance_1;
-#else
-#include "prt_exit_radiance.glsl"
 #endif
 #ifdef PRT_GUIDE_NORMAL
 layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;
