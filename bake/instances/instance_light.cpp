@@ -3,6 +3,8 @@
 
 #include "instances/instance_light.h"
 
+#include "instances/uniform_bound.h"
+
 #include "prt/sh_rotation.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
@@ -186,8 +188,8 @@ void InstanceLight::bounce(const Progress& progress) {
         gather_light();
         ++result_.bounces;
         const double change = take_own();
-        const bool last = result_.bounces == most ||
-                          (endless && result_.bounces > 2 && change < kLeastChange);
+        const bool last =
+            result_.bounces == most || (endless && result_.bounces > 2 && change < kLeastChange);
         fit(endless ? 1 : static_cast<std::size_t>(result_.bounces), !last);
         if (last)
             break;
@@ -249,6 +251,10 @@ void InstanceLight::fit(std::size_t step, bool gives) {
     for (const Group& group : groups_) {
         const SharedTransfer shared(meshes_[group.mesh].after[step], group.up, plan_.options.threads);
         const InstanceFit fit(shared, receivers_.samples[group.mesh], group.up);
+        std::vector<glm::vec3> places;
+        for (std::size_t r = 0; r < shared.receivers(); ++r)
+            places.push_back(meshes_[group.mesh].place_of(r));
+        const UniformBound bound(shared, places);
         parallel_for(
             group.instances.size(), 1, plan_.options.threads, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t g = begin; g < end; ++g) {
@@ -265,7 +271,8 @@ void InstanceLight::fit(std::size_t step, bool gives) {
                                      std::span(samples_.targets[1])
                                          .subspan(first * sizes_.dimension, samples * sizes_.dimension),
                                      left_out});
-                        result_.factors[i] = in_axes_of_world(fitted.factors, instance.rotation);
+                        result_.factors[i] =
+                            in_axes_of_world(bound.bounded(fitted.factors), instance.rotation);
                         result_.errors[i] = fitted.error;
                     }
                     if (gives)

@@ -12,9 +12,9 @@ namespace prt::test {
 GlbFile instanced_triangles() {
     GlbFile file = triangle_file();
     file.json["nodes"] = nlohmann::ordered_json::array();
-    for (const float x : {0.0f, 2.0f, 5.0f})
+    for (const float x : {0.0f, 2.0f, 5.0f}) // turned by 45 degrees, one of the yaws
         file.json["nodes"].push_back(
-            {{"mesh", 0}, {"translation", {x, 1, 0}}, {"rotation", {0, 0.6, 0, 0.8}}});
+            {{"mesh", 0}, {"translation", {x, 1, 0}}, {"rotation", {0, 0.38268343, 0, 0.92387953}}});
     file.json["nodes"].push_back({{"mesh", 1}, {"translation", {0, 0, 9}}});
     file.json["materials"] = {{{"doubleSided", true}}};
     file.json["meshes"][0]["primitives"][0]["material"] = 0;
