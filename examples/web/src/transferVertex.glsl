@@ -11,11 +11,13 @@ in vec4 prt_lobe_1;
 #if PRT_LOBES > 2
 in vec4 prt_lobe_2;
 #endif
+#ifndef PRT_VOLUME
 uniform vec3 prtLobeLight[PRT_LOBE_COEFFICIENTS];
+#endif
 out vec3 prtRadiance;
 
-// `turn`: of prt_lobe_turn, from the mesh to the world.
-vec3 prtLobeRadiance(mat3 turn) {
+// `turn`: of prt_lobe_turn, from the mesh to where the light is given: the world, or a volume, in which `place` is.
+vec3 prtLobeRadiance(mat3 turn, vec3 place) {
   PrtLobe lobes[PRT_LOBES];
   lobes[0] = prt_turned_lobe(prt_lobe(prt_lobe_0), turn);
 #if PRT_LOBES > 1
@@ -24,7 +26,13 @@ vec3 prtLobeRadiance(mat3 turn) {
 #if PRT_LOBES > 2
   lobes[2] = prt_turned_lobe(prt_lobe(prt_lobe_2), turn);
 #endif
+#ifdef PRT_VOLUME
+  vec3 turned = turn * normal;
+  float size = length(turned);
+  return prt_lobes_in_volume(lobes, place, size > 0.0 ? turned / size : vec3(0.0, 1.0, 0.0));
+#else
   return prt_lobes_radiance(lobes, prtLobeLight);
+#endif
 }
 #elif !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
 #if defined(PRT_BAKED_ATTRIBUTES)

@@ -79,11 +79,24 @@ function axisOf([a, b]) {
   return new Vector3(x, y, z).normalize();
 }
 
-/** Where a square is, and its radiance for albedo 1 under coefficients [order²][3]. */
-export function radianceOf({ place, share, lobes }, bones, order, light) {
+const skinOf = (share, bones) => {
   const skin = new Matrix4();
   skin.elements.forEach((_, i) => (skin.elements[i] = share * bones[0].elements[i] + (1 - share) * bones[1].elements[i]));
-  const turn = new Matrix3().setFromMatrix4(skin).invert().transpose();
+  return skin;
+};
+const turnOf = (skin) => new Matrix3().setFromMatrix4(skin).invert().transpose();
+
+/** Where the ends of a square's diagonal are, and its normal there. */
+export function cornersOf({ place: [x, y, z], normal, share }, bones) {
+  const skin = skinOf(share, bones);
+  const turned = new Vector3(...normal).applyMatrix3(turnOf(skin)).normalize().toArray();
+  return [1, -1].map((side) => ({ place: new Vector3(x + side * SIZE, y - side * SIZE, z).applyMatrix4(skin).toArray(), normal: turned }));
+}
+
+/** Where a square is, and its radiance for albedo 1 under coefficients [order²][3]. */
+export function radianceOf({ place, share, lobes }, bones, order, light) {
+  const skin = skinOf(share, bones);
+  const turn = turnOf(skin);
   const gains = profiles(order);
   const sum = [0, 0, 0];
   for (const [a, b, profile, scale] of lobes) {

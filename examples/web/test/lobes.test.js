@@ -59,7 +59,7 @@ test("the shader turns axes with the skin, in three's own", async () => {
   material.onBeforeCompile(shader);
   assert.match(shader.vertexShader, /mat3 prt_lobe_turn\(mat3 m\)/);
   // Behind three's matrix of the skin, and where the vertex is known.
-  assert.match(shader.vertexShader, /#include <skinnormal_vertex>[^]*prtMoved \* mat3\( skinMatrix \)[^]*prtRadiance = prtLobeRadiance\( prt_lobe_turn\( prtMoved \) \);/);
+  assert.match(shader.vertexShader, /#include <skinnormal_vertex>[^]*prtMoved \* mat3\( skinMatrix \)[^]*prtRadiance = prtLobeRadiance\( prt_lobe_turn\( prtMoved \), vec3\( 0\.0 \) \);/);
   assert.match(shader.vertexShader, /PRT_LOBE_PROFILE\(i\) texelFetch\( prt_lobe_profiles/);
   assert.doesNotMatch(shader.vertexShader, /vec3 prt_exit_radiance/);
   assert.doesNotMatch(shader.vertexShader, /#include "/);

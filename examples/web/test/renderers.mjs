@@ -16,7 +16,7 @@ import { volumeOf } from "../src/volumeTransfer.js";
 import { bakedModel, MAPS, texelWords } from "./bakedModel.js";
 import { extensionOf, png } from "./glb.js";
 import { leftAt, occluderModel } from "./occluderModel.js";
-import { boneMatrices, lobeModel, radianceOf, squares } from "./lobeModel.js";
+import { boneMatrices, cornersOf, lobeModel, radianceOf, squares } from "./lobeModel.js";
 import { incidentAround, sumOf, volumeExtension, volumeModel } from "./volumeModel.js";
 import { radianceOfWords } from "./wordRadiance.js";
 
@@ -317,6 +317,36 @@ await check("lobes turn with the skin, and have the light of the world, as plain
       }
     }
   assert.ok(seen > 150 && most < 1e-5, `${most} of ${seen}`);
+  return `${most.toExponential(1)} off`;
+});
+
+await check("lobes have the light of the volume where they are, as plain numbers have it", async () => {
+  const size = [480, 480];
+  const { extension, view } = extensionOf(models["volume.glb"], "PRTKIT_transfer_volume");
+  const volume = volumeOf(extension, view);
+  const columns = lightColumns(volume.clusters, volumeLight, null, null);
+  const pose = [[0.3, -0.2, 0.4], [-0.5, 0.4, -0.2]];
+  const bones = boneMatrices(pose);
+  const pixels = await ask("posed", { model: "lobes_4.glb", volume: "volume.glb", pose, turn: [0, 0, 0], light: volumeLight, size });
+  let [most, brightest, seen] = [0, 0, 0];
+  for (const square of squares()) {
+    const { place } = radianceOf(square, bones, 4, new Float64Array(48));
+    const [x, y] = [place.x, place.y].map((value) => Math.floor(240 * (value + 1)));
+    const at = 4 * (size[0] * y + x);
+    if (!(pixels[at + 3] > 0)) continue;
+    ++seen;
+    // The middle of a square lies between two corners of it, at which light is looked up.
+    const corners = cornersOf(square, bones).map(({ place: corner, normal }) => {
+      const incident = incidentAround(volume, corner, normal, columns);
+      return radianceOf(square, bones, 4, [...incident.flat(), ...new Array(21).fill(0)]).radiance;
+    });
+    for (let c = 0; c < 3; ++c) {
+      most = Math.max(most, Math.abs(pixels[at + c] - (corners[0][c] + corners[1][c]) / 2));
+      brightest = Math.max(brightest, pixels[at + c]);
+    }
+  }
+  most /= brightest;
+  assert.ok(seen > 20 && most < 0.02, `${most} of ${seen}`); // a pixel is not the middle to a hundredth of the square
   return `${most.toExponential(1)} off`;
 });
 
