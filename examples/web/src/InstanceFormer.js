@@ -81,7 +81,7 @@ export class InstanceFormer {
     const { rotations, of } = turns;
     this.turns = rotations.map((rotation, t) => {
       const yaw = turns.yaws[t];
-      return { rotation, instances: [], ...(yaw === null ? { matrices: rotationMatrices(order, rotation) } : { terms: turnTerms(order, yaw) }) };
+      return { rotation, instances: [], terms: yaw === null ? null : turnTerms(order, yaw) };
     });
     const isUpright = this.turns.some(({ terms }) => terms);
     this.polarRows = isUpright ? polarRows(clusters, rows) : null;
@@ -110,7 +110,7 @@ export class InstanceFormer {
   }
 
   /** The constants of the passing modes under `skies` and, where there are any, `suns`, for the rows that a turn has use for. */
-  formModes({ matrices, terms, instances }, skies, suns) {
+  formModes({ rotation, terms, instances }, skies, suns) {
     const { clusters, rows } = this;
     let [first, end] = [Infinity, 0];
     for (const i of instances) {
@@ -121,6 +121,7 @@ export class InstanceFormer {
     }
     if (!(first < end)) return;
     if (terms) return this.constantsOfModes.forEach((constants, m) => formAtYaw(this.series[m], terms, first, end, constants));
+    const matrices = rotationMatrices(clusters.order, rotation);
     const size = rows.length / clusters.rowCount;
     const part = { ...clusters, rowCount: end - first };
     this.constantsOfModes.forEach((constants, m) => {

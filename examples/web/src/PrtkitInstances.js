@@ -97,56 +97,62 @@ export class PrtkitInstances {
     return new PrtkitInstances(model, groups, { parser, definesOf, bytesPerInstance: bytes.byteLength / extension.count });
   }
 
-  constructor(model, groups, { parser, definesOf, bytesPerInstance }) {
-    const { clusters } = model;
-    /** Instances that are drawn, and bytes of what a file has of each. */
-    this.count = 0;
+  constructor({ clusters, rows }, groups, { parser, definesOf, bytesPerInstance }) {
+    /** Bytes of what a file has of each. */
     this.bytesPerInstance = bytesPerInstance;
-    this.meshes = [];
-    this.transfers = new Map(); // by mesh
-    const copied = new Set();
     for (const group of groups) {
-      group.primitives = group.primitives.filter(({ mesh }) => mesh.isMesh && definesOf(mesh.geometry));
-      const numbers = group.primitives.flatMap(({ mesh }) => [...new Set(clustersOfVertices(mesh.geometry, clusters))]);
-      group.rows = rowsOf(clusters, numbers);
+      const lit = group.primitives.filter(({ mesh }) => mesh.isMesh && definesOf(mesh.geometry));
+      group.rows = rowsOf(clusters, lit.flatMap(({ mesh }) => [...new Set(clustersOfVertices(mesh.geometry, clusters))]));
     }
-    const all = groups.flatMap(({ instances, rows }) => instances.map((instance) => ({ ...instance, rows: rows.list })));
-    this.former = new InstanceFormer(clusters, model.rows, all);
-    const { size } = this.former;
+    const all = groups.flatMap((group) => group.instances.map((instance) => ({ ...instance, rows: group.rows.list })));
+    /** Instances that are drawn. */
+    this.count = all.length;
+    const size = 3 * all.reduce((sum, instance) => sum + instance.rows.length, 0);
     expect(size <= MOST_TEXELS, `constants of ${all.length} instances would take ${Math.round((16 * size) / 1e6)} MB`, INSTANCES);
+    /** Bytes of constants on the device, on average. */
+    this.constantsBytesPerInstance = this.count > 0 ? (16 * size) / this.count : 0;
+    this.former = new InstanceFormer(clusters, rows, all);
     this.width = widthFor(size);
     this.constantsTexture = constantsTextureOf(size, this.width);
     this.clustersTextures = []; // each mesh has but the rows of its own clusters
-    const tables = { ...tablesOf(this.width), PRT_INSTANCES: 1 };
-    for (const group of groups) {
-      const number = group.instances.length;
-      const table = this.former.table(this.count, number).map((array) => new InstancedBufferAttribute(array, 4));
-      this.count += number;
-      let matrices = null;
-      const clustersTexture = clustersTextureOf({ ...clusters, firstRows: group.rows.begins }, this.width);
-      const uniforms = { prt_constants: { value: this.constantsTexture }, prt_clusters: { value: clustersTexture } };
-      this.clustersTextures.push(clustersTexture);
-      for (const { mesh, primitive } of group.primitives) {
-        const defines = definesOf(mesh.geometry);
-        const geometry = copied.has(mesh.geometry) ? shared(mesh.geometry) : mesh.geometry;
-        copied.add(mesh.geometry);
-        table.forEach((attribute, i) => geometry.setAttribute(`prt_instance_${i}`, attribute));
-        const drawn = new InstancedMesh(geometry, mesh.material, number);
-        if (matrices) drawn.instanceMatrix = matrices;
-        else group.instances.forEach(({ matrix }, i) => drawn.setMatrixAt(i, matrix));
-        matrices = drawn.instanceMatrix;
-        drawn.name = mesh.name;
-        Object.assign(drawn.userData, mesh.userData);
-        group.parent.add(drawn);
-        parser.associations.set(drawn, { meshes: group.mesh, primitives: primitive });
-        this.meshes.push(drawn);
-        const frame = bakedFrame(drawn, atOrigin(clusters.guides), IN_PLACE);
-        this.transfers.set(drawn, { uniforms, defines: { ...defines, ...frame.defines, ...tables, ...originOf(clusters.guides) } });
-      }
-    }
-    /** On the device, on average. */
-    this.constantsBytesPerInstance = this.count > 0 ? (16 * size) / this.count : 0;
+    this.meshes = [];
+    this.transfers = new Map(); // by mesh
     this.renderers = new WeakSet(); // whose textures are large enough
+    const drawn = new Set(); // geometries
+    let first = 0;
+    for (const group of groups) {
+      this.add(group, first, { clusters, drawn, definesOf, parser });
+      first += group.instances.length;
+    }
+  }
+
+  /** Draws a group, whose instances are those from `first` on. */
+  add({ mesh: number, instances, primitives, parent, rows }, first, { clusters, drawn, definesOf, parser }) {
+    const clustersTexture = clustersTextureOf({ ...clusters, firstRows: rows.begins }, this.width);
+    this.clustersTextures.push(clustersTexture);
+    const uniforms = { prt_constants: { value: this.constantsTexture }, prt_clusters: { value: clustersTexture } };
+    const own = { ...tablesOf(this.width), PRT_INSTANCES: 1, ...originOf(clusters.guides) };
+    const table = this.former.table(first, instances.length).map((array) => new InstancedBufferAttribute(array, 4));
+    let matrices = null; // the same of all primitives
+    for (const { mesh, primitive } of primitives) {
+      if (!mesh.isMesh) continue; // points and lines
+      const defines = definesOf(mesh.geometry);
+      const geometry = drawn.has(mesh.geometry) ? shared(mesh.geometry) : mesh.geometry;
+      drawn.add(mesh.geometry);
+      table.forEach((attribute, i) => geometry.setAttribute(`prt_instance_${i}`, attribute));
+      const instanced = new InstancedMesh(geometry, mesh.material, instances.length);
+      if (matrices) instanced.instanceMatrix = matrices;
+      else instances.forEach(({ matrix }, i) => instanced.setMatrixAt(i, matrix));
+      matrices = instanced.instanceMatrix;
+      instanced.name = mesh.name;
+      Object.assign(instanced.userData, mesh.userData);
+      parent.add(instanced);
+      parser.associations.set(instanced, { meshes: number, primitives: primitive });
+      this.meshes.push(instanced);
+      if (!defines) continue;
+      const frame = bakedFrame(instanced, atOrigin(clusters.guides), IN_PLACE);
+      this.transfers.set(instanced, { uniforms, defines: { ...defines, ...frame.defines, ...own } });
+    }
   }
 
   /** What a mesh is lit by, where it is one of these. */

@@ -105,11 +105,12 @@ export async function placesOf({ node, attributes }, parser, most) {
 /** Nodes that animations move, with what hangs on them. */
 export function movingNodes({ animations = [], nodes = [] }) {
   const moving = new Set();
-  const add = (node) => {
-    if (moving.has(node) || !nodes[node]) return;
+  const found = animations.flatMap((animation) => (animation?.channels ?? []).map((channel) => channel?.target?.node));
+  while (found.length > 0) {
+    const node = found.pop();
+    if (moving.has(node) || !nodes[node]) continue;
     moving.add(node);
-    for (const child of nodes[node].children ?? []) add(child);
-  };
-  for (const { channels = [] } of animations) for (const { target } of channels) if (target?.node !== undefined) add(target.node);
+    for (const child of nodes[node].children ?? []) found.push(child);
+  }
   return moving;
 }
