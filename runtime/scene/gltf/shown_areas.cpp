@@ -2,7 +2,9 @@
 #include "prt/instances_gltf.h"
 
 #include "gltf/accessor.h"
+#include "gltf/contents.h"
 #include "gltf/node_transforms.h"
+#include "gltf/transfer_json.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
