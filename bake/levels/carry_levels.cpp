@@ -69,14 +69,15 @@ private:
         }
     }
 
-    /// Adds the least-squares solution for what samples miss.
+    /// Adds the least-squares solution for what samples miss. They are dense and know light to the noise of
+    /// level 0: what bending costs is what it costs in a first fit.
     void add_fit(const PartSurface& surface, const LevelSamples& samples, const FitEquations& equations) {
         if (equations.unknowns == 0)
             return;
         std::vector<double> missing(equations.unknowns * stride_);
         for (std::size_t s = 0; s < samples.samples.size(); ++s)
             add_samples<double>(equations, s, missing_at(samples.samples[s]), stride_, missing);
-        const std::vector<float> weights(equations.bends.size(), kPlainBendWeight);
+        const std::vector<float> weights(equations.bends.size(), kFirstBendWeight);
         FitSolver(equations, weights).solve(missing, stride_, options_.threads);
         for (std::size_t p = 0; p < surface.part.receivers.size(); ++p) {
             const std::uint32_t u = equations.unknown_of[p];
