@@ -2,6 +2,7 @@
 
 #include <meshoptimizer.h>
 
+#include <algorithm>
 #include <cstring>
 #include <string>
 
@@ -50,6 +51,19 @@ std::vector<float> kept(const std::vector<float>& values, const std::vector<unsi
     return result;
 }
 
+/// Positions, with the bounds that glTF wants.
+std::size_t position_accessor(GlbFile& file, const std::vector<float>& positions) {
+    const std::size_t accessor = file.accessor(positions, kFloat, "VEC3", 3);
+    std::vector<float> low(positions.begin(), positions.begin() + 3), high = low;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        low[i % 3] = std::min(low[i % 3], positions[i]);
+        high[i % 3] = std::max(high[i % 3], positions[i]);
+    }
+    file.json["accessors"][accessor]["min"] = low;
+    file.json["accessors"][accessor]["max"] = high;
+    return accessor;
+}
+
 /// `primitive` of fewer triangles.
 Json simplified(GlbFile& file, const Json& primitive, float share) {
     const auto positions = elements<float>(file, primitive["attributes"]["POSITION"], 3),
@@ -66,7 +80,7 @@ Json simplified(GlbFile& file, const Json& primitive, float share) {
     for (unsigned& index : indices)
         index = remap[index];
     Json result = {{"attributes",
-                    {{"POSITION", file.accessor(kept(positions, remap, left), kFloat, "VEC3", 3)},
+                    {{"POSITION", position_accessor(file, kept(positions, remap, left))},
                      {"NORMAL", file.accessor(kept(normals, remap, left), kFloat, "VEC3", 3)}}},
                    {"indices", file.accessor(indices, kUnsignedInt, "SCALAR", 1)}};
     if (primitive.contains("material"))

@@ -201,6 +201,8 @@ private:
             for (const int child : model_.nodes[at(node)].children) {
                 if (child < 0 || at(child) >= model_.nodes.size())
                     throw Error("node " + std::to_string(child) + " is not there");
+                if (child == root)
+                    throw Error("node " + std::to_string(child) + " has two parents or is its own ancestor");
                 if (coarser_[at(child)])
                     continue;
                 if (!in_scene)
