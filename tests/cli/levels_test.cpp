@@ -8,25 +8,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
+#include <fstream>
 
 namespace prt::test {
 namespace levels_of_files {
 
 class LevelsOfDetail : public Road {
 protected:
-    /// A hill with a pit, of some 2 000 triangles.
-    GlbFile hill() const {
-        const Scene scene = SceneBuilder()
-                                .floor({0, 0, 0}, 1, 32)
-                                .transform([](const glm::vec3& p) {
-                                    const float r = p.x * p.x + p.z * p.z;
-                                    return glm::vec3(p.x, 1.5f * r * std::exp(-4 * r), p.z);
-                                })
-                                .build();
-        GlbFile file = scene_file(scene);
-        file.json["nodes"][0]["name"] = "hill";
+    /// A ball with a dent, of some 2 000 triangles.
+    GlbFile ball() const {
+        const auto dented = [](const glm::vec3& p) { return p.y > 0.5f ? glm::vec3(p.x, 1 - p.y, p.z) : p; };
+        GlbFile file = scene_file(SceneBuilder().sphere({0, 0, 0}, 1, 24).transform(dented).build());
+        file.json["nodes"][0]["name"] = "ball";
         return file;
     }
     void write(const GlbFile& file, const char* name) const { file.write(folder / name); }
@@ -51,13 +45,22 @@ protected:
     }
 };
 
+/// Uniform light of three bands.
+void write_light(const std::filesystem::path& path) {
+    const std::vector<double> uniform = {3.5449077, 0, 0, 0, 0, 0, 0, 0, 0};
+    std::ofstream(path) << nlohmann::json{
+        {"prtkit_light", 1},
+        {"order", 3},
+        {"coefficients", {{"red", uniform}, {"green", uniform}, {"blue", uniform}}}};
+}
+
 constexpr float kShares[] = {0.5f, 0.1f};
 
 TEST_F(LevelsOfDetail, GoAllTheRoad) {
-    write(hill(), "hill.glb");
-    write(with_levels(hill(), kShares), "levels.glb");
-    write(with_levels(hill(), kShares, LevelsBy::names), "names.glb");
-    ASSERT_EQ(bake("hill.glb", "alone.glb").status, 0);
+    write(ball(), "ball.glb");
+    write(with_levels(ball(), kShares), "levels.glb");
+    write(with_levels(ball(), kShares, LevelsBy::names), "names.glb");
+    ASSERT_EQ(bake("ball.glb", "alone.glb").status, 0);
     ASSERT_EQ(bake("levels.glb", "baked.glb", {"--json", at("bake.json")}).status, 0);
     ASSERT_EQ(bake("names.glb", "named.glb").status, 0);
     EXPECT_EQ(transfer_of("baked.glb"), transfer_of("alone.glb")); // bit by bit
@@ -65,7 +68,7 @@ TEST_F(LevelsOfDetail, GoAllTheRoad) {
     const nlohmann::json levels = read_json(folder / "bake.json")["levels"];
     EXPECT_EQ(levels["mode"], "carry");
     ASSERT_EQ(levels["by_level"].size(), 2u);
-    EXPECT_EQ(levels["all"][1]["of"], "node 0 'hill'");
+    EXPECT_EQ(levels["all"][1]["of"], "node 0 'ball'");
     EXPECT_GT(levels["by_level"][0]["relative_l2"], 0);
     EXPECT_LT(levels["by_level"][0]["relative_l2"], levels["by_level"][1]["relative_l2"]);
     EXPECT_LT(levels["by_level"][1]["relative_l2"], 0.2);
@@ -79,26 +82,43 @@ TEST_F(LevelsOfDetail, GoAllTheRoad) {
     EXPECT_LT(compressed[1]["relative_l2"], 0.1);
     ASSERT_EQ(prt({"compress", at("baked.glb"), "-o", at("reordered.glb"), "--reorder", "--meshopt"}).status,
               0);
-    for (const char* name : {"shipped.glb", "reordered.glb"}) {
-        ASSERT_EQ(prt({"evaluate", at("baked.glb"), at(name), "--json", at("errors.json")}).status, 0);
-        const nlohmann::json errors = read_json(folder / "errors.json")["levels"];
-        ASSERT_EQ(errors.size(), 2u);
-        EXPECT_NEAR(errors[0]["baked_relative_l2"], levels["by_level"][0]["relative_l2"], 0.005);
-        EXPECT_LT(errors[0]["shipped_relative_l2"], 0.1) << name;
-        EXPECT_LT(errors[1]["lit_rms"], 0.2);
-        const Outcome info = prt({"info", at(name), "--json", at("info.json")});
-        EXPECT_EQ(info.status, 0);
-        EXPECT_EQ(read_json(folder / "info.json")["levels"]["transfer"], true);
+    EXPECT_EQ(prt({"evaluate", at("baked.glb"), at("reordered.glb")}).status, 0);
+    ASSERT_EQ(prt({"evaluate", at("baked.glb"), at("shipped.glb"), "--json", at("errors.json")}).status, 0);
+    const nlohmann::json errors = read_json(folder / "errors.json")["levels"];
+    ASSERT_EQ(errors.size(), 2u);
+    EXPECT_NEAR(errors[0]["baked_relative_l2"], levels["by_level"][0]["relative_l2"],
+                1e-4); // float16 at most
+    EXPECT_LT(errors[0]["shipped_relative_l2"], 0.1);
+    EXPECT_LT(errors[1]["lit_rms"], 0.2);
+    ASSERT_EQ(prt({"info", at("shipped.glb"), "--json", at("info.json")}).status, 0);
+    EXPECT_EQ(read_json(folder / "info.json")["levels"]["transfer"], true);
+    EXPECT_EQ(prt({"shader", at("shipped.glb"), "-o", at("shader")}).status, 0);
+}
+
+TEST_F(LevelsOfDetail, AreDrawnAndLitAsLevel0) {
+    write(with_levels(ball(), kShares), "levels.glb");
+    write_light(folder / "sky.json");
+    ASSERT_EQ(bake("levels.glb", "baked.glb").status, 0);
+    ASSERT_EQ(
+        prt({"compress", at("baked.glb"), "-o", at("shipped.glb"), "--fallback", at("sky.json")}).status, 0);
+    EXPECT_EQ(validator_errors(folder / "shipped.glb"), 0);
+    for (const char* name : {"baked.glb", "shipped.glb"}) {
         EXPECT_EQ(prt({"render", at(name), "--env", at("sky.json"), "-o", at("a.png"), "--size", "32x24",
                        "--backend", "cpu"})
                       .status,
-                  1); // there is no sky
-        EXPECT_EQ(prt({"shader", at(name), "-o", at("shader")}).status, 0);
+                  0);
+        EXPECT_EQ(prt({"relight", at(name), "--env", at("sky.json"), "-o", at("lit.glb")}).status, 0);
     }
+    const GltfDocument document = load_gltf(folder / "shipped.glb");
+    const LeveledScene levels = extract_levels(document);
+    EXPECT_EQ(read_clustered(document, levels.scene)->transfer.receivers.size(), levels.scene.receivers());
+    EXPECT_EQ(read_clustered(document, extract_scene(document))->transfer.receivers.size(),
+              levels.finest_receivers);
+    EXPECT_GT(levels.scene.receivers(), levels.finest_receivers);
 }
 
 TEST_F(LevelsOfDetail, AreBakedAsIsAskedFor) {
-    write(with_levels(hill(), kShares), "levels.glb");
+    write(with_levels(ball(), kShares), "levels.glb");
     ASSERT_EQ(bake("levels.glb", "own.glb", {"--levels", "own", "--json", at("own.json")}).status, 0);
     ASSERT_EQ(bake("levels.glb", "carry.glb", {"--levels", "carry"}).status, 0);
     ASSERT_EQ(bake("levels.glb", "none.glb", {"--levels", "ignore", "--json", at("none.json")}).status, 0);
@@ -118,13 +138,13 @@ TEST_F(LevelsOfDetail, AreBakedAsIsAskedFor) {
 }
 
 TEST_F(LevelsOfDetail, ThatDoNotFitAreRefused) {
-    GlbFile file = with_levels(hill(), kShares);
+    GlbFile file = with_levels(ball(), kShares);
     GlbFile far = file;
     far.json["nodes"][2]["translation"] = {5, 0, 0};
-    expect_refused(far, "node 2 'hill_LOD2', level 2 of node 0 'hill', is");
+    expect_refused(far, "node 2 'ball_LOD2', level 2 of node 0 'ball', is");
     GlbFile large = file;
     large.json["nodes"][1]["scale"] = {9, 9, 9};
-    expect_refused(large, "level 1 of node 0 'hill'");
+    expect_refused(large, "level 1 of node 0 'ball'");
     GlbFile missing = file;
     missing.json["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {1, 9};
     expect_refused(missing, "names node 9, which is not there");
@@ -136,7 +156,7 @@ TEST_F(LevelsOfDetail, ThatDoNotFitAreRefused) {
     write(empty, "empty.glb");
     const Outcome told = bake("empty.glb", "some.glb");
     EXPECT_EQ(told.status, 0);
-    EXPECT_NE(told.err.find("node 1 'hill_LOD1', level 1 of node 0 'hill', has no triangles"),
+    EXPECT_NE(told.err.find("node 1 'ball_LOD1', level 1 of node 0 'ball', has no triangles"),
               std::string::npos)
         << told.err;
 }
