@@ -31,10 +31,12 @@ namespace {
 struct BakeArguments {
     Path scene, output, json, light_set;
     std::vector<std::string> no_shadow; ///< names of materials
-    std::optional<double> refine;       ///< relative L2 over the surface to split triangles for
-    std::size_t most_vertices = 0;      ///< of a refined scene; 0: as many as `refine` allows
-    TexelArguments texels;              ///< given: instead of vertices
-    VolumeArguments volume;             ///< given: beside them
+    struct Finer {
+        std::optional<double> refine;  ///< relative L2 over the surface to split triangles for
+        std::size_t most_vertices = 0; ///< of a refined scene; 0: as many as `refine` allows
+    } finer;
+    TexelArguments texels;  ///< given: instead of vertices
+    VolumeArguments volume; ///< given: beside them
     InstanceArguments instances;
     LevelMode levels = LevelMode::carry;
     BakeOptions options;
@@ -194,13 +196,13 @@ void add_method(CLI::App* command, BakeOptions& options) {
 void add_refinement(CLI::App* command, BakeArguments& a) {
     CLI::Option* refine =
         command
-            ->add_option("--refine", a.refine,
+            ->add_option("--refine", a.finer.refine,
                          "split triangles, in the file that is written, too, until direct light between "
                          "vertices errs by no more than this over the surface, in relative L2: 0.02 is 2 %. "
                          "Light is fitted to the surface then")
             ->check(above_zero());
     command
-        ->add_option("--most-vertices", a.most_vertices,
+        ->add_option("--most-vertices", a.finer.most_vertices,
                      "vertices that --refine may reach, all nodes together; otherwise four times those of "
                      "the scene, or 20000 where that is more")
         ->check(CLI::PositiveNumber)
@@ -215,8 +217,9 @@ void add_light_set(const BakeArguments& a, Scene& scene) {
 /// Puts the finer document and scene in the place of these.
 RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     ProgressBar bar = session.progress_bar("refining");
-    const RefineResult result = prt::refine(
-        scene, a.options, {.target = *a.refine, .most_vertices = a.most_vertices}, bar.progress());
+    const RefineResult result =
+        prt::refine(scene, a.options, {.target = *a.finer.refine, .most_vertices = a.finer.most_vertices},
+                    bar.progress());
     if (result.statistics.rounds == 0)
         return result.statistics;
     document = refined(std::move(document), scene, result.refinement);
@@ -238,7 +241,7 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
     leave_out_shadows(scene, a.no_shadow);
     Baked baked;
     BakeOptions options = a.options;
-    if (a.refine) {
+    if (a.finer.refine) {
         baked.refinement = refine(a, document, scene, session);
         options.fit = FitMode::surface; // as the error was measured
     }
@@ -276,13 +279,13 @@ void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene&
         write_transfer(document, scene, baked);
         return;
     }
-    if (a.refine) // the mesh of level 0 is another one
+    if (a.finer.refine) // the mesh of level 0 is another one
         levels->scene = extract_levels(document);
     Scene& all = levels->scene.scene;
     add_light_set(a, all);
     leave_out_shadows(all, a.no_shadow);
     BakeOptions options = a.options;
-    if (a.refine)
+    if (a.finer.refine)
         options.fit = FitMode::surface;
     ProgressBar bar = session.progress_bar("levels of detail");
     bake_levels(*levels, baked.transfer, options, bar.progress());
@@ -303,7 +306,7 @@ void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, 
                                  .scene = scene,
                                  .result = baked.result,
                                  .refinement = baked.refinement,
-                                 .refine_target = a.refine.value_or(0),
+                                 .refine_target = a.finer.refine.value_or(0),
                                  .bytes = session.write(a.output, file)});
     if (levels)
         add_level_bake(*levels, report);
@@ -365,7 +368,7 @@ bool leaves_levels_out(const BakeArguments& a, const GltfDocument& document) {
 void check_arguments(const BakeArguments& a) {
     check_texels(a.texels);
     check_volume(a.volume);
-    if (a.texels.given() && a.refine)
+    if (a.texels.given() && a.finer.refine)
         throw Error("--refine is for vertices: texels are as fine as --texels or --size says");
 }
 
@@ -386,8 +389,8 @@ void run(BakeArguments a, Session& session) {
     add_light_set(a, scene);
     const SharedMeshes meshes = about(a.scene, [&] {
         return meshes_to_share(a.instances, document, scene,
-                               {a.options, a.texels.given() || a.refine.has_value() || a.volume.given() ||
-                                               !leaves_levels_out(a, document)});
+                               {a.options, a.texels.given() || a.finer.refine.has_value() ||
+                                               a.volume.given() || !leaves_levels_out(a, document)});
     });
     if (a.texels.given() && a.levels != LevelMode::ignore && has_levels(document))
         print_notices(a.scene.string(), {"coarser levels of detail get no lightmap"});

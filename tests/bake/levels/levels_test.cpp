@@ -210,10 +210,10 @@ TEST(Levels, ThatStandElsewhereAreRefused) {
     EXPECT_NO_THROW(check_levels(leveled(ball, SceneBuilder().sphere({0, 0, 0}, 0.8f, 4).build())));
 }
 
-/// A ball on the ground: its shadow and the light below it are in level 0 alone.
+/// A ball on the ground, and one inside of it.
 TEST(Levels, LookAsIfTheyWereBakedOnTheirOwn) {
     const Scene ball = SceneBuilder().sphere({0, 1.1f, 0}, 1, 40).build(),
-                coarse = SceneBuilder().sphere({0, 1.1f, 0}, 1, 14).build(),
+                coarse = SceneBuilder().sphere({0, 1.1f, 0}, 0.97f, 14).build(),
                 ground = SceneBuilder().floor({0, 0, 0}, 4, 12).build();
     const LeveledScene levels = leveled(ball, coarse, {ground});
     BakeOptions options;
