@@ -66,35 +66,17 @@ SceneFile load_scene_file(const Path& path, const GltfOptions& options) {
     return scene_file_of(load_gltf(path, options), path);
 }
 
-namespace {
-
-/// Reads what instances share, and makes `baked` of it, of all vertices of `scene`.
-std::optional<InstancedFile> instanced_file(const Path& path, const GltfDocument& document,
-                                            const Scene& scene, std::optional<BakedTransfer>& baked) {
-    const GltfDocument apart =
-        parse_gltf(encode_glb(document), path,
-                   {.missing_images = MissingImages::ignore, .instancing = Instancing::apart});
-    InstancedFile file{extract_scene(apart), {}, {}};
-    baked = read_transfer(apart, file.stored);
-    file.compressed = read_clustered(apart, file.stored);
-    if (!baked && !file.compressed)
-        throw Error(path.string() + ": its instances share transfer that it does not hold");
-    if (!baked)
-        baked = BakedTransfer{decode(file.compressed->transfer), file.compressed->record};
-    file.instances = read_instances(document, scene, file.stored);
-    baked->transfer = expanded(document, scene, file.stored, baked->transfer);
-    return file;
-}
-
-} // namespace
-
 SceneFile scene_file_of(GltfDocument document, const Path& path) {
     Scene scene = extract_scene(document);
     std::optional<BakedTransfer> baked;
     std::optional<CompressedTransfer> compressed;
-    std::optional<InstancedFile> instanced;
+    std::optional<InstancedModel> instanced;
     if (shares_instances(document)) {
-        instanced = instanced_file(path, document, scene, baked);
+        instanced = read_instanced(document, scene, path);
+        baked = instanced->baked ? std::exchange(instanced->baked, {})
+                                 : BakedTransfer{decode(instanced->compressed->transfer),
+                                                 instanced->compressed->record};
+        baked->transfer = expanded(document, scene, instanced->stored, baked->transfer);
     } else {
         baked = read_transfer(document, scene);
         compressed = read_clustered(document, scene);

@@ -35,13 +35,6 @@ struct LightmapOfFile {
     std::vector<Edge> edges = {};
 };
 
-/// What a file holds whose instances share transfer.
-struct InstancedFile {
-    Scene stored;                                 ///< meshes once, in their own frames
-    std::optional<CompressedTransfer> compressed; ///< of its receivers; else it was raw
-    std::vector<FileInstance> instances;
-};
-
 /// A scene file with whatever transfer it holds. Notices go to stderr.
 struct SceneFile {
     GltfDocument document;
@@ -56,7 +49,7 @@ struct SceneFile {
     std::vector<NodeOccluder> occluders = {};
     std::optional<StoredLobes> lobes = {};
     /// Set where instances share transfer: `baked` is then what all vertices have by it.
-    std::optional<InstancedFile> instanced = {};
+    std::optional<InstancedModel> instanced = {};
 
     /// Order of the transfer, 0 where there is none.
     int order() const;

@@ -8,7 +8,7 @@
 
 namespace prt::cli {
 
-std::vector<double> instance_errors(const InstancedFile& file, const Scene& scene,
+std::vector<double> instance_errors(const InstancedModel& file, const Scene& scene,
                                     std::span<const float> areas, std::span<const glm::vec3> wanted,
                                     std::span<const glm::vec3> lit, std::span<const glm::vec3> scale) {
     std::vector<double> errors;

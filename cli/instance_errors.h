@@ -13,7 +13,7 @@ namespace prt::cli {
 
 /// lit_rms of each instance of the file, over its own vertices. `wanted`, `lit` [receivers], as `areas`;
 /// `scale` [receivers]: what errors are relative to.
-std::vector<double> instance_errors(const InstancedFile& file, const Scene& scene,
+std::vector<double> instance_errors(const InstancedModel& file, const Scene& scene,
                                     std::span<const float> areas, std::span<const glm::vec3> wanted,
                                     std::span<const glm::vec3> lit, std::span<const glm::vec3> scale);
 

@@ -49,19 +49,29 @@ vec4 prt_constant_at(uint at) {
 #endif
 }
 
-// Row `row` of the constants of all clusters.
+// Row `row` of the constants of all clusters: a color, or of an instance one that is linear in the place.
 #ifdef PRT_INSTANCES
+#define PRT_COLOR mat3x4
 uint prt_first_row; // of the instance, and where the vertex lies in the box of its mesh: prt_instances.glsl
 vec4 prt_place;
 
-vec3 prt_constant(uint row) {
+mat3x4 prt_constant(uint row) {
     uint at = 3u * (prt_first_row + row);
-    return vec3(dot(prt_constant_at(at), prt_place), dot(prt_constant_at(at + 1u), prt_place),
-                dot(prt_constant_at(at + 2u), prt_place));
+    return mat3x4(prt_constant_at(at), prt_constant_at(at + 1u), prt_constant_at(at + 2u));
+}
+
+vec3 prt_color(mat3x4 color) {
+    return prt_place * color;
 }
 #else
+#define PRT_COLOR vec3
+
 vec3 prt_constant(uint row) {
     return prt_constant_at(row).rgb;
+}
+
+vec3 prt_color(vec3 color) {
+    return color;
 }
 #endif
 
@@ -102,8 +112,8 @@ uvec4 prt_layout_of(uint cluster) {
 #endif
 
 // The mean of the cluster whose rows begin at `first`, and what the guides add to it.
-vec3 prt_guided(uint first, vec3 position, vec3 normal) {
-    vec3 radiance = prt_constant(first);
+PRT_COLOR prt_guided(uint first, vec3 position, vec3 normal) {
+    PRT_COLOR radiance = prt_constant(first);
 #ifdef PRT_GUIDE_NORMAL
     radiance +=
         normal.x * prt_constant(first + 1u) + normal.y * prt_constant(first + 2u) + normal.z * prt_constant(first + 3u);
@@ -207,15 +217,15 @@ uint prt_cluster_of_vertex() {
 
 vec3 prt_exit_radiance(vec3 position, vec3 normal) {
     uint first = prt_cluster_of_vertex() * uint(PRT_CLUSTER_ROWS);
-    vec3 radiance = prt_guided(first, position, normal);
+    PRT_COLOR radiance = prt_guided(first, position, normal);
     PRT_SAME_WEIGHTS
-    return radiance;
+    return prt_color(radiance);
 }
 #elif defined(PRT_PACKED_WORDS)
 vec3 prt_exit_radiance(vec3 position, vec3 normal) {
     uvec4 cluster = prt_layout_of(prt_cluster_of_vertex());
     uint first = cluster[PRT_CLUSTER_FIRST_ROW];
-    vec3 radiance = prt_guided(first, position, normal);
+    PRT_COLOR radiance = prt_guided(first, position, normal);
     uint bit = uint(PRT_CLUSTER_BITS);
     for (uint j = 0u; j < cluster[PRT_CLUSTER_COMPONENTS]; ++j) {
         uint width =
@@ -223,7 +233,7 @@ vec3 prt_exit_radiance(vec3 position, vec3 normal) {
         radiance += float(prt_bits(bit, width)) * prt_constant(first + PRT_DIRECTION_ROW + j);
         bit += width;
     }
-    return radiance;
+    return prt_color(radiance);
 }
 #else
 // On one line: GLSL 3.3 knows no others.
@@ -234,7 +244,7 @@ vec3 prt_exit_radiance(vec3 position, vec3 normal) {
 vec3 prt_exit_radiance(vec3 position, vec3 normal) {
     uvec4 cluster = prt_layout_of(prt_cluster_of_vertex());
     uint first = cluster[PRT_CLUSTER_FIRST_ROW], components = cluster[PRT_CLUSTER_COMPONENTS];
-    vec3 radiance = prt_guided(first, position, normal);
+    PRT_COLOR radiance = prt_guided(first, position, normal);
     uint j = 0u;
 #if PRT_WEIGHT_VECTORS > 0
     PRT_ADD_FOUR(prt_weights_0)
@@ -272,6 +282,6 @@ vec3 prt_exit_radiance(vec3 position, vec3 normal) {
 #if PRT_WEIGHT_VECTORS > 11
     PRT_ADD_FOUR(prt_weights_11)
 #endif
-    return radiance;
+    return prt_color(radiance);
 }
 #endif

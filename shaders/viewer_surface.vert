@@ -1,8 +1,10 @@
 // Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or from a PRT_VERTEX_RADIANCE
 // attribute, or from a PRT_LIGHTMAP; with none of these, the fragment shader finds it from the normal and an ambient
-// occlusion. PRT_SUNS: for suns apart. PRT_OCCLUDED: near what moves. What a surface gives off comes on top of all.
+// occlusion. PRT_SUNS: for suns apart. PRT_OCCLUDED: near what moves. PRT_INSTANCED: of instances. What a surface gives
+// off comes on top of all.
 
 #include "shared_layout.h"
+#include "instance_place.glsl"
 #include "vertex_normals.glsl"
 
 layout(location = PRT_LOCATION_POSITION) in vec3 position;
@@ -19,7 +21,11 @@ out vec3 occluded_place, occluded_normal;
 #if defined(PRT_LIGHTMAP)
 #include "lightmap_vertex.glsl"
 #elif defined(PRT_COMPRESSED)
-#include "prt_exit_radiance.glsl"
+#include "prt_instances.glsl"
+#ifdef PRT_INSTANCES
+layout(location = PRT_LOCATION_INSTANCE_0) in vec4 instance_0;
+layout(location = PRT_LOCATION_INSTANCE_1) in vec4 instance_1;
+#endif
 #ifdef PRT_GUIDE_NORMAL
 layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;
 #else
@@ -42,25 +48,31 @@ out vec2 surface_texcoord;
 out vec4 surface_color;
 
 void main() {
+    vec3 place = place_in_scene(position);
 #if defined(PRT_LIGHTMAP)
     take_for_lightmap();
 #elif defined(PRT_COMPRESSED)
+#ifdef PRT_INSTANCES
+    radiance = prt_instance_radiance(instance_0, instance_1, position, vertex_normal);
+#else
     radiance = prt_exit_radiance(position, vertex_normal);
+#endif
 #elif defined(PRT_VERTEX_RADIANCE)
     radiance = vertex_radiance;
 #else
-    normal = vertex_normal;
+    normal = normal_in_scene(vertex_normal);
     ao = vertex_ao;
 #endif
 #ifdef PRT_SUNS
-    take_for_suns(position);
+    take_for_suns(place);
+    sun_normal = normal_in_scene(sun_normal);
 #endif
 #ifdef PRT_OCCLUDED
-    occluded_place = position;
-    occluded_normal = normal_of_vertex();
+    occluded_place = place;
+    occluded_normal = normal_in_scene(normal_of_vertex());
 #endif
     take_for_emission();
     surface_texcoord = texcoord;
     surface_color = color;
-    gl_Position = view_projection * vec4(position, 1.0);
+    gl_Position = view_projection * vec4(place, 1.0);
 }

@@ -20,8 +20,7 @@ constexpr Eigen::Index kPassingUnknowns = 4 * kPassingModes;
 /// matrix.
 constexpr double kRidge = 1e-4;
 
-/// Lighting that is less certain the finer it is, band by band: 1 / (l + 1). Measured on the forest against 1
-/// and 1 / sqrt(l + 1): the least error under uniform light, and under skies within a tenth of the best.
+/// Lighting that is less certain the finer it is, band by band: 1 / (l + 1).
 float band_weight(std::size_t coefficient) {
     const auto band = static_cast<float>(std::floor(std::sqrt(static_cast<double>(coefficient))));
     return 1 / (band + 1);

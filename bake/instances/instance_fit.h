@@ -19,7 +19,7 @@ struct InstanceSamples {
 };
 
 /// The least-squares problem of the instances of a mesh that see the world's up alike (docs/math.md, section
-/// 21). Immutable, thread-safe.
+/// 22). Immutable, thread-safe.
 class InstanceFit {
 public:
     /// Copies what it needs. `up` as `shared` was made with.

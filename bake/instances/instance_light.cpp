@@ -3,6 +3,8 @@
 
 #include "instances/instance_light.h"
 
+#include "instances/uniform_bound.h"
+
 #include "prt/sh_rotation.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
@@ -170,7 +172,7 @@ void InstanceLight::bounce(const Progress& progress) {
                 std::copy_n(&all[receivers_.own[o] * sizes_.count], sizes_.count,
                             &own_.direct[o * sizes_.count]);
         }
-        fit(0);
+        fit(0, false);
         return;
     }
     for (std::size_t o = 0; o < receivers_.own.size(); ++o) // with no light but direct light
@@ -179,15 +181,17 @@ void InstanceLight::bounce(const Progress& progress) {
     bounce_.refill.apply(std::span(bounce_.exit), sizes_.stride);
     for (std::size_t o = 0; o < receivers_.own.size(); ++o)
         std::copy_n(exit_of(receivers_.own[o]).begin(), sizes_.count, &own_.direct[o * sizes_.count]);
-    fit(0);
+    fit(0, true);
     const bool endless = plan_.bounces == kEndlessBounces;
     const int most = endless ? kMostEndless : plan_.bounces;
     while (result_.bounces < most) {
         gather_light();
         ++result_.bounces;
         const double change = take_own();
-        fit(endless ? 1 : static_cast<std::size_t>(result_.bounces));
-        if (endless && result_.bounces > 2 && change < kLeastChange)
+        const bool last =
+            result_.bounces == most || (endless && result_.bounces > 2 && change < kLeastChange);
+        fit(endless ? 1 : static_cast<std::size_t>(result_.bounces), !last);
+        if (last)
             break;
         progress.update(static_cast<double>(result_.bounces) / most);
     }
@@ -241,11 +245,16 @@ double InstanceLight::take_own() {
     return std::sqrt(changed / all);
 }
 
-/// Fits all instances to what their samples get, their meshes after so many steps of bounces.
-void InstanceLight::fit(std::size_t step) {
+/// Fits all instances to what their samples get, their meshes after so many steps of bounces. `gives`: their
+/// light is wanted for another bounce.
+void InstanceLight::fit(std::size_t step, bool gives) {
     for (const Group& group : groups_) {
         const SharedTransfer shared(meshes_[group.mesh].after[step], group.up, plan_.options.threads);
         const InstanceFit fit(shared, receivers_.samples[group.mesh], group.up);
+        std::vector<glm::vec3> places;
+        for (std::size_t r = 0; r < shared.receivers(); ++r)
+            places.push_back(meshes_[group.mesh].place_of(r));
+        const UniformBound bound(shared, places);
         parallel_for(
             group.instances.size(), 1, plan_.options.threads, [&](std::size_t begin, std::size_t end) {
                 for (std::size_t g = begin; g < end; ++g) {
@@ -262,10 +271,11 @@ void InstanceLight::fit(std::size_t step) {
                                      std::span(samples_.targets[1])
                                          .subspan(first * sizes_.dimension, samples * sizes_.dimension),
                                      left_out});
-                        result_.factors[i] = in_axes_of_world(fitted.factors, instance.rotation);
+                        result_.factors[i] =
+                            in_axes_of_world(bound.bounded(fitted.factors), instance.rotation);
                         result_.errors[i] = fitted.error;
                     }
-                    if (bounce_.gather)
+                    if (gives)
                         expand(shared, i);
                 }
             });

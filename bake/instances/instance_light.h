@@ -45,7 +45,7 @@ private:
     void take_row(std::size_t sample, int half, std::span<const float> row);
     void gather_light();
     double take_own();
-    void fit(std::size_t step);
+    void fit(std::size_t step, bool gives);
     void expand(const SharedTransfer& shared, std::size_t instance);
     std::span<float> exit_of(std::size_t receiver) {
         return std::span(bounce_.exit).subspan(receiver * sizes_.stride, sizes_.stride);

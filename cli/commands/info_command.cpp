@@ -124,15 +124,24 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
     report.sentences.push_back(record_sentence(own + "bake", compressed.record));
 }
 
-void add_instances(const InstancedFile& file, Report& report) {
-    add_figures(report, {{"instances",
-                          {{"count", file.instances.size()},
-                           {"vertices_stored", file.stored.receivers()},
-                           {"bytes_per_instance", kInstanceNumbers * sizeof(std::uint16_t)}}}});
+void add_instances(const InstancedModel& file, Report& report) {
+    Json figures = {{"count", file.instances.size()},
+                    {"vertices_stored", file.stored.receivers()},
+                    {"bytes_per_instance", kInstanceNumbers * sizeof(std::uint16_t)}};
     report.sentences.emplace_back(
         "{instances/count} instances share the transfer of their meshes, by "
         "{instances/bytes_per_instance} bytes of factors each; {instances/vertices_stored} "
         "vertices have transfer");
+    if (file.compressed) {
+        const std::size_t bytes =
+            sizeof(glm::vec4) * InstanceFormer(file.compressed->transfer, formed_instances(file)).size();
+        figures["bytes_constants"] = bytes;
+        figures["bytes_constants_per_instance"] = bytes / file.instances.size();
+        report.sentences.emplace_back(
+            "GPU: {instances/bytes_constants_per_instance} bytes of constants of an instance per lighting, "
+            "{instances/bytes_constants} of all; fewer clusters take less (prt compress --clusters)");
+    }
+    add_figures(report, {{"instances", std::move(figures)}});
 }
 
 void add_lightmap(const SceneFile& model, Report& report) {

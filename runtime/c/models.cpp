@@ -1,8 +1,8 @@
 // The C interface: models that prt compress has written.
 
-#include "boundary.h"
-#include "prt/constant_former.h"
-#include "prt/gltf.h"
+#include "model.h"
+
+#include "prt/instances_gltf.h"
 #include "prt/light_set.h"
 #include "prt/shader_source.h"
 
@@ -16,24 +16,16 @@
 #include <span>
 #include <string>
 
-struct prt_model {
-    prt::Scene scene;
-    prt::ClusteredTransfer transfer;
-    prt::ConstantFormer former;
-    std::vector<prt::ClusterLayout> layouts;
-};
+prt::ConstantSource prt::c::source_of(int constants) {
+    if (constants < PRT_CONSTANTS_IN_BUFFER || constants > PRT_CONSTANTS_IN_TEXTURE)
+        throw Error("there is no such place for constants");
+    return static_cast<ConstantSource>(constants);
+}
 
 namespace {
 
 using namespace prt::c;
 using prt::Error;
-
-/// Those of C are the same numbers.
-prt::ConstantSource source_of(int constants) {
-    if (constants < PRT_CONSTANTS_IN_BUFFER || constants > PRT_CONSTANTS_IN_TEXTURE)
-        throw Error("there is no such place for constants");
-    return static_cast<prt::ConstantSource>(constants);
-}
 
 static_assert(static_cast<int>(prt::ConstantSource::texture) == PRT_CONSTANTS_IN_TEXTURE &&
               static_cast<int>(prt::WeightFormat::packed) == PRT_PACKED &&
@@ -42,6 +34,8 @@ static_assert(sizeof(prt::ClusterLayout) == 4 * sizeof(std::uint32_t) &&
               sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
 
 prt_model* make_model(const prt::GltfDocument& document, const std::string& name) {
+    if (prt::shares_instances(document))
+        return make_instanced(document, name);
     prt::Scene scene = prt::extract_scene(document);
     auto compressed = prt::read_clustered(document, scene);
     if (!compressed)

@@ -27,9 +27,11 @@ protected:
     }
     Outcome bake(const char* scene, const char* output, const char* mode,
                  const std::vector<std::string>& options = {}) {
-        std::vector<std::string> arguments = {"bake",    at(scene), "-o",    at(output), "--rays",      "32",
-                                              "--order", "3",       "--fit", "vertex",   "--instances", mode};
+        std::vector<std::string> arguments = {"bake", at(scene), "-o",     at(output),    "--order",
+                                              "3",    "--fit",   "vertex", "--instances", mode};
         arguments.insert(arguments.end(), options.begin(), options.end());
+        if (std::ranges::find(options, "--rays") == options.end())
+            arguments.insert(arguments.end(), {"--rays", "32"});
         return prt(arguments);
     }
     /// Boxes on no ground: `places` of their middles. Sides are a metre long.
@@ -59,6 +61,8 @@ protected:
                           normal = file.accessor(normals, kFloat, "VEC3", 3),
                           index = file.accessor(indices, kUnsignedInt, "SCALAR", 1),
                           translation = file.accessor(places, kFloat, "VEC3", 3);
+        file.json["accessors"][position]["min"] = {-0.5, -0.5, -0.5};
+        file.json["accessors"][position]["max"] = {0.5, 0.5, 0.5};
         file.json["meshes"] = {
             {{"primitives",
               {{{"attributes", {{"POSITION", position}, {"NORMAL", normal}}}, {"indices", index}}}}}};
@@ -107,7 +111,7 @@ TEST_F(SharedInstances, GoAllTheRoad) {
         EXPECT_EQ(read_json(folder / "info.json")["instances"]["count"], 12);
     }
     EXPECT_LT(std::filesystem::file_size(folder / "shipped.glb"),
-              std::filesystem::file_size(folder / "own.glb") / 10);
+              std::filesystem::file_size(folder / "own.glb") / 3);
     EXPECT_EQ(prt({"render", at("shipped.glb"), "--env", at("sky.exr"), "-o", at("a.png"), "--size", "64x48",
                    "--backend", "cpu"})
                   .status,
@@ -175,10 +179,12 @@ TEST_F(SharedInstances, WhiteNeighboursGiveBackAtMostWhatComes) {
     const Transfer transfer = expanded(document, scene, stored, read_transfer(apart, stored)->transfer);
     double sum = 0;
     for (const glm::vec3& radiance : exit_radiance(transfer, constant_light(3, glm::vec3(1)))) {
-        EXPECT_LT(radiance.x, 1.06f);
+        EXPECT_LT(radiance.x, 1.01f); // rounding of factors to float16, and of a mesh's own samples
         sum += static_cast<double>(radiance.x);
     }
-    EXPECT_NEAR(sum / static_cast<double>(scene.receivers()), 1, 0.02);
+    // Least squares gives some vertices more than 1, up to 1.08 here; the share that keeps the brightest at 1
+    // takes as much from all, and endless bounces of white boxes take it more than once.
+    EXPECT_GT(sum / static_cast<double>(scene.receivers()), 0.88);
 }
 
 TEST_F(SharedInstances, MatricesThatDoNotFitHaveTransferOfTheirOwn) {

@@ -25,6 +25,8 @@ std::vector<const prt::TransferLayout*> Document::layouts() const {
             layouts.push_back(&model->raw->layout);
         if (model->compressed)
             layouts.push_back(&model->compressed->bases.layout);
+        if (model->instanced)
+            layouts.push_back(&model->instanced->compressed->transfer.bases.layout);
     }
     if (const auto& volume = moving.volume().volume)
         layouts.push_back(&volume->compressed.transfer.bases.layout);
@@ -38,7 +40,7 @@ void Document::open(const OpenModels& models) {
     repeated = {};
     budget.reset();
     moving.enter(models.first.model);
-    if (!loaded.raw && !loaded.compressed)
+    if (!loaded.has_transfer())
         loaded.record.bounces = kBakeBounces;
     if (compressed()) {
         const prt::ClusteredBases& bases = compressed()->bases;

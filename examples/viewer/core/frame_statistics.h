@@ -26,6 +26,7 @@ struct Figures {
     std::size_t receivers = 0, triangles = 0, triangles_drawn = 0;
     TransferFigures transfer; ///< of vertices
     std::optional<LightmapFigures> lightmap;
+    std::optional<InstanceFigures> instances; ///< that share transfer
     int reference_passes = 0;
     Difference difference; ///< of the two pictures, while it is shown
 };

@@ -20,10 +20,10 @@ void find_occlusion(Channel& channel, const Model& model) {
 /// Computes and posts what `open` lacks.
 void complete(Channel& channel, OpenModels open) {
     LoadedModel& first = open.first;
-    if (!first.raw && !first.compressed)
+    if (!first.has_transfer())
         first.raw = bake_in_stages(channel, *first.model).transfer;
     for (const LoadedModel* loaded : {&open.first, &open.beside})
-        if (loaded->model && !loaded->compressed)
+        if (loaded->model && !loaded->compressed && !loaded->instanced)
             channel.post(compress_as(channel, *loaded, {.order = loaded->raw->layout.order}));
     find_occlusion(channel, *first.model);
 }

@@ -172,6 +172,8 @@ std::unique_ptr<GpuModel> Viewer::uploaded(const LoadedModel& loaded) {
         model->set_raw(loaded.lightmap.baked);
     else if (loaded.raw)
         model->set_raw(*loaded.raw);
+    if (loaded.instanced)
+        model->set_instanced(loaded.instanced);
     const prt::ClusteredTransfer* compressed = loaded.compressed.get();
     if (loaded.lightmap.compressed)
         model->set_compressed(loaded.lightmap.compressed);

@@ -63,7 +63,7 @@ void Viewer::follow_light() {
             if (model)
                 model->set_lighting(light().lighting, light().suns, lighting_.lamps());
         gpu_->moving.set_lighting(light().lighting, light().suns, lighting_.lamps());
-        if (document_.compressed())
+        if (document_.compressed() || document_.loaded.instanced)
             statistics_.figures.milliseconds.constants = 1e3 * gpu_->model->seconds_constants();
         gpu_->lit = version();
     }
@@ -206,6 +206,8 @@ void Viewer::measure(const SidePicture& right, const FrameView& view) {
     figures.receivers = document_.model()->scene.receivers();
     figures.triangles = document_.model()->scene.triangles();
     figures.transfer = document_.loaded.of_texels() ? TransferFigures() : figures_of(document_.loaded);
+    const GpuInstances* instances = gpu_->model->instances();
+    figures.instances = instances ? std::optional(instances->figures()) : std::nullopt;
     figures.lightmap.reset();
     if (const LoadedModel* lightmap = document_.lightmap())
         figures.lightmap = lightmap_figures_of(*lightmap);

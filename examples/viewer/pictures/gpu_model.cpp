@@ -65,6 +65,12 @@ void GpuModel::set_compressed(std::shared_ptr<const prt::CompressedLightmap> lig
     take_compressed({LitLightmap(std::move(lightmap)), scene_.make_vertex_arrays(), layout});
 }
 
+void GpuModel::set_instanced(std::shared_ptr<const prt::InstancedModel> instanced) {
+    instances_.emplace(std::move(instanced), model_->trace->textures(), model_->scene.origin);
+    if (lights(instances_->layout()))
+        instances_->set_light(lighting_of(instances_->layout()));
+}
+
 /// Programs depend on whose transfer it is, and compressed ones on its layout.
 void GpuModel::take_raw(Raw raw) {
     raw_.emplace(std::move(raw));
@@ -106,7 +112,7 @@ prt::GlLightmapTextures GpuModel::lightmap_of(PictureKind kind) const {
             return raw->textures();
         break;
     case Source::compressed:
-        if (const auto* lit = std::get_if<LitLightmap>(&compressed_->transfer))
+        if (const auto* lit = compressed_ ? std::get_if<LitLightmap>(&compressed_->transfer) : nullptr)
             return lit->textures();
         break;
     case Source::numbers:
@@ -156,16 +162,19 @@ void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::
         lit_.irradiance[i] =
             lighting.sky.coefficients[i] * static_cast<float>(prt::clamped_cosine_factor(band));
     }
-    if (compressed_) {
-        const prt::Stopwatch stopwatch;
+    const prt::Stopwatch stopwatch;
+    if (compressed_)
         light_compressed();
-        compressed_->seconds_constants = stopwatch.seconds();
-    }
+    if (instances_ && lights(instances_->layout()))
+        instances_->set_light(lighting_of(instances_->layout()));
+    seconds_constants_ = stopwatch.seconds();
     if (raw_)
         light_raw();
 }
 
 const prt::TransferLayout* GpuModel::layout_of(Source source) const {
+    if (instances_ && source != Source::raw)
+        return &instances_->layout();
     if (compressed_ && source != Source::raw)
         return &compressed_->layout;
     return raw_ ? &raw_->layout : nullptr;
@@ -217,7 +226,7 @@ bool GpuModel::can_draw(PictureKind kind) const {
     case Source::raw:
         return raw_.has_value();
     case Source::compressed:
-        return compressed_.has_value();
+        return compressed_ || instances_;
     case Source::numbers:
         return numbers_.colors.contains(kind) || numbers_.maps.contains(kind);
     case Source::normals:
@@ -231,7 +240,7 @@ const prt::GlVertexArrays& GpuModel::arrays(Source source) const {
     case Source::raw:
         return raw_->arrays;
     case Source::compressed:
-        return compressed_->arrays;
+        return compressed_->arrays; // instances have their own
     case Source::numbers:
         return numbers_.arrays;
     case Source::normals:
@@ -243,7 +252,9 @@ const prt::GlVertexArrays& GpuModel::arrays(Source source) const {
 /// Where radiance comes from.
 std::string GpuModel::defines_of(const Surface& surface) const {
     if (surface.source == Source::normals)
-        return "";
+        return surface.instanced ? "#define PRT_INSTANCED\n" : "";
+    if (surface.instanced)
+        return instances_->defines() + "#define PRT_INSTANCED\n";
     if (any_lightmap().layout)
         return "#define PRT_LIGHTMAP\n";
     return surface.source == Source::compressed ? std::get<prt::GlTransfer>(compressed_->transfer).defines()
@@ -263,9 +274,13 @@ const prt::GlObject& GpuModel::use(PictureKind kind, const GeometryPass& pass) {
     const Source source = source_of(kind);
     const bool suns = shows_suns(kind);
     const bool occluded = pass.occluders && (source == Source::raw || source == Source::compressed);
-    const prt::GlObject& chosen = program(
-        {source, pass.gbuffer, suns, occluded ? "#define PRT_OCCLUDED\n" + pass.occluders->defines : ""});
+    const bool instanced = instances_of(kind);
+    const prt::GlObject& chosen =
+        program({source, pass.gbuffer, suns, instanced,
+                 occluded ? "#define PRT_OCCLUDED\n" + pass.occluders->defines : ""});
     scene_.shine(emission_of(source));
+    if (instanced)
+        instances_->shine(emission_of(source));
     glUseProgram(chosen.name());
     set_matrix(chosen, pass.view_projection);
     glUniform1i(prt::uniform(chosen, "textured"), pass.textured && source != Source::numbers);
@@ -279,7 +294,7 @@ const prt::GlObject& GpuModel::use(PictureKind kind, const GeometryPass& pass) {
     }
     const prt::GlLightmapTextures lightmap = lightmap_of(kind);
     scene_.light_by(lightmap);
-    if (source == Source::compressed && !lightmap.layout)
+    if (source == Source::compressed && !lightmap.layout && !instanced)
         std::get<prt::GlTransfer>(compressed_->transfer).use();
     if (suns)
         shadows_->use();
@@ -288,7 +303,25 @@ const prt::GlObject& GpuModel::use(PictureKind kind, const GeometryPass& pass) {
     return chosen;
 }
 
+GpuInstances* GpuModel::instances_of(PictureKind kind) {
+    const Source source = source_of(kind);
+    const bool drawn =
+        source == Source::compressed || (source == Source::normals && kind != PictureKind::baked_ao);
+    return instances_ && drawn ? &*instances_ : nullptr;
+}
+
+void GpuModel::draw_instances(PictureKind kind, const GeometryPass& pass) {
+    instances_->look(pass.view_projection, pass.eye, pass.culling);
+    const prt::GlObject& chosen = use(kind, pass);
+    const bool lit = source_of(kind) == Source::compressed;
+    drawn_triangles_ = instances_->draw(chosen, lit, false);
+    if (!pass.textured)
+        drawn_triangles_ += instances_->draw(chosen, lit, true);
+}
+
 void GpuModel::draw_opaque(PictureKind kind, const GeometryPass& pass) {
+    if (instances_of(kind))
+        return draw_instances(kind, pass);
     const prt::GlObject& chosen = use(kind, pass);
     const prt::GlVertexArrays& vertex_arrays = arrays(source_of(kind));
     const auto planes = frustum_planes(pass.view_projection);
@@ -319,8 +352,11 @@ void GpuModel::draw_blended(PictureKind kind, const GeometryPass& pass) {
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glDepthMask(GL_FALSE);
-    for (const std::size_t p : blended)
-        scene_.draw(chosen, arrays(source_of(kind)), p);
+    if (GpuInstances* instances = instances_of(kind))
+        instances->draw(chosen, source_of(kind) == Source::compressed, true);
+    else
+        for (const std::size_t p : blended)
+            scene_.draw(chosen, arrays(source_of(kind)), p);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
 }

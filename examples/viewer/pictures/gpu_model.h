@@ -3,6 +3,7 @@
 // A model on the GPU, with all that it can be lit by.
 
 #include "pictures/contact_shadows.h"
+#include "pictures/gpu_instances.h"
 #include "pictures/gpu_lightmap.h"
 #include "pictures/lamps.h"
 #include "pictures/model.h"
@@ -42,6 +43,8 @@ public:
     /// The same of texels; a model has transfer of its vertices or of texels.
     void set_raw(std::shared_ptr<const prt::BakedLightmap> lightmap);
     void set_compressed(std::shared_ptr<const prt::CompressedLightmap> lightmap);
+    /// Compressed transfer that instances share; then they are drawn as such, with and without it.
+    void set_instanced(std::shared_ptr<const prt::InstancedModel> instanced);
     void set_occlusion(std::span<const float> occlusion);
     /// [receivers], or [texels of all maps] where the model has a lightmap.
     void set_numbers(PictureKind kind, std::span<const glm::vec3> colors);
@@ -57,7 +60,9 @@ public:
     bool takes_suns_as_sky(PictureKind kind) const;
     bool can_draw(PictureKind kind) const;
     /// Seconds that the constants of the compressed transfer took, forming and uploading.
-    double seconds_constants() const { return compressed_ ? compressed_->seconds_constants : 0; }
+    double seconds_constants() const { return seconds_constants_; }
+    /// Null: none share transfer.
+    const GpuInstances* instances() const { return instances_ ? &*instances_ : nullptr; }
 
     /// Draws shadow maps for what is seen, where `kind` needs them; before what is drawn of that.
     void draw_shadows(PictureKind kind, const prt::SunShadows::View& view) { draw_shadows(kind, view, {}); }
@@ -82,7 +87,7 @@ private:
     static Source source_of(PictureKind kind);
     struct Surface { ///< that a program draws
         Source source;
-        bool gbuffer, suns;
+        bool gbuffer, suns, instanced;
         std::string occluders; ///< defines
 
         friend auto operator<=>(const Surface&, const Surface&) = default;
@@ -96,7 +101,6 @@ private:
         std::variant<prt::GlTransfer, LitLightmap> transfer;
         prt::GlVertexArrays arrays;
         prt::TransferLayout layout;
-        double seconds_constants = 0;
     };
     /// What all that is drawn is lit by.
     struct Lit {
@@ -132,6 +136,9 @@ private:
     const prt::GlObject& program(const Surface& surface);
     const prt::GlObject& use(PictureKind kind, const GeometryPass& pass);
     const prt::GlVertexArrays& arrays(Source source) const;
+    void draw_instances(PictureKind kind, const GeometryPass& pass);
+    /// Null: a picture shows all vertices, one by one.
+    GpuInstances* instances_of(PictureKind kind);
 
     std::shared_ptr<const Model> model_;
     std::size_t most_receivers_;
@@ -141,10 +148,12 @@ private:
     Lit lit_;
     std::optional<Raw> raw_;
     std::optional<Compressed> compressed_;
+    std::optional<GpuInstances> instances_; ///< with compressed transfer, instead
     std::optional<prt::GlObject> occlusion_;
     Numbers numbers_;
     Programs programs_;
     std::size_t drawn_triangles_ = 0;
+    double seconds_constants_ = 0;
 };
 
 } // namespace viewer

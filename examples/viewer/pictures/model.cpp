@@ -49,6 +49,21 @@ std::optional<prt::CompressedLightmap> read_compressed(const prt::GltfDocument& 
     }
 }
 
+/// As its transfer is stored, or where that is raw of all vertices.
+LoadedModel load_instanced(const prt::GltfDocument& document, prt::Scene scene,
+                           const std::filesystem::path& path) {
+    prt::InstancedModel instanced = prt::read_instanced(document, scene, path);
+    LoadedModel loaded;
+    loaded.record = instanced.baked ? instanced.baked->record : instanced.compressed->record;
+    if (instanced.baked)
+        loaded.raw = std::make_shared<const prt::Transfer>(
+            prt::expanded(document, scene, instanced.stored, instanced.baked->transfer));
+    else
+        loaded.instanced = std::make_shared<const prt::InstancedModel>(std::move(instanced));
+    loaded.model = make_model(std::move(scene), path);
+    return loaded;
+}
+
 } // namespace
 
 std::shared_ptr<const Model> make_model(prt::Scene scene, std::filesystem::path path) {
@@ -86,6 +101,8 @@ LoadedModel load_model(const std::filesystem::path& path) {
     const prt::GltfDocument document = prt::load_gltf(path);
     prt::Scene scene = prt::extract_scene(document);
     LoadedModel loaded;
+    if (prt::shares_instances(document))
+        return load_instanced(document, std::move(scene), path);
     if (auto baked = prt::read_transfer(document, scene)) {
         loaded.raw = std::make_shared<const prt::Transfer>(std::move(baked->transfer));
         loaded.record = baked->record;

@@ -6,6 +6,7 @@
 #include "pictures/triangle_clusters.h"
 
 #include "prt/gltf.h"
+#include "prt/instances_gltf.h"
 #include "prt/lightmap.h"
 #include "prt/mesh_edges.h"
 #include "prt/picture.h"
@@ -57,6 +58,10 @@ struct LoadedModel {
     std::shared_ptr<const prt::ClusteredTransfer> compressed;
     prt::BakeRecord record;  ///< of the transfer
     LoadedLightmap lightmap; ///< where receivers are texels: `raw` and `compressed` are within
+    /// Where instances share compressed transfer: there is no other.
+    std::shared_ptr<const prt::InstancedModel> instanced;
+
+    bool has_transfer() const { return raw || compressed || instanced; }
 
     bool of_texels() const { return lightmap.layout() != nullptr; }
     Receivers receivers() const { return of_texels() ? Receivers::texels : Receivers::vertices; }

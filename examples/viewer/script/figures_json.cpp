@@ -45,6 +45,12 @@ nlohmann::json figures_json(const Figures& f) {
               {"difference_relative_l2", f.difference.relative_l2},
               {"difference_mean_radiance", f.difference.mean},
               {"difference_pixels", f.difference.pixels}};
+    if (f.instances)
+        json["instances"] = {{"count", f.instances->instances},
+                             {"meshes", f.instances->meshes},
+                             {"bytes", f.instances->bytes_in_file},
+                             {"bytes_of_constants", f.instances->bytes_of_constants},
+                             {"milliseconds_formed", f.instances->milliseconds_formed}};
     if (f.lightmap)
         json["lightmap"] = lightmap_json(*f.lightmap);
     return json;

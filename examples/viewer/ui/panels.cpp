@@ -258,6 +258,14 @@ void lightmap_lines(const LightmapFigures& f) {
     transfer_lines(f.transfer, "texel", f.receivers);
 }
 
+void instance_lines(const InstanceFigures& f) {
+    line("instances", fmt::format("{} of {} meshes", f.instances, f.meshes),
+         "They share the transfer of their mesh.");
+    line("bytes an instance",
+         fmt::format("{}, {:.0f} of constants", f.bytes_in_file, f.bytes_of_constants),
+         "In the file, and in memory for a lighting.");
+}
+
 void figure_lines(const Figures& f) {
     line("frame",
          fmt::format("{:.1f} ms, {:.0f}/s", f.milliseconds.frame, 1e3 / std::max(f.milliseconds.frame, 1e-3)),
@@ -270,6 +278,8 @@ void figure_lines(const Figures& f) {
     line("vertices", fmt::format("{}", f.receivers));
     line("triangles", fmt::format("{} of {}", f.triangles_drawn, f.triangles));
     transfer_lines(f.transfer, "vertex", f.receivers);
+    if (f.instances)
+        instance_lines(*f.instances);
     if (f.lightmap)
         lightmap_lines(*f.lightmap);
     if (f.reference_passes > 0)

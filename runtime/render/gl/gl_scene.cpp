@@ -274,6 +274,14 @@ void GlScene::draw(const GlObject& program, const GlVertexArrays& arrays, std::s
                         static_cast<GLsizei>(counts.size()));
 }
 
+void GlScene::draw_instances(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive,
+                             std::size_t count) const {
+    prepare(program, arrays, primitive);
+    glDrawElementsInstanced(GL_TRIANGLES,
+                            static_cast<GLsizei>(3 * scene_.primitives[primitive].triangles.size()),
+                            GL_UNSIGNED_INT, nullptr, static_cast<GLsizei>(count));
+}
+
 GlObject make_texture_2d(int levels, std::uint32_t format, int width, int height) {
     GLuint name = 0;
     glCreateTextures(GL_TEXTURE_2D, 1, &name);

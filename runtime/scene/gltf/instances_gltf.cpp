@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace prt {
 namespace {
@@ -63,33 +64,40 @@ FileInstance read_instance(const StoredInstances& stored, int node, const Json& 
     if (!placement)
         throw Error("node " + std::to_string(node) +
                     " draws an instance that shares its transfer, and mirrors it or scales it unevenly");
-    return {node, number, {stored.factors[number], placement->rotation, stored.boxes[box]}, {}, {}};
+    return {node, number, {stored.factors[number], placement->rotation, stored.boxes[box]}, {}, {}, world};
 }
 
 bool same_vertices(const Scene& scene, std::size_t array, const Scene& stored, std::size_t other) {
     return scene.vertex_arrays[array].size() == stored.vertex_arrays[other].size();
 }
 
-/// Which vertex array of `stored` each of `scene` has its transfer from: [vertex arrays of scene]. Meshes of
-/// instances come last in `stored`, the others in the same order.
+int mesh_of_node(const GltfContents& contents, int node) {
+    return contents.json["nodes"][static_cast<std::size_t>(node)]["mesh"].get<int>();
+}
+
+/// Which vertex array of `stored` each of `scene` has its transfer from: [vertex arrays of scene]. What is no
+/// instance comes in the same order in both.
 std::vector<std::size_t> stored_arrays(const GltfContents& contents, const Scene& scene, const Scene& stored,
                                        const std::map<int, FileInstance>& instances) {
+    std::set<int> shared;
+    for (const auto& [node, instance] : instances)
+        shared.insert(mesh_of_node(contents, node));
     std::map<std::pair<int, int>, std::size_t> of_mesh; // (mesh, primitive) -> primitive of `stored`
-    std::size_t plain = 0;
-    for (const Primitive& primitive : scene.primitives)
-        plain += instances.contains(primitive.node) ? 0 : 1;
-    for (std::size_t p = plain; p < stored.primitives.size(); ++p)
-        of_mesh[{stored.primitives[p].mesh, stored.primitives[p].primitive}] = p;
+    std::vector<std::size_t> plain;                     // primitives of `stored`
+    for (std::size_t p = 0; p < stored.primitives.size(); ++p)
+        if (const int mesh = stored.primitives[p].mesh; shared.contains(mesh))
+            of_mesh[{mesh, stored.primitives[p].primitive}] = p;
+        else
+            plain.push_back(p);
     std::vector<std::size_t> result(scene.vertex_arrays.size());
     std::size_t next = 0;
     for (const Primitive& primitive : scene.primitives) {
-        std::size_t from = next;
+        std::size_t from = stored.primitives.size();
         if (instances.contains(primitive.node)) {
-            const Json& mesh = contents.json["nodes"][static_cast<std::size_t>(primitive.node)]["mesh"];
-            const auto found = of_mesh.find({mesh.get<int>(), primitive.primitive});
-            from = found == of_mesh.end() ? stored.primitives.size() : found->second;
-        } else {
-            ++next;
+            const auto found = of_mesh.find({mesh_of_node(contents, primitive.node), primitive.primitive});
+            from = found == of_mesh.end() ? from : found->second;
+        } else if (next < plain.size()) {
+            from = plain[next++];
         }
         if (from >= stored.primitives.size() ||
             !same_vertices(scene, primitive.vertices, stored, stored.primitives[from].vertices))

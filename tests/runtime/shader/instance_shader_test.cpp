@@ -83,7 +83,8 @@ void expect_agreement(ShaderLanguage language, ConstantSource source) {
     const std::vector<FormedInstance> instances = {
         {{random_factors(random), glm::dmat3(1), {glm::vec3(3, -1, 2), glm::vec3(2, 1, 3)}},
          rows_of(mesh, 0, kVertices)},
-        {{random_factors(random), glm::dmat3(glm::angleAxis(1.1, glm::dvec3(0, 1, 0))),
+        {{random_factors(random),
+          glm::dmat3(glm::angleAxis(1.1, glm::dvec3(0, 1, 0))),
           {glm::vec3(2, 0, 2), glm::vec3(1, 4, 2)}},
          rows_of(mesh, 0, kVertices)}};
     const InstanceFormer former(mesh, instances, 0);

@@ -48,8 +48,8 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" "${packed[@]}" "${alike[@]}" "PRT_LIGHTMAP_FORMAT r11f_g11f_b10f"
             ;;
         prt_instances.vert)
-            compiles "$file" "${packed[@]}" "${guides[@]}" "PRT_INSTANCE_ROWS 40"
-            compiles "$file" PRT_CONSTANTS_BUFFER "PRT_WEIGHT_VECTORS 2" "PRT_INSTANCE_ROWS 40"
+            compiles "$file" "${packed[@]}" "${guides[@]}" PRT_INSTANCES
+            compiles "$file" PRT_CONSTANTS_BUFFER "PRT_WEIGHT_VECTORS 2" PRT_INSTANCES
             ;;
         prt_volume.comp)
             for order in 2 3 4; do
@@ -77,7 +77,11 @@ for file in *.vert *.frag *.comp; do
                 # shellcheck disable=SC2086
                 compiles "$file" "${volume[@]}" $defines
             done
-            [[ $file == viewer_probes.* ]] || compiles "$file" PRT_SUNS
+            if [[ $file == viewer_moving.* ]]; then
+                compiles "$file" PRT_SUNS
+                compiles "$file" PRT_LOBED "PRT_LOBES 2" "PRT_LOBE_ORDER 3"
+                compiles "$file" "${volume[@]}" PRT_VOLUME PRT_SUNS PRT_LOBED "PRT_LOBES 3"
+            fi
             ;;
         sun_caster.vert)
             compiles "$file"
@@ -93,6 +97,8 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" "${packed[@]}" "${guides[@]}" PRT_SUNS
             compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 11" PRT_GUIDE_NORMAL
             compiles "$file" PRT_VERTEX_RADIANCE PRT_OCCLUDED
+            compiles "$file" PRT_INSTANCED
+            compiles "$file" "${packed[@]}" "${guides[@]}" PRT_INSTANCED PRT_INSTANCES PRT_SUNS
             compiles "$file" "${packed[@]}" PRT_OCCLUDED PRT_SUNS PRT_VOLUME "${volume[@]}"
             ;;
         scene.frag | sun_caster.frag)

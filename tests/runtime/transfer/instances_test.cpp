@@ -3,6 +3,7 @@
 #include "prt/instances.h"
 
 #include "prt/error_measures.h"
+#include "prt/instance_former.h"
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "support/quadrature.h"
@@ -176,6 +177,83 @@ TEST(Instances, UprightOnesShareTheTurnsOfFewYaws) {
     for (std::size_t i = 0; i < rotations.size(); ++i)
         for (int c = 0; c < 3; ++c)
             EXPECT_LT(glm::distance(exact.rotations[exact.of[i]][c], rotations[i][c]), 3e-4);
+}
+
+/// Of random weights: three clusters of four receivers each, the last of three components.
+ClusteredTransfer clustered_mesh(Draw& draw) {
+    ClusteredTransfer mesh;
+    mesh.bases.layout = {kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}};
+    mesh.bases.components = {2, 1, 3};
+    for (std::size_t i = 0; i < (3 + 6) * mesh.bases.dimension(); ++i)
+        mesh.bases.rows.push_back(draw.number());
+    mesh.receivers.format = WeightFormat::float32;
+    mesh.receivers.components = 4;
+    for (std::uint16_t p = 0; p < 12; ++p)
+        mesh.receivers.clusters.push_back(p / 4);
+    std::vector<float> weights;
+    for (int i = 0; i < 12 * 4; ++i)
+        weights.push_back(draw.number());
+    const auto bytes = std::as_bytes(std::span(weights));
+    mesh.receivers.weights.assign(bytes.begin(), bytes.end());
+    return mesh;
+}
+
+/// What the former's constants make of a place: those of a lighting, for all clusters.
+std::vector<glm::vec4> constants_at(std::span<const glm::vec4> formed, const glm::vec4& table_0,
+                                    const glm::vec4& table_1, const glm::vec3& position,
+                                    const ConstantRows& rows) {
+    const std::uint32_t offset =
+        static_cast<std::uint32_t>(table_0.w) + (static_cast<std::uint32_t>(table_1.w) << 16);
+    const glm::vec4 place((position - glm::vec3(table_0)) * glm::vec3(table_1), 1);
+    std::vector<glm::vec4> constants(rows.first + rows.count, glm::vec4(0));
+    for (std::uint32_t row = rows.first; row < rows.first + rows.count; ++row)
+        for (std::uint32_t c = 0; c < 3; ++c)
+            constants[row][static_cast<int>(c)] = glm::dot(formed[3 * (offset + row) + c], place);
+    return constants;
+}
+
+TEST(Instances, ConstantsAtAPlaceAreThoseOfTheModesTimesItsFactors) {
+    Draw draw;
+    const ClusteredTransfer mesh = clustered_mesh(draw);
+    const Lighting lighting{draw.light(), draw.light()};
+    std::vector<FormedInstance> instances;
+    for (const std::size_t first : {0u, 4u, 8u, 0u}) // of a mesh that has one cluster, or all
+        instances.push_back(
+            {{draw.factors(), draw.rotation(), {draw.vector(), glm::abs(draw.vector()) + 0.1f}},
+             rows_of(mesh, first, instances.size() == 3 ? 12 : 4)});
+    EXPECT_EQ(instances[1].rows.first, 3u);
+    EXPECT_EQ(instances[1].rows.count, 2u);
+    EXPECT_EQ(joined(instances[0].rows, instances[2].rows).count, instances[3].rows.count);
+    const InstanceFormer former(mesh, instances, 0);
+    EXPECT_EQ(former.size(), 3u * (3 + 2 + 4 + 9));
+    std::vector<glm::vec4> formed(former.size());
+    former.form(lighting, formed);
+    const std::vector<glm::vec4> table = former.table();
+    const Transfer decoded = decode(mesh);
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const PlacedInstance& placed = instances[i].placed;
+        const SharedTransfer shared(decoded, glm::transpose(placed.rotation) * glm::dvec3(0, 1, 0));
+        const std::vector<glm::vec3> positions(12, draw.vector());
+        std::vector<float> vectors(decoded.vectors.size());
+        expand_instance(shared, placed, positions, vectors);
+        const std::vector<glm::vec3> expected = lit(decoded.layout, vectors, lighting);
+        const std::size_t first = i == 3 ? 0 : 4 * i, count = i == 3 ? 12 : 4;
+        std::vector<glm::vec4> constants =
+            constants_at(formed, table[2 * i], table[2 * i + 1], positions.front(), instances[i].rows);
+        constants.resize(constant_rows(mesh.bases));
+        std::vector<glm::vec3> measured(12);
+        evaluate(mesh, constants, measured);
+        for (std::size_t v = first; v < first + count; ++v)
+            EXPECT_LT(glm::distance(measured[v], expected[v]), 2e-3f * (1 + glm::length(expected[v])))
+                << i << " " << v;
+    }
+}
+
+TEST(Instances, FormersRefuseLamps) {
+    Draw draw;
+    ClusteredTransfer mesh = clustered_mesh(draw);
+    mesh.bases.layout.parts.push_back({PartKind::lamp, 1, "Lantern"});
+    EXPECT_THROW(InstanceFormer(mesh, {}), Error);
 }
 
 TEST(Instances, LampsAreRefused) {

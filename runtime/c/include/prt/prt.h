@@ -180,6 +180,33 @@ typedef enum prt_constants {
 PRT_API prt_status prt_model_shader(const prt_model* model, int language, int constants, char* source,
                                     size_t* size, prt_message* message);
 
+/* Instances that share the transfer of their mesh, in a file that prt bake --instances has written and prt
+ * compress compressed. Its meshes are there once, with positions and normals in their own frames.
+ * Experimental: what is called prt_instances_* may change with any version. */
+typedef struct prt_instances_info {
+    size_t count;     /* 0: the model has none, and all else is 0 */
+    size_t constants; /* vectors of 4 floats that a lighting takes */
+    const float*
+        worlds; /* [count][3][4], rows of the matrix of positions as prt_mesh has them into the world */
+    const float* tables; /* [count][2][4], instance_0 and instance_1 of the vertex shader */
+    double most_degrees; /* by which the lighting of an instance is turned off */
+} prt_instances_info;
+/* Pointers live as long as the model. */
+PRT_API prt_status prt_instances_get_info(const prt_model* model, prt_instances_info* out,
+                                          prt_message* message);
+/* Which instances draw a prt_mesh; *count 0: it is drawn once, as the meshes of other models are. */
+PRT_API prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* first, size_t* count,
+                                         prt_message* message);
+/* Writes the constants of all instances, [constants][4], which take the place of the model's own where these
+ * are drawn. Lighting as prt_model_form_constants_apart takes it, without lamps. `threads` 0: all. */
+PRT_API prt_status prt_instances_form_constants(const prt_model* model, int order, const float* sky,
+                                                const float* suns, int threads, float* constants,
+                                                prt_message* message);
+/* The vertex shader of instances. Beside what that of the model takes: worlds at locations 10 to 12, tables
+ * at 13 and 14. Constants are in a buffer or a texture. *size as for prt_model_shader. */
+PRT_API prt_status prt_instances_shader(const prt_model* model, int language, int constants, char* source,
+                                        size_t* size, prt_message* message);
+
 /* The volume of probes of a file that prt compress has written, for what moves through the scene.
  * Experimental: what is called prt_volume_* may change with any version. */
 typedef struct prt_volume prt_volume;

@@ -4,8 +4,10 @@
 // Experimental.
 
 #include "prt/gltf.h"
+#include "prt/instance_former.h"
 #include "prt/instances.h"
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -67,11 +69,27 @@ struct FileInstance {
     PlacedInstance placed;
     /// Its vertex arrays, and those of the stored scene with the transfer of its mesh.
     std::vector<std::size_t> arrays, stored_arrays;
+    glm::dmat4 world{1}; ///< of the node
 };
 /// `document` and `scene` as read with `Instancing::nodes`, `stored` the scene of the same file with its
 /// meshes apart. Throws `Error` where the extension is damaged, and where a matrix does not fit an instance.
 std::vector<FileInstance> read_instances(const GltfDocument& document, const Scene& scene,
                                          const Scene& stored);
+
+/// What a file holds whose instances share transfer, as it is stored: meshes once, in their own frames.
+struct InstancedModel {
+    Scene stored;
+    std::optional<BakedTransfer> baked; ///< of its receivers; or
+    std::optional<CompressedTransfer> compressed;
+    std::vector<FileInstance> instances;
+};
+/// `document`, of `path`, and `scene` as read with `Instancing::nodes`, where `shares_instances`. Throws
+/// `Error` as `read_instances`, and where there is no transfer.
+InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
+                              const std::filesystem::path& path);
+
+/// What constants are formed for, of a compressed model; places are those of positions as `stored` has them.
+std::vector<FormedInstance> formed_instances(const InstancedModel& model);
 
 /// Areas of the receivers of `stored`, the scene of `document` with its meshes apart: those of a mesh that
 /// instances share as large as it is drawn, and as often.

@@ -48,6 +48,9 @@ public:
     void draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;
     void draw(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive,
               std::span<const TriangleRange> ranges) const;
+    /// Draws so many instances of it; attributes that step from one to the next are those of `arrays`.
+    void draw_instances(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive,
+                        std::size_t count) const;
     Blocking blocking(const Primitive& primitive) const;
     /// Draws both sides of `primitive` with a program of sun_caster.vert and sun_caster.frag, in use.
     void draw_caster(const GlObject& program, const GlVertexArrays& arrays, std::size_t primitive) const;

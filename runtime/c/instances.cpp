@@ -1,0 +1,122 @@
+// The C interface: instances that share transfer.
+
+#include "model.h"
+
+#include "prt/instance_shader.h"
+#include "prt/instances_gltf.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/matrix.hpp>
+
+#include <algorithm>
+#include <span>
+
+namespace {
+
+using namespace prt::c;
+using prt::Error;
+
+const prt_shared_instances& instances_of(const prt_model& model) {
+    if (!model.instances)
+        throw Error("the model has no instances that share transfer");
+    return *model.instances;
+}
+
+/// Instances of each mesh behind each other.
+void sort_by_mesh(std::vector<prt::FileInstance>& instances) {
+    std::ranges::stable_sort(
+        instances, {}, [](const prt::FileInstance& instance) { return instance.stored_arrays.front(); });
+}
+
+/// Which instances draw each primitive of `stored`; none: it is drawn once.
+std::vector<prt_shared_instances::Range> ranges_of(const prt::InstancedModel& model) {
+    std::vector<prt_shared_instances::Range> of_arrays(model.stored.vertex_arrays.size()), result;
+    for (std::size_t i = 0; i < model.instances.size(); ++i)
+        for (const std::size_t array : model.instances[i].stored_arrays) {
+            if (of_arrays[array].count++ == 0)
+                of_arrays[array].first = i;
+        }
+    for (const prt::Primitive& primitive : model.stored.primitives)
+        result.push_back(of_arrays[primitive.vertices]);
+    return result;
+}
+
+} // namespace
+
+prt_model* prt::c::make_instanced(const GltfDocument& document, const std::string& name) {
+    InstancedModel model = read_instanced(document, extract_scene(document), name);
+    if (!model.compressed)
+        throw Error(name + ": holds no compressed transfer; run prt compress first");
+    sort_by_mesh(model.instances);
+    InstanceFormer former(model.compressed->transfer, formed_instances(model));
+    std::vector<glm::vec4> worlds;
+    for (const FileInstance& instance : model.instances) {
+        const glm::mat4 turned(glm::transpose(glm::translate(instance.world, model.stored.origin)));
+        worlds.insert(worlds.end(), {turned[0], turned[1], turned[2]});
+    }
+    std::vector<glm::vec4> tables = former.table();
+    prt_shared_instances instances{std::move(former), std::move(worlds), std::move(tables), ranges_of(model)};
+    ClusteredTransfer& transfer = model.compressed->transfer;
+    ConstantFormer constants(transfer);
+    auto layouts = cluster_layouts(transfer.bases);
+    return new prt_model{std::move(model.stored), std::move(transfer), std::move(constants),
+                         std::move(layouts), std::move(instances)};
+}
+
+extern "C" {
+
+prt_status prt_instances_get_info(const prt_model* model, prt_instances_info* out, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, out);
+        *out = {};
+        if (!model->instances)
+            return;
+        const prt_shared_instances& instances = *model->instances;
+        out->count = instances.tables.size() / 2;
+        out->constants = instances.former.size();
+        out->worlds = glm::value_ptr(instances.worlds.front());
+        out->tables = glm::value_ptr(instances.tables.front());
+        out->most_degrees = instances.former.most_degrees();
+    });
+}
+
+prt_status prt_instances_of_mesh(const prt_model* model, size_t mesh, size_t* first, size_t* count,
+                                 prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, first, count);
+        const auto& of_meshes = instances_of(*model).of_meshes;
+        if (mesh >= of_meshes.size())
+            throw Error("the model has " + std::to_string(of_meshes.size()) + " meshes");
+        *first = of_meshes[mesh].first;
+        *count = of_meshes[mesh].count;
+    });
+}
+
+prt_status prt_instances_form_constants(const prt_model* model, int order, const float* sky,
+                                        const float* suns, int threads, float* constants,
+                                        prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, sky, constants);
+        const prt::InstanceFormer& former = instances_of(*model).former;
+        const prt::LightingView light = lighting_of({order, sky, suns, nullptr}, 0);
+        prt::Lighting lighting{{order, {light.sky.begin(), light.sky.end()}}};
+        if (suns)
+            lighting.suns = prt::Light{order, {light.suns.begin(), light.suns.end()}};
+        former.form(lighting, {reinterpret_cast<glm::vec4*>(constants), former.size()}, threads);
+        if (!within(kLargestConstant, constants, 4 * former.size()))
+            throw Error("the light is too bright for the model: constants pass 1e30");
+    });
+}
+
+prt_status prt_instances_shader(const prt_model* model, int language, int constants, char* source,
+                                size_t* size, prt_message* message) {
+    return guarded(message, [&] {
+        check_pointers(model, size);
+        instances_of(*model);
+        write_text(prt::instance_shader(model->transfer, source_of(constants), language_of(language)), source,
+                   size);
+    });
+}
+
+} // extern "C"

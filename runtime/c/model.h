@@ -1,0 +1,40 @@
+#pragma once
+
+// A model of the C interface.
+
+#include "boundary.h"
+#include "prt/constant_former.h"
+#include "prt/gltf.h"
+#include "prt/instance_former.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// Instances that share transfer, mesh by mesh.
+struct prt_shared_instances {
+    prt::InstanceFormer former;
+    std::vector<glm::vec4> worlds, tables; ///< [instances][3], [instances][2]
+    struct Range {
+        std::size_t first = 0, count = 0;
+    };
+    std::vector<Range> of_meshes; ///< [primitives]
+};
+
+struct prt_model {
+    prt::Scene scene;
+    prt::ClusteredTransfer transfer;
+    prt::ConstantFormer former;
+    std::vector<prt::ClusterLayout> layouts;
+    std::optional<prt_shared_instances> instances = {};
+};
+
+namespace prt::c {
+
+/// Those of C are the same numbers.
+ConstantSource source_of(int constants);
+
+/// A model whose instances share transfer. Throws `Error` as `read_instanced`.
+prt_model* make_instanced(const GltfDocument& document, const std::string& name);
+
+} // namespace prt::c

@@ -1,0 +1,38 @@
+// Reads a file twice: with an instance to a node, and with meshes as their transfer is stored.
+#include "prt/encode_glb.h"
+#include "prt/instances_gltf.h"
+#include "prt/support/error.h"
+
+namespace prt {
+
+InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
+                              const std::filesystem::path& path) {
+    const GltfDocument apart =
+        parse_gltf(encode_glb(document), path,
+                   {.missing_images = MissingImages::ignore, .instancing = Instancing::apart});
+    InstancedModel model;
+    model.stored = extract_scene(apart);
+    model.baked = read_transfer(apart, model.stored);
+    model.compressed = read_clustered(apart, model.stored);
+    if (!model.baked && !model.compressed)
+        throw Error(path.string() + ": its instances share transfer that it does not hold");
+    model.instances = read_instances(document, scene, model.stored);
+    return model;
+}
+
+std::vector<FormedInstance> formed_instances(const InstancedModel& model) {
+    std::vector<FormedInstance> formed;
+    for (const FileInstance& instance : model.instances) {
+        FormedInstance one{instance.placed, {}};
+        one.placed.box.middle = glm::vec3(glm::dvec3(one.placed.box.middle) - model.stored.origin);
+        for (const std::size_t array : instance.stored_arrays) {
+            const VertexArray& vertices = model.stored.vertex_arrays[array];
+            one.rows = joined(one.rows, rows_of(model.compressed->transfer, vertices.first_receiver,
+                                                vertices.size()));
+        }
+        formed.push_back(std::move(one));
+    }
+    return formed;
+}
+
+} // namespace prt

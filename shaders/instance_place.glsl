@@ -1,0 +1,28 @@
+// Where a vertex and its normal are in the scene: as the mesh has them, or where PRT_INSTANCED by the matrix of the
+// instance, which turns, moves and scales evenly.
+
+#include "shared_layout.h"
+
+#ifdef PRT_INSTANCED
+layout(location = PRT_LOCATION_INSTANCE_X) in vec4 world_x; // rows of the matrix
+layout(location = PRT_LOCATION_INSTANCE_Y) in vec4 world_y;
+layout(location = PRT_LOCATION_INSTANCE_Z) in vec4 world_z;
+
+vec3 place_in_scene(vec3 position) {
+    vec4 place = vec4(position, 1.0);
+    return vec3(dot(world_x, place), dot(world_y, place), dot(world_z, place));
+}
+
+vec3 normal_in_scene(vec3 normal) {
+    return vec3(dot(world_x.xyz, normal), dot(world_y.xyz, normal), dot(world_z.xyz, normal)) *
+           inversesqrt(dot(world_x.xyz, world_x.xyz));
+}
+#else
+vec3 place_in_scene(vec3 position) {
+    return position;
+}
+
+vec3 normal_in_scene(vec3 normal) {
+    return normal;
+}
+#endif
