@@ -11,7 +11,7 @@ namespace prt {
 namespace {
 
 /// A level so far away, against the diagonal of level 0, is told of.
-constexpr double kFar = 0.05;
+constexpr double kFarLevel = 0.05;
 
 class LevelFit {
 public:
@@ -103,7 +103,7 @@ private:
     void note(const LeveledNode& node, const CoarserLevel& level, const LevelSamples& samples) {
         LevelOutcome outcome = outcome_of(scene_.scene, node, level, samples);
         outcome.squares = level_error(samples, bake_.transfer, bake_.transfer);
-        if (samples.rms_distance > kFar * samples.diagonal)
+        if (samples.rms_distance > kFarLevel * samples.diagonal)
             bake_.notices.push_back(level.name + " is far from the surface of " + node.name +
                                     ", whose light it takes: see its distance");
         bake_.levels.push_back(std::move(outcome));

@@ -14,7 +14,7 @@ namespace prt {
 namespace {
 
 /// Samples for each receiver of the level, and for each of level 0, whose detail the level is to show.
-constexpr std::size_t kSamplesOfReceiver = 16, kSamplesOfFinest = 4, kMostSamples = std::size_t{1} << 22;
+constexpr std::size_t kSamplesOfReceiver = 16, kSamplesOfFinest = 4, kMostLevelSamples = std::size_t{1} << 22;
 /// Share of the diagonal of level 0 that a level may stand off, as a root mean square. Two crossed quads for
 /// a tree stand off by a tenth; a level that was put beside its node by one or more.
 constexpr double kTooFar = 0.25;
@@ -64,8 +64,8 @@ std::array<std::uint32_t, 3> FinestSurface::corners(std::uint32_t triangle) cons
 }
 
 SurfaceSamples samples_of(const PartSurface& level, std::size_t finest_receivers, std::uint64_t seed) {
-    const std::size_t count = std::min(kMostSamples, std::max(kSamplesOfReceiver * level.points().size(),
-                                                              kSamplesOfFinest * finest_receivers));
+    const std::size_t count = std::min(kMostLevelSamples, std::max(kSamplesOfReceiver * level.points().size(),
+                                                                   kSamplesOfFinest * finest_receivers));
     return sample_surfaces(level.traced.surfaces(), level.receivers, {.count = count, .seed = seed});
 }
 

@@ -6,7 +6,7 @@
 namespace prt {
 namespace {
 
-char small(char c) {
+char small_letter(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
@@ -50,7 +50,7 @@ std::optional<LevelName> level_of(std::string_view text) {
 
 std::optional<LevelName> level_name(std::string_view name) {
     std::string text(name);
-    std::ranges::transform(text, text.begin(), small);
+    std::ranges::transform(text, text.begin(), small_letter);
     if (std::optional<LevelName> level = level_of(text))
         return level;
     const std::size_t dot = text.size() - digits_at_end(text);
