@@ -2,9 +2,13 @@
 
 #include "prt/encode_glb.h"
 #include "prt/fallback.h"
+#include "prt/levels.h"
 #include "prt/support/error.h"
 
 #include <fmt/core.h>
+
+#include <algorithm>
+#include <span>
 
 namespace prt::cli {
 
@@ -19,10 +23,14 @@ std::optional<Fallback> load_fallback(const Path& light, int order, const LightO
 std::vector<std::byte> with_fallback(std::span<const std::byte> file, const Path& path, Fallback& fallback,
                                      BufferCompression buffers, int threads) {
     GltfDocument document = parse_gltf(file, path);
-    const Scene scene = extract_scene(document);
+    LeveledScene levels = extract_levels(document);
+    const std::vector<float> areas = areas_of_level(levels, 0);
+    const bool all = levels.nodes.empty() || levels_have_transfer(document, levels);
+    const Scene scene = all ? std::move(levels.scene) : extract_scene(document);
     const std::optional<CompressedTransfer> compressed = read_clustered(document, scene);
     const std::vector<glm::vec3> radiance = exit_radiance(compressed->transfer, fallback.lighting, threads);
-    fallback.exposure = fallback_exposure(radiance, receiver_areas(scene));
+    fallback.exposure =
+        fallback_exposure(radiance, std::span(areas).first(std::min(areas.size(), radiance.size())));
     fallback.primitives = write_fallback(document, scene, radiance, fallback.exposure);
     return encode_glb(document, buffers);
 }

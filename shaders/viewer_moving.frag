@@ -1,4 +1,5 @@
-// What moves, lit by a volume (PRT_VOLUME), without one as if nothing were in the way. What is blended is drawn whole.
+// What moves, lit by a volume (PRT_VOLUME), without one as if nothing were in the way; PRT_LOBED: by what its vertices
+// make of that. What is blended is drawn whole.
 
 #include "surface.glsl"
 #include "emission.glsl"
@@ -15,6 +16,10 @@ in vec3 place, normal;
 uniform vec3 eye;
 uniform bool chrome;
 out vec4 result;
+
+#ifdef PRT_LOBED
+in vec3 lobed_radiance;
+#endif
 
 #ifdef PRT_VOLUME
 vec3 mirrored_radiance(vec3 n, vec3 towards) {
@@ -35,6 +40,14 @@ vec3 matt_radiance(vec3 n) {
 }
 #endif
 
+vec3 diffuse_radiance(vec3 n) {
+#ifdef PRT_LOBED
+    return lobed_radiance;
+#else
+    return matt_radiance(n);
+#endif
+}
+
 // A sun is mirrored as a lobe of the same energy (Phong), which is as wide on a screen as a highlight shall be.
 vec3 mirrored_suns(vec3 n, vec3 towards) {
     vec3 sum = vec3(0.0);
@@ -54,7 +67,7 @@ void main() {
     vec3 base = surface_base_color().rgb;
     vec3 n = normalize(gl_FrontFacing ? normal : -normal);
     vec3 towards = reflect(normalize(place - eye), n);
-    vec3 lit = chrome ? base * (mirrored_radiance(n, towards) + mirrored_suns(n, towards)) : base * matt_radiance(n);
+    vec3 lit = chrome ? base * (mirrored_radiance(n, towards) + mirrored_suns(n, towards)) : base * diffuse_radiance(n);
 #ifdef PRT_SUNS
     if (!chrome)
         lit += sun_radiance(base);

@@ -1,4 +1,4 @@
-// What moves through the viewer's scene. PRT_SUNS: for suns apart.
+// What moves through the viewer's scene. PRT_SUNS: for suns apart. PRT_LOBED: its vertices have lobes.
 
 #include "shared_layout.h"
 
@@ -13,6 +13,11 @@ layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;
 #include "sun_vertex.glsl"
 #endif
 
+#ifdef PRT_LOBED
+#include "viewer_lobes.glsl"
+out vec3 lobed_radiance;
+#endif
+
 uniform mat4 view_projection;
 
 out vec2 surface_texcoord;
@@ -23,6 +28,9 @@ void main() {
     mat4 matrix = vertex_matrix();
     place = (matrix * vec4(position, 1.0)).xyz;
     normal = moved_normal(matrix, vertex_normal);
+#ifdef PRT_LOBED
+    lobed_radiance = radiance_of_lobes(mat3(matrix), place, normal);
+#endif
 #ifdef PRT_SUNS
     take_for_suns(place);
     sun_normal = normal; // not as it is before it moves

@@ -1,6 +1,7 @@
 #include "commands/commands.h"
 
 #include "instance_arguments.h"
+#include "level_arguments.h"
 #include "light_set.h"
 #include "no_shadow.h"
 #include "options.h"
@@ -13,6 +14,7 @@
 #include "prt/support/error.h"
 #include "report/bake_report.h"
 #include "report/instance_report.h"
+#include "report/level_report.h"
 #include "report/lightmap_report.h"
 #include "report/volume_report.h"
 #include "texel_arguments.h"
@@ -29,11 +31,14 @@ namespace {
 struct BakeArguments {
     Path scene, output, json, light_set;
     std::vector<std::string> no_shadow; ///< names of materials
-    std::optional<double> refine;       ///< relative L2 over the surface to split triangles for
-    std::size_t most_vertices = 0;      ///< of a refined scene; 0: as many as `refine` allows
-    TexelArguments texels;              ///< given: instead of vertices
-    VolumeArguments volume;             ///< given: beside them
+    struct Finer {
+        std::optional<double> refine;  ///< relative L2 over the surface to split triangles for
+        std::size_t most_vertices = 0; ///< of a refined scene; 0: as many as `refine` allows
+    } finer;
+    TexelArguments texels;  ///< given: instead of vertices
+    VolumeArguments volume; ///< given: beside them
     InstanceArguments instances;
+    LevelMode levels = LevelMode::carry;
     BakeOptions options;
     GltfOptions reading;
 };
@@ -191,13 +196,13 @@ void add_method(CLI::App* command, BakeOptions& options) {
 void add_refinement(CLI::App* command, BakeArguments& a) {
     CLI::Option* refine =
         command
-            ->add_option("--refine", a.refine,
+            ->add_option("--refine", a.finer.refine,
                          "split triangles, in the file that is written, too, until direct light between "
                          "vertices errs by no more than this over the surface, in relative L2: 0.02 is 2 %. "
                          "Light is fitted to the surface then")
             ->check(above_zero());
     command
-        ->add_option("--most-vertices", a.most_vertices,
+        ->add_option("--most-vertices", a.finer.most_vertices,
                      "vertices that --refine may reach, all nodes together; otherwise four times those of "
                      "the scene, or 20000 where that is more")
         ->check(CLI::PositiveNumber)
@@ -212,8 +217,9 @@ void add_light_set(const BakeArguments& a, Scene& scene) {
 /// Puts the finer document and scene in the place of these.
 RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     ProgressBar bar = session.progress_bar("refining");
-    const RefineResult result = prt::refine(
-        scene, a.options, {.target = *a.refine, .most_vertices = a.most_vertices}, bar.progress());
+    const RefineResult result =
+        prt::refine(scene, a.options, {.target = *a.finer.refine, .most_vertices = a.finer.most_vertices},
+                    bar.progress());
     if (result.statistics.rounds == 0)
         return result.statistics;
     document = refined(std::move(document), scene, result.refinement);
@@ -235,7 +241,7 @@ Baked bake_scene(const BakeArguments& a, GltfDocument& document, Scene& scene, S
     leave_out_shadows(scene, a.no_shadow);
     Baked baked;
     BakeOptions options = a.options;
-    if (a.refine) {
+    if (a.finer.refine) {
         baked.refinement = refine(a, document, scene, session);
         options.fit = FitMode::surface; // as the error was measured
     }
@@ -266,10 +272,33 @@ std::vector<std::byte> with_volume(const BakeArguments& a, GltfDocument& documen
     });
 }
 
+/// Writes what vertices of level 0 have, and those of coarser levels where these get some.
+void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene& scene,
+                    const BakedTransfer& baked, std::optional<BakedLevels>& levels, Session& session) {
+    if (!levels || a.levels == LevelMode::ignore) {
+        write_transfer(document, scene, baked);
+        return;
+    }
+    if (a.finer.refine) // the mesh of level 0 is another one
+        levels->scene = extract_levels(document);
+    Scene& all = levels->scene.scene;
+    add_light_set(a, all);
+    leave_out_shadows(all, a.no_shadow);
+    BakeOptions options = a.options;
+    if (a.finer.refine)
+        options.fit = FitMode::surface;
+    ProgressBar bar = session.progress_bar("levels of detail");
+    bake_levels(*levels, baked.transfer, options, bar.progress());
+    BakedTransfer whole{std::move(levels->bake.transfer), baked.record, baked.storage};
+    write_transfer(document, all, whole);
+}
+
 void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
+    std::optional<BakedLevels> levels =
+        about(a.scene, [&] { return find_levels(a.levels, a.scene, document, a.options.threads); });
     const Baked baked = about(a.scene, [&] { return bake_scene(a, document, scene, session); });
     const std::optional<VolumeBake> volume = bake_probes(a, scene, session);
-    about(a.scene, [&] { write_transfer(document, scene, baked.result.baked); });
+    about(a.scene, [&] { write_vertices(a, document, scene, baked.result.baked, levels, session); });
     const std::vector<std::byte> file = with_volume(a, document, scene, volume);
     Report report = bake_report({.output = a.output.string(),
                                  .options = a.options,
@@ -277,8 +306,10 @@ void run_vertices(const BakeArguments& a, GltfDocument& document, Scene& scene, 
                                  .scene = scene,
                                  .result = baked.result,
                                  .refinement = baked.refinement,
-                                 .refine_target = a.refine.value_or(0),
+                                 .refine_target = a.finer.refine.value_or(0),
                                  .bytes = session.write(a.output, file)});
+    if (levels)
+        add_level_bake(*levels, report);
     if (volume)
         add_volume_bake(*volume, report);
     publish(report, a.json, session);
@@ -324,10 +355,20 @@ void run_instances(const BakeArguments& a, const SharedMeshes& meshes, GltfDocum
     publish(report, a.json, session);
 }
 
+/// Instances that share transfer have no levels.
+bool leaves_levels_out(const BakeArguments& a, const GltfDocument& document) {
+    if (a.levels == LevelMode::ignore || a.instances.mode == InstanceMode::own || !has_levels(document))
+        return true;
+    if (a.instances.mode == InstanceMode::shared)
+        throw Error(a.scene.string() + ": has levels of detail, which --instances shared does not know: say "
+                                       "--levels ignore, or leave it out");
+    return false;
+}
+
 void check_arguments(const BakeArguments& a) {
     check_texels(a.texels);
     check_volume(a.volume);
-    if (a.texels.given() && a.refine)
+    if (a.texels.given() && a.finer.refine)
         throw Error("--refine is for vertices: texels are as fine as --texels or --size says");
 }
 
@@ -348,8 +389,11 @@ void run(BakeArguments a, Session& session) {
     add_light_set(a, scene);
     const SharedMeshes meshes = about(a.scene, [&] {
         return meshes_to_share(a.instances, document, scene,
-                               {a.options, a.texels.given() || a.refine.has_value() || a.volume.given()});
+                               {a.options, a.texels.given() || a.finer.refine.has_value() ||
+                                               a.volume.given() || !leaves_levels_out(a, document)});
     });
+    if (a.texels.given() && a.levels != LevelMode::ignore && has_levels(document))
+        print_notices(a.scene.string(), {"coarser levels of detail get no lightmap"});
     if (a.texels.given())
         run_texels(a, document, scene, room, session);
     else if (!meshes.meshes.empty())
@@ -393,6 +437,7 @@ void add_bake(CLI::App& app, Session& session) {
     add_texels(command, a.texels, "into a lightmap instead of vertices");
     add_volume(command, a.volume);
     add_instances(command, a.instances);
+    add_levels(command, a.levels);
     choice(command, "--storage", a.options.memory.storage, kStorages,
            "auto: float16 where its rounding is less than a tenth of the sampling error", "auto");
     command->add_option("--seed", a.options.seed, "seed of the samples")

@@ -9,6 +9,7 @@
 #include "prt/error_measures.h"
 #include "prt/instances_gltf.h"
 #include "prt/jumps.h"
+#include "prt/levels.h"
 #include "prt/lightmap_bake.h"
 #include "prt/lightmap_file.h"
 #include "prt/mesh_edges.h"
@@ -217,12 +218,26 @@ struct Bake {
     StoredBake stored;
     std::optional<BakedLightmap> lightmap = {}; ///< of texels; its transfer is in `stored`
     std::optional<BakedVolume> volume = {};
+    bool levels = false; ///< coarser levels of detail have transfer, too
 };
+
+/// The scene whose vertices have transfer: that of level 0, and of coarser levels where these have some.
+Scene scene_of(const Bake& bake) {
+    return bake.levels ? extract_levels(bake.document).scene : extract_scene(bake.document);
+}
 
 Bake of_lightmap(GltfDocument document, BakedLightmap lightmap) {
     BakedTransfer& baked = lightmap.baked;
     StoredBake stored{{baked.transfer.layout, std::move(baked.transfer.vectors), {}}, baked.record};
     return {std::move(document), std::move(stored), std::move(lightmap)};
+}
+
+/// Those of the document where they have transfer.
+std::optional<LeveledScene> levels_to_compress(const GltfDocument& document) {
+    if (!has_levels(document) || holds_instances(document))
+        return std::nullopt;
+    LeveledScene levels = extract_levels(document);
+    return levels_have_transfer(document, levels) ? std::optional(std::move(levels)) : std::nullopt;
 }
 
 /// What surfaces have.
@@ -231,13 +246,16 @@ Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& pat
         discard_transfer(document);
         return of_lightmap(std::move(document), std::move(*lightmap));
     }
-    std::optional<StoredBake> stored = read_stored_transfer(document, scene);
+    const std::optional<LeveledScene> levels = levels_to_compress(document);
+    std::optional<StoredBake> stored = read_stored_transfer(document, levels ? levels->scene : scene);
     if (!stored)
         throw Error(path.string() + (scene_file_of(std::move(document), path).compressed
                                          ? ": is compressed already; compress the bake it came from"
                                          : ": holds no transfer; run prt bake first"));
     discard_transfer(document); // it is in `stored`, and would be in memory twice
-    return {std::move(document), std::move(*stored)};
+    Bake bake{std::move(document), std::move(*stored)};
+    bake.levels = levels.has_value();
+    return bake;
 }
 
 Bake load_bake(const Path& path, const GltfOptions& reading) {
@@ -273,6 +291,16 @@ std::optional<CompressedVolumeResult> compress_probes(const CompressArguments& a
     return compress_volume(*bake.volume, options, bar.progress());
 }
 
+/// Clusters are those that serve level 0 best; coarser levels find their places in them.
+constexpr float kShareOfCoarser = 1e-3f;
+
+std::vector<float> areas_to_compress(const LeveledScene& levels) {
+    std::vector<float> areas = receiver_areas(levels.scene);
+    for (std::size_t p = levels.finest_receivers; p < areas.size(); ++p)
+        areas[p] *= kShareOfCoarser;
+    return areas;
+}
+
 /// What the compressor may look at.
 SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
     if (bake.lightmap) {
@@ -283,9 +311,10 @@ SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
             seam_jumps(extract_scene(bake.document), bake.lightmap->layout, bake.lightmap->texels);
         return surface;
     }
-    const Scene scene = extract_scene(bake.document);
+    const Scene scene = scene_of(bake);
     SceneSurface surface(scene);
-    surface.areas = shown_areas(bake.document, scene);
+    surface.areas =
+        bake.levels ? areas_to_compress(extract_levels(bake.document)) : shown_areas(bake.document, scene);
     const bool chooses = options.budget.any() && options.choose_guides;
     if (!chooses && options.compress.guides != GuideChoice::normal_and_position)
         surface.positions = {};
@@ -344,8 +373,35 @@ struct Written {
     ClusteredTransfer transfer; ///< of the bake's receivers, in the order of the file
     std::vector<float> areas;
     std::vector<Edge> edges;
-    std::uintmax_t bytes; ///< of the file
+    std::uintmax_t bytes;                               ///< of the file
+    std::vector<std::vector<float>> coarser_areas = {}; ///< [coarser levels][receivers]
 };
+
+/// Edges of the mesh between the first `count` receivers.
+std::vector<Edge> edges_within(const Scene& scene, std::size_t count) {
+    std::vector<Edge> edges = mesh_edges(scene);
+    std::erase_if(edges, [&](const Edge& edge) { return edge.first >= count || edge.second >= count; });
+    return edges;
+}
+
+/// Errors of coarser levels against what the bake gave them, over their own surfaces.
+void add_levels_compressed(const TransferView& transfer, const Written& written, Report& report) {
+    if (written.coarser_areas.empty())
+        return;
+    Json list = Json::array();
+    for (std::size_t level = 1; level <= written.coarser_areas.size(); ++level) {
+        const std::vector<float>& areas = written.coarser_areas[level - 1];
+        list.push_back({{"level", level},
+                        {"vertices", std::ranges::count_if(areas, [](float area) { return area > 0; })},
+                        {"relative_l2", relative_l2(transfer, written.transfer, areas)}});
+        report.sentences.push_back(
+            fmt::format("level of detail {{levels/{0}/level}} by the same clusters: {{levels/{0}/vertices}} "
+                        "vertices, transfer (relative L2) {{levels/{0}/relative_l2:.3f%}}; the errors above "
+                        "are of level 0",
+                        level - 1));
+    }
+    add_figures(report, {{"levels", std::move(list)}});
+}
 
 /// What `read` makes of the file that is about to be published, as everybody will read it.
 template <class Read>
@@ -358,8 +414,8 @@ auto readable(const CompressArguments& a, Read&& read) {
 }
 
 /// Stages the file and reads it back; its bytes stay in memory no longer than it takes to parse them.
-Written written(const CompressArguments& a, std::vector<std::byte> file,
-                const std::optional<BakedLightmap>& lightmap, Session& session) {
+Written written(const CompressArguments& a, std::vector<std::byte> file, const Bake& bake, Session& session) {
+    const std::optional<BakedLightmap>& lightmap = bake.lightmap;
     GltfDocument document =
         readable(a, [&] { return parse_gltf(file, a.output, {.instancing = Instancing::apart}); });
     const std::uintmax_t bytes = session.write(a.output, file);
@@ -369,6 +425,17 @@ Written written(const CompressArguments& a, std::vector<std::byte> file,
     if (lightmap)
         return {std::move(read.scene), picked_texels(transfer, lightmap->texels), lightmap->areas,
                 lightmap_edges(lightmap->layout, lightmap->texels, lightmap->seams), bytes};
+    if (bake.levels) {
+        LeveledScene levels = extract_levels(read.document);
+        ClusteredTransfer all = std::move(read_clustered(read.document, levels.scene)->transfer);
+        std::vector<float> areas = areas_of_level(levels, 0);
+        std::vector<std::vector<float>> coarser;
+        for (std::size_t level = 1; level <= levels.deepest(); ++level)
+            coarser.push_back(areas_of_level(levels, level));
+        std::vector<Edge> edges = edges_within(levels.scene, levels.finest_receivers);
+        return {std::move(levels.scene), std::move(all), std::move(areas),
+                std::move(edges),        bytes,          std::move(coarser)};
+    }
     std::vector<float> areas = shown_areas(read.document, read.scene);
     std::vector<Edge> edges = mesh_edges(read.scene);
     return {std::move(read.scene), std::move(transfer), std::move(areas), std::move(edges), bytes};
@@ -557,7 +624,7 @@ void run(CompressArguments a, Session& session) {
     Outcome outcome = run_compressor(a, transfer, surface->view(), options, session);
     surface.reset();
     session.write(a.reports.trace, trace);
-    Scene scene = extract_scene(bake.document);
+    Scene scene = scene_of(bake);
     const VertexReuse reuse_before = vertex_reuse(scene);
     const std::optional<BakedLightmap> texels = bake.lightmap;
     const std::optional<CompressedVolumeResult> volume =
@@ -571,7 +638,7 @@ void run(CompressArguments a, Session& session) {
         file = with_fallback(file, a.baked, *fallback, buffer_compression(a), threads);
     if (!a.writing.reorder)
         scene = {}; // vertices are where they were
-    const Written result = written(a, std::move(file), texels, session);
+    const Written result = written(a, std::move(file), bake, session);
     if (a.writing.reorder) {
         transfer = in_order(std::move(transfer), matching_receivers(result.scene, scene));
         scene = {};
@@ -581,6 +648,7 @@ void run(CompressArguments a, Session& session) {
     add_errors(error_moments(transfer, result.transfer, result.areas, threads), *options.compress.metric,
                std::move(skies), report);
     say_fallback(fallback, report);
+    add_levels_compressed(transfer, result, report);
     if (volume)
         add_volume_compression(volume->statistics, volume->volume, report);
     if (texels)

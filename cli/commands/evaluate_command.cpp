@@ -3,6 +3,7 @@
 #include "budget/measure_budget.h"
 #include "comparison.h"
 #include "evaluation_lights.h"
+#include "level_errors.h"
 #include "no_shadow.h"
 #include "options.h"
 #include "outputs.h"
@@ -126,6 +127,8 @@ void run(EvaluateArguments a, Session& session) {
                         .pictures = !a.files.html.empty(),
                         .threads = a.threads},
                        baked, lights, report);
+    if (!a.shipped.empty() && !baked.lightmap)
+        add_level_errors({baked.document, a.baked, a.shipped, a.reading, a.threads}, lights, report);
     add_sizes_of_bake(a, baked.baked->transfer, report);
     if (a.measures.budget)
         add_budget(budget_request(a), baked, report, session);

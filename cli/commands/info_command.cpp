@@ -2,6 +2,7 @@
 
 #include "options.h"
 #include "outputs.h"
+#include "prt/levels.h"
 #include "report/lightmap_report.h"
 #include "report/of_texels.h"
 #include "report/volume_report.h"
@@ -9,6 +10,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 
 namespace prt::cli {
 namespace {
@@ -173,6 +176,33 @@ void add_stored_lobes(const StoredLobes& lobes, Report& report) {
         counted("lobes/bounces", static_cast<std::size_t>(lobes.record.bounces), "bounce")));
 }
 
+/// Coarser levels of detail, which the figures of the scene leave out.
+void add_level_figures(const GltfDocument& document, Report& report) {
+    if (!has_levels(document))
+        return;
+    const LeveledScene scene = extract_levels(document);
+    std::map<int, std::array<std::size_t, 2>> by_level; // triangles and vertices
+    for (const LeveledNode& node : scene.nodes)
+        for (const CoarserLevel& level : node.coarser) {
+            by_level[level.level][1] += vertices_of(scene.scene, level.primitives);
+            for (const std::size_t p : level.primitives)
+                by_level[level.level][0] += scene.scene.primitives[p].triangles.size();
+        }
+    const bool transfer = levels_have_transfer(document, scene);
+    Json list = Json::array();
+    std::string words;
+    for (const auto& [level, counts] : by_level) {
+        list.push_back({{"level", level}, {"triangles", counts[0]}, {"vertices", counts[1]}});
+        words += fmt::format("{}level {} has {} triangles", words.empty() ? "" : ", ", level, counts[0]);
+    }
+    add_figures(
+        report,
+        {{"levels", {{"nodes", scene.nodes.size()}, {"by_level", std::move(list)}, {"transfer", transfer}}}});
+    report.sentences.push_back(fmt::format("levels of detail of {}: {}; {}",
+                                           counted("levels/nodes", scene.nodes.size(), "node"), words,
+                                           transfer ? "with transfer" : "without transfer"));
+}
+
 void run(InfoArguments a, Session& session) {
     a.reading.outputs = check_outputs({{a.json, "--json", {".json"}}}, {a.file});
     const SceneFile model = load_scene_file(a.file, a.reading);
@@ -200,6 +230,7 @@ void run(InfoArguments a, Session& session) {
     }
     if (model.lobes)
         add_stored_lobes(*model.lobes, report);
+    add_level_figures(model.document, report);
     if (!model.record() && !model.lobes)
         report.sentences.emplace_back("no transfer");
     if (model.lightmap)

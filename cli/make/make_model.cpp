@@ -7,6 +7,7 @@
 #include "no_shadow.h"
 #include "prt/encode_glb.h"
 #include "prt/jumps.h"
+#include "prt/levels.h"
 #include "prt/refine.h"
 #include "prt/search.h"
 #include "prt/support/error.h"
@@ -213,6 +214,10 @@ private:
         const BakeResult result = baked(bake_options(plan_.rays), "baking");
         for (const std::string& notice : result.statistics.notices)
             notices_.push_back(notice);
+        if (has_levels(document_))
+            notices_.emplace_back(
+                "coarser levels of detail get no light: prt bake and prt compress give them "
+                "some");
         write_transfer(document_, scene_, result.baked);
         const std::vector<std::byte> file = encode_glb(document_);
         session_.write(r_.baked, file);

@@ -9,6 +9,7 @@
 
 #include "prt/animation.h"
 #include "prt/error_budget.h"
+#include "prt/lobes.h"
 #include "prt/occluder_gltf.h"
 #include "prt/transfer_volume.h"
 
@@ -94,6 +95,7 @@ struct SortedFiles {
 struct FigureFile {
     std::filesystem::path path;
     std::shared_ptr<const prt::AnimatedScene> figure;
+    std::shared_ptr<const prt::LobeModel> lobes = {}; ///< of its vertices; null: it has none
 };
 
 /// What the nodes of a figure's file block around them.

@@ -42,6 +42,7 @@ public:
     void advance(double seconds, double speed);
 
     const std::shared_ptr<const prt::AnimatedScene>& figure() const { return file_.figure; }
+    const std::shared_ptr<const prt::LobeModel>& lobes() const { return file_.lobes; }
     const std::filesystem::path& path() const { return file_.path; }
     const std::vector<prt::NodeOccluder>& occluders() const { return occluders_; }
     const FoundVolume& volume() const { return volume_; }

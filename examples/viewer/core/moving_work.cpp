@@ -3,6 +3,7 @@
 #include "core/transfer_work.h"
 
 #include "prt/compress_volume.h"
+#include "prt/lobe_gltf.h"
 #include "prt/occluder_bake.h"
 #include "prt/rigid_parts.h"
 #include "prt/support/error.h"
@@ -91,7 +92,10 @@ SortedFiles sort_files(const std::vector<std::filesystem::path>& paths, bool sce
 void find_figure(Channel& channel, const std::filesystem::path& path) {
     const prt::GltfDocument document = prt::load_gltf(path);
     const auto figure = std::make_shared<const prt::AnimatedScene>(document);
-    channel.post(FigureFile{path, figure});
+    std::shared_ptr<const prt::LobeModel> lobes;
+    if (auto stored = prt::read_lobes(document, figure->scene()))
+        lobes = std::make_shared<const prt::LobeModel>(std::move(stored->model));
+    channel.post(FigureFile{path, figure, std::move(lobes)});
     std::vector<prt::NodeOccluder> occluders = prt::read_occluders(document);
     if (occluders.empty())
         occluders = measured_occluders(channel, document, figure->scene());

@@ -29,7 +29,7 @@ void Viewer::take(const FigureFile& file) {
     document_.moving.set_figure(file);
     if (document_.model())
         document_.moving.choose({}, document_.loaded.model);
-    gpu_->moving.set_figure(document_.moving.figure());
+    gpu_->moving.set_figure(document_.moving.figure(), document_.moving.lobes().get());
 }
 
 void Viewer::take(const FoundOccluders& found) {
@@ -47,7 +47,7 @@ void Viewer::take(const FoundVolume& found) {
 }
 
 void Viewer::upload_moving() {
-    gpu_->moving.set_figure(document_.moving.figure());
+    gpu_->moving.set_figure(document_.moving.figure(), document_.moving.lobes().get());
     gpu_->moving.set_occluders(document_.moving.occluders());
     gpu_->moving.set_volume(document_.moving.volume().volume);
     gpu_->lit = {};

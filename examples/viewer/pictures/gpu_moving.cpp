@@ -1,6 +1,8 @@
 #include "pictures/gpu_moving.h"
 
+#include "prt/lobe_shader.h"
 #include "shared_layout.h"
+#include "shared_viewer.h"
 
 #include <epoxy/gl.h>
 #include <glm/vec2.hpp>
@@ -40,6 +42,12 @@ GpuMoving::GpuMoving(prt::Scene scene, std::span<const prt::MovingVertices> movi
     }
 }
 
+void GpuMoving::set_lobes(const prt::LobeModel& lobes) {
+    lobe_words_ = prt::make_buffer(std::span<const prt::LobeWord>(lobes.words));
+    const std::vector<glm::vec4> profiles = prt::lobe_profile_block(lobes);
+    lobe_profiles_ = prt::make_buffer(std::span<const glm::vec4>(profiles));
+}
+
 void GpuMoving::move(const Palettes& palettes) {
     for (std::size_t a = 0; a < palettes.size(); ++a) {
         Vertices& vertices = vertices_[a];
@@ -58,6 +66,12 @@ void GpuMoving::bind(const prt::GlObject& program, std::size_t primitive) const 
     prt::bind_storage(PRT_BINDING_PALETTE, vertices.palette);
     prt::bind_storage(PRT_BINDING_INFLUENCES, vertices.influences);
     glUniform1i(prt::uniform(program, "influences_each"), vertices.each);
+    if (lobe_words_.name() == 0)
+        return;
+    prt::bind_storage(PRT_BINDING_LOBE_WORDS, lobe_words_);
+    glBindBufferBase(GL_UNIFORM_BUFFER, PRT_BINDING_LOBES, lobe_profiles_.name());
+    const prt::VertexArray& array = scene_.vertex_arrays[scene_.primitives[primitive].vertices];
+    glUniform1i(prt::uniform(program, "first_vertex"), static_cast<GLint>(array.first_receiver));
 }
 
 void GpuMoving::draw(const prt::GlObject& program) {

@@ -4,6 +4,7 @@
 
 #include "prt/animation.h"
 #include "prt/gl_scene.h"
+#include "prt/lobes.h"
 
 #include <span>
 #include <vector>
@@ -19,6 +20,8 @@ public:
     GpuMoving(const GpuMoving&) = delete;
     GpuMoving& operator=(const GpuMoving&) = delete;
 
+    /// From now on they light its vertices where the program is PRT_LOBED.
+    void set_lobes(const prt::LobeModel& lobes);
     void move(const Palettes& palettes);
     /// Draws all of it with a program of viewer_moving.vert, in use.
     void draw(const prt::GlObject& program);
@@ -37,6 +40,7 @@ private:
     prt::GlScene gpu_;
     prt::GlVertexArrays arrays_;
     std::vector<Vertices> vertices_; ///< [vertex arrays]
+    prt::GlObject lobe_words_, lobe_profiles_;
 };
 
 /// A figure's scene with its vertices as they are before they move.

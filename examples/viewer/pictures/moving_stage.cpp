@@ -1,5 +1,6 @@
 #include "pictures/moving_stage.h"
 
+#include "prt/lobe_shader.h"
 #include "prt/texture.h"
 #include "prt/volume_shader.h"
 #include "shared_layout.h"
@@ -17,6 +18,8 @@ namespace {
 
 /// The second is of polished metal.
 constexpr std::array kSphereColors = {kMattColor, glm::vec3(0.9f)};
+/// Bands of the sky that lobes are lit by without a volume; light has as many at least.
+constexpr int kOrderOfSky = 3;
 /// Of a probe's sphere, in finest cells.
 constexpr float kProbeRadius = 0.1f;
 
@@ -41,14 +44,20 @@ MovingStage::MovingStage()
     : programs_{{}, prt::make_program("sun_caster.vert", "sun_caster.frag", "#define PRT_SKINNED\n"), {}},
       no_vertices_(prt::make_vertex_array()) {}
 
-void MovingStage::set_figure(std::shared_ptr<const prt::AnimatedScene> figure) {
+void MovingStage::set_figure(std::shared_ptr<const prt::AnimatedScene> figure, const prt::LobeModel* lobes) {
     figure_.reset();
+    lobes_.reset();
+    std::erase_if(programs_.surfaces, [](const auto& program) { return program.first.lobed; });
     shadows_.set_figure({});
     pose_ = {};
     ++moved_;
     if (figure)
         figure_ = std::make_unique<GpuMoving>(scene_before_moving(*figure), figure->vertices(),
                                               prt::load_textures(figure->scene(), prt::BadTextures::ignore));
+    if (figure && lobes) {
+        lobes_ = *lobes;
+        figure_->set_lobes(*lobes_);
+    }
 }
 
 void MovingStage::set_volume(std::shared_ptr<const prt::CompressedVolume> volume) {
@@ -155,18 +164,20 @@ prt::SunShadows::Moving MovingStage::casters() {
             .version = 4 * moved_ + shown};
 }
 
-const prt::GlObject& MovingStage::program(bool suns) {
-    prt::GlObject& program = programs_.surfaces[suns];
-    if (program.name() == 0)
-        program = prt::make_program("viewer_moving.vert", "viewer_moving.frag",
-                                    volume_.defines + (suns ? "#define PRT_SUNS\n" : ""));
+const prt::GlObject& MovingStage::program(const Surface& surface) {
+    prt::GlObject& program = programs_.surfaces[surface];
+    if (program.name() == 0) {
+        std::string defines = volume_.defines + (surface.suns ? "#define PRT_SUNS\n" : "");
+        if (surface.lobed)
+            defines += "#define PRT_LOBED\n" +
+                       prt::lobe_defines(*lobes_, has_volume() ? volume_.transfer->order : kOrderOfSky);
+        program = prt::make_program("viewer_moving.vert", "viewer_moving.frag", defines);
+    }
     return program;
 }
 
-void MovingStage::draw(const MovingPass& pass) {
-    if (!lit_.lighting)
-        return;
-    const prt::GlObject& moving = program(adds_suns());
+const prt::GlObject& MovingStage::use(const Surface& surface, const MovingPass& pass) {
+    const prt::GlObject& moving = program(surface);
     glUseProgram(moving.name());
     if (volume_.gpu)
         volume_.gpu->bind();
@@ -174,10 +185,19 @@ void MovingStage::draw(const MovingPass& pass) {
                        glm::value_ptr(pass.view_projection));
     glUniform3fv(prt::uniform(moving, "eye"), 1, glm::value_ptr(pass.eye));
     glUniform3fv(prt::uniform(moving, "irradiance_sh"), 9, glm::value_ptr(pass.irradiance.front()));
+    glUniform3fv(prt::uniform(moving, "sky_sh"), kOrderOfSky * kOrderOfSky,
+                 glm::value_ptr(lit_.lighting->sky.coefficients.front()));
     glUniform1i(prt::uniform(moving, "textured"), pass.textured);
     glUniform1i(prt::uniform(moving, "chrome"), 0);
+    return moving;
+}
+
+void MovingStage::draw(const MovingPass& pass) {
+    if (!lit_.lighting)
+        return;
     if (shows_figure())
-        figure_->draw(moving);
+        figure_->draw(use({adds_suns(), lobes_.has_value()}, pass));
+    const prt::GlObject& moving = use({adds_suns(), false}, pass);
     for (std::size_t i = 0; i < 2; ++i) {
         if (!shows_spheres())
             continue;

@@ -39,8 +39,8 @@ class MovingStage {
 public:
     MovingStage();
 
-    /// Null: there is none.
-    void set_figure(std::shared_ptr<const prt::AnimatedScene> figure);
+    /// Null: there is none; or its vertices have no lobes.
+    void set_figure(std::shared_ptr<const prt::AnimatedScene> figure, const prt::LobeModel* lobes);
     void set_occluders(std::vector<prt::NodeOccluder> occluders) {
         shadows_.set_figure(std::move(occluders));
     }
@@ -83,10 +83,17 @@ private:
     bool shows_probes() const { return shown_.probes && has_volume(); }
     void light_volume();
     bool adds_suns() const;
-    const prt::GlObject& program(bool suns);
+    struct Surface { ///< that a program draws
+        bool suns, lobed;
+
+        friend auto operator<=>(const Surface&, const Surface&) = default;
+    };
+    const prt::GlObject& program(const Surface& surface);
+    const prt::GlObject& use(const Surface& surface, const MovingPass& pass);
     void draw_probes(const MovingPass& pass);
 
     std::unique_ptr<GpuMoving> figure_;
+    std::optional<prt::LobeModel> lobes_;                     ///< of the figure
     std::array<std::unique_ptr<GpuMoving>, 2> sphere_models_; ///< once they are shown
     MovingSettings shown_;
     FigurePose pose_;
@@ -96,7 +103,7 @@ private:
     Volume volume_;
     Lit lit_;
     struct Programs {
-        std::map<bool, prt::GlObject> surfaces; ///< [suns]
+        std::map<Surface, prt::GlObject> surfaces;
         prt::GlObject caster, probes;
     };
     Programs programs_;

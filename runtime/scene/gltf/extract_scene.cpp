@@ -112,8 +112,7 @@ void apply_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive
 class SceneExtractor {
 public:
     SceneExtractor(const GltfContents& contents, Keep keep)
-        : contents_(contents), model_(contents.model), keep_(keep),
-          world_(model_.nodes.size(), glm::dmat4(1)) {
+        : contents_(contents), model_(contents.model), keep_(keep) {
         for (std::size_t i = 0; i < contents.images.size(); ++i) {
             const tinygltf::Image& image = model_.images[i];
             const std::string name = !image.uri.empty() ? image.uri : image.name;
@@ -126,27 +125,80 @@ public:
     }
 
     Extraction extract() {
-        const std::vector<NodeTransform> nodes = world_transforms(model_);
-        check_scene_size(model_, nodes, contents_.file_bytes);
-        for (const NodeTransform& node : nodes)
-            world_[static_cast<std::size_t>(node.node)] = node.world;
-        for (const NodeTransform& node : nodes)
+        extract(level_nodes(contents_), {});
+        return {std::move(scene_), std::move(moving_), std::move(skins_)};
+    }
+
+    LeveledExtraction extract_leveled() {
+        LevelNodes nodes = level_nodes(contents_);
+        leave_out_empty(nodes);
+        std::vector<NodeTransform> coarser;
+        for (const NodeLevels& levels : nodes.levels)
+            for (const NodeLevels::Level& level : levels.coarser)
+                coarser.insert(coarser.end(), level.nodes.begin(), level.nodes.end());
+        const std::size_t finest = extract(nodes, coarser);
+        return {std::move(scene_), finest, std::move(nodes.levels), std::move(nodes.notices)};
+    }
+
+private:
+    bool draws(int node) const {
+        const int mesh = model_.nodes[static_cast<std::size_t>(node)].mesh;
+        if (mesh < 0 || static_cast<std::size_t>(mesh) >= model_.meshes.size())
+            return false;
+        return std::ranges::any_of(model_.meshes[static_cast<std::size_t>(mesh)].primitives,
+                                   [&](const tinygltf::Primitive& file) {
+                                       return is_triangle_mode(file.mode) && has_vertices(file);
+                                   });
+    }
+
+    /// Levels that draw nothing, and levels of nodes that draw nothing.
+    void leave_out_empty(LevelNodes& nodes) const {
+        std::erase_if(nodes.levels, [&](NodeLevels& levels) {
+            const std::string name = node_name(model_, levels.node);
+            if (std::ranges::none_of(levels.finest, [&](int node) { return draws(node); })) {
+                nodes.notices.push_back(name + " has levels of detail and no triangles itself: they are left "
+                                               "as they are");
+                return true;
+            }
+            std::erase_if(levels.coarser, [&](const NodeLevels::Level& level) {
+                const bool empty = std::ranges::none_of(
+                    level.nodes, [&](const NodeTransform& node) { return node.visible && draws(node.node); });
+                if (empty)
+                    nodes.notices.push_back(node_name(model_, level.node) + ", level " +
+                                            std::to_string(level.number) + " of " + name +
+                                            ", has no triangles");
+                return empty;
+            });
+            return levels.coarser.empty();
+        });
+    }
+
+    /// Returns how many primitives are not of `coarser` levels.
+    std::size_t extract(const LevelNodes& nodes, std::span<const NodeTransform> coarser) {
+        std::vector<NodeTransform> all = nodes.finest;
+        all.insert(all.end(), coarser.begin(), coarser.end());
+        check_scene_size(model_, all, contents_.file_bytes);
+        world_ = nodes.world;
+        for (const NodeTransform& node : nodes.finest)
             add_node(node);
         if (scene_.triangles() == 0)
             throw Error("the scene has no triangles");
-        place_about_middle();
-        scene_.lights = read_lights(contents_, nodes, scene_.origin);
+        const std::size_t finest = scene_.primitives.size();
+        for (const NodeTransform& node : coarser)
+            add_node(node);
+        place_about_middle(finest);
+        scene_.lights = read_lights(contents_, nodes.finest, scene_.origin);
         make_flat_normals();
+        seen_.coarser_levels = nodes.left_out;
         add_notices();
         std::size_t first = 0;
         for (VertexArray& vertices : scene_.vertex_arrays) {
             vertices.first_receiver = first;
             first += vertices.size();
         }
-        return {std::move(scene_), std::move(moving_), std::move(skins_)};
+        return finest;
     }
 
-private:
     void add_node(const NodeTransform& transform) {
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(transform.node)];
         if (node.mesh < 0)
@@ -248,11 +300,11 @@ private:
         scene_.vertex_arrays.push_back(std::move(vertices));
     }
 
-    /// Positions of the file become those in the world, seen from the middle of the triangles' box. They are
-    /// rounded to floats only here.
-    void place_about_middle() {
+    /// Positions of the file become those in the world, seen from the middle of the box of the triangles of
+    /// the first `finest` primitives. They are rounded to floats only here.
+    void place_about_middle(std::size_t finest) {
         glm::dvec3 low(std::numeric_limits<double>::infinity()), high = -low;
-        for (const Primitive& primitive : scene_.primitives)
+        for (const Primitive& primitive : std::span(scene_.primitives).first(finest))
             for (const glm::uvec3& t : primitive.triangles)
                 for (int corner = 0; corner < 3; ++corner) {
                     low = glm::min(low, places_[primitive.vertices][t[corner]]);
@@ -298,6 +350,10 @@ private:
         if (seen_.hidden_nodes > 0)
             scene_.notices.emplace_back(std::to_string(seen_.hidden_nodes) +
                                         " meshes are hidden (KHR_node_visibility) and left out");
+        if (seen_.coarser_levels > 0)
+            scene_.notices.emplace_back(std::to_string(seen_.coarser_levels) +
+                                        " nodes are coarser levels of detail of others (MSFT_lod or names), "
+                                        "cast no shadow and are not drawn");
         if (seen_.bad_texcoords > 0)
             scene_.notices.emplace_back(std::to_string(seen_.bad_texcoords) +
                                         " texture coordinates are not finite and become 0");
@@ -313,6 +369,7 @@ private:
     /// What a user should know of.
     struct Seen {
         std::size_t flat_primitives = 0, skipped_primitives = 0, hidden_nodes = 0, bad_texcoords = 0;
+        std::size_t coarser_levels = 0;
         bool has_morphs = false;
     };
 
@@ -333,6 +390,10 @@ private:
 
 Extraction extract(const GltfContents& contents, Keep keep) {
     return SceneExtractor(contents, keep).extract();
+}
+
+LeveledExtraction extract_leveled(const GltfContents& contents) {
+    return SceneExtractor(contents, Keep::scene).extract_leveled();
 }
 
 Scene extract_scene(const GltfDocument& document) {

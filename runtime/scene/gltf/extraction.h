@@ -3,6 +3,7 @@
 // A scene taken out of a document, and what its vertices were before they were placed.
 
 #include "gltf/contents.h"
+#include "gltf/level_nodes.h"
 #include "prt/animation.h"
 
 #include <map>
@@ -22,5 +23,14 @@ struct Extraction {
 };
 
 Extraction extract(const GltfContents& contents, Keep keep);
+
+/// The scene, then the coarser levels of its nodes.
+struct LeveledExtraction {
+    Scene scene;
+    std::size_t finest_primitives = 0;
+    std::vector<NodeLevels> levels;
+    std::vector<std::string> notices; ///< of levels
+};
+LeveledExtraction extract_leveled(const GltfContents& contents);
 
 } // namespace prt

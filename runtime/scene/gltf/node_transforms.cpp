@@ -25,12 +25,6 @@ LocalPose local_pose(const tinygltf::Node& node) {
     return pose;
 }
 
-bool is_visible(const tinygltf::Node& node) {
-    const auto found = node.extensions.find("KHR_node_visibility");
-    return found == node.extensions.end() || !found->second.Has("visible") ||
-           found->second.Get("visible").Get<bool>();
-}
-
 std::vector<int> root_nodes(const tinygltf::Model& model) {
     if (!model.scenes.empty()) {
         const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
@@ -51,6 +45,12 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
 }
 
 } // namespace
+
+bool is_visible(const tinygltf::Node& node) {
+    const auto found = node.extensions.find("KHR_node_visibility");
+    return found == node.extensions.end() || !found->second.Has("visible") ||
+           found->second.Get("visible").Get<bool>();
+}
 
 glm::dmat4 LocalPose::transform() const {
     if (matrix)

@@ -36,6 +36,9 @@ NodeTree node_tree(const tinygltf::Model& model);
 /// [nodes of the file]; the identity for those of no scene. `poses` as `tree` has them.
 std::vector<glm::dmat4> world_matrices(const NodeTree& tree, std::span<const LocalPose> poses);
 
+/// What KHR_node_visibility says of it alone.
+bool is_visible(const tinygltf::Node& node);
+
 struct NodeTransform {
     int node = 0;
     glm::dmat4 world{1};

@@ -77,7 +77,11 @@ for file in *.vert *.frag *.comp; do
                 # shellcheck disable=SC2086
                 compiles "$file" "${volume[@]}" $defines
             done
-            [[ $file == viewer_probes.* ]] || compiles "$file" PRT_SUNS
+            if [[ $file == viewer_moving.* ]]; then
+                compiles "$file" PRT_SUNS
+                compiles "$file" PRT_LOBED "PRT_LOBES 2" "PRT_LOBE_ORDER 3"
+                compiles "$file" "${volume[@]}" PRT_VOLUME PRT_SUNS PRT_LOBED "PRT_LOBES 3"
+            fi
             ;;
         sun_caster.vert)
             compiles "$file"

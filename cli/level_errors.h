@@ -1,0 +1,23 @@
+#pragma once
+
+// What coarser levels of detail of a shipped file differ from level 0 of its bake.
+
+#include "inputs.h"
+#include "report/report.h"
+#include "split_light.h"
+
+#include <vector>
+
+namespace prt::cli {
+
+struct LevelFiles {
+    const GltfDocument& baked;
+    Path baked_path, shipped_path;
+    GltfOptions reading;
+    int threads = 0;
+};
+
+/// Adds a table of levels, where both files have transfer of some.
+void add_level_errors(const LevelFiles& files, const std::vector<SplitLight>& lights, Report& report);
+
+} // namespace prt::cli

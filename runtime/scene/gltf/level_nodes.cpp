@@ -1,0 +1,248 @@
+// Finds levels by MSFT_lod and by names, and places them.
+#include "gltf/level_nodes.h"
+
+#include "gltf/level_names.h"
+#include "prt/support/error.h"
+#include "prt/support/printable.h"
+
+#include <algorithm>
+#include <map>
+
+namespace prt {
+namespace {
+
+constexpr const char* kLodExtension = "MSFT_lod";
+
+/// A node and those that stand in for it, from the finest on.
+struct FoundLevels {
+    int node;
+    bool by_name;
+    std::vector<int> coarser;
+};
+
+class LevelFinder {
+public:
+    LevelFinder(const GltfContents& contents, const NodeTree& tree)
+        : contents_(contents), model_(contents.model), tree_(tree), parent_(model_.nodes.size(), -1),
+          in_scene_(model_.nodes.size(), false), level_of_(model_.nodes.size(), -1) {
+        for (const NodeTree::Place& place : tree.order) {
+            parent_[at(place.node)] = place.parent;
+            in_scene_[at(place.node)] = true;
+        }
+    }
+
+    std::vector<FoundLevels> find() {
+        find_listed();
+        find_named();
+        return std::move(found_);
+    }
+    std::vector<std::string> take_notices() { return std::move(notices_); }
+
+private:
+    static std::size_t at(int node) { return static_cast<std::size_t>(node); }
+
+    void find_listed() {
+        std::vector<FoundLevels> listed;
+        for (std::size_t n = 0; n < model_.nodes.size(); ++n)
+            if (const Json* extension = extension_of(contents_.json["nodes"][n], kLodExtension))
+                listed.push_back({static_cast<int>(n), false, ids_of(static_cast<int>(n), *extension)});
+        for (const FoundLevels& levels : listed)
+            for (const int level : levels.coarser)
+                check_listed(levels.node, level);
+        for (const FoundLevels& levels : listed)
+            if (level_of_[at(levels.node)] >= 0)
+                throw Error(node_name(model_, levels.node) + " is a level of detail of node " +
+                            std::to_string(level_of_[at(levels.node)]) + " and has levels of its own");
+        for (FoundLevels& levels : listed)
+            if (in_scene_[at(levels.node)] && !levels.coarser.empty())
+                found_.push_back(std::move(levels));
+    }
+
+    std::vector<int> ids_of(int node, const Json& extension) const {
+        const std::string what = std::string(kLodExtension) + " of " + node_name(model_, node);
+        if (!extension.is_object() || !extension.contains("ids") || !extension["ids"].is_array())
+            throw Error(what + " has no list of ids");
+        std::vector<int> ids;
+        for (const Json& id : extension["ids"]) {
+            if (!id.is_number_unsigned() || id.get<std::uint64_t>() >= model_.nodes.size())
+                throw Error(what + " names node " + id.dump(-1, ' ', true, Json::error_handler_t::replace) +
+                            ", which is not there");
+            ids.push_back(id.get<int>());
+        }
+        return ids;
+    }
+
+    void check_listed(int node, int level) {
+        const std::string what = node_name(model_, level) + " is a level of detail of node ";
+        if (level_of_[at(level)] >= 0)
+            throw Error(what + std::to_string(level_of_[at(level)]) +
+                        (level_of_[at(level)] == node ? " twice" : " and of node " + std::to_string(node)) +
+                        ": each level needs a node of its own, which may share a mesh");
+        for (int above = node; above >= 0; above = parent_[at(above)])
+            if (above == level)
+                throw Error(what + std::to_string(node) +
+                            (above == node ? ", which it is" : ", and above it"));
+        level_of_[at(level)] = node;
+    }
+
+    /// Siblings, and those of them that a name makes levels of one thing: [level][copies].
+    using Named = std::map<std::pair<int, std::string>, std::map<int, std::vector<int>>>;
+
+    void find_named() {
+        Named named;
+        for (const NodeTree::Place& place : tree_.order)
+            if (const auto name = level_name(model_.nodes[at(place.node)].name))
+                named[{place.parent, name->stem}][name->level].push_back(place.node);
+        std::vector<FoundLevels> pairs;
+        for (const auto& [key, levels] : named)
+            add_named(levels, pairs);
+        std::ranges::sort(pairs, {}, &FoundLevels::node);
+        std::ranges::move(pairs, std::back_inserter(found_));
+    }
+
+    void add_named(const std::map<int, std::vector<int>>& levels, std::vector<FoundLevels>& pairs) {
+        if (!levels.contains(0) || levels.size() < 2 || says_more(levels))
+            return;
+        const std::vector<int>& finest = levels.at(0);
+        for (const auto& [level, nodes] : levels)
+            if (nodes.size() != finest.size()) {
+                notices_.push_back("names of levels of detail say different numbers of " +
+                                   node_name(model_, finest.front()) + " and " +
+                                   node_name(model_, nodes.front()) + ": they are taken for none");
+                return;
+            }
+        for (std::size_t i = 0; i < finest.size(); ++i) {
+            FoundLevels copy{finest[i], true, {}};
+            for (auto level = std::next(levels.begin()); level != levels.end(); ++level) {
+                copy.coarser.push_back(level->second[i]);
+                level_of_[at(level->second[i])] = finest[i];
+            }
+            pairs.push_back(std::move(copy));
+        }
+    }
+
+    /// Whether MSFT_lod says something of one of them already.
+    bool says_more(const std::map<int, std::vector<int>>& levels) const {
+        return std::ranges::any_of(levels, [&](const auto& level) {
+            return std::ranges::any_of(level.second, [&](int node) {
+                return level_of_[at(node)] >= 0 ||
+                       std::ranges::find(found_, node, &FoundLevels::node) != found_.end();
+            });
+        });
+    }
+
+    const GltfContents& contents_;
+    const tinygltf::Model& model_;
+    const NodeTree& tree_;
+    std::vector<int> parent_;
+    std::vector<bool> in_scene_;
+    std::vector<int> level_of_; ///< -1: of none
+    std::vector<FoundLevels> found_;
+    std::vector<std::string> notices_;
+};
+
+/// Walks what is below nodes, in the scene and out of it.
+class LevelPlacer {
+public:
+    LevelPlacer(const GltfContents& contents, const NodeTree& tree, std::span<const FoundLevels> found)
+        : model_(contents.model), tree_(tree), coarser_(model_.nodes.size(), false),
+          seen_(model_.nodes.size(), false), parent_(model_.nodes.size(), -1) {
+        for (const FoundLevels& levels : found)
+            for (const int level : levels.coarser)
+                coarser_[at(level)] = true;
+        result_.world.assign(model_.nodes.size(), glm::dmat4(1));
+        for (const NodeTree::Place& place : tree.order)
+            parent_[at(place.node)] = place.parent, seen_[at(place.node)] = true;
+    }
+
+    LevelNodes place(std::span<const FoundLevels> found) {
+        std::vector<NodeTransform> all = world_transforms(model_);
+        std::vector<bool> left_out(model_.nodes.size(), false), visible = left_out, in_scene = left_out;
+        for (const NodeTransform& node : all) {
+            const std::size_t n = at(node.node);
+            result_.world[n] = node.world;
+            in_scene[n] = true;
+            visible[n] = node.visible;
+            left_out[n] = coarser_[n] || (parent_[n] >= 0 && left_out[at(parent_[n])]);
+            result_.left_out += coarser_[n] ? 1 : 0;
+            if (!left_out[n])
+                result_.finest.push_back(node);
+        }
+        for (const FoundLevels& levels : found) {
+            if (left_out[at(levels.node)] || !visible[at(levels.node)])
+                continue;
+            NodeLevels placed{levels.node, levels.by_name, {}, {}};
+            for (const NodeTransform& node : below(levels.node, true))
+                placed.finest.push_back(node.node);
+            for (const int level : levels.coarser) {
+                if (!in_scene[at(level)])
+                    parent_[at(level)] = parent_[at(levels.node)];
+                placed.coarser.push_back(
+                    {static_cast<int>(placed.coarser.size()) + 1, level, below(level, in_scene[at(level)])});
+            }
+            result_.levels.push_back(std::move(placed));
+        }
+        return std::move(result_);
+    }
+
+private:
+    static std::size_t at(int node) { return static_cast<std::size_t>(node); }
+
+    /// `root`, which is seen, and what is below it but coarser levels; where they stand is known of those in
+    /// the scene.
+    std::vector<NodeTransform> below(int root, bool in_scene) {
+        std::vector<NodeTransform> nodes = {{root, {}, true}};
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            const int node = nodes[i].node;
+            if (!in_scene)
+                place_out_of_scene(node);
+            nodes[i].world = result_.world[at(node)];
+            const bool visible = nodes[i].visible;
+            for (const int child : model_.nodes[at(node)].children) {
+                if (child < 0 || at(child) >= model_.nodes.size())
+                    throw Error("node " + std::to_string(child) + " is not there");
+                if (child == root)
+                    throw Error("node " + std::to_string(child) + " has two parents or is its own ancestor");
+                if (coarser_[at(child)])
+                    continue;
+                if (!in_scene)
+                    parent_[at(child)] = node;
+                nodes.push_back({child, {}, visible && is_visible(model_.nodes[at(child)])});
+            }
+        }
+        return nodes;
+    }
+
+    void place_out_of_scene(int node) {
+        if (seen_[at(node)])
+            throw Error("node " + std::to_string(node) + " has two parents or is its own ancestor");
+        seen_[at(node)] = true;
+        const int parent = parent_[at(node)];
+        const glm::dmat4 local = tree_.poses[at(node)].transform();
+        result_.world[at(node)] = parent < 0 ? local : result_.world[at(parent)] * local;
+    }
+
+    const tinygltf::Model& model_;
+    const NodeTree& tree_;
+    std::vector<bool> coarser_, seen_; ///< [nodes]; seen: have a place
+    std::vector<int> parent_;          ///< [nodes]
+    LevelNodes result_;
+};
+
+} // namespace
+
+std::string node_name(const tinygltf::Model& model, int node) {
+    const std::string& name = model.nodes[static_cast<std::size_t>(node)].name;
+    return "node " + std::to_string(node) + (name.empty() ? "" : " '" + printable(name) + "'");
+}
+
+LevelNodes level_nodes(const GltfContents& contents) {
+    const NodeTree tree = node_tree(contents.model);
+    LevelFinder finder(contents, tree);
+    const std::vector<FoundLevels> found = finder.find();
+    LevelNodes nodes = LevelPlacer(contents, tree, found).place(found);
+    nodes.notices = finder.take_notices();
+    return nodes;
+}
+
+} // namespace prt
