@@ -46,6 +46,13 @@ $prt bake out/scenes/room.glb -o out/room.lightmap.baked.glb --size 256 --unwrap
 $prt compress out/room.lightmap.baked.glb -o out/room.lightmap.shipped.glb --preset u64
 $prt render out/room.lightmap.shipped.glb --env "$sky" -o out/room.lightmap.png --camera 1.2,1.9,4.2 --look-at 0,1.8,-5 --fov 45
 echo
+# A forest whose trees share the transfer of three, and a figure that shadows itself.
+build/release/examples/scenes/example_scenes out/scenes forest:200
+$prt bake out/scenes/forest.glb -o out/forest.baked.glb --instances shared --bounces 2 --rays 512
+$prt compress out/forest.baked.glb -o out/forest.shipped.glb --clusters 64
+$prt render out/forest.shipped.glb --env "$sky" -o out/forest.png --camera 4,3,16 --look-at 0,2,0 --fov 50
+$prt lobes out/scenes/figure.glb -o out/figure.lobes.glb
+echo
 $prt render out/knot.shipped.glb --env "$sky" --show clusters -o out/knot.clusters.png
 $prt render out/knot.shipped.glb --env "$sky" --show error --baked out/knot.baked.glb -o out/knot.error.png
 echo

@@ -22,7 +22,7 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kRowsAtOnce = 1 << 14;
+constexpr std::size_t kGatheredAtOnce = 1 << 14;
 constexpr int kMostEndless = 200;     ///< bounces, where they are endless
 constexpr double kLeastChange = 1e-4; ///< of the light of what is drawn once, where they end
 constexpr int kSampleHitStride = 8;   ///< as kHitStride; samples are many for each factor
@@ -202,9 +202,9 @@ void InstanceLight::gather_light() {
     const int order = plan_.options.order, threads = plan_.options.threads;
     const std::size_t own = receivers_.own.size(), rows = bounce_.gather->rows();
     bounce_.gather->reflect(order, bounce_.exit, threads);
-    std::vector<float> block(std::min(kRowsAtOnce, rows) * sizes_.stride);
-    for (std::size_t first = 0; first < rows; first += kRowsAtOnce) {
-        const std::span<float> some(block.data(), std::min(kRowsAtOnce, rows - first) * sizes_.stride);
+    std::vector<float> block(std::min(kGatheredAtOnce, rows) * sizes_.stride);
+    for (std::size_t first = 0; first < rows; first += kGatheredAtOnce) {
+        const std::span<float> some(block.data(), std::min(kGatheredAtOnce, rows - first) * sizes_.stride);
         bounce_.gather->apply(order, bounce_.exit, first, some, threads);
         parallel_for(some.size() / sizes_.stride, 256, threads, [&](std::size_t begin, std::size_t end) {
             for (std::size_t row = begin; row < end; ++row) {

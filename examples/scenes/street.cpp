@@ -11,8 +11,8 @@
 namespace examples {
 namespace {
 
-constexpr float kWidth = 9, kDepth = 8; ///< of a house, metres
-constexpr float kSetBack = 7.5f;        ///< of fronts from the middle of the street
+constexpr float kHouseWidth = 9, kHouseDepth = 8; ///< of a house, metres
+constexpr float kSetBack = 7.5f;                  ///< of fronts from the middle of the street
 
 /// What differs from kind to kind.
 struct HouseKind {
@@ -45,34 +45,34 @@ Mesh front_wall(int storeys, bool door) {
             append(panes,
                    box({low.x - 0.1f, low.y - 0.1f, -0.3f}, {high.x + 0.1f, high.y + 0.1f, -0.2f}, 0.7f));
         }
-    Mesh wall = wall_with_openings({-kWidth / 2, 0}, {kWidth / 2, kStorey * static_cast<float>(storeys)},
-                                   openings, 0.9f);
+    Mesh wall = wall_with_openings({-kHouseWidth / 2, 0},
+                                   {kHouseWidth / 2, kStorey * static_cast<float>(storeys)}, openings, 0.9f);
     append(wall, panes);
     return wall;
 }
 
 std::vector<Part> house(const HouseKind& kind) {
-    const float eaves = kStorey * static_cast<float>(kind.storeys), half = kWidth / 2;
-    Mesh walls = placed(front_wall(kind.storeys, true), placement({0, 0, kDepth / 2}, 0));
-    append(walls, placed(front_wall(kind.storeys, false), placement({0, 0, -kDepth / 2}, 180)));
+    const float eaves = kStorey * static_cast<float>(kind.storeys), half = kHouseWidth / 2;
+    Mesh walls = placed(front_wall(kind.storeys, true), placement({0, 0, kHouseDepth / 2}, 0));
+    append(walls, placed(front_wall(kind.storeys, false), placement({0, 0, -kHouseDepth / 2}, 180)));
     for (const float side : {-1.0f, 1.0f}) {
-        append(walls,
-               rectangle({side * half, 0, side * kDepth / 2}, {0, 0, -side * kDepth}, {0, eaves, 0}, 0.9f));
+        append(walls, rectangle({side * half, 0, side * kHouseDepth / 2}, {0, 0, -side * kHouseDepth},
+                                {0, eaves, 0}, 0.9f));
         append(walls, parametric_surface(8, 3, [&](float u, float v) { // a gable
                    return glm::vec3(side * half, eaves + v * kind.ridge,
-                                    side * kDepth * (0.5f - u) * (1 - v));
+                                    side * kHouseDepth * (0.5f - u) * (1 - v));
                }));
     }
     Mesh roof;
     for (const float side : {-1.0f, 1.0f}) {
-        const glm::vec3 corner(-side * (half + 0.3f), eaves - 0.15f, side * (kDepth / 2 + 0.4f));
-        append(roof, rectangle(corner, {side * (kWidth + 0.6f), 0, 0},
-                               {0, kind.ridge + 0.15f, -side * (kDepth / 2 + 0.4f)}, 0.7f));
+        const glm::vec3 corner(-side * (half + 0.3f), eaves - 0.15f, side * (kHouseDepth / 2 + 0.4f));
+        append(roof, rectangle(corner, {side * (kHouseWidth + 0.6f), 0, 0},
+                               {0, kind.ridge + 0.15f, -side * (kHouseDepth / 2 + 0.4f)}, 0.7f));
     }
     append(roof,
            box({1.6f, eaves + 0.3f * kind.ridge, -1.9f}, {2.3f, eaves + kind.ridge + 0.8f, -1.2f}, 0.5f));
     if (kind.porch > 0)
-        append(roof, box({-1.1f, 2.4f, kDepth / 2}, {1.1f, 2.55f, kDepth / 2 + kind.porch}, 0.4f));
+        append(roof, box({-1.1f, 2.4f, kHouseDepth / 2}, {1.1f, 2.55f, kHouseDepth / 2 + kind.porch}, 0.4f));
     return {{std::string(kind.name) + " walls", kind.walls, walls},
             {std::string(kind.name) + " roof", kind.roof, roof}};
 }
@@ -88,12 +88,15 @@ ExampleScene street(int houses) {
     for (int i = 0; i < houses; ++i) {
         const auto kind = static_cast<std::size_t>(chance.between(0, 4.999f));
         const float gap = chance.between(1.5f, 4),
-                    x = (static_cast<float>(i / 2) - 0.5f * static_cast<float>(along - 1)) * (kWidth + 2.9f) +
+                    x = (static_cast<float>(i / 2) - 0.5f * static_cast<float>(along - 1)) *
+                            (kHouseWidth + 2.9f) +
                         0.2f * gap;
-        const float z = (kSetBack + kDepth / 2 + chance.between(-0.8f, 0.8f)) * (i % 2 == 0 ? -1.0f : 1.0f);
+        const float z =
+            (kSetBack + kHouseDepth / 2 + chance.between(-0.8f, 0.8f)) * (i % 2 == 0 ? -1.0f : 1.0f);
         models[kind].placements.push_back({{x, 0, z}, i % 2 == 0 ? 0.0f : 180.0f, 1});
     }
-    const float half = 0.5f * static_cast<float>(along) * (kWidth + 2.9f) + 12, side = kSetBack + kDepth + 12;
+    const float half = 0.5f * static_cast<float>(along) * (kHouseWidth + 2.9f) + 12,
+                side = kSetBack + kHouseDepth + 12;
     return {.parts = {{"gardens",
                        {0.21f, 0.27f, 0.12f},
                        rectangle({-half, 0, -4}, {2 * half, 0, 0}, {0, 0, 4 - side}, 0.9f)},

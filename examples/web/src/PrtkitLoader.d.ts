@@ -1,4 +1,4 @@
-import type { Box3, Data3DTexture, DataTexture, DirectionalLight, Group, IUniform, LightProbe, Object3D, Scene, Vector3 } from "three";
+import type { Box3, Data3DTexture, DataTexture, DirectionalLight, Group, InstancedMesh, IUniform, LightProbe, Object3D, Scene, Vector3 } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 
 /** Lighting as spherical harmonics that turns about +Y. */
@@ -73,9 +73,34 @@ export class PrtkitModel extends LitTransfer {
   readonly bytesPerTexel: number;
   /** Light of what moves, where the file has a volume. */
   readonly volume: PrtkitVolume | null;
+  /** What is drawn of instances that share the transfer of their mesh, where the file has some. */
+  readonly instances: PrtkitInstances | null;
   /** What takes light from the surfaces as it passes near them; null: nothing. Throws an Error with WebGPURenderer. */
   setOccluders(occluders: PrtkitOccluders | null): void;
   /** Frees the tables and lightmaps on the device; materials and geometries are disposed of as all of three's. */
+  dispose(): void;
+}
+
+/** Instances that share the transfer of their mesh (PRTKIT_instances): `gltf.userData.prtkit.instances`. */
+export class PrtkitInstances {
+  /** How many are drawn, by `meshes`: one for each primitive of the meshes that they share. */
+  readonly count: number;
+  readonly meshes: InstancedMesh[];
+  /** What the file has of each, and on average their constants on the device. */
+  readonly bytesPerInstance: number;
+  readonly constantsBytesPerInstance: number;
+}
+
+/** Transfer of a figure that turns with its skin (PRTKIT_lobes): `gltf.userData.prtkit` of files of `prt lobes`. Suns that are apart
+ * light it by three's directional lights and their shadow maps. */
+export class PrtkitLobes extends LitTransfer {
+  /** Of each vertex, four bytes each. */
+  readonly lobes: 1 | 2 | 3;
+  readonly vertices: number;
+  readonly bytesPerVertex: number;
+  /** Light of what moves, where the file has a volume, too. */
+  readonly volume: PrtkitVolume | null;
+  /** Frees the table of profiles on the device. */
   dispose(): void;
 }
 
@@ -123,7 +148,7 @@ export class PrtkitVolume extends LitTransfer {
  * shaders/prt_volume.glsl, of a place and a normal that prtToVolume has taken there. */
 export const volumeShader: string;
 
-/** Reads PRTKIT_clustered_pca, PRTKIT_lightmap and PRTKIT_transfer_volume, for WebGLRenderer; that of `prtkit-web/webgpu` for WebGPURenderer:
+/** Reads PRTKIT_clustered_pca, PRTKIT_instances, PRTKIT_lightmap, PRTKIT_lobes and PRTKIT_transfer_volume, for WebGLRenderer; that of `prtkit-web/webgpu` for WebGPURenderer:
  * `loader.register((parser) => new PrtkitPlugin(parser))`. */
 export class PrtkitPlugin implements GLTFLoaderPlugin {
   readonly name: string;

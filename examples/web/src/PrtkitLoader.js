@@ -26,6 +26,9 @@
 // Models made with --meshopt want loader.setMeshoptDecoder(MeshoptDecoder), as three's loader does for all such files.
 
 import { setFallbackAside } from "./fallback.js";
+import { putInstancesBack, takeInstancesAside } from "./instanceNodes.js";
+import { PrtkitInstances } from "./PrtkitInstances.js";
+import { PrtkitLobes } from "./PrtkitLobes.js";
 import { occludersOf, PrtkitOccluders } from "./PrtkitOccluders.js";
 import { PrtkitVolume } from "./PrtkitVolume.js";
 import { copiedMaterial, relitMaterial, sunTraits } from "./relitMaterial.js";
@@ -33,12 +36,14 @@ import { TexelPass } from "./texelPass.js";
 import { transferOfTexels } from "./texelTransfer.js";
 import { transferOfVertices } from "./vertexTransfer.js";
 import { volumeOf } from "./volumeTransfer.js";
-import { checkVolume, expect, OCCLUDERS, PROBES, TEXELS, VERTICES, viewsOf } from "./wholeExtension.js";
+import { checkLobes, checkVolume, expect, INSTANCES, LOBES, OCCLUDERS, PROBES, TEXELS, VERTICES, viewsOf } from "./wholeExtension.js";
 
 export { halfFloatSky, projectEquirectangular } from "./equirectangular.js";
 export { lightOfSuns, readLightFile } from "./lightFile.js";
 export { lightFromProbe } from "./lightProbe.js";
 export { LitTransfer } from "./LitTransfer.js";
+export { PrtkitInstances } from "./PrtkitInstances.js";
+export { PrtkitLobes } from "./PrtkitLobes.js";
 export { PrtkitModel } from "./PrtkitModel.js";
 export { PrtkitOccluders } from "./PrtkitOccluders.js";
 export { PrtkitVolume } from "./PrtkitVolume.js";
@@ -53,29 +58,60 @@ export class PrtkitPlugin {
     this.parser = parser;
     this.name = VERTICES;
     this.canOcclude = true;
+    this.canShare = true; // instances and lobes
+    this.instances = []; // nodes that draw what shares its transfer
   }
 
-  beforeRoot() {
-    setFallbackAside(this.parser.json);
+  async beforeRoot() {
+    const { json } = this.parser;
+    setFallbackAside(json);
+    const { [VERTICES]: vertices, [LOBES]: lobes } = json.extensions ?? {};
+    if (vertices) this.instances = takeInstancesAside(json);
+    const isDrawn = (have, name) => expect(!have || this.canShare, "WebGPURenderer does not draw them yet; use WebGLRenderer and prtkit-web", name);
+    isDrawn(this.instances.length > 0, INSTANCES);
+    isDrawn(lobes, LOBES);
   }
 
   async afterRoot(gltf) {
-    const { [VERTICES]: vertices, [TEXELS]: texels, [PROBES]: probes, PRTKIT_instances: instances } = this.parser.json.extensions ?? {};
+    const { [VERTICES]: vertices, [TEXELS]: texels, [PROBES]: probes, [LOBES]: lobes } = this.parser.json.extensions ?? {};
     expect(!vertices || !texels, "the file has the transfer of texels, too");
-    expect(!instances, "instances share transfer, which this plug-in does not read; bake with --instances own", "PRTKIT_instances");
+    expect(!lobes || !(vertices || texels), "the file has transfer that does not turn with a skin, too", LOBES);
     const parts = await occludersOf(this.parser, gltf, (list) => this.viewsOf(list, OCCLUDERS));
     if (parts.length > 0) gltf.userData.prtkitOccluders = new PrtkitOccluders(parts);
     const volume = probes ? await this.volume(probes, gltf.scene) : null;
     if (vertices || texels) gltf.userData.prtkit = Object.assign(await this.surfaces(vertices, texels, gltf), { volume });
+    else if (lobes) gltf.userData.prtkit = Object.assign(await this.turning(lobes, gltf), { volume });
     else if (volume) gltf.userData.prtkit = volume;
   }
 
   async surfaces(vertices, texels, gltf) {
-    const { model, of } = vertices
+    const { model, of, definesOf } = vertices
       ? await transferOfVertices(vertices, (list) => this.viewsOf(list, VERTICES), gltf.scene)
       : await transferOfTexels(texels, (list) => this.viewsOf(list, TEXELS), gltf.scene, this.parser, this.passOf);
     model.canOcclude = this.canOcclude;
+    if (this.instances.length > 0) model.instances = await this.sharing(gltf, model, definesOf);
     this.convert(gltf, model, of);
+    return model;
+  }
+
+  /** The instances of the file, which are drawn from now on. */
+  async sharing(gltf, model, definesOf) {
+    const { parser } = this;
+    const extension = parser.json.extensions[INSTANCES];
+    expect(model.lamps.length + model.keys.length === 0, "transfer of lamps is not shared by instances", INSTANCES);
+    const { bufferView } = extension.factors;
+    const bytes = (await this.viewsOf([bufferView], INSTANCES)).get(bufferView);
+    gltf.scene.updateMatrixWorld(true);
+    putInstancesBack(parser.json, this.instances);
+    return PrtkitInstances.of(this.instances, { gltf, parser, model, extension, bytes, definesOf });
+  }
+
+  /** What is lit by lobes that turn with its skin. */
+  async turning(extension, gltf) {
+    checkLobes(extension);
+    const { bufferView } = extension.profiles;
+    const model = new PrtkitLobes(extension, (await this.viewsOf([bufferView], LOBES)).get(bufferView));
+    this.convert(gltf, model, (mesh) => model.transferOf(mesh));
     return model;
   }
 

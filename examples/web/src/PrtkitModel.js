@@ -1,36 +1,16 @@
 // The compressed transfer of one file, shared by its meshes, and what lights it.
 
-import { DataTexture, FloatType, NearestFilter, RGBAFormat, RGBAIntegerFormat, UnsignedIntType } from "three";
-import { clusterTable, formConstants, shaderRows } from "./clusteredPca.js";
-import { LitTransfer } from "./LitTransfer.js";
+import { formConstants, shaderRows } from "./clusteredPca.js";
+import { LitSurfaces } from "./LitSurfaces.js";
+import { clustersTextureOf, constantsTextureOf } from "./tables.js";
 
-const TEXTURE_WIDTH = 256;
-/** Of the shader: where its tables are. */
-export const TABLES = { PRT_CONSTANTS_TEXTURE: 1, PRT_TEXTURE_WIDTH: TEXTURE_WIDTH };
-
-function tableTexture(count, data, format, type) {
-  const height = Math.max(1, Math.ceil(count / TEXTURE_WIDTH));
-  const padded = new data.constructor(4 * TEXTURE_WIDTH * height);
-  padded.set(data);
-  const texture = new DataTexture(padded, TEXTURE_WIDTH, height, format, type);
-  texture.minFilter = texture.magFilter = NearestFilter;
-  texture.needsUpdate = true;
-  return texture;
-}
-
-export class PrtkitModel extends LitTransfer {
+export class PrtkitModel extends LitSurfaces {
   /** `clusters`: of decodeClusters; `root`: the scene of the file, by whose turn in the world `setSky` lights. */
   constructor(clusters, root = null) {
     super(clusters, root);
     this.rows = shaderRows(this.clusters);
-    const { rowCount, components } = this.clusters;
-    this.constantsTexture = tableTexture(rowCount, new Float32Array(4 * rowCount), RGBAFormat, FloatType);
-    this.clustersTexture = tableTexture(
-      components.length,
-      clusterTable(this.clusters),
-      RGBAIntegerFormat,
-      UnsignedIntType,
-    );
+    this.constantsTexture = constantsTextureOf(this.clusters.rowCount);
+    this.clustersTexture = clustersTextureOf(this.clusters);
     this.uniforms = {
       prt_constants: { value: this.constantsTexture },
       prt_clusters: { value: this.clustersTexture },
@@ -41,7 +21,7 @@ export class PrtkitModel extends LitTransfer {
     this.texels = 0;
     this.bytesPerTexel = 0;
     this.maps = null; // RelitMaps, where texels have the transfer
-    this.volume = null; // PrtkitVolume, where the file has probes, too
+    this.instances = null; // PrtkitInstances, where some share the transfer of their mesh
     this.occluders = null; // PrtkitOccluders
     this.occludedAt = -1; // picture
     this.occluderUniforms = {
@@ -52,23 +32,11 @@ export class PrtkitModel extends LitTransfer {
     };
     this.canOcclude = true; // by WebGLRenderer
     this.beforeRender = (renderer, scene, camera, geometry, object) => {
+      this.instances?.checkSize(renderer);
       this.followSky();
       this.followOccluders(renderer, object);
       this.maps?.form(renderer, this.constantsTexture.version);
     };
-  }
-
-  /** As LitTransfer says; the volume of the file is lit alike. */
-  setLight(light, angle = 0, suns = null, lamps = {}) {
-    this.volume?.checkOrders(light, suns);
-    super.setLight(light, angle, suns, lamps);
-    this.volume?.setLight(light, angle, suns, this.volume.knownOf(lamps));
-  }
-
-  setSky(light, scene, { suns = null, lamps = {}, keyed = [] } = {}) {
-    this.volume?.checkOrders(light, suns);
-    super.setSky(light, scene, { suns, lamps, keyed });
-    this.volume?.setSky(light, scene, { suns, lamps: this.volume.knownOf(lamps), keyed: this.volume.keys.length > 0 ? keyed : [] });
   }
 
   /** What passes near the surfaces, and takes from their light: PrtkitOccluders, or null. */
@@ -98,6 +66,7 @@ export class PrtkitModel extends LitTransfer {
   form(sky, suns) {
     formConstants(this.clusters, this.rows, this.columns(sky, suns), this.constantsTexture.image.data);
     this.constantsTexture.needsUpdate = true;
+    this.instances?.form(sky, suns);
     this.uniforms.prtSunsApart.value = suns !== null && this.directApart;
   }
 
@@ -106,6 +75,7 @@ export class PrtkitModel extends LitTransfer {
     this.sky = null;
     this.volume?.dispose();
     this.maps?.dispose();
+    this.instances?.dispose();
     this.constantsTexture.dispose();
     this.clustersTexture.dispose();
   }

@@ -71,26 +71,26 @@ function unitOrZero(vector) {
 }
 
 /** Places seen from `origin` and normals of all vertices as attributes, for meshes that no one matrix moves there. */
-function bakedAttributes(mesh, origin) {
+function bakedAttributes(mesh, world, origin) {
   const { geometry } = mesh;
   const vertices = Array.from({ length: geometry.getAttribute("position").count }, (_, v) => v);
-  const matrices = vertices.map((v) => (mesh.isSkinnedMesh ? skinMatrix(mesh, v) : mesh.matrixWorld));
+  const matrices = vertices.map((v) => (mesh.isSkinnedMesh ? skinMatrix(mesh, v) : world));
   const places = vertices.map((v) => morphed(mesh, "position", v).applyMatrix4(matrices[v]).sub(origin));
   const normals = vertices.map((v) => unitOrZero(morphed(mesh, "normal", v).applyMatrix3(normalMatrix(matrices[v]))));
   if (normals.some((normal) => normal.lengthSq() === 0)) {
     // A mirroring node turns triangles round.
-    const side = !mesh.isSkinnedMesh && mesh.matrixWorld.determinant() < 0 ? -1 : 1;
+    const side = !mesh.isSkinnedMesh && world.determinant() < 0 ? -1 : 1;
     const sums = normalsOfTriangles(geometry, places);
     normals.forEach((normal, v) => normal.lengthSq() === 0 && unitOrZero(normal.copy(sums[v]).multiplyScalar(side)));
   }
   const attribute = (vectors) => new BufferAttribute(Float32Array.from(vectors.flatMap((vector) => vector.toArray())), 3);
-  geometry.setAttribute("prt_place", attribute(places));
-  geometry.setAttribute("prt_normal", attribute(normals));
+  geometry.setAttribute("prt_baked_place", attribute(places));
+  geometry.setAttribute("prt_baked_normal", attribute(normals));
 }
 
 /** Throws where a place is farther from the origin of its guide than the guide's `scale` allows; NaN is, too. */
 function checkPlaces(mesh, toBake, { scale }) {
-  const { prt_place: baked, position } = mesh.geometry.attributes;
+  const { prt_baked_place: baked, position } = mesh.geometry.attributes;
   const [places, matrix] = baked ? [baked, new Matrix4()] : [position, toBake];
   const place = new Vector3();
   for (let v = 0; v < places.count; ++v) {
@@ -109,9 +109,9 @@ function isFar({ geometry }, toBake) {
 /**
  * What the shader of `mesh` needs for `guides`: { defines, uniforms }. The world matrices of its scene are those of the
  * file. Skinned and morphed meshes, those that lack normals and those of small triangles far from their own origin get
- * attributes of their own, in the pose of the file.
+ * attributes of their own, in the pose of the file. `world`: what takes the mesh to the frame of the bake.
  */
-export function bakedFrame(mesh, guides) {
+export function bakedFrame(mesh, guides, world = mesh.matrixWorld) {
   if (guides.length === 0) return { defines: {}, uniforms: {} };
   const hasNormals = guides[0].kind === "normal";
   const position = guides.find(({ kind }) => kind === "position");
@@ -120,15 +120,15 @@ export function bakedFrame(mesh, guides) {
   if (hasNormals) defines.PRT_GUIDE_NORMAL = 1;
   // The matrix, or the attribute, has taken it off already, in doubles.
   if (position) Object.assign(defines, { PRT_GUIDE_POSITION: 1, PRT_GUIDE_ORIGIN: "vec3(0.0)" });
-  const toBake = new Matrix4().makeTranslation(origin.clone().negate()).multiply(mesh.matrixWorld);
+  const toBake = new Matrix4().makeTranslation(origin.clone().negate()).multiply(world);
   const moves = mesh.isSkinnedMesh || mesh.morphTargetInfluences?.some((influence) => influence !== 0);
   if (moves || (hasNormals && lacksNormals(mesh.geometry)) || (position && isFar(mesh, toBake))) {
-    bakedAttributes(mesh, origin);
+    bakedAttributes(mesh, world, origin);
     defines.PRT_BAKED_ATTRIBUTES = 1;
   }
   if (position || defines.PRT_BAKED_ATTRIBUTES) checkPlaces(mesh, toBake, position ?? { scale: [1, 1, 1] });
   return {
     defines,
-    uniforms: { prtToBake: { value: toBake }, prtNormalToBake: { value: normalMatrix(mesh.matrixWorld) } },
+    uniforms: { prtToBake: { value: toBake }, prtNormalToBake: { value: normalMatrix(world) } },
   };
 }

@@ -112,9 +112,16 @@ async function start() {
       "of them attributes": prtkit.bytesPerVertex,
     });
     const ofTexels = () => ({ texels: prtkit.texels.toLocaleString("en"), "bytes per texel": prtkit.bytesPerTexel });
+    const { instances } = prtkit;
+    const ofInstances = () => ({
+      instances: instances.count.toLocaleString("en"),
+      "bytes per instance": instances.bytesPerInstance,
+      "of its constants": Math.round(instances.constantsBytesPerInstance).toLocaleString("en"),
+    });
     figures({
       ...(prtkit.maps ? ofTexels() : ofVertices()),
-      clusters: prtkit.clusters.components.length,
+      ...(instances ? ofInstances() : {}),
+      ...(prtkit.lobes ? { "lobes per vertex": prtkit.lobes } : { clusters: prtkit.clusters.components.length }),
       order: prtkit.order,
       ...(prtkit.volume ? { probes: prtkit.volume.probes.toLocaleString("en") } : {}),
       ...(litRms === undefined ? {} : { "error (lit rms)": `${(100 * litRms).toFixed(2)} %` }),
@@ -129,7 +136,7 @@ async function start() {
     askedCamera = undefined; // another model has a place of its own
     const began = performance.now();
     try {
-      await loading(model().title, (progress) => picture.setModel(level.file, { keepCamera, camera, way: model().way, progress }));
+      await loading(model().title, (progress) => picture.setModel(level.file, { keepCamera, camera, way: model().way, clip: model().clip, progress }));
     } catch (error) {
       throw new Error(`${model().title}: ${error.message}`);
     }

@@ -1,8 +1,10 @@
 // What is on the canvas: a model, a sky, a camera. No panel here.
 
 import {
+  AnimationMixer,
   BackSide,
   BasicShadowMap,
+  Box3,
   BoxGeometry,
   CustomToneMapping,
   FloatType,
@@ -68,6 +70,15 @@ function disposeOf(gltf) {
   gltf.userData.prtkit?.dispose();
 }
 
+/** The animation of that name, or the first, of a figure; null where it has none. */
+function danceOf({ scene, animations }, name) {
+  const clip = animations.find((animation) => animation.name === name) ?? animations[0];
+  if (!clip) return null;
+  const mixer = new AnimationMixer(scene);
+  mixer.clipAction(clip).play();
+  return mixer;
+}
+
 export class Picture {
   /** `shadowMapSize`: texels along each side. */
   constructor(canvas, { shadowMapSize = 2048 } = {}) {
@@ -115,12 +126,14 @@ export class Picture {
     this.lamps = {}; // strengths by name
     this.stops = 0;
     this.still = false; // nobody walks
+    this.dance = null; // of a model whose transfer turns with its skin
     this.drawn = 0;
     this.pending = false;
   }
 
-  /** Shows the model at `url`; the camera stays where a model was shown before and `keepCamera` is set. `way`: of Walk. */
-  async setModel(url, { keepCamera = false, camera, way, progress } = {}) {
+  /** Shows the model at `url`; the camera stays where a model was shown before and `keepCamera` is set. `way`: of Walk; `clip`: name
+   * of the animation of what turns with its skin. */
+  async setModel(url, { keepCamera = false, camera, way, clip, progress } = {}) {
     const gltf = await loadModel(url, progress);
     this.removeModel();
     this.gltf = gltf;
@@ -128,6 +141,7 @@ export class Picture {
     this.scene.add(gltf.scene);
     if (!keepCamera) this.frame(camera);
     this.moving.enter(gltf, way);
+    this.dance = gltf.userData.prtkit.lobes ? danceOf(gltf, clip) : null;
     this.formLight();
   }
 
@@ -305,17 +319,10 @@ export class Picture {
 
   /** From the front, a little from the right and above; or `camera`: { position, target, fieldOfView }. */
   frame(camera) {
-    const corner = { low: new Vector3(Infinity, Infinity, Infinity), high: new Vector3(-Infinity, -Infinity, -Infinity) };
     this.gltf.scene.updateMatrixWorld(true);
-    this.gltf.scene.traverse((object) => {
-      if (!object.isMesh) return;
-      object.geometry.computeBoundingBox();
-      const box = object.geometry.boundingBox.clone().applyMatrix4(object.matrixWorld);
-      corner.low.min(box.min);
-      corner.high.max(box.max);
-    });
-    const centre = corner.low.clone().add(corner.high).multiplyScalar(0.5);
-    const radius = corner.low.distanceTo(corner.high) / 2;
+    const box = new Box3().setFromObject(this.gltf.scene);
+    const centre = box.getCenter(new Vector3());
+    const radius = box.min.distanceTo(box.max) / 2;
     this.fieldOfView = camera?.fieldOfView ?? 35;
     this.camera.near = radius / 100;
     this.camera.far = radius * 20;
@@ -376,13 +383,15 @@ export class Picture {
 
   /** Whether there is something to see that goes on by itself. */
   get isMoving() {
-    return this.moving.isWalking && !this.still;
+    return (this.moving.isWalking || this.dance !== null) && !this.still;
   }
 
   /** A picture that took long, or a page that was hidden, does not make it jump. */
   move(now) {
     if (this.isMoving && this.movedAt !== null) {
-      this.moving.advance(Math.min((now - this.movedAt) / 1000, 0.1));
+      const seconds = Math.min((now - this.movedAt) / 1000, 0.1);
+      if (this.moving.isWalking) this.moving.advance(seconds);
+      this.dance?.update(seconds);
       this.updateShadows();
     }
     this.movedAt = this.isMoving ? now : null;

@@ -16,7 +16,7 @@ import {
   vec3,
 } from "three/tsl";
 import { Matrix3, Matrix4 } from "three/webgpu";
-import { TABLES } from "./PrtkitModel.js";
+import { TABLES } from "./tables.js";
 
 const ROW_BITS = Math.log2(TABLES.PRT_TEXTURE_WIDTH);
 

@@ -1,7 +1,7 @@
 // Materials as GLTFLoader makes them, lit by transfer, and by suns that are apart from it.
 
 import { DoubleSide, MeshLambertMaterial, Vector3, Vector4 } from "three";
-import { addTransfer, addVolume, PACKED_SHADOW_MAPS } from "./transferShader.js";
+import { addLobes, addTransfer, addVolume, PACKED_SHADOW_MAPS } from "./transferShader.js";
 
 /**
  * How suns meet a material of the glTF: { lit, transmission, casts }. A medium has all of its light from transfer; shadow
@@ -54,7 +54,9 @@ function light(material, transfer) {
     Object.assign(shader.uniforms, uniforms);
     Object.assign(shader.uniforms, model.occluderUniforms);
     if (traits) shader.uniforms.prtTransmission = { value: traits.transmission };
-    (transfer.source ? addVolume : addTransfer)(shader);
+    const baked = defines.PRT_LOBES ? addLobes : addTransfer;
+    const add = source ? addVolume : baked;
+    add(shader, material.defines);
   };
   const ownKey = source?.customProgramCacheKey() ?? "";
   material.customProgramCacheKey = () => `prtkit:${JSON.stringify(material.defines)}${ownKey}`;
@@ -70,7 +72,7 @@ function light(material, transfer) {
  * null where the model keeps no direct light apart; `model`: whose light it is.
  */
 export function relitMaterial(source, transfer) {
-  return light(source.isMeshStandardMaterial ? source.clone() : matte(source), transfer);
+  return light(source.isMeshStandardMaterial ? source.clone() : matte(source), { ...transfer, own: source });
 }
 
 /** Whether a volume can light a material: what three has no light for stays what it is. Throws for what it cannot. */
@@ -88,12 +90,22 @@ export function transferOfVolume(source, volume) {
   return { uniforms, defines: volume.defines, traits, model: volume, source };
 }
 
+/** The same of what has lobes, which `lobes`, a transfer of it, has. */
+const turning = (transfer, { uniforms: { prt_lobe_profiles }, defines: { PRT_LOBES } }) => ({
+  ...transfer,
+  uniforms: { ...transfer.uniforms, prt_lobe_profiles },
+  defines: { ...transfer.defines, PRT_LOBES },
+});
+
 /** A copy of `source` that `volume` lights, which stays what it is; itself where nothing is to be done. */
 export function movingMaterial(source, volume, copied) {
   const transfer = source._transfer;
-  if (transfer && (!transfer.source || transfer.model === volume)) return source; // baked, or lit by it
-  const own = transfer?.source ?? source;
-  return takesVolume(own) ? copied(own, transferOfVolume(own, volume)) : source;
+  const lobes = transfer?.defines.PRT_LOBES ? transfer : null;
+  if (transfer && ((!transfer.source && !lobes) || transfer.model === volume)) return source; // baked, or lit by it
+  const own = transfer?.source ?? transfer?.own ?? source;
+  if (!takesVolume(own)) return source;
+  const lit = transferOfVolume(own, volume);
+  return copied(own, lobes ? turning(lit, lobes) : lit);
 }
 
 /** `source` lit by the transfer of a volume, by WebGLRenderer; its own shader is kept. */

@@ -63,10 +63,10 @@ export function gaussLegendre(count) {
 }
 
 /**
- * For each band the matrix that turns coefficients about the polar axis +Y, azimuth from +Z to +X, into those about +Z:
- * M_ij = ∫ Y_i(w) Y_j(w_z, w_x, w_y) dw, by a quadrature that is exact for it.
+ * For each band l the matrix M_ij = ∫ Y_i(w) Y_j(turn(w)) dw, by a quadrature that is exact for it: light of coefficients L is
+ * M L seen from axes that `turn` takes to those of L. `turn(x, y, z)`: the direction [3], of a rotation.
  */
-function polarMatrices(order) {
+function bandMatrices(order, turn) {
   const rings = gaussLegendre(order);
   const azimuths = 2 * order;
   const matrices = Array.from({ length: order }, (_, l) => new Float64Array((2 * l + 1) ** 2));
@@ -80,7 +80,7 @@ function polarMatrices(order) {
       const y = Math.sqrt(1 - z * z) * Math.sin(phi);
       const weight = (rings.weights[r] * 2 * Math.PI) / azimuths;
       evaluateSh(order, x, y, z, direct);
-      evaluateSh(order, z, x, y, turned);
+      evaluateSh(order, ...turn(x, y, z), turned);
       for (let l = 0; l < order; ++l) {
         const size = 2 * l + 1;
         for (let i = 0; i < size; ++i)
@@ -88,6 +88,28 @@ function polarMatrices(order) {
       }
     }
   return matrices;
+}
+
+/** Matrices of bands that turn coefficients about the polar axis +Y, azimuth from +Z to +X, into those about +Z. */
+export const polarMatrices = (order) => bandMatrices(order, (x, y, z) => [z, x, y]);
+
+/** What light of the world is in axes that `rotation` takes into the world's, [9] by columns: for `turnedBands`. */
+export const rotationMatrices = (order, [a, b, c, d, e, f, g, h, k]) =>
+  bandMatrices(order, (x, y, z) => [a * x + d * y + g * z, b * x + e * y + h * z, c * x + f * y + k * z]);
+
+/** Coefficients [order²][3] turned by the matrices of all bands. */
+export function turnedBands(matrices, coefficients) {
+  const result = new Float64Array(3 * matrices.length ** 2);
+  matrices.forEach((matrix, l) => {
+    const size = 2 * l + 1;
+    const first = 3 * l * l;
+    for (let i = 0; i < size; ++i)
+      for (let j = 0; j < size; ++j) {
+        const factor = matrix[i * size + j];
+        for (let c = 0; c < 3; ++c) result[first + 3 * i + c] += factor * coefficients[first + 3 * j + c];
+      }
+  });
+  return result;
 }
 
 const matricesByOrder = new Map();

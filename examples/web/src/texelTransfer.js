@@ -2,7 +2,8 @@
 
 import { clustersOf } from "./clusteredPca.js";
 import { wordsOf } from "./packedWords.js";
-import { PrtkitModel, TABLES } from "./PrtkitModel.js";
+import { PrtkitModel } from "./PrtkitModel.js";
+import { TABLES } from "./tables.js";
 import { RelitMaps } from "./RelitMaps.js";
 import { checkLightmap, expect, inNameOf, TEXELS, viewsOf } from "./wholeExtension.js";
 import { wordTexture } from "./wordImages.js";

@@ -5,6 +5,8 @@
 import { ShaderChunk } from "three";
 import { MOST_OCCLUDERS } from "./PrtkitOccluders.js";
 import exitRadiance from "./prt_exit_radiance.glsl.js";
+import instanceRadiance from "./prt_instances.glsl.js";
+import lobes from "./prt_lobes.glsl.js";
 import occluders from "./prt_occluders.glsl.js";
 import sunLight from "./sunLight.glsl.js";
 import sunLoop from "./sunLoop.glsl.js";
@@ -64,7 +66,9 @@ ${volume}`;
 const INCIDENT = `
   vec3 prtIncident[ PRT_VOLUME_COEFFICIENTS ];
   prt_volume_incident( prtVolumePlace, prtTowards( nonPerturbedNormal ), prtIncident );
+#ifndef PRT_LOBES
   vec3 prtRadiance = prt_incident_irradiance( prtIncident, prtTowards( normal ) );
+#endif
 #ifdef STANDARD
   radiance = prtMirrored( prtIncident, geometryNormal, geometryViewDir, material.roughness, radiance );
 #ifdef USE_CLEARCOAT
@@ -117,17 +121,52 @@ function addLight(shader, { vertex, fragment, lights }) {
   addFragment("lights_fragment_maps", `${include("lights_fragment_maps")}${lights}${TRANSFER}`);
 }
 
-/** Adds transfer to the shaders of MeshStandardMaterial, MeshPhysicalMaterial or MeshLambertMaterial. */
-export function addTransfer(shader) {
+/** Adds transfer to the shaders of MeshStandardMaterial, MeshPhysicalMaterial or MeshLambertMaterial with these defines. */
+export function addTransfer(shader, { PRT_INSTANCES }) {
   addLight(shader, {
-    vertex: `#ifndef PRT_LIGHTMAP\n${exitRadiance}\n#endif`,
+    vertex: `#ifndef PRT_LIGHTMAP\n${PRT_INSTANCES ? instanceRadiance : exitRadiance}\n#endif`,
     fragment: `#ifndef PRT_LIGHTMAP\nin vec3 prtRadiance;\n#endif${OCCLUDERS}`,
     lights: "",
   });
   shader.fragmentShader = replaced(shader.fragmentShader, include("aomap_fragment"), OCCLUSION);
 }
 
-/** Adds the light of a volume to them. Occlusion of its own is what a thing that moves has in textures: it stays. */
-export function addVolume(shader) {
-  addLight(shader, { vertex: "", fragment: `${VOLUME}\n${volumeLight}`, lights: INCIDENT });
+// Axes of lobes turn as normals do: with all that moves a vertex. `skinMatrix` is three's.
+const LOBE_TURN = `
+  mat3 prtMoved = mat3( modelMatrix );
+#ifdef USE_INSTANCING
+  prtMoved = prtMoved * mat3( instanceMatrix );
+#endif
+#ifdef USE_SKINNING
+  prtMoved = prtMoved * mat3( skinMatrix );
+#endif
+#ifdef PRT_VOLUME
+  prtRadiance = prtLobeRadiance( prt_lobe_turn( mat3( prtToVolume ) * prtMoved ), prtVolumePlace );
+#else
+  prtRadiance = prtLobeRadiance( prt_lobe_turn( prtMoved ), vec3( 0.0 ) );
+#endif`;
+
+const PROFILES = `
+uniform highp sampler2D prt_lobe_profiles;
+#define PRT_LOBE_PROFILE(i) texelFetch( prt_lobe_profiles, ivec2( i, 0 ), 0 )`;
+
+const LIT_AT_VERTICES = "in vec3 prtRadiance;";
+
+/** Behind the place of the vertex. */
+function turnLobes(shader) {
+  shader.vertexShader = replaced(shader.vertexShader, "prtLight( transformed );", `prtLight( transformed );${LOBE_TURN}`);
+}
+
+/** Adds transfer that turns with a skin to them. */
+export function addLobes(shader) {
+  addLight(shader, { vertex: `${PROFILES}\n${lobes}`, fragment: LIT_AT_VERTICES, lights: "" });
+  turnLobes(shader);
+  shader.fragmentShader = replaced(shader.fragmentShader, include("aomap_fragment"), OCCLUSION);
+}
+
+/** Adds the light of a volume to them, by lobes where they have some. Occlusion of its own is what a thing that moves has in textures: it stays. */
+export function addVolume(shader, { PRT_LOBES }) {
+  const [vertex, fragment] = PRT_LOBES ? [`${VOLUME}\n${PROFILES}\n${lobes}`, LIT_AT_VERTICES] : ["", ""];
+  addLight(shader, { vertex, fragment: `${VOLUME}\n${volumeLight}\n${fragment}`, lights: INCIDENT });
+  if (PRT_LOBES) turnLobes(shader);
 }

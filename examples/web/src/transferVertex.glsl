@@ -1,21 +1,62 @@
 // From the attributes of a mesh to the frame of the bake, in which guides are; the place is seen from their origin.
-// Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl. Attributes and matrices without
-// prt are three's. Define PRT_LIGHTMAP where texels have the transfer, PRT_VOLUME where probes have it, not vertices.
-#if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
-#if !defined(PRT_GUIDE_NORMAL) && !defined(PRT_GUIDE_POSITION)
+// Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl or prt_instances.glsl. Attributes and matrices without
+// prt are three's. Define PRT_LIGHTMAP where texels have the transfer, PRT_VOLUME where probes have it, not vertices; PRT_LOBES where
+// vertices have it as lobes.
+#if defined(PRT_LOBES)
+// Behind prt_lobes.glsl.
+in vec4 prt_lobe_0;
+#if PRT_LOBES > 1
+in vec4 prt_lobe_1;
+#endif
+#if PRT_LOBES > 2
+in vec4 prt_lobe_2;
+#endif
+#ifndef PRT_VOLUME
+uniform vec3 prtLobeLight[PRT_LOBE_COEFFICIENTS];
+#endif
+out vec3 prtRadiance;
+
+// `turn`: of prt_lobe_turn, from the mesh to where the light is given: the world, or a volume, in which `place` is.
+vec3 prtLobeRadiance(mat3 turn, vec3 place) {
+  PrtLobe lobes[PRT_LOBES];
+  lobes[0] = prt_turned_lobe(prt_lobe(prt_lobe_0), turn);
+#if PRT_LOBES > 1
+  lobes[1] = prt_turned_lobe(prt_lobe(prt_lobe_1), turn);
+#endif
+#if PRT_LOBES > 2
+  lobes[2] = prt_turned_lobe(prt_lobe(prt_lobe_2), turn);
+#endif
+#ifdef PRT_VOLUME
+  vec3 turned = turn * normal;
+  float size = length(turned);
+  return prt_lobes_in_volume(lobes, place, size > 0.0 ? turned / size : vec3(0.0, 1.0, 0.0));
+#else
+  return prt_lobes_radiance(lobes, prtLobeLight);
+#endif
+}
+#elif !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
+#if defined(PRT_BAKED_ATTRIBUTES)
+in vec3 prt_baked_place, prt_baked_normal;
+vec3 prtBakedPlace() {
+  return prt_baked_place;
+}
+vec3 prtBakedNormal() {
+  return prt_baked_normal;
+}
+#elif defined(PRT_INSTANCES)
+// Its own frame is that of the bake of a mesh that instances share.
+vec3 prtBakedPlace() {
+  return position;
+}
+vec3 prtBakedNormal() {
+  return dot(normal, normal) > 0.0 ? normalize(normal) : vec3(0.0);
+}
+#elif !defined(PRT_GUIDE_NORMAL) && !defined(PRT_GUIDE_POSITION)
 vec3 prtBakedPlace() {
   return vec3(0.0);
 }
 vec3 prtBakedNormal() {
   return vec3(0.0);
-}
-#elif defined(PRT_BAKED_ATTRIBUTES)
-in vec3 prt_place, prt_normal;
-vec3 prtBakedPlace() {
-  return prt_place;
-}
-vec3 prtBakedNormal() {
-  return prt_normal;
 }
 #else
 uniform mat4 prtToBake;
@@ -30,6 +71,9 @@ vec3 prtBakedNormal() {
 }
 #endif
 
+#ifdef PRT_INSTANCES
+in vec4 prt_instance_0, prt_instance_1;
+#endif
 out vec3 prtRadiance; // of a receiver of albedo 1
 #endif
 
@@ -42,8 +86,12 @@ centroid out vec3 prtVolumePlace; // from the origin of the volume
 
 // `transformed`: the vertex as its skin and its morph targets have moved it.
 void prtLight(vec3 transformed) {
-#if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME)
+#if !defined(PRT_LIGHTMAP) && !defined(PRT_VOLUME) && !defined(PRT_LOBES)
+#ifdef PRT_INSTANCES
+  prtRadiance = prt_instance_radiance(prt_instance_0, prt_instance_1, prtBakedPlace(), prtBakedNormal());
+#else
   prtRadiance = prt_exit_radiance(prtBakedPlace(), prtBakedNormal());
+#endif
 #endif
   vec4 place = vec4(transformed, 1.0);
 #ifdef USE_BATCHING

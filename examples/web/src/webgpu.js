@@ -14,6 +14,7 @@ export class PrtkitPlugin extends ForWebGL {
   constructor(parser) {
     super(parser);
     this.canOcclude = false;
+    this.canShare = false;
   }
 
   passOf(model, { PRT_CLUSTER_BITS: clusterBits }) {

@@ -1,9 +1,11 @@
-// What the JSON of PRTKIT_clustered_pca, PRTKIT_lightmap and PRTKIT_transfer_volume must be before anything is computed from it (docs/format.md).
+// What the JSON of PRTKIT_clustered_pca, PRTKIT_lightmap, PRTKIT_transfer_volume and others must be before anything is computed from it (docs/format.md).
 
 export const VERTICES = "PRTKIT_clustered_pca";
 export const TEXELS = "PRTKIT_lightmap";
 export const PROBES = "PRTKIT_transfer_volume";
 export const OCCLUDERS = "PRTKIT_occlusion_volume";
+export const INSTANCES = "PRTKIT_instances";
+export const LOBES = "PRTKIT_lobes";
 /** What is wrong with a file that is not compressed. */
 export const AS_BAKED = "holds transfer as it was baked; make it one to ship: prt compress baked.glb -o shipped.glb";
 
@@ -165,6 +167,37 @@ export function checkOccluder(extension) {
   holds(areNumbers(min) && areNumbers(max) && min.every((low, axis) => low < max[axis]), "the box is none");
   holds(reach > 0 && reach < 1e30, "the reach is no number above 0");
   holds(isView(texels), "the texels are not there");
+}
+
+const MOST_INSTANCES = 1_000_000;
+
+/** As checkExtension, of PRTKIT_instances at the top level. */
+export function checkInstances(extension) {
+  const holds = (value, what) => expect(value, what, INSTANCES);
+  holds(isObject(extension), "the extension is no object");
+  const { version, count, factors, boxes } = extension;
+  holds(version === 1, `version ${version} is not known, only 1; bake the model again`);
+  holds(isWhole(count, 1, MOST_INSTANCES), `the count is none from 1 to ${MOST_INSTANCES}`);
+  holds(isView(factors) && [undefined, 5126, 5131].includes(factors.componentType), "the factors are no floats");
+  holds(Array.isArray(boxes) && boxes.length > 0, "there are no boxes");
+  for (const box of boxes)
+    holds(areThree(box?.middle) && areThree(box.half) && box.half.every((width) => Math.fround(width) > 0), "a box is none");
+}
+
+/** The same of node `n`, of `count` instances and so many `boxes`. */
+export function checkInstanceNode(extension, n, count, boxes) {
+  const isRight = isObject(extension) && isWhole(extension.first, 0, count - 1) && isWhole(extension.box, 0, boxes - 1);
+  expect(isRight, `node ${n} has an instance or a box that is not there`, INSTANCES);
+}
+
+/** As checkExtension, of PRTKIT_lobes. */
+export function checkLobes(extension) {
+  const holds = (value, what) => expect(value, what, LOBES);
+  holds(isObject(extension), "the extension is no object");
+  const { version, order, lobes, profiles } = extension;
+  holds(version === 1, `version ${version} is not known, only 1; run prt lobes again`);
+  holds(isWhole(order, 2, 4) && isWhole(lobes, 1, 3), "the order is not 2 to 4, or a vertex has not 1 to 3 lobes");
+  holds(areFloats(profiles) && isWhole(profiles.count, 1, 256), "the profiles are not 1 to 256 of floats");
 }
 
 /** The buffer views that an extension, which is right, names. */

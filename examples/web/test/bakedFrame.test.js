@@ -21,7 +21,7 @@ function geometryOf(positions = POSITIONS, normals = NORMALS) {
 function inShader(mesh, { defines, uniforms }, v) {
   const { attributes } = mesh.geometry;
   if (defines.PRT_BAKED_ATTRIBUTES)
-    return [attributes.prt_place, attributes.prt_normal].map((a) => new Vector3().fromBufferAttribute(a, v));
+    return [attributes.prt_baked_place, attributes.prt_baked_normal].map((a) => new Vector3().fromBufferAttribute(a, v));
   const place = new Vector3().fromBufferAttribute(attributes.position, v).applyMatrix4(uniforms.prtToBake.value);
   const normal = new Vector3().fromBufferAttribute(attributes.normal, v).applyMatrix3(uniforms.prtNormalToBake.value);
   return [place, normal.normalize()];

@@ -225,11 +225,17 @@ async function matte(page) {
   await picture(page, count);
 }
 
-for (const [i, model] of models.entries())
+// What turns with its skin has no bake that prt renders; radiance of instances that share theirs prt writes to nodes of its own.
+const poseless = models.filter(({ clip }) => !clip);
+const normal = ({ levels }) => levels[1] ?? levels[0];
+/** Of instances from nearer than the page shows them: edges, which both smooth in their way, would be most of the difference. */
+const viewOf = ({ camera, shares }) => ({ fieldOfView: 35, ...(camera ?? standardCamera), ...(shares ? { fieldOfView: 12 } : {}) });
+
+for (const [i, model] of poseless.filter(({ shares }) => !shares).entries())
   for (const angle of [25 + 40 * i, 200])
     await check(`${model.name}, turned by ${angle}: suns light as prt relight does by rays`, async (page, errors) => {
-      const view = { fieldOfView: 35, ...(model.camera ?? standardCamera) };
-      const { file } = model.levels[1];
+      const view = viewOf(model);
+      const { file } = normal(model);
       await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
       await picture(page);
       assert.equal(await page.evaluate(() => globalThis.prtkitPicture.canSunsBeApart), true);
@@ -244,31 +250,34 @@ for (const [i, model] of models.entries())
       assert.ok(d.rms < 0.02, `${d.rms}`);
     });
 
-for (const [i, model] of models.entries())
+for (const [i, model] of poseless.entries())
   for (const [quality, level] of model.levels.entries())
     await check(`${model.name}, ${level.title}: the picture is that of prt render`, async (page, errors) => {
-      const view = { fieldOfView: 35, ...(model.camera ?? standardCamera) };
+      const view = viewOf(model);
       const angle = 40 * i - 30 + 75 * quality;
       await page.goto(url({ model: model.name, quality, angle, ...query(view) }));
       await picture(page);
       const shown = await canvas(page);
-      const d = await difference(page, shown, await render(page, level.file, angle, view));
+      const expected = await render(page, level.file, angle, view);
+      const d = await difference(page, shown, expected);
       console.log(`  mean ${d.mean.toFixed(3)} of 255, ${(100 * d.far).toFixed(2)} % of the pixels differ by more than ${FAR}`);
-      if (screenshots) writeFileSync(join(screenshots, `${model.name}.${quality}.png`), Buffer.from(shown.split(",")[1], "base64"));
+      if (screenshots)
+        for (const [suffix, drawing] of [["", shown], [".prt", expected]])
+          writeFileSync(join(screenshots, `${model.name}.${quality}${suffix}.png`), Buffer.from(drawing.split(",")[1], "base64"));
       assert.deepEqual(errors, []);
       assert.ok(d.mean < MEAN_TOLERANCE, `mean difference ${d.mean}`);
       assert.ok(d.far < FAR_SHARE, `${d.far} of the pixels differ`);
     });
 
-for (const [i, model] of models.entries())
+for (const [i, model] of poseless.entries())
   await check(`${model.name}: with suns apart the picture is that of prt render by rays`, async (page, errors) => {
-    const view = { fieldOfView: 35, ...(model.camera ?? standardCamera) };
+    const view = viewOf(model);
     const angle = 15 + 50 * i;
     await page.goto(url({ model: model.name, quality: 1, angle, ...query(view), suns: 1 }));
     await picture(page);
     await matte(page);
     const shown = await canvas(page);
-    const expected = await render(page, model.levels[1].file, angle, view, { suns: "auto" });
+    const expected = await render(page, normal(model).file, angle, view, { suns: "auto" });
     const d = await difference(page, shown, expected);
     console.log(`  mean ${d.mean.toFixed(3)} of 255, ${(100 * d.far).toFixed(2)} % of the pixels differ by more than ${FAR}`);
     if (screenshots) {
@@ -276,8 +285,36 @@ for (const [i, model] of models.entries())
       writeFileSync(join(screenshots, `${model.name}.suns.prt.png`), Buffer.from(expected.split(",")[1], "base64"));
     }
     assert.deepEqual(errors, []);
-    assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`);
-    assert.ok(d.far < 2 * FAR_SHARE, `${d.far} of the pixels differ`);
+    // Facets of the forest are coarse: some turn away from the sun before the normals of their vertices do.
+    const times = model.shares ? 3 : 2;
+    assert.ok(d.mean < times * MEAN_TOLERANCE, `mean difference ${d.mean}`);
+    assert.ok(d.far < times * FAR_SHARE, `${d.far} of the pixels differ`);
+  });
+
+for (const model of models.filter(({ clip }) => clip))
+  await check(`${model.name} dances in its own light`, async (page, errors) => {
+    await page.goto(url({ model: model.name, angle: 40, suns: 0, panel: 0 }));
+    await picture(page, 3);
+    const lit = await page.evaluate(() => {
+      const shown = globalThis.prtkitPicture;
+      shown.still = true;
+      const { prtkit } = shown.gltf.userData;
+      return [prtkit.lobes, prtkit.vertices, shown.dance.time];
+    });
+    assert.ok(lit[0] >= 1 && lit[1] > 1000 && lit[2] > 0, lit.join());
+    const count = await drawn(page);
+    await page.evaluate(() => globalThis.prtkitPicture.draw());
+    await picture(page, count);
+    const before = await canvas(page);
+    if (screenshots) writeFileSync(join(screenshots, `${model.name}.dance.png`), Buffer.from(before.split(",")[1], "base64"));
+    const next = await drawn(page);
+    await page.evaluate(() => {
+      globalThis.prtkitPicture.dance.update(0.4);
+      globalThis.prtkitPicture.draw();
+    });
+    await picture(page, next);
+    assert.ok((await difference(page, before, await canvas(page))).mean > 0.1, "it moves");
+    assert.deepEqual(errors, []);
   });
 
 /** A Radiance file of flat RGBE pixels: sky above, ground below, a warm side. */
@@ -413,8 +450,8 @@ await check("files that are dropped are shown and listed", async (page, errors) 
   await page.waitForFunction(() => document.querySelector("#sky").selectedOptions[0].text === "warm.hdr");
   await picture(page, count);
   count = await drawn(page);
-  const other = models.at(-1);
-  await dropped(page, { "mine.glb": join(distFolder, other.levels[1].file) });
+  const other = poseless.at(-1);
+  await dropped(page, { "mine.glb": join(distFolder, normal(other).file) });
   await page.waitForFunction(() => document.querySelector("#model").selectedOptions[0].text === "mine.glb");
   await picture(page, count);
   // The same as chosen from the list, from the same place.
@@ -422,7 +459,7 @@ await check("files that are dropped are shown and listed", async (page, errors) 
     const { camera, controls, fieldOfView } = globalThis.prtkitPicture;
     return { position: camera.position.toArray(), target: controls.target.toArray(), fieldOfView };
   });
-  const d = await difference(page, await canvas(page), await render(page, other.levels[1].file, THREE_TURN, view, { sky: warmSky }));
+  const d = await difference(page, await canvas(page), await render(page, normal(other).file, THREE_TURN, view, { sky: warmSky }));
   assert.ok(d.mean < 2 * MEAN_TOLERANCE, `mean difference ${d.mean}`);
   assert.deepEqual(errors, []);
   await dropped(page, { "notes.txt": warmSky });

@@ -16,6 +16,7 @@ import { volumeOf } from "../src/volumeTransfer.js";
 import { bakedModel, MAPS, texelWords } from "./bakedModel.js";
 import { extensionOf, png } from "./glb.js";
 import { leftAt, occluderModel } from "./occluderModel.js";
+import { boneMatrices, cornersOf, lobeModel, radianceOf, squares } from "./lobeModel.js";
 import { incidentAround, sumOf, volumeExtension, volumeModel } from "./volumeModel.js";
 import { radianceOfWords } from "./wordRadiance.js";
 
@@ -52,6 +53,7 @@ for (const by of ["vertices", "texels"])
   models[`moving_${by}.glb`] = bakedModel(by, (json, binary) => (json.extensions.PRTKIT_transfer_volume = volumeExtension(binary)));
 models["volume.glb"] = volumeModel();
 models["passer.glb"] = occluderModel();
+for (const order of [2, 3, 4]) models[`lobes_${order}.glb`] = lobeModel(order);
 for (const by of ["vertices", "texels"]) models[`leaf_${by}.glb`] = bakedModel(by, leafy);
 
 /** A page of a browser of its own: where WebGPU in software gives up, it takes the process of all pages along. */
@@ -294,6 +296,58 @@ await check("what passes over baked surfaces takes as much of their light as pla
   // The numbers integrate over a grid of directions, within 1e-3; filters take shares in 256ths.
   assert.ok(least < 0.8 && most < 4e-3, `${most}; darkest ${least}`);
   return `${most.toExponential(1)} off, the darkest is ${least.toFixed(2)}`;
+});
+
+await check("lobes turn with the skin, and have the light of the world, as plain numbers have it", async () => {
+  const size = [96, 96];
+  let [most, seen] = [0, 0];
+  for (const order of [2, 3, 4])
+    for (const [pose, turn] of [[[[0, 0, 0], [0, 0, 0]], [0, 0, 0]], [[[0.3, -0.2, 0.4], [-0.5, 0.4, -0.2]], [0.2, 0.3, 0.1]]]) {
+      const sky = Array.from({ length: 3 * order * order }, (_, i) => 0.6 * Math.cos(3 * i + 1) + (i < 3 ? 3 : 0));
+      const pixels = await ask("posed", { model: `lobes_${order}.glb`, pose, turn, light: sky, size });
+      const all = new Matrix4().makeRotationFromEuler(new Euler(...turn));
+      const bones = boneMatrices(pose).map((bone) => bone.premultiply(all));
+      for (const square of squares()) {
+        const { place, radiance } = radianceOf(square, bones, order, sky);
+        const [x, y] = [place.x, place.y].map((value) => Math.floor(48 * (value + 1)));
+        const at = 4 * (size[0] * y + x);
+        if (!(pixels[at + 3] > 0)) continue; // out of the picture
+        ++seen;
+        radiance.forEach((value, c) => (most = Math.max(most, Math.abs(pixels[at + c] - value) / Math.max(value, 0.1))));
+      }
+    }
+  assert.ok(seen > 150 && most < 1e-5, `${most} of ${seen}`);
+  return `${most.toExponential(1)} off`;
+});
+
+await check("lobes have the light of the volume where they are, as plain numbers have it", async () => {
+  const size = [480, 480];
+  const { extension, view } = extensionOf(models["volume.glb"], "PRTKIT_transfer_volume");
+  const volume = volumeOf(extension, view);
+  const columns = lightColumns(volume.clusters, volumeLight, null, null);
+  const pose = [[0.3, -0.2, 0.4], [-0.5, 0.4, -0.2]];
+  const bones = boneMatrices(pose);
+  const pixels = await ask("posed", { model: "lobes_4.glb", volume: "volume.glb", pose, turn: [0, 0, 0], light: volumeLight, size });
+  let [most, brightest, seen] = [0, 0, 0];
+  for (const square of squares()) {
+    const { place } = radianceOf(square, bones, 4, new Float64Array(48));
+    const [x, y] = [place.x, place.y].map((value) => Math.floor(240 * (value + 1)));
+    const at = 4 * (size[0] * y + x);
+    if (!(pixels[at + 3] > 0)) continue;
+    ++seen;
+    // The middle of a square lies between two corners of it, at which light is looked up.
+    const corners = cornersOf(square, bones).map(({ place: corner, normal }) => {
+      const incident = incidentAround(volume, corner, normal, columns);
+      return radianceOf(square, bones, 4, [...incident.flat(), ...new Array(21).fill(0)]).radiance;
+    });
+    for (let c = 0; c < 3; ++c) {
+      most = Math.max(most, Math.abs(pixels[at + c] - (corners[0][c] + corners[1][c]) / 2));
+      brightest = Math.max(brightest, pixels[at + c]);
+    }
+  }
+  most /= brightest;
+  assert.ok(seen > 20 && most < 0.02, `${most} of ${seen}`); // a pixel is not the middle to a hundredth of the square
+  return `${most.toExponential(1)} off`;
 });
 
 await check("the plug-in of the other renderer is refused", async () => {

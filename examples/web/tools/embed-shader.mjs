@@ -4,7 +4,7 @@ import { readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 
 const root = new URL("../../../", import.meta.url);
-const runtime = ["prt_exit_radiance.glsl", "prt_lightmap.frag", "prt_occluders.glsl", "prt_volume.glsl"];
+const runtime = ["prt_exit_radiance.glsl", "prt_instances.glsl", "prt_lightmap.frag", "prt_lobes.glsl", "prt_occluders.glsl", "prt_volume.glsl"];
 
 /** Comments are for who reads shaders/; browsers load the modules. */
 const bare = (text) => text.replace(/[ \t]*\/\/.*$/gm, "").replace(/\n\s+/g, "\n").trimStart();

@@ -27,9 +27,11 @@ const run = (program, ...options) => execFileSync(program, options, { stdio: ["i
 mkdirSync(work, { recursive: true });
 mkdirSync(join(publicFolder, "models"), { recursive: true });
 mkdirSync(join(publicFolder, "skies"), { recursive: true });
-const names = process.env.PRT_SCENES?.split(",") ?? ["knot", "room", "tree", "terrain", "night_room", "courtyard"];
+// forest:2000 is a forest of so many trees.
+const specs = process.env.PRT_SCENES?.split(",") ?? ["knot", "room", "tree", "terrain", "night_room", "courtyard", "forest:2000", "figure"];
+const names = specs.map((spec) => spec.split(":")[0]);
 const times = process.env.PRT_SCENES ? [] : ["noon", "evening", "night"]; // for what has lamps
-if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work, ...names, "figure", ...times, "sky"); // the sky is written last
+if (!existsSync(join(work, "sky.exr"))) run(exampleScenes, work, ...specs, ...(names.includes("figure") ? [] : ["figure"]), ...times, "sky"); // the sky is written last
 
 const levels = [
   { name: "u32", title: "small", options: ["--preset", "u32"] },
@@ -44,6 +46,8 @@ const cameras = {
   terrain: { position: [1, 4.5, 11], target: [0, 2.6, 0] },
   night_room: { position: [0.6, 1.7, 2.6], target: [0, 1.8, -6], fieldOfView: 50 },
   courtyard: { position: [3.9, 1.75, 4.9], target: [-1.3, 2.75, -6], fieldOfView: 46 },
+  forest: { position: [13, 12, 34], target: [0, 2, 0] },
+  figure: { position: [1.3, 1.7, 3.4], target: [0, 0.95, 0] },
 };
 /** Ways of who walks through, and how far apart the probes of the light there are, in metres. */
 const walks = {
@@ -53,8 +57,14 @@ const walks = {
   night_room: { spacing: 0.5, way: { points: [[0, -1.2], [0.9, -3.5], [0.4, -7.2], [-0.4, -7.4], [-0.9, -4.8], [-0.6, -2.2]], from: 2 } },
   courtyard: { spacing: 1, way: { points: [[2.6, 0.5], [1.6, -4.4], [-1.8, -4.8], [-3, 0], [-0.5, 3]], from: 2 } },
 };
-const large = new Set(["courtyard"]); // fewer rays, and one file: it would take an hour
-const scenes = names.map((name) => ({ name, file: join(work, `${name}.glb`) }));
+const large = new Set(["courtyard", "forest"]); // fewer rays, and one file: it would take an hour
+/** What instances share: all of them, in few clusters, as each has constants of its own for those of its mesh. */
+const shared = {
+  forest: { bake: ["--instances", "shared", "--instance-error", "1"], level: { name: "u32", title: "small", options: ["--clusters", "48"] } },
+};
+/** What turns with a skin is no bake of one pose, but lobes for all: the animation that is shown. */
+const dancing = { figure: "dance" };
+const scenes = names.filter((name) => !dancing[name]).map((name) => ({ name, file: join(work, `${name}.glb`) }));
 // The example sky is in OpenEXR's layout; those of users are taken as three takes them.
 const skies = [{ title: "clear day", file: join(work, "sky.exr"), center: "z" }];
 for (const title of times) skies.push({ title, file: join(work, `${title}.exr`), center: "z" });
@@ -72,7 +82,8 @@ const models = scenes.map(({ name, file }, i) => {
   if (!isNewer(baked, file)) {
     console.log(`baking ${name} (${i + 1} of ${scenes.length})`);
     const volume = walks[name] ? ["--volume", String(walks[name].spacing)] : [];
-    run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", String(count), "--lamp-rays", "32", ...volume);
+    const sharing = shared[name]?.bake ?? [];
+    run(prt, "bake", file, "-o", baked, "--bounces", "3", "--rays", String(count), "--lamp-rays", "32", ...volume, ...sharing);
   }
   console.log(`compressing ${name} (${i + 1} of ${scenes.length})`);
   const compressed = (suffix, options) => {
@@ -93,12 +104,21 @@ const models = scenes.map(({ name, file }, i) => {
     title: name,
     camera: cameras[name],
     way: walks[name]?.way,
+    ...(shared[name] ? { shares: true } : {}),
     before: before && { file: before.file, bytes: Math.round(before.bytesPerVertexWithBases), litRms: before.litRms },
-    levels: levels
-      .filter((level) => !large.has(name) || level.name === "u64")
+    levels: (shared[name] ? [shared[name].level] : levels)
+      .filter((level) => shared[name] || !large.has(name) || level.name === "u64")
       .map((level) => ({ title: level.title, ...compressed(level.name, level.options) })),
   };
 });
+for (const [name, clip] of Object.entries(dancing)) {
+  if (!names.includes(name)) continue;
+  console.log(`fitting lobes to ${name}`);
+  const file = `models/${name}.lobes.glb`;
+  run(prt, "lobes", join(work, `${name}.glb`), "-o", join(publicFolder, file), "--rays", rays, "--frames", "0");
+  const level = { title: "lobes", file, fileBytes: statSync(join(publicFolder, file)).size };
+  models.push({ name, title: `${name}, dancing`, camera: cameras[name], clip, levels: [level] });
+}
 // Light files have all bands, for models of any order.
 const skyEntries = skies.map(({ title, file, center = "x" }) => {
   const to = `skies/${basename(file)}`;

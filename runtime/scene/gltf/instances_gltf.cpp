@@ -15,8 +15,7 @@
 namespace prt {
 namespace {
 
-constexpr int kInstancesVersion = 1;
-constexpr int kMostInstances = 1'000'000;
+constexpr int kMostSharedInstances = 1'000'000;
 
 Json three(const glm::vec3& v) {
     return {v.x, v.y, v.z};
@@ -39,7 +38,7 @@ InstanceBox read_box(const Json& json) {
 StoredInstances read_stored(const GltfContents& contents) {
     const Json& extension = *find_extension(contents, kInstancesExtension, kInstancesVersion);
     const auto count = static_cast<std::size_t>(
-        whole_number(extension.at("count"), "count of instances", 1, kMostInstances));
+        whole_number(extension.at("count"), "count of instances", 1, kMostSharedInstances));
     std::vector<float> numbers(count * kInstanceNumbers);
     read_float_view(contents, extension.at("factors"), numbers, "the factors of its instances");
     StoredInstances stored;

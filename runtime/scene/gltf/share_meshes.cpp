@@ -13,8 +13,6 @@
 namespace prt {
 namespace {
 
-constexpr int kInstancesVersion = 1;
-
 /// Number of the instance that a node is, and its mesh among those that share.
 struct Numbered {
     std::size_t number, mesh;

@@ -374,4 +374,31 @@ async function occluded({ model, passer, moved, centre, size: [width, height], l
   return pictures;
 }
 
-globalThis.pictures = { texels, picture, radiance, nodeTexels, lit, occluded };
+/** What a figure with lobes sends out in a pose, from the front, 2 metres wide: floats, from below upwards. `pose`: Euler angles of
+ * its bones; `turn`: of all of it; `volume`: a file whose volume lights it, else the sky does. */
+async function posed({ model, volume, pose, turn, light, size: [width, height] }) {
+  const drawing = await rendererOf("webgl");
+  const { scene: figure, userData } = await load(model);
+  const { prtkit } = userData;
+  ["one", "other"].forEach((name, i) => figure.getObjectByName(name).rotation.fromArray(pose[i]));
+  const scene = new Scene().add(new Group().add(figure));
+  scene.children[0].rotation.fromArray(turn);
+  if (volume) {
+    const around = await load(volume);
+    const own = around.userData.prtkit.volume;
+    const exact = new PrtkitVolume(own.source, around.scene, own.plugin, { floats: true });
+    exact.setLight(ShLight.fromCoefficients(exact.order, light));
+    own.light(figure); // another one takes over
+    exact.light(figure);
+  } else prtkit.setSky(ShLight.fromCoefficients(prtkit.order, light), scene);
+  const seen = new OrthographicCamera(-1, 1, 1, -1, 0.1, 10);
+  seen.position.z = 5;
+  const target = new WebGLRenderTarget(width, height, { type: FloatType });
+  drawing.setRenderTarget(target);
+  drawing.render(scene, seen);
+  drawing.setRenderTarget(null);
+  prtkit.dispose();
+  return pixelsBy(drawing, target);
+}
+
+globalThis.pictures = { texels, picture, radiance, nodeTexels, lit, occluded, posed };

@@ -1,0 +1,151 @@
+// Constants of instances that share the transfer of their mesh, which the shader of it reads instead of those of the model
+// (shaders/prt_instances.glsl): what prt::InstanceFormer does. They are linear in the place within the box of the mesh, so that a
+// row takes three vectors instead of one. No three.js here.
+
+import { formConstants, lightColumns } from "./clusteredPca.js";
+import { ADDED_MODES, InstanceModes, instanceTurns, PASSING_MODES, responsesOf } from "./instanceModes.js";
+import { rotationMatrices, turnedBands } from "./sphericalHarmonics.js";
+import { formAtYaw, polarRows, termsOf, turnTerms, yawSeries } from "./yawHarmonics.js";
+
+/** Turns about +Y in which light is formed: 0.7 degrees off at most. */
+const YAWS = 256;
+
+/** The rows of the clusters that a mesh has, in their order, and at which of these the rows of each cluster begin. `numbers`: of
+ * the clusters of its vertices. */
+export function rowsOf({ components, firstRows, rowCount }, numbers) {
+  const used = new Set(numbers);
+  const list = [];
+  const begins = components.map((_, k) => {
+    const begin = list.length;
+    if (used.has(k)) for (let row = firstRows[k]; row < (firstRows[k + 1] ?? rowCount); ++row) list.push(row);
+    return begin;
+  });
+  return { list: Uint32Array.from(list), begins };
+}
+
+/** Writes numbers of an instance in the place of its rows: `factors` as files have them, `added` [ADDED_MODES][3] of its light, in
+ * the axes of the mesh. */
+function writeRows(constants, at, rows, modes, responses, factors, added) {
+  const [a, b, c, d, e] = modes;
+  const [a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3, e0, e1, e2, e3] = factors;
+  for (let n = 0, to = at; n < rows.length; ++n) {
+    const row = rows[n];
+    const response = 3 * ADDED_MODES * row;
+    for (let color = 0; color < 3; ++color, to += 4) {
+      const from = 4 * row + color;
+      const above = a[from];
+      const alongX = b[from];
+      const alongY = c[from];
+      const alongZ = d[from];
+      const below = e[from];
+      constants[to] = a0 * above + b0 * alongX + c0 * alongY + d0 * alongZ + e0 * below;
+      constants[to + 1] = a1 * above + b1 * alongX + c1 * alongY + d1 * alongZ + e1 * below;
+      constants[to + 2] = a2 * above + b2 * alongX + c2 * alongY + d2 * alongZ + e2 * below;
+      const back =
+        added[color] * responses[response + color] +
+        added[3 + color] * responses[response + 3 + color] +
+        added[6 + color] * responses[response + 6 + color] +
+        added[9 + color] * responses[response + 9 + color];
+      constants[to + 3] = a3 * above + b3 * alongX + c3 * alongY + d3 * alongZ + e3 * below + back;
+    }
+  }
+}
+
+/** What instances add of a light on level ground, in axes that `rotation` takes into the world's. */
+function addedBy(factors, rotation, onLevel, added) {
+  const first = 4 * PASSING_MODES;
+  for (let c = 0; c < 3; ++c) {
+    added[c] = factors[first + c] * onLevel[c];
+    for (let j = 0; j < 3; ++j) {
+      let sum = 0;
+      for (let i = 0; i < 3; ++i) sum += factors[first + 3 * (1 + i) + c] * rotation[3 * j + i];
+      added[3 * (1 + j) + c] = sum * onLevel[c];
+    }
+  }
+}
+
+export class InstanceFormer {
+  /**
+   * `rows`: of shaderRows. `instances`: { factors, rotation, box, rows } of each: its numbers as files have them; from the frame of
+   * the mesh into the world, [9] by columns; the box of the mesh; the list of rowsOf.
+   */
+  constructor(clusters, rows, instances, yaws = YAWS) {
+    this.clusters = clusters;
+    this.rows = rows;
+    this.instances = instances;
+    this.modes = new InstanceModes(clusters.order);
+    this.responses = responsesOf(clusters, rows);
+    this.constantsOfModes = Array.from({ length: PASSING_MODES }, () => new Float64Array(4 * clusters.rowCount));
+    const { order, rowCount } = clusters;
+    const turns = instanceTurns(instances.map(({ rotation }) => rotation), yaws);
+    const { rotations, of } = turns;
+    this.turns = rotations.map((rotation, t) => {
+      const yaw = turns.yaws[t];
+      return { rotation, instances: [], ...(yaw === null ? { matrices: rotationMatrices(order, rotation) } : { terms: turnTerms(order, yaw) }) };
+    });
+    const isUpright = this.turns.some(({ terms }) => terms);
+    this.polarRows = isUpright ? polarRows(clusters, rows) : null;
+    this.series = this.constantsOfModes.map(() => (isUpright ? new Float64Array(3 * termsOf(order) * rowCount) : null));
+    of.forEach((turn, i) => this.turns[turn].instances.push(i));
+    /** Of the constants of each instance, in vectors of four; and of all. */
+    this.begins = new Float64Array(instances.length);
+    this.size = 0;
+    instances.forEach(({ rows: { length } }, i) => {
+      this.begins[i] = this.size;
+      this.size += 3 * length;
+    });
+  }
+
+  /** Attributes of instances [first, first + count): the middle of the box of each and one over its half widths; in w where its
+   * constants begin, 16 bits in each. */
+  table(first, count) {
+    const [low, high] = [new Float32Array(4 * count), new Float32Array(4 * count)];
+    for (let i = 0; i < count; ++i) {
+      const { middle, half } = this.instances[first + i].box;
+      const offset = this.begins[first + i] / 3;
+      low.set([...middle, offset & 0xffff], 4 * i);
+      high.set([...half.map((width) => 1 / width), offset >>> 16], 4 * i);
+    }
+    return [low, high];
+  }
+
+  /** The constants of the passing modes under `skies` and, where there are any, `suns`, for the rows that a turn has use for. */
+  formModes({ matrices, terms, instances }, skies, suns) {
+    const { clusters, rows } = this;
+    let [first, end] = [Infinity, 0];
+    for (const i of instances) {
+      const used = this.instances[i].rows;
+      if (used.length === 0) continue;
+      first = Math.min(first, used[0]);
+      end = Math.max(end, used[used.length - 1] + 1);
+    }
+    if (!(first < end)) return;
+    if (terms) return this.constantsOfModes.forEach((constants, m) => formAtYaw(this.series[m], terms, first, end, constants));
+    const size = rows.length / clusters.rowCount;
+    const part = { ...clusters, rowCount: end - first };
+    this.constantsOfModes.forEach((constants, m) => {
+      const columns = lightColumns(clusters, turnedBands(matrices, skies[m]), suns ? turnedBands(matrices, suns[m]) : null);
+      formConstants(part, rows.subarray(first * size, end * size), columns, constants.subarray(4 * first, 4 * end));
+    });
+  }
+
+  /** Writes the constants of all instances, [size][4], under coefficients [order²][3] in the world's axes; `suns`: as of
+   * lightColumns. */
+  form(sky, suns, constants) {
+    const skies = this.modes.passing(sky);
+    const passed = suns ? this.modes.passing(suns) : null;
+    const onLevel = this.modes.onLevel(suns ? sky.map((value, i) => value + suns[i]) : sky);
+    const added = new Float64Array(3 * ADDED_MODES);
+    const both = passed?.map((light, m) => light.map((value, i) => value + skies[m][i])) ?? skies;
+    if (this.polarRows) this.series.forEach((series, m) => yawSeries(this.clusters, this.polarRows, skies[m], both[m], series));
+    for (const turn of this.turns) {
+      this.formModes(turn, skies, passed);
+      for (const i of turn.instances) {
+        const { factors, rows } = this.instances[i];
+        addedBy(factors, turn.rotation, onLevel, added);
+        writeRows(constants, 4 * this.begins[i], rows, this.constantsOfModes, this.responses, factors, added);
+      }
+    }
+    return constants;
+  }
+}

@@ -1,0 +1,22 @@
+// Transfer of the surfaces of one file, whose volume is lit alike.
+
+import { LitTransfer } from "./LitTransfer.js";
+
+export class LitSurfaces extends LitTransfer {
+  constructor(clusters, root) {
+    super(clusters, root);
+    this.volume = null; // PrtkitVolume, where the file has probes, too
+  }
+
+  setLight(light, angle = 0, suns = null, lamps = {}) {
+    this.volume?.checkOrders(light, suns);
+    super.setLight(light, angle, suns, lamps);
+    this.volume?.setLight(light, angle, suns, this.volume.knownOf(lamps));
+  }
+
+  setSky(light, scene, { suns = null, lamps = {}, keyed = [] } = {}) {
+    this.volume?.checkOrders(light, suns);
+    super.setSky(light, scene, { suns, lamps, keyed });
+    this.volume?.setSky(light, scene, { suns, lamps: this.volume.knownOf(lamps), keyed: this.volume.keys.length > 0 ? keyed : [] });
+  }
+}

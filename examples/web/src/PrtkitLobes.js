@@ -1,0 +1,77 @@
+// Transfer of figures that turns with their skins: zonal lobes of vertices (docs/format.md, PRTKIT_lobes), and what lights them.
+
+import { DataTexture, FloatType, NearestFilter, Object3D, RGBAFormat, Vector3 } from "three";
+import { LitSurfaces } from "./LitSurfaces.js";
+import { expect, LOBES } from "./wholeExtension.js";
+
+const LARGEST_GAIN = 1e3;
+const holds = (value, what) => expect(value, what, LOBES);
+
+/** Gains of all profiles, [count][4]: those of the bands that there are, then 0. `bytes`: of their buffer view. */
+export function profilesOf({ order, profiles: { count } }, bytes) {
+  holds(bytes.byteLength === 4 * order * count, `the profiles are not ${count} of ${order} floats`);
+  const gains = new Float32Array(bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.byteLength));
+  holds(gains.every((gain) => Math.abs(gain) <= LARGEST_GAIN), `profiles are not finite, or beyond ${LARGEST_GAIN}`);
+  return Float32Array.from({ length: 4 * count }, (_, i) => (i % 4 < order ? gains[order * (i >> 2) + (i % 4)] : 0));
+}
+
+/** Puts lobes where the shader reads them, in the place of attributes of the file. */
+function convertLobes(geometry, { lobes, profiles: { count } }) {
+  for (let k = 0; k < lobes; ++k) {
+    const attribute = geometry.getAttribute(`_prt_lobe_${k}`);
+    const { array } = attribute?.data ?? attribute ?? {};
+    const isRight = array instanceof Uint8Array && attribute.itemSize === 4 && attribute.count === geometry.getAttribute("position")?.count;
+    holds(isRight && !attribute.normalized, `a primitive lacks _PRT_LOBE_${k} of four bytes for its vertices`);
+    for (let v = 0; v < attribute.count; ++v) holds(attribute.getZ(v) < count, `vertex ${v} has a profile that is not there`);
+    geometry.deleteAttribute(`_prt_lobe_${k}`);
+    geometry.setAttribute(`prt_lobe_${k}`, attribute);
+  }
+}
+
+export class PrtkitLobes extends LitSurfaces {
+  /** `extension`: which is right; `bytes`: of its profiles. */
+  constructor(extension, bytes) {
+    const { order, lobes } = extension;
+    // Suns that are apart are left to the renderer's shadow maps. Axes are turned into the world, and so is the light of skies.
+    super({ order, parts: [{ kind: "direct", channels: 3 }] }, new Object3D());
+    this.extension = extension;
+    /** Lobes of a vertex. */
+    this.lobes = lobes;
+    this.vertices = 0;
+    this.bytesPerVertex = 4 * lobes;
+    this.instances = null;
+    const profiles = profilesOf(extension, bytes);
+    this.profilesTexture = new DataTexture(profiles, profiles.length / 4, 1, RGBAFormat, FloatType);
+    Object.assign(this.profilesTexture, { minFilter: NearestFilter, magFilter: NearestFilter, needsUpdate: true });
+    this.uniforms = {
+      prt_lobe_profiles: { value: this.profilesTexture },
+      prtLobeLight: { value: Array.from({ length: order * order }, () => new Vector3()) },
+      prtSunsApart: { value: false },
+    };
+    this.defines = { PRT_LOBES: lobes, PRT_LOBE_ORDER: order };
+    this.converted = new Set(); // geometries: nodes may share one
+    this.beforeRender = () => this.followSky();
+  }
+
+  /** What `mesh` is lit by. */
+  transferOf({ geometry }) {
+    if (!this.converted.has(geometry)) {
+      convertLobes(geometry, this.extension);
+      this.vertices += geometry.getAttribute("position").count;
+      this.converted.add(geometry);
+    }
+    return { uniforms: {}, defines: this.defines };
+  }
+
+  form(sky, suns) {
+    this.uniforms.prtLobeLight.value.forEach((light, i) => light.fromArray(sky, 3 * i));
+    this.uniforms.prtSunsApart.value = suns !== null;
+  }
+
+  /** Frees the table on the device. */
+  dispose() {
+    this.sky = null;
+    this.volume?.dispose();
+    this.profilesTexture.dispose();
+  }
+}

@@ -1,0 +1,115 @@
+// Nodes of a glTF that draw instances of meshes whose transfer they share (docs/format.md, PRTKIT_instances): read by three as
+// nodes without a mesh, and drawn by InstancedMesh.
+
+import { Matrix4, Quaternion, Vector3 } from "three";
+import { halfFloat } from "./halfFloat.js";
+import { FACTORS } from "./instanceModes.js";
+import { checkInstanceNode, checkInstances, expect, INSTANCES } from "./wholeExtension.js";
+
+const GPU = "EXT_mesh_gpu_instancing";
+const LARGEST_FACTOR = 6e4;
+const ROUNDING = 1e-5; // of an element, of the scale: matrices of files are floats
+
+const holds = (value, what) => expect(value, what, INSTANCES);
+
+/**
+ * Takes meshes and instances off the nodes of `json`, a whole glTF, that share transfer, before three reads it:
+ * [{ node, mesh, first, box, attributes }] with the accessors of its instances, null where the node is one.
+ */
+export function takeInstancesAside(json) {
+  const extension = json.extensions?.[INSTANCES];
+  if (extension === undefined) return [];
+  checkInstances(extension);
+  const nodes = json.nodes ?? [];
+  const shared = [];
+  const sharedMeshes = new Set();
+  for (const [node, drawing] of nodes.entries()) {
+    const { mesh, skin, extensions } = drawing ?? {};
+    const own = extensions?.[INSTANCES];
+    if (own === undefined) continue;
+    checkInstanceNode(own, node, extension.count, extension.boxes.length);
+    holds(json.meshes?.[mesh], `node ${node} draws no mesh`);
+    holds(skin === undefined, `node ${node} has a skin`);
+    shared.push({ node, mesh, first: own.first, box: own.box, attributes: extensions[GPU]?.attributes ?? null });
+    sharedMeshes.add(mesh);
+  }
+  nodes.forEach((drawing, node) => {
+    const isAlone = !sharedMeshes.has(drawing?.mesh) || drawing.extensions?.[INSTANCES] !== undefined;
+    holds(isAlone, `node ${node} draws a mesh that instances share, and is none`);
+  });
+  for (const { node } of shared) {
+    delete nodes[node].mesh;
+    delete nodes[node].extensions[GPU];
+  }
+  return shared;
+}
+
+/** Puts them back, as the file has them. */
+export function putInstancesBack({ nodes }, shared) {
+  for (const { node, mesh, attributes } of shared) {
+    nodes[node].mesh = mesh;
+    if (attributes) nodes[node].extensions[GPU] = { attributes };
+  }
+}
+
+/** The factors of all instances, [count][FACTORS]; `bytes`: of their buffer view. */
+export function factorsOf({ count, factors: { componentType = 5126 } }, bytes) {
+  const size = componentType === 5131 ? 2 : 4;
+  holds(bytes.byteLength === size * FACTORS * count, `the factors are not those of ${count} instances`);
+  const { buffer, byteOffset } = bytes;
+  const own = buffer.slice(byteOffset, byteOffset + size * FACTORS * count);
+  const factors = size === 2 ? Float32Array.from(new Uint16Array(own), halfFloat) : new Float32Array(own);
+  holds(factors.every((value) => Math.abs(value) <= LARGEST_FACTOR), `factors are not finite, or beyond ${LARGEST_FACTOR}`);
+  return factors;
+}
+
+/** The rotation in a matrix that turns, moves and scales evenly, [9] by columns; null where it does anything else. */
+export function evenRotation({ elements: e }) {
+  const axes = [0, 4, 8].map((at) => new Vector3(e[at], e[at + 1], e[at + 2]));
+  const volume = axes[0].dot(axes[1].clone().cross(axes[2]));
+  if (!(volume > 0 && volume < Infinity)) return null;
+  const scale = Math.cbrt(volume);
+  for (const axis of axes) axis.divideScalar(scale);
+  const isSquare = axes.every((a, i) => axes.every((b, j) => Math.abs(a.dot(b) - Number(i === j)) < ROUNDING));
+  return isSquare ? axes.flatMap((axis) => axis.toArray()) : null;
+}
+
+const SIZES = { TRANSLATION: 3, ROTATION: 4, SCALE: 3 };
+
+/** The matrices of the instances of a node, in its frame, `most` of them at most; `parser`: of GLTFLoader. */
+export async function placesOf({ node, attributes }, parser, most) {
+  if (attributes === null) return [new Matrix4()];
+  const read = {};
+  for (const [name, size] of Object.entries(SIZES)) {
+    if (attributes[name] === undefined) continue;
+    const claimed = parser.json.accessors?.[attributes[name]]?.count; // of data that need not be there
+    holds(claimed >= 1 && claimed <= most, `node ${node} draws no instances, or more than have factors`);
+    try {
+      read[name] = await parser.getDependency("accessor", attributes[name]);
+    } catch (error) {
+      throw new Error(`${INSTANCES}: accessor ${attributes[name]} cannot be read`, { cause: error });
+    }
+    holds(read[name]?.itemSize === size, `${name} of node ${node} is no vector of ${size}`);
+  }
+  const counts = Object.values(read).map(({ count }) => count);
+  holds(counts.length > 0 && counts.every((count) => count === counts[0]), `the instances of node ${node} have attributes of different length, or none`);
+  const [place, turn, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
+  return Array.from({ length: counts[0] }, (_, i) => {
+    if (read.TRANSLATION) place.fromBufferAttribute(read.TRANSLATION, i);
+    if (read.ROTATION) turn.fromBufferAttribute(read.ROTATION, i).normalize();
+    if (read.SCALE) scale.fromBufferAttribute(read.SCALE, i);
+    return new Matrix4().compose(place, turn, scale);
+  });
+}
+
+/** Nodes that animations move, with what hangs on them. */
+export function movingNodes({ animations = [], nodes = [] }) {
+  const moving = new Set();
+  const add = (node) => {
+    if (moving.has(node) || !nodes[node]) return;
+    moving.add(node);
+    for (const child of nodes[node].children ?? []) add(child);
+  };
+  for (const { channels = [] } of animations) for (const { target } of channels) if (target?.node !== undefined) add(target.node);
+  return moving;
+}

@@ -1,0 +1,73 @@
+// Constants of clusters under light that is turned about +Y: about that axis a turn mixes azimuthal orders m and -m alone, so that
+// constants are series of cos(m yaw) and sin(m yaw), of which many turns are soon formed. No three.js here.
+
+import { polarMatrices, ShLight } from "./sphericalHarmonics.js";
+
+/** Rows [rowCount] of parts, about the polar axis +Y. */
+export function polarRows({ order, parts }, rows) {
+  const matrices = polarMatrices(order);
+  const count = order * order;
+  const result = new Float64Array(rows.length);
+  const channels = parts.reduce((sum, part) => sum + part.channels, 0);
+  for (let first = 0; first < rows.length; first += count * channels)
+    for (let block = first; block < first + count * channels; block += count)
+      matrices.forEach((matrix, l) => {
+        const size = 2 * l + 1;
+        for (let i = 0; i < size; ++i)
+          for (let j = 0; j < size; ++j) result[block + l * l + j] += matrix[i * size + j] * rows[block + l * l + i];
+      });
+  return result;
+}
+
+/** Numbers of a series. */
+export const termsOf = (order) => 2 * order - 1;
+
+/** 1, cos(yaw), sin(yaw), cos(2 yaw), .. */
+export function turnTerms(order, yaw) {
+  const terms = Float64Array.of(1, ...new Array(termsOf(order) - 1).fill(0));
+  for (let m = 1; m < order; ++m) [terms[2 * m - 1], terms[2 * m]] = [Math.cos(m * yaw), Math.sin(m * yaw)];
+  return terms;
+}
+
+/**
+ * The series of each row and colour, [rows][3][termsOf(order)], of light turned into frames that stand at a yaw: `rows` of
+ * polarRows; coefficients [order²][3] of `sky`, which lights direct parts, and of all light, which lights the rest.
+ */
+export function yawSeries({ order, parts, rowCount }, rows, sky, all, series) {
+  const [direct, rest] = [sky, all].map((light) => ShLight.fromCoefficients(order, light).polar);
+  const count = order * order;
+  const terms = termsOf(order);
+  series.fill(0);
+  let at = 0;
+  for (let r = 0; r < rowCount; ++r)
+    for (const { kind, channels } of parts) {
+      const light = kind === "direct" ? direct : rest;
+      for (let c = 0; c < 3; ++c) {
+        const own = at + (channels === 3 ? c * count : 0);
+        const to = (3 * r + c) * terms;
+        for (let l = 0; l < order; ++l) {
+          const middle = l * l + l;
+          series[to] += rows[own + middle] * light[3 * middle + c];
+          for (let m = 1; m <= l; ++m) {
+            const [even, odd] = [rows[own + middle + m], rows[own + middle - m]]; // of cos and sin of the azimuth
+            const [p, q] = [light[3 * (middle + m) + c], light[3 * (middle - m) + c]];
+            series[to + 2 * m - 1] += even * p + odd * q;
+            series[to + 2 * m] += even * q - odd * p;
+          }
+        }
+      }
+      at += channels * count;
+    }
+}
+
+/** Writes constants [rows][4] of rows [first, end) at the yaw of `terms` (turnTerms). */
+export function formAtYaw(series, terms, first, end, constants) {
+  const count = terms.length;
+  for (let row = first; row < end; ++row)
+    for (let c = 0; c < 3; ++c) {
+      const from = (3 * row + c) * count;
+      let sum = 0;
+      for (let k = 0; k < count; ++k) sum += terms[k] * series[from + k];
+      constants[4 * row + c] = sum;
+    }
+}

@@ -1,0 +1,72 @@
+// A small model whose balls are instances that share their transfer, as `prt bake --instances shared` and `prt compress` would
+// write it, of made-up transfer and factors.
+import { bakedModel, COMPONENTS } from "./bakedModel.js";
+
+export const PARTS = [
+  { kind: "direct", channels: 1 },
+  { kind: "indirect", channels: 3 },
+];
+const SIZE = 4 + 3 * 4;
+export const BOXES = [
+  { middle: [-0.5, 1, 0], half: [0.7, 0.7, 0.7] },
+  { middle: [0.9, 0.5, 0.6], half: [0.35, 0.35, 0.35] },
+];
+export const COUNT = 6;
+
+function random(seed) {
+  let state = seed;
+  return () => (state = (state * 1664525 + 1013904223) % 2 ** 32) / 2 ** 32;
+}
+
+/** Numbers of all instances, [COUNT][32]: much of the light passes, some comes back. */
+export function factors() {
+  const next = random(17);
+  const row = (mean) => [0.3 * (next() - 0.5), 0.3 * (next() - 0.5), 0.3 * (next() - 0.5), mean + 0.2 * (next() - 0.5)];
+  const color = (mean) => [0, 0, 0].map(() => mean + 0.1 * (next() - 0.5));
+  const all = Array.from({ length: COUNT }, () =>
+    [row(0.8), row(0), row(0.1), row(0), row(0.5), color(0.2), color(0), color(0.05), color(0)].flat(),
+  );
+  return Float32Array.from(all.flat());
+}
+
+const half = Math.SQRT1_2;
+/** Turned by nothing, by a bin of yaw, by yaw between bins, and leaning. */
+export const PLACES = {
+  TRANSLATION: [-1.5, 0, -1, 1, 0.2, -1, 0.4, 0, 1.2, -1, 0.5, 1],
+  ROTATION: [0, 0, 0, 1, 0, half, 0, half, 0, Math.sin(0.51), 0, Math.cos(0.51), 0.48, 0.36, 0, 0.8],
+  SCALE: [0.5, 0.5, 0.5, 0.6, 0.6, 0.6, 0.4, 0.4, 0.4, 0.5, 0.5, 0.5],
+};
+
+/** The file; `by`: as of bakedModel; `change(json, binary)` may make it another one. */
+export function instanceModel(by = "vertices", change = () => {}) {
+  return bakedModel(by, (json, binary) => {
+    const clusters = json.extensions.PRTKIT_clustered_pca;
+    const guides = 3 * clusters.guides.length;
+    const next = random(7);
+    const row = (most, mean) => Array.from({ length: SIZE }, (_, a) => (mean && a % 4 === 0 ? 0.25 : 0) + most * (next() - 0.5));
+    const rows = COMPONENTS.flatMap((m) => [...row(0.05, true), ...Array.from({ length: guides + m }, () => row(0.08, false)).flat()]);
+    Object.assign(clusters, { parts: PARTS, bases: { bufferView: binary.view(Float32Array.from(rows)), componentType: 5126 } });
+    json.materials = json.materials.map(({ normalTexture: _, ...material }) => ({ ...material, emissiveFactor: [0, 0, 0] }));
+    delete json.images;
+    delete json.textures;
+    const attributes = Object.fromEntries(
+      Object.entries(PLACES).map(([name, values]) => [name, binary.accessor(new Float32Array(values), name === "ROTATION" ? "VEC4" : "VEC3")]),
+    );
+    json.nodes = [
+      { mesh: 0 },
+      { mesh: 1, extensions: { EXT_mesh_gpu_instancing: { attributes }, PRTKIT_instances: { first: 0, box: 0 } } },
+      { name: "hill", translation: [0.5, 0, -0.5], rotation: [0, half, 0, half], children: [3, 4] },
+      { mesh: 2, translation: [0.3, 0.1, 0], extensions: { PRTKIT_instances: { first: 4, box: 1 } } },
+      { mesh: 2, translation: [-1, 0.1, 1], scale: [1.5, 1.5, 1.5], extensions: { PRTKIT_instances: { first: 5, box: 1 } } },
+    ];
+    json.scenes = [{ nodes: [0, 1, 2] }];
+    json.extensionsUsed.push("EXT_mesh_gpu_instancing", "PRTKIT_instances");
+    json.extensions.PRTKIT_instances = {
+      version: 1,
+      count: COUNT,
+      factors: { bufferView: binary.view(factors()), componentType: 5126 },
+      boxes: BOXES,
+    };
+    change(json, binary);
+  });
+}

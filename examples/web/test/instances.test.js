@@ -1,0 +1,379 @@
+// Files with PRTKIT_instances: modes, constants, nodes and shaders against plain arithmetic of docs/format.md. renderers.mjs draws.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Box3, Matrix3, Matrix4, Quaternion, ShaderLib, Vector3 } from "three";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { instanceTurns, InstanceModes } from "../src/instanceModes.js";
+import { PrtkitPlugin, ShLight } from "../src/PrtkitLoader.js";
+import { evaluateSh, gaussLegendre } from "../src/sphericalHarmonics.js";
+import { PrtkitPlugin as NodePlugin } from "../src/webgpu.js";
+import { BOXES, COUNT, factors, instanceModel, PLACES } from "./instanceModel.js";
+
+const load = (file, Plugin = PrtkitPlugin) => {
+  const loader = new GLTFLoader().register((parser) => new Plugin(parser));
+  return loader.parseAsync(file.buffer.slice(file.byteOffset, file.byteOffset + file.length), "");
+};
+const lightOf = (order, seed) =>
+  ShLight.fromCoefficients(order, Array.from({ length: 3 * order * order }, (_, i) => Math.cos(seed * i + 1) + (i < 3 ? 3 : 0)));
+const near = (value, expected, most, what = "") => assert.ok(Math.abs(value - expected) <= most, `${what} ${value}, not ${expected}`);
+
+/** Calls `take(direction, solid angle)` so that integrals of low polynomials over each half of the sphere are exact. */
+function overHalves(take) {
+  const { nodes, weights } = gaussLegendre(13);
+  for (const side of [1, -1])
+    for (let h = 0; h < 13; ++h)
+      for (let a = 0; a < 29; ++a) {
+        const y = side * 0.5 * (nodes[h] + 1);
+        const [phi, radius] = [(2 * Math.PI * (a + 0.3)) / 29, Math.sqrt(1 - y * y)];
+        take([radius * Math.cos(phi), y, radius * Math.sin(phi)], (0.5 * weights[h] * 2 * Math.PI) / 29);
+      }
+}
+
+/** Radiance of coefficients [order²][3] from a direction. */
+function radiance(order, coefficients, direction) {
+  const basis = evaluateSh(order, ...direction);
+  return [0, 1, 2].map((c) => basis.reduce((sum, value, i) => sum + value * coefficients[3 * i + c], 0));
+}
+
+/** Functions of a direction by which the light of a mode is multiplied. */
+const PASSED = [
+  ([, y]) => Number(y > 0),
+  ([x, y]) => Math.sqrt(3) * x * Number(y > 0),
+  ([, y]) => Math.sqrt(3) * y * Number(y > 0),
+  ([, y, z]) => Math.sqrt(3) * z * Number(y > 0),
+  ([, y]) => Number(y < 0),
+];
+const THROWN = [() => 1, ([x]) => Math.sqrt(3) * x, ([, y]) => Math.sqrt(3) * y, ([, , z]) => Math.sqrt(3) * z];
+
+/** What each mode is lit with in the frame of an instance, turned into the world's by `rotation` (Matrix3): for each coefficients
+ * [order²][3] of the sky and of sky and suns. */
+function modesInFrame(order, sky, suns, rotation) {
+  const both = suns ? sky.map((value, i) => value + suns[i]) : sky;
+  const modes = Array.from({ length: 9 }, () => [0, 1].map(() => new Float64Array(3 * order * order)));
+  const level = [0, 0, 0];
+  overHalves((direction, weight) => {
+    if (direction[1] > 0) radiance(order, both, direction).forEach((value, c) => (level[c] += (weight * direction[1] * value) / Math.PI));
+  });
+  const back = rotation.clone().transpose();
+  overHalves((direction, weight) => {
+    const basis = evaluateSh(order, ...new Vector3(...direction).applyMatrix3(back).toArray());
+    const lights = [sky, both].map((light) => radiance(order, light, direction));
+    const add = (mode, light, factor) =>
+      basis.forEach((value, i) => light.forEach((rgb, c) => (mode[3 * i + c] += weight * factor * value * rgb)));
+    PASSED.forEach((passed, m) => lights.forEach((light, k) => add(modes[m][k], light, passed(direction))));
+    THROWN.forEach((thrown, m) => [0, 1].forEach((k) => add(modes[5 + m][k], level, thrown(direction))));
+  });
+  return modes;
+}
+
+test("modes are products with functions of the direction, and level ground is lit by a clamped cosine", () => {
+  for (const order of [1, 2, 5]) {
+    const sky = lightOf(order, 3).coefficients();
+    const modes = new InstanceModes(order);
+    const expected = modesInFrame(order, sky, null, new Matrix3());
+    modes.passing(sky).forEach((light, m) => light.forEach((value, i) => near(value, expected[m][0][i], 1e-9, `mode ${m}`)));
+    const level = modes.onLevel(sky);
+    // Mode 5 is a sky of that everywhere.
+    level.forEach((value, c) => near(value * Math.sqrt(4 * Math.PI), expected[5][0][c], 1e-9));
+  }
+  const white = new Float64Array(3 * 9);
+  white.fill(Math.sqrt(4 * Math.PI), 0, 3);
+  new InstanceModes(3).onLevel(white).forEach((value) => near(value, 1, 1e-12));
+  const [above, , , , below] = new InstanceModes(3).passing(white);
+  above.forEach((value, i) => near(value + below[i], white[i], 1e-12));
+});
+
+test("turns about +Y fall into bins, others are their own", () => {
+  const rotation = (quaternion) => new Matrix3().setFromMatrix4(new Matrix4().makeRotationFromQuaternion(quaternion)).elements;
+  const yaw = (angle) => rotation(new Quaternion().setFromAxisAngle(new Vector3(0, 1, 0), angle));
+  const step = (2 * Math.PI) / 64;
+  const leaning = rotation(new Quaternion(0.48, 0.36, 0, 0.8));
+  const { rotations, of } = instanceTurns([yaw(0), yaw(0.4 * step), yaw(-0.4 * step), yaw(0.6 * step), leaning, yaw(2 * Math.PI - 0.1 * step), leaning], 64);
+  assert.deepEqual([...of], [0, 0, 0, 1, 2, 0, 2]);
+  [0, 1].forEach((turn, i) => rotations[i].forEach((value, e) => near(value, yaw(turn * step)[e], 1e-12)));
+  assert.deepEqual(rotations[2], leaning);
+  assert.equal(instanceTurns([yaw(0), yaw(0.4 * step)], 0).rotations.length, 2);
+});
+
+/** What the shader makes of vertex `v` of instance `i` of a mesh: prt_instances.glsl and prt_exit_radiance.glsl, in plain numbers. */
+function shaded(prtkit, mesh, i, v) {
+  const { attributes } = mesh.geometry;
+  const four = (attribute, n) => [0, 1, 2, 3].map((k) => attribute.getComponent(n, k));
+  const [low, high] = [four(attributes.prt_instance_0, i), four(attributes.prt_instance_1, i)];
+  const position = new Vector3().fromBufferAttribute(attributes.position, v).toArray();
+  const normal = new Vector3().fromBufferAttribute(attributes.normal, v).normalize().toArray();
+  const place = [...position.map((x, a) => (x - low[a]) * high[a]), 1];
+  const first = (low[3] + high[3] * 65536) >>> 0;
+  const { uniforms, defines } = prtkit.instances.transferOf(mesh);
+  const { data } = uniforms.prt_constants.value.image;
+  const constant = (row) => {
+    const at = 3 * ((first + row) >>> 0);
+    return [0, 1, 2].map((c) => place.reduce((sum, x, k) => sum + x * data[4 * (at + c) + k], 0));
+  };
+  const word = (n) => attributes.prt_words_0.getComponent(v, n);
+  const bits = defines.PRT_PACKED_WORDS ? (BigInt(word(1)) << 32n) | BigInt(word(0)) : 0n;
+  const cluster = defines.PRT_PACKED_WORDS ? Number(bits & 15n) : attributes.prt_cluster.getX(v);
+  const table = uniforms.prt_clusters.value.image.data.subarray(4 * cluster, 4 * cluster + 4);
+  const sum = constant(table[0]);
+  let row = table[0] + 1;
+  const add = (factor) => constant(row++).forEach((value, c) => (sum[c] += factor * value));
+  if (defines.PRT_GUIDE_NORMAL) normal.forEach(add);
+  if (defines.PRT_GUIDE_POSITION) {
+    const origin = defines.PRT_GUIDE_ORIGIN.match(/[-\d.]+(?=[,)])/g).map(Number);
+    position.forEach((x, a) => add(x - origin[a]));
+  }
+  let at = 4n;
+  for (let j = 0; j < table[1]; ++j) {
+    const width = ((table[2] >> (4 * j)) & 15) + 1;
+    if (!defines.PRT_PACKED_WORDS) add(attributes.prt_weights_0.getComponent(v, j));
+    else add(Number((bits >> at) & ((1n << BigInt(width)) - 1n)));
+    at += BigInt(width);
+  }
+  return sum;
+}
+
+/** The same from the transfer of the vertex and the lights of the modes: docs/format.md, PRTKIT_instances. */
+function expectedOf(prtkit, mesh, v, modes, numbers, box) {
+  const { clusters } = prtkit;
+  const { order, guides, components, firstRows, rows, widths } = clusters;
+  const { attributes } = mesh.geometry;
+  const size = rows.length / clusters.rowCount;
+  const position = new Vector3().fromBufferAttribute(attributes.position, v).toArray();
+  const normal = new Vector3().fromBufferAttribute(attributes.normal, v).normalize().toArray();
+  const packed = attributes.prt_words_0;
+  const bits = packed ? (BigInt(packed.getComponent(v, 1)) << 32n) | BigInt(packed.getComponent(v, 0)) : 0n;
+  const cluster = packed ? Number(bits & 15n) : attributes.prt_cluster.getX(v);
+  const row = (r) => rows.subarray((firstRows[cluster] + r) * size, (firstRows[cluster] + r + 1) * size);
+  const vector = Float64Array.from(row(0));
+  const add = (r, factor) => row(r).forEach((value, a) => (vector[a] += factor * value));
+  guides.forEach(({ kind, scale, origin }, g) =>
+    scale.forEach((s, a) => add(1 + 3 * g + a, s * (kind === "normal" ? normal[a] : position[a] - origin[a]))));
+  let at = 4n;
+  for (let j = 0; j < components[cluster]; ++j) {
+    let weight = packed ? 0 : attributes.prt_weights_0.getComponent(v, j);
+    if (packed) {
+      const most = 2 ** widths[cluster][j] - 1;
+      weight = (2 * Number((bits >> at) & BigInt(most)) - most) / most;
+      at += BigInt(widths[cluster][j]);
+    }
+    add(1 + 3 * guides.length + j, weight);
+  }
+  const place = [...position.map((x, a) => (x - box.middle[a]) / box.half[a]), 1];
+  const count = order * order;
+  const result = [0, 0, 0];
+  modes.forEach(([sky, both], m) => {
+    for (let c = 0; c < 3; ++c) {
+      const factor = m < 5 ? place.reduce((sum, x, k) => sum + x * numbers[4 * m + k], 0) : numbers[20 + 3 * (m - 5) + c];
+      for (let i = 0; i < count; ++i)
+        result[c] += factor * (vector[i] * sky[3 * i + c] + vector[count * (1 + c) + i] * both[3 * i + c]);
+    }
+  });
+  return result;
+}
+
+for (const by of ["vertices", "weights"])
+  test(`instances are lit as the page of the format says: ${by}`, async () => {
+    const { scene, userData } = await load(instanceModel(by));
+    const { prtkit } = userData;
+    const { meshes } = prtkit.instances;
+    assert.deepEqual(meshes.map(({ count }) => count), [4, 2]);
+    const [sky, suns] = [lightOf(2, 3), lightOf(2, 5)];
+    const numbers = factors();
+    for (const apart of [null, suns]) {
+      prtkit.setLight(sky, 0.3, apart);
+      const lights = [sky.coefficients(0.3), apart?.coefficients(0.3) ?? null];
+      let number = 0;
+      for (const [m, mesh] of meshes.entries())
+        for (let i = 0; i < mesh.count; ++i, ++number) {
+          const matrix = new Matrix4();
+          mesh.getMatrixAt(i, matrix);
+          const axes = new Matrix4().extractRotation(matrix.premultiply(scene.matrixWorld));
+          const modes = modesInFrame(2, ...lights, new Matrix3().setFromMatrix4(axes));
+          const turned = number === 2; // between bins of yaw: by 0.8 degrees
+          for (let v = 0; v < mesh.geometry.attributes.position.count; v += 97) {
+            const own = numbers.subarray(32 * number, 32 * (number + 1));
+            const [value, expected] = [shaded(prtkit, mesh, i, v), expectedOf(prtkit, mesh, v, modes, own, BOXES[m])];
+            expected.forEach((x, c) => near(value[c], x, turned ? 0.03 : 1e-5, `instance ${number}, vertex ${v}`));
+          }
+        }
+      assert.equal(number, COUNT);
+    }
+  });
+
+test("an instance in the open has the light of its mesh", async () => {
+  const open = new Float32Array(32 * COUNT);
+  for (let i = 0; i < COUNT; ++i) open[32 * i + 3] = open[32 * i + 19] = 1;
+  const { userData } = await load(instanceModel("vertices", (json, binary) => {
+    json.extensions.PRTKIT_instances.factors.bufferView = binary.view(open);
+  }));
+  const { prtkit } = userData;
+  prtkit.setLight(lightOf(2, 3), 0.3);
+  const constants = prtkit.constantsTexture.image.data; // of what is not turned
+  const { instances: { constantsTexture, former } } = prtkit;
+  const { rows } = former.instances[0];
+  for (let row = 0; row < rows.length; ++row)
+    for (let c = 0; c < 3; ++c) {
+      const at = 4 * (3 * row + c);
+      near(constantsTexture.image.data[at + 3], constants[4 * rows[row] + c], 1e-5);
+      assert.ok([0, 1, 2].every((k) => Math.abs(constantsTexture.image.data[at + k]) < 1e-6));
+    }
+});
+
+test("each primitive is drawn at once, where its nodes are", async () => {
+  const { scene, userData, parser } = await load(instanceModel());
+  const drawn = [];
+  scene.traverse((object) => object.isMesh && drawn.push(object));
+  assert.deepEqual(drawn.map(({ isInstancedMesh = false }) => isInstancedMesh), [false, true, true]);
+  const { instances } = userData.prtkit;
+  assert.deepEqual(drawn.slice(1), instances.meshes);
+  assert.deepEqual([instances.count, instances.bytesPerInstance], [COUNT, 128]); // floats here
+  assert.ok(instances.constantsBytesPerInstance > 0 && instances.constantsBytesPerInstance % 48 === 0);
+  const places = instances.meshes.flatMap((mesh) =>
+    Array.from({ length: mesh.count }, (_, i) => {
+      const matrix = new Matrix4();
+      mesh.getMatrixAt(i, matrix);
+      return new Vector3().setFromMatrixPosition(matrix);
+    }));
+  for (let i = 0; i < 4; ++i) assert.ok(places[i].distanceTo(new Vector3(...PLACES.TRANSLATION.slice(3 * i))) < 1e-6);
+  // The hill turns +X to -Z, and +Z to +X.
+  assert.ok(places[4].distanceTo(new Vector3(0.5, 0.1, -0.8)) < 1e-6, places[4].toArray());
+  assert.ok(places[5].distanceTo(new Vector3(1.5, 0.1, 0.5)) < 1e-6, places[5].toArray());
+  // Culled by all of them together.
+  const [balls] = instances.meshes;
+  balls.computeBoundingSphere();
+  const box = new Box3().setFromObject(balls);
+  assert.ok(box.min.x < -1.5 - 0.25 && box.max.x > 1.2 && balls.boundingSphere.radius > 1.5);
+  // What three read is what the file has.
+  assert.equal(parser.json.nodes[1].mesh, 1);
+  assert.ok(parser.json.nodes[1].extensions.EXT_mesh_gpu_instancing.attributes.TRANSLATION >= 0);
+  for (const mesh of instances.meshes) assert.ok(mesh.castShadow && mesh.receiveShadow && mesh.material.defines.PRT_SUNS);
+});
+
+test("what animations move is drawn in its node", async () => {
+  const { scene, userData } = await load(instanceModel("vertices", (json, binary) => {
+    const sampler = { input: binary.accessor(new Float32Array([0, 1]), "SCALAR", { min: [0], max: [1] }), output: binary.accessor(new Float32Array(6), "VEC3") };
+    json.animations = [{ samplers: [sampler], channels: [{ sampler: 0, target: { node: 3, path: "translation" } }] }];
+  }));
+  const { meshes } = userData.prtkit.instances;
+  assert.deepEqual(meshes.map(({ count }) => count), [4, 1, 1]);
+  const moving = meshes.find(({ parent }) => parent !== scene);
+  assert.ok(moving.getWorldPosition(new Vector3()).distanceTo(new Vector3(0.5, 0.1, -0.8)) < 1e-6);
+  const [one, other] = meshes.slice(1).map(({ geometry }) => geometry);
+  assert.ok(one !== other && one.attributes.position === other.attributes.position && one.attributes.prt_instance_0 !== other.attributes.prt_instance_0);
+});
+
+test("light that changes is formed anew, also as the model is turned", async () => {
+  const { scene, userData } = await load(instanceModel());
+  const { prtkit } = userData;
+  const texture = prtkit.instances.constantsTexture;
+  const shown = { environment: null, backgroundRotation: { x: 0, y: 0, z: 0, order: "XYZ" }, backgroundIntensity: 1 };
+  const light = lightOf(2, 3);
+  prtkit.setLight(light, 0.4);
+  const turned = texture.image.data.slice();
+  const { version } = texture;
+  prtkit.setSky(light, shown);
+  assert.ok(texture.version > version && turned.some((value, i) => Math.abs(value - texture.image.data[i]) > 1e-3));
+  scene.rotation.y = -0.4; // the light comes from as far round
+  scene.updateMatrixWorld(true);
+  prtkit.followSky();
+  turned.forEach((value, i) => near(texture.image.data[i], value, 1e-5));
+  shown.backgroundIntensity = 2;
+  prtkit.followSky();
+  turned.forEach((value, i) => near(texture.image.data[i], 2 * value, 1e-5));
+});
+
+test("the shader is that of the runtime for instances, and others have none of it", async () => {
+  const { scene, userData } = await load(instanceModel("weights"));
+  const compiled = ({ material }) => {
+    const shader = { uniforms: {}, vertexShader: ShaderLib.physical.vertexShader, fragmentShader: ShaderLib.physical.fragmentShader };
+    material.onBeforeCompile(shader);
+    return shader;
+  };
+  const [mesh] = userData.prtkit.instances.meshes;
+  const { vertexShader, uniforms } = compiled(mesh);
+  assert.match(vertexShader, /vec3 prt_instance_radiance\(vec4 instance_0, vec4 instance_1, vec3 position, vec3 normal\)/);
+  assert.match(vertexShader, /prtRadiance = prt_instance_radiance\(prt_instance_0, prt_instance_1, prtBakedPlace\(\), prtBakedNormal\(\)\);/);
+  assert.equal(vertexShader.match(/vec3 prt_exit_radiance\(/g).length, 3); // once for each way that weights lie
+  assert.equal(uniforms.prt_constants.value, userData.prtkit.instances.constantsTexture);
+  assert.equal(mesh.material.defines.PRT_GUIDE_ORIGIN, `vec3(${[0.1, 0.2, -0.1].map(Math.fround).join(", ")})`);
+  const floor = scene.children.find(({ isMesh, isInstancedMesh }) => isMesh && !isInstancedMesh);
+  assert.doesNotMatch(compiled(floor).vertexShader, /vec3 prt_instance_radiance/);
+  assert.equal(compiled(floor).uniforms.prt_constants.value, userData.prtkit.constantsTexture);
+});
+
+test("tables are freed, and textures that a device does not have are refused", async () => {
+  const { prtkit } = (await load(instanceModel())).userData;
+  const freed = [];
+  const { constantsTexture, clustersTextures } = prtkit.instances;
+  for (const texture of [constantsTexture, ...clustersTextures]) texture.addEventListener("dispose", () => freed.push(texture));
+  assert.throws(() => prtkit.instances.checkSize({ capabilities: { maxTextureSize: 64 } }), /constants of 6 instances want a texture of 256 x/);
+  prtkit.instances.checkSize({ capabilities: { maxTextureSize: 4096 } });
+  prtkit.dispose();
+  assert.deepEqual(freed, [constantsTexture, ...clustersTextures]);
+});
+
+test("WebGPURenderer does not draw them", async () => {
+  await assert.rejects(load(instanceModel(), NodePlugin), /^Error: PRTKIT_instances: WebGPURenderer does not draw them yet; use WebGLRenderer/);
+});
+
+const extensionOf = (json) => json.extensions.PRTKIT_instances;
+const nodeOf = (json, n = 1) => json.nodes[n].extensions.PRTKIT_instances;
+const gpuOf = (json) => json.nodes[1].extensions.EXT_mesh_gpu_instancing.attributes;
+
+for (const [what, change, message] of [
+  ["another version", (json) => (extensionOf(json).version = 2), /version 2 is not known/],
+  ["no object", (json) => (json.extensions.PRTKIT_instances = []), /is no object/],
+  ["a count of zero", (json) => (extensionOf(json).count = 0), /the count is none/],
+  ["a count without end", (json) => (extensionOf(json).count = 1e7), /the count is none/],
+  ["fewer factors", (json) => (extensionOf(json).count = 7), /the factors are not those of 7/],
+  ["half of the factors", (json) => (extensionOf(json).factors.componentType = 5131), /the factors are not those of 6/],
+  ["factors of bytes", (json) => (extensionOf(json).factors.componentType = 5121), /the factors are no floats/],
+  ["no factors", (json) => delete extensionOf(json).factors, /the factors are no floats/],
+  ["a view that is not there", (json) => (extensionOf(json).factors.bufferView = 999), /buffer view 999 cannot be read/],
+  ["factors that are not finite", (json, binary) => {
+    const wrong = factors();
+    wrong[40] = NaN;
+    extensionOf(json).factors.bufferView = binary.view(wrong);
+  }, /factors are not finite/],
+  ["factors that are too large", (json, binary) => {
+    const wrong = factors();
+    wrong[7] = 1e6;
+    extensionOf(json).factors.bufferView = binary.view(wrong);
+  }, /factors are not finite, or beyond 60000/],
+  ["no boxes", (json) => (extensionOf(json).boxes = []), /there are no boxes/],
+  ["a flat box", (json) => (extensionOf(json).boxes = [{ middle: [0, 0, 0], half: [1, 0, 1] }]), /a box is none/],
+  ["a box that is none", (json) => (extensionOf(json).boxes = [null]), /a box is none/],
+  ["an instance that is not there", (json) => (nodeOf(json, 4).first = 6), /node 4 has an instance or a box that is not there/],
+  ["a box that is not there", (json) => (nodeOf(json).box = 2), /node 1 has an instance or a box/],
+  ["a node that is none", (json) => (json.nodes[1].extensions.PRTKIT_instances = 3), /node 1 has an instance or a box/],
+  ["more drawn than there are", (json) => (nodeOf(json).first = 3), /node 1 draws no instances, or more/],
+  ["the same ones by many", (json) => {
+    json.nodes.push({ mesh: 1, extensions: structuredClone(json.nodes[1].extensions) });
+    json.scenes[0].nodes.push(5);
+  }, /more instances are drawn than have factors/],
+  ["no mesh", (json) => delete json.nodes[1].mesh, /node 1 draws no mesh/],
+  ["a mesh that is not there", (json) => (json.nodes[1].mesh = 77), /node 1 draws no mesh/],
+  ["a mesh that others draw", (json) => {
+    json.nodes.push({ mesh: 1 });
+    json.scenes[0].nodes.push(5);
+  }, /node 5 draws a mesh that instances share, and is none/],
+  ["a skin", (json) => (json.nodes[1].skin = 0), /node 1 has a skin/],
+  ["a mirror", (json) => (json.nodes[3].scale = [-1, 1, 1]), /node 3 draws an instance that it mirrors/],
+  ["an uneven scale", (json) => (json.nodes[2].scale = [1, 2, 1]), /node 3 draws an instance that it mirrors or scales unevenly/],
+  ["a scale of zero", (json, binary) => (gpuOf(json).SCALE = binary.accessor(new Float32Array(12), "VEC3")), /node 1 draws an instance that it mirrors/],
+  ["attributes of unlike length", (json, binary) => (gpuOf(json).SCALE = binary.accessor(new Float32Array(6).fill(1), "VEC3")), /attributes of different length/],
+  ["no attributes", (json) => (json.nodes[1].extensions.EXT_mesh_gpu_instancing.attributes = {}), /attributes of different length, or none/],
+  ["attributes of another type", (json, binary) => (gpuOf(json).ROTATION = binary.accessor(new Float32Array(12), "VEC3")), /ROTATION of node 1 is no vector of 4/],
+  ["an accessor that is not there", (json) => (gpuOf(json).SCALE = 999), /node 1 draws no instances, or more/],
+  ["instances without end", (json) => (json.accessors = undefined, gpuOf(json).SCALE = -1), /node 1 draws no instances, or more/],
+  ["a lamp", (json) => {
+    json.extensions.PRTKIT_clustered_pca.parts = [{ kind: "indirect", channels: 3 }, ...[0, 1, 2, 3].map((i) => ({ kind: "lamp", channels: 1, name: `lamp ${i}` }))];
+  }, /transfer of lamps is not shared/],
+])
+  test(`${what}: refused with a reason`, async () => {
+    await assert.rejects(load(instanceModel("vertices", change)), (error) => {
+      assert.match(error.message, /^PRTKIT_instances: /);
+      assert.match(error.message, message);
+      return true;
+    });
+  });

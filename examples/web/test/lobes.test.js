@@ -1,0 +1,122 @@
+// Files with PRTKIT_lobes: reading, light and shaders. renderers.mjs draws them in poses.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Euler, Scene, ShaderLib } from "three";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { PrtkitPlugin, ShLight } from "../src/PrtkitLoader.js";
+import { PrtkitPlugin as NodePlugin } from "../src/webgpu.js";
+import { bakedModel } from "./bakedModel.js";
+import { ACROSS, DOWN, LOBES, lobeModel, PROFILES, profiles, squares } from "./lobeModel.js";
+
+const load = (file, Plugin = PrtkitPlugin) => {
+  const loader = new GLTFLoader().register((parser) => new Plugin(parser));
+  return loader.parseAsync(file.buffer.slice(file.byteOffset, file.byteOffset + file.length), "");
+};
+const light = ShLight.fromCoefficients(4, Array.from({ length: 48 }, (_, i) => Math.cos(3 * i + 1) + (i < 3 ? 3 : 0)));
+const meshOf = ({ scene }) => scene.getObjectByProperty("isSkinnedMesh", true);
+
+test("lobes and their profiles are what the file has", async () => {
+  for (const order of [2, 4]) {
+    const gltf = await load(lobeModel(order));
+    const { prtkit } = gltf.userData;
+    assert.deepEqual([prtkit.order, prtkit.lobes, prtkit.vertices, prtkit.bytesPerVertex], [order, LOBES, 4 * ACROSS * DOWN, 8]);
+    const { image } = prtkit.profilesTexture;
+    assert.deepEqual([image.width, image.height], [PROFILES, 1]);
+    profiles(order).forEach((gains, p) =>
+      [0, 1, 2, 3].forEach((band) => assert.equal(image.data[4 * p + band], Math.fround(gains[band] ?? 0))));
+    const { attributes } = meshOf(gltf).geometry;
+    const bytes = squares().flatMap(({ lobes }) => [0, 1, 2, 3].flatMap(() => lobes[1]));
+    assert.deepEqual([...attributes.prt_lobe_1.array], bytes);
+    assert.equal(attributes._prt_lobe_1, undefined);
+  }
+});
+
+test("light is that of the world, however the model is turned; suns that are apart are not in it", async () => {
+  const gltf = await load(lobeModel());
+  const { prtkit } = gltf.userData;
+  const given = () => prtkit.uniforms.prtLobeLight.value.flatMap((value) => value.toArray());
+  const isNear = (expected) => given().forEach((value, i) => assert.ok(Math.abs(value - expected[i]) < 1e-9));
+  prtkit.setLight(light, 0.3);
+  isNear([...light.coefficients(0.3)]);
+  assert.equal(prtkit.uniforms.prtSunsApart.value, false);
+  const scene = new Scene().add(gltf.scene);
+  gltf.scene.rotation.set(0.3, 0.5, 0.1);
+  scene.updateMatrixWorld(true);
+  prtkit.setSky(light, scene, { suns: light });
+  isNear([...light.coefficients()]);
+  assert.equal(prtkit.uniforms.prtSunsApart.value, true);
+  scene.backgroundRotation.copy(new Euler(0, 0.4, 0));
+  prtkit.beforeRender();
+  isNear([...light.coefficients(0.4)]);
+  assert.throws(() => prtkit.setLight(ShLight.fromCoefficients(2, new Float64Array(12))), RangeError);
+});
+
+test("the shader turns axes with the skin, in three's own", async () => {
+  const gltf = await load(lobeModel(3));
+  const { material } = meshOf(gltf);
+  assert.deepEqual([material.defines.PRT_LOBES, material.defines.PRT_LOBE_ORDER], [2, 3]);
+  const shader = { uniforms: {}, vertexShader: ShaderLib.physical.vertexShader, fragmentShader: ShaderLib.physical.fragmentShader };
+  material.onBeforeCompile(shader);
+  assert.match(shader.vertexShader, /mat3 prt_lobe_turn\(mat3 m\)/);
+  // Behind three's matrix of the skin, and where the vertex is known.
+  assert.match(shader.vertexShader, /#include <skinnormal_vertex>[^]*prtMoved \* mat3\( skinMatrix \)[^]*prtRadiance = prtLobeRadiance\( prt_lobe_turn\( prtMoved \), vec3\( 0\.0 \) \);/);
+  assert.match(shader.vertexShader, /PRT_LOBE_PROFILE\(i\) texelFetch\( prt_lobe_profiles/);
+  assert.doesNotMatch(shader.vertexShader, /vec3 prt_exit_radiance/);
+  assert.doesNotMatch(shader.vertexShader, /#include "/);
+  assert.equal(shader.uniforms.prtLobeLight, gltf.userData.prtkit.uniforms.prtLobeLight);
+  assert.equal(material.clone().defines.PRT_LOBES, 2);
+});
+
+test("tables are freed", async () => {
+  const { prtkit } = (await load(lobeModel())).userData;
+  let freed = 0;
+  prtkit.profilesTexture.addEventListener("dispose", () => ++freed);
+  prtkit.dispose();
+  assert.equal(freed, 1);
+});
+
+test("WebGPURenderer does not draw them", async () => {
+  await assert.rejects(load(lobeModel(), NodePlugin), /^Error: PRTKIT_lobes: WebGPURenderer does not draw them yet; use WebGLRenderer/);
+});
+
+const lobesOf = (json) => json.extensions.PRTKIT_lobes;
+
+for (const [what, change, message] of [
+  ["another version", (json) => (lobesOf(json).version = 2), /version 2 is not known/],
+  ["no object", (json) => (json.extensions.PRTKIT_lobes = 7), /is no object/],
+  ["too many bands", (json) => (lobesOf(json).order = 5), /the order is not 2 to 4/],
+  ["too many lobes", (json) => (lobesOf(json).lobes = 4), /the order is not 2 to 4, or a vertex has not 1 to 3 lobes/],
+  ["a lobe more than vertices have", (json) => (lobesOf(json).lobes = 3), /a primitive lacks _PRT_LOBE_2/],
+  ["profiles without end", (json) => (lobesOf(json).profiles.count = 257), /the profiles are not 1 to 256/],
+  ["fewer profiles", (json) => (lobesOf(json).profiles.count = 8), /the profiles are not 8 of 4 floats/],
+  ["profiles that are not there", (json) => (lobesOf(json).profiles.bufferView = 99), /buffer view 99 cannot be read/],
+  ["profiles that are not finite", (json, binary) => {
+    lobesOf(json).profiles.bufferView = binary.view(new Float32Array(4 * PROFILES).fill(NaN));
+  }, /profiles are not finite/],
+  ["a profile that is not there", (json, binary) => {
+    lobesOf(json).profiles = { bufferView: binary.view(new Float32Array(4)), count: 1 };
+  }, /vertex \d+ has a profile that is not there/],
+  ["lobes of floats", (json, binary) => {
+    json.meshes[0].primitives[0].attributes._PRT_LOBE_0 = binary.accessor(new Float32Array(16 * ACROSS * DOWN), "VEC4");
+  }, /a primitive lacks _PRT_LOBE_0 of four bytes/],
+  ["fewer lobes", (json, binary) => {
+    json.meshes[0].primitives[0].attributes._PRT_LOBE_0 = binary.accessor(new Uint8Array(16), "VEC4");
+  }, /a primitive lacks _PRT_LOBE_0 of four bytes/],
+  ["transfer of one pose, too", (json) => (json.extensions.PRTKIT_clustered_pca = {}), /the file has transfer that does not turn/],
+])
+  test(`${what}: refused with a reason`, async () => {
+    await assert.rejects(load(lobeModel(4, change)), (error) => {
+      assert.match(error.message, /^PRTKIT_lobes: /);
+      assert.match(error.message, message);
+      return true;
+    });
+  });
+
+test("a bake without lobes is what it was", async () => {
+  const { userData } = await load(bakedModel("vertices", (json) => {
+    json.materials = json.materials.map(({ normalTexture: _, ...material }) => material);
+    delete json.images;
+    delete json.textures;
+  }));
+  assert.equal(userData.prtkit.lobes, undefined);
+});
