@@ -3,17 +3,35 @@
 #include "levels/nearest_places.h"
 
 #include <embree3/rtcore.h>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <type_traits>
 
 namespace prt {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Of the boxes of the nodes: instances of one thing may stand all over a scene.
+double largest_diagonal(const Scene& scene) {
+    std::map<int, Bounds> boxes;
+    for (const Primitive& primitive : scene.primitives)
+        for (const glm::uvec3& t : primitive.triangles)
+            for (int corner = 0; corner < 3; ++corner) {
+                const glm::vec3& p = scene.vertex_arrays[primitive.vertices].positions[t[corner]];
+                Bounds& box = boxes.try_emplace(primitive.node, Bounds{p, p}).first->second;
+                box = {glm::min(box.low, p), glm::max(box.high, p)};
+            }
+    double largest = 0;
+    for (const auto& [node, box] : boxes)
+        largest = std::max(largest, glm::distance(glm::dvec3(box.low), glm::dvec3(box.high)));
+    return largest;
+}
 
 /// Visits triangles from the whole scene on; `visit` returns the distance within which others still matter.
 template <class Visit>
@@ -95,8 +113,7 @@ NearestPlace NearestRule::result() const {
 
 NearestPlaces::NearestPlaces(const TraceScene& scene, const Receivers& receivers)
     : scene_(scene), receivers_(receivers) {
-    const Bounds box = bounds(scene.scene());
-    diagonal_ = glm::distance(glm::dvec3(box.low), glm::dvec3(box.high));
+    diagonal_ = largest_diagonal(scene.scene());
     lit_.resize(scene.surfaces().triangles());
     for (std::uint32_t t = 0; t < lit_.size(); ++t) {
         const glm::uvec3& corners = scene.surfaces().corners(t);

@@ -31,7 +31,7 @@ std::array<double, 3> nearest_on_triangle(const std::array<glm::dvec3, 3>& corne
 /// 23).
 class NearestRule {
 public:
-    /// `diagonal` of the box of the surface, metres.
+    /// `diagonal` of the box of the surface's largest node, metres.
     explicit NearestRule(double diagonal) : reach_(kReach * diagonal), tie_(kTie * diagonal) {}
 
     void begin(const glm::vec3& position, const glm::vec3& normal);

@@ -28,7 +28,7 @@ struct LevelSample {
 struct LevelSamples {
     std::vector<LevelSample> samples;
     double rms_distance = 0, largest_distance = 0; ///< metres, from the samples to their places
-    double diagonal = 0;                           ///< metres, of the box of level 0
+    double diagonal = 0;                           ///< metres, of the box of the largest node of level 0
 };
 
 struct LevelOptions {
