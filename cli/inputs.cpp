@@ -73,9 +73,9 @@ SceneFile scene_file_of(GltfDocument document, const Path& path) {
     std::optional<InstancedModel> instanced;
     if (shares_instances(document)) {
         instanced = read_instanced(document, scene, path);
-        baked = instanced->baked ? std::exchange(instanced->baked, {})
-                                 : BakedTransfer{decode(instanced->compressed->transfer),
-                                                 instanced->compressed->record};
+        baked = instanced->baked
+                    ? std::exchange(instanced->baked, {})
+                    : BakedTransfer{decode(instanced->compressed->transfer), instanced->compressed->record};
         baked->transfer = expanded(document, scene, instanced->stored, baked->transfer);
     } else {
         baked = read_transfer(document, scene);

@@ -1,24 +1,17 @@
 #include "prt/instance_shader.h"
 
 #include "prt/support/error.h"
-#include "shared_layout.h"
 
 #include <algorithm>
 
 namespace prt {
-namespace {
-
-/// Attributes of instances stand where those of further weights would.
-constexpr int kMostWeights = 4 * (PRT_LOCATION_INSTANCE_X - PRT_LOCATION_WEIGHTS);
-
-} // namespace
 
 std::string instance_defines(const ClusteredTransfer& transfer, ConstantSource constants,
                              ShaderLanguage language, const glm::dvec3& seen_from) {
     if (constants == ConstantSource::block)
         throw Error("constants of instances are more than a uniform block holds: use a buffer or a texture");
     if (transfer.receivers.format != WeightFormat::packed &&
-        std::ranges::max(transfer.bases.components) > kMostWeights)
+        std::ranges::max(transfer.bases.components) > kMostInstancedWeights)
         throw Error("instances have attributes where those of more than 24 weights would be");
     return relight_defines(transfer, constants, language, seen_from) + "#define PRT_INSTANCES\n";
 }

@@ -75,8 +75,8 @@ GpuInstances::GpuInstances(std::shared_ptr<const prt::InstancedModel> model,
             next += 2;
         }
     instances_ = next / 2;
-    formed_.resize(former_.size());
-    constants_ = prt::make_buffer(std::span<const glm::vec4>(formed_));
+    constants_.formed.resize(former_.size());
+    constants_.buffer = prt::make_buffer(std::span<const glm::vec4>(constants_.formed));
     rows_ = prt::make_buffer(std::span<const Row>(std::vector<Row>(instances_)));
     attach(plain_);
     attach(lit_);
@@ -136,10 +136,11 @@ void GpuInstances::attach(const prt::GlVertexArrays& arrays) const {
 
 void GpuInstances::set_light(const prt::Lighting& lighting) {
     const prt::Stopwatch stopwatch;
-    former_.form(lighting, formed_);
-    seconds_formed_ = stopwatch.seconds();
-    glNamedBufferSubData(constants_.name(), 0, static_cast<GLsizeiptr>(formed_.size() * sizeof(glm::vec4)),
-                         formed_.data());
+    former_.form(lighting, constants_.formed);
+    constants_.seconds = stopwatch.seconds();
+    glNamedBufferSubData(constants_.buffer.name(), 0,
+                         static_cast<GLsizeiptr>(constants_.formed.size() * sizeof(glm::vec4)),
+                         constants_.formed.data());
 }
 
 InstanceFigures GpuInstances::figures() const {
@@ -147,9 +148,9 @@ InstanceFigures GpuInstances::figures() const {
     return {.instances = shared,
             .meshes = groups_.size() - once,
             .bytes_in_file = 2 * prt::kInstanceNumbers,
-            .bytes_of_constants =
-                static_cast<double>(formed_.size() * sizeof(glm::vec4)) / static_cast<double>(instances_),
-            .milliseconds_formed = 1e3 * seconds_formed_};
+            .bytes_of_constants = static_cast<double>(constants_.formed.size() * sizeof(glm::vec4)) /
+                                  static_cast<double>(instances_),
+            .milliseconds_formed = 1e3 * constants_.seconds};
 }
 
 void GpuInstances::look(const glm::mat4& view_projection, const glm::vec3& eye, bool culling) {
@@ -176,7 +177,7 @@ std::size_t GpuInstances::draw(const prt::GlObject& program, bool lit, bool blen
     const prt::GlVertexArrays& arrays = lit ? lit_ : plain_;
     if (lit) {
         transfer_.use();
-        prt::bind_storage(PRT_BINDING_CONSTANTS, constants_);
+        prt::bind_storage(PRT_BINDING_CONSTANTS, constants_.buffer);
     }
     std::size_t triangles = 0;
     for (const Group& group : groups_)

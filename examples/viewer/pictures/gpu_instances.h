@@ -70,11 +70,15 @@ private:
     std::vector<Group> groups_;
     prt::InstanceFormer former_;
     prt::GlVertexArrays plain_, lit_;
-    prt::GlObject constants_, rows_;
-    std::vector<glm::vec4> formed_;
+    prt::GlObject rows_;
+    struct Constants {
+        std::vector<glm::vec4> formed;
+        prt::GlObject buffer;
+        double seconds = 0; ///< that forming them took
+    };
+    Constants constants_;
     std::string defines_;
     std::size_t instances_ = 0;
-    double seconds_formed_ = 0;
 };
 
 } // namespace viewer

@@ -33,7 +33,7 @@ GpuModel::Source GpuModel::source_of(PictureKind kind) {
 
 GpuModel::GpuModel(std::shared_ptr<const Model> model, std::size_t most_receivers)
     : model_(std::move(model)), most_receivers_(most_receivers),
-      scene_(model_->scene, model_->trace->textures()), plain_(scene_.make_vertex_arrays()) {
+      scene_(model_->scene, model_->trace->textures()), plain_{scene_.make_vertex_arrays(), {}} {
     numbers_.arrays = scene_.make_vertex_arrays();
     programs_.wires = prt::make_program("viewer_color.vert", "viewer_color.frag");
 }
@@ -126,8 +126,8 @@ prt::GlLightmapTextures GpuModel::lightmap_of(PictureKind kind) const {
 }
 
 void GpuModel::set_occlusion(std::span<const float> occlusion) {
-    occlusion_ = prt::make_buffer(occlusion);
-    scene_.attach_receivers(plain_, *occlusion_, PRT_LOCATION_AO, 1);
+    plain_.occlusion = prt::make_buffer(occlusion);
+    scene_.attach_receivers(plain_.arrays, *plain_.occlusion, PRT_LOCATION_AO, 1);
 }
 
 void GpuModel::set_numbers(PictureKind kind, std::span<const glm::vec3> colors) {
@@ -167,7 +167,7 @@ void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::
         light_compressed();
     if (instances_ && lights(instances_->layout()))
         instances_->set_light(lighting_of(instances_->layout()));
-    seconds_constants_ = stopwatch.seconds();
+    measured_.seconds_constants = stopwatch.seconds();
     if (raw_)
         light_raw();
 }
@@ -232,7 +232,7 @@ bool GpuModel::can_draw(PictureKind kind) const {
     case Source::normals:
         break;
     }
-    return kind != PictureKind::baked_ao || occlusion_;
+    return kind != PictureKind::baked_ao || plain_.occlusion;
 }
 
 const prt::GlVertexArrays& GpuModel::arrays(Source source) const {
@@ -246,7 +246,7 @@ const prt::GlVertexArrays& GpuModel::arrays(Source source) const {
     case Source::normals:
         break;
     }
-    return plain_;
+    return plain_.arrays;
 }
 
 /// Where radiance comes from.
@@ -314,9 +314,9 @@ void GpuModel::draw_instances(PictureKind kind, const GeometryPass& pass) {
     instances_->look(pass.view_projection, pass.eye, pass.culling);
     const prt::GlObject& chosen = use(kind, pass);
     const bool lit = source_of(kind) == Source::compressed;
-    drawn_triangles_ = instances_->draw(chosen, lit, false);
+    measured_.drawn_triangles = instances_->draw(chosen, lit, false);
     if (!pass.textured)
-        drawn_triangles_ += instances_->draw(chosen, lit, true);
+        measured_.drawn_triangles += instances_->draw(chosen, lit, true);
 }
 
 void GpuModel::draw_opaque(PictureKind kind, const GeometryPass& pass) {
@@ -325,20 +325,20 @@ void GpuModel::draw_opaque(PictureKind kind, const GeometryPass& pass) {
     const prt::GlObject& chosen = use(kind, pass);
     const prt::GlVertexArrays& vertex_arrays = arrays(source_of(kind));
     const auto planes = frustum_planes(pass.view_projection);
-    drawn_triangles_ = 0;
+    measured_.drawn_triangles = 0;
     for (std::size_t p = 0; p < model_->scene.primitives.size(); ++p) {
         const prt::Primitive& primitive = model_->scene.primitives[p];
         if (scene_.is_blended(primitive) && pass.textured && !shows_numbers(kind))
             continue;
         if (!pass.culling) {
             scene_.draw(chosen, vertex_arrays, p);
-            drawn_triangles_ += primitive.triangles.size();
+            measured_.drawn_triangles += primitive.triangles.size();
             continue;
         }
         const auto ranges = visible_ranges(model_->clusters[p], planes);
         scene_.draw(chosen, vertex_arrays, p, ranges);
         for (const prt::TriangleRange& range : ranges)
-            drawn_triangles_ += range.count;
+            measured_.drawn_triangles += range.count;
     }
 }
 
@@ -371,7 +371,7 @@ void GpuModel::draw_wires(const GeometryPass& pass, const glm::vec3& color) {
     glDepthFunc(GL_LEQUAL);
     glUniform4f(prt::uniform(wires, "tint"), color.r, color.g, color.b, 1);
     for (std::size_t p = 0; p < model_->scene.primitives.size(); ++p)
-        scene_.draw(wires, plain_, p);
+        scene_.draw(wires, plain_.arrays, p);
     glDepthFunc(GL_LESS);
     glDisable(GL_POLYGON_OFFSET_LINE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);

@@ -60,7 +60,7 @@ public:
     bool takes_suns_as_sky(PictureKind kind) const;
     bool can_draw(PictureKind kind) const;
     /// Seconds that the constants of the compressed transfer took, forming and uploading.
-    double seconds_constants() const { return seconds_constants_; }
+    double seconds_constants() const { return measured_.seconds_constants; }
     /// Null: none share transfer.
     const GpuInstances* instances() const { return instances_ ? &*instances_ : nullptr; }
 
@@ -80,7 +80,7 @@ public:
     void draw_texel_grid(const GeometryPass& pass, const glm::vec3& color, int samples);
     /// The first nine coefficients of exit radiance by normal: irradiance.glsl.
     const std::array<glm::vec3, 9>& irradiance() const { return lit_.irradiance; }
-    std::size_t drawn_triangles() const { return drawn_triangles_; } ///< of the last opaque drawing
+    std::size_t drawn_triangles() const { return measured_.drawn_triangles; } ///< of the last opaque drawing
 
 private:
     enum class Source { normals, raw, compressed, numbers };
@@ -143,17 +143,23 @@ private:
     std::shared_ptr<const Model> model_;
     std::size_t most_receivers_;
     prt::GlScene scene_;
-    prt::GlVertexArrays plain_;
+    struct Plain {
+        prt::GlVertexArrays arrays;
+        std::optional<prt::GlObject> occlusion; ///< once it is found
+    };
+    Plain plain_;
     std::optional<prt::SunShadows> shadows_; ///< once there are suns
     Lit lit_;
     std::optional<Raw> raw_;
     std::optional<Compressed> compressed_;
     std::optional<GpuInstances> instances_; ///< with compressed transfer, instead
-    std::optional<prt::GlObject> occlusion_;
     Numbers numbers_;
     Programs programs_;
-    std::size_t drawn_triangles_ = 0;
-    double seconds_constants_ = 0;
+    struct Measured {
+        std::size_t drawn_triangles = 0;
+        double seconds_constants = 0;
+    };
+    Measured measured_;
 };
 
 } // namespace viewer

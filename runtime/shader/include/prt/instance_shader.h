@@ -6,6 +6,9 @@
 
 namespace prt {
 
+/// Weights of a vertex that are not packed, at most: attributes of instances stand where those of more would.
+inline constexpr int kMostInstancedWeights = 24;
+
 /// The lines that `prt_instances.glsl` wants for a model: `relight_defines` and one more. Throws `Error` for
 /// uniform blocks, and for weights that leave no attributes to instances.
 std::string instance_defines(const ClusteredTransfer& transfer,
