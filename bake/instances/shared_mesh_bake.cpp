@@ -114,7 +114,7 @@ Transfer of_fronts(const BakePlan& plan, const Transfer& both_sides, int direct_
         one.vectors.resize(plan.transport->fronts * one.dimension());
         return one;
     };
-    const Transfer direct = part(0, PartKind::direct, 1, direct_channels);
+    Transfer direct = part(0, PartKind::direct, 1, direct_channels);
     if (both_sides.layout.parts.size() == 1)
         return direct;
     const int channels = both_sides.layout.parts[1].channels;
