@@ -5,13 +5,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace prt::cli {
 
 Json percentiles(std::vector<double> errors) {
     std::ranges::sort(errors);
     const auto at = [&](double share) {
-        return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1) + 0.5)];
+        return errors[static_cast<std::size_t>(std::lround(share * static_cast<double>(errors.size() - 1)))];
     };
     return {{"median", at(0.5)}, {"percentile_90", at(0.9)}, {"percentile_99", at(0.99)}, {"most", at(1)}};
 }
