@@ -30,7 +30,7 @@ std::vector<FormedInstance> formed_instances(const InstancedModel& model) {
             one.rows = joined(one.rows, rows_of(model.compressed->transfer, vertices.first_receiver,
                                                 vertices.size()));
         }
-        formed.push_back(std::move(one));
+        formed.push_back(one);
     }
     return formed;
 }

@@ -253,6 +253,7 @@ TEST(Instances, FormersRefuseLamps) {
     Draw draw;
     ClusteredTransfer mesh = clustered_mesh(draw);
     mesh.bases.layout.parts.push_back({PartKind::lamp, 1, "Lantern"});
+    mesh.bases.rows.resize(constant_rows(mesh.bases) * mesh.bases.dimension());
     EXPECT_THROW(InstanceFormer(mesh, {}), Error);
 }
 
