@@ -69,8 +69,8 @@ Json simplified(GlbFile& file, const Json& primitive, float share) {
     const auto positions = elements<float>(file, primitive["attributes"]["POSITION"], 3),
                normals = elements<float>(file, primitive["attributes"]["NORMAL"], 3);
     const std::vector<unsigned> all = indices_of(file, primitive);
-    const std::size_t vertices = positions.size() / 3,
-                      wanted = static_cast<std::size_t>(share * static_cast<float>(all.size() / 3)) * 3;
+    const std::size_t vertices = positions.size() / 3, triangles = all.size() / 3,
+                      wanted = static_cast<std::size_t>(share * static_cast<float>(triangles)) * 3;
     std::vector<unsigned> indices(all.size()), remap(vertices);
     constexpr float kAnyError = 1;
     indices.resize(meshopt_simplify(indices.data(), all.data(), all.size(), positions.data(), vertices,

@@ -3,6 +3,7 @@
 
 #include "gltf/accessor.h"
 #include "gltf/allowance.h"
+#include "gltf/transfer_json.h"
 #include "prt/support/error.h"
 
 #include <string>
@@ -64,6 +65,10 @@ std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
     Json shared = Json::object(); // of the first instance
     if (const Json* found = extension_of(nodes[n], kInstancesExtension))
         shared = *found;
+    const auto first =
+        shared.empty() ? std::size_t{0}
+                       : static_cast<std::size_t>(whole_number(shared.at("first"), "first of its instances",
+                                                               0, static_cast<int>(kMostInstances) - 1));
     for (const char* name : {kInstancingExtension, kInstancesExtension})
         nodes[n]["extensions"].erase(name);
     if (nodes[n]["extensions"].empty())
@@ -89,7 +94,7 @@ std::size_t expand(GltfContents& contents, std::size_t n, double& bytes) {
             child[attribute.key] = model.*attribute.member;
         }
         if (!shared.empty()) {
-            shared["first"] = shared.value("first", std::size_t{0}) + (i > 0 ? 1 : 0);
+            shared["first"] = first + i;
             extensions_of(child)[kInstancesExtension] = shared;
         }
         member(nodes[n], "children", Json::value_t::array).push_back(nodes.size());

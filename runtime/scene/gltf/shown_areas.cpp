@@ -5,15 +5,20 @@
 #include "gltf/contents.h"
 #include "gltf/node_transforms.h"
 #include "gltf/transfer_json.h"
+#include "prt/support/error.h"
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
 #include <cmath>
 #include <map>
+#include <string>
 
 namespace prt {
 namespace {
+
+/// Of all instances of a mesh, in its own area.
+constexpr double kLargestArea = 1e18;
 
 /// By how much the instances of a node are larger than itself, one after the other.
 double area_of_instances(const GltfContents& contents, const Json& node) {
@@ -43,6 +48,9 @@ std::map<int, double> areas_of_meshes(const GltfContents& contents) {
             if (const auto found = of_node.find(static_cast<int>(drawer)); found != of_node.end())
                 of_stand_in[static_cast<int>(apart.stand_in)] +=
                     found->second * area_of_instances(contents, contents.json["nodes"][drawer]);
+    for (const auto& [node, area] : of_stand_in)
+        if (!(area <= kLargestArea))
+            throw Error("instances of the mesh of node " + std::to_string(node) + " are scaled beyond 1e9");
     return of_stand_in;
 }
 
