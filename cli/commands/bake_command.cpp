@@ -347,7 +347,6 @@ void run_instances(const BakeArguments& a, const SharedMeshes& meshes, GltfDocum
     }
     const std::vector<std::byte> file = with_volume(a, *baked.document, scene, std::nullopt);
     Report report = instance_report({.output = a.output.string(),
-                                     .options = a.options,
                                      .scene = scene,
                                      .baked = baked,
                                      .error = a.instances.error,

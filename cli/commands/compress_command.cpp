@@ -301,6 +301,19 @@ std::vector<float> areas_to_compress(const LeveledScene& levels) {
     return areas;
 }
 
+SceneSurface surface_of_vertices(const Bake& bake) {
+    if (bake.levels) {
+        const LeveledScene levels = extract_levels(bake.document);
+        SceneSurface surface(levels.scene);
+        surface.areas = areas_to_compress(levels);
+        return surface;
+    }
+    const Scene scene = extract_scene(bake.document);
+    SceneSurface surface(scene);
+    surface.areas = shown_areas(bake.document, scene);
+    return surface;
+}
+
 /// What the compressor may look at.
 SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
     if (bake.lightmap) {
@@ -311,10 +324,7 @@ SceneSurface surface_of(const Bake& bake, const SearchOptions& options) {
             seam_jumps(extract_scene(bake.document), bake.lightmap->layout, bake.lightmap->texels);
         return surface;
     }
-    const Scene scene = scene_of(bake);
-    SceneSurface surface(scene);
-    surface.areas =
-        bake.levels ? areas_to_compress(extract_levels(bake.document)) : shown_areas(bake.document, scene);
+    SceneSurface surface = surface_of_vertices(bake);
     const bool chooses = options.budget.any() && options.choose_guides;
     if (!chooses && options.compress.guides != GuideChoice::normal_and_position)
         surface.positions = {};

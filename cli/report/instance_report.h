@@ -11,7 +11,6 @@ namespace prt::cli {
 /// A bake whose instances share transfer, and what came of it.
 struct InstanceOutcome {
     std::string output;
-    const BakeOptions& options;
     const Scene& scene; ///< flat
     const InstancedBake& baked;
     double error = 0;         ///< that instances may have

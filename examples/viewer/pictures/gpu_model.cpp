@@ -67,8 +67,7 @@ void GpuModel::set_compressed(std::shared_ptr<const prt::CompressedLightmap> lig
 
 void GpuModel::set_instanced(std::shared_ptr<const prt::InstancedModel> instanced) {
     instances_.emplace(std::move(instanced), model_->trace->textures(), model_->scene.origin);
-    if (lights(instances_->layout()))
-        instances_->set_light(lighting_of(instances_->layout()));
+    light_instances();
 }
 
 /// Programs depend on whose transfer it is, and compressed ones on its layout.
@@ -95,6 +94,11 @@ void GpuModel::light_compressed() {
     if (lights(compressed_->layout))
         std::visit([this](auto& transfer) { transfer.set_light(lighting_of(compressed_->layout)); },
                    compressed_->transfer);
+}
+
+void GpuModel::light_instances() {
+    if (lights(instances_->layout()))
+        instances_->set_light(lighting_of(instances_->layout()));
 }
 
 prt::GlLightmapTextures GpuModel::any_lightmap() const {
@@ -165,8 +169,8 @@ void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::
     const prt::Stopwatch stopwatch;
     if (compressed_)
         light_compressed();
-    if (instances_ && lights(instances_->layout()))
-        instances_->set_light(lighting_of(instances_->layout()));
+    if (instances_)
+        light_instances();
     measured_.seconds_constants = stopwatch.seconds();
     if (raw_)
         light_raw();

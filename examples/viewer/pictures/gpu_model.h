@@ -122,6 +122,7 @@ private:
     void take_compressed(Compressed compressed);
     void light_raw();
     void light_compressed();
+    void light_instances();
     bool lights(const prt::TransferLayout& layout) const;
     prt::Lighting lighting_of(const prt::TransferLayout& layout) const;
     /// That knows the lamps of such a picture; null: none does.

@@ -21,15 +21,15 @@ InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
 }
 
 std::vector<FormedInstance> formed_instances(const InstancedModel& model) {
+    std::vector<ConstantRows> of_arrays;
+    for (const VertexArray& vertices : model.stored.vertex_arrays)
+        of_arrays.push_back(rows_of(model.compressed->transfer, vertices.first_receiver, vertices.size()));
     std::vector<FormedInstance> formed;
     for (const FileInstance& instance : model.instances) {
         FormedInstance one{instance.placed, {}};
         one.placed.box.middle = glm::vec3(glm::dvec3(one.placed.box.middle) - model.stored.origin);
-        for (const std::size_t array : instance.stored_arrays) {
-            const VertexArray& vertices = model.stored.vertex_arrays[array];
-            one.rows = joined(one.rows, rows_of(model.compressed->transfer, vertices.first_receiver,
-                                                vertices.size()));
-        }
+        for (const std::size_t array : instance.stored_arrays)
+            one.rows = joined(one.rows, of_arrays[array]);
         formed.push_back(one);
     }
     return formed;
