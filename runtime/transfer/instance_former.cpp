@@ -49,9 +49,8 @@ ConstantRows rows_of(const ClusteredTransfer& transfer, std::size_t first, std::
     const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
     const auto clusters = std::span(transfer.receivers.clusters).subspan(first, count);
     const auto [low, high] = std::ranges::minmax(clusters);
-    const auto end = high + 1u < layouts.size()
-                         ? layouts[high + 1u].first_row
-                         : static_cast<std::uint32_t>(constant_rows(transfer.bases));
+    const auto end = high + 1u < layouts.size() ? layouts[high + 1u].first_row
+                                                : static_cast<std::uint32_t>(constant_rows(transfer.bases));
     return {layouts[low].first_row, end - layouts[low].first_row};
 }
 

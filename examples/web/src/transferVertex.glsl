@@ -1,7 +1,7 @@
 // From the attributes of a mesh to the frame of the bake, in which guides are; the place is seen from their origin.
-// Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl or prt_instances.glsl. Attributes and matrices without
-// prt are three's. Define PRT_LIGHTMAP where texels have the transfer, PRT_VOLUME where probes have it, not vertices; PRT_LOBES where
-// vertices have it as lobes.
+// Included into the vertex shader of three's materials, behind prt_exit_radiance.glsl or prt_instances.glsl. Attributes
+// and matrices without prt are three's. Define PRT_LIGHTMAP where texels have the transfer, PRT_VOLUME where probes
+// have it, not vertices; PRT_LOBES where vertices have it as lobes.
 #if defined(PRT_LOBES)
 // Behind prt_lobes.glsl.
 in vec4 prt_lobe_0;

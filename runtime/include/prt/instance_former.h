@@ -1,14 +1,15 @@
 #pragma once
 
 // The work of a game for instances that share transfer, when the lighting changes: constants of their own for
-// all instances, which the shader of their mesh reads instead of those of the model (shaders/prt_instances.glsl).
+// all instances, which the shader of their mesh reads instead of those of the model
+// (shaders/prt_instances.glsl).
 //
-//     InstanceFormer former(transfer, instances);            // once; `former.table()` into instance attributes
+//     InstanceFormer former(transfer, instances); // once; `former.table()` into instance attributes
 //     std::vector<glm::vec4> constants(former.size());
-//     former.form(lighting, constants);                      // when the lighting changes
+//     former.form(lighting, constants); // when the lighting changes
 //
-// Constants of an instance are linear in the place within the box of its mesh, so that a row takes three vectors
-// instead of one, and a vertex as many weights as any. Experimental.
+// Constants of an instance are linear in the place within the box of its mesh, so that a row takes three
+// vectors instead of one, and a vertex as many weights as any. Experimental.
 
 #include "prt/constant_former.h"
 #include "prt/instances.h"
