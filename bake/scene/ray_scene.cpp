@@ -99,7 +99,7 @@ RayScene::RayScene(const Scene& scene, int threads) {
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(glm::vec3), scene.receivers()));
     auto* indices = static_cast<glm::uvec3*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof(glm::uvec3), scene.triangles()));
-    if (!vertices || !indices)
+    if ((!vertices || !indices) && scene.triangles() > 0)
         throw Error("there is not enough memory for the triangles");
     positions_ = vertices;
     corners_ = indices;
@@ -166,6 +166,11 @@ void RayScene::triangles_near(const glm::vec3& position, float distance, std::ve
 
 float RayScene::triangle_offset(unsigned id) const {
     return kOffset * extents_[id];
+}
+
+glm::vec3 RayScene::normal(unsigned id) const {
+    const glm::uvec3& t = corners_[id];
+    return glm::cross(positions_[t.y] - positions_[t.x], positions_[t.z] - positions_[t.x]);
 }
 
 glm::vec3 RayScene::ray_origin(const Receivers& receivers, std::uint32_t index) const {

@@ -3,6 +3,7 @@
 // The baker: transfer vectors of every receiver of a scene.
 
 #include "prt/baked_transfer.h"
+#include "prt/far_blockers.h"
 #include "prt/make_tracer.h"
 #include "prt/scene.h"
 #include "prt/subsurface.h"
@@ -132,7 +133,8 @@ struct BakeStatistics {
     double rounding_error = 0;   ///< relative L2 of storing float16
     double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
     Lamps lamps;
-    Gather gather;                    ///< the operator of the bounces
+    Gather gather; ///< the operator of the bounces
+    std::optional<FarBlockerFigures> far;
     std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
 
     /// All rays over all time.
