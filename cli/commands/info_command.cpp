@@ -127,7 +127,7 @@ void add_compressed(const CompressedTransfer& compressed, Report& report) {
 void add_instances(const InstancedModel& file, Report& report) {
     Json figures = {{"count", file.instances.size()},
                     {"vertices_stored", file.stored.receivers()},
-                    {"bytes_per_instance", kInstanceNumbers * sizeof(std::uint16_t)}};
+                    {"bytes_per_instance", kInstanceNumbers}};
     report.sentences.emplace_back(
         "{instances/count} instances share the transfer of their meshes, by "
         "{instances/bytes_per_instance} bytes of factors each; {instances/vertices_stored} "

@@ -28,7 +28,8 @@ std::array<glm::dvec3, 2> level_axes(const glm::dvec3& up) {
 }
 
 /// Calls `take(direction, solid angle)` so that integrals over the half sphere about `up` are exact for
-/// polynomials of 2 order - 1: what is left after the azimuth is a polynomial of the height.
+/// polynomials of 2 order + 1, of which modes take 2 order: what is left after the azimuth is a polynomial of
+/// the height.
 template <class Take>
 void over_upper_half(int order, const glm::dvec3& up, const Take& take) {
     const GaussLegendre heights(order + 1);
@@ -44,12 +45,15 @@ void over_upper_half(int order, const glm::dvec3& up, const Take& take) {
     }
 }
 
-/// What a vector of one channel makes of 1, sqrt(3) x, sqrt(3) y and sqrt(3) z.
+/// Of a mode's function over that of the basis, so that its mean square is 1.
+const double kModeScale = std::sqrt(4 * std::numbers::pi);
+
+/// What a vector of one channel makes of the functions of the added modes.
 std::array<float, kAddedModes> response(std::span<const float> vector) {
-    const auto scale = static_cast<float>(std::sqrt(4 * std::numbers::pi));
-    if (vector.size() == 1)
-        return {scale * vector[0], 0, 0, 0};
-    return {scale * vector[0], -scale * vector[3], -scale * vector[1], scale * vector[2]};
+    std::array<float, kAddedModes> answers{};
+    for (std::size_t k = 0; k < std::min(kAddedModes, vector.size()); ++k)
+        answers[k] = static_cast<float>(kModeScale) * vector[k];
+    return answers;
 }
 
 } // namespace
@@ -60,12 +64,13 @@ InstanceModes::InstanceModes(int order, const glm::dvec3& up) : order_(order) {
     std::vector<double> sums(kPassingModes * count * count), basis(count);
     over_upper_half(order, up, [&](const glm::dvec3& direction, double weight) {
         evaluate_sh(order, direction, basis);
-        const double root = std::sqrt(3.0);
-        const std::array<double, 4> factors = {1, root * direction.x, root * direction.y, root * direction.z};
-        for (std::size_t m = 0; m < factors.size(); ++m)
+        std::array<double, kPassingModes - 1> functions;
+        evaluate_sh(kPassingOrder, direction, functions);
+        for (std::size_t m = 0; m < functions.size(); ++m)
             for (std::size_t i = 0; i < count; ++i)
                 for (std::size_t j = 0; j < count; ++j)
-                    sums[(m * count + i) * count + j] += weight * factors[m] * basis[i] * basis[j];
+                    sums[(m * count + i) * count + j] +=
+                        weight * kModeScale * functions[m] * basis[i] * basis[j];
     });
     double* const below = &sums[(kPassingModes - 1) * count * count];
     for (std::size_t i = 0; i < count; ++i)
@@ -104,14 +109,11 @@ std::array<Lighting, kInstanceModes> InstanceModes::lightings(const Lighting& li
     for (std::size_t i = 0; i < count; ++i)
         on_level += level_[i] * (lighting.sky.coefficients[i] +
                                  (lighting.suns ? lighting.suns->coefficients[i] : glm::vec3(0)));
-    // 1, sqrt(3) x, .. times what level ground gets: Y_11 is -x, and Y_1-1 is -y.
-    const auto root = static_cast<float>(std::sqrt(4 * std::numbers::pi));
-    constexpr std::array<std::size_t, kAddedModes> kCoefficient = {0, 3, 1, 2};
     for (std::size_t k = 0; k < kAddedModes; ++k) {
         Light& light = result[kPassingModes + k].sky;
         light = {order_, std::vector<glm::vec3>(count, glm::vec3(0))};
-        if (kCoefficient[k] < count)
-            light.coefficients[kCoefficient[k]] = (k == 1 || k == 2 ? -root : root) * on_level;
+        if (k < count)
+            light.coefficients[k] = static_cast<float>(kModeScale) * on_level;
     }
     return result;
 }

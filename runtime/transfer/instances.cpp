@@ -2,6 +2,8 @@
 
 #include "prt/instances.h"
 
+#include "prt/support/error.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -34,21 +36,24 @@ glm::dmat3 yaw_matrix(double yaw) {
             glm::dvec3(std::sin(yaw), 0, std::cos(yaw))};
 }
 
-/// Modes from `first` on answer to x, y and z: new mode j is the sum over i of axes[i][j] mode i.
+/// The first modes are coefficients of functions of direction, one for each of `parts`.
 template <class Modes>
-void turn_modes(const glm::dmat3& axes, std::size_t first, Modes& modes) {
-    const Modes old = modes;
-    for (std::size_t j = 0; j < 3; ++j) {
-        modes[first + j] = {};
-        for (std::size_t i = 0; i < 3; ++i)
-            modes[first + j] +=
-                static_cast<float>(axes[static_cast<int>(i)][static_cast<int>(j)]) * old[first + i];
+void turn_modes(const ShRotation& turn, int parts, Modes& modes) {
+    const auto count = static_cast<std::size_t>(turn.order()) * static_cast<std::size_t>(turn.order());
+    std::array<float, kPassingModes> coefficients;
+    for (int part = 0; part < parts; ++part) {
+        for (std::size_t i = 0; i < count; ++i)
+            coefficients[i] = modes[i][part];
+        const std::span<float> function(coefficients.data(), count);
+        turn.apply(std::span<const float>(function), function);
+        for (std::size_t i = 0; i < count; ++i)
+            modes[i][part] = coefficients[i];
     }
 }
 
-InstanceFactors turned(InstanceFactors factors, const glm::dmat3& axes) {
-    turn_modes(axes, 1, factors.passing);
-    turn_modes(axes, 1, factors.added);
+InstanceFactors turned(InstanceFactors factors, const glm::dmat3& rotation) {
+    turn_modes(ShRotation(kPassingOrder, rotation), 4, factors.passing);
+    turn_modes(ShRotation(kAddedOrder, rotation), 3, factors.added);
     return factors;
 }
 
@@ -84,6 +89,40 @@ InstanceFactors factors_of(std::span<const float> numbers) {
     return factors;
 }
 
+CodedFactors coded(std::span<const InstanceFactors> factors) {
+    constexpr float kMost = 127;
+    const std::array<float, kInstanceNumbers> open = numbers_of(open_factors());
+    CodedFactors result;
+    for (const InstanceFactors& instance : factors) {
+        const std::array<float, kInstanceNumbers> numbers = numbers_of(instance);
+        for (std::size_t j = 0; j < kInstanceNumbers; ++j) {
+            if (!(std::abs(numbers[j]) <= kLargestFactor))
+                throw Error("factors of instances are not finite, or beyond 60000");
+            result.scales[j] = std::max(result.scales[j], std::abs(numbers[j] - open[j]) / kMost);
+        }
+    }
+    for (const InstanceFactors& instance : factors) {
+        const std::array<float, kInstanceNumbers> numbers = numbers_of(instance);
+        for (std::size_t j = 0; j < kInstanceNumbers; ++j) {
+            const float steps = result.scales[j] > 0 ? (numbers[j] - open[j]) / result.scales[j] : 0.0f;
+            result.bytes.push_back(static_cast<std::int8_t>(std::lround(std::clamp(steps, -kMost, kMost))));
+        }
+    }
+    return result;
+}
+
+std::vector<InstanceFactors> decoded(const CodedFactors& coded) {
+    const std::array<float, kInstanceNumbers> open = numbers_of(open_factors());
+    std::vector<InstanceFactors> factors;
+    for (std::size_t first = 0; first < coded.bytes.size(); first += kInstanceNumbers) {
+        std::array<float, kInstanceNumbers> numbers;
+        for (std::size_t j = 0; j < kInstanceNumbers; ++j)
+            numbers[j] = open[j] + coded.scales[j] * static_cast<float>(coded.bytes[first + j]);
+        factors.push_back(factors_of(numbers));
+    }
+    return factors;
+}
+
 InstanceBox box_round(std::span<const glm::vec3> positions) {
     glm::vec3 low = positions.front(), high = low;
     for (const glm::vec3& position : positions) {
@@ -104,7 +143,7 @@ std::array<glm::vec3, kInstanceModes> mode_factors(const InstanceFactors& factor
 }
 
 InstanceFactors in_axes_of_mesh(const InstanceFactors& factors, const glm::dmat3& rotation) {
-    return turned(factors, glm::transpose(rotation)); // w_j = sum_i w_i R_ij, R_ij = rotation[j][i]
+    return turned(factors, glm::transpose(rotation));
 }
 
 InstanceFactors in_axes_of_world(const InstanceFactors& factors, const glm::dmat3& rotation) {

@@ -9,14 +9,7 @@ import argparse
 import json
 import struct
 
-FLOAT, HALF = 5126, 5131
-NUMBERS = 32  # of an instance: four rows of what passes, one of what comes from below, four colors
-
-
-def open_factors():
-    numbers = [0.0] * NUMBERS
-    numbers[3] = numbers[19] = 1.0  # the last of the first row and of the fifth
-    return numbers
+NUMBERS = 52  # of an instance, a byte each; the open has zeros
 
 
 def main():
@@ -30,11 +23,9 @@ def main():
     document = json.loads(data[20 : 20 + json_bytes])
     extension = document["extensions"]["PRTKIT_instances"]
     view = document["bufferViews"][extension["factors"]["bufferView"]]
-    letter = {FLOAT: "f", HALF: "e"}[extension["factors"].get("componentType", FLOAT)]
-    packed = struct.pack(f"<{NUMBERS}{letter}", *open_factors())
     first = 20 + json_bytes + 8 + view.get("byteOffset", 0)
-    for i in range(extension["count"]):
-        data[first + i * len(packed) : first + (i + 1) * len(packed)] = packed
+    size = NUMBERS * extension["count"]
+    data[first : first + size] = bytes(size)
     with open(paths.output, "wb") as file:
         file.write(data)
 

@@ -179,7 +179,7 @@ TEST_F(SharedInstances, WhiteNeighboursGiveBackAtMostWhatComes) {
     const Transfer transfer = expanded(document, scene, stored, read_transfer(apart, stored)->transfer);
     double sum = 0;
     for (const glm::vec3& radiance : exit_radiance(transfer, constant_light(3, glm::vec3(1)))) {
-        EXPECT_LT(radiance.x, 1.01f); // rounding of factors to float16, and of a mesh's own samples
+        EXPECT_LT(radiance.x, 1.01f); // rounding of factors to bytes, and of a mesh's own samples
         sum += static_cast<double>(radiance.x);
     }
     // Least squares gives some vertices more than 1, up to 1.08 here; the share that keeps the brightest at 1
@@ -257,7 +257,10 @@ TEST_F(SharedInstances, DamagedFactorsAreRefused) {
         return outcome.status;
     };
     const char* const name = "PRTKIT_instances";
-    EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["version"] = 2; }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["version"] = 1; }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["factors"]["scales"].erase(3); }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["factors"]["scales"][3] = -1; }), 1);
+    EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["factors"]["scales"][3] = "1"; }), 1);
     EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["count"] = 3; }), 1);
     EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["count"] = 0; }), 1);
     EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name].erase("factors"); }), 1);

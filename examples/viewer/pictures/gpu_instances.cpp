@@ -147,7 +147,7 @@ InstanceFigures GpuInstances::figures() const {
     const std::size_t shared = model_->instances.size(), once = instances_ - shared;
     return {.instances = shared,
             .meshes = groups_.size() - once,
-            .bytes_in_file = 2 * prt::kInstanceNumbers,
+            .bytes_in_file = prt::kInstanceNumbers,
             .bytes_of_constants = static_cast<double>(constants_.formed.size() * sizeof(glm::vec4)) /
                                   static_cast<double>(instances_),
             .milliseconds_formed = 1e3 * constants_.seconds};

@@ -4,8 +4,8 @@
 // (docs/math.md, section 22; docs/format.md, PRTKIT_instances).
 //
 // A mesh is baked alone in the open. Where one of its instances stands, light is blocked above the horizon
-// and below it, and the neighbourhood throws light back: nine modes of lighting, the same for all instances,
-// each with a factor that is linear in the place within the mesh's box, or a color. Each frame:
+// and below it, and the neighbourhood throws light back: fourteen modes of lighting, the same for all
+// instances, each with a factor that is linear in the place within the mesh's box, or a color. Each frame:
 //     modes.lightings(lighting)                      // once for all instances
 // then per vertex:
 //     R = sum over modes of factor(instance, place) R_mode
@@ -28,10 +28,12 @@
 
 namespace prt {
 
-/// The scene's light from above the horizon times 1, sqrt(3) x, sqrt(3) y and sqrt(3) z; that from below.
-inline constexpr std::size_t kPassingModes = 5;
-/// What the light on level ground throws back evenly, and from where x, y and z are large.
-inline constexpr std::size_t kAddedModes = 4;
+/// The scene's light from above the horizon times sqrt(4 pi) Y_i of so many bands; then that from below.
+inline constexpr int kPassingOrder = 3;
+inline constexpr std::size_t kPassingModes = std::size_t{kPassingOrder} * kPassingOrder + 1;
+/// What the light on level ground throws back, times sqrt(4 pi) Y_i of so many bands.
+inline constexpr int kAddedOrder = 2;
+inline constexpr std::size_t kAddedModes = std::size_t{kAddedOrder} * kAddedOrder;
 inline constexpr std::size_t kInstanceModes = kPassingModes + kAddedModes;
 /// Numbers of `InstanceFactors`.
 inline constexpr std::size_t kInstanceNumbers = 4 * kPassingModes + 3 * kAddedModes;
@@ -50,9 +52,18 @@ struct InstanceFactors {
 /// Of an instance that nothing stands round: its light is that of its mesh, exactly.
 InstanceFactors open_factors();
 
-/// As a shader has them, and a file: passing, then added. [kInstanceNumbers]
+/// Passing, then added. [kInstanceNumbers]
 std::array<float, kInstanceNumbers> numbers_of(const InstanceFactors& factors);
 InstanceFactors factors_of(std::span<const float> numbers);
+
+/// Factors in bytes, as files hold them: number j is that of `open_factors` plus scales[j] times its byte.
+struct CodedFactors {
+    std::array<float, kInstanceNumbers> scales{}; ///< none is negative
+    std::vector<std::int8_t> bytes;               ///< [instances][kInstanceNumbers]
+};
+/// Rounds to the nearest. Throws `Error` for factors that are not finite or beyond `kLargestFactor`.
+CodedFactors coded(std::span<const InstanceFactors> factors);
+std::vector<InstanceFactors> decoded(const CodedFactors& coded);
 
 /// The box of a mesh in its own frame.
 struct InstanceBox {
@@ -102,7 +113,7 @@ public:
         const std::size_t dimension = layout_.dimension();
         return std::span(passing_).subspan((receiver * kPassingModes + mode) * dimension, dimension);
     }
-    /// What a receiver makes of light from all round, and of that from where x, y and z are large.
+    /// What a receiver makes of light of sqrt(4 pi) Y_i.
     const std::array<glm::vec3, kAddedModes>& responses(std::size_t receiver) const {
         return responses_[receiver];
     }

@@ -69,7 +69,7 @@ inline constexpr const char* kLightmapExtension = "PRTKIT_lightmap";
 inline constexpr const char* kLobeExtension = "PRTKIT_lobes";
 inline constexpr const char* kVolumeExtension = "PRTKIT_transfer_volume";
 inline constexpr const char* kInstancesExtension = "PRTKIT_instances"; ///< of nodes, and at the top level
-inline constexpr int kInstancesVersion = 1;
+inline constexpr int kInstancesVersion = 2;
 inline constexpr const char* kInstancingExtension = "EXT_mesh_gpu_instancing";
 inline constexpr const char* kOccluderExtension = "PRTKIT_occlusion_volume"; ///< of nodes
 

@@ -1,6 +1,7 @@
 // Factors of instances in glTF files: PRTKIT_instances of docs/format.md.
 #include "prt/instances_gltf.h"
 
+#include "gltf/accessor.h"
 #include "gltf/allowance.h"
 #include "gltf/even_placement.h"
 #include "gltf/node_transforms.h"
@@ -35,16 +36,31 @@ InstanceBox read_box(const Json& json) {
     return box;
 }
 
+CodedFactors read_factors(const GltfContents& contents, const Json& json, std::size_t count) {
+    constexpr float kMostScale = 500; // times 127 all factors that `coded` takes
+    CodedFactors coded;
+    const Json& scales = json.at("scales");
+    if (scales.size() != kInstanceNumbers)
+        throw Error("the factors of its instances have no " + std::to_string(kInstanceNumbers) + " scales");
+    for (std::size_t j = 0; j < kInstanceNumbers; ++j) {
+        coded.scales[j] = scales[j].get<float>();
+        if (!(coded.scales[j] >= 0 && coded.scales[j] <= kMostScale))
+            throw Error("a scale of the factors of its instances is none");
+    }
+    const std::span<const unsigned char> bytes =
+        buffer_view_bytes(contents.model, json.at("bufferView").get<int>());
+    if (bytes.size() != count * kInstanceNumbers)
+        throw Error("the factors of its instances are not those of " + std::to_string(count));
+    for (const unsigned char byte : bytes)
+        coded.bytes.push_back(static_cast<std::int8_t>(byte));
+    return coded;
+}
+
 StoredInstances read_stored(const GltfContents& contents) {
     const Json& extension = *find_extension(contents, kInstancesExtension, kInstancesVersion);
     const auto count = static_cast<std::size_t>(
         whole_number(extension.at("count"), "count of instances", 1, kMostSharedInstances));
-    std::vector<float> numbers(count * kInstanceNumbers);
-    read_float_view(contents, extension.at("factors"), numbers, "the factors of its instances");
-    StoredInstances stored;
-    for (std::size_t i = 0; i < count; ++i)
-        stored.factors.push_back(
-            factors_of(std::span(numbers).subspan(i * kInstanceNumbers, kInstanceNumbers)));
+    StoredInstances stored{decoded(read_factors(contents, extension.at("factors"), count)), {}};
     for (const Json& box : extension.at("boxes"))
         stored.boxes.push_back(read_box(box));
     return stored;
@@ -177,17 +193,16 @@ private:
 
 void write_instances(GltfDocument& document, const StoredInstances& instances) {
     named(document, [&](GltfContents& contents) {
-        std::vector<float> numbers;
-        for (const InstanceFactors& factors : instances.factors)
-            std::ranges::copy(numbers_of(factors), std::back_inserter(numbers));
-        check_magnitudes(numbers, kLargestFactor, "the factors of instances");
+        const CodedFactors factors = coded(instances.factors);
         Json boxes = Json::array();
         for (const InstanceBox& box : instances.boxes)
             boxes.push_back({{"middle", three(box.middle)}, {"half", three(box.half)}});
-        extensions_of(contents.json)[kInstancesExtension] = {{"version", kInstancesVersion},
-                                                             {"count", instances.factors.size()},
-                                                             {"boxes", std::move(boxes)},
-                                                             {"factors", write_half_view(contents, numbers)}};
+        const std::size_t view = contents.add_buffer_view(std::as_bytes(std::span(factors.bytes)));
+        extensions_of(contents.json)[kInstancesExtension] = {
+            {"version", kInstancesVersion},
+            {"count", instances.factors.size()},
+            {"boxes", std::move(boxes)},
+            {"factors", {{"bufferView", view}, {"scales", factors.scales}}}};
     });
 }
 

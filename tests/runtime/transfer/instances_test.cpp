@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace prt {
@@ -138,10 +139,12 @@ TEST(Instances, PassingModesAreIntegralsOverHalvesOfTheSphere) {
             const bool above = glm::dot(d, up) > 0;
             const double product = basis[2] * basis[7] * 4 * M_PI / (kSteps * kSteps);
             sums[0] += above ? product : 0;
-            sums[2] += above ? std::sqrt(3.0) * d.y * product : 0;
-            sums[4] += above ? 0 : product;
+            sums[1] += above ? -std::sqrt(3.0) * d.y * product : 0;
+            sums[6] += above ? 0.5 * std::sqrt(5.0) * (3 * d.z * d.z - 1) * product : 0;
+            sums[8] += above ? 0.5 * std::sqrt(15.0) * (d.x * d.x - d.y * d.y) * product : 0;
+            sums[9] += above ? 0 : product;
         }
-    for (const std::size_t m : {0u, 2u, 4u})
+    for (const std::size_t m : {0u, 1u, 6u, 8u, 9u})
         EXPECT_NEAR(modes.matrix(m)[2 * 9 + 7], sums[m], 2e-4) << m;
 }
 
@@ -149,8 +152,8 @@ TEST(Instances, LightThatIsAddedIsThatOfLevelGround) {
     const auto lightings = InstanceModes(kOrder).lightings({constant_light(kOrder, glm::vec3(2, 1, 0.5f))});
     const glm::vec3 everywhere = radiance(lightings[kPassingModes].sky, glm::vec3(0, 0, 1));
     EXPECT_LT(glm::distance(everywhere, glm::vec3(2, 1, 0.5f)), 1e-5f);
-    const glm::vec3 from_x = radiance(lightings[kPassingModes + 1].sky, glm::vec3(1, 0, 0));
-    EXPECT_NEAR(from_x.y, std::sqrt(3.0f), 1e-5f);
+    const glm::vec3 from_x = radiance(lightings[kPassingModes + 3].sky, glm::vec3(1, 0, 0));
+    EXPECT_NEAR(from_x.y, -std::sqrt(3.0f), 1e-5f);
 }
 
 TEST(Instances, FactorsTurnThereAndBack) {
@@ -161,6 +164,26 @@ TEST(Instances, FactorsTurnThereAndBack) {
     const auto before = numbers_of(factors);
     for (std::size_t i = 0; i < kInstanceNumbers; ++i)
         EXPECT_NEAR(again[i], before[i], 1e-5f);
+}
+
+TEST(Instances, FactorsInBytesAreNearAndExactInTheOpen) {
+    Draw draw;
+    std::vector<InstanceFactors> factors = {open_factors()};
+    for (int i = 0; i < 50; ++i)
+        factors.push_back(draw.factors());
+    const CodedFactors bytes = coded(factors);
+    EXPECT_EQ(bytes.bytes.size(), 51 * kInstanceNumbers);
+    const std::vector<InstanceFactors> again = decoded(bytes);
+    EXPECT_EQ(again.front(), open_factors());
+    for (std::size_t i = 0; i < factors.size(); ++i)
+        for (std::size_t j = 0; j < kInstanceNumbers; ++j)
+            EXPECT_NEAR(numbers_of(again[i])[j], numbers_of(factors[i])[j], 0.5001f * bytes.scales[j]) << j;
+    for (const float scale : bytes.scales)
+        EXPECT_LT(scale, 5.0f / 127);
+    factors.back().added[2].y = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_THROW(coded(factors), Error);
+    factors.back().added[2].y = 1e6f;
+    EXPECT_THROW(coded(factors), Error);
 }
 
 TEST(Instances, UprightOnesShareTheTurnsOfFewYaws) {

@@ -52,8 +52,8 @@ struct StoredInstances {
     std::vector<InstanceFactors> factors;
     std::vector<InstanceBox> boxes;
 };
-/// Writes them, rounded to float16, into a document with meshes apart. Throws `Error` for factors that files
-/// do not hold.
+/// Writes them, a byte for each number, into a document with meshes apart. Throws `Error` for factors that
+/// files do not hold.
 void write_instances(GltfDocument& document, const StoredInstances& instances);
 
 /// Whether instances of the file share transfer and are nodes here: `expanded` makes theirs.
