@@ -22,11 +22,12 @@ fuzz() {
     ctest --preset fuzz
 }
 
-# Over the joined sources of `sanitize`, whose headers are then read once for six sources.
+# Over the joined sources of `sanitize`, whose headers are then read once for many sources. Tests are left to two
+# compilers' warnings: reading them took as long as all others.
 tidy() {
     cmake --preset sanitize >/dev/null
     local log=build/tidy.log
-    if ! run-clang-tidy -quiet -p build/sanitize >"$log" 2>/dev/null; then
+    if ! run-clang-tidy -quiet -p build/sanitize '^(?!.*/tests/)' >"$log" 2>/dev/null; then
         grep -E -A 3 '(warning|error):' "$log"
         return 1
     fi

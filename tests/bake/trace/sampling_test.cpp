@@ -1,5 +1,7 @@
 #include "prt/sh.h"
+#include "support/scene_builder.h"
 #include "trace/chunk_kernels.h"
+#include "trace/embree_tracer.h"
 #include "trace/sample_sequence.h"
 
 #include <glm/geometric.hpp>
@@ -7,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace prt {
@@ -20,6 +23,28 @@ TEST(SobolChunk, HoldsEveryPointOnce) {
         EXPECT_EQ(points.size(), static_cast<std::size_t>(rays));
         EXPECT_EQ(*points.rbegin(), static_cast<std::uint32_t>(rays - 1));
     }
+}
+
+/// Leaves numbers on the stack that no ray may have.
+[[gnu::noinline]] void litter() {
+    volatile float stack[1 << 16];
+    for (volatile float& value : stack)
+        value = std::numeric_limits<float>::infinity();
+}
+
+TEST(EmbreeTracer, LanesWithoutRaysDoNotMatter) {
+    const Scene scene = test::SceneBuilder().sphere({0, 1, 0}, 1, 8).floor({0, 0, 0}, 3, 4).build();
+    const TraceScene traced(scene, {}, {.solid = {}, .threads = 1});
+    EmbreeTracer tracer(traced);
+    const Receivers receivers = vertex_receivers(scene);
+    std::vector<float> vector(4);
+    for (const int rays : {1, 3, 17})
+        for (std::uint32_t receiver = 0; receiver < 50; ++receiver) {
+            litter(); // Embree, where it checks rays, ends the program at those of lanes that have none
+            tracer.trace(receivers, std::span(&receiver, 1), {.order = 2, .rays = rays, .hit_stride = 2},
+                         vector, [](std::size_t, std::span<const Hit>) {});
+            EXPECT_TRUE(std::isfinite(vector[0]));
+        }
 }
 
 TEST(Sobol, IsANetInBaseTwo) {
