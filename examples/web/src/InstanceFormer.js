@@ -3,7 +3,7 @@
 // row takes three vectors instead of one. No three.js here.
 
 import { formConstants, lightColumns } from "./clusteredPca.js";
-import { ADDED_MODES, InstanceModes, instanceTurns, PASSING_MODES, responsesOf } from "./instanceModes.js";
+import { ADDED_BANDS, ADDED_MODES, InstanceModes, instanceTurns, PASSING_MODES, responsesOf } from "./instanceModes.js";
 import { rotationMatrices, turnedBands } from "./sphericalHarmonics.js";
 import { formAtYaw, polarRows, termsOf, turnTerms, yawSeries } from "./yawHarmonics.js";
 
@@ -24,44 +24,36 @@ export function rowsOf({ components, firstRows, rowCount }, numbers) {
 }
 
 /** Writes numbers of an instance in the place of its rows: `factors` as files have them, `added` [ADDED_MODES][3] of its light, in
- * the axes of the mesh. */
+ * the axes of the mesh. `modes`: [rows][3][PASSING_MODES], side by side, as most of the time is spent here. */
 function writeRows(constants, at, rows, modes, responses, factors, added) {
-  const [a, b, c, d, e] = modes;
-  const [a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3, e0, e1, e2, e3] = factors;
   for (let n = 0, to = at; n < rows.length; ++n) {
     const row = rows[n];
     const response = 3 * ADDED_MODES * row;
     for (let color = 0; color < 3; ++color, to += 4) {
-      const from = 4 * row + color;
-      const above = a[from];
-      const alongX = b[from];
-      const alongY = c[from];
-      const alongZ = d[from];
-      const below = e[from];
-      constants[to] = a0 * above + b0 * alongX + c0 * alongY + d0 * alongZ + e0 * below;
-      constants[to + 1] = a1 * above + b1 * alongX + c1 * alongY + d1 * alongZ + e1 * below;
-      constants[to + 2] = a2 * above + b2 * alongX + c2 * alongY + d2 * alongZ + e2 * below;
-      const back =
-        added[color] * responses[response + color] +
-        added[3 + color] * responses[response + 3 + color] +
-        added[6 + color] * responses[response + 6 + color] +
-        added[9 + color] * responses[response + 9 + color];
-      constants[to + 3] = a3 * above + b3 * alongX + c3 * alongY + d3 * alongZ + e3 * below + back;
+      const from = PASSING_MODES * (3 * row + color);
+      let alongX = 0;
+      let alongY = 0;
+      let alongZ = 0;
+      let even = 0;
+      for (let m = 0; m < PASSING_MODES; ++m) {
+        const passed = modes[from + m];
+        alongX += factors[4 * m] * passed;
+        alongY += factors[4 * m + 1] * passed;
+        alongZ += factors[4 * m + 2] * passed;
+        even += factors[4 * m + 3] * passed;
+      }
+      for (let k = 0; k < ADDED_MODES; ++k) even += added[3 * k + color] * responses[response + 3 * k + color];
+      constants[to] = alongX;
+      constants[to + 1] = alongY;
+      constants[to + 2] = alongZ;
+      constants[to + 3] = even;
     }
   }
 }
 
-/** What instances add of a light on level ground, in axes that `rotation` takes into the world's. */
-function addedBy(factors, rotation, onLevel, added) {
-  const first = 4 * PASSING_MODES;
-  for (let c = 0; c < 3; ++c) {
-    added[c] = factors[first + c] * onLevel[c];
-    for (let j = 0; j < 3; ++j) {
-      let sum = 0;
-      for (let i = 0; i < 3; ++i) sum += factors[first + 3 * (1 + i) + c] * rotation[3 * j + i];
-      added[3 * (1 + j) + c] = sum * onLevel[c];
-    }
-  }
+/** What an instance adds of a light on level ground, [ADDED_MODES][3] in the axes of the world. */
+function addedBy(factors, onLevel) {
+  return Float64Array.from({ length: 3 * ADDED_MODES }, (_, i) => factors[4 * PASSING_MODES + i] * onLevel[i % 3]);
 }
 
 export class InstanceFormer {
@@ -76,12 +68,14 @@ export class InstanceFormer {
     this.modes = new InstanceModes(clusters.order);
     this.responses = responsesOf(clusters, rows);
     this.constantsOfModes = Array.from({ length: PASSING_MODES }, () => new Float64Array(4 * clusters.rowCount));
+    this.sideBySide = new Float64Array(3 * PASSING_MODES * clusters.rowCount);
     const { order, rowCount } = clusters;
     const turns = instanceTurns(instances.map(({ rotation }) => rotation), yaws);
     const { rotations, of } = turns;
     this.turns = rotations.map((rotation, t) => {
       const yaw = turns.yaws[t];
-      return { rotation, instances: [], terms: yaw === null ? null : turnTerms(order, yaw) };
+      const bands = rotationMatrices(ADDED_BANDS, rotation);
+      return { rotation, bands, instances: [], terms: yaw === null ? null : turnTerms(order, yaw) };
     });
     const isUpright = this.turns.some(({ terms }) => terms);
     this.polarRows = isUpright ? polarRows(clusters, rows) : null;
@@ -109,17 +103,28 @@ export class InstanceFormer {
     return [low, high];
   }
 
-  /** The constants of the passing modes under `skies` and, where there are any, `suns`, for the rows that a turn has use for. */
-  formModes({ rotation, terms, instances }, skies, suns) {
-    const { clusters, rows } = this;
+  /** The constants of the passing modes under `skies` and, where there are any, `suns`, side by side, for the rows that a turn has
+   * use for. */
+  formModes(turn, skies, suns) {
     let [first, end] = [Infinity, 0];
-    for (const i of instances) {
+    for (const i of turn.instances) {
       const used = this.instances[i].rows;
       if (used.length === 0) continue;
       first = Math.min(first, used[0]);
       end = Math.max(end, used[used.length - 1] + 1);
     }
     if (!(first < end)) return;
+    this.formRows(turn, first, end, skies, suns);
+    const { sideBySide } = this;
+    this.constantsOfModes.forEach((constants, m) => {
+      for (let row = first; row < end; ++row)
+        for (let c = 0; c < 3; ++c) sideBySide[PASSING_MODES * (3 * row + c) + m] = constants[4 * row + c];
+    });
+  }
+
+  /** The same of rows [first, end), mode by mode. */
+  formRows({ rotation, terms }, first, end, skies, suns) {
+    const { clusters, rows } = this;
     if (terms) return this.constantsOfModes.forEach((constants, m) => formAtYaw(this.series[m], terms, first, end, constants));
     const matrices = rotationMatrices(clusters.order, rotation);
     const size = rows.length / clusters.rowCount;
@@ -136,15 +141,14 @@ export class InstanceFormer {
     const skies = this.modes.passing(sky);
     const passed = suns ? this.modes.passing(suns) : null;
     const onLevel = this.modes.onLevel(suns ? sky.map((value, i) => value + suns[i]) : sky);
-    const added = new Float64Array(3 * ADDED_MODES);
     const both = passed?.map((light, m) => light.map((value, i) => value + skies[m][i])) ?? skies;
     if (this.polarRows) this.series.forEach((series, m) => yawSeries(this.clusters, this.polarRows, skies[m], both[m], series));
     for (const turn of this.turns) {
       this.formModes(turn, skies, passed);
       for (const i of turn.instances) {
         const { factors, rows } = this.instances[i];
-        addedBy(factors, turn.rotation, onLevel, added);
-        writeRows(constants, 4 * this.begins[i], rows, this.constantsOfModes, this.responses, factors, added);
+        const added = turnedBands(turn.bands, addedBy(factors, onLevel));
+        writeRows(constants, 4 * this.begins[i], rows, this.sideBySide, this.responses, factors, added);
       }
     }
     return constants;
