@@ -24,29 +24,41 @@ export function rowsOf({ components, firstRows, rowCount }, numbers) {
 }
 
 /** Writes numbers of an instance in the place of its rows: `factors` as files have them, `added` [ADDED_MODES][3] of its light, in
- * the axes of the mesh. `modes`: [rows][3][PASSING_MODES], side by side, as most of the time is spent here. */
+ * the axes of the mesh. Unrolled over the passing modes, as most of the time is spent here. */
 function writeRows(constants, at, rows, modes, responses, factors, added) {
+  const [a, b, c, d, e, f, g, h, i, j] = modes;
+  const p = factors;
   for (let n = 0, to = at; n < rows.length; ++n) {
     const row = rows[n];
     const response = 3 * ADDED_MODES * row;
     for (let color = 0; color < 3; ++color, to += 4) {
-      const from = PASSING_MODES * (3 * row + color);
-      let alongX = 0;
-      let alongY = 0;
-      let alongZ = 0;
-      let even = 0;
-      for (let m = 0; m < PASSING_MODES; ++m) {
-        const passed = modes[from + m];
-        alongX += factors[4 * m] * passed;
-        alongY += factors[4 * m + 1] * passed;
-        alongZ += factors[4 * m + 2] * passed;
-        even += factors[4 * m + 3] * passed;
-      }
-      for (let k = 0; k < ADDED_MODES; ++k) even += added[3 * k + color] * responses[response + 3 * k + color];
-      constants[to] = alongX;
-      constants[to + 1] = alongY;
-      constants[to + 2] = alongZ;
-      constants[to + 3] = even;
+      const from = 4 * row + color;
+      const m0 = a[from];
+      const m1 = b[from];
+      const m2 = c[from];
+      const m3 = d[from];
+      const m4 = e[from];
+      const m5 = f[from];
+      const m6 = g[from];
+      const m7 = h[from];
+      const m8 = i[from];
+      const m9 = j[from];
+      constants[to] =
+        p[0] * m0 + p[4] * m1 + p[8] * m2 + p[12] * m3 + p[16] * m4 +
+        p[20] * m5 + p[24] * m6 + p[28] * m7 + p[32] * m8 + p[36] * m9;
+      constants[to + 1] =
+        p[1] * m0 + p[5] * m1 + p[9] * m2 + p[13] * m3 + p[17] * m4 +
+        p[21] * m5 + p[25] * m6 + p[29] * m7 + p[33] * m8 + p[37] * m9;
+      constants[to + 2] =
+        p[2] * m0 + p[6] * m1 + p[10] * m2 + p[14] * m3 + p[18] * m4 +
+        p[22] * m5 + p[26] * m6 + p[30] * m7 + p[34] * m8 + p[38] * m9;
+      constants[to + 3] =
+        p[3] * m0 + p[7] * m1 + p[11] * m2 + p[15] * m3 + p[19] * m4 +
+        p[23] * m5 + p[27] * m6 + p[31] * m7 + p[35] * m8 + p[39] * m9 +
+        added[color] * responses[response + color] +
+        added[3 + color] * responses[response + 3 + color] +
+        added[6 + color] * responses[response + 6 + color] +
+        added[9 + color] * responses[response + 9 + color];
     }
   }
 }
@@ -68,7 +80,6 @@ export class InstanceFormer {
     this.modes = new InstanceModes(clusters.order);
     this.responses = responsesOf(clusters, rows);
     this.constantsOfModes = Array.from({ length: PASSING_MODES }, () => new Float64Array(4 * clusters.rowCount));
-    this.sideBySide = new Float64Array(3 * PASSING_MODES * clusters.rowCount);
     const { order, rowCount } = clusters;
     const turns = instanceTurns(instances.map(({ rotation }) => rotation), yaws);
     const { rotations, of } = turns;
@@ -103,28 +114,17 @@ export class InstanceFormer {
     return [low, high];
   }
 
-  /** The constants of the passing modes under `skies` and, where there are any, `suns`, side by side, for the rows that a turn has
-   * use for. */
-  formModes(turn, skies, suns) {
+  /** The constants of the passing modes under `skies` and, where there are any, `suns`, for the rows that a turn has use for. */
+  formModes({ rotation, terms, instances }, skies, suns) {
+    const { clusters, rows } = this;
     let [first, end] = [Infinity, 0];
-    for (const i of turn.instances) {
+    for (const i of instances) {
       const used = this.instances[i].rows;
       if (used.length === 0) continue;
       first = Math.min(first, used[0]);
       end = Math.max(end, used[used.length - 1] + 1);
     }
     if (!(first < end)) return;
-    this.formRows(turn, first, end, skies, suns);
-    const { sideBySide } = this;
-    this.constantsOfModes.forEach((constants, m) => {
-      for (let row = first; row < end; ++row)
-        for (let c = 0; c < 3; ++c) sideBySide[PASSING_MODES * (3 * row + c) + m] = constants[4 * row + c];
-    });
-  }
-
-  /** The same of rows [first, end), mode by mode. */
-  formRows({ rotation, terms }, first, end, skies, suns) {
-    const { clusters, rows } = this;
     if (terms) return this.constantsOfModes.forEach((constants, m) => formAtYaw(this.series[m], terms, first, end, constants));
     const matrices = rotationMatrices(clusters.order, rotation);
     const size = rows.length / clusters.rowCount;
@@ -148,7 +148,7 @@ export class InstanceFormer {
       for (const i of turn.instances) {
         const { factors, rows } = this.instances[i];
         const added = turnedBands(turn.bands, addedBy(factors, onLevel));
-        writeRows(constants, 4 * this.begins[i], rows, this.sideBySide, this.responses, factors, added);
+        writeRows(constants, 4 * this.begins[i], rows, this.constantsOfModes, this.responses, factors, added);
       }
     }
     return constants;
