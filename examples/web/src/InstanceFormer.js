@@ -3,7 +3,7 @@
 // row takes three vectors instead of one. No three.js here.
 
 import { formConstants, lightColumns } from "./clusteredPca.js";
-import { ADDED_MODES, InstanceModes, instanceTurns, PASSING_MODES, responsesOf } from "./instanceModes.js";
+import { ADDED_BANDS, ADDED_MODES, InstanceModes, instanceTurns, PASSING_MODES, responsesOf } from "./instanceModes.js";
 import { rotationMatrices, turnedBands } from "./sphericalHarmonics.js";
 import { formAtYaw, polarRows, termsOf, turnTerms, yawSeries } from "./yawHarmonics.js";
 
@@ -24,44 +24,48 @@ export function rowsOf({ components, firstRows, rowCount }, numbers) {
 }
 
 /** Writes numbers of an instance in the place of its rows: `factors` as files have them, `added` [ADDED_MODES][3] of its light, in
- * the axes of the mesh. */
+ * the axes of the mesh. Unrolled over the passing modes, as most of the time is spent here. */
 function writeRows(constants, at, rows, modes, responses, factors, added) {
-  const [a, b, c, d, e] = modes;
-  const [a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3, d0, d1, d2, d3, e0, e1, e2, e3] = factors;
+  const [a, b, c, d, e, f, g, h, i, j] = modes;
+  const p = factors;
   for (let n = 0, to = at; n < rows.length; ++n) {
     const row = rows[n];
     const response = 3 * ADDED_MODES * row;
     for (let color = 0; color < 3; ++color, to += 4) {
       const from = 4 * row + color;
-      const above = a[from];
-      const alongX = b[from];
-      const alongY = c[from];
-      const alongZ = d[from];
-      const below = e[from];
-      constants[to] = a0 * above + b0 * alongX + c0 * alongY + d0 * alongZ + e0 * below;
-      constants[to + 1] = a1 * above + b1 * alongX + c1 * alongY + d1 * alongZ + e1 * below;
-      constants[to + 2] = a2 * above + b2 * alongX + c2 * alongY + d2 * alongZ + e2 * below;
-      const back =
+      const m0 = a[from];
+      const m1 = b[from];
+      const m2 = c[from];
+      const m3 = d[from];
+      const m4 = e[from];
+      const m5 = f[from];
+      const m6 = g[from];
+      const m7 = h[from];
+      const m8 = i[from];
+      const m9 = j[from];
+      constants[to] =
+        p[0] * m0 + p[4] * m1 + p[8] * m2 + p[12] * m3 + p[16] * m4 +
+        p[20] * m5 + p[24] * m6 + p[28] * m7 + p[32] * m8 + p[36] * m9;
+      constants[to + 1] =
+        p[1] * m0 + p[5] * m1 + p[9] * m2 + p[13] * m3 + p[17] * m4 +
+        p[21] * m5 + p[25] * m6 + p[29] * m7 + p[33] * m8 + p[37] * m9;
+      constants[to + 2] =
+        p[2] * m0 + p[6] * m1 + p[10] * m2 + p[14] * m3 + p[18] * m4 +
+        p[22] * m5 + p[26] * m6 + p[30] * m7 + p[34] * m8 + p[38] * m9;
+      constants[to + 3] =
+        p[3] * m0 + p[7] * m1 + p[11] * m2 + p[15] * m3 + p[19] * m4 +
+        p[23] * m5 + p[27] * m6 + p[31] * m7 + p[35] * m8 + p[39] * m9 +
         added[color] * responses[response + color] +
         added[3 + color] * responses[response + 3 + color] +
         added[6 + color] * responses[response + 6 + color] +
         added[9 + color] * responses[response + 9 + color];
-      constants[to + 3] = a3 * above + b3 * alongX + c3 * alongY + d3 * alongZ + e3 * below + back;
     }
   }
 }
 
-/** What instances add of a light on level ground, in axes that `rotation` takes into the world's. */
-function addedBy(factors, rotation, onLevel, added) {
-  const first = 4 * PASSING_MODES;
-  for (let c = 0; c < 3; ++c) {
-    added[c] = factors[first + c] * onLevel[c];
-    for (let j = 0; j < 3; ++j) {
-      let sum = 0;
-      for (let i = 0; i < 3; ++i) sum += factors[first + 3 * (1 + i) + c] * rotation[3 * j + i];
-      added[3 * (1 + j) + c] = sum * onLevel[c];
-    }
-  }
+/** What an instance adds of a light on level ground, [ADDED_MODES][3] in the axes of the world. */
+function addedBy(factors, onLevel) {
+  return Float64Array.from({ length: 3 * ADDED_MODES }, (_, i) => factors[4 * PASSING_MODES + i] * onLevel[i % 3]);
 }
 
 export class InstanceFormer {
@@ -81,7 +85,8 @@ export class InstanceFormer {
     const { rotations, of } = turns;
     this.turns = rotations.map((rotation, t) => {
       const yaw = turns.yaws[t];
-      return { rotation, instances: [], terms: yaw === null ? null : turnTerms(order, yaw) };
+      const bands = rotationMatrices(ADDED_BANDS, rotation);
+      return { rotation, bands, instances: [], terms: yaw === null ? null : turnTerms(order, yaw) };
     });
     const isUpright = this.turns.some(({ terms }) => terms);
     this.polarRows = isUpright ? polarRows(clusters, rows) : null;
@@ -136,14 +141,13 @@ export class InstanceFormer {
     const skies = this.modes.passing(sky);
     const passed = suns ? this.modes.passing(suns) : null;
     const onLevel = this.modes.onLevel(suns ? sky.map((value, i) => value + suns[i]) : sky);
-    const added = new Float64Array(3 * ADDED_MODES);
     const both = passed?.map((light, m) => light.map((value, i) => value + skies[m][i])) ?? skies;
     if (this.polarRows) this.series.forEach((series, m) => yawSeries(this.clusters, this.polarRows, skies[m], both[m], series));
     for (const turn of this.turns) {
       this.formModes(turn, skies, passed);
       for (const i of turn.instances) {
         const { factors, rows } = this.instances[i];
-        addedBy(factors, turn.rotation, onLevel, added);
+        const added = turnedBands(turn.bands, addedBy(factors, onLevel));
         writeRows(constants, 4 * this.begins[i], rows, this.constantsOfModes, this.responses, factors, added);
       }
     }

@@ -3,15 +3,17 @@
 
 import { evaluateSh, gaussLegendre } from "./sphericalHarmonics.js";
 
-/** Light from above the horizon times 1, √3 x, √3 y and √3 z; that from below. */
-export const PASSING_MODES = 5;
-/** What level ground throws back: evenly, and from where x, y and z are large. */
-export const ADDED_MODES = 4;
-/** Of an instance: five rows of four numbers, four colours. */
+const ABOVE_BANDS = 3;
+const ABOVE_MODES = ABOVE_BANDS ** 2;
+/** Light from above the horizon times √(4π) Y of three bands; that from below. */
+export const PASSING_MODES = ABOVE_MODES + 1;
+export const ADDED_BANDS = 2;
+/** What level ground throws back times √(4π) Y of two bands. */
+export const ADDED_MODES = ADDED_BANDS ** 2;
+/** Of an instance: ten rows of four numbers, four colours. */
 export const FACTORS = 4 * PASSING_MODES + 3 * ADDED_MODES;
-/** Coefficients of 1, √3 x, √3 y and √3 z: each has one. */
-const COEFFICIENTS = [0, 3, 1, 2];
-const VALUES = [1, -1, -1, 1].map((sign) => sign * Math.sqrt(4 * Math.PI));
+/** Of the even one, it makes the mode 1. */
+const SCALE = Math.sqrt(4 * Math.PI);
 
 /** Modes as linear operators on the coefficients of light, in the world's axes with +Y up. */
 export class InstanceModes {
@@ -20,29 +22,27 @@ export class InstanceModes {
     this.count = count;
     this.matrices = Array.from({ length: PASSING_MODES }, () => new Float64Array(count * count));
     this.level = new Float64Array(count); // what level ground gets
-    const [above, alongX, alongY, alongZ, below] = this.matrices;
-    // Exact for the polynomials that are left: of 2 order - 1 in the height, after the azimuth.
+    // Exact for the polynomials of 2 order in the height and in the azimuth that two functions of the light and one of a mode make.
     const heights = gaussLegendre(order + 1);
     const around = 2 * order + 2;
-    const basis = new Float64Array(count);
+    const bands = Math.max(order, ABOVE_BANDS);
+    const basis = new Float64Array(bands * bands); // begins with those of fewer bands
     for (let h = 0; h <= order; ++h)
       for (let a = 0; a < around; ++a) {
         const y = 0.5 * (heights.nodes[h] + 1);
         const angle = (2 * Math.PI * a) / around;
         const [x, z] = [Math.sqrt(1 - y * y) * Math.sin(angle), Math.sqrt(1 - y * y) * Math.cos(angle)];
         const weight = (0.5 * heights.weights[h] * 2 * Math.PI) / around;
-        evaluateSh(order, x, y, z, basis);
+        evaluateSh(bands, x, y, z, basis);
         for (let i = 0; i < count; ++i) {
           this.level[i] += (weight * y * basis[i]) / Math.PI;
           for (let j = 0; j < count; ++j) {
             const product = weight * basis[i] * basis[j];
-            above[i * count + j] += product;
-            alongX[i * count + j] += Math.sqrt(3) * x * product;
-            alongY[i * count + j] += Math.sqrt(3) * y * product;
-            alongZ[i * count + j] += Math.sqrt(3) * z * product;
+            for (let m = 0; m < ABOVE_MODES; ++m) this.matrices[m][i * count + j] += SCALE * basis[m] * product;
           }
         }
       }
+    const [above, below] = [this.matrices[0], this.matrices[ABOVE_MODES]];
     for (let i = 0; i < count; ++i) for (let j = 0; j < count; ++j) below[i * count + j] = Number(i === j) - above[i * count + j];
   }
 
@@ -64,18 +64,16 @@ export class InstanceModes {
   }
 }
 
-/** What rows make of light of 1, √3 x, √3 y and √3 z in their own frame, [rows][ADDED_MODES][3]. */
+/** What rows make of the light of the added modes in their own frame, [rows][ADDED_MODES][3]. */
 export function responsesOf({ order, parts, rowCount }, rows) {
   const count = order * order;
   const responses = new Float64Array(3 * ADDED_MODES * rowCount);
   let at = 0;
   for (let r = 0; r < rowCount; ++r)
     for (const { channels } of parts) {
-      for (let k = 0; k < ADDED_MODES; ++k) {
-        if (COEFFICIENTS[k] >= count) continue;
+      for (let k = 0; k < Math.min(ADDED_MODES, count); ++k)
         for (let c = 0; c < 3; ++c)
-          responses[3 * (ADDED_MODES * r + k) + c] += VALUES[k] * rows[at + (channels === 3 ? c * count : 0) + COEFFICIENTS[k]];
-      }
+          responses[3 * (ADDED_MODES * r + k) + c] += SCALE * rows[at + (channels === 3 ? c * count : 0) + k];
       at += channels * count;
     }
   return responses;

@@ -2,12 +2,12 @@
 // nodes without a mesh, and drawn by InstancedMesh.
 
 import { Matrix4, Quaternion, Vector3 } from "three";
-import { halfFloat } from "./halfFloat.js";
 import { FACTORS } from "./instanceModes.js";
 import { checkInstanceNode, checkInstances, expect, INSTANCES } from "./wholeExtension.js";
 
 const GPU = "EXT_mesh_gpu_instancing";
-const LARGEST_FACTOR = 6e4;
+/** Numbers by which all light passes evenly, from above the horizon and from below: in the open they are 1, all others 0. */
+const EVEN = [3, 39];
 const ROUNDING = 1e-5; // of an element, of the scale: matrices of files are floats
 
 const holds = (value, what) => expect(value, what, INSTANCES);
@@ -52,14 +52,15 @@ export function putInstancesBack({ nodes }, shared) {
   }
 }
 
-/** The factors of all instances, [count][FACTORS]; `bytes`: of their buffer view. */
-export function factorsOf({ count, factors: { componentType = 5126 } }, bytes) {
-  const size = componentType === 5131 ? 2 : 4;
-  holds(bytes.byteLength === size * FACTORS * count, `the factors are not those of ${count} instances`);
-  const { buffer, byteOffset } = bytes;
-  const own = buffer.slice(byteOffset, byteOffset + size * FACTORS * count);
-  const factors = size === 2 ? Float32Array.from(new Uint16Array(own), halfFloat) : new Float32Array(own);
-  holds(factors.every((value) => Math.abs(value) <= LARGEST_FACTOR), `factors are not finite, or beyond ${LARGEST_FACTOR}`);
+/** The factors of all instances, [count][FACTORS]; `bytes`: of their buffer view, what each is off that of the open. */
+export function factorsOf({ count, factors: { scales } }, bytes) {
+  holds(bytes.byteLength === FACTORS * count, `the factors are not those of ${count} instances`);
+  const { buffer, byteOffset, byteLength } = bytes;
+  const open = Float64Array.from(scales, (_, j) => Number(EVEN.includes(j)));
+  const steps = new Int8Array(buffer, byteOffset, byteLength);
+  const factors = new Float32Array(steps.length);
+  for (let first = 0; first < factors.length; first += FACTORS)
+    for (let j = 0; j < FACTORS; ++j) factors[first + j] = open[j] + scales[j] * steps[first + j];
   return factors;
 }
 

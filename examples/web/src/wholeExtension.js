@@ -1,5 +1,7 @@
 // What the JSON of PRTKIT_clustered_pca, PRTKIT_lightmap, PRTKIT_transfer_volume and others must be before anything is computed from it (docs/format.md).
 
+import { FACTORS } from "./instanceModes.js";
+
 export const VERTICES = "PRTKIT_clustered_pca";
 export const TEXELS = "PRTKIT_lightmap";
 export const PROBES = "PRTKIT_transfer_volume";
@@ -170,15 +172,19 @@ export function checkOccluder(extension) {
 }
 
 const MOST_INSTANCES = 1_000_000;
+const LARGEST_SCALE = 500; // of a byte of factors
 
 /** As checkExtension, of PRTKIT_instances at the top level. */
 export function checkInstances(extension) {
   const holds = (value, what) => expect(value, what, INSTANCES);
   holds(isObject(extension), "the extension is no object");
   const { version, count, factors, boxes } = extension;
-  holds(version === 1, `version ${version} is not known, only 1; bake the model again`);
+  holds(version === 2, `version ${version} is not known, only 2; bake the model again`);
   holds(isWhole(count, 1, MOST_INSTANCES), `the count is none from 1 to ${MOST_INSTANCES}`);
-  holds(isView(factors) && [undefined, 5126, 5131].includes(factors.componentType), "the factors are no floats");
+  holds(isView(factors), "the factors are not there");
+  const { scales } = factors;
+  const areScales = Array.isArray(scales) && scales.length === FACTORS && scales.every((scale) => scale >= 0 && scale <= LARGEST_SCALE && typeof scale === "number");
+  holds(areScales, `the scales of the factors are not ${FACTORS} numbers from 0 to ${LARGEST_SCALE}`);
   holds(Array.isArray(boxes) && boxes.length > 0, "there are no boxes");
   for (const box of boxes)
     holds(areThree(box?.middle) && areThree(box.half) && box.half.every((width) => Math.fround(width) > 0), "a box is none");

@@ -18,15 +18,29 @@ function random(seed) {
   return () => (state = (state * 1664525 + 1013904223) % 2 ** 32) / 2 ** 32;
 }
 
-/** Numbers of all instances, [COUNT][32]: much of the light passes, some comes back. */
-export function factors() {
+/** Numbers of all instances, [COUNT][52]: much of the light passes, some comes back. */
+function numbers() {
   const next = random(17);
   const row = (mean) => [0.3 * (next() - 0.5), 0.3 * (next() - 0.5), 0.3 * (next() - 0.5), mean + 0.2 * (next() - 0.5)];
   const color = (mean) => [0, 0, 0].map(() => mean + 0.1 * (next() - 0.5));
   const all = Array.from({ length: COUNT }, () =>
-    [row(0.8), row(0), row(0.1), row(0), row(0.5), color(0.2), color(0), color(0.05), color(0)].flat(),
+    [row(0.8), row(0), row(0), row(0.1), ...[4, 5, 6, 7, 8].map(() => row(0.05)), row(0.5), color(0.2), color(0.05), color(0), color(0)].flat(),
   );
-  return Float32Array.from(all.flat());
+  return all.flat();
+}
+
+const base = Array.from({ length: 52 }, (_, j) => Number(j === 3 || j === 39));
+/** Of each number its own, so that none is taken for another's. */
+export const SCALES = base.map((_, j) => 0.01 + 0.0001 * j);
+
+/** Their bytes, as a file has them. */
+export function bytes() {
+  return Int8Array.from(numbers(), (value, n) => Math.round((value - base[n % 52]) / SCALES[n % 52]));
+}
+
+/** What the bytes say. */
+export function factors() {
+  return Array.from(bytes(), (q, n) => base[n % 52] + SCALES[n % 52] * q);
 }
 
 const half = Math.SQRT1_2;
@@ -62,9 +76,9 @@ export function instanceModel(by = "vertices", change = () => {}) {
     json.scenes = [{ nodes: [0, 1, 2] }];
     json.extensionsUsed.push("EXT_mesh_gpu_instancing", "PRTKIT_instances");
     json.extensions.PRTKIT_instances = {
-      version: 1,
+      version: 2,
       count: COUNT,
-      factors: { bufferView: binary.view(factors()), componentType: 5126 },
+      factors: { bufferView: binary.view(bytes()), scales: SCALES },
       boxes: BOXES,
     };
     change(json, binary);

@@ -7,7 +7,7 @@ import { instanceTurns, InstanceModes } from "../src/instanceModes.js";
 import { PrtkitPlugin, ShLight } from "../src/PrtkitLoader.js";
 import { evaluateSh, gaussLegendre } from "../src/sphericalHarmonics.js";
 import { PrtkitPlugin as NodePlugin } from "../src/webgpu.js";
-import { BOXES, COUNT, factors, instanceModel, PLACES } from "./instanceModel.js";
+import { BOXES, bytes, COUNT, factors, instanceModel, PLACES, SCALES } from "./instanceModel.js";
 
 const load = (file, Plugin = PrtkitPlugin) => {
   const loader = new GLTFLoader().register((parser) => new Plugin(parser));
@@ -35,21 +35,27 @@ function radiance(order, coefficients, direction) {
   return [0, 1, 2].map((c) => basis.reduce((sum, value, i) => sum + value * coefficients[3 * i + c], 0));
 }
 
-/** Functions of a direction by which the light of a mode is multiplied. */
-const PASSED = [
-  ([, y]) => Number(y > 0),
-  ([x, y]) => Math.sqrt(3) * x * Number(y > 0),
-  ([, y]) => Math.sqrt(3) * y * Number(y > 0),
-  ([, y, z]) => Math.sqrt(3) * z * Number(y > 0),
-  ([, y]) => Number(y < 0),
+/** √(4π) Y of three bands, written out. */
+const HARMONICS = [
+  () => 1,
+  ([, y]) => -Math.sqrt(3) * y,
+  ([, , z]) => Math.sqrt(3) * z,
+  ([x]) => -Math.sqrt(3) * x,
+  ([x, y]) => Math.sqrt(15) * x * y,
+  ([, y, z]) => -Math.sqrt(15) * y * z,
+  ([, , z]) => (Math.sqrt(5) / 2) * (3 * z * z - 1),
+  ([x, , z]) => -Math.sqrt(15) * x * z,
+  ([x, y]) => (Math.sqrt(15) / 2) * (x * x - y * y),
 ];
-const THROWN = [() => 1, ([x]) => Math.sqrt(3) * x, ([, y]) => Math.sqrt(3) * y, ([, , z]) => Math.sqrt(3) * z];
+/** Functions of a direction by which the light of a mode is multiplied. */
+const PASSED = [...HARMONICS.map((harmonic) => (direction) => harmonic(direction) * Number(direction[1] > 0)), ([, y]) => Number(y < 0)];
+const THROWN = HARMONICS.slice(0, 4);
 
 /** What each mode is lit with in the frame of an instance, turned into the world's by `rotation` (Matrix3): for each coefficients
  * [order²][3] of the sky and of sky and suns. */
 function modesInFrame(order, sky, suns, rotation) {
   const both = suns ? sky.map((value, i) => value + suns[i]) : sky;
-  const modes = Array.from({ length: 9 }, () => [0, 1].map(() => new Float64Array(3 * order * order)));
+  const modes = Array.from({ length: 14 }, () => [0, 1].map(() => new Float64Array(3 * order * order)));
   const level = [0, 0, 0];
   overHalves((direction, weight) => {
     if (direction[1] > 0) radiance(order, both, direction).forEach((value, c) => (level[c] += (weight * direction[1] * value) / Math.PI));
@@ -61,25 +67,26 @@ function modesInFrame(order, sky, suns, rotation) {
     const add = (mode, light, factor) =>
       basis.forEach((value, i) => light.forEach((rgb, c) => (mode[3 * i + c] += weight * factor * value * rgb)));
     PASSED.forEach((passed, m) => lights.forEach((light, k) => add(modes[m][k], light, passed(direction))));
-    THROWN.forEach((thrown, m) => [0, 1].forEach((k) => add(modes[5 + m][k], level, thrown(direction))));
+    THROWN.forEach((thrown, m) => [0, 1].forEach((k) => add(modes[10 + m][k], level, thrown(direction))));
   });
   return modes;
 }
 
 test("modes are products with functions of the direction, and level ground is lit by a clamped cosine", () => {
-  for (const order of [1, 2, 5]) {
+  for (const order of [1, 2, 3, 5, 8]) {
     const sky = lightOf(order, 3).coefficients();
     const modes = new InstanceModes(order);
     const expected = modesInFrame(order, sky, null, new Matrix3());
     modes.passing(sky).forEach((light, m) => light.forEach((value, i) => near(value, expected[m][0][i], 1e-9, `mode ${m}`)));
     const level = modes.onLevel(sky);
-    // Mode 5 is a sky of that everywhere.
-    level.forEach((value, c) => near(value * Math.sqrt(4 * Math.PI), expected[5][0][c], 1e-9));
+    // Mode 10 is a sky of that everywhere.
+    level.forEach((value, c) => near(value * Math.sqrt(4 * Math.PI), expected[10][0][c], 1e-9));
   }
   const white = new Float64Array(3 * 9);
   white.fill(Math.sqrt(4 * Math.PI), 0, 3);
   new InstanceModes(3).onLevel(white).forEach((value) => near(value, 1, 1e-12));
-  const [above, , , , below] = new InstanceModes(3).passing(white);
+  const modes = new InstanceModes(3).passing(white);
+  const [above, below] = [modes[0], modes[9]];
   above.forEach((value, i) => near(value + below[i], white[i], 1e-12));
 });
 
@@ -163,7 +170,7 @@ function expectedOf(prtkit, mesh, v, modes, numbers, box) {
   const result = [0, 0, 0];
   modes.forEach(([sky, both], m) => {
     for (let c = 0; c < 3; ++c) {
-      const factor = m < 5 ? place.reduce((sum, x, k) => sum + x * numbers[4 * m + k], 0) : numbers[20 + 3 * (m - 5) + c];
+      const factor = m < 10 ? place.reduce((sum, x, k) => sum + x * numbers[4 * m + k], 0) : numbers[40 + 3 * (m - 10) + c];
       for (let i = 0; i < count; ++i)
         result[c] += factor * (vector[i] * sky[3 * i + c] + vector[count * (1 + c) + i] * both[3 * i + c]);
     }
@@ -191,7 +198,7 @@ for (const by of ["vertices", "weights"])
           const modes = modesInFrame(2, ...lights, new Matrix3().setFromMatrix4(axes));
           const turned = number === 2; // between bins of yaw: by 0.8 degrees
           for (let v = 0; v < mesh.geometry.attributes.position.count; v += 97) {
-            const own = numbers.subarray(32 * number, 32 * (number + 1));
+            const own = numbers.slice(52 * number, 52 * (number + 1));
             const [value, expected] = [shaded(prtkit, mesh, i, v), expectedOf(prtkit, mesh, v, modes, own, BOXES[m])];
             expected.forEach((x, c) => near(value[c], x, turned ? 0.03 : 1e-5, `instance ${number}, vertex ${v}`));
           }
@@ -201,10 +208,8 @@ for (const by of ["vertices", "weights"])
   });
 
 test("an instance in the open has the light of its mesh", async () => {
-  const open = new Float32Array(32 * COUNT);
-  for (let i = 0; i < COUNT; ++i) open[32 * i + 3] = open[32 * i + 19] = 1;
   const { userData } = await load(instanceModel("vertices", (json, binary) => {
-    json.extensions.PRTKIT_instances.factors.bufferView = binary.view(open);
+    json.extensions.PRTKIT_instances.factors.bufferView = binary.view(new Int8Array(52 * COUNT));
   }));
   const { prtkit } = userData;
   prtkit.setLight(lightOf(2, 3), 0.3);
@@ -226,7 +231,7 @@ test("each primitive is drawn at once, where its nodes are", async () => {
   assert.deepEqual(drawn.map(({ isInstancedMesh = false }) => isInstancedMesh), [false, true, true]);
   const { instances } = userData.prtkit;
   assert.deepEqual(drawn.slice(1), instances.meshes);
-  assert.deepEqual([instances.count, instances.bytesPerInstance], [COUNT, 128]); // floats here
+  assert.deepEqual([instances.count, instances.bytesPerInstance], [COUNT, 52]);
   assert.ok(instances.constantsBytesPerInstance > 0 && instances.constantsBytesPerInstance % 48 === 0);
   const places = instances.meshes.flatMap((mesh) =>
     Array.from({ length: mesh.count }, (_, i) => {
@@ -321,25 +326,20 @@ const nodeOf = (json, n = 1) => json.nodes[n].extensions.PRTKIT_instances;
 const gpuOf = (json) => json.nodes[1].extensions.EXT_mesh_gpu_instancing.attributes;
 
 for (const [what, change, message] of [
-  ["another version", (json) => (extensionOf(json).version = 2), /version 2 is not known/],
+  ["another version", (json) => (extensionOf(json).version = 1), /version 1 is not known, only 2/],
   ["no object", (json) => (json.extensions.PRTKIT_instances = []), /is no object/],
   ["a count of zero", (json) => (extensionOf(json).count = 0), /the count is none/],
   ["a count without end", (json) => (extensionOf(json).count = 1e7), /the count is none/],
   ["fewer factors", (json) => (extensionOf(json).count = 7), /the factors are not those of 7/],
-  ["half of the factors", (json) => (extensionOf(json).factors.componentType = 5131), /the factors are not those of 6/],
-  ["factors of bytes", (json) => (extensionOf(json).factors.componentType = 5121), /the factors are no floats/],
-  ["no factors", (json) => delete extensionOf(json).factors, /the factors are no floats/],
+  ["no factors", (json) => delete extensionOf(json).factors, /the factors are not there/],
   ["a view that is not there", (json) => (extensionOf(json).factors.bufferView = 999), /buffer view 999 cannot be read/],
-  ["factors that are not finite", (json, binary) => {
-    const wrong = factors();
-    wrong[40] = NaN;
-    extensionOf(json).factors.bufferView = binary.view(wrong);
-  }, /factors are not finite/],
-  ["factors that are too large", (json, binary) => {
-    const wrong = factors();
-    wrong[7] = 1e6;
-    extensionOf(json).factors.bufferView = binary.view(wrong);
-  }, /factors are not finite, or beyond 60000/],
+  ["factors of floats", (json, binary) => (extensionOf(json).factors.bufferView = binary.view(Float32Array.from(bytes()))), /the factors are not those of 6/],
+  ["no scales", (json) => delete extensionOf(json).factors.scales, /the scales of the factors are not 52 numbers from 0 to 500/],
+  ["fewer scales", (json) => (extensionOf(json).factors.scales = SCALES.slice(1)), /the scales of the factors are not 52/],
+  ["a scale below zero", (json) => (extensionOf(json).factors.scales = SCALES.with(7, -0.01)), /the scales of the factors are not 52/],
+  ["a scale that is too large", (json) => (extensionOf(json).factors.scales = SCALES.with(51, 501)), /the scales of the factors are not 52/],
+  ["a scale that is not finite", (json) => (extensionOf(json).factors.scales = SCALES.with(0, NaN)), /the scales of the factors are not 52/],
+  ["a scale that is no number", (json) => (extensionOf(json).factors.scales = SCALES.with(0, "1")), /the scales of the factors are not 52/],
   ["no boxes", (json) => (extensionOf(json).boxes = []), /there are no boxes/],
   ["a flat box", (json) => (extensionOf(json).boxes = [{ middle: [0, 0, 0], half: [1, 0, 1] }]), /a box is none/],
   ["a box that is none", (json) => (extensionOf(json).boxes = [null]), /a box is none/],
