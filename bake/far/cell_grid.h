@@ -100,14 +100,14 @@ void CellGrid::walk(const glm::vec3& origin, const glm::vec3& direction, float f
     float t = from * scale, end = to * scale;
     if (!cut(start, inverse, t, end))
         return;
-    constexpr auto kBrickSide = static_cast<float>(kSide);
-    CellSteps bricks(start, inverse, cell_at(start + direction * t, kBrickSide, bricks_), kBrickSide);
+    constexpr auto kBrickWidth = static_cast<float>(kSide);
+    CellSteps bricks(start, inverse, cell_at(start + direction * t, kBrickWidth, bricks_), kBrickWidth);
     while (t < end) {
         const float leaves = glm::min(bricks.leaves(), end);
         const std::uint32_t used = brick_of_[brick_at(bricks.at)];
         if (used != kNone) {
             const std::array<std::uint32_t, kBrick>& cells = cells_[used];
-            const glm::vec3 inside = start - glm::vec3(bricks.at) * kBrickSide;
+            const glm::vec3 inside = start - glm::vec3(bricks.at) * kBrickWidth;
             CellSteps steps(inside, inverse, cell_at(inside + direction * t, 1, glm::ivec3(kSide)), 1);
             while (t < leaves) {
                 const float next = glm::min(steps.leaves(), leaves);

@@ -11,7 +11,7 @@
 namespace prt {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFarthest = std::numeric_limits<float>::infinity();
 
 CellGrid full_grid(const glm::ivec3& cells, const glm::vec3& low, float size) {
     CellGrid grid(low, low + (glm::vec3(cells) - 0.5f) * size, size);
@@ -56,7 +56,7 @@ TEST(CellGrid, RaysCrossEveryCellOnTheirWayOnce) {
         direction = glm::normalize(direction);
         const glm::vec3 origin =
             low + glm::vec3(place(random), place(random), place(random)) * kSize * (i % 2 == 0 ? 1.0f : 0.5f);
-        const float from = i % 3 == 0 ? 0.0f : 0.8f, to = i % 5 == 0 ? 3.0f : kInfinity;
+        const float from = i % 3 == 0 ? 0.0f : 0.8f, to = i % 5 == 0 ? 3.0f : kFarthest;
         float length = 0, last = from / kSize;
         grid.walk(origin, direction, from, to, [&](std::uint32_t cell, float begin, float end) {
             EXPECT_GE(begin, last - 1e-4f);
@@ -83,7 +83,7 @@ TEST(CellGrid, LeavesOutWhatIsNotUsedAndStopsWhenAsked) {
         grid.add({x, 0.5f, 0.5f});
     EXPECT_EQ(grid.add({50.2f, 0.9f, 0.1f}), 1u) << "the same cell";
     std::vector<std::uint32_t> met;
-    grid.walk({-1, 0.5f, 0.5f}, {1, 0, 0}, 0, kInfinity, [&](std::uint32_t cell, float begin, float end) {
+    grid.walk({-1, 0.5f, 0.5f}, {1, 0, 0}, 0, kFarthest, [&](std::uint32_t cell, float begin, float end) {
         met.push_back(cell);
         EXPECT_NEAR(end - begin, 1, 1e-4);
         return met.size() < 2;
