@@ -134,7 +134,6 @@ struct BakeStatistics {
     double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
     Lamps lamps;
     Gather gather; ///< the operator of the bounces
-    std::optional<FarBlockerFigures> far;
     std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
 
     /// All rays over all time.
@@ -146,6 +145,7 @@ struct BakeResult {
     /// Receivers inside geometry, where no light reaches, ascending: nobody sees them.
     std::vector<std::uint32_t> sealed;
     BakeStatistics statistics;
+    std::optional<FarBlockerFigures> far; ///< where voxels stood in for meshes
 };
 
 /// Bakes transfer for every vertex. On the CPU deterministic from the seed, whatever the number of threads.

@@ -6,7 +6,10 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <map>
+#include <mutex>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace prt {
@@ -33,23 +36,63 @@ std::vector<EGLDeviceEXT> enumerate_devices() {
     return devices;
 }
 
+/// A display that is initialised as often as it is opened: contexts of one device share it, and the first
+/// that ends it would end the others.
+class OpenDisplay {
+public:
+    /// Null inside where it cannot be opened.
+    OpenDisplay(EGLenum platform, void* native)
+        : display_(eglGetPlatformDisplayEXT(platform, native, nullptr)) {
+        const std::lock_guard lock(mutex());
+        if (display_ != EGL_NO_DISPLAY && !eglInitialize(display_, nullptr, nullptr))
+            display_ = EGL_NO_DISPLAY;
+        if (display_ != EGL_NO_DISPLAY)
+            ++users()[display_];
+    }
+    OpenDisplay(OpenDisplay&& other) noexcept : display_(std::exchange(other.display_, EGL_NO_DISPLAY)) {}
+    OpenDisplay& operator=(OpenDisplay&&) = delete;
+    ~OpenDisplay() {
+        const std::lock_guard lock(mutex());
+        if (display_ != EGL_NO_DISPLAY && --users()[display_] == 0)
+            eglTerminate(display_);
+    }
+    EGLDisplay get() const { return display_; }
+
+private:
+    static std::mutex& mutex() {
+        static std::mutex mutex;
+        return mutex;
+    }
+    static std::map<EGLDisplay, int>& users() {
+        static std::map<EGLDisplay, int> users;
+        return users;
+    }
+
+    EGLDisplay display_;
+};
+
 class EglPlatform final : public GlPlatform {
 public:
-    EglPlatform(EGLDisplay display, EGLContext context) : display_(display), context_(context) {}
+    EglPlatform(OpenDisplay display, EGLContext context) : display_(std::move(display)), context_(context) {}
     ~EglPlatform() override {
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-        eglDestroyContext(display_, context_);
-        eglTerminate(display_);
+        if (eglGetCurrentContext() == context_)
+            eglMakeCurrent(display_.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+        eglDestroyContext(display_.get(), context_);
+    }
+    bool make_current() override {
+        return eglBindAPI(EGL_OPENGL_API) &&
+               eglMakeCurrent(display_.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
     }
 
 private:
-    EGLDisplay display_;
+    OpenDisplay display_;
     EGLContext context_;
 };
 
 std::unique_ptr<GlPlatform> on_display(EGLenum platform, void* native, const char* name, std::string& tried) {
-    const EGLDisplay display = eglGetPlatformDisplayEXT(platform, native, nullptr);
-    if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
+    OpenDisplay opened(platform, native);
+    const EGLDisplay display = opened.get();
+    if (display == EGL_NO_DISPLAY) {
         tried += std::string(tried.empty() ? "" : ", ") + name + ": cannot be opened";
         return nullptr;
     }
@@ -73,10 +116,9 @@ std::unique_ptr<GlPlatform> on_display(EGLenum platform, void* native, const cha
         tried += std::string(tried.empty() ? "" : ", ") + name + ": no OpenGL 4.5";
         if (context != EGL_NO_CONTEXT)
             eglDestroyContext(display, context);
-        eglTerminate(display);
         return nullptr;
     }
-    return std::make_unique<EglPlatform>(display, context);
+    return std::make_unique<EglPlatform>(std::move(opened), context);
 }
 
 } // namespace

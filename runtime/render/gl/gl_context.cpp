@@ -3,6 +3,7 @@
 #include "prt/gl_context.h"
 
 #include "gl_platform.h"
+#include "prt/support/error.h"
 
 #include <epoxy/gl.h>
 
@@ -37,6 +38,11 @@ std::unique_ptr<GlContext> GlContext::create(GlDevice device, std::string* why) 
 }
 
 GlContext::~GlContext() = default;
+
+void GlContext::make_current() const {
+    if (!platform_->make_current())
+        throw Error("the OpenGL context of " + renderer_ + " is lost");
+}
 
 bool GlContext::is_software() const {
     return is_software_renderer(renderer_);

@@ -144,7 +144,8 @@ std::vector<GlObject> make_lightmap_textures(const LightmapLayout& layout) {
 }
 
 std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, const Lighting& lighting,
-                                            const GlContext&) {
+                                            const GlContext& context) {
+    context.make_current();
     const ClusteredTransfer& transfer = lightmap.compressed.transfer;
     const BoundConstants bound(transfer, lighting);
     const GlObject program = make_compute_program(
@@ -165,7 +166,8 @@ std::vector<glm::vec3> lightmap_radiance_gl(const CompressedLightmap& lightmap, 
 }
 
 std::vector<glm::vec3> lightmap_radiance_by_fragments(const CompressedLightmap& lightmap,
-                                                      const Lighting& lighting, const GlContext&) {
+                                                      const Lighting& lighting, const GlContext& context) {
+    context.make_current();
     const ClusteredTransfer& transfer = lightmap.compressed.transfer;
     const BoundConstants bound(transfer, lighting);
     const GlObject program = make_program("background.vert", "prt_lightmap.frag", relight_defines(transfer)),

@@ -9,10 +9,12 @@
 
 namespace prt {
 
-/// A context that is current until it is destroyed.
+/// A context.
 class GlPlatform {
 public:
     virtual ~GlPlatform() = default;
+    /// On this thread; whether it could be made so.
+    virtual bool make_current() = 0;
 };
 
 /// Whether an OpenGL renderer of that name is software.

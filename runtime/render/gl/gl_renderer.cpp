@@ -172,7 +172,8 @@ private:
 
 } // namespace
 
-Image render_gl(const Picture& picture, const GlContext&) {
+Image render_gl(const Picture& picture, const GlContext& context) {
+    context.make_current();
     return GlRenderer(picture).render();
 }
 

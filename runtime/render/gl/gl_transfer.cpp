@@ -125,7 +125,8 @@ void GlTransfer::use() const {
 }
 
 std::vector<glm::vec3> exit_radiance_gl(const ClusteredTransfer& transfer, const Lighting& lighting,
-                                        const GlContext&) {
+                                        const GlContext& context) {
+    context.make_current();
     GlTransfer on_gpu(transfer);
     on_gpu.set_light(lighting);
     const GlObject program = make_program("scene.vert", "scene.frag", on_gpu.defines(), "radiance");

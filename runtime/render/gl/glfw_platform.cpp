@@ -17,6 +17,10 @@ public:
         glfwMakeContextCurrent(nullptr);
         glfwDestroyWindow(window_);
     }
+    bool make_current() override {
+        glfwMakeContextCurrent(window_);
+        return glfwGetCurrentContext() == window_;
+    }
 
 private:
     GLFWwindow* window_;

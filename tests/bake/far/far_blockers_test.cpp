@@ -189,10 +189,10 @@ TEST(FarBlockers, ChangeNothingWhereNothingIsDense) {
     const BakeResult without = bake(scene, options);
     options.tracer.far_distance = 2;
     const BakeResult with = bake(scene, options);
-    ASSERT_TRUE(with.statistics.far);
-    EXPECT_EQ(with.statistics.far->voxels, 0u);
-    EXPECT_EQ(with.statistics.far->error, 0);
-    EXPECT_EQ(without.statistics.far, std::nullopt);
+    ASSERT_TRUE(with.far);
+    EXPECT_EQ(with.far->voxels, 0u);
+    EXPECT_EQ(with.far->error, 0);
+    EXPECT_EQ(without.far, std::nullopt);
     ASSERT_EQ(with.baked.transfer.vectors.size(), without.baked.transfer.vectors.size());
     for (std::size_t i = 0; i < with.baked.transfer.vectors.size(); ++i)
         ASSERT_NEAR(with.baked.transfer.vectors[i], without.baked.transfer.vectors[i], 1e-6f);
@@ -243,7 +243,7 @@ TEST(FarBlockers, AFurnaceStaysAFurnace) {
     options.tracer.backend = Backend::cpu;
     options.tracer.far_distance = 4;
     const BakeResult baked = bake(scene, options);
-    ASSERT_GT(baked.statistics.far->voxels, 10u);
+    ASSERT_GT(baked.far->voxels, 10u);
     const Transfer& transfer = baked.baked.transfer;
     for (std::size_t r = 0; r < transfer.receivers(); ++r) {
         double light = 0;

@@ -281,7 +281,9 @@ TEST_P(VolumeLanguages, FindWhatCppFinds) {
             RecordProperty((format == VolumeFormat::rgba32 ? "floats_" : "halves_") + std::to_string(order),
                            std::to_string(1e9f * largest));
             // Half floats, and filters whose shares of a cell may have eight bits.
-            EXPECT_LT(largest, format == VolumeFormat::rgba32 ? 1e-5f : 1e-2f) << order;
+            EXPECT_LT(largest,
+                      format == VolumeFormat::rgba32 ? test::rounding_tolerance() : test::filter_tolerance())
+                << order;
         }
     }
 }
@@ -294,7 +296,7 @@ TEST_P(VolumeLanguages, FilterCellsThatAllProbesSee) {
     bind_textures_of(volume, VolumeFormat::rgba16);
     EXPECT_LT(largest_difference(found_by_cpp(volume, places),
                                  found_by_shader(volume, VolumeFormat::rgba16, GetParam(), places)),
-              1e-2f);
+              test::filter_tolerance());
 }
 
 class VolumePass : public testing::TestWithParam<std::tuple<int, bool>> {};
@@ -328,7 +330,7 @@ TEST_P(VolumePass, FormsWhatCppForms) {
         const std::vector<Place> places = places_in(volume.grid, random);
         EXPECT_LT(largest_difference(found_by_cpp(volume, places),
                                      found_by_shader(volume, format, ShaderLanguage::glsl450, places)),
-                  1e-5f);
+                  test::rounding_tolerance());
     }
 }
 

@@ -141,6 +141,18 @@ EsContext::~EsContext() {
     eglBindAPI(EGL_OPENGL_API);
 }
 
+bool device_is_exact() {
+    return std::strstr(reinterpret_cast<const char*>(glGetString(GL_RENDERER)), "llvmpipe") != nullptr;
+}
+
+float rounding_tolerance() {
+    return device_is_exact() ? 1e-5f : 1e-4f;
+}
+
+float filter_tolerance() {
+    return device_is_exact() ? 1e-2f : 3 * 4 / 512.0f;
+}
+
 GLuint compiled(GLenum stage, const std::string& source) {
     const GLuint shader = glCreateShader(stage);
     const char* text = source.c_str();

@@ -29,6 +29,16 @@ private:
     bool current_ = false;
 };
 
+/// Whether the device of the current context filters textures, divides and takes roots as C++ does: Mesa's
+/// software does.
+bool device_is_exact();
+/// Of radiance against C++. GLSL lets divisions and inverse roots be off by 2.5 and 2 units; by small sums of
+/// weights, as where few probes see a place, they count a hundred times: 7e-5 on an NVIDIA H200.
+float rounding_tolerance();
+/// Of what textures filter. OpenGL lets shares of a texel have 8 bits: each of three axes is off by 1/512 of
+/// how far neighbours differ, which is up to four times the mean in random volumes.
+float filter_tolerance();
+
 /// A shader object. A test in which it does not compile fails.
 GLuint compiled(GLenum stage, const std::string& source);
 

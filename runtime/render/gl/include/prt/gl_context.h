@@ -12,7 +12,7 @@ enum class GlDevice {
 
 /// An OpenGL 4.5 core context without window or display, through EGL: a hardware device by enumeration
 /// (EGL_EXT_platform_device), else Mesa's surfaceless platform, else a software device; where EGL has none, a
-/// hidden window of GLFW. Current on the thread that made it, until it is destroyed.
+/// hidden window of GLFW. Current on the thread that made it, until another is or it is destroyed.
 class GlContext {
 public:
     /// Null when there is no such device; `why` then says what was tried.
@@ -23,6 +23,9 @@ public:
 
     const std::string& renderer() const { return renderer_; } ///< as the driver names it
     bool is_software() const;
+    /// On this thread, where something else may have been: a driver's own work, or another context. What
+    /// draws with a context does it. Throws `Error` where the context is lost.
+    void make_current() const;
 
 private:
     GlContext() = default;
