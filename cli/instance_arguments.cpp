@@ -76,7 +76,7 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         ->check(real_in(0, 1e9));
     command
         ->add_option("--instance-samples", arguments.bake.samples,
-                     "vertices of each instance that are traced where it stands, with a quarter of the rays")
+                     "vertices of each instance that are traced where it stands, with an eighth of the rays")
         ->capture_default_str()
         ->check(CLI::Range(8, 1 << 20));
 }

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 
@@ -13,6 +14,8 @@ namespace {
 
 /// Fewer are traced as quickly as voxels are crossed.
 constexpr std::size_t kLeastTriangles = 64;
+/// Of the distance. What is flatter is a wall, which voxels would let light through.
+constexpr float kLeastWidth = 1.0f / 16;
 
 struct Extent {
     glm::vec3 low{std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::lowest()};
@@ -46,7 +49,9 @@ DenseParts find_dense_parts(const Scene& scene, float distance) {
     DenseParts dense;
     Extent all;
     const auto is_dense = [&](const Extent& node) {
-        return node.triangles >= kLeastTriangles && glm::distance(node.low, node.high) <= distance;
+        const glm::vec3 sides = node.high - node.low;
+        return node.triangles >= kLeastTriangles && glm::length(sides) <= distance &&
+               std::min({sides.x, sides.y, sides.z}) > kLeastWidth * distance;
     };
     for (const auto& [index, node] : nodes)
         if (is_dense(node)) {

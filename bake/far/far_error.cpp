@@ -12,7 +12,7 @@
 namespace prt {
 namespace {
 
-constexpr std::size_t kReceivers = 256;
+constexpr int kReceivers = 256;
 constexpr int kRays = 4096; ///< relative L2 of their noise: some tenths of a percent
 
 std::vector<float> trace_all(Tracer& tracer, const Receivers& receivers,
@@ -20,6 +20,21 @@ std::vector<float> trace_all(Tracer& tracer, const Receivers& receivers,
     std::vector<float> vectors(indices.size() * static_cast<std::size_t>(coefficient_count(options.order)));
     tracer.trace(receivers, indices, options, vectors);
     return vectors;
+}
+
+/// So many of `indices` that each stands for as much area.
+std::vector<std::uint32_t> even_shares(const Receivers& receivers, std::span<const std::uint32_t> indices) {
+    double area = 0;
+    for (const std::uint32_t r : indices)
+        area += static_cast<double>(receivers.areas[r]);
+    std::vector<std::uint32_t> some;
+    double passed = 0;
+    for (const std::uint32_t r : indices) {
+        passed += static_cast<double>(receivers.areas[r]);
+        while (area > 0 && static_cast<double>(some.size()) + 0.5 < passed / area * kReceivers)
+            some.push_back(r); // large ones several times
+    }
+    return some;
 }
 
 } // namespace
@@ -30,22 +45,22 @@ std::optional<FarBlockerFigures> far_figures(Tracer& tracer, const TraceScene& s
     if (!tracer.far_blockers())
         return std::nullopt;
     FarBlockerFigures figures = tracer.far_blockers()->figures();
-    std::vector<std::uint32_t> some;
-    const std::size_t count = std::min(kReceivers, indices.size());
-    for (std::size_t i = 0; i < count; ++i)
-        some.push_back(indices[i * indices.size() / count]);
+    const std::vector<std::uint32_t> some = even_shares(receivers, indices);
     const TraceOptions options{.order = order, .rays = kRays};
     EmbreeTracer by_triangles(scene);
     const std::vector<float> exact = trace_all(by_triangles, receivers, some, options),
                              with_voxels = trace_all(tracer, receivers, some, options);
-    const std::size_t dimension = exact.size() / std::max<std::size_t>(1, some.size());
-    double error = 0, norm = 0;
+    // Where no light arrives, what voxels let through is over a hundredth of the light of the open.
+    std::vector<double> open(static_cast<std::size_t>(coefficient_count(order)));
+    clamped_cosine_lobe(order, glm::dvec3(0, 0, 1), open);
+    double error = 0, norm = 0, least = 0;
+    for (const double value : open)
+        least += 1e-4 * value * value * static_cast<double>(some.size());
     for (std::size_t i = 0; i < exact.size(); ++i) {
-        const auto area = static_cast<double>(receivers.areas[some[i / dimension]]);
-        error += area * std::pow(static_cast<double>(with_voxels[i] - exact[i]), 2);
-        norm += area * std::pow(static_cast<double>(exact[i]), 2);
+        error += std::pow(static_cast<double>(with_voxels[i] - exact[i]), 2);
+        norm += std::pow(static_cast<double>(exact[i]), 2);
     }
-    figures.error = norm > 0 ? std::sqrt(error / norm) : 0;
+    figures.error = some.empty() ? 0 : std::sqrt(error / std::max(norm, least));
     return figures;
 }
 

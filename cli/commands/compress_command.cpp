@@ -258,11 +258,19 @@ Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& pat
     return bake;
 }
 
+/// Throws `Error` for instances that nobody could read: compressing copies what says where they are.
+void check_instances(const Path& path, const GltfOptions& reading, const Scene& stored) {
+    const GltfDocument document = load_gltf(path, reading);
+    read_instances(document, extract_scene(document), stored);
+}
+
 Bake load_bake(const Path& path, const GltfOptions& reading) {
     GltfOptions options = reading;
     options.instancing = Instancing::apart; // meshes once, as their transfer is stored
     GltfDocument document = load_gltf(path, options);
     const Scene scene = extract_scene(document);
+    if (holds_instances(document))
+        check_instances(path, reading, scene);
     std::optional<BakedVolume> volume = read_volume(document, scene);
     discard_volume(document);
     Bake bake = bake_of_surfaces(std::move(document), scene, path);

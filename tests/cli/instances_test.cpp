@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <numeric>
 
@@ -160,7 +161,11 @@ TEST_F(SharedInstances, NeighboursTakeLightFromEachOther) {
     const std::vector<FileInstance> instances = instances_of("shared.glb");
     ASSERT_EQ(instances.size(), 2u);
     // The box below is shadowed from above; the one above is not.
-    const auto above = [](const FileInstance& instance) { return instance.placed.factors.passing[0].w; };
+    const auto above = [](const FileInstance& instance) {
+        // The mean over the upper half, in the middle: of √4π Y_1-1 that is -√3 / 2, of band 2 nothing.
+        const auto& passing = instance.placed.factors.passing;
+        return passing[0].w - 0.5f * std::sqrt(3.0f) * passing[1].w;
+    };
     EXPECT_LT(above(instances[0]), 0.8f);
     EXPECT_GT(above(instances[1]), 0.8f);
 }
@@ -254,6 +259,9 @@ TEST_F(SharedInstances, DamagedFactorsAreRefused) {
         file.write(folder / "damaged.glb");
         const Outcome outcome = prt({"info", at("damaged.glb")});
         EXPECT_NE(outcome.err.find("damaged.glb: "), std::string::npos) << outcome.err;
+        // What compresses it does not pass the damage on.
+        EXPECT_EQ(prt({"compress", at("damaged.glb"), "-o", at("passed_on.glb")}).status, 1);
+        EXPECT_FALSE(std::filesystem::exists(folder / "passed_on.glb"));
         return outcome.status;
     };
     const char* const name = "PRTKIT_instances";
@@ -261,6 +269,8 @@ TEST_F(SharedInstances, DamagedFactorsAreRefused) {
     EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["factors"]["scales"].erase(3); }), 1);
     EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["factors"]["scales"][3] = -1; }), 1);
     EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["factors"]["scales"][3] = "1"; }), 1);
+    EXPECT_EQ(
+        damaged([&](auto& json) { json["extensions"][name]["boxes"] = nlohmann::ordered_json::array(); }), 1);
     EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["count"] = 3; }), 1);
     EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name]["count"] = 0; }), 1);
     EXPECT_EQ(damaged([&](auto& json) { json["extensions"][name].erase("factors"); }), 1);

@@ -61,6 +61,8 @@ StoredInstances read_stored(const GltfContents& contents) {
     const auto count = static_cast<std::size_t>(
         whole_number(extension.at("count"), "count of instances", 1, kMostSharedInstances));
     StoredInstances stored{decoded(read_factors(contents, extension.at("factors"), count)), {}};
+    if (extension.at("boxes").empty())
+        throw Error("its instances have no boxes");
     for (const Json& box : extension.at("boxes"))
         stored.boxes.push_back(read_box(box));
     return stored;

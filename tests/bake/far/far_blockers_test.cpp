@@ -177,6 +177,34 @@ TEST(FarBlockers, AreNodesThatAreSmallAndOfManyTriangles) {
     EXPECT_EQ(find_dense_parts(scene, 3).nodes.size(), 0u) << "too large for so near";
 }
 
+TEST(FarBlockers, AreNoWalls) {
+    Scene wall = test::SceneBuilder().floor({0, 0, 0}, 1, 8).build();
+    EXPECT_EQ(find_dense_parts(wall, 5).triangles, 0u);
+}
+
+TEST(FarBlockers, TellWhatTheyLetIntoTheDark) {
+    // A shut box of thick walls: balls of many triangles, side by side and larger than the gaps between them.
+    std::vector<Scene> parts = {test::SceneBuilder().floor({0, 0, 0}, 0.5f, 1).build()};
+    for (int i = 0; i < 200; ++i) { // on a sphere, by turns of the golden angle
+        const float z = 1 - (2 * static_cast<float>(i) + 1) / 200, turn = 2.39996f * static_cast<float>(i),
+                    ring = std::sqrt(1 - z * z);
+        parts.push_back(
+            test::SceneBuilder()
+                .sphere(8.0f * glm::vec3(ring * std::cos(turn), ring * std::sin(turn), z), 1.3f, 8)
+                .build());
+    }
+    Scene scene = test::join(parts);
+    for (std::size_t p = 0; p < scene.primitives.size(); ++p)
+        scene.primitives[p].node = static_cast<int>(p);
+    const TraceScene traced(scene);
+    const Receivers receivers = vertex_receivers(scene);
+    const std::vector<std::uint32_t> inside = {0, 1, 2, 3};
+    EmbreeTracer tracer(traced, 6);
+    const std::optional<FarBlockerFigures> figures = far_figures(tracer, traced, receivers, inside, 3);
+    ASSERT_GT(figures->voxels, 100u);
+    EXPECT_GT(figures->error, 0.1) << "no light arrives, so that any is wrong";
+}
+
 TEST(FarBlockers, ChangeNothingWhereNothingIsDense) {
     const Scene scene =
         test::join({test::SceneBuilder().floor({0, 0, 0}, 8, 4).build(),
