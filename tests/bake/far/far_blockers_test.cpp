@@ -44,7 +44,7 @@ Scene leaves(int count, float area, const glm::vec3& low, const glm::vec3& high,
 }
 
 DenseParts all_dense(const Scene& scene) {
-    return find_dense_parts(scene, 1e6f);
+    return find_dense_parts(scene, 8);
 }
 
 TEST(Extinction, IsBandsZeroAndTwoOfFlatPieces) {
