@@ -133,7 +133,7 @@ struct BakeStatistics {
     double rounding_error = 0;   ///< relative L2 of storing float16
     double remaining_energy = 0; ///< of the bounces that were not done, over the largest transfer
     Lamps lamps;
-    Gather gather; ///< the operator of the bounces
+    Gather gather;                    ///< the operator of the bounces
     std::vector<std::string> notices; ///< what was left out or repaired, and why, a line each
 
     /// All rays over all time.
