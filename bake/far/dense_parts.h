@@ -15,8 +15,8 @@ struct DenseParts {
     Bounds all{}; ///< box round all of them
 };
 
-/// Primitives of nodes whose box has a diagonal of at most `distance` and that have so many triangles that
-/// it is worth it.
+/// Primitives of nodes whose box has a diagonal of at most `distance` and is not flat as a wall's, and that
+/// have so many triangles that it is worth it.
 DenseParts find_dense_parts(const Scene& scene, float distance);
 
 } // namespace prt
