@@ -41,7 +41,7 @@ Outcome prt(const std::vector<std::string>& arguments) {
     const auto uses = [&](const char* word) {
         return std::find(arguments.begin(), arguments.end(), word) != arguments.end();
     };
-    if (!uses("gpu") && !uses("bench"))
+    if (!uses("gpu") && !uses("--gpu") && !uses("bench"))
         return run(PRT_PROGRAM, arguments);
     // As for the test programs that use OpenGL: the driver's leaks cannot be told from ours.
     std::vector<std::string> with_environment = {"ASAN_OPTIONS=detect_leaks=0", PRT_PROGRAM};
