@@ -1,5 +1,6 @@
 // Fits the modes of an instance to samples. Unknowns: of each passing mode its row (x, y, z, 1), then of each
-// added mode a number per channel.
+// added mode a number per channel. Products of the samples' light with modes are taken before those with
+// places.
 
 #include "instances/instance_fit.h"
 
@@ -40,41 +41,72 @@ std::vector<Light> soft_skies(int order, const glm::dvec3& up) {
 } // namespace
 
 InstanceFit::InstanceFit(const SharedTransfer& shared, const InstanceSamples& samples, const glm::dvec3& up)
-    : samples_(samples.receivers.size()) {
+    : samples_(samples) {
     const TransferLayout& layout = shared.layout();
     const auto count = static_cast<Eigen::Index>(shared.level().size());
-    const auto dimension = static_cast<Eigen::Index>(layout.dimension());
     added_ = layout.parts.back().kind != PartKind::direct;
     channels_ = layout.parts.back().channels;
-    const Eigen::Index unknowns =
-        kPassingUnknowns + (added_ ? static_cast<Eigen::Index>(kAddedModes) * channels_ : 0);
-    weights_.resize(dimension);
-    for (Eigen::Index i = 0; i < dimension; ++i)
-        weights_[i] = band_weight(static_cast<std::size_t>(i % count));
-    columns_ = Eigen::MatrixXf::Zero(static_cast<Eigen::Index>(samples_) * dimension, unknowns);
-    for (std::size_t s = 0; s < samples_; ++s) {
-        const std::size_t receiver = samples.receivers[s];
-        auto rows = columns_.middleRows(static_cast<Eigen::Index>(s) * dimension, dimension);
-        const glm::vec4 place(samples.places[s], 1);
-        for (std::size_t m = 0; m < kPassingModes; ++m) {
-            const Eigen::Map<const Eigen::VectorXf> mode(shared.passing(receiver, m).data(), dimension);
-            for (int a = 0; a < 4; ++a)
-                rows.col(static_cast<Eigen::Index>(4 * m) + a) = place[a] * mode.cwiseProduct(weights_);
-        }
-        for (Eigen::Index c = 0; added_ && c < channels_; ++c)
-            for (std::size_t k = 0; k < kAddedModes; ++k)
-                for (Eigen::Index i = 0; i < count; ++i) {
-                    const Eigen::Index row = dimension - (channels_ - c) * count + i;
-                    rows(row, kPassingUnknowns + static_cast<Eigen::Index>(k) * channels_ + c) =
-                        weights_[row] * shared.responses(receiver)[k][static_cast<int>(c)] *
-                        shared.level()[static_cast<std::size_t>(i)];
-                }
+    open_ = Eigen::VectorXd::Zero(kPassingUnknowns +
+                                  (added_ ? static_cast<Eigen::Index>(kAddedModes) * channels_ : 0));
+    open_ = unknowns_of(open_factors());
+    weights_.resize(static_cast<Eigen::Index>(layout.dimension()));
+    for (Eigen::Index i = 0; i < dimension(); ++i) {
+        const float weight = band_weight(static_cast<std::size_t>(i % count));
+        weights_[i] = weight * weight;
     }
-    normal_ = (columns_.transpose() * columns_).cast<double>();
-    open_ = Eigen::VectorXd::Zero(unknowns);
-    open_[3] = open_[kPassingUnknowns - 1] = 1;
+    level_ = Eigen::MatrixXf::Zero(dimension(), channels_);
+    for (Eigen::Index c = 0; c < channels_; ++c)
+        for (Eigen::Index i = 0; i < count; ++i) {
+            const Eigen::Index row = dimension() - (channels_ - c) * count + i;
+            level_(row, c) = weights_[row] * shared.level()[static_cast<std::size_t>(i)];
+        }
+    find_skies(layout, up);
+    const auto all = static_cast<Eigen::Index>(samples_.receivers.size());
+    constexpr auto kModes = static_cast<Eigen::Index>(kPassingModes);
+    modes_.resize(dimension(), all * kModes);
+    seen_.resize(all * skies_.cols(), open_.size());
+    normal_ = Eigen::MatrixXd::Zero(open_.size(), open_.size());
+    for (Eigen::Index s = 0; s < all; ++s) {
+        const auto sample = static_cast<std::size_t>(s);
+        const float area = samples_.areas[sample];
+        for (Eigen::Index m = 0; m < kModes; ++m) {
+            const std::span<const float> mode =
+                shared.passing(samples_.receivers[sample], static_cast<std::size_t>(m));
+            modes_.col(s * kModes + m) =
+                area * weights_.cwiseProduct(Eigen::Map<const Eigen::VectorXf>(mode.data(), dimension()));
+        }
+        responses_.push_back(shared.responses(samples_.receivers[sample]));
+        const Eigen::MatrixXf columns = columns_of(shared, sample);
+        seen_.middleRows(s * skies_.cols(), skies_.cols()) = skies_.transpose() * columns;
+        normals_.emplace_back(area * (columns.transpose() * weights_.asDiagonal() * columns));
+        normal_ += normals_.back().cast<double>();
+    }
+}
+
+/// What each unknown gives a sample, [dimension][unknowns].
+Eigen::MatrixXf InstanceFit::columns_of(const SharedTransfer& shared, std::size_t sample) const {
+    const std::size_t receiver = samples_.receivers[sample];
+    const glm::vec4 place(samples_.places[sample], 1);
+    Eigen::MatrixXf columns = Eigen::MatrixXf::Zero(dimension(), open_.size());
+    for (std::size_t m = 0; m < kPassingModes; ++m) {
+        const Eigen::Map<const Eigen::VectorXf> mode(shared.passing(receiver, m).data(), dimension());
+        for (int a = 0; a < 4; ++a)
+            columns.col(static_cast<Eigen::Index>(4 * m) + a) = place[a] * mode;
+    }
+    const auto count = static_cast<Eigen::Index>(shared.level().size());
+    const Eigen::Map<const Eigen::VectorXf> level(shared.level().data(), count);
+    for (Eigen::Index c = 0; added_ && c < channels_; ++c)
+        for (std::size_t k = 0; k < kAddedModes; ++k)
+            columns.col(kPassingUnknowns + static_cast<Eigen::Index>(k) * channels_ + c)
+                .segment(dimension() - (channels_ - c) * count, count) =
+                shared.responses(receiver)[k][static_cast<int>(c)] * level;
+    return columns;
+}
+
+void InstanceFit::find_skies(const TransferLayout& layout, const glm::dvec3& up) {
     const std::vector<Light> lights = soft_skies(layout.order, up);
-    skies_ = Eigen::MatrixXf::Zero(dimension, static_cast<Eigen::Index>(3 * lights.size()));
+    const auto count = static_cast<Eigen::Index>(lights.front().coefficients.size());
+    skies_ = Eigen::MatrixXf::Zero(dimension(), static_cast<Eigen::Index>(3 * lights.size()));
     for (std::size_t l = 0; l < lights.size(); ++l) {
         Eigen::Index first = 0;
         for (const TransferPart& part : layout.parts)
@@ -82,60 +114,91 @@ InstanceFit::InstanceFit(const SharedTransfer& shared, const InstanceSamples& sa
                 for (int color = part.channels == 1 ? 0 : c; color <= (part.channels == 1 ? 2 : c); ++color)
                     for (Eigen::Index i = 0; i < count; ++i)
                         skies_(first + i, static_cast<Eigen::Index>(3 * l) + color) =
-                            lights[l].coefficients[static_cast<std::size_t>(i)].x / weights_[first + i];
+                            lights[l].coefficients[static_cast<std::size_t>(i)].x;
     }
 }
 
-InstanceFit::Fitted InstanceFit::fit(const Targets& targets) const {
-    const auto dimension = weights_.size();
+Eigen::VectorXd InstanceFit::unknowns_of(const InstanceFactors& factors) const {
+    Eigen::VectorXd unknowns(open_.size());
+    for (std::size_t m = 0; m < kPassingModes; ++m)
+        for (int a = 0; a < 4; ++a)
+            unknowns[static_cast<Eigen::Index>(4 * m) + a] = static_cast<double>(factors.passing[m][a]);
+    for (std::size_t k = 0; added_ && k < kAddedModes; ++k)
+        for (int c = 0; c < channels_; ++c)
+            unknowns[kPassingUnknowns + static_cast<Eigen::Index>(k) * channels_ + c] =
+                static_cast<double>(factors.added[k][c]);
+    return unknowns;
+}
+
+InstanceFactors InstanceFit::factors_of_unknowns(const Eigen::VectorXd& unknowns) const {
+    InstanceFactors factors;
+    for (std::size_t m = 0; m < kPassingModes; ++m)
+        for (int a = 0; a < 4; ++a)
+            factors.passing[m][a] = static_cast<float>(unknowns[static_cast<Eigen::Index>(4 * m) + a]);
+    for (std::size_t k = 0; added_ && k < kAddedModes; ++k)
+        for (int c = 0; c < 3; ++c)
+            factors.added[k][c] =
+                static_cast<float>(unknowns[kPassingUnknowns + static_cast<Eigen::Index>(k) * channels_ +
+                                            (channels_ == 1 ? 0 : c)]);
+    return factors;
+}
+
+InstanceFactors InstanceFit::fit(const Targets& targets) const {
+    constexpr auto kModes = static_cast<Eigen::Index>(kPassingModes);
+    const auto size = static_cast<std::size_t>(dimension());
     Eigen::MatrixXd normal = normal_;
-    Eigen::VectorXd right = Eigen::VectorXd::Zero(normal.rows());
-    for (std::size_t s = 0; s < samples_; ++s) {
-        const auto first = static_cast<Eigen::Index>(s) * dimension;
-        const auto rows = columns_.middleRows(first, dimension);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(open_.size());
+    for (std::size_t s = 0; s < samples_.receivers.size(); ++s) {
         if (targets.left_out[s]) {
-            normal -= (rows.transpose() * rows).cast<double>();
+            normal -= normals_[s].cast<double>();
             continue;
         }
-        const Eigen::Map<const Eigen::VectorXf> a(&targets.first[static_cast<std::size_t>(first)], dimension),
-            b(&targets.second[static_cast<std::size_t>(first)], dimension);
-        right += (rows.transpose() * (0.5f * (a + b)).cwiseProduct(weights_)).cast<double>();
+        const auto sample = static_cast<Eigen::Index>(s);
+        const Eigen::Map<const Eigen::VectorXf> light(&targets.light[s * size], dimension());
+        const Eigen::VectorXf passing = modes_.middleCols(sample * kModes, kModes).transpose() * light;
+        const glm::vec4 place(samples_.places[s], 1);
+        for (Eigen::Index m = 0; m < kModes; ++m)
+            for (int a = 0; a < 4; ++a)
+                right[4 * m + a] += static_cast<double>(place[a] * passing[m]);
+        if (!added_)
+            continue;
+        const Eigen::VectorXf added = samples_.areas[s] * (level_.transpose() * light);
+        for (std::size_t k = 0; k < kAddedModes; ++k)
+            for (Eigen::Index c = 0; c < channels_; ++c)
+                right[kPassingUnknowns + static_cast<Eigen::Index>(k) * channels_ + c] +=
+                    static_cast<double>(responses_[s][k][static_cast<int>(c)] * added[c]);
     }
     const double ridge = kRidge * normal_.trace() / static_cast<double>(normal.rows()) + 1e-30;
     normal.diagonal().array() += ridge;
     right += ridge * open_;
-    const Eigen::VectorXd solution = normal.ldlt().solve(right);
-    Fitted fitted;
-    for (std::size_t m = 0; m < kPassingModes; ++m)
-        for (int a = 0; a < 4; ++a)
-            fitted.factors.passing[m][a] = static_cast<float>(solution[static_cast<Eigen::Index>(4 * m) + a]);
-    for (std::size_t k = 0; added_ && k < kAddedModes; ++k)
-        for (int c = 0; c < 3; ++c)
-            fitted.factors.added[k][c] =
-                static_cast<float>(solution[kPassingUnknowns + static_cast<Eigen::Index>(k) * channels_ +
-                                            (channels_ == 1 ? 0 : c)]);
-    fitted.error = error(targets, solution);
-    return fitted;
+    return factors_of_unknowns(normal.ldlt().solve(right));
 }
 
-double InstanceFit::error(const Targets& targets, const Eigen::VectorXd& solution) const {
-    const auto dimension = weights_.size();
-    const Eigen::VectorXf modelled = columns_ * solution.cast<float>();
-    double wrong = 0, noise = 0, all = 0;
-    for (std::size_t s = 0; s < samples_; ++s) {
+double InstanceFit::error(const Targets& targets, const Noise& noise, const InstanceFactors& factors) const {
+    const auto size = static_cast<std::size_t>(dimension());
+    const Eigen::VectorXf modelled = seen_ * unknowns_of(factors).cast<float>();
+    double wrong = 0, all = 0, area = 0;
+    for (std::size_t s = 0; s < samples_.receivers.size(); ++s) {
         if (targets.left_out[s])
             continue;
-        const auto first = static_cast<Eigen::Index>(s) * dimension;
-        const Eigen::Map<const Eigen::VectorXf> a(&targets.first[static_cast<std::size_t>(first)], dimension),
-            b(&targets.second[static_cast<std::size_t>(first)], dimension);
-        const Eigen::VectorXf mean = (0.5f * (a + b)).cwiseProduct(weights_),
-                              half = (0.5f * (a - b)).cwiseProduct(weights_);
-        wrong += static_cast<double>(
-            (skies_.transpose() * (mean - modelled.segment(first, dimension))).squaredNorm());
-        noise += static_cast<double>((skies_.transpose() * half).squaredNorm());
-        all += static_cast<double>((skies_.transpose() * mean).squaredNorm());
+        const Eigen::VectorXf seen =
+            skies_.transpose() * Eigen::Map<const Eigen::VectorXf>(&targets.light[s * size], dimension());
+        const auto of_sample = modelled.segment(static_cast<Eigen::Index>(s) * skies_.cols(), skies_.cols());
+        const auto share = static_cast<double>(samples_.areas[s]);
+        wrong += share * static_cast<double>((seen - of_sample).squaredNorm());
+        all += share * static_cast<double>(seen.squaredNorm());
+        area += share;
     }
-    return all > 0 ? std::sqrt(std::max(0.0, wrong - noise) / all) : 0;
+    double noisy = 0, noisy_area = 0;
+    for (std::size_t s = noise.first, n = 0; s < samples_.receivers.size(); s += kSamplesToOfNoise, ++n) {
+        if (targets.left_out[s])
+            continue;
+        const Eigen::Map<const Eigen::VectorXf> half(&noise.differences[n * size], dimension());
+        noisy += static_cast<double>(samples_.areas[s] * (skies_.transpose() * half).squaredNorm());
+        noisy_area += static_cast<double>(samples_.areas[s]);
+    }
+    noisy *= noisy_area > 0 ? area / noisy_area : 0;
+    return all > 0 ? std::sqrt(std::max(0.0, wrong - noisy) / all) : 0;
 }
 
 } // namespace prt

@@ -6,17 +6,23 @@
 
 #include <Eigen/Dense>
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 namespace prt {
 
-/// Samples of a mesh: receivers of it, and where they lie in its box.
+/// Samples of a mesh: receivers of it, where they lie in its box, and the area that each stands for, 1 in the
+/// mean.
 struct InstanceSamples {
     std::vector<std::uint32_t> receivers;
     std::vector<glm::vec3> places;
+    std::vector<float> areas;
 };
+
+/// Of every so many samples, by their number among those of all instances, one tells the noise of its rays.
+inline constexpr std::size_t kSamplesToOfNoise = 4;
 
 /// The least-squares problem of the instances of a mesh that see the world's up alike (docs/math.md, section
 /// 22). Immutable, thread-safe.
@@ -25,30 +31,44 @@ public:
     /// Copies what it needs. `up` as `shared` was made with.
     InstanceFit(const SharedTransfer& shared, const InstanceSamples& samples, const glm::dvec3& up);
 
-    /// Vectors of the samples in the mesh's frame, [samples][dimension], by two independent halves of their
-    /// rays; of those that are `left_out` [samples] nothing is asked.
+    /// What the samples of an instance get, in the mesh's frame.
     struct Targets {
-        std::span<const float> first, second;
-        const std::vector<bool>& left_out;
+        std::span<const float> light;      ///< [samples][dimension]
+        const std::vector<bool>& left_out; ///< [samples] of which nothing is asked
     };
-    struct Fitted {
-        InstanceFactors factors; ///< in axes of the mesh
-        double error = 0;        ///< as InstanceBake::errors
+    /// Factors in axes of the mesh.
+    InstanceFactors fit(const Targets& targets) const;
+
+    /// Half of what two halves of the rays of every so many samples differ by, [some of the
+    /// samples][dimension].
+    struct Noise {
+        std::span<const float> differences;
+        std::size_t first; ///< the sample of the first; those of the others follow, kSamplesToOfNoise apart
     };
-    Fitted fit(const Targets& targets) const;
+    /// As InstanceBake::errors, for factors in axes of the mesh.
+    double error(const Targets& targets, const Noise& noise, const InstanceFactors& factors) const;
 
 private:
-    std::size_t rows_of_sample() const { return static_cast<std::size_t>(weights_.size()); }
-    double error(const Targets& targets, const Eigen::VectorXd& solution) const;
+    Eigen::Index dimension() const { return weights_.size(); }
+    void find_skies(const TransferLayout& layout, const glm::dvec3& up);
+    Eigen::MatrixXf columns_of(const SharedTransfer& shared, std::size_t sample) const;
+    Eigen::VectorXd unknowns_of(const InstanceFactors& factors) const;
+    InstanceFactors factors_of_unknowns(const Eigen::VectorXd& unknowns) const;
 
     bool added_ = false; ///< there is a part for it
     int channels_ = 1;   ///< of that part
-    std::size_t samples_ = 0;
-    Eigen::VectorXf weights_; ///< [dimension] of the metric
-    Eigen::MatrixXf columns_; ///< [samples · dimension][unknowns], weighted
-    Eigen::MatrixXd normal_;
-    Eigen::VectorXd open_;  ///< the unknowns of open_factors()
-    Eigen::MatrixXf skies_; ///< [dimension][skies · colors]: light of the five skies, over the weights
+    InstanceSamples samples_;
+    Eigen::VectorXf weights_; ///< [dimension] of the metric, squared
+    // Columns of a passing mode are the mode times a place's numbers, those of an added one the level times a
+    // response's.
+    Eigen::MatrixXf modes_; ///< [dimension][samples · passing modes]: weighted, by area too
+    Eigen::MatrixXf level_; ///< [dimension][channels]: weighted
+    std::vector<std::array<glm::vec3, kAddedModes>> responses_; ///< [samples]
+    std::vector<Eigen::MatrixXf> normals_;                      ///< [samples]
+    Eigen::MatrixXd normal_;                                    ///< their sum
+    Eigen::VectorXd open_;                                      ///< the unknowns of open_factors()
+    Eigen::MatrixXf skies_;                                     ///< [dimension][skies · colors]
+    Eigen::MatrixXf seen_; ///< [samples · skies · colors][unknowns]: radiance
 };
 
 } // namespace prt

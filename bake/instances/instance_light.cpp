@@ -3,8 +3,6 @@
 
 #include "instances/instance_light.h"
 
-#include "instances/uniform_bound.h"
-
 #include "prt/sh_rotation.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
@@ -15,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <numeric>
@@ -27,7 +26,7 @@ constexpr int kMostEndless = 200;     ///< bounces, where they are endless
 constexpr double kLeastChange = 1e-4; ///< of the light of what is drawn once, where they end
 constexpr int kSampleHitStride = 8;   ///< as kHitStride; samples are many for each factor
 
-/// A vector of several channels, turned.
+/// A vector of one or several channels, turned.
 void turn_all(const ShRotation& turn, std::size_t count, std::span<const float> from, std::span<float> to) {
     for (std::size_t first = 0; first < from.size(); first += count)
         turn.apply(from.subspan(first, count), to.subspan(first, count));
@@ -42,15 +41,19 @@ InstanceLight::InstanceLight(const BakePlan& plan, Tracer& tracer, const std::ve
                stride = count * static_cast<std::size_t>(plan.channels);
     sizes_ = {count, stride, plan.bounces != 0 ? count + stride : count};
     own_.direct.resize(receivers_.own.size() * sizes_.count);
-    samples_.left_out.resize(receivers_.sampled.size());
+    const std::size_t samples = receivers_.sampled.size(),
+                      noisy = (samples + kSamplesToOfNoise - 1) / kSamplesToOfNoise;
+    samples_.left_out.resize(samples);
     samples_.met.resize(receivers_.instances.size());
     result_.factors.assign(receivers_.instances.size(), open_factors());
     result_.errors.resize(receivers_.instances.size());
-    for (std::vector<float>& targets : samples_.targets)
-        targets.resize(receivers_.sampled.size() * sizes_.dimension);
+    samples_.light.resize(samples * sizes_.dimension);
+    samples_.differences.resize(noisy * sizes_.dimension);
+    for (const InstanceReceivers::Instance& instance : receivers_.instances)
+        samples_.into_mesh.emplace_back(plan.options.order, glm::transpose(instance.rotation));
     if (plan.bounces != 0) {
         bounce_.gather.emplace(plan.scene.surfaces(), *plan.transport,
-                               receivers_.own.size() + 2 * receivers_.sampled.size(), plan.channels);
+                               receivers_.own.size() + samples + noisy, plan.channels);
         own_.indirect.resize(receivers_.own.size() * sizes_.stride);
         own_.next.resize(own_.indirect.size());
         bounce_.exit.resize(plan.receivers().size() * sizes_.stride);
@@ -82,8 +85,7 @@ void InstanceLight::trace(const Progress& progress) {
                samples = static_cast<double>(receivers_.sampled.size()) * options_.rays;
     const double share = own / std::max(1.0, own + samples);
     trace_own(progress.part(0, share));
-    trace_samples(0, progress.part(share, 0.5 * (1 + share)));
-    trace_samples(1, progress.part(0.5 * (1 + share), 1));
+    trace_samples(progress.part(share, 1));
     find_sealed_in(progress);
 }
 
@@ -103,26 +105,36 @@ void InstanceLight::trace_own(const Progress& progress) {
     result_.rays += receivers_.own.size() * static_cast<std::size_t>(options.rays);
 }
 
-void InstanceLight::trace_samples(int half, const Progress& progress) {
-    const int rays = std::max(1, static_cast<int>(std::lround(0.5 * options_.rays * plan_.options.rays)));
+/// Some samples by two halves of their rays, which tell the noise; the others at once.
+void InstanceLight::trace_samples(const Progress& progress) {
+    std::vector<std::uint32_t> whole, halved;
+    for (std::size_t s = 0; s < receivers_.sampled.size(); ++s)
+        (s % kSamplesToOfNoise == 0 ? halved : whole).push_back(receivers_.sampled[s]);
+    const int half = std::max(1, static_cast<int>(std::lround(0.5 * options_.rays * plan_.options.rays)));
+    constexpr double kWhole = 1 - 1.0 / kSamplesToOfNoise, kHalves = 0.5 * (1 + kWhole);
+    trace_samples(whole, 2 * half, false, progress.part(0, kWhole));
+    trace_samples(halved, half, false, progress.part(kWhole, kHalves));
+    trace_samples(halved, half, true, progress.part(kHalves, 1));
+}
+
+void InstanceLight::trace_samples(std::span<const std::uint32_t> receivers, int rays, bool second_half,
+                                  const Progress& progress) {
     // Whoever stands alone is seen by every ray; light that comes from surfaces needs fewer.
     const TraceOptions options{.order = plan_.options.order,
                                .rays = rays,
-                               .seed = plan_.options.seed + 1 + static_cast<std::uint64_t>(half),
+                               .seed = plan_.options.seed + (second_half ? 2 : 1),
                                .hit_stride = bounce_.gather ? kSampleHitStride : 1};
     const Surfaces& surfaces = plan_.scene.surfaces();
     const auto take = [&](std::uint32_t r, std::span<const float> vector) {
-        const std::size_t sample = receivers_.sample_of[r];
-        const auto& instance = receivers_.instances[receivers_.instance_of_sample(sample)];
-        const ShRotation back(options.order, glm::transpose(instance.rotation));
-        back.apply(vector,
-                   std::span(samples_.targets[half]).subspan(sample * sizes_.dimension, sizes_.count));
+        take_light(receivers_.sample_of[r], second_half, vector, 0);
     };
     const auto sink = [&](std::uint32_t r, std::span<const Hit> hits) {
         const std::size_t sample = receivers_.sample_of[r], i = receivers_.instance_of_sample(sample);
         if (bounce_.gather)
-            bounce_.gather->set_row(receivers_.own.size() + 2 * sample + static_cast<std::size_t>(half), hits,
-                                    rays);
+            bounce_.gather->set_row(
+                receivers_.own.size() +
+                    (second_half ? receivers_.sampled.size() + sample / kSamplesToOfNoise : sample),
+                hits, rays);
         const bool met = std::ranges::any_of(hits, [&](const Hit& hit) {
             return surfaces.scene().primitives[surfaces.primitive(hit.triangle)].node !=
                    receivers_.instances[i].node;
@@ -130,8 +142,26 @@ void InstanceLight::trace_samples(int half, const Progress& progress) {
         if (met)
             std::atomic_ref(samples_.met[i]).store(1, std::memory_order_relaxed);
     };
-    trace_receivers(tracer_, plan_.receivers(), receivers_.sampled, options, take, progress, sink);
-    result_.rays += receivers_.sampled.size() * static_cast<std::size_t>(rays);
+    trace_receivers(tracer_, plan_.receivers(), receivers, options, take, progress, sink);
+    result_.rays += receivers.size() * static_cast<std::size_t>(rays);
+}
+
+/// Takes light of a sample, turned into the frame of its mesh, from its vector's number `first` on.
+void InstanceLight::take_light(std::size_t sample, bool second_half, std::span<const float> light,
+                               std::size_t first) {
+    std::array<float, 3 * kMaxOrder * kMaxOrder> space;
+    const std::span<float> turned(space.data(), light.size());
+    turn_all(samples_.into_mesh[receivers_.instance_of_sample(sample)], sizes_.count, light, turned);
+    float* const whole = &samples_.light[sample * sizes_.dimension + first];
+    if (!second_half) {
+        std::ranges::copy(turned, whole);
+        return;
+    }
+    float* const differences = &samples_.differences[sample / kSamplesToOfNoise * sizes_.dimension + first];
+    for (std::size_t i = 0; i < turned.size(); ++i) {
+        differences[i] = 0.5f * (whole[i] - turned[i]);
+        whole[i] = 0.5f * (whole[i] + turned[i]);
+    }
 }
 
 void InstanceLight::find_sealed_in(const Progress& progress) {
@@ -140,7 +170,7 @@ void InstanceLight::find_sealed_in(const Progress& progress) {
         if (own_.direct[o * sizes_.count] <= 0)
             dark.push_back(receivers_.own[o]);
     for (std::size_t s = 0; s < receivers_.sampled.size(); ++s)
-        if (samples_.targets[0][s * sizes_.dimension] + samples_.targets[1][s * sizes_.dimension] <= 0)
+        if (samples_.light[s * sizes_.dimension] <= 0)
             dark.push_back(receivers_.sampled[s]);
     if (dark.empty())
         return;
@@ -197,34 +227,36 @@ void InstanceLight::bounce(const Progress& progress) {
     }
 }
 
-/// One bounce of all light: into the targets, and `own_.indirect`.
+/// One bounce of all light: to samples, and `own_.next`.
 void InstanceLight::gather_light() {
-    const int order = plan_.options.order, threads = plan_.options.threads;
-    const std::size_t own = receivers_.own.size(), rows = bounce_.gather->rows();
-    bounce_.gather->reflect(order, bounce_.exit, threads);
-    std::vector<float> block(std::min(kGatheredAtOnce, rows) * sizes_.stride);
-    for (std::size_t first = 0; first < rows; first += kGatheredAtOnce) {
-        const std::span<float> some(block.data(), std::min(kGatheredAtOnce, rows - first) * sizes_.stride);
-        bounce_.gather->apply(order, bounce_.exit, first, some, threads);
-        parallel_for(some.size() / sizes_.stride, 256, threads, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t row = begin; row < end; ++row) {
-                const std::span<const float> light = some.subspan(row * sizes_.stride, sizes_.stride);
-                if (const std::size_t r = first + row; r >= own)
-                    take_row((r - own) / 2, static_cast<int>((r - own) % 2), light);
-            }
-        });
-        // Later blocks still read what receivers gave before.
-        for (std::size_t row = 0; row < some.size() / sizes_.stride && first + row < own; ++row)
-            std::copy_n(&some[row * sizes_.stride], sizes_.stride, &own_.next[(first + row) * sizes_.stride]);
-    }
+    bounce_.gather->reflect(plan_.options.order, bounce_.exit, plan_.options.threads);
+    const std::size_t own = receivers_.own.size(), samples = receivers_.sampled.size();
+    gather_rows(0, own, [&](std::size_t o, std::span<const float> light) {
+        std::ranges::copy(light, &own_.next[o * sizes_.stride]);
+    });
+    gather_rows(own, samples, [&](std::size_t sample, std::span<const float> light) {
+        take_light(sample, false, light, sizes_.count);
+    });
+    gather_rows(own + samples, bounce_.gather->rows() - own - samples,
+                [&](std::size_t noisy, std::span<const float> light) {
+                    take_light(noisy * kSamplesToOfNoise, true, light, sizes_.count);
+                });
 }
 
-void InstanceLight::take_row(std::size_t sample, int half, std::span<const float> row) {
-    const auto& instance = receivers_.instances[receivers_.instance_of_sample(sample)];
-    const ShRotation back(plan_.options.order, glm::transpose(instance.rotation));
-    turn_all(
-        back, sizes_.count, row,
-        std::span(samples_.targets[half]).subspan(sample * sizes_.dimension + sizes_.count, sizes_.stride));
+/// Calls `take(row - first, its light)` from several threads.
+template <class Take>
+void InstanceLight::gather_rows(std::size_t first, std::size_t rows, const Take& take) {
+    std::vector<float> block(std::min(kGatheredAtOnce, rows) * sizes_.stride);
+    for (std::size_t done = 0; done < rows; done += kGatheredAtOnce) {
+        const std::span<float> some(block.data(), std::min(kGatheredAtOnce, rows - done) * sizes_.stride);
+        bounce_.gather->apply(plan_.options.order, bounce_.exit, first + done, some, plan_.options.threads);
+        parallel_for(some.size() / sizes_.stride, 256, plan_.options.threads,
+                     [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t row = begin; row < end; ++row)
+                             take(done + row,
+                                  std::span<const float>(some).subspan(row * sizes_.stride, sizes_.stride));
+                     });
+    }
 }
 
 /// Takes what was gathered for what is drawn once; returns how much of its light changed.
@@ -246,7 +278,7 @@ double InstanceLight::take_own() {
 }
 
 /// Fits all instances to what their samples get, their meshes after so many steps of bounces. `gives`: their
-/// light is wanted for another bounce.
+/// light is wanted for another bounce; otherwise their errors are.
 void InstanceLight::fit(std::size_t step, bool gives) {
     for (const Group& group : groups_) {
         const SharedTransfer shared(meshes_[group.mesh].after[step], group.up, plan_.options.threads);
@@ -255,31 +287,37 @@ void InstanceLight::fit(std::size_t step, bool gives) {
         for (std::size_t r = 0; r < shared.receivers(); ++r)
             places.push_back(meshes_[group.mesh].place_of(r));
         const UniformBound bound(shared, places);
-        parallel_for(
-            group.instances.size(), 1, plan_.options.threads, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t g = begin; g < end; ++g) {
-                    const std::size_t i = group.instances[g];
-                    const auto& instance = receivers_.instances[i];
-                    if (samples_.met[i]) {
-                        const std::size_t first = instance.first_sample, samples = receivers_.samples_of(i);
-                        const std::vector<bool> left_out(
-                            samples_.left_out.begin() + static_cast<std::ptrdiff_t>(first),
-                            samples_.left_out.begin() + static_cast<std::ptrdiff_t>(first + samples));
-                        const InstanceFit::Fitted fitted =
-                            fit.fit({std::span(samples_.targets[0])
-                                         .subspan(first * sizes_.dimension, samples * sizes_.dimension),
-                                     std::span(samples_.targets[1])
-                                         .subspan(first * sizes_.dimension, samples * sizes_.dimension),
-                                     left_out});
-                        result_.factors[i] =
-                            in_axes_of_world(bound.bounded(fitted.factors), instance.rotation);
-                        result_.errors[i] = fitted.error;
-                    }
-                    if (gives)
-                        expand(shared, i);
-                }
-            });
+        parallel_for(group.instances.size(), 1, plan_.options.threads,
+                     [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t g = begin; g < end; ++g) {
+                             const std::size_t i = group.instances[g];
+                             if (samples_.met[i])
+                                 fit_one(fit, bound, i, !gives);
+                             if (gives)
+                                 expand(shared, i);
+                         }
+                     });
     }
+}
+
+void InstanceLight::fit_one(const InstanceFit& fit, const UniformBound& bound, std::size_t instance,
+                            bool errors) {
+    const auto& placed = receivers_.instances[instance];
+    const std::size_t first = placed.first_sample, samples = receivers_.samples_of(instance);
+    const auto left_out = samples_.left_out.begin() + static_cast<std::ptrdiff_t>(first);
+    const std::vector<bool> none_asked(left_out, left_out + static_cast<std::ptrdiff_t>(samples));
+    const InstanceFit::Targets targets{
+        std::span(samples_.light).subspan(first * sizes_.dimension, samples * sizes_.dimension), none_asked};
+    const InstanceFactors factors = bound.bounded(fit.fit(targets));
+    result_.factors[instance] = in_axes_of_world(factors, placed.rotation);
+    if (!errors)
+        return;
+    const std::size_t noisy = (first + kSamplesToOfNoise - 1) / kSamplesToOfNoise;
+    result_.errors[instance] =
+        fit.error(targets,
+                  {std::span<const float>(samples_.differences).subspan(noisy * sizes_.dimension),
+                   noisy * kSamplesToOfNoise - first},
+                  factors);
 }
 
 /// Writes the light that an instance gives to all its receivers.

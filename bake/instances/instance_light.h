@@ -3,6 +3,8 @@
 // Light of a scene whose instances are known by samples.
 
 #include "instances/instance_receivers.h"
+#include "instances/uniform_bound.h"
+#include "prt/sh_rotation.h"
 #include "scene/refill.h"
 #include "transport/gather.h"
 
@@ -40,12 +42,17 @@ private:
     };
     void make_groups();
     void trace_own(const Progress& progress);
-    void trace_samples(int half, const Progress& progress);
+    void trace_samples(const Progress& progress);
+    void trace_samples(std::span<const std::uint32_t> receivers, int rays, bool second_half,
+                       const Progress& progress);
+    void take_light(std::size_t sample, bool second_half, std::span<const float> light, std::size_t first);
     void find_sealed_in(const Progress& progress);
-    void take_row(std::size_t sample, int half, std::span<const float> row);
     void gather_light();
+    template <class Take>
+    void gather_rows(std::size_t first, std::size_t rows, const Take& take);
     double take_own();
     void fit(std::size_t step, bool gives);
+    void fit_one(const InstanceFit& fit, const UniformBound& bound, std::size_t instance, bool errors);
     void expand(const SharedTransfer& shared, std::size_t instance);
     std::span<float> exit_of(std::size_t receiver) {
         return std::span(bounce_.exit).subspan(receiver * sizes_.stride, sizes_.stride);
@@ -59,13 +66,15 @@ private:
         std::vector<float> direct, indirect, next;
     };
     struct Samples {
-        std::vector<float> targets[2]; ///< by halves of the rays: [samples][dimension], in the mesh's frame
-        std::vector<bool> left_out;    ///< [samples] sealed in
-        std::vector<char> met;         ///< [instances] a ray met something else
+        std::vector<float> light;          ///< [samples][dimension], in the mesh's frame
+        std::vector<float> differences;    ///< of every so many samples, as InstanceFit::Noise
+        std::vector<bool> left_out;        ///< [samples] sealed in
+        std::vector<char> met;             ///< [instances] a ray met something else
+        std::vector<ShRotation> into_mesh; ///< [instances]
     };
     struct Bounce {
         Refill refill;
-        std::optional<GatherOperator> gather; ///< rows: own, then two for each sample
+        std::optional<GatherOperator> gather; ///< rows: own, samples, second halves of the noisy
         std::vector<float> exit;              ///< [receivers][stride] where light bounces
     };
     struct Result {

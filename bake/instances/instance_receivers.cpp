@@ -1,4 +1,4 @@
-// Chooses the samples of a mesh: one in each of equal shares of its area, in the order of its vertices.
+// Chooses the samples of a mesh: one for equal shares of its area, in the order of its vertices.
 
 #include "instances/instance_receivers.h"
 
@@ -20,24 +20,27 @@ InstanceSamples choose_samples(const SharedMeshBake& mesh, int most) {
             area += static_cast<double>(receivers.areas[r]);
         }
     InstanceSamples samples;
-    const auto add = [&](std::uint32_t r) {
-        samples.receivers.push_back(r);
-        samples.places.push_back(mesh.place_of(r));
-    };
-    if (lit.size() <= static_cast<std::size_t>(most)) {
-        std::ranges::for_each(lit, add);
-        return samples;
-    }
+    const bool all = lit.size() <= static_cast<std::size_t>(most);
     const double step = area / most;
     double next = 0.5 * step, passed = 0;
     for (const std::uint32_t r : lit) {
-        passed += static_cast<double>(receivers.areas[r]);
-        if (passed <= next)
+        const auto own = static_cast<double>(receivers.areas[r]);
+        passed += own;
+        if (!all && passed <= next)
             continue;
-        add(r);
-        while (next < passed)
-            next += step;
+        double stands_for = own;
+        if (!all)
+            for (stands_for = 0; next < passed; next += step)
+                stands_for += step;
+        samples.receivers.push_back(r);
+        samples.places.push_back(mesh.place_of(r));
+        samples.areas.push_back(static_cast<float>(stands_for));
     }
+    float sum = 0;
+    for (const float stands_for : samples.areas)
+        sum += stands_for;
+    for (float& stands_for : samples.areas)
+        stands_for *= static_cast<float>(samples.areas.size()) / sum;
     return samples;
 }
 
