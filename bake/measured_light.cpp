@@ -29,8 +29,9 @@ SealedIn find_sealed_in(const BakePlan& plan, Tracer& tracer, const Transfer& di
         if (sealed.receivers[p])
             found.receivers.push_back(p);
     if (!found.receivers.empty() && plan.options.repairs.inside == Inside::refill)
-        found.refill = Refill(MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts),
-                              sealed.receivers);
+        found.refill = Refill(
+            MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts, sealed.receivers),
+            sealed.receivers);
     return found;
 }
 

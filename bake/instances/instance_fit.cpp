@@ -21,10 +21,10 @@ constexpr Eigen::Index kPassingUnknowns = 4 * kPassingModes;
 /// matrix.
 constexpr double kRidge = 1e-4;
 
-/// Lighting that is less certain the finer it is, band by band: 1 / (l + 1).
+/// Skies have less light the finer it is: band l weighs 1 / sqrt(l + 1).
 float band_weight(std::size_t coefficient) {
     const auto band = static_cast<float>(std::floor(std::sqrt(static_cast<double>(coefficient))));
-    return 1 / (band + 1);
+    return 1 / std::sqrt(band + 1);
 }
 
 /// Overcast, and broad light from four sides, in a frame where `up` is.

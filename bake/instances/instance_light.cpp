@@ -22,9 +22,11 @@ namespace prt {
 namespace {
 
 constexpr std::size_t kGatheredAtOnce = 1 << 14;
-constexpr int kMostEndless = 200;     ///< bounces, where they are endless
-constexpr double kLeastChange = 1e-4; ///< of the light of what is drawn once, where they end
-constexpr int kSampleHitStride = 8;   ///< as kHitStride; samples are many for each factor
+constexpr std::size_t kExpandedAtOnce = 8; ///< instances, for each look at a vertex of their mesh
+constexpr int kMostEndless = 200;          ///< bounces, where they are endless
+constexpr double kLeastChange = 1e-4;      ///< of the light of what is drawn once, where they end
+constexpr int kSampleHitStride = 8;        ///< as kHitStride; samples are many for each factor
+constexpr int kProbesOfSamples = 128; ///< where one is sealed in, the others of its instance say its factors
 
 /// A vector of one or several channels, turned.
 void turn_all(const ShRotation& turn, std::size_t count, std::span<const float> from, std::span<float> to) {
@@ -165,29 +167,30 @@ void InstanceLight::take_light(std::size_t sample, bool second_half, std::span<c
 }
 
 void InstanceLight::find_sealed_in(const Progress& progress) {
+    const auto sealed_of = [&](std::vector<std::uint32_t> dark, int probes) {
+        if (dark.empty())
+            return std::vector<bool>();
+        Sealed sealed = find_sealed(tracer_, plan_.scene, plan_.receivers(), std::move(dark),
+                                    plan_.options.seed, progress.stop, probes);
+        result_.rays += sealed.rays;
+        return std::move(sealed.receivers);
+    };
     std::vector<std::uint32_t> dark;
-    for (std::size_t o = 0; o < receivers_.own.size(); ++o)
-        if (own_.direct[o * sizes_.count] <= 0)
-            dark.push_back(receivers_.own[o]);
     for (std::size_t s = 0; s < receivers_.sampled.size(); ++s)
         if (samples_.light[s * sizes_.dimension] <= 0)
             dark.push_back(receivers_.sampled[s]);
-    if (dark.empty())
-        return;
-    Sealed sealed = find_sealed(tracer_, plan_.scene, plan_.receivers(), std::move(dark), plan_.options.seed,
-                                progress.stop);
-    result_.rays += sealed.rays;
-    bool own = false;
-    for (std::size_t s = 0; s < receivers_.sampled.size(); ++s) {
-        samples_.left_out[s] = sealed.receivers[receivers_.sampled[s]];
-        sealed.receivers[receivers_.sampled[s]] = false;
-    }
-    for (const std::uint32_t r : receivers_.own)
-        own = own || sealed.receivers[r];
-    if (own && plan_.options.repairs.inside == Inside::refill)
+    if (const std::vector<bool> sealed = sealed_of(std::move(dark), kProbesOfSamples); !sealed.empty())
+        for (std::size_t s = 0; s < receivers_.sampled.size(); ++s)
+            samples_.left_out[s] = sealed[receivers_.sampled[s]];
+    dark.clear();
+    for (std::size_t o = 0; o < receivers_.own.size(); ++o)
+        if (own_.direct[o * sizes_.count] <= 0)
+            dark.push_back(receivers_.own[o]);
+    const std::vector<bool> sealed = sealed_of(std::move(dark), kMostProbes);
+    if (std::ranges::find(sealed, true) != sealed.end() && plan_.options.repairs.inside == Inside::refill)
         bounce_.refill =
-            Refill(MeshNeighbours(plan_.scene.surfaces(), plan_.receivers(), plan_.transport->fronts),
-                   sealed.receivers);
+            Refill(MeshNeighbours(plan_.scene.surfaces(), plan_.receivers(), plan_.transport->fronts, sealed),
+                   sealed);
 }
 
 void InstanceLight::bounce(const Progress& progress) {
@@ -287,15 +290,15 @@ void InstanceLight::fit(std::size_t step, bool gives) {
         for (std::size_t r = 0; r < shared.receivers(); ++r)
             places.push_back(meshes_[group.mesh].place_of(r));
         const UniformBound bound(shared, places);
-        parallel_for(group.instances.size(), 1, plan_.options.threads,
+        parallel_for(group.instances.size(), kExpandedAtOnce, plan_.options.threads,
                      [&](std::size_t begin, std::size_t end) {
-                         for (std::size_t g = begin; g < end; ++g) {
-                             const std::size_t i = group.instances[g];
+                         const std::span some = std::span(group.instances).subspan(begin, end - begin);
+                         for (const std::size_t i : some)
                              if (samples_.met[i])
                                  fit_one(fit, bound, i, !gives);
-                             if (gives)
-                                 expand(shared, i);
-                         }
+                         for (std::size_t first = 0; gives && first < some.size(); first += kExpandedAtOnce)
+                             expand(shared, places,
+                                    some.subspan(first, std::min(kExpandedAtOnce, some.size() - first)));
                      });
     }
 }
@@ -320,21 +323,29 @@ void InstanceLight::fit_one(const InstanceFit& fit, const UniformBound& bound, s
                   factors);
 }
 
-/// Writes the light that an instance gives to all its receivers.
-void InstanceLight::expand(const SharedTransfer& shared, std::size_t instance) {
-    const auto& placed = receivers_.instances[instance];
-    const InstanceFactors factors = in_axes_of_mesh(result_.factors[instance], placed.rotation);
-    const ShRotation turn(plan_.options.order, placed.rotation);
-    std::vector<float> vector(sizes_.dimension);
-    for (std::size_t p = 0; p < placed.receivers.size(); ++p) {
-        if (placed.receivers[p] == kNoReceiver)
-            continue;
-        shared.sum(p, mode_factors(factors, meshes_[placed.mesh].place_of(p)), vector);
-        for (std::size_t i = sizes_.count; i < sizes_.dimension; ++i)
-            vector[i] += vector[(i - sizes_.count) % sizes_.count];
-        turn_all(turn, sizes_.count, std::span<const float>(vector).subspan(sizes_.count),
-                 exit_of(placed.receivers[p]));
+/// Writes the light that some instances of a mesh give to all their receivers.
+void InstanceLight::expand(const SharedTransfer& shared, std::span<const glm::vec3> places,
+                           std::span<const std::size_t> instances) {
+    std::vector<InstanceFactors> factors;
+    std::vector<ShRotation> turns;
+    for (const std::size_t i : instances) {
+        const glm::dmat3& rotation = receivers_.instances[i].rotation;
+        factors.push_back(in_axes_of_mesh(result_.factors[i], rotation));
+        turns.emplace_back(plan_.options.order, rotation);
     }
+    std::vector<float> vector(sizes_.dimension);
+    for (std::size_t p = 0; p < places.size(); ++p)
+        for (std::size_t i = 0; i < instances.size(); ++i) {
+            const std::uint32_t receiver = receivers_.instances[instances[i]].receivers[p];
+            if (receiver == kNoReceiver)
+                continue;
+            shared.sum(p, mode_factors(factors[i], places[p]), vector);
+            for (std::size_t first = sizes_.count; first < sizes_.dimension; first += sizes_.count)
+                for (std::size_t k = 0; k < sizes_.count; ++k)
+                    vector[first + k] += vector[k];
+            turn_all(turns[i], sizes_.count, std::span<const float>(vector).subspan(sizes_.count),
+                     exit_of(receiver));
+        }
 }
 
 Transfer InstanceLight::own_fronts(int direct_channels) const {

@@ -53,7 +53,8 @@ private:
     double take_own();
     void fit(std::size_t step, bool gives);
     void fit_one(const InstanceFit& fit, const UniformBound& bound, std::size_t instance, bool errors);
-    void expand(const SharedTransfer& shared, std::size_t instance);
+    void expand(const SharedTransfer& shared, std::span<const glm::vec3> places,
+                std::span<const std::size_t> instances);
     std::span<float> exit_of(std::size_t receiver) {
         return std::span(bounce_.exit).subspan(receiver * sizes_.stride, sizes_.stride);
     }

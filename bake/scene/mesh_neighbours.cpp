@@ -26,20 +26,27 @@ std::vector<std::uint32_t> places_of(const Receivers& receivers, std::size_t fro
     return place;
 }
 
-std::vector<Edge> edges_between(std::span<const std::uint32_t> place, const Surfaces& surfaces) {
+std::vector<Edge> edges_between(std::span<const std::uint32_t> place, const Surfaces& surfaces,
+                                const std::vector<bool>& asked) {
+    std::vector<bool> wanted(place.size(), asked.empty());
+    for (std::size_t r = 0; r < asked.size(); ++r)
+        if (asked[r])
+            wanted[place[r]] = true;
     std::vector<Edge> edges;
-    edges.reserve(3 * surfaces.triangles());
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t) {
         const glm::uvec3& c = surfaces.corners(t);
         for (int i = 0; i < 3; ++i)
-            edges.push_back({place[c[i]], place[c[(i + 1) % 3]]});
+            if (const std::uint32_t a = place[c[i]], b = place[c[(i + 1) % 3]]; wanted[a] || wanted[b])
+                edges.push_back({a, b});
     }
     return unique_edges(std::move(edges));
 }
 
 } // namespace
 
-MeshNeighbours::MeshNeighbours(const Surfaces& surfaces, const Receivers& receivers, std::size_t fronts)
-    : place_(places_of(receivers, fronts)), adjacency_(edges_between(place_, surfaces), receivers.size()) {}
+MeshNeighbours::MeshNeighbours(const Surfaces& surfaces, const Receivers& receivers, std::size_t fronts,
+                               const std::vector<bool>& asked)
+    : place_(places_of(receivers, fronts)),
+      adjacency_(edges_between(place_, surfaces, asked), receivers.size()) {}
 
 } // namespace prt

@@ -16,8 +16,10 @@ namespace prt {
 /// that a mesh hangs together where vertices are split for other reasons; the first of them stands for all.
 class MeshNeighbours {
 public:
-    /// The first `fronts` of `receivers` are corners of `surfaces`; the others have no neighbours.
-    MeshNeighbours(const Surfaces& surfaces, const Receivers& receivers, std::size_t fronts);
+    /// The first `fronts` of `receivers` are corners of `surfaces`; the others have no neighbours. Where
+    /// `asked` [receivers] is not empty, neighbours of those are found, and of whoever shares their places.
+    MeshNeighbours(const Surfaces& surfaces, const Receivers& receivers, std::size_t fronts,
+                   const std::vector<bool>& asked = {});
     std::span<const std::uint32_t> of(std::size_t receiver) const { return adjacency_.of(place_[receiver]); }
 
 private:

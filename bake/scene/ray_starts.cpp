@@ -1,5 +1,5 @@
 // Finds starts of rays in front of all faces of a vertex, by the nearest point of the hull of their normals
-// (E. G. Gilbert, SIAM J. Control 4, 1966).
+// (B. F. Mitchell, V. F. Dem'yanov and V. N. Malozemov, SIAM J. Control 12, 1974).
 
 #include "scene/ray_starts.h"
 
@@ -82,22 +82,37 @@ double least_height(std::span<const Face> faces, const glm::dvec3& way) {
 }
 
 /// The unit direction that rises most above the lowest of `faces`; zero where none rises above all. It points
-/// to the place of the normals' convex hull that is nearest to the origin (Gilbert 1966).
-glm::dvec3 most_open_direction(std::span<const Face> faces) {
+/// to the place of the normals' convex hull that is nearest to the origin: shares of the normals go from the
+/// highest that has one to the lowest (Mitchell, Dem'yanov and Malozemov 1974).
+glm::dvec3 most_open_direction(std::span<const Face> faces, std::vector<double>& shares) {
     constexpr int kSteps = 100;
     constexpr double kGap = 1e-3; // of the best height
+    shares.assign(faces.size(), 1 / static_cast<double>(faces.size()));
     glm::dvec3 nearest(0);
     for (const Face& face : faces)
-        nearest += face.normal / static_cast<double>(faces.size());
+        nearest += face.normal * shares.front();
     for (int step = 0; step < kSteps; ++step) {
-        const Face& lowest = *std::min_element(faces.begin(), faces.end(), [&](const Face& a, const Face& b) {
-            return glm::dot(nearest, a.normal) < glm::dot(nearest, b.normal);
-        });
-        const glm::dvec3 towards = lowest.normal - nearest;
-        const double squared = glm::dot(nearest, nearest), length = glm::dot(towards, towards);
-        if (-glm::dot(nearest, towards) <= kGap * squared || length == 0)
+        std::size_t low = 0, high = 0;
+        double least = std::numeric_limits<double>::infinity(), most = -least;
+        for (std::size_t f = 0; f < faces.size(); ++f) {
+            const double height = glm::dot(nearest, faces[f].normal);
+            if (height < least) {
+                least = height;
+                low = f;
+            }
+            if (height > most && shares[f] > 0) {
+                most = height;
+                high = f;
+            }
+        }
+        const glm::dvec3 way = faces[low].normal - faces[high].normal;
+        const double squared = glm::dot(nearest, nearest), length = glm::dot(way, way);
+        if (squared - least <= kGap * squared || !(length > 0))
             break;
-        nearest += towards * std::clamp(-glm::dot(nearest, towards) / length, 0.0, 1.0);
+        const double moved = std::clamp((most - least) / length, 0.0, shares[high]);
+        shares[low] += moved;
+        shares[high] = moved < shares[high] ? shares[high] - moved : 0;
+        nearest += way * moved;
     }
     const double length = glm::length(nearest);
     if (!(length > 0) || !(least_height(faces, nearest / length) > 0))
@@ -127,16 +142,16 @@ void orient(std::span<Face> faces, const glm::dvec3& normal) {
             face.normal = -face.normal;
 }
 
-glm::dvec3 ray_start(std::span<Face> all, const glm::dvec3& normal) {
+glm::dvec3 ray_start(std::span<Face> all, const glm::dvec3& normal, std::vector<double>& shares) {
     orient(all, normal);
     std::span<Face> faces = all;
-    glm::dvec3 up = faces.empty() ? glm::dvec3(0) : most_open_direction(faces);
+    glm::dvec3 up = faces.empty() ? glm::dvec3(0) : most_open_direction(faces, shares);
     if (up ==
         glm::dvec3(0)) { // faces all round, as of two sheets that share a vertex: those that it looks at
         const auto end = std::partition(all.begin(), all.end(),
                                         [&](const Face& face) { return glm::dot(face.normal, normal) > 0; });
         faces = all.first(static_cast<std::size_t>(end - all.begin()));
-        up = faces.empty() ? glm::dvec3(0) : most_open_direction(faces);
+        up = faces.empty() ? glm::dvec3(0) : most_open_direction(faces, shares);
         if (up == glm::dvec3(0))
             return normal;
     }
@@ -160,13 +175,14 @@ std::vector<glm::vec3> ray_starts(const Scene& scene, Side side) {
     std::vector<glm::vec3> starts;
     starts.reserve(scene.receivers());
     std::vector<Face> faces;
+    std::vector<double> shares;
     for (std::size_t array = 0; array < users.size(); ++array) {
         const VertexArray& vertices = scene.vertex_arrays[array];
         const VertexTriangles triangles(vertices, users[array]);
         for (std::size_t v = 0; v < vertices.size(); ++v) {
             triangles.read(v, faces);
             const glm::dvec3 normal(vertices.normals[v]);
-            starts.emplace_back(ray_start(faces, side == Side::back ? -normal : normal));
+            starts.emplace_back(ray_start(faces, side == Side::back ? -normal : normal, shares));
         }
     }
     return starts;

@@ -14,11 +14,10 @@ namespace prt {
 namespace {
 
 constexpr double kLeastBacks = 0.98; ///< of all rays; among loose sheets nine of ten may be
-constexpr int kMostProbes = 1024;
 
 } // namespace
 
-bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays) {
+bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays, bool maybe) {
     constexpr double kRounding = 1e-3; // of the weights, in rays
     double ended = 0, backs = 0;
     for (const Hit& hit : hits) {
@@ -27,25 +26,30 @@ bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays)
             backs += static_cast<double>(hit.weight);
     }
     // Of few rays more may meet a front by chance.
-    const double by_chance = rays < kMostProbes ? 3 * std::sqrt((1 - kLeastBacks) * rays) : 0;
+    const double by_chance = maybe ? 3 * std::sqrt((1 - kLeastBacks) * rays) : 0;
     return ended > rays - kRounding && backs >= kLeastBacks * rays - by_chance;
 }
 
 Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& receivers,
-                   std::vector<std::uint32_t> dark, std::uint64_t seed, const std::stop_token& stop) {
+                   std::vector<std::uint32_t> dark, std::uint64_t seed, const std::stop_token& stop,
+                   int probes) {
     Sealed result{std::vector<bool>(receivers.size()), 0};
     std::optional<EmbreeTracer> on_cpu;
     Tracer& prober = tracer.notes_hits() ? tracer : on_cpu.emplace(scene);
     // Few rays for all of them, more for those that may be.
     std::vector<std::uint8_t> sealed(receivers.size(), 0); // bytes, as several threads write
-    for (const int probes : {16, 128, kMostProbes}) {
+    for (const int some : {16, 128, probes}) {
+        const bool last = some >= probes;
+        const int rays = last ? probes : some;
         Transfer unused = zero_transfer(1, 1, receivers.size());
-        trace_receivers(prober, receivers, dark, {.order = 1, .rays = probes, .seed = seed}, unused,
-                        {{}, stop}, [&](std::uint32_t p, std::span<const Hit> hits) {
-                            sealed[p] = looks_sealed(scene.surfaces(), hits, probes);
+        trace_receivers(prober, receivers, dark, {.order = 1, .rays = rays, .seed = seed}, unused, {{}, stop},
+                        [&](std::uint32_t p, std::span<const Hit> hits) {
+                            sealed[p] = looks_sealed(scene.surfaces(), hits, rays, !last);
                         });
-        result.rays += dark.size() * static_cast<std::size_t>(probes);
+        result.rays += dark.size() * static_cast<std::size_t>(rays);
         std::erase_if(dark, [&](std::uint32_t p) { return sealed[p] == 0; });
+        if (last)
+            break;
     }
     for (const std::uint32_t p : dark)
         result.receivers[p] = true;

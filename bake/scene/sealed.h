@@ -14,18 +14,22 @@
 
 namespace prt {
 
-/// Whether the hits of so many rays are all of them, and nearly all backs of single-sided surfaces.
-bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays);
+inline constexpr int kMostProbes = 1024;
+
+/// Whether the hits of so many rays are all of them, and nearly all backs of single-sided surfaces. `maybe`:
+/// so far as few rays can tell.
+bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays, bool maybe);
 
 struct Sealed {
     std::vector<bool> receivers; ///< [receivers]
     std::size_t rays = 0;        ///< traced to find out
 };
 
-/// Which of the `dark` receivers are sealed in: none of 1 024 rays escapes and 98 of 100 end at the back of a
-/// single-sided surface, which scatters nothing. Where fronts are seen, as in a dark room, darkness is the
-/// truth. Rays go to `tracer`, or where that notes no hits to the CPU.
+/// Which of the `dark` receivers are sealed in: none of `probes` rays escapes and 98 of 100 end at the back
+/// of a single-sided surface, which scatters nothing. Where fronts are seen, as in a dark room, darkness is
+/// the truth. Rays go to `tracer`, or where that notes no hits to the CPU.
 Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& receivers,
-                   std::vector<std::uint32_t> dark, std::uint64_t seed, const std::stop_token& stop);
+                   std::vector<std::uint32_t> dark, std::uint64_t seed, const std::stop_token& stop,
+                   int probes = kMostProbes);
 
 } // namespace prt

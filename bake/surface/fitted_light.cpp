@@ -185,8 +185,8 @@ SealedIn leave_out_sealed(const BakePlan& plan, Tracer& tracer, const SurfaceSam
             result.receivers.push_back(p);
     }
     if (!result.receivers.empty() && plan.options.repairs.inside == Inside::refill)
-        result.refill =
-            Refill(MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts), inside);
+        result.refill = Refill(
+            MeshNeighbours(plan.scene.surfaces(), plan.receivers(), plan.transport->fronts, inside), inside);
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "prt/sh.h"
 #include "prt/support/error.h"
 #include "prt/support/parallel.h"
+#include "prt/support/vector_lanes.h"
 #include "sh/gauss_legendre.h"
 
 #include <glm/geometric.hpp>
@@ -18,6 +19,18 @@ namespace {
 
 std::size_t coefficients_of(int order) {
     return static_cast<std::size_t>(coefficient_count(order));
+}
+
+/// Sums the modes of a receiver, [modes][size].
+PRT_TWO_CLONES
+void sum_modes(const std::array<float, kPassingModes>& factors, const float* modes, std::size_t size,
+               float* sums) {
+    std::fill_n(sums, size, 0.0f);
+    for (const float factor : factors) {
+        for (std::size_t i = 0; i < size; ++i)
+            sums[i] += factor * modes[i];
+        modes += size;
+    }
 }
 
 /// Two unit vectors square to `up` and each other.
@@ -151,13 +164,10 @@ SharedTransfer::SharedTransfer(const Transfer& transfer, const glm::dvec3& up, i
 
 void SharedTransfer::sum(std::size_t receiver, std::span<const glm::vec3> factors,
                          std::span<float> vector) const {
-    std::ranges::fill(vector, 0.0f);
-    for (std::size_t m = 0; m < kPassingModes; ++m) {
-        const std::span<const float> from = passing(receiver, m);
-        const float factor = factors[m].x;
-        for (std::size_t i = 0; i < vector.size(); ++i)
-            vector[i] += factor * from[i];
-    }
+    std::array<float, kPassingModes> passing;
+    for (std::size_t m = 0; m < kPassingModes; ++m)
+        passing[m] = factors[m].x;
+    sum_modes(passing, &passing_[receiver * kPassingModes * vector.size()], vector.size(), vector.data());
     const TransferPart& last = layout_.parts.back();
     if (last.kind == PartKind::direct)
         return;
