@@ -25,11 +25,17 @@ std::size_t coefficients_of(int order) {
 PRT_TWO_CLONES
 void sum_modes(const std::array<float, kPassingModes>& factors, const float* modes, std::size_t size,
                float* sums) {
-    std::fill_n(sums, size, 0.0f);
-    for (const float factor : factors) {
-        for (std::size_t i = 0; i < size; ++i)
-            sums[i] += factor * modes[i];
-        modes += size;
+    std::size_t i = 0;
+    for (; i + kEight <= size; i += kEight) {
+        EightLanes sum = {};
+        for (std::size_t m = 0; m < kPassingModes; ++m)
+            sum += factors[m] * *reinterpret_cast<const EightInMemory*>(modes + m * size + i);
+        *reinterpret_cast<EightInMemory*>(sums + i) = sum;
+    }
+    for (; i < size; ++i) {
+        sums[i] = 0;
+        for (std::size_t m = 0; m < kPassingModes; ++m)
+            sums[i] += factors[m] * modes[m * size + i];
     }
 }
 

@@ -26,6 +26,13 @@ using LanesRead = const LanesInMemory&;
     return *reinterpret_cast<const LanesInMemory*>(values);
 }
 
+/// 8 floats: for sums that stay in registers while much is added, as gcc takes wider values apart through
+/// memory where registers are narrower.
+inline constexpr int kEight = 8;
+using EightLanes [[gnu::vector_size(sizeof(float) * kEight)]] = float;
+using EightInMemory
+    [[gnu::vector_size(sizeof(float) * kEight), gnu::aligned(alignof(float)), gnu::may_alias]] = float;
+
 } // namespace prt
 
 // Functions marked so are compiled for several vector widths and chosen at run time, so that a portable build
