@@ -75,8 +75,9 @@ void add_instances(CLI::App* command, InstanceArguments& arguments) {
         ->capture_default_str()
         ->check(real_in(0, 1e9));
     command
-        ->add_option("--instance-samples", arguments.bake.samples,
-                     "vertices of each instance that are traced where it stands, with an eighth of the rays")
+        ->add_option(
+            "--instance-samples", arguments.bake.samples,
+            "vertices of each instance that are traced where it stands, with a sixteenth of the rays")
         ->capture_default_str()
         ->check(CLI::Range(8, 1 << 20));
 }

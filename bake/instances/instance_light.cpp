@@ -26,6 +26,7 @@ constexpr std::size_t kExpandedAtOnce = 8; ///< instances, for each look at a ve
 constexpr int kMostEndless = 200;          ///< bounces, where they are endless
 constexpr double kLeastChange = 1e-4;      ///< of the light of what is drawn once, where they end
 constexpr int kSampleHitStride = 8;        ///< as kHitStride; samples are many for each factor
+constexpr int kLeastHalf = 8;              ///< of the rays of a sample
 constexpr int kProbesOfSamples = 128; ///< where one is sealed in, the others of its instance say its factors
 
 /// A vector of one or several channels, turned.
@@ -112,7 +113,8 @@ void InstanceLight::trace_samples(const Progress& progress) {
     std::vector<std::uint32_t> whole, halved;
     for (std::size_t s = 0; s < receivers_.sampled.size(); ++s)
         (s % kSamplesToOfNoise == 0 ? halved : whole).push_back(receivers_.sampled[s]);
-    const int half = std::max(1, static_cast<int>(std::lround(0.5 * options_.rays * plan_.options.rays)));
+    const int half =
+        std::max(kLeastHalf, static_cast<int>(std::lround(0.5 * options_.rays * plan_.options.rays)));
     constexpr double kWhole = 1 - 1.0 / kSamplesToOfNoise, kHalves = 0.5 * (1 + kWhole);
     trace_samples(whole, 2 * half, false, progress.part(0, kWhole));
     trace_samples(halved, half, false, progress.part(kWhole, kHalves));

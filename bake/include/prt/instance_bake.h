@@ -11,8 +11,8 @@
 namespace prt {
 
 struct InstanceBakeOptions {
-    int samples = 256;   ///< receivers of each instance that are traced where it stands, at most
-    double rays = 0.0625; ///< of those of a receiver, from each sample
+    int samples = 256;    ///< receivers of each instance that are traced where it stands, at most
+    double rays = 0.0625; ///< of those of a receiver, from each sample; 16 at least
 };
 
 /// What is baked once: meshes in their own frames, beside what is drawn once.
