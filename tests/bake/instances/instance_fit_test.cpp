@@ -1,0 +1,157 @@
+// Factors of instances by least squares: found again where light has some, whatever samples are left out,
+// and as their areas weigh where it has none.
+
+#include "instances/instance_fit.h"
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace prt {
+namespace instance_fits {
+
+constexpr int kOrder = 4;
+constexpr std::size_t kSamples = 96;
+const glm::dvec3 kUp(0, 1, 0);
+
+struct Draw {
+    std::mt19937 random{11};
+    std::normal_distribution<float> normal;
+
+    float number() { return normal(random); }
+    InstanceFactors factors(float spread) {
+        std::array<float, kInstanceNumbers> numbers = numbers_of(open_factors());
+        for (float& value : numbers)
+            value += spread * number();
+        return factors_of(numbers);
+    }
+};
+
+/// A mesh of random transfer, all of whose receivers are samples.
+class InstanceFits : public testing::Test {
+protected:
+    InstanceFits() {
+        for (float& value : mesh.vectors)
+            value = draw.number();
+        for (std::uint32_t s = 0; s < kSamples; ++s) {
+            samples.receivers.push_back(s);
+            samples.places.push_back(
+                glm::vec3{std::tanh(draw.number()), std::tanh(draw.number()), std::tanh(draw.number())});
+            samples.areas.push_back(1);
+        }
+        shared.emplace(mesh, kUp);
+    }
+    /// What the samples get where the modes have `factors`.
+    std::vector<float> light_of(const InstanceFactors& factors) const {
+        std::vector<float> light(mesh.vectors.size());
+        for (std::size_t s = 0; s < kSamples; ++s)
+            shared->sum(s, mode_factors(factors, samples.places[s]),
+                        std::span(light).subspan(s * mesh.dimension(), mesh.dimension()));
+        return light;
+    }
+    /// The largest difference of two factors.
+    static float difference(const InstanceFactors& a, const InstanceFactors& b) {
+        const auto left = numbers_of(a), right = numbers_of(b);
+        float most = 0;
+        for (std::size_t i = 0; i < left.size(); ++i)
+            most = std::max(most, std::abs(left[i] - right[i]));
+        return most;
+    }
+
+    Draw draw;
+    Transfer mesh = zero_transfer({kOrder, {{PartKind::direct, 1}, {PartKind::indirect, 3}}}, kSamples);
+    InstanceSamples samples;
+    std::optional<SharedTransfer> shared;
+    std::vector<bool> all = std::vector<bool>(kSamples, false);
+    std::vector<float> none = std::vector<float>(kSamples * mesh.dimension());
+};
+
+// The ridge, a ten-thousandth of what samples tell of a number in the mean, draws the numbers that they tell
+// least of, the high bands at the rim of the box, towards the open: by a sixth of their spread at most.
+constexpr float kSpread = 0.3f, kRidged = kSpread / 6;
+
+TEST_F(InstanceFits, FindTheFactorsThatLightHas) {
+    const InstanceFactors wanted = draw.factors(kSpread);
+    const std::vector<float> light = light_of(wanted);
+    const InstanceFit fit(*shared, samples, kUp);
+    const InstanceFactors found = fit.fit({light, all});
+    EXPECT_LT(difference(found, wanted), kRidged);
+    EXPECT_LT(fit.error({light, all}, {none, 0}, found), 1e-3);
+    EXPECT_LT(fit.error({light, all}, {none, 0}, wanted), 1e-5);
+    EXPECT_GT(fit.error({light, all}, {none, 0}, open_factors()), 0.1);
+}
+
+TEST_F(InstanceFits, AskNothingOfSamplesThatAreLeftOut) {
+    const InstanceFactors wanted = draw.factors(kSpread);
+    std::vector<float> light = light_of(wanted);
+    for (std::size_t s = 5; s < kSamples; s += 7) {
+        all[s] = true;
+        for (std::size_t i = 0; i < mesh.dimension(); ++i)
+            light[s * mesh.dimension() + i] = 100 * draw.number();
+    }
+    const InstanceFit fit(*shared, samples, kUp);
+    const InstanceFactors found = fit.fit({light, all});
+    EXPECT_LT(difference(found, wanted), kRidged);
+    EXPECT_LT(fit.error({light, all}, {none, 0}, found), 1e-3);
+}
+
+TEST_F(InstanceFits, ASampleOfTwiceTheAreaIsTwoSamples) {
+    InstanceSamples twice = samples;
+    Transfer longer = mesh;
+    std::vector<float> light = light_of(draw.factors(kSpread));
+    for (float& value : light)
+        value += draw.number(); // nothing fits it
+    std::vector<float> longer_light = light;
+    for (std::size_t s = 0; s < kSamples; s += 3) {
+        samples.areas[s] = 2;
+        twice.receivers.push_back(static_cast<std::uint32_t>(longer.receivers()));
+        twice.places.push_back(samples.places[s]);
+        twice.areas.push_back(1);
+        const auto copy = [&](std::vector<float>& to) {
+            const std::vector<float> part(to.begin() + static_cast<std::ptrdiff_t>(s * mesh.dimension()),
+                                          to.begin() +
+                                              static_cast<std::ptrdiff_t>((s + 1) * mesh.dimension()));
+            to.insert(to.end(), part.begin(), part.end());
+        };
+        copy(longer.vectors);
+        copy(longer_light);
+    }
+    const InstanceFit weighed(*shared, samples, kUp), listed(SharedTransfer(longer, kUp), twice, kUp);
+    const std::vector<bool> longer_all(twice.receivers.size(), false);
+    const InstanceFactors by_area = weighed.fit({light, all}),
+                          by_number = listed.fit({longer_light, longer_all});
+    EXPECT_LT(difference(by_area, by_number), 1e-3f);
+    EXPECT_NEAR(
+        weighed.error({light, all}, {none, 0}, by_area),
+        listed.error({longer_light, longer_all}, {std::vector<float>(longer_light.size()), 0}, by_area),
+        1e-4);
+}
+
+TEST_F(InstanceFits, TakeTheNoiseOfRaysFromTheirErrors) {
+    const InstanceFactors wanted = draw.factors(kSpread);
+    const std::vector<float> exact = light_of(wanted);
+    constexpr std::size_t kFirst = 3; // of the samples, whose two halves are known
+    constexpr int kTries = 200;
+    double with = 0, without = 0;
+    for (int t = 0; t < kTries; ++t) {
+        std::vector<float> light = exact, differences;
+        for (std::size_t s = 0; s < kSamples; ++s)
+            for (std::size_t i = 0; i < mesh.dimension(); ++i) {
+                const float a = draw.number(), b = draw.number(); // by halves of the rays
+                light[s * mesh.dimension() + i] += 0.5f * (a + b);
+                if (s % kSamplesToOfNoise == kFirst)
+                    differences.push_back(0.5f * (a - b));
+            }
+        const InstanceFit fit(*shared, samples, kUp);
+        with += std::pow(fit.error({light, all}, {differences, kFirst}, wanted), 2) / kTries;
+        without += std::pow(fit.error({light, all}, {none, kFirst}, wanted), 2) / kTries;
+    }
+    EXPECT_GT(without, 0.01);
+    // Squares below zero count as zero: half of the spread of the noise of one try is left.
+    EXPECT_LT(with, 0.15 * without);
+}
+
+} // namespace instance_fits
+} // namespace prt
