@@ -14,21 +14,21 @@ namespace {
 /// that there is no rest.
 template <int Length>
 struct RegisterSums {
-    static constexpr int kRegisters = (Length + kEight - 1) / kEight;
-    EightLanes sums[kRegisters] = {};
+    static constexpr int kRegisters = (Length + kNarrow - 1) / kNarrow;
+    Floats<kNarrow>::Value sums[kRegisters] = {};
 
-    static constexpr int offset(int r) { return r + 1 < kRegisters ? r * kEight : Length - kEight; }
+    static constexpr int offset(int r) { return r + 1 < kRegisters ? r * kNarrow : Length - kNarrow; }
     [[gnu::always_inline]] void add(float weight, const float* values) {
         for (int r = 0; r < kRegisters; ++r)
-            sums[r] += weight * *reinterpret_cast<const EightInMemory*>(values + offset(r));
+            sums[r] += weight * floats_at<kNarrow>(values + offset(r));
     }
     [[gnu::always_inline]] void store(float* to) const {
         for (int r = 0; r < kRegisters; ++r)
-            *reinterpret_cast<EightInMemory*>(to + offset(r)) = sums[r];
+            *reinterpret_cast<Floats<kNarrow>::InMemory*>(to + offset(r)) = sums[r];
     }
 };
 template <int Length>
-requires(Length < kEight) struct RegisterSums<Length> {
+requires(Length < kNarrow) struct RegisterSums<Length> {
     float sums[Length] = {};
 
     [[gnu::always_inline]] void add(float weight, const float* values) {

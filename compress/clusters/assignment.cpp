@@ -11,15 +11,16 @@ namespace {
 
 /// Squared length of `d`, what mean and guides leave, outside of the directions: |d|² - |B d|² (docs/math.md,
 /// eq. 23). In float it loses digits below 1e-6 |d|²; it only decides between clusters.
-[[gnu::always_inline]] inline Lanes squared_outside(const Lanes* d, std::size_t dimension,
+template <class Value>
+[[gnu::always_inline]] inline Value squared_outside(const Value* d, std::size_t dimension,
                                                     const float* directions, std::size_t components) {
-    Lanes total = {};
+    Value total = {};
     for (std::size_t i = 0; i < dimension; ++i)
         total += d[i] * d[i];
     std::size_t j = 0;
     for (; j + 4 <= components; j += 4) { // four at a time hide the latency of the sums
         const float* b = directions + j * dimension;
-        Lanes p0 = {}, p1 = {}, p2 = {}, p3 = {};
+        Value p0 = {}, p1 = {}, p2 = {}, p3 = {};
         for (std::size_t i = 0; i < dimension; ++i) {
             p0 += b[i] * d[i];
             p1 += b[dimension + i] * d[i];
@@ -30,7 +31,7 @@ namespace {
     }
     for (; j < components; ++j) {
         const float* b = directions + j * dimension;
-        Lanes p = {};
+        Value p = {};
         for (std::size_t i = 0; i < dimension; ++i)
             p += b[i] * d[i];
         total -= p * p;
@@ -38,17 +39,36 @@ namespace {
     return total;
 }
 
-PRT_TARGET_CLONES
-void nearest_of_block(const float* block, const PenalisedClusters& clusters,
-                      std::span<const std::uint32_t> candidates, std::uint32_t* nearest, float* errors) {
+template <int Width>
+[[gnu::always_inline]] inline void nearest_of(const float* block, const PenalisedClusters& clusters,
+                                              std::span<const std::uint32_t> candidates,
+                                              std::uint32_t* nearest, float* errors) {
     const auto distance = [&](std::uint32_t k) __attribute__((always_inline)) {
-        Lanes left[kMostDimensions];
-        known_subtracted(block, clusters.dimension, clusters.mean(k), clusters.center(k),
-                         clusters.slope(k, 0), clusters.guides, left);
+        typename Floats<Width>::Value left[kMostDimensions];
+        known_subtracted<Width>(block, clusters.dimension, clusters.mean(k), clusters.center(k),
+                                clusters.slope(k, 0), clusters.guides, left);
         return squared_outside(left, clusters.dimension, clusters.row(k, 0), clusters.components_of(k)) +
                clusters.penalties[k];
     };
-    keep_nearest(candidates, nearest, errors, distance);
+    keep_nearest<Width>(candidates, nearest, errors, distance);
+}
+
+PRT_WIDE_TARGET
+void nearest_at_once(const float* block, const PenalisedClusters& clusters,
+                     std::span<const std::uint32_t> candidates, std::uint32_t* nearest, float* errors) {
+    nearest_of<kLaneCount>(block, clusters, candidates, nearest, errors);
+}
+
+PRT_TWO_CLONES
+void nearest_by_parts(const float* block, const PenalisedClusters& clusters,
+                      std::span<const std::uint32_t> candidates, std::uint32_t* nearest, float* errors) {
+    for (int first = 0; first < kLaneCount; first += kNarrow)
+        nearest_of<kNarrow>(block + first, clusters, candidates, nearest + first, errors + first);
+}
+
+void nearest_of_block(const float* block, const PenalisedClusters& clusters,
+                      std::span<const std::uint32_t> candidates, std::uint32_t* nearest, float* errors) {
+    (has_wide_registers() ? nearest_at_once : nearest_by_parts)(block, clusters, candidates, nearest, errors);
 }
 
 PRT_TARGET_CLONES

@@ -24,14 +24,16 @@ struct Assignment {
 };
 
 /// What is left of a block's points when the mean and the guides of a cluster have told what they know:
-/// `subtract_known` in lanes.
-[[gnu::always_inline]] inline void known_subtracted(const float* block, std::size_t dimension,
-                                                    const float* mean, const float* center,
-                                                    const float* slopes, std::size_t guides, Lanes* left) {
+/// `subtract_known` of `Width` points from the first of `block` on.
+template <int Width>
+[[gnu::always_inline]] inline void
+known_subtracted(const float* block, std::size_t dimension, const float* mean, const float* center,
+                 const float* slopes, std::size_t guides, typename Floats<Width>::Value* left) {
     for (std::size_t i = 0; i < dimension; ++i)
-        left[i] = lanes_at(block + i * kLanes) - mean[i];
+        left[i] = floats_at<Width>(block + i * kLanes) - mean[i];
     for (std::size_t g = 0; g < guides; ++g) {
-        const Lanes x = lanes_at(block + (dimension + g) * kLanes) - center[g];
+        const typename Floats<Width>::Value x =
+            floats_at<Width>(block + (dimension + g) * kLanes) - center[g];
         for (std::size_t i = 0; i < dimension; ++i)
             left[i] -= x * slopes[g * dimension + i];
     }
@@ -50,17 +52,17 @@ std::vector<std::uint32_t> reassign(const PointBlocks& points, const PenalisedCl
 /// Lowers `errors` [points] to the squared distance to `center` [dimension] where that is less.
 void lower_to_distance(const PointBlocks& points, const float* center, std::span<float> errors, int threads);
 
-/// Leaves in `clusters` and `errors` [kLanes] the candidate with the least `distance(k)` of each point of a
-/// block; of equals the first. What is a distance differs: rows that are orthonormal are projected on, rows
+/// Leaves in `clusters` and `errors` [Width] the candidate with the least `distance(k)` of each of as many
+/// points; of equals the first. What is a distance differs: rows that are orthonormal are projected on, rows
 /// of codes, which are not, are subtracted one after the other with rounded weights.
-template <class Distance>
+template <int Width, class Distance>
 [[gnu::always_inline]] inline void keep_nearest(std::span<const std::uint32_t> candidates,
                                                 std::uint32_t* clusters, float* errors, Distance&& distance) {
-    for (std::size_t lane = 0; lane < kLanes; ++lane)
+    for (int lane = 0; lane < Width; ++lane)
         errors[lane] = std::numeric_limits<float>::infinity();
     for (const std::uint32_t k : candidates) {
-        const Lanes squared = distance(k);
-        for (std::size_t lane = 0; lane < kLanes; ++lane) {
+        const typename Floats<Width>::Value squared = distance(k);
+        for (int lane = 0; lane < Width; ++lane) {
             const bool nearer = squared[lane] < errors[lane];
             errors[lane] = nearer ? squared[lane] : errors[lane];
             clusters[lane] = nearer ? k : clusters[lane];

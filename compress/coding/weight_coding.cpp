@@ -20,56 +20,78 @@ struct KernelCluster {
 };
 
 /// Adding and taking away 1.5 · 2^23 rounds to the nearest integer what is far smaller.
-[[gnu::always_inline]] inline Lanes rounded(const Lanes& v) {
+template <class Value>
+[[gnu::always_inline]] inline Value rounded(const Value& v) {
     constexpr float kMagic = 12582912.0f;
     return (v + kMagic) - kMagic;
 }
 
-/// Squared distance of a block's points to what their codes in this cluster stand for; the weights go to
-/// `weights` [components][kLanes] unless it is null.
-[[gnu::always_inline]] inline Lanes code_block(const float* block, std::size_t dimension,
-                                               const KernelCluster& k, float* weights) {
-    Lanes d[kMostDimensions];
-    known_subtracted(block, dimension, k.mean, k.center, k.slopes, k.guides, d);
+/// Squared distance of `Width` points from the first of `block` on to what their codes in this cluster stand
+/// for; the weights go to `weights` [components][kLanes] unless it is null.
+template <int Width, class Value = typename Floats<Width>::Value>
+[[gnu::always_inline]] inline Value code_points(const float* block, std::size_t dimension,
+                                                const KernelCluster& k, float* weights) {
+    Value d[kMostDimensions];
+    known_subtracted<Width>(block, dimension, k.mean, k.center, k.slopes, k.guides, d);
     for (std::size_t j = 0; j < k.components; ++j) {
         const float* row = k.rows + j * dimension;
-        Lanes dot = {};
+        Value dot = {};
         for (std::size_t i = 0; i < dimension; ++i)
             dot += row[i] * d[i];
-        Lanes w = dot * k.reaches[j].inverse_norm;
+        Value w = dot * k.reaches[j].inverse_norm;
         if (!k.grids[j].is_any()) {
             const float steps = k.grids[j].steps();
-            w = w < -1.0f ? Lanes{} - 1.0f : w;
-            w = w > 1.0f ? Lanes{} + 1.0f : w;
+            w = w < -1.0f ? Value{} - 1.0f : w;
+            w = w > 1.0f ? Value{} + 1.0f : w;
             w = rounded((w + 1.0f) * steps) / steps - 1.0f;
         }
         for (std::size_t i = 0; i < dimension; ++i)
             d[i] -= w * row[i];
         if (weights)
-            for (std::size_t lane = 0; lane < kLanes; ++lane)
-                weights[j * kLanes + lane] = w[lane];
+            for (int lane = 0; lane < Width; ++lane)
+                weights[j * kLanes + static_cast<std::size_t>(lane)] = w[lane];
     }
-    Lanes total = {};
+    Value total = {};
     for (std::size_t i = 0; i < dimension; ++i)
         total += d[i] * d[i];
     return total;
 }
 
-PRT_TARGET_CLONES
-void best_of_block(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
-                   std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
+template <int Width>
+[[gnu::always_inline]] inline void
+best_of(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
+        std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
     const auto distance = [&](std::uint32_t k) __attribute__((always_inline)) {
-        return code_block(block, dimension, clusters[k], nullptr);
+        return code_points<Width>(block, dimension, clusters[k], nullptr);
     };
-    keep_nearest(candidates, best, errors, distance);
+    keep_nearest<Width>(candidates, best, errors, distance);
 }
 
-PRT_TARGET_CLONES
+PRT_WIDE_TARGET
+void best_at_once(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
+                  std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
+    best_of<kLaneCount>(block, dimension, clusters, candidates, best, errors);
+}
+
+PRT_TWO_CLONES
+void best_by_parts(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
+                   std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
+    for (int first = 0; first < kLaneCount; first += kNarrow)
+        best_of<kNarrow>(block + first, dimension, clusters, candidates, best + first, errors + first);
+}
+
+void best_of_block(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
+                   std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
+    (has_wide_registers() ? best_at_once : best_by_parts)(block, dimension, clusters, candidates, best,
+                                                          errors);
+}
+
+PRT_TWO_CLONES
 void weights_of_block(const float* block, std::size_t dimension, const KernelCluster& cluster, float* weights,
                       float* errors) {
-    const Lanes distance = code_block(block, dimension, cluster, weights);
-    for (std::size_t lane = 0; lane < kLanes; ++lane)
-        errors[lane] = distance[lane];
+    for (int first = 0; first < kLaneCount; first += kNarrow)
+        *reinterpret_cast<Floats<kNarrow>::InMemory*>(errors + first) =
+            code_points<kNarrow>(block + first, dimension, cluster, weights + first);
 }
 
 /// [clusters][max_components]

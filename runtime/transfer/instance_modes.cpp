@@ -26,11 +26,11 @@ PRT_TWO_CLONES
 void sum_modes(const std::array<float, kPassingModes>& factors, const float* modes, std::size_t size,
                float* sums) {
     std::size_t i = 0;
-    for (; i + kEight <= size; i += kEight) {
-        EightLanes sum = {};
+    for (; i + kNarrow <= size; i += kNarrow) {
+        Floats<kNarrow>::Value sum = {};
         for (std::size_t m = 0; m < kPassingModes; ++m)
-            sum += factors[m] * *reinterpret_cast<const EightInMemory*>(modes + m * size + i);
-        *reinterpret_cast<EightInMemory*>(sums + i) = sum;
+            sum += factors[m] * floats_at<kNarrow>(modes + m * size + i);
+        *reinterpret_cast<Floats<kNarrow>::InMemory*>(sums + i) = sum;
     }
     for (; i < size; ++i) {
         sums[i] = 0;

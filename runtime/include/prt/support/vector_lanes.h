@@ -26,12 +26,22 @@ using LanesRead = const LanesInMemory&;
     return *reinterpret_cast<const LanesInMemory*>(values);
 }
 
-/// 8 floats: for sums that stay in registers while much is added, as gcc takes wider values apart through
-/// memory where registers are narrower.
-inline constexpr int kEight = 8;
-using EightLanes [[gnu::vector_size(sizeof(float) * kEight)]] = float;
-using EightInMemory
-    [[gnu::vector_size(sizeof(float) * kEight), gnu::aligned(alignof(float)), gnu::may_alias]] = float;
+/// `Width` floats, and the same in memory. Sums that stay in registers while much is added want no more than
+/// a register holds: gcc takes wider values apart through memory.
+template <int Width>
+struct Floats {
+    using Value [[gnu::vector_size(sizeof(float) * Width)]] = float;
+    using InMemory [[gnu::vector_size(sizeof(float) * Width), gnu::aligned(alignof(float)), gnu::may_alias]] =
+        float;
+};
+
+/// `Width` consecutive floats.
+template <int Width>
+[[gnu::always_inline]] inline typename Floats<Width>::Value floats_at(const float* values) {
+    return *reinterpret_cast<const typename Floats<Width>::InMemory*>(values);
+}
+
+inline constexpr int kNarrow = 8; ///< floats that a register of most processors holds
 
 } // namespace prt
 
@@ -43,7 +53,24 @@ using EightInMemory
 #define PRT_TARGET_CLONES [[gnu::target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")]]
 // For long code that gains little from the widest vectors.
 #define PRT_TWO_CLONES [[gnu::target_clones("arch=x86-64-v3", "default")]]
+// For registers of kLaneCount floats alone, where prt::has_wide_registers().
+#define PRT_WIDE_TARGET [[gnu::target("arch=x86-64-v4")]]
+#define PRT_HAS_WIDE_REGISTERS                                                                               \
+    (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&                              \
+     __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512dq") &&                             \
+     __builtin_cpu_supports("avx512cd"))
 #else
 #define PRT_TARGET_CLONES
 #define PRT_TWO_CLONES
+#define PRT_WIDE_TARGET
+#define PRT_HAS_WIDE_REGISTERS false
 #endif
+
+namespace prt {
+
+/// Whether functions of PRT_WIDE_TARGET may be called.
+inline bool has_wide_registers() {
+    return PRT_HAS_WIDE_REGISTERS;
+}
+
+} // namespace prt
