@@ -17,17 +17,19 @@ struct Blocks {
     std::size_t first, last;
 };
 
-/// Colors of kLanes rows, in two sums that do not wait for each other.
-struct ColorLanes {
-    Lanes even[3], odd[3];
+using Narrow = Floats<kNarrow>::Value;
+
+/// Colors of kNarrow rows, in two sums that do not wait for each other.
+struct ColorSums {
+    Narrow even[3], odd[3];
 };
 
 /// Adds the products of a part, [Stored][count][kLanes], with its light, [3][count].
 template <std::size_t Stored>
 [[gnu::always_inline]] inline void add_part(const float* from, const float* light, std::size_t count,
-                                            ColorLanes& sums) {
+                                            ColorSums& sums) {
     const auto product = [&](std::size_t c, std::size_t i) __attribute__((always_inline)) {
-        return lanes_at(from + ((Stored == 1 ? 0 : c) * count + i) * kLanes) * light[c * count + i];
+        return floats_at<kNarrow>(from + ((Stored == 1 ? 0 : c) * count + i) * kLanes) * light[c * count + i];
     };
     std::size_t i = 0;
     for (; i + 2 <= count; i += 2)
@@ -40,29 +42,31 @@ template <std::size_t Stored>
             sums.even[c] += product(c, i);
 }
 
-/// `light`: of each part [3][its columns].
-PRT_TARGET_CLONES
+/// `light`: of each part [3][its columns]. `matrix`: of the first of up to kNarrow rows.
+[[gnu::always_inline]] inline void form_some(const TransferLayout& layout, const float* matrix,
+                                             const float* light, std::size_t rows, glm::vec4* constants) {
+    ColorSums sums = {};
+    for (const TransferPart& part : layout.parts) {
+        const std::size_t count = layout.columns_of(part);
+        if (part.channels == 1)
+            add_part<1>(matrix, light, count, sums);
+        else
+            add_part<3>(matrix, light, count, sums);
+        matrix += layout.numbers_of(part) * kLanes;
+        light += 3 * count;
+    }
+    for (std::size_t lane = 0; lane < std::min<std::size_t>(kNarrow, rows); ++lane)
+        constants[lane] = {sums.even[0][lane] + sums.odd[0][lane], sums.even[1][lane] + sums.odd[1][lane],
+                           sums.even[2][lane] + sums.odd[2][lane], 0};
+}
+
+PRT_TWO_CLONES
 void form_rows(const TransferLayout& layout, const float* matrix, const float* light, const Blocks& blocks,
                std::size_t rows, glm::vec4* constants) {
-    for (std::size_t block = blocks.first; block < blocks.last; ++block) {
-        const float* from = matrix + block * layout.dimension() * kLanes;
-        const float* of_part = light;
-        ColorLanes sums = {};
-        for (const TransferPart& part : layout.parts) {
-            const std::size_t count = layout.columns_of(part);
-            if (part.channels == 1)
-                add_part<1>(from, of_part, count, sums);
-            else
-                add_part<3>(from, of_part, count, sums);
-            from += layout.numbers_of(part) * kLanes;
-            of_part += 3 * count;
-        }
-        const std::size_t kept = std::min(kLanes, rows - block * kLanes);
-        for (std::size_t lane = 0; lane < kept; ++lane)
-            constants[block * kLanes + lane] = {sums.even[0][lane] + sums.odd[0][lane],
-                                                sums.even[1][lane] + sums.odd[1][lane],
-                                                sums.even[2][lane] + sums.odd[2][lane], 0};
-    }
+    for (std::size_t block = blocks.first; block < blocks.last; ++block)
+        for (std::size_t row = block * kLanes; row < std::min(rows, (block + 1) * kLanes); row += kNarrow)
+            form_some(layout, matrix + block * layout.dimension() * kLanes + row % kLanes, light, rows - row,
+                      constants + row);
 }
 
 /// Rows by which coordinates of guides and stored weights are multiplied. A packed weight is w = 2 q /
