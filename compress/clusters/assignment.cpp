@@ -63,7 +63,7 @@ PRT_TWO_CLONES
 void nearest_by_parts(const float* block, const PenalisedClusters& clusters,
                       std::span<const std::uint32_t> candidates, std::uint32_t* nearest, float* errors) {
     for (int first = 0; first < kLaneCount; first += kNarrow)
-        nearest_of<kNarrow>(block + first, clusters, candidates, nearest + first, errors + first);
+        nearest_of<kNarrow>(points_from(block, first), clusters, candidates, nearest + first, errors + first);
 }
 
 void nearest_of_block(const float* block, const PenalisedClusters& clusters,

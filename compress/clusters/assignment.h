@@ -23,6 +23,11 @@ struct Assignment {
     std::vector<float> errors;           ///< [points] squared distance to the cluster, and its penalty
 };
 
+/// The points of a block from `first` on; there is no block of points without numbers.
+[[gnu::always_inline]] inline const float* points_from(const float* block, int first) {
+    return block ? block + first : nullptr;
+}
+
 /// What is left of a block's points when the mean and the guides of a cluster have told what they know:
 /// `subtract_known` of `Width` points from the first of `block` on.
 template <int Width>

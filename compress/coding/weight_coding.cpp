@@ -77,7 +77,8 @@ PRT_TWO_CLONES
 void best_by_parts(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
                    std::span<const std::uint32_t> candidates, std::uint32_t* best, float* errors) {
     for (int first = 0; first < kLaneCount; first += kNarrow)
-        best_of<kNarrow>(block + first, dimension, clusters, candidates, best + first, errors + first);
+        best_of<kNarrow>(points_from(block, first), dimension, clusters, candidates, best + first,
+                         errors + first);
 }
 
 void best_of_block(const float* block, std::size_t dimension, std::span<const KernelCluster> clusters,
@@ -91,7 +92,7 @@ void weights_of_block(const float* block, std::size_t dimension, const KernelClu
                       float* errors) {
     for (int first = 0; first < kLaneCount; first += kNarrow)
         *reinterpret_cast<Floats<kNarrow>::InMemory*>(errors + first) =
-            code_points<kNarrow>(block + first, dimension, cluster, weights + first);
+            code_points<kNarrow>(points_from(block, first), dimension, cluster, weights + first);
 }
 
 /// [clusters][max_components]

@@ -133,7 +133,7 @@ TEST_F(InstanceFits, TakeTheNoiseOfRaysFromTheirErrors) {
     const InstanceFactors wanted = draw.factors(kSpread);
     const std::vector<float> exact = light_of(wanted);
     constexpr std::size_t kFirst = 3; // of the samples, whose two halves are known
-    constexpr int kTries = 200;
+    constexpr int kTries = 60;
     double with = 0, without = 0;
     for (int t = 0; t < kTries; ++t) {
         std::vector<float> light = exact, differences;
