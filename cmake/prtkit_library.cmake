@@ -10,6 +10,11 @@ if(PRTKIT_WERROR)
     target_compile_options(prtkit_settings INTERFACE -Werror)
 endif()
 
+# Of what is built more often than it computes: tests, and programs round the libraries. clang takes three times as long to
+# optimise what sanitizers put in as to write it down.
+add_library(prtkit_quick INTERFACE)
+target_compile_options(prtkit_quick INTERFACE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
+
 # prtkit_library(<target> <name>): gives a library its public headers, its alias prt::<name> and its export name.
 function(prtkit_library target name)
     add_library(prt::${name} ALIAS ${target})

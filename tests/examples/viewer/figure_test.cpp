@@ -7,6 +7,7 @@
 #include "script/script.h"
 
 #include "prt/bake.h"
+#include "prt/compress.h"
 #include "prt/compress_volume.h"
 #include "prt/encode_glb.h"
 #include "prt/gl_context.h"
@@ -60,33 +61,38 @@ GlbFile ball_figure(bool bad = false) {
     return file;
 }
 
-/// With its transfer and a volume, so that the viewer has nothing to bake.
-std::vector<std::byte> baked_scene(std::size_t probes, int rays) {
+/// With compressed transfer of bands below `order`, of vertices and in a volume, so that the viewer has nothing
+/// to bake or to compress.
+std::vector<std::byte> shipped_scene(int order, std::size_t probes, int rays) {
     const std::string bare = prt::test::scene_file(floor_and_wall()).bytes();
     prt::GltfDocument document = prt::parse_gltf(std::as_bytes(std::span(bare)), "scene.glb");
     const prt::Scene scene = prt::extract_scene(document);
     prt::BakeOptions options;
+    options.order = order;
     options.rays = rays;
     options.bounces = 3;
     const prt::BakedVolume volume = prt::bake_volume(scene, {.probes = probes}, options).volume;
     prt::CompressOptions compress;
     compress.coding = prt::preset_volume();
-    compress.clusters = static_cast<int>(probes / 100);
-    prt::write_transfer(document, scene, prt::bake(scene, options).baked);
+    compress.clusters = static_cast<int>(probes / 200);
+    const prt::BakedTransfer baked = prt::bake(scene, options).baked;
+    prt::write_clustered(document, scene,
+                         {prt::compress(baked.transfer, {prt::receiver_areas(scene)}, compress).transfer,
+                          baked.record});
     prt::write_volume(document, scene, prt::compress_volume(volume, compress).volume);
     return prt::encode_glb(document);
 }
 
 class FigureTest : public testing::Test {
 protected:
-    static void SetUpTestSuite() { baked_ = baked_scene(800, 64); }
+    static void SetUpTestSuite() { shipped_ = shipped_scene(3, 800, 64); }
     void SetUp() override {
         context = prt::GlContext::create(prt::GlDevice::any);
         ASSERT_TRUE(context);
         viewer = std::make_unique<Viewer>();
         screen = std::make_unique<Offscreen>(kFigureWidth, kFigureHeight);
         viewer->settings.panels = false;
-        prt::test::glb_of(baked_).write(folder / "scene.glb");
+        prt::test::glb_of(shipped_).write(folder / "scene.glb");
         ball_figure().write(folder / "ball.glb");
     }
     void TearDown() override {
@@ -135,7 +141,7 @@ protected:
     std::unique_ptr<Offscreen> screen;
 
 private:
-    static inline std::vector<std::byte> baked_;
+    static inline std::vector<std::byte> shipped_;
 };
 
 TEST_F(FigureTest, AnAnimatedFileBesideASceneIsTheFigureAndAloneTheScene) {
@@ -190,7 +196,7 @@ TEST_F(FigureTest, FollowsThePathOfAScriptAtItsSpeed) {
 // The mean of what a ball sends to the camera under a day with its sun apart, by the volume and by paths:
 // within what issue 21 allows incident light, 8 %. Its pixels differ by noise of the paths, too.
 TEST_F(FigureTest, IsLitAsPathsLightItWhereItStands) {
-    prt::test::glb_of(baked_scene(3000, 512)).write(folder / "scene.glb");
+    prt::test::glb_of(shipped_scene(6, 3000, 512)).write(folder / "scene.glb");
     open_both();
     ASSERT_TRUE(moving().volume().volume);
     viewer->settings.drawing.moving.walks = false;
@@ -362,7 +368,7 @@ TEST_F(FigureTest, WhatIsWrongWithAFigureIsSaidAndTheSceneStays) {
 
 TEST(FigureScript, ChoosesPathsAndSaysWhatIsWrong) {
     prt::test::TemporaryFolder folder;
-    prt::test::glb_of(baked_scene(800, 64)).write(folder / "scene.glb");
+    prt::test::glb_of(shipped_scene(3, 800, 64)).write(folder / "scene.glb");
     ball_figure().write(folder / "ball.glb");
     const auto said = [&](const char* step) {
         const auto script =
