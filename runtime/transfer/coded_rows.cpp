@@ -62,13 +62,17 @@ public:
     }
     /// Bits of all rows; infinite where a level would pass 15.
     std::size_t total(std::span<const std::uint8_t> drops) const {
-        std::size_t bits = 0;
+        std::array<std::size_t, kMostRowBits + 1> rows_of_level{};
         for (std::size_t r = 0; r < rows(); ++r) {
             const int level = level_of(row(r), drops);
             if (level > kMostRowBits)
                 return ~std::size_t{0};
-            bits += static_cast<std::size_t>(row_bits(level, drops));
+            ++rows_of_level[static_cast<std::size_t>(level)];
         }
+        std::size_t bits = 0;
+        for (int level = 0; level <= kMostRowBits; ++level)
+            bits += rows_of_level[static_cast<std::size_t>(level)] *
+                    static_cast<std::size_t>(row_bits(level, drops));
         return bits;
     }
 

@@ -61,8 +61,8 @@ GlbFile ball_figure(bool bad = false) {
     return file;
 }
 
-/// With compressed transfer of bands below `order`, of vertices and in a volume, so that the viewer has nothing
-/// to bake or to compress.
+/// With compressed transfer of bands below `order`, of vertices and in a volume, so that the viewer has
+/// nothing to bake or to compress.
 std::vector<std::byte> shipped_scene(int order, std::size_t probes, int rays) {
     const std::string bare = prt::test::scene_file(floor_and_wall()).bytes();
     prt::GltfDocument document = prt::parse_gltf(std::as_bytes(std::span(bare)), "scene.glb");
@@ -76,9 +76,9 @@ std::vector<std::byte> shipped_scene(int order, std::size_t probes, int rays) {
     compress.coding = prt::preset_volume();
     compress.clusters = static_cast<int>(probes / 200);
     const prt::BakedTransfer baked = prt::bake(scene, options).baked;
-    prt::write_clustered(document, scene,
-                         {prt::compress(baked.transfer, {prt::receiver_areas(scene)}, compress).transfer,
-                          baked.record});
+    prt::write_clustered(
+        document, scene,
+        {prt::compress(baked.transfer, {prt::receiver_areas(scene)}, compress).transfer, baked.record});
     prt::write_volume(document, scene, prt::compress_volume(volume, compress).volume);
     return prt::encode_glb(document);
 }
