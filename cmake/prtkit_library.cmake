@@ -10,8 +10,8 @@ if(PRTKIT_WERROR)
     target_compile_options(prtkit_settings INTERFACE -Werror)
 endif()
 
-# Of what is built more often than it computes: tests, and programs round the libraries. clang takes three times as long to
-# optimise what sanitizers put in as to write it down.
+# Of what is built more often than it computes: tests, and prt, whose CLI11 takes a minute to optimise and is run once. With
+# debug information nothing is optimised: clang takes three times as long to optimise what sanitizers put in.
 add_library(prtkit_quick INTERFACE)
 target_compile_options(prtkit_quick INTERFACE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
 
