@@ -1,7 +1,7 @@
-// Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or from a PRT_VERTEX_RADIANCE
-// attribute, or from a PRT_LIGHTMAP; with none of these, the fragment shader finds it from the normal and an ambient
-// occlusion. PRT_SUNS: for suns apart. PRT_OCCLUDED: near what moves. PRT_INSTANCED: of instances. What a surface gives
-// off comes on top of all.
+// Vertices of the viewer's models. Exit radiance comes from PRT_COMPRESSED transfer, or is PRT_VERTEX_RADIANCE, an
+// attribute or of instances a buffer, or comes from a PRT_LIGHTMAP; with none of these, the fragment shader finds it
+// from the normal and an ambient occlusion. PRT_SUNS: for suns apart. PRT_OCCLUDED: near what moves. PRT_INSTANCED: of
+// instances. What a surface gives off comes on top of all.
 
 #include "shared_layout.h"
 #include "instance_place.glsl"
@@ -21,11 +21,7 @@ out vec3 occluded_place, occluded_normal;
 #if defined(PRT_LIGHTMAP)
 #include "lightmap_vertex.glsl"
 #elif defined(PRT_COMPRESSED)
-#include "prt_instances.glsl"
-#ifdef PRT_INSTANCES
-layout(location = PRT_LOCATION_INSTANCE_0) in vec4 instance_0;
-layout(location = PRT_LOCATION_INSTANCE_1) in vec4 instance_1;
-#endif
+#include "prt_exit_radiance.glsl"
 #ifdef PRT_GUIDE_NORMAL
 layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;
 #else
@@ -33,7 +29,15 @@ const vec3 vertex_normal = vec3(0.0);
 #endif
 out vec3 radiance;
 #elif defined(PRT_VERTEX_RADIANCE)
+#ifdef PRT_INSTANCED
+#include "instance_radiance.glsl"
+#else
 layout(location = PRT_LOCATION_RADIANCE) in vec3 vertex_radiance;
+
+vec3 radiance_of_vertex() {
+    return vertex_radiance;
+}
+#endif
 out vec3 radiance;
 #else
 layout(location = PRT_LOCATION_NORMAL) in vec3 vertex_normal;
@@ -52,13 +56,9 @@ void main() {
 #if defined(PRT_LIGHTMAP)
     take_for_lightmap();
 #elif defined(PRT_COMPRESSED)
-#ifdef PRT_INSTANCES
-    radiance = prt_instance_radiance(instance_0, instance_1, position, vertex_normal);
-#else
     radiance = prt_exit_radiance(position, vertex_normal);
-#endif
 #elif defined(PRT_VERTEX_RADIANCE)
-    radiance = vertex_radiance;
+    radiance = radiance_of_vertex();
 #else
     normal = normal_in_scene(vertex_normal);
     ao = vertex_ao;

@@ -22,6 +22,5 @@ set(long_tests
     Skies/Suns.* Sky.AgreesWith* SphericalBowl.* Storage.* Subsurface.OfTheDensest* SunShadowPictures.AgreeWithRays*
     Suns.AndRemainder* Sweep.* TargetError.FindsTheWindow* TargetError.IsReached* TargetError.TakesFewer*
     Trace.NoCluster* ViewerPictures.OfSunsApart* ViewerTest.BakesWhatIsNot* ViewerTest.GivesSmall*
-    ViewerTest.ListsEvery* ViewerTest.OpensCompressed* ViewerTest.PutsABake* ViewerTest.ResetsTheCamera*
-    ViewerTest.SaysWhereTransfer* VolumeBake.AFit*)
+    ViewerTest.OpensCompressed* ViewerTest.PutsABake* ViewerTest.SaysWhereTransfer* VolumeBake.AFit*)
 list(JOIN long_tests ":" long_tests)

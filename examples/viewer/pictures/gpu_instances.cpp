@@ -2,8 +2,6 @@
 
 #include "pictures/triangle_clusters.h"
 
-#include "prt/instance_shader.h"
-#include "prt/support/stopwatch.h"
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>
@@ -22,12 +20,6 @@ constexpr GLuint kRowBinding = 10;
 std::array<glm::vec4, 3> rows_of(const glm::dmat4& matrix) {
     const glm::mat4 turned(glm::transpose(matrix));
     return {turned[0], turned[1], turned[2]};
-}
-
-/// Throws `Error` where weights leave no attributes to instances.
-std::string lit_defines(const prt::ClusteredTransfer& transfer, const prt::GlTransfer& uploaded) {
-    prt::instance_defines(transfer);
-    return uploaded.defines() + "#define PRT_INSTANCES\n";
 }
 
 /// Round all that a node of `scene` draws, in its own frame.
@@ -52,6 +44,16 @@ prt::FormedInstance drawn_once(const prt::InstancedModel& model, const prt::Inst
     return one;
 }
 
+std::vector<std::size_t> vertex_arrays_of(const prt::Scene& scene,
+                                          const std::vector<std::size_t>& primitives) {
+    std::vector<std::size_t> arrays;
+    for (const std::size_t p : primitives)
+        if (const std::size_t array = scene.primitives[p].vertices;
+            std::ranges::find(arrays, array) == arrays.end())
+            arrays.push_back(array);
+    return arrays;
+}
+
 glm::vec4 sphere_round(const prt::InstanceBox& box, const glm::dmat4& world) {
     const glm::vec3 middle(world * glm::dvec4(glm::dvec3(box.middle), 1));
     const double scale = glm::length(glm::dvec3(world[0]));
@@ -62,24 +64,16 @@ glm::vec4 sphere_round(const prt::InstanceBox& box, const glm::dmat4& world) {
 
 GpuInstances::GpuInstances(std::shared_ptr<const prt::InstancedModel> model,
                            std::span<const prt::Texture> textures, const glm::dvec3& origin)
-    : model_(std::move(model)), scene_(model_->stored, textures), transfer_(model_->compressed->transfer),
-      former_(model_->compressed->transfer, add_groups(origin)), plain_(scene_.make_vertex_arrays()),
-      lit_(scene_.make_vertex_arrays()), defines_(lit_defines(model_->compressed->transfer, transfer_)) {
-    for (std::size_t i = 0; i < lit_.size(); ++i)
-        transfer_.attach(lit_[i].name(), model_->stored.vertex_arrays[i].first_receiver);
-    const std::vector<glm::vec4> table = former_.table();
-    std::size_t next = 0;
-    for (Group& group : groups_)
-        for (Row& row : group.rows) {
-            row.table = {table[next], table[next + 1]};
-            next += 2;
-        }
-    instances_ = next / 2;
-    constants_.formed.resize(former_.size());
-    constants_.buffer = prt::make_buffer(std::span<const glm::vec4>(constants_.formed));
+    : model_(std::move(model)), scene_(model_->stored, textures), arrays_(scene_.make_vertex_arrays()) {
+    const std::vector<prt::FormedInstance> formed = add_groups(origin);
+    std::vector<MeshInstances> meshes;
+    for (const Group& group : groups_)
+        meshes.push_back({meshes.empty() ? 0 : meshes.back().first + meshes.back().count, group.rows.size(),
+                          vertex_arrays_of(model_->stored, group.primitives)});
+    instances_ = formed.size();
+    radiance_.emplace(model_->compressed->transfer, scene_, formed, meshes);
     rows_ = prt::make_buffer(std::span<const Row>(std::vector<Row>(instances_)));
-    attach(plain_);
-    attach(lit_);
+    attach(arrays_);
 }
 
 /// Returns what constants are formed for, group by group.
@@ -108,7 +102,7 @@ std::vector<prt::FormedInstance> GpuInstances::add_groups(const glm::dvec3& orig
         Group& group = groups_[g];
         const auto add = [&](const prt::FormedInstance& one, const glm::dmat4& world) {
             const glm::dmat4 matrix = to_shown * world * from_stored;
-            group.rows.push_back({rows_of(matrix), {}});
+            group.rows.push_back({rows_of(matrix), static_cast<std::uint32_t>(group.rows.size())});
             group.spheres.push_back(sphere_round(one.placed.box, matrix));
             result.push_back(one);
         };
@@ -121,36 +115,32 @@ std::vector<prt::FormedInstance> GpuInstances::add_groups(const glm::dvec3& orig
 }
 
 void GpuInstances::attach(const prt::GlVertexArrays& arrays) const {
-    constexpr GLuint kFirst = PRT_LOCATION_INSTANCE_X;
-    static_assert(PRT_LOCATION_INSTANCE_1 == kFirst + 4);
     for (const prt::GlObject& array : arrays) {
         glVertexArrayBindingDivisor(array.name(), kRowBinding, 1);
-        for (GLuint i = 0; i < 5; ++i) {
-            glEnableVertexArrayAttrib(array.name(), kFirst + i);
-            glVertexArrayAttribFormat(array.name(), kFirst + i, 4, GL_FLOAT, GL_FALSE,
-                                      static_cast<GLuint>(i * sizeof(glm::vec4)));
-            glVertexArrayAttribBinding(array.name(), kFirst + i, kRowBinding);
+        for (GLuint i = 0; i < 4; ++i) {
+            const GLuint location = i < 3 ? PRT_LOCATION_INSTANCE_X + i : PRT_LOCATION_INSTANCE_0;
+            glEnableVertexArrayAttrib(array.name(), location);
+            glVertexArrayAttribBinding(array.name(), location, kRowBinding);
+            if (i < 3)
+                glVertexArrayAttribFormat(array.name(), location, 4, GL_FLOAT, GL_FALSE,
+                                          static_cast<GLuint>(i * sizeof(glm::vec4)));
+            else
+                glVertexArrayAttribIFormat(array.name(), location, 1, GL_UNSIGNED_INT, offsetof(Row, number));
         }
     }
 }
 
-void GpuInstances::set_light(const prt::Lighting& lighting) {
-    const prt::Stopwatch stopwatch;
-    former_.form(lighting, constants_.formed);
-    constants_.seconds = stopwatch.seconds();
-    glNamedBufferSubData(constants_.buffer.name(), 0,
-                         static_cast<GLsizeiptr>(constants_.formed.size() * sizeof(glm::vec4)),
-                         constants_.formed.data());
-}
-
 InstanceFigures GpuInstances::figures() const {
     const std::size_t shared = model_->instances.size(), once = instances_ - shared;
+    const auto each = [this](std::size_t bytes) {
+        return static_cast<double>(bytes) / static_cast<double>(instances_);
+    };
     return {.instances = shared,
             .meshes = groups_.size() - once,
             .bytes_in_file = prt::kInstanceNumbers,
-            .bytes_of_constants = static_cast<double>(constants_.formed.size() * sizeof(glm::vec4)) /
-                                  static_cast<double>(instances_),
-            .milliseconds_formed = 1e3 * constants_.seconds};
+            .bytes_of_constants = each(radiance_->bytes_of_constants()),
+            .bytes_of_radiance = each(radiance_->bytes()),
+            .milliseconds_formed = 1e3 * radiance_->seconds_formed()};
 }
 
 void GpuInstances::look(const glm::mat4& view_projection, const glm::vec3& eye, bool culling) {
@@ -174,20 +164,18 @@ void GpuInstances::look(const glm::mat4& view_projection, const glm::vec3& eye, 
 }
 
 std::size_t GpuInstances::draw(const prt::GlObject& program, bool lit, bool blended) const {
-    const prt::GlVertexArrays& arrays = lit ? lit_ : plain_;
-    if (lit) {
-        transfer_.use();
-        prt::bind_storage(PRT_BINDING_CONSTANTS, constants_.buffer);
-    }
     std::size_t triangles = 0;
-    for (const Group& group : groups_)
-        for (const std::size_t p : group.primitives) {
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+        for (const std::size_t p : groups_[g].primitives) {
+            const Group& group = groups_[g];
             const prt::Primitive& primitive = model_->stored.primitives[p];
             if (group.count == 0 || scene_.is_blended(primitive) != blended)
                 continue;
-            glVertexArrayVertexBuffer(arrays[primitive.vertices].name(), kRowBinding, rows_.name(),
+            if (lit)
+                radiance_->use(program, g, primitive.vertices);
+            glVertexArrayVertexBuffer(arrays_[primitive.vertices].name(), kRowBinding, rows_.name(),
                                       static_cast<GLintptr>(group.first * sizeof(Row)), sizeof(Row));
-            scene_.draw_instances(program, arrays, p, group.count);
+            scene_.draw_instances(program, arrays_, p, group.count);
             triangles += group.count * primitive.triangles.size();
         }
     return triangles;

@@ -3,9 +3,8 @@
 // A scene of instances on the GPU: meshes once, drawn as often as they stand in view, and lit by transfer
 // that they share.
 
-#include "prt/gl_scene.h"
-#include "prt/gl_transfer.h"
-#include "prt/instance_former.h"
+#include "pictures/instance_radiance.h"
+
 #include "prt/instances_gltf.h"
 
 #include <glm/mat4x4.hpp>
@@ -14,8 +13,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <string>
+#include <optional>
 #include <vector>
 
 namespace viewer {
@@ -25,6 +25,7 @@ struct InstanceFigures {
     std::size_t instances = 0, meshes = 0;
     std::size_t bytes_in_file = 0;  ///< factors
     double bytes_of_constants = 0;  ///< on average, of a lighting
+    double bytes_of_radiance = 0;   ///< the same, of vertices, which is found of these
     double milliseconds_formed = 0; ///< of all, when the light last changed
 };
 
@@ -35,23 +36,21 @@ public:
                  const glm::dvec3& origin);
 
     const prt::TransferLayout& layout() const { return model_->compressed->transfer.bases.layout; }
-    /// For shaders that are lit by the transfer: `PRT_COMPRESSED` and those of prt_instances.glsl.
-    const std::string& defines() const { return defines_; }
-    void set_light(const prt::Lighting& lighting);
+    void set_light(const prt::Lighting& lighting) { radiance_->set_light(lighting); }
     InstanceFigures figures() const;
 
     /// Chooses what may be visible; near ones come first, or where `culling` is off all.
     void look(const glm::mat4& view_projection, const glm::vec3& eye, bool culling);
     void shine(std::span<const glm::vec3> strengths) { scene_.shine(strengths); }
     /// Draws what was chosen with `program`, in use, of the blended surfaces or of all others. `lit`: by the
-    /// transfer. Returns how many triangles.
+    /// transfer, with a program of shaders/instance_radiance.glsl. Returns how many triangles.
     std::size_t draw(const prt::GlObject& program, bool lit, bool blended) const;
 
 private:
     /// Attributes of an instance, as a vertex shader takes them.
     struct Row {
         std::array<glm::vec4, 3> world; ///< rows of the matrix
-        std::array<glm::vec4, 2> table; ///< of prt::InstanceFormer
+        std::uint32_t number;           ///< in its group
     };
     /// A mesh, or a node of the scene that nothing shares.
     struct Group {
@@ -66,18 +65,10 @@ private:
 
     std::shared_ptr<const prt::InstancedModel> model_;
     prt::GlScene scene_;
-    prt::GlTransfer transfer_; ///< weights and clusters
     std::vector<Group> groups_;
-    prt::InstanceFormer former_;
-    prt::GlVertexArrays plain_, lit_;
+    prt::GlVertexArrays arrays_;
     prt::GlObject rows_;
-    struct Constants {
-        std::vector<glm::vec4> formed;
-        prt::GlObject buffer;
-        double seconds = 0; ///< that forming them took
-    };
-    Constants constants_;
-    std::string defines_;
+    std::optional<InstanceRadiance> radiance_;
     std::size_t instances_ = 0;
 };
 

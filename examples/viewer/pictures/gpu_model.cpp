@@ -258,7 +258,7 @@ std::string GpuModel::defines_of(const Surface& surface) const {
     if (surface.source == Source::normals)
         return surface.instanced ? "#define PRT_INSTANCED\n" : "";
     if (surface.instanced)
-        return instances_->defines() + "#define PRT_INSTANCED\n";
+        return "#define PRT_VERTEX_RADIANCE\n#define PRT_INSTANCED\n";
     if (any_lightmap().layout)
         return "#define PRT_LIGHTMAP\n";
     return surface.source == Source::compressed ? std::get<prt::GlTransfer>(compressed_->transfer).defines()

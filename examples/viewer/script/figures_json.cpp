@@ -50,6 +50,7 @@ nlohmann::json figures_json(const Figures& f) {
                              {"meshes", f.instances->meshes},
                              {"bytes", f.instances->bytes_in_file},
                              {"bytes_of_constants", f.instances->bytes_of_constants},
+                             {"bytes_of_radiance", f.instances->bytes_of_radiance},
                              {"milliseconds_formed", f.instances->milliseconds_formed}};
     if (f.lightmap)
         json["lightmap"] = lightmap_json(*f.lightmap);

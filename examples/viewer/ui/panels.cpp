@@ -261,8 +261,9 @@ void lightmap_lines(const LightmapFigures& f) {
 void instance_lines(const InstanceFigures& f) {
     line("instances", fmt::format("{} of {} meshes", f.instances, f.meshes),
          "They share the transfer of their mesh.");
-    line("bytes an instance", fmt::format("{}, {:.0f} of constants", f.bytes_in_file, f.bytes_of_constants),
-         "In the file, and in memory for a lighting.");
+    line("bytes an instance",
+         fmt::format("{}, {:.0f}, {:.0f}", f.bytes_in_file, f.bytes_of_constants, f.bytes_of_radiance),
+         "In the file; of constants for a lighting; of its vertices' radiance, which a frame reads.");
 }
 
 void figure_lines(const Figures& f) {

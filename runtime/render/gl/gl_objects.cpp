@@ -118,10 +118,11 @@ GlObject make_program(const std::string& vertex, const std::string& fragment, co
                       const char* captured) {
     GlObject program(GlKind::program, glCreateProgram());
     attach(program, GL_VERTEX_SHADER, vertex, defines);
-    attach(program, GL_FRAGMENT_SHADER, fragment, defines);
+    if (!fragment.empty())
+        attach(program, GL_FRAGMENT_SHADER, fragment, defines);
     if (captured)
         glTransformFeedbackVaryings(program.name(), 1, &captured, GL_INTERLEAVED_ATTRIBS);
-    link(program, vertex + " and " + fragment);
+    link(program, fragment.empty() ? vertex : vertex + " and " + fragment);
     return program;
 }
 

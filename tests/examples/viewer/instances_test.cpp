@@ -92,6 +92,17 @@ TEST_F(ViewerInstances, LookLikeTheirTransferVertexByVertex) {
     EXPECT_EQ(gpu->instances()->figures().meshes, 1u);
 }
 
+TEST_F(ViewerInstances, AreLitAnewWhereTheLightChanges) {
+    gpu->set_instanced(loaded.instanced);
+    gpu->set_raw(expanded_transfer());
+    gpu->set_light(light);
+    const prt::Image before = drawn(PictureKind::prt_compressed);
+    gpu->set_light(prt::cone_light(3, glm::normalize(glm::vec3(-1, 2, -2)), 0.4, {1, 2, 4}));
+    const prt::Image after = drawn(PictureKind::prt_compressed);
+    EXPECT_LT(difference(after, drawn(PictureKind::prt)), 2e-3);
+    EXPECT_GT(difference(after, before), 0.1);
+}
+
 TEST_F(ViewerInstances, AreLitByTheirTurnedNormalsWithoutTransfer) {
     gpu->set_light(light);
     const prt::Image one_by_one = drawn(PictureKind::unshadowed);

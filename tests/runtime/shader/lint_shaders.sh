@@ -47,7 +47,7 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" "${packed[@]}"
             compiles "$file" "${packed[@]}" "${alike[@]}" "PRT_LIGHTMAP_FORMAT r11f_g11f_b10f"
             ;;
-        prt_instances.vert)
+        prt_instances.vert | viewer_lit_instances.vert)
             compiles "$file" "${packed[@]}" "${guides[@]}" PRT_INSTANCES
             compiles "$file" PRT_CONSTANTS_BUFFER "PRT_WEIGHT_VECTORS 2" PRT_INSTANCES
             ;;
@@ -98,7 +98,7 @@ for file in *.vert *.frag *.comp; do
             compiles "$file" PRT_COMPRESSED "PRT_WEIGHT_VECTORS 11" PRT_GUIDE_NORMAL
             compiles "$file" PRT_VERTEX_RADIANCE PRT_OCCLUDED
             compiles "$file" PRT_INSTANCED
-            compiles "$file" "${packed[@]}" "${guides[@]}" PRT_INSTANCED PRT_INSTANCES PRT_SUNS
+            compiles "$file" PRT_VERTEX_RADIANCE PRT_INSTANCED PRT_SUNS
             compiles "$file" "${packed[@]}" PRT_OCCLUDED PRT_SUNS PRT_VOLUME "${volume[@]}"
             ;;
         scene.frag | sun_caster.frag)

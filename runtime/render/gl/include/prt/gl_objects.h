@@ -54,9 +54,9 @@ void bind_storage(std::uint32_t binding, const GlObject& buffer);
 GlObject make_vertex_array();
 GlObject make_framebuffer();
 
-/// A program of two files of shaders/, with lines of `defines` before them. `captured`: an output of the
-/// vertex shader that transform feedback records. Throws `Error` with the compiler's words when the driver
-/// refuses it.
+/// A program of two files of shaders/, with lines of `defines` before them. `fragment` empty: it draws
+/// nothing. `captured`: an output of the vertex shader that transform feedback records. Throws `Error` with
+/// the compiler's words when the driver refuses it.
 GlObject make_program(const std::string& vertex, const std::string& fragment, const std::string& defines = "",
                       const char* captured = nullptr);
 

@@ -1,0 +1,116 @@
+#include "pictures/instance_radiance.h"
+
+#include "prt/instance_shader.h"
+#include "prt/support/stopwatch.h"
+#include "shared_layout.h"
+#include "shared_viewer.h"
+
+#include <epoxy/gl.h>
+
+#include <algorithm>
+
+namespace viewer {
+namespace {
+
+constexpr GLuint kTableBinding = 10;
+constexpr std::size_t kVertexBytes = 8; ///< four halves
+constexpr std::size_t kAlignment = 256; ///< of a storage buffer's part, the most that a device may ask for
+
+/// Throws `Error` where weights leave no attributes to instances.
+std::string defines_of(const prt::ClusteredTransfer& transfer) {
+    return "#define PRT_COMPRESSED\n" + prt::instance_defines(transfer);
+}
+
+} // namespace
+
+std::size_t InstanceRadiance::Place::bytes() const {
+    return instances * vertices * kVertexBytes;
+}
+
+InstanceRadiance::InstanceRadiance(const prt::ClusteredTransfer& transfer, const prt::GlScene& scene,
+                                   std::span<const prt::FormedInstance> formed,
+                                   std::span<const MeshInstances> meshes)
+    : transfer_(transfer), former_(transfer, formed), arrays_(scene.make_vertex_arrays()),
+      table_(prt::make_buffer(std::span<const glm::vec4>(former_.table()))),
+      program_(prt::make_program("viewer_lit_instances.vert", "", defines_of(transfer))),
+      framebuffer_(prt::make_framebuffer()) {
+    std::size_t end = 0;
+    for (std::size_t m = 0; m < meshes.size(); ++m)
+        for (const std::size_t array : meshes[m].vertex_arrays) {
+            const prt::VertexArray& vertices = scene.scene().vertex_arrays[array];
+            transfer_.attach(arrays_[array].name(), vertices.first_receiver);
+            const Place& place =
+                places_.emplace_back(Place{m, array, vertices.size(), meshes[m].first, meshes[m].count, end});
+            end = (end + place.bytes() + kAlignment - 1) / kAlignment * kAlignment;
+        }
+    radiance_ = prt::make_buffer_of(end);
+    constants_.formed.resize(former_.size());
+    constants_.buffer = prt::make_buffer(std::span<const glm::vec4>(constants_.formed));
+    attach_table(arrays_);
+    glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_WIDTH, 1);
+    glNamedFramebufferParameteri(framebuffer_.name(), GL_FRAMEBUFFER_DEFAULT_HEIGHT, 1);
+}
+
+/// Attributes that step from instance to instance.
+void InstanceRadiance::attach_table(const prt::GlVertexArrays& arrays) const {
+    for (const prt::GlObject& array : arrays) {
+        glVertexArrayBindingDivisor(array.name(), kTableBinding, 1);
+        for (const GLuint location : {PRT_LOCATION_INSTANCE_0, PRT_LOCATION_INSTANCE_1}) {
+            const GLuint offset = location == PRT_LOCATION_INSTANCE_0 ? 0 : sizeof(glm::vec4);
+            glEnableVertexArrayAttrib(array.name(), location);
+            glVertexArrayAttribFormat(array.name(), location, 4, GL_FLOAT, GL_FALSE, offset);
+            glVertexArrayAttribBinding(array.name(), location, kTableBinding);
+        }
+    }
+}
+
+void InstanceRadiance::set_light(const prt::Lighting& lighting) {
+    const prt::Stopwatch stopwatch;
+    former_.form(lighting, constants_.formed);
+    constants_.seconds = stopwatch.seconds();
+    glNamedBufferSubData(constants_.buffer.name(), 0,
+                         static_cast<GLsizeiptr>(constants_.formed.size() * sizeof(glm::vec4)),
+                         constants_.formed.data());
+    glUseProgram(program_.name());
+    transfer_.use();
+    prt::bind_storage(PRT_BINDING_CONSTANTS, constants_.buffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name()); // nothing is drawn, but OpenGL wants one
+    glEnable(GL_RASTERIZER_DISCARD);
+    constexpr GLsizei kRowBytes = 2 * sizeof(glm::vec4); // of the table
+    for (const Place& place : places_) {
+        if (place.bytes() == 0)
+            continue;
+        const GLuint array = arrays_[place.vertex_array].name();
+        glVertexArrayVertexBuffer(array, kTableBinding, table_.name(),
+                                  static_cast<GLintptr>(place.first_instance) * kRowBytes, kRowBytes);
+        glBindVertexArray(array);
+        bind(program_, place);
+        glDrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(place.vertices),
+                              static_cast<GLsizei>(place.instances));
+    }
+    glDisable(GL_RASTERIZER_DISCARD);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    prt::check_gl("lighting instances");
+}
+
+void InstanceRadiance::use(const prt::GlObject& program, std::size_t mesh, std::size_t vertex_array) const {
+    const auto place = std::ranges::find_if(
+        places_, [&](const Place& p) { return p.mesh == mesh && p.vertex_array == vertex_array; });
+    bind(program, *place);
+}
+
+void InstanceRadiance::bind(const prt::GlObject& program, const Place& place) const {
+    prt::set_uniform(program, "instance_vertices", static_cast<std::uint32_t>(place.vertices));
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, PRT_BINDING_INSTANCE_RADIANCE, radiance_.name(),
+                      static_cast<GLintptr>(place.begin), static_cast<GLsizeiptr>(place.bytes()));
+}
+
+std::size_t InstanceRadiance::bytes() const {
+    return places_.empty() ? 0 : places_.back().begin + places_.back().bytes();
+}
+
+std::size_t InstanceRadiance::bytes_of_constants() const {
+    return constants_.formed.size() * sizeof(glm::vec4);
+}
+
+} // namespace viewer
