@@ -20,6 +20,11 @@ constexpr Eigen::Index kPassingUnknowns = 4 * kPassingModes;
 /// What keeps factors of what samples do not tell at those of the open, against the mean of the normal
 /// matrix.
 constexpr double kRidge = 1e-4;
+/// Receivers that would give more than the bound are held to it by rows of this weight, against the same, so
+/// many at a time and so often; what is left then makes all factors smaller.
+constexpr double kHeld = 4;
+constexpr std::size_t kMostHeld = 16;
+constexpr int kMostBoundSteps = 4;
 
 /// Skies have less light the finer it is: band l weighs 1 / sqrt(l + 1).
 float band_weight(std::size_t coefficient) {
@@ -143,7 +148,20 @@ InstanceFactors InstanceFit::factors_of_unknowns(const Eigen::VectorXd& unknowns
     return factors;
 }
 
-InstanceFactors InstanceFit::fit(const Targets& targets) const {
+/// A row of the bound by unknowns.
+Eigen::VectorXd InstanceFit::row_of(const UniformBound::Row& row) const {
+    Eigen::VectorXd by_unknown = Eigen::VectorXd::Zero(open_.size());
+    for (Eigen::Index i = 0; i < kPassingUnknowns; ++i)
+        by_unknown[i] = static_cast<double>(row[static_cast<std::size_t>(i)]);
+    for (std::size_t k = 0; added_ && k < kAddedModes; ++k)
+        for (std::size_t c = 0; c < 3; ++c)
+            by_unknown[kPassingUnknowns + static_cast<Eigen::Index>(k) * channels_ +
+                       (channels_ == 1 ? 0 : static_cast<Eigen::Index>(c))] +=
+                static_cast<double>(row[static_cast<std::size_t>(kPassingUnknowns) + 3 * k + c]);
+    return by_unknown;
+}
+
+InstanceFactors InstanceFit::fit(const Targets& targets, const UniformBound* bound) const {
     constexpr auto kModes = static_cast<Eigen::Index>(kPassingModes);
     const auto size = static_cast<std::size_t>(dimension());
     Eigen::MatrixXd normal = normal_;
@@ -168,10 +186,22 @@ InstanceFactors InstanceFit::fit(const Targets& targets) const {
                 right[kPassingUnknowns + static_cast<Eigen::Index>(k) * channels_ + c] +=
                     static_cast<double>(responses_[s][k][static_cast<int>(c)] * added[c]);
     }
-    const double ridge = kRidge * normal_.trace() / static_cast<double>(normal.rows()) + 1e-30;
-    normal.diagonal().array() += ridge;
-    right += ridge * open_;
-    return factors_of_unknowns(normal.ldlt().solve(right));
+    const double mean = normal_.trace() / static_cast<double>(normal.rows()) + 1e-26;
+    normal.diagonal().array() += kRidge * mean;
+    right += kRidge * mean * open_;
+    InstanceFactors factors = factors_of_unknowns(normal.ldlt().solve(right));
+    for (int step = 0; bound && step < kMostBoundSteps; ++step) {
+        const std::vector<UniformBound::Row> exceeding = bound->exceeding(factors, kMostHeld);
+        if (exceeding.empty())
+            return factors;
+        for (const UniformBound::Row& row : exceeding) {
+            const Eigen::VectorXd held = row_of(row);
+            normal += kHeld * mean * held * held.transpose();
+            right += kHeld * mean * static_cast<double>(bound->bound()) * held;
+        }
+        factors = factors_of_unknowns(normal.ldlt().solve(right));
+    }
+    return bound ? scaled(factors, bound->share(factors)) : factors;
 }
 
 double InstanceFit::error(const Targets& targets, const Noise& noise, const InstanceFactors& factors) const {

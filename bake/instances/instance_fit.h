@@ -2,6 +2,7 @@
 
 // Factors of an instance by least squares against what its samples get.
 
+#include "instances/uniform_bound.h"
 #include "prt/instances.h"
 
 #include <Eigen/Dense>
@@ -22,7 +23,7 @@ struct InstanceSamples {
 };
 
 /// Of every so many samples, by their number among those of all instances, one tells the noise of its rays.
-inline constexpr std::size_t kSamplesToOfNoise = 4;
+inline constexpr std::size_t kSamplesToOfNoise = 8;
 
 /// The least-squares problem of the instances of a mesh that see the world's up alike (docs/math.md, section
 /// 22). Immutable, thread-safe.
@@ -36,11 +37,11 @@ public:
         std::span<const float> light;      ///< [samples][dimension]
         const std::vector<bool>& left_out; ///< [samples] of which nothing is asked
     };
-    /// Factors in axes of the mesh.
-    InstanceFactors fit(const Targets& targets) const;
+    /// Factors in axes of the mesh, which keep to `bound`, where there is one.
+    InstanceFactors fit(const Targets& targets, const UniformBound* bound = nullptr) const;
 
-    /// Half of what two halves of the rays of every so many samples differ by, [some of the
-    /// samples][dimension].
+    /// What as many other rays of every so many samples give otherwise, over the root of 2, so that its
+    /// square is that of the noise on average: [some of the samples][dimension].
     struct Noise {
         std::span<const float> differences;
         std::size_t first; ///< the sample of the first; those of the others follow, kSamplesToOfNoise apart
@@ -51,6 +52,7 @@ public:
 private:
     Eigen::Index dimension() const { return weights_.size(); }
     void find_skies(const TransferLayout& layout, const glm::dvec3& up);
+    Eigen::VectorXd row_of(const UniformBound::Row& row) const;
     Eigen::MatrixXf columns_of(const SharedTransfer& shared, std::size_t sample) const;
     Eigen::VectorXd unknowns_of(const InstanceFactors& factors) const;
     InstanceFactors factors_of_unknowns(const Eigen::VectorXd& unknowns) const;

@@ -16,6 +16,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 namespace prt {
@@ -26,7 +27,8 @@ constexpr std::size_t kExpandedAtOnce = 8; ///< instances, for each look at a ve
 constexpr int kMostEndless = 200;          ///< bounces, where they are endless
 constexpr double kLeastChange = 1e-4;      ///< of the light of what is drawn once, where they end
 constexpr int kSampleHitStride = 8;        ///< as kHitStride; samples are many for each factor
-constexpr int kLeastHalf = 8;              ///< of the rays of a sample
+constexpr int kLeastSampleRays = 16;
+constexpr float kLeastExcess = 1e-6f; ///< of light above what comes in that is more than rounding
 constexpr int kProbesOfSamples = 128; ///< where one is sealed in, the others of its instance say its factors
 
 /// A vector of one or several channels, turned.
@@ -108,36 +110,36 @@ void InstanceLight::trace_own(const Progress& progress) {
     result_.rays += receivers_.own.size() * static_cast<std::size_t>(options.rays);
 }
 
-/// Some samples by two halves of their rays, which tell the noise; the others at once.
+/// Some samples twice, which tells the noise. Rays in halves would not: theirs is more than half as much
+/// noise again, since as few rays are spread less evenly.
 void InstanceLight::trace_samples(const Progress& progress) {
-    std::vector<std::uint32_t> whole, halved;
-    for (std::size_t s = 0; s < receivers_.sampled.size(); ++s)
-        (s % kSamplesToOfNoise == 0 ? halved : whole).push_back(receivers_.sampled[s]);
-    const int half =
-        std::max(kLeastHalf, static_cast<int>(std::lround(0.5 * options_.rays * plan_.options.rays)));
-    constexpr double kWhole = 1 - 1.0 / kSamplesToOfNoise, kHalves = 0.5 * (1 + kWhole);
-    trace_samples(whole, 2 * half, false, progress.part(0, kWhole));
-    trace_samples(halved, half, false, progress.part(kWhole, kHalves));
-    trace_samples(halved, half, true, progress.part(kHalves, 1));
+    std::vector<std::uint32_t> noisy;
+    for (std::size_t s = 0; s < receivers_.sampled.size(); s += kSamplesToOfNoise)
+        noisy.push_back(receivers_.sampled[s]);
+    const int rays =
+        std::max(kLeastSampleRays, static_cast<int>(std::lround(options_.rays * plan_.options.rays)));
+    constexpr double kOnce = static_cast<double>(kSamplesToOfNoise) / (kSamplesToOfNoise + 1);
+    trace_samples(receivers_.sampled, rays, false, progress.part(0, kOnce));
+    trace_samples(noisy, rays, true, progress.part(kOnce, 1));
 }
 
-void InstanceLight::trace_samples(std::span<const std::uint32_t> receivers, int rays, bool second_half,
+void InstanceLight::trace_samples(std::span<const std::uint32_t> receivers, int rays, bool again,
                                   const Progress& progress) {
     // Whoever stands alone is seen by every ray; light that comes from surfaces needs fewer.
     const TraceOptions options{.order = plan_.options.order,
                                .rays = rays,
-                               .seed = plan_.options.seed + (second_half ? 2 : 1),
+                               .seed = plan_.options.seed + (again ? 2 : 1),
                                .hit_stride = bounce_.gather ? kSampleHitStride : 1};
     const Surfaces& surfaces = plan_.scene.surfaces();
     const auto take = [&](std::uint32_t r, std::span<const float> vector) {
-        take_light(receivers_.sample_of[r], second_half, vector, 0);
+        take_light(receivers_.sample_of[r], again, vector, 0);
     };
     const auto sink = [&](std::uint32_t r, std::span<const Hit> hits) {
         const std::size_t sample = receivers_.sample_of[r], i = receivers_.instance_of_sample(sample);
         if (bounce_.gather)
             bounce_.gather->set_row(
                 receivers_.own.size() +
-                    (second_half ? receivers_.sampled.size() + sample / kSamplesToOfNoise : sample),
+                    (again ? receivers_.sampled.size() + sample / kSamplesToOfNoise : sample),
                 hits, rays);
         const bool met = std::ranges::any_of(hits, [&](const Hit& hit) {
             return surfaces.scene().primitives[surfaces.primitive(hit.triangle)].node !=
@@ -151,21 +153,19 @@ void InstanceLight::trace_samples(std::span<const std::uint32_t> receivers, int 
 }
 
 /// Takes light of a sample, turned into the frame of its mesh, from its vector's number `first` on.
-void InstanceLight::take_light(std::size_t sample, bool second_half, std::span<const float> light,
+void InstanceLight::take_light(std::size_t sample, bool again, std::span<const float> light,
                                std::size_t first) {
     std::array<float, 3 * kMaxOrder * kMaxOrder> space;
     const std::span<float> turned(space.data(), light.size());
     turn_all(samples_.into_mesh[receivers_.instance_of_sample(sample)], sizes_.count, light, turned);
-    float* const whole = &samples_.light[sample * sizes_.dimension + first];
-    if (!second_half) {
-        std::ranges::copy(turned, whole);
+    float* const before = &samples_.light[sample * sizes_.dimension + first];
+    if (!again) {
+        std::ranges::copy(turned, before);
         return;
     }
     float* const differences = &samples_.differences[sample / kSamplesToOfNoise * sizes_.dimension + first];
-    for (std::size_t i = 0; i < turned.size(); ++i) {
-        differences[i] = 0.5f * (whole[i] - turned[i]);
-        whole[i] = 0.5f * (whole[i] + turned[i]);
-    }
+    for (std::size_t i = 0; i < turned.size(); ++i)
+        differences[i] = std::numbers::sqrt2_v<float> / 2 * (before[i] - turned[i]);
 }
 
 void InstanceLight::find_sealed_in(const Progress& progress) {
@@ -285,13 +285,15 @@ double InstanceLight::take_own() {
 /// Fits all instances to what their samples get, their meshes after so many steps of bounces. `gives`: their
 /// light is wanted for another bounce; otherwise their errors are.
 void InstanceLight::fit(std::size_t step, bool gives) {
+    std::vector<UniformBound> bounds; // [groups]
+    bounds.reserve(groups_.size());
     for (const Group& group : groups_) {
         const SharedTransfer shared(meshes_[group.mesh].after[step], group.up, plan_.options.threads);
         const InstanceFit fit(shared, receivers_.samples[group.mesh], group.up);
         std::vector<glm::vec3> places;
         for (std::size_t r = 0; r < shared.receivers(); ++r)
             places.push_back(meshes_[group.mesh].place_of(r));
-        const UniformBound bound(shared, places);
+        const UniformBound& bound = bounds.emplace_back(shared, places);
         parallel_for(group.instances.size(), kExpandedAtOnce, plan_.options.threads,
                      [&](std::size_t begin, std::size_t end) {
                          const std::span some = std::span(group.instances).subspan(begin, end - begin);
@@ -302,6 +304,36 @@ void InstanceLight::fit(std::size_t step, bool gives) {
                              expand(shared, places,
                                     some.subspan(first, std::min(kExpandedAtOnce, some.size() - first)));
                      });
+        if (gives) // there are many where every instance leans its own way
+            bounds.clear();
+    }
+    if (!gives)
+        bound_as_stored(bounds);
+}
+
+/// Makes factors smaller until they make no light as files hold them, in bytes.
+void InstanceLight::bound_as_stored(const std::vector<UniformBound>& bounds) {
+    constexpr int kMostRounds = 16; // scales of bytes are those of all instances, and may change with one
+    for (int round = 0; round < kMostRounds; ++round) {
+        const std::vector<InstanceFactors> stored = decoded(coded(result_.factors));
+        std::atomic<bool> changed = false;
+        for (std::size_t g = 0; g < groups_.size(); ++g)
+            parallel_for(groups_[g].instances.size(), kExpandedAtOnce, plan_.options.threads,
+                         [&](std::size_t begin, std::size_t end) {
+                             for (std::size_t j = begin; j < end; ++j) {
+                                 const std::size_t i = groups_[g].instances[j];
+                                 if (!samples_.met[i])
+                                     continue;
+                                 const float share = bounds[g].share(
+                                     in_axes_of_mesh(stored[i], receivers_.instances[i].rotation));
+                                 if (share > 1 - kLeastExcess)
+                                     continue;
+                                 result_.factors[i] = scaled(result_.factors[i], share);
+                                 changed = true;
+                             }
+                         });
+        if (!changed)
+            return;
     }
 }
 
@@ -313,7 +345,7 @@ void InstanceLight::fit_one(const InstanceFit& fit, const UniformBound& bound, s
     const std::vector<bool> none_asked(left_out, left_out + static_cast<std::ptrdiff_t>(samples));
     const InstanceFit::Targets targets{
         std::span(samples_.light).subspan(first * sizes_.dimension, samples * sizes_.dimension), none_asked};
-    const InstanceFactors factors = bound.bounded(fit.fit(targets));
+    const InstanceFactors factors = fit.fit(targets, &bound);
     result_.factors[instance] = in_axes_of_world(factors, placed.rotation);
     if (!errors)
         return;

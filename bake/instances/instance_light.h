@@ -43,15 +43,16 @@ private:
     void make_groups();
     void trace_own(const Progress& progress);
     void trace_samples(const Progress& progress);
-    void trace_samples(std::span<const std::uint32_t> receivers, int rays, bool second_half,
+    void trace_samples(std::span<const std::uint32_t> receivers, int rays, bool again,
                        const Progress& progress);
-    void take_light(std::size_t sample, bool second_half, std::span<const float> light, std::size_t first);
+    void take_light(std::size_t sample, bool again, std::span<const float> light, std::size_t first);
     void find_sealed_in(const Progress& progress);
     void gather_light();
     template <class Take>
     void gather_rows(std::size_t first, std::size_t rows, const Take& take);
     double take_own();
     void fit(std::size_t step, bool gives);
+    void bound_as_stored(const std::vector<UniformBound>& bounds);
     void fit_one(const InstanceFit& fit, const UniformBound& bound, std::size_t instance, bool errors);
     void expand(const SharedTransfer& shared, std::span<const glm::vec3> places,
                 std::span<const std::size_t> instances);
@@ -75,7 +76,7 @@ private:
     };
     struct Bounce {
         Refill refill;
-        std::optional<GatherOperator> gather; ///< rows: own, samples, second halves of the noisy
+        std::optional<GatherOperator> gather; ///< rows: own, samples, the noisy again
         std::vector<float> exit;              ///< [receivers][stride] where light bounces
     };
     struct Result {

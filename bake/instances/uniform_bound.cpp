@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace prt {
@@ -24,20 +25,51 @@ UniformBound::UniformBound(const SharedTransfer& shared, std::span<const glm::ve
         for (std::size_t k = 0; k < kAddedModes; ++k)
             modes_[r][kPassingModes + k] = on_level * shared.responses(r)[k];
     }
-    bound_ = std::max(bound_, largest(open_factors()));
+    bound_ = std::max(bound_, bound_ / share(open_factors()));
 }
 
-float UniformBound::largest(const InstanceFactors& factors) const {
-    float most = 0;
+float UniformBound::share(const InstanceFactors& factors) const {
+    float most = bound_;
     for (std::size_t r = 0; r < modes_.size(); ++r) {
         const glm::vec3 radiance = exit_radiance(factors, places_[r], modes_[r]);
         most = std::max({most, radiance.x, radiance.y, radiance.z});
     }
-    return most;
+    return bound_ / most;
 }
 
-InstanceFactors UniformBound::bounded(InstanceFactors factors) const {
-    const float share = bound_ / std::max(bound_, largest(factors));
+UniformBound::Row UniformBound::row_of(std::size_t receiver, int channel) const {
+    InstanceFactors row;
+    for (std::size_t m = 0; m < kPassingModes; ++m)
+        row.passing[m] = glm::vec4(places_[receiver], 1) * modes_[receiver][m][channel];
+    for (std::size_t k = 0; k < kAddedModes; ++k)
+        row.added[k][channel] = modes_[receiver][kPassingModes + k][channel];
+    return numbers_of(row);
+}
+
+std::vector<UniformBound::Row> UniformBound::exceeding(const InstanceFactors& factors,
+                                                       std::size_t most) const {
+    struct Excess {
+        float radiance;
+        std::size_t receiver;
+        int channel;
+    };
+    std::vector<Excess> all;
+    for (std::size_t r = 0; r < modes_.size(); ++r) {
+        const glm::vec3 radiance = exit_radiance(factors, places_[r], modes_[r]);
+        const int channel = radiance.x >= radiance.y && radiance.x >= radiance.z ? 0
+                            : radiance.y >= radiance.z                           ? 1
+                                                                                 : 2;
+        if (radiance[channel] > bound_)
+            all.push_back({radiance[channel], r, channel});
+    }
+    std::ranges::sort(all, std::greater(), &Excess::radiance);
+    std::vector<Row> rows;
+    for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
+        rows.push_back(row_of(all[i].receiver, all[i].channel));
+    return rows;
+}
+
+InstanceFactors scaled(InstanceFactors factors, float share) {
     for (glm::vec4& row : factors.passing)
         row *= share;
     for (glm::vec3& color : factors.added)

@@ -17,16 +17,25 @@ public:
     /// `places` [receivers] in the box of the mesh.
     UniformBound(const SharedTransfer& shared, std::span<const glm::vec3> places);
 
-    /// The same factors where no receiver gives more than 1, or than it gives in the open; else all of them
-    /// times the largest share that does.
-    InstanceFactors bounded(InstanceFactors factors) const;
+    /// The most that a receiver may give: 1, or what one gives in the open.
+    float bound() const { return bound_; }
+    /// The largest share of the factors, 1 at most, with which no receiver gives more.
+    float share(const InstanceFactors& factors) const;
+
+    /// What a receiver gives in a channel, as a product with `numbers_of` factors.
+    using Row = std::array<float, kInstanceNumbers>;
+    /// Of those that give more, the worst, so many at most.
+    std::vector<Row> exceeding(const InstanceFactors& factors, std::size_t most) const;
 
 private:
-    float largest(const InstanceFactors& factors) const;
+    Row row_of(std::size_t receiver, int channel) const;
 
     std::vector<std::array<glm::vec3, kInstanceModes>> modes_; ///< [receivers]
     std::vector<glm::vec3> places_;
     float bound_ = 1;
 };
+
+/// All of them times `share`.
+InstanceFactors scaled(InstanceFactors factors, float share);
 
 } // namespace prt

@@ -348,7 +348,9 @@ void run_instances(const BakeArguments& a, const SharedMeshes& meshes, GltfDocum
         ProgressBar bar = session.progress_bar("baking");
         return bake_shared(a.instances, {document, scene, a.no_shadow}, meshes, a.options, bar.progress());
     });
-    if (!baked.document) { // all of them err too much
+    if (!baked.document) {
+        print_notices("instances", {fmt::format("all {} would err by more than {:.3g} %: each is baked alone",
+                                                baked.baked_alone, 100 * a.instances.error)});
         run_vertices(a, document, scene, session);
         return;
     }

@@ -46,14 +46,13 @@ public:
 
     /// Returns where each node is then, -1 where it became an instance of another.
     std::vector<int> share(std::size_t meshes) {
-        Json& nodes = contents_.json["nodes"];
-        std::vector<bool> removed(nodes.size());
+        std::vector<bool> removed(nodes().size());
         for (const ExpandedNode& expanded : contents_.expanded)
             join_instances(expanded, removed);
         for (const auto& [node, numbered] : numbered_)
             if (!removed[node])
-                extensions_of(nodes[node])[kInstancesExtension] = {{"first", numbered.number},
-                                                                   {"box", numbered.mesh}};
+                extensions_of(nodes()[node])[kInstancesExtension] = {{"first", numbered.number},
+                                                                     {"box", numbered.mesh}};
         Json boxes = Json::array();
         for (std::size_t m = 0; m < meshes; ++m)
             boxes.push_back({{"middle", {0, 0, 0}}, {"half", {1, 1, 1}}});
@@ -64,9 +63,11 @@ public:
     }
 
 private:
+    /// Looked up anew each time: members that are added to the document move it.
+    Json& nodes() { return contents_.json["nodes"]; }
+
     /// Those of its nodes that share are instances again.
     void join_instances(const ExpandedNode& expanded, std::vector<bool>& removed) {
-        Json& nodes = contents_.json["nodes"];
         std::vector<std::size_t> kept;
         for (std::size_t i = 0; i < expanded.count; ++i)
             if (numbered_.contains(expanded.first + i))
@@ -78,8 +79,8 @@ private:
         if (kept.size() < expanded.count)
             for (Json& accessor : extension["attributes"])
                 accessor = picked_accessor(contents_, accessor, kept);
-        nodes[expanded.node]["mesh"] = nodes[expanded.first + kept.front()]["mesh"];
-        Json& extensions = extensions_of(nodes[expanded.node]);
+        nodes()[expanded.node]["mesh"] = Json(nodes()[expanded.first + kept.front()]["mesh"]);
+        Json& extensions = extensions_of(nodes()[expanded.node]);
         extensions[kInstancingExtension] = std::move(extension);
         extensions[kInstancesExtension] = {{"first", first.number}, {"box", first.mesh}};
         contents_.use_extension(kInstancingExtension);
@@ -90,11 +91,10 @@ private:
     std::vector<int> remove(const std::vector<bool>& removed) {
         Json kept = Json::array();
         std::vector<int> node_of;
-        Json& nodes = contents_.json["nodes"];
-        for (std::size_t n = 0; n < nodes.size(); ++n) {
+        for (std::size_t n = 0; n < removed.size(); ++n) {
             node_of.push_back(removed[n] ? -1 : static_cast<int>(kept.size()));
             if (!removed[n])
-                kept.push_back(std::move(nodes[n]));
+                kept.push_back(std::move(nodes()[n]));
         }
         for (Json& node : kept)
             if (node.contains("children")) {
@@ -107,7 +107,7 @@ private:
                 else
                     node["children"] = std::move(children);
             }
-        nodes = std::move(kept);
+        nodes() = std::move(kept);
         return node_of;
     }
 

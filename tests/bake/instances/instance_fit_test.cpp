@@ -132,17 +132,17 @@ TEST_F(InstanceFits, ASampleOfTwiceTheAreaIsTwoSamples) {
 TEST_F(InstanceFits, TakeTheNoiseOfRaysFromTheirErrors) {
     const InstanceFactors wanted = draw.factors(kSpread);
     const std::vector<float> exact = light_of(wanted);
-    constexpr std::size_t kFirst = 3; // of the samples, whose two halves are known
+    constexpr std::size_t kFirst = 3; // of the samples that are traced twice
     constexpr int kTries = 60;
     double with = 0, without = 0;
     for (int t = 0; t < kTries; ++t) {
         std::vector<float> light = exact, differences;
         for (std::size_t s = 0; s < kSamples; ++s)
             for (std::size_t i = 0; i < mesh.dimension(); ++i) {
-                const float a = draw.number(), b = draw.number(); // by halves of the rays
-                light[s * mesh.dimension() + i] += 0.5f * (a + b);
+                const float a = draw.number(), again = draw.number();
+                light[s * mesh.dimension() + i] += a;
                 if (s % kSamplesToOfNoise == kFirst)
-                    differences.push_back(0.5f * (a - b));
+                    differences.push_back((a - again) / std::sqrt(2.0f));
             }
         const InstanceFit fit(*shared, samples, kUp);
         with += std::pow(fit.error({light, all}, {differences, kFirst}, wanted), 2) / kTries;

@@ -115,6 +115,29 @@ TEST(Reorder, OtherScenesDoNotMatch) {
     EXPECT_NE(receivers_id(scene), receivers_id(other));
 }
 
+TEST(Reorder, ScenesOfTheSameNodesInAnotherOrderMatch) {
+    const test::TemporaryFolder folder;
+    instanced_file().write(folder / "a.glb");
+    const Scene scene = extract_scene(load_gltf(folder / "a.glb"));
+    ASSERT_GE(scene.vertex_arrays.size(), 2u);
+    Scene other = scene;
+    std::ranges::reverse(other.vertex_arrays);
+    std::size_t first = 0;
+    for (VertexArray& vertices : other.vertex_arrays) {
+        vertices.first_receiver = first;
+        first += vertices.size();
+    }
+    const std::vector<std::uint32_t> match = matching_receivers(scene, other);
+    const auto place_of = [](const Scene& of, std::size_t receiver) {
+        for (const VertexArray& vertices : of.vertex_arrays)
+            if (receiver < vertices.first_receiver + vertices.size())
+                return vertices.positions[receiver - vertices.first_receiver];
+        return glm::vec3(0);
+    };
+    for (std::size_t r = 0; r < scene.receivers(); ++r)
+        EXPECT_EQ(place_of(scene, r), place_of(other, match[r])) << r;
+}
+
 TEST(VertexReuse, OfAStripOfTrianglesIsOneVertexEach) {
     Scene scene;
     scene.vertex_arrays.resize(1);
