@@ -18,6 +18,7 @@
 #include "prt/sh.h"
 #include "prt/stored_transfer.h"
 #include "prt/support/error.h"
+#include "report/instance_report.h"
 #include "report/of_texels.h"
 #include "report/trace_lines.h"
 #include "report/volume_report.h"
@@ -218,7 +219,8 @@ struct Bake {
     StoredBake stored;
     std::optional<BakedLightmap> lightmap = {}; ///< of texels; its transfer is in `stored`
     std::optional<BakedVolume> volume = {};
-    bool levels = false; ///< coarser levels of detail have transfer, too
+    bool levels = false;                      ///< coarser levels of detail have transfer, too
+    std::vector<FileInstance> instances = {}; ///< that share transfer
 };
 
 /// The scene whose vertices have transfer: that of level 0, and of coarser levels where these have some.
@@ -259,9 +261,9 @@ Bake bake_of_surfaces(GltfDocument document, const Scene& scene, const Path& pat
 }
 
 /// Throws `Error` for instances that nobody could read: compressing copies what says where they are.
-void check_instances(const Path& path, const GltfOptions& reading, const Scene& stored) {
+std::vector<FileInstance> instances_of(const Path& path, const GltfOptions& reading, const Scene& stored) {
     const GltfDocument document = load_gltf(path, reading);
-    read_instances(document, extract_scene(document), stored);
+    return read_instances(document, extract_scene(document), stored);
 }
 
 Bake load_bake(const Path& path, const GltfOptions& reading) {
@@ -269,12 +271,14 @@ Bake load_bake(const Path& path, const GltfOptions& reading) {
     options.instancing = Instancing::apart; // meshes once, as their transfer is stored
     GltfDocument document = load_gltf(path, options);
     const Scene scene = extract_scene(document);
+    std::vector<FileInstance> instances;
     if (holds_instances(document))
-        check_instances(path, reading, scene);
+        instances = instances_of(path, reading, scene);
     std::optional<BakedVolume> volume = read_volume(document, scene);
     discard_volume(document);
     Bake bake = bake_of_surfaces(std::move(document), scene, path);
     bake.volume = std::move(volume);
+    bake.instances = std::move(instances);
     return bake;
 }
 
@@ -667,6 +671,9 @@ void run(CompressArguments a, Session& session) {
                std::move(skies), report);
     say_fallback(fallback, report);
     add_levels_compressed(transfer, result, report);
+    if (!bake.instances.empty())
+        add_instance_constants(formed_instances(bake.instances, result.scene, result.transfer),
+                               {{"count", bake.instances.size()}}, report);
     if (volume)
         add_volume_compression(volume->statistics, volume->volume, report);
     if (texels)

@@ -3,6 +3,7 @@
 #include "options.h"
 #include "outputs.h"
 #include "prt/levels.h"
+#include "report/instance_report.h"
 #include "report/lightmap_report.h"
 #include "report/of_texels.h"
 #include "report/volume_report.h"
@@ -133,13 +134,8 @@ void add_instances(const InstancedModel& file, Report& report) {
         "{instances/bytes_per_instance} bytes of factors each; {instances/vertices_stored} "
         "vertices have transfer");
     if (file.compressed) {
-        const std::size_t bytes =
-            sizeof(glm::vec4) * InstanceFormer(file.compressed->transfer, formed_instances(file)).size();
-        figures["bytes_constants"] = bytes;
-        figures["bytes_constants_per_instance"] = bytes / file.instances.size();
-        report.sentences.emplace_back(
-            "GPU: {instances/bytes_constants_per_instance} bytes of constants of an instance per lighting, "
-            "{instances/bytes_constants} of all; fewer clusters take less (prt compress --clusters)");
+        add_instance_constants(formed_instances(file), std::move(figures), report);
+        return;
     }
     add_figures(report, {{"instances", std::move(figures)}});
 }

@@ -71,4 +71,17 @@ Report instance_report(const InstanceOutcome& outcome) {
     return report;
 }
 
+void add_instance_constants(const std::vector<FormedInstance>& instances, Json figures, Report& report) {
+    std::size_t rows = 0;
+    for (const FormedInstance& instance : instances)
+        rows += instance.rows.count;
+    const std::size_t bytes = 3 * sizeof(glm::vec4) * rows;
+    figures["bytes_constants"] = bytes;
+    figures["bytes_constants_per_instance"] = bytes / instances.size();
+    add_figures(report, {{"instances", std::move(figures)}});
+    report.sentences.emplace_back(
+        "GPU: {instances/bytes_constants_per_instance} bytes of constants of an instance per lighting, "
+        "{instances/bytes_constants} of all; fewer clusters take less (prt compress --clusters)");
+}
+
 } // namespace prt::cli

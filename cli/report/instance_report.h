@@ -1,6 +1,7 @@
 #pragma once
 
 #include "instance_arguments.h"
+#include "prt/instance_former.h"
 #include "report/report.h"
 
 #include <cstdint>
@@ -18,6 +19,9 @@ struct InstanceOutcome {
 };
 
 Report instance_report(const InstanceOutcome& outcome);
+
+/// Adds `figures` of instances of compressed transfer, and what their constants take.
+void add_instance_constants(const std::vector<FormedInstance>& instances, Json figures, Report& report);
 
 /// {"median", "percentile_90", "percentile_99", "most"} of errors, of which there are some.
 Json percentiles(std::vector<double> errors);

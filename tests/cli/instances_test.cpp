@@ -187,9 +187,9 @@ TEST_F(SharedInstances, WhiteNeighboursGiveBackAtMostWhatComes) {
         EXPECT_LT(radiance.x, 1.001f); // rounding of a mesh's transfer to float16
         sum += static_cast<double>(radiance.x);
     }
-    // Least squares gives some vertices more than 1, up to 1.08 here; the share that keeps the brightest at 1
-    // takes as much from all, and endless bounces of white boxes take it more than once.
-    EXPECT_GT(sum / static_cast<double>(scene.receivers()), 0.88);
+    // Least squares gives some vertices more than 1, up to 1.08 here; what holds the brightest to 1 takes
+    // some from others, and endless bounces of white boxes take it more than once.
+    EXPECT_GT(sum / static_cast<double>(scene.receivers()), 0.92);
 }
 
 /// Its errors are those of factors, not of rays, of which a sample has 16 and 128.
@@ -288,6 +288,31 @@ TEST_F(SharedInstances, WhatCannotBeSharedIsRefused) {
     const Outcome fallback =
         prt({"compress", at("shared.glb"), "-o", at("shipped.glb"), "--fallback", at("sky.exr")});
     EXPECT_EQ(fallback.status, 1);
+}
+
+TEST_F(SharedInstances, WrongAttributesAreRefusedByTheirNames) {
+    const auto refused = [&](const char* attribute, auto&& accessor_in, const char* why) {
+        GlbFile file = boxes({0, 0, 0, 3, 0, 0});
+        const std::size_t accessor = accessor_in(file);
+        file.json["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"][attribute] = accessor;
+        file.write(folder / "wrong.glb");
+        const Outcome outcome = bake("wrong.glb", "shared.glb", "shared");
+        EXPECT_EQ(outcome.status, 1);
+        EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "shared.glb"));
+    };
+    const auto floats = [](const std::vector<float>& values, const char* type, std::size_t components) {
+        return [=](GlbFile& file) { return file.accessor(values, kFloat, type, components); };
+    };
+    refused("ROTATION", floats({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4", 4), "ROTATION of instance 1 is zero");
+    refused("TRANSLATION", floats({0, 0, 0, 1, std::nanf(""), 0}, "VEC3", 3),
+            "TRANSLATION of instance 1 is not finite");
+    refused(
+        "SCALE",
+        [](GlbFile& file) {
+            return file.accessor(std::vector<std::uint16_t>{1, 1, 1, 1, 1, 1}, kUnsignedShort, "VEC3", 3);
+        },
+        "SCALE of its instances holds no floats");
 }
 
 TEST_F(SharedInstances, ZeroAndMillionsOfInstancesAreToldBeforeWork) {

@@ -32,7 +32,7 @@ namespace {
 
 /// What may stand in extensionsRequired. Materials and lights change nothing but what is reflected; their
 /// base color is used. Textures of other formats are missed only where they are needed.
-constexpr std::array<std::string_view, 33> kSupportedExtensions = {
+constexpr std::array<std::string_view, 34> kSupportedExtensions = {
     kTransferExtension,
     kClusteredExtension,
     kLightmapExtension,
@@ -41,6 +41,7 @@ constexpr std::array<std::string_view, 33> kSupportedExtensions = {
     kMeshoptExtension,
     kDracoExtension,
     "EXT_mesh_gpu_instancing",
+    "MSFT_lod",
     "KHR_mesh_quantization",
     "KHR_node_visibility",
     "EXT_texture_avif",

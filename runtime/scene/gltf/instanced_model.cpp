@@ -21,13 +21,18 @@ InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
 }
 
 std::vector<FormedInstance> formed_instances(const InstancedModel& model) {
+    return formed_instances(model.instances, model.stored, model.compressed->transfer);
+}
+
+std::vector<FormedInstance> formed_instances(std::span<const FileInstance> instances, const Scene& stored,
+                                             const ClusteredTransfer& transfer) {
     std::vector<ConstantRows> of_arrays;
-    for (const VertexArray& vertices : model.stored.vertex_arrays)
-        of_arrays.push_back(rows_of(model.compressed->transfer, vertices.first_receiver, vertices.size()));
+    for (const VertexArray& vertices : stored.vertex_arrays)
+        of_arrays.push_back(rows_of(transfer, vertices.first_receiver, vertices.size()));
     std::vector<FormedInstance> formed;
-    for (const FileInstance& instance : model.instances) {
+    for (const FileInstance& instance : instances) {
         FormedInstance one{instance.placed, {}};
-        one.placed.box.middle = glm::vec3(glm::dvec3(one.placed.box.middle) - model.stored.origin);
+        one.placed.box.middle = glm::vec3(glm::dvec3(one.placed.box.middle) - stored.origin);
         for (const std::size_t array : instance.stored_arrays)
             one.rows = joined(one.rows, of_arrays[array]);
         formed.push_back(one);

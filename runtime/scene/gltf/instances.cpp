@@ -6,6 +6,9 @@
 #include "gltf/transfer_json.h"
 #include "prt/support/error.h"
 
+#include <algorithm>
+#include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +30,28 @@ struct Attribute {
     std::vector<float> values = {};
 };
 
+/// Throws `Error` for types that the extension does not have, and for transforms that are none.
+std::vector<float> read_attribute(const tinygltf::Model& model, int index, const Attribute& attribute) {
+    const tinygltf::Accessor& accessor = get_accessor(model, index);
+    const bool turns = attribute.components == 4;
+    const bool small = accessor.componentType == TINYGLTF_COMPONENT_TYPE_BYTE ||
+                       accessor.componentType == TINYGLTF_COMPONENT_TYPE_SHORT;
+    if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !(turns && small && accessor.normalized))
+        throw Error(std::string(attribute.name) + " of its instances holds " +
+                    (turns ? "neither floats nor normalized signed bytes or shorts" : "no floats"));
+    const std::vector<float> values = read_floats(model, index, static_cast<int>(attribute.components));
+    for (std::size_t first = 0; first < values.size(); first += attribute.components) {
+        const std::span<const float> one = std::span(values).subspan(first, attribute.components);
+        const std::string name =
+            std::string(attribute.name) + " of instance " + std::to_string(first / attribute.components);
+        if (!std::ranges::all_of(one, [](float number) { return std::isfinite(number); }))
+            throw Error(name + " is not finite");
+        if (turns && std::ranges::all_of(one, [](float number) { return number == 0; }))
+            throw Error(name + " is zero, and no rotation");
+    }
+    return values;
+}
+
 std::vector<Attribute> read_attributes(const GltfContents& contents, const Json& references,
                                        std::size_t& count) {
     std::vector<Attribute> attributes = {{"TRANSLATION", "translation", 3, &tinygltf::Node::translation},
@@ -46,8 +71,8 @@ std::vector<Attribute> read_attributes(const GltfContents& contents, const Json&
                     std::to_string(kMostInstances) + " can be");
     for (Attribute& attribute : attributes)
         if (references.contains(attribute.name))
-            attribute.values = read_floats(contents.model, references[attribute.name].get<int>(),
-                                           static_cast<int>(attribute.components));
+            attribute.values =
+                read_attribute(contents.model, references[attribute.name].get<int>(), attribute);
     return attributes;
 }
 

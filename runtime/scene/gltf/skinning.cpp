@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace prt {
@@ -21,6 +22,9 @@ void read_set(const tinygltf::Model& model, std::span<const int> accessors, std:
     if (indices.size() != numbers || weights.size() != numbers)
         throw Error("JOINTS or WEIGHTS have another number of elements than POSITION");
     for (std::size_t i = 0; i < numbers; ++i) {
+        if (!(weights[i] >= 0 && std::isfinite(weights[i])))
+            throw Error("a weight of vertex " + std::to_string(i / 4) + " for its joints is " +
+                        std::to_string(weights[i]));
         if (weights[i] == 0)
             continue;
         if (indices[i] >= joints)
@@ -53,6 +57,9 @@ Skin read_skin(const tinygltf::Model& model, int index) {
     std::vector<float> inverse_bind;
     if (file.inverseBindMatrices >= 0)
         inverse_bind = read_floats(model, file.inverseBindMatrices, 16);
+    if (file.inverseBindMatrices >= 0 && inverse_bind.size() < 16 * file.joints.size())
+        throw Error("skin " + std::to_string(index) + " has " + std::to_string(file.joints.size()) +
+                    " joints, and " + std::to_string(inverse_bind.size() / 16) + " inverse bind matrices");
     Skin skin;
     for (std::size_t j = 0; j < file.joints.size(); ++j) {
         const int node = file.joints[j];
@@ -60,9 +67,8 @@ Skin read_skin(const tinygltf::Model& model, int index) {
             throw Error("joint " + std::to_string(j) + " of skin " + std::to_string(index) + " is node " +
                         std::to_string(node) + ", which is not there");
         skin.joints.push_back(static_cast<std::size_t>(node));
-        skin.inverse_bind.push_back((j + 1) * 16 <= inverse_bind.size()
-                                        ? glm::dmat4(glm::make_mat4(&inverse_bind[j * 16]))
-                                        : glm::dmat4(1));
+        skin.inverse_bind.push_back(inverse_bind.empty() ? glm::dmat4(1)
+                                                         : glm::dmat4(glm::make_mat4(&inverse_bind[j * 16])));
     }
     return skin;
 }

@@ -322,6 +322,16 @@ TEST(BadSkin, IsRefusedWithItsPlace) {
     EXPECT_NE(refusal(skin).find("skin 3 is not there"), std::string::npos) << refusal(skin);
     bind.json["skins"][0]["inverseBindMatrices"] = 77;
     EXPECT_NE(refusal(bind).find("accessor 77 is not there"), std::string::npos) << refusal(bind);
+    GlbFile few = skinned_file();
+    few.json["skins"][0]["inverseBindMatrices"] = few.accessor(
+        std::vector<float>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}, test::kFloat, "MAT4", 16);
+    EXPECT_NE(refusal(few).find("2 joints, and 1 inverse bind"), std::string::npos) << refusal(few);
+    for (const float weight : {std::nanf(""), -1.0f}) {
+        GlbFile file = skinned_file();
+        file.json["meshes"][0]["primitives"][0]["attributes"]["WEIGHTS_0"] = file.accessor(
+            std::vector<float>{1, 0, 0, 0, weight, 0, 0, 0, 1, 0, 0, 0}, test::kFloat, "VEC4", 4);
+        EXPECT_NE(refusal(file).find("a weight of vertex 1"), std::string::npos) << refusal(file);
+    }
 }
 
 } // namespace

@@ -90,6 +90,9 @@ InstancedModel read_instanced(const GltfDocument& document, const Scene& scene,
 
 /// What constants are formed for, of a compressed model; places are those of positions as `stored` has them.
 std::vector<FormedInstance> formed_instances(const InstancedModel& model);
+/// The same of the parts of one.
+std::vector<FormedInstance> formed_instances(std::span<const FileInstance> instances, const Scene& stored,
+                                             const ClusteredTransfer& transfer);
 
 /// Areas of the receivers of `stored`, the scene of `document` with its meshes apart: those of a mesh that
 /// instances share as large as it is drawn, and as often.
