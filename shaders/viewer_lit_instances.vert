@@ -1,5 +1,5 @@
-// Exit radiance of the vertices of instances, as halves in a buffer that instance_radiance.glsl reads in every frame until
-// the light changes. Defines are those of prt_instances.glsl.
+// Exit radiance of the vertices of instances, as halves in a buffer that instance_radiance.glsl reads in every frame
+// until the light changes. Defines are those of prt_instances.glsl.
 
 #include "prt_instances.glsl"
 #include "shared_viewer.h"
