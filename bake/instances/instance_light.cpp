@@ -293,7 +293,7 @@ void InstanceLight::fit(std::size_t step, bool gives) {
         std::vector<glm::vec3> places;
         for (std::size_t r = 0; r < shared.receivers(); ++r)
             places.push_back(meshes_[group.mesh].place_of(r));
-        const UniformBound& bound = bounds.emplace_back(shared, places);
+        UniformBound& bound = bounds.emplace_back(shared, places);
         parallel_for(group.instances.size(), kExpandedAtOnce, plan_.options.threads,
                      [&](std::size_t begin, std::size_t end) {
                          const std::span some = std::span(group.instances).subspan(begin, end - begin);
@@ -304,8 +304,15 @@ void InstanceLight::fit(std::size_t step, bool gives) {
                              expand(shared, places,
                                     some.subspan(first, std::min(kExpandedAtOnce, some.size() - first)));
                      });
-        if (gives) // there are many where every instance leans its own way
+        if (gives) {
             bounds.clear();
+            continue;
+        }
+        std::vector<InstanceFactors> found;
+        for (const std::size_t i : group.instances)
+            if (samples_.met[i])
+                found.push_back(in_axes_of_mesh(result_.factors[i], receivers_.instances[i].rotation));
+        bound.keep_near(found); // groups are many where every instance leans its own way
     }
     if (!gives)
         bound_as_stored(bounds);

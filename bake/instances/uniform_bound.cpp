@@ -69,6 +69,24 @@ std::vector<UniformBound::Row> UniformBound::exceeding(const InstanceFactors& fa
     return rows;
 }
 
+void UniformBound::keep_near(std::span<const InstanceFactors> factors) {
+    constexpr float kNear = 0.9f; // bytes have added two hundredths at most
+    std::size_t kept = 0;
+    for (std::size_t r = 0; r < modes_.size(); ++r) {
+        const bool near = std::ranges::any_of(factors, [&](const InstanceFactors& f) {
+            const glm::vec3 radiance = exit_radiance(f, places_[r], modes_[r]);
+            return std::max({radiance.x, radiance.y, radiance.z}) > kNear * bound_;
+        });
+        if (!near)
+            continue;
+        modes_[kept] = modes_[r];
+        places_[kept++] = places_[r];
+    }
+    modes_.resize(kept);
+    modes_.shrink_to_fit();
+    places_.resize(kept);
+}
+
 InstanceFactors scaled(InstanceFactors factors, float share) {
     for (glm::vec4& row : factors.passing)
         row *= share;

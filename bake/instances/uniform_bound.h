@@ -11,7 +11,8 @@
 namespace prt {
 
 /// Exit radiance of a mesh's receivers under radiance 1 from everywhere, mode by mode. Least squares may take
-/// the sum of the modes above 1, where no surface is (docs/math.md, section 22). Immutable, thread-safe.
+/// the sum of the modes above 1, where no surface is (docs/math.md, section 22). Threads may share what is
+/// const.
 class UniformBound {
 public:
     /// `places` [receivers] in the box of the mesh.
@@ -26,6 +27,9 @@ public:
     using Row = std::array<float, kInstanceNumbers>;
     /// Of those that give more, the worst, so many at most.
     std::vector<Row> exceeding(const InstanceFactors& factors, std::size_t most) const;
+
+    /// Forgets receivers that with none of `factors` come near the bound: rounding takes none there.
+    void keep_near(std::span<const InstanceFactors> factors);
 
 private:
     Row row_of(std::size_t receiver, int channel) const;
