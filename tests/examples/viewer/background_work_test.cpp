@@ -37,8 +37,8 @@ TEST(BackgroundWork, PostsWhatItFindsInOrder) {
 }
 
 TEST(BackgroundWork, ThatMakesWayPostsNothingMore) {
+    std::atomic<bool> begun = false; // outlives the work, whose destructor waits for it
     Work work;
-    std::atomic<bool> begun = false;
     work.start([&](Work::Channel& channel) {
         for (;;) {
             begun = true;
@@ -53,8 +53,8 @@ TEST(BackgroundWork, ThatMakesWayPostsNothingMore) {
 }
 
 TEST(BackgroundWork, ThatIsStoppedPostsNothingMore) {
+    std::atomic<bool> begun = false; // outlives the work, whose destructor waits for it
     Work work;
-    std::atomic<bool> begun = false;
     work.start([&](Work::Channel& channel) {
         for (;;) {
             begun = true;
