@@ -55,7 +55,7 @@ InstanceRadiance::InstanceRadiance(const prt::ClusteredTransfer& transfer, const
 void InstanceRadiance::attach_table(const prt::GlVertexArrays& arrays) const {
     for (const prt::GlObject& array : arrays) {
         glVertexArrayBindingDivisor(array.name(), kTableBinding, 1);
-        for (const GLuint location : {PRT_LOCATION_INSTANCE_0, PRT_LOCATION_INSTANCE_1}) {
+        for (const GLuint location : {GLuint{PRT_LOCATION_INSTANCE_0}, GLuint{PRT_LOCATION_INSTANCE_1}}) {
             const GLuint offset = location == PRT_LOCATION_INSTANCE_0 ? 0 : sizeof(glm::vec4);
             glEnableVertexArrayAttrib(array.name(), location);
             glVertexArrayAttribFormat(array.name(), location, 4, GL_FLOAT, GL_FALSE, offset);

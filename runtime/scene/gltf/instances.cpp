@@ -39,7 +39,7 @@ std::vector<float> read_attribute(const tinygltf::Model& model, int index, const
     if (accessor.componentType != TINYGLTF_COMPONENT_TYPE_FLOAT && !(turns && small && accessor.normalized))
         throw Error(std::string(attribute.name) + " of its instances holds " +
                     (turns ? "neither floats nor normalized signed bytes or shorts" : "no floats"));
-    const std::vector<float> values = read_floats(model, index, static_cast<int>(attribute.components));
+    std::vector<float> values = read_floats(model, index, static_cast<int>(attribute.components));
     for (std::size_t first = 0; first < values.size(); first += attribute.components) {
         const std::span<const float> one = std::span(values).subspan(first, attribute.components);
         const std::string name =
