@@ -572,6 +572,14 @@ Report report_of(const CompressArguments& a, const SearchOptions& options, const
     return report;
 }
 
+void add_levels_and_instances(const Bake& bake, const TransferView& transfer, const Written& result,
+                              Report& report) {
+    add_levels_compressed(transfer, result, report);
+    if (!bake.instances.empty())
+        add_instance_constants(formed_instances(bake.instances, result.scene, result.transfer),
+                               {{"count", bake.instances.size()}}, report);
+}
+
 /// What texels cannot be: a pass over a map knows no normals, and its words are packed.
 void choose_for_texels(const CompressArguments& a, SearchOptions& options) {
     if (a.guides_given && options.compress.guides != GuideChoice::none)
@@ -670,10 +678,7 @@ void run(CompressArguments a, Session& session) {
     add_errors(error_moments(transfer, result.transfer, result.areas, threads), *options.compress.metric,
                std::move(skies), report);
     say_fallback(fallback, report);
-    add_levels_compressed(transfer, result, report);
-    if (!bake.instances.empty())
-        add_instance_constants(formed_instances(bake.instances, result.scene, result.transfer),
-                               {{"count", bake.instances.size()}}, report);
+    add_levels_and_instances(bake, transfer, result, report);
     if (volume)
         add_volume_compression(volume->statistics, volume->volume, report);
     if (texels)
