@@ -14,17 +14,11 @@ layout(location = PRT_LOCATION_NORMAL) in vec3 normal;
 #else
 const vec3 normal = vec3(0.0);
 #endif
-#ifdef PRT_INSTANCES
 layout(location = PRT_LOCATION_INSTANCE_0) in vec4 instance_0;
 layout(location = PRT_LOCATION_INSTANCE_1) in vec4 instance_1;
-#endif
 
 void main() {
-#ifdef PRT_INSTANCES
     vec3 radiance = prt_instance_radiance(instance_0, instance_1, position, normal);
-#else
-    vec3 radiance = prt_exit_radiance(position, normal);
-#endif
     instance_radiance[uint(gl_InstanceID) * instance_vertices + uint(gl_VertexID)] =
         uvec2(packHalf2x16(radiance.rg), packHalf2x16(vec2(radiance.b, 0.0)));
     gl_Position = vec4(0.0);

@@ -148,19 +148,6 @@ InstanceFactors InstanceFit::factors_of_unknowns(const Eigen::VectorXd& unknowns
     return factors;
 }
 
-/// A row of the bound by unknowns.
-Eigen::VectorXd InstanceFit::row_of(const UniformBound::Row& row) const {
-    Eigen::VectorXd by_unknown = Eigen::VectorXd::Zero(open_.size());
-    for (Eigen::Index i = 0; i < kPassingUnknowns; ++i)
-        by_unknown[i] = static_cast<double>(row[static_cast<std::size_t>(i)]);
-    for (std::size_t k = 0; added_ && k < kAddedModes; ++k)
-        for (std::size_t c = 0; c < 3; ++c)
-            by_unknown[kPassingUnknowns + static_cast<Eigen::Index>(k) * channels_ +
-                       (channels_ == 1 ? 0 : static_cast<Eigen::Index>(c))] +=
-                static_cast<double>(row[static_cast<std::size_t>(kPassingUnknowns) + 3 * k + c]);
-    return by_unknown;
-}
-
 InstanceFactors InstanceFit::fit(const Targets& targets, const UniformBound* bound) const {
     constexpr auto kModes = static_cast<Eigen::Index>(kPassingModes);
     const auto size = static_cast<std::size_t>(dimension());
@@ -191,11 +178,11 @@ InstanceFactors InstanceFit::fit(const Targets& targets, const UniformBound* bou
     right += kRidge * mean * open_;
     InstanceFactors factors = factors_of_unknowns(normal.ldlt().solve(right));
     for (int step = 0; bound && step < kMostBoundSteps; ++step) {
-        const std::vector<UniformBound::Row> exceeding = bound->exceeding(factors, kMostHeld);
+        const std::vector<InstanceFactors> exceeding = bound->exceeding(factors, kMostHeld);
         if (exceeding.empty())
             return factors;
-        for (const UniformBound::Row& row : exceeding) {
-            const Eigen::VectorXd held = row_of(row);
+        for (const InstanceFactors& row : exceeding) {
+            const Eigen::VectorXd held = unknowns_of(row);
             normal += kHeld * mean * held * held.transpose();
             right += kHeld * mean * static_cast<double>(bound->bound()) * held;
         }

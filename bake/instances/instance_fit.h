@@ -52,7 +52,6 @@ public:
 private:
     Eigen::Index dimension() const { return weights_.size(); }
     void find_skies(const TransferLayout& layout, const glm::dvec3& up);
-    Eigen::VectorXd row_of(const UniformBound::Row& row) const;
     Eigen::MatrixXf columns_of(const SharedTransfer& shared, std::size_t sample) const;
     Eigen::VectorXd unknowns_of(const InstanceFactors& factors) const;
     InstanceFactors factors_of_unknowns(const Eigen::VectorXd& unknowns) const;

@@ -37,17 +37,16 @@ float UniformBound::share(const InstanceFactors& factors) const {
     return bound_ / most;
 }
 
-UniformBound::Row UniformBound::row_of(std::size_t receiver, int channel) const {
+InstanceFactors UniformBound::row_of(std::size_t receiver, int channel) const {
     InstanceFactors row;
     for (std::size_t m = 0; m < kPassingModes; ++m)
         row.passing[m] = glm::vec4(places_[receiver], 1) * modes_[receiver][m][channel];
     for (std::size_t k = 0; k < kAddedModes; ++k)
         row.added[k][channel] = modes_[receiver][kPassingModes + k][channel];
-    return numbers_of(row);
+    return row;
 }
 
-std::vector<UniformBound::Row> UniformBound::exceeding(const InstanceFactors& factors,
-                                                       std::size_t most) const {
+std::vector<InstanceFactors> UniformBound::exceeding(const InstanceFactors& factors, std::size_t most) const {
     struct Excess {
         float radiance;
         std::size_t receiver;
@@ -63,7 +62,7 @@ std::vector<UniformBound::Row> UniformBound::exceeding(const InstanceFactors& fa
             all.push_back({radiance[channel], r, channel});
     }
     std::ranges::sort(all, std::greater(), &Excess::radiance);
-    std::vector<Row> rows;
+    std::vector<InstanceFactors> rows;
     for (std::size_t i = 0; i < std::min(most, all.size()); ++i)
         rows.push_back(row_of(all[i].receiver, all[i].channel));
     return rows;

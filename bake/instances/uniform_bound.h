@@ -23,16 +23,15 @@ public:
     /// The largest share of the factors, 1 at most, with which no receiver gives more.
     float share(const InstanceFactors& factors) const;
 
-    /// What a receiver gives in a channel, as a product with `numbers_of` factors.
-    using Row = std::array<float, kInstanceNumbers>;
-    /// Of those that give more, the worst, so many at most.
-    std::vector<Row> exceeding(const InstanceFactors& factors, std::size_t most) const;
+    /// Of receivers that give more the worst, so many at most: what each gives, number by number, of factors
+    /// of 1, in the channel where it is most, the first where all are alike.
+    std::vector<InstanceFactors> exceeding(const InstanceFactors& factors, std::size_t most) const;
 
     /// Forgets receivers that with none of `factors` come near the bound: rounding takes none there.
     void keep_near(std::span<const InstanceFactors> factors);
 
 private:
-    Row row_of(std::size_t receiver, int channel) const;
+    InstanceFactors row_of(std::size_t receiver, int channel) const;
 
     std::vector<std::array<glm::vec3, kInstanceModes>> modes_; ///< [receivers]
     std::vector<glm::vec3> places_;

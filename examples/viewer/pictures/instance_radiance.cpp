@@ -16,11 +16,6 @@ constexpr GLuint kTableBinding = 10;
 constexpr std::size_t kVertexBytes = 8; ///< four halves
 constexpr std::size_t kAlignment = 256; ///< of a storage buffer's part, the most that a device may ask for
 
-/// Throws `Error` where weights leave no attributes to instances.
-std::string defines_of(const prt::ClusteredTransfer& transfer) {
-    return "#define PRT_COMPRESSED\n" + prt::instance_defines(transfer);
-}
-
 } // namespace
 
 std::size_t InstanceRadiance::Place::bytes() const {
@@ -32,7 +27,7 @@ InstanceRadiance::InstanceRadiance(const prt::ClusteredTransfer& transfer, const
                                    std::span<const MeshInstances> meshes)
     : transfer_(transfer), former_(transfer, formed), arrays_(scene.make_vertex_arrays()),
       table_(prt::make_buffer(std::span<const glm::vec4>(former_.table()))),
-      program_(prt::make_program("viewer_lit_instances.vert", "", defines_of(transfer))),
+      program_(prt::make_program("viewer_lit_instances.vert", "", prt::instance_defines(transfer))),
       framebuffer_(prt::make_framebuffer()) {
     std::size_t end = 0;
     for (std::size_t m = 0; m < meshes.size(); ++m)

@@ -35,34 +35,28 @@ bool same_receivers(const Scene& scene, const Scene& other) {
 /// Vertex array, position and normal, bit by bit.
 using Key = std::array<std::uint32_t, 7>;
 
-std::vector<Key> keys_of_array(const VertexArray& vertices) {
-    std::vector<Key> keys;
-    for (std::size_t v = 0; v < vertices.size(); ++v) {
-        const glm::vec3 &p = vertices.positions[v], &n = vertices.normals[v];
-        keys.push_back({0, std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
-                        std::bit_cast<std::uint32_t>(p.z), std::bit_cast<std::uint32_t>(n.x),
-                        std::bit_cast<std::uint32_t>(n.y), std::bit_cast<std::uint32_t>(n.z)});
-    }
-    return keys;
-}
-
 /// Vertex arrays are numbered by what they hold: scenes of the same nodes in another order are the same.
 std::vector<Key> keys_of(const Scene& scene) {
-    std::vector<std::pair<std::vector<Key>, std::size_t>> held;
+    std::vector<Key> keys;
+    std::vector<std::pair<std::vector<Key>, std::size_t>> held; // what each vertex array holds, sorted
     for (std::size_t a = 0; a < scene.vertex_arrays.size(); ++a) {
-        held.emplace_back(keys_of_array(scene.vertex_arrays[a]), a);
+        const VertexArray& vertices = scene.vertex_arrays[a];
+        const auto begin = static_cast<std::ptrdiff_t>(keys.size());
+        for (std::size_t v = 0; v < vertices.size(); ++v) {
+            const glm::vec3 &p = vertices.positions[v], &n = vertices.normals[v];
+            keys.push_back({0, std::bit_cast<std::uint32_t>(p.x), std::bit_cast<std::uint32_t>(p.y),
+                            std::bit_cast<std::uint32_t>(p.z), std::bit_cast<std::uint32_t>(n.x),
+                            std::bit_cast<std::uint32_t>(n.y), std::bit_cast<std::uint32_t>(n.z)});
+        }
+        held.emplace_back(std::vector<Key>(keys.begin() + begin, keys.end()), a);
         std::ranges::sort(held.back().first);
     }
     std::ranges::sort(held);
-    std::vector<std::uint32_t> number_of(held.size());
-    for (std::uint32_t number = 0; number < held.size(); ++number)
-        number_of[held[number].second] = number;
-    std::vector<Key> keys;
-    for (std::size_t a = 0; a < scene.vertex_arrays.size(); ++a)
-        for (Key key : keys_of_array(scene.vertex_arrays[a])) {
-            key[0] = number_of[a];
-            keys.push_back(key);
-        }
+    for (std::uint32_t number = 0; number < held.size(); ++number) {
+        const VertexArray& vertices = scene.vertex_arrays[held[number].second];
+        for (std::size_t v = 0; v < vertices.size(); ++v)
+            keys[vertices.first_receiver + v][0] = number;
+    }
     return keys;
 }
 

@@ -55,11 +55,13 @@ Skin read_skin(const tinygltf::Model& model, int index) {
         throw Error("skin " + std::to_string(index) + " is not there");
     const tinygltf::Skin& file = model.skins[static_cast<std::size_t>(index)];
     std::vector<float> inverse_bind;
-    if (file.inverseBindMatrices >= 0)
+    if (file.inverseBindMatrices >= 0) {
         inverse_bind = read_floats(model, file.inverseBindMatrices, 16);
-    if (file.inverseBindMatrices >= 0 && inverse_bind.size() < 16 * file.joints.size())
-        throw Error("skin " + std::to_string(index) + " has " + std::to_string(file.joints.size()) +
-                    " joints, and " + std::to_string(inverse_bind.size() / 16) + " inverse bind matrices");
+        if (inverse_bind.size() < 16 * file.joints.size())
+            throw Error("skin " + std::to_string(index) + " has " + std::to_string(file.joints.size()) +
+                        " joints, and " + std::to_string(inverse_bind.size() / 16) +
+                        " inverse bind matrices");
+    }
     Skin skin;
     for (std::size_t j = 0; j < file.joints.size(); ++j) {
         const int node = file.joints[j];
