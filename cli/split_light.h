@@ -35,7 +35,7 @@ Lighting lighting_of(const SplitLight& light);
 
 /// Why suns cannot be lit apart from the sky where transfer is one part, and what to do about it.
 inline constexpr const char* kNotApart = "keeps no direct light apart, so that suns cannot be lit apart from "
-                                         "the sky; compress it without --whole";
+                                         "the sky; lobes never do, other transfer without --whole";
 
 /// Without light.
 SplitLight dark_sky(int order);

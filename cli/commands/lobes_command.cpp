@@ -42,6 +42,19 @@ void check_weights(const AnimatedScene& model) {
     }
 }
 
+/// Whether some vertex lies elsewhere in some pose than in the first.
+bool moves(const AnimatedScene& model, std::span<const ModelPose> poses) {
+    const auto places = [&](const ModelPose& pose) {
+        std::vector<std::vector<glm::vec3>> arrays;
+        for (VertexArray& vertices : model.posed(pose.nodes, glm::dmat4(1)).vertex_arrays)
+            arrays.push_back(std::move(vertices.positions));
+        return arrays;
+    };
+    const auto first = places(poses.front());
+    return std::ranges::any_of(poses.subspan(1),
+                               [&](const ModelPose& pose) { return places(pose) != first; });
+}
+
 /// The mean square of lighting in each band, whichever way up.
 void set_band_costs(int order, LobeFitOptions& options) {
     const LightMetric metric = natural_metric(layout_of_one(order, 1));
@@ -142,6 +155,10 @@ void run(LobesArguments a, Session& session) {
     about(a.model, [&] {
         check_weights(model);
         const std::vector<ModelPose> poses = poses_of(model, a.poses, a.animation);
+        if (!moves(model, poses))
+            print_notices(a.model.string(),
+                          {"no vertex of it moves in these poses: prt bake holds the light of "
+                           "what stands still better"});
         const Made made = make_lobes(a, model, poses, session);
         report = report_of(a, made, poses.size());
         measure_frames(a, model, made, session, report);

@@ -3,6 +3,7 @@
 #include "light_set.h"
 #include "options.h"
 #include "outputs.h"
+#include "posed_lobes.h"
 #include "prt/gl_renderer.h"
 #include "prt/light_meter.h"
 #include "prt/light_passing.h"
@@ -377,7 +378,9 @@ void run(RenderArguments a, Session& session) {
     a.reading.outputs =
         check_outputs({{a.output, "--output", {".png", ".exr"}, true}, {a.json, "--json", {".json"}}},
                       {a.model, a.environment, a.lights.lamps.file, a.baked});
-    const SceneFile model = load_scene_file(a.model, a.reading);
+    SceneFile model = load_scene_file(a.model, a.reading);
+    if (!model.record() && model.lobes)
+        model.baked = lobes_as_transfer(model);
     if (!model.record())
         print_notices(a.model.string(), {"holds no transfer: its sky casts no shadows"});
     const std::vector<bool> solid = solid_materials(model);

@@ -1,11 +1,14 @@
 // prt lobes: transfer that turns with a skin, and what is refused.
 
+#include "prt/image_file.h"
 #include "prt/lobe_gltf.h"
 #include "road.h"
 #include "support/glb_file.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -68,6 +71,51 @@ TEST_F(LobesCommand, GivesTheSameBytesForAnyNumberOfThreads) {
     std::filesystem::rename(folder / "out.glb", folder / "one.glb");
     ASSERT_EQ(lobes("figure.glb", options).status, 0);
     EXPECT_EQ(read_glb(folder / "out.glb").binary, read_glb(folder / "one.glb").binary);
+}
+
+// Lobes of the pose of the file alone, rendered beside a bake of it, under light from one side. What order 4
+// and two lobes leave out and 3 % of noise stay far below what shadows do.
+TEST_F(LobesCommand, AreRenderedInThePoseOfTheFile) {
+    GlbFile still = read_glb(folder / "figure.glb");
+    auto& animation = still.json["animations"][0];
+    animation["channels"] = nlohmann::ordered_json::array({animation["channels"][0]});
+    animation["channels"][0]["target"]["node"] = still.json["nodes"].size();
+    still.json["nodes"].push_back({{"name", "draws nothing"}});
+    still.json["animations"] = nlohmann::ordered_json::array({animation});
+    still.write(folder / "still.glb");
+    const Outcome outcome = lobes("still.glb", {"--rays", "256", "--poses", "1", "--frames", "0"});
+    ASSERT_EQ(outcome.status, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("no vertex of it moves"), std::string::npos) << outcome.err;
+    ASSERT_EQ(prt({"bake", at("still.glb"), "-o", at("baked.glb"), "--order", "4", "--rays", "256",
+                   "--bounces", "1"})
+                  .status,
+              0);
+    std::vector<glm::vec3> sky(32, glm::vec3(0.1f));
+    for (std::size_t y = 0; y < 4; ++y)
+        for (std::size_t x = 0; x < 3; ++x)
+            sky[8 * y + x] = glm::vec3(1);
+    write_exr(folder / "sky.exr", {8, 4, sky});
+    const auto picture = [&](const char* model) {
+        const Outcome rendered =
+            prt({"render", at(model), "--env", at("sky.exr"), "-o", at("p.exr"), "--size", "192x96",
+                 "--no-background", "--suns", "0", "--backend", "cpu"});
+        EXPECT_EQ(rendered.status, 0) << rendered.err;
+        const bool unlit = rendered.err.find("holds no transfer") != std::string::npos;
+        EXPECT_EQ(unlit, std::string(model) == "still.glb") << rendered.err;
+        return load_environment(folder / "p.exr").environment.image.pixels;
+    };
+    const auto baked = picture("baked.glb"), posed = picture("out.glb"), open = picture("still.glb");
+    const auto difference = [&](const std::vector<glm::vec3>& other) {
+        double wrong = 0, all = 0;
+        for (std::size_t i = 0; i < baked.size(); ++i) {
+            const glm::dvec3 pixel(baked[i]), off = glm::dvec3(other[i]) - pixel;
+            wrong += glm::dot(off, off);
+            all += glm::dot(pixel, pixel);
+        }
+        return std::sqrt(wrong / all);
+    };
+    EXPECT_LT(difference(posed), 0.1);
+    EXPECT_GT(difference(open), 2 * difference(posed));
 }
 
 TEST_F(LobesCommand, RefusesWhatDoesNotMove) {
