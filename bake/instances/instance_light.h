@@ -71,6 +71,7 @@ private:
         std::vector<float> light;          ///< [samples][dimension], in the mesh's frame
         std::vector<float> differences;    ///< of every so many samples, as InstanceFit::Noise
         std::vector<bool> left_out;        ///< [samples] sealed in
+        std::vector<char> may_be_sealed;   ///< [samples] by what their own rays met
         std::vector<char> met;             ///< [instances] a ray met something else
         std::vector<ShRotation> into_mesh; ///< [instances]
     };
