@@ -1,5 +1,6 @@
 #include "lobe_errors.h"
 
+#include "posed_lobes.h"
 #include "prt/error_measures.h"
 #include "prt/sh.h"
 #include "prt/standard_skies.h"
@@ -61,12 +62,8 @@ private:
     void write(Method method, std::size_t v, std::span<double> to) const {
         const MeanTransfer& mean = request_.mean;
         if (method == Method::shipped) {
-            std::array<Lobe, kMostLobes> lobes;
-            request_.lobes.decode(v, lobes);
-            for (Lobe& lobe : lobes)
-                lobe.axis = turned_axis(lobe.axis, axis_turn(glm::mat3(frames_.matrix(v))));
             std::vector<float> vector(to.size());
-            lobe_transfer(lobes, mean.order, vector);
+            lobe_transfer_in_pose(request_.lobes, frames_, v, mean.order, vector);
             std::copy(vector.begin(), vector.end(), to.begin());
         } else if (method == Method::unshadowed) {
             clamped_cosine_lobe(mean.order, glm::dvec3(normals_[v]), to);

@@ -1,10 +1,17 @@
 #include "posed_lobes.h"
 
-#include "prt/pose_bake.h"
-
 #include <array>
 
 namespace prt::cli {
+
+void lobe_transfer_in_pose(const LobeModel& lobes, const VertexFrames& frames, std::size_t vertex, int order,
+                           std::span<float> transfer) {
+    std::array<Lobe, kMostLobes> of_vertex;
+    lobes.decode(vertex, of_vertex);
+    for (Lobe& lobe : of_vertex)
+        lobe.axis = turned_axis(lobe.axis, axis_turn(glm::mat3(frames.matrix(vertex))));
+    lobe_transfer(of_vertex, order, transfer);
+}
 
 BakedTransfer lobes_as_transfer(const SceneFile& model) {
     const StoredLobes& stored = model.lobes.value();
@@ -15,13 +22,8 @@ BakedTransfer lobes_as_transfer(const SceneFile& model) {
     result.record.bounces = stored.record.bounces;
     result.record.rays = stored.record.rays;
     result.record.seed = stored.record.seed;
-    std::array<Lobe, kMostLobes> lobes;
-    for (std::size_t v = 0; v < frames.vertices(); ++v) {
-        stored.model.decode(v, lobes);
-        for (Lobe& lobe : lobes)
-            lobe.axis = turned_axis(lobe.axis, axis_turn(glm::mat3(frames.matrix(v))));
-        lobe_transfer(lobes, order, result.transfer.vector(v));
-    }
+    for (std::size_t v = 0; v < frames.vertices(); ++v)
+        lobe_transfer_in_pose(stored.model, frames, v, order, result.transfer.vector(v));
     return result;
 }
 

@@ -39,15 +39,6 @@ void turn_all(const ShRotation& turn, std::size_t count, std::span<const float> 
         turn.apply(from.subspan(first, count), to.subspan(first, count));
 }
 
-/// Of rays that met something, how many ended inside a solid.
-double backs_of(const Surfaces& surfaces, std::span<const Hit> hits) {
-    double backs = 0;
-    for (const Hit& hit : hits)
-        if (hit.back && !surfaces.two_sided(hit.triangle))
-            backs += static_cast<double>(hit.weight);
-    return backs;
-}
-
 } // namespace
 
 InstanceLight::InstanceLight(const BakePlan& plan, Tracer& tracer, const std::vector<SharedMeshBake>& meshes,

@@ -17,17 +17,22 @@ constexpr double kLeastBacks = 0.98; ///< of all rays; among loose sheets nine o
 
 } // namespace
 
-bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays, bool maybe) {
-    constexpr double kRounding = 1e-3; // of the weights, in rays
-    double ended = 0, backs = 0;
-    for (const Hit& hit : hits) {
-        ended += static_cast<double>(hit.weight);
+double backs_of(const Surfaces& surfaces, std::span<const Hit> hits) {
+    double backs = 0;
+    for (const Hit& hit : hits)
         if (hit.back && !surfaces.two_sided(hit.triangle))
             backs += static_cast<double>(hit.weight);
-    }
+    return backs;
+}
+
+bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays, bool maybe) {
+    constexpr double kRounding = 1e-3; // of the weights, in rays
+    double ended = 0;
+    for (const Hit& hit : hits)
+        ended += static_cast<double>(hit.weight);
     // Of few rays more may meet a front by chance.
     const double by_chance = maybe ? 3 * std::sqrt((1 - kLeastBacks) * rays) : 0;
-    return ended > rays - kRounding && backs >= kLeastBacks * rays - by_chance;
+    return ended > rays - kRounding && backs_of(surfaces, hits) >= kLeastBacks * rays - by_chance;
 }
 
 Sealed find_sealed(Tracer& tracer, const TraceScene& scene, const Receivers& receivers,

@@ -16,6 +16,9 @@ namespace prt {
 
 inline constexpr int kMostProbes = 1024;
 
+/// Of rays, how many ended at the back of a single-sided surface, inside a solid.
+double backs_of(const Surfaces& surfaces, std::span<const Hit> hits);
+
 /// Whether the hits of so many rays are all of them, and nearly all backs of single-sided surfaces. `maybe`:
 /// so far as few rays can tell.
 bool looks_sealed(const Surfaces& surfaces, std::span<const Hit> hits, int rays, bool maybe);
