@@ -1,6 +1,18 @@
 # install(), the package that find_package(prtkit) reads, and pkg-config files: one of each per library, so that a
-# missing package of one does not break another.
+# missing package of one does not break another. `cmake --install` installs the libraries and programs that are built and
+# lists those that are not.
 include(CMakePackageConfigHelpers)
+
+# prtkit_install_if_built(<target>): installs the component <target> of the install rules where its file is built.
+function(prtkit_install_if_built target)
+    install(CODE "
+        if(EXISTS \"$<TARGET_FILE:${target}>\")
+            execute_process(COMMAND \"\${CMAKE_COMMAND}\" --install \"${PROJECT_BINARY_DIR}\"
+                --prefix \"\${CMAKE_INSTALL_PREFIX}\" --component ${target} COMMAND_ERROR_IS_FATAL ANY)
+        else()
+            list(APPEND prtkit_not_built ${target})
+        endif()")
+endfunction()
 
 # pkg-config's names of packages, and libraries of those that it does not know.
 set(pkg_config_of_OpenEXR OpenEXR)
@@ -38,9 +50,9 @@ function(prtkit_links_of target)
     set(packages ${packages} PARENT_SCOPE)
 endfunction()
 
-# prtkit_pkg_config(<component>): installs prtkit.pc for the bare runtime, prtkit-<component>.pc for others. All but the C
+# prtkit_pkg_config(<library> <component>): installs prtkit.pc for the bare runtime, prtkit-<component>.pc for others. All but the C
 # interface are static, so that what they are linked with is required of whoever links them.
-function(prtkit_pkg_config component)
+function(prtkit_pkg_config library component)
     set(PC_NAME prtkit-${component})
     set(PC_LIBS -lprt_${component})
     if(component STREQUAL "runtime")
@@ -61,7 +73,8 @@ function(prtkit_pkg_config component)
     list(JOIN PC_REQUIRES " " PC_REQUIRES)
     list(JOIN PC_LIBS " " PC_LIBS)
     configure_file(cmake/prtkit.pc.in ${PC_NAME}.pc @ONLY)
-    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${PC_NAME}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${PC_NAME}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+        COMPONENT ${library} EXCLUDE_FROM_ALL)
 endfunction()
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/prtkit)
@@ -73,9 +86,12 @@ foreach(library IN LISTS libraries)
     list(APPEND components ${component})
     string(APPEND component_links "set(prtkit_${component}_uses ${uses})\nset(prtkit_${component}_packages ${packages})\n")
     install(TARGETS ${library} EXPORT prtkit-${component}
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
-    install(EXPORT prtkit-${component} NAMESPACE prt:: DESTINATION ${package_folder})
-    prtkit_pkg_config(${component})
+        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${library} EXCLUDE_FROM_ALL
+        LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${library} EXCLUDE_FROM_ALL)
+    install(EXPORT prtkit-${component} NAMESPACE prt:: DESTINATION ${package_folder}
+        COMPONENT ${library} EXCLUDE_FROM_ALL)
+    prtkit_pkg_config(${library} ${component})
+    prtkit_install_if_built(${library})
 endforeach()
 configure_package_config_file(cmake/prtkitConfig.cmake.in prtkitConfig.cmake INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file(prtkitConfigVersion.cmake COMPATIBILITY SameMinorVersion)
@@ -87,6 +103,13 @@ install(DIRECTORY ${header_folders} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY shaders/ DESTINATION ${CMAKE_INSTALL_DATADIR}/prtkit/shaders)
 foreach(program prt prt-viewer)
     if(TARGET ${program})
-        install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+        install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT ${program} EXCLUDE_FROM_ALL)
+        prtkit_install_if_built(${program})
     endif()
 endforeach()
+install(CODE "
+    if(prtkit_not_built)
+        list(JOIN prtkit_not_built \" \" targets)
+        message(STATUS \"Not built, so not installed: \${targets}\")
+        message(STATUS \"To install them: cmake --build \\\"${PROJECT_BINARY_DIR}\\\" --target \${targets}, then install again\")
+    endif()")

@@ -1,5 +1,5 @@
-# Names of tests, as gtest's filter has them, that are left out under sanitizers: what takes longest there along code that
-# other tests run, too. The optimised run has them all.
+# Long tests, as gtest's filter names them: those that take longest along code that other tests also run. ctest labels
+# them `long`; `./test.sh` leaves them out, `./test.sh all` runs them.
 set(long_tests
     All/ShaderVariants.ComputeItWithout* Bake.ErrorFalls* Bake.NumbersOfRays* *BakesTheLampsOfAScene/courtyard
     BelowTheZenith.IsDimmedByAll* BlockedCap.TakesThe* ColorBleeding.* Comparison.* Compress.TakesAllNumbers*
