@@ -4,7 +4,6 @@
 
 #include "bake_options.h"
 #include "exit_light.h"
-#include "far/far_error.h"
 #include "measured_light.h"
 #include "memory.h"
 #include "parts.h"
@@ -57,8 +56,6 @@ BakeResult bake(const Scene& scene, const BakeOptions& options, const Progress& 
 
     BakeResult result = record(plan, *tracer, direct, sealed, std::move(exit));
     result.statistics.fit = asked.fit;
-    result.far = far_figures(*tracer, traced, plan.receivers(), receivers_on_surfaces(plan.receivers()),
-                             options.order);
     result.statistics.gather.bytes_moved = product ? product->bytes_moved() : 0;
     result.baked.record.fitted = measured.fit.has_value();
     seconds.all = all.seconds();

@@ -28,13 +28,6 @@ void check_raster_options(const BakeOptions& options) {
         throw Error("the resolution of depth maps must lie in 16..16384");
 }
 
-void check_far_options(const TracerChoice& tracer) {
-    if (tracer.backend == Backend::gpu || tracer.method == BakeMethod::raster)
-        throw Error("far blockers stand in for meshes on the CPU alone: use backend cpu and method trace");
-    if (!tracer.falloff.blocks_everywhere())
-        throw Error("what falls off has an end: leave out far blockers or the fall-off");
-}
-
 } // namespace
 
 void check_options(const BakeOptions& options) {
@@ -57,10 +50,6 @@ void check_options(const BakeOptions& options) {
     check_falloff(options.tracer.falloff);
     if (!options.tracer.falloff.blocks_everywhere() && options.bounces != 0)
         throw Error("light that bounces does not fall off: leave out bounces or the fall-off");
-    if (!(options.tracer.far_distance >= 0 && std::isfinite(options.tracer.far_distance)))
-        throw Error("the distance of far blockers must be finite and not negative");
-    if (options.tracer.far_distance > 0)
-        check_far_options(options.tracer);
     if (options.tracer.method == BakeMethod::raster)
         check_raster_options(options);
 }

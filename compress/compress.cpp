@@ -186,10 +186,9 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
     if (options.coding.format != WeightFormat::float32)
         alternate(coding.points, task.significance, how, progress.part(0, 0.7), coded);
     progress.update(0.7);
-    if ((options.seam_price > 0 || options.border_price > 0) && !surface.edges.empty() && !draft)
+    if (options.seam_price > 0 && !surface.edges.empty() && !draft)
         smooth_seams(coding.points, task.significance, surface.edges, surface.jumps, coded.clusters,
                      {.seam_price = options.seam_price,
-                      .border_price = options.border_price,
                       .mean_components = options.mean_components,
                       .threads = options.threads},
                      coded.codes);

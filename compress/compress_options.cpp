@@ -40,9 +40,8 @@ void check_options(const CompressOptions& o) {
         out_of_range("components per vertex must be finite and not negative", o.mean_components);
     if (o.coding.format == WeightFormat::packed)
         check_packed(o.coding, o.clusters);
-    for (const double price : {o.seam_price, o.border_price})
-        if (!(price >= 0 && price <= kMostPrice))
-            out_of_range("seam weights must lie in 0..1e6", price);
+    if (!(o.seam_price >= 0 && o.seam_price <= kMostPrice))
+        out_of_range("the seam weight must lie in 0..1e6", o.seam_price);
     if (o.basis_share && !(*o.basis_share >= 0 && *o.basis_share < 1))
         out_of_range("the share of the bases must lie in 0..1", *o.basis_share);
 }

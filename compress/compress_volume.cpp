@@ -55,7 +55,7 @@ CompressedVolumeResult compress_volume(const BakedVolume& volume, CompressOption
                                               volume.baked.transfer, of_coefficients, options.threads);
     options.metric = incident_metric(metric, volume.coefficients());
     options.guides = GuideChoice::none;
-    options.seam_price = options.border_price = 0;
+    options.seam_price = 0;
     CompressResult result = compress(probes, {.areas = of_probes}, options, progress);
     return {{volume.grid, volume.order, volume.sights, {std::move(result.transfer), volume.baked.record}},
             std::move(result.statistics)};

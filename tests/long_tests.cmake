@@ -6,7 +6,7 @@ set(long_tests
     CompressGuides.ShaderOperations* *CompressedVolumes.ErrAs* CompressedVolumes.EvaluateWhat*
     *CompressedVolumes.OfFewDirections* Culling.NeverDrops* Diffusion.IsThatOf* Diffusion.OfAShadowsEdge*
     Diffusion.OfUniformLight* EndlessWall.* *ErrAsEstimated* ErrorBudget.OfBounces* *ErrsAsEstimated* FallbackRoad.*
-    FarBlockers.AFurnace* FarBlockers.TellWhat* FigureTest.IsLitAs* FirstHour.SmallMeshes* FirstHour.UniformBlocks*
+    FigureTest.IsLitAs* FirstHour.SmallMeshes* FirstHour.UniformBlocks*
     FittedBake.BouncesAre* GpuRaster.Converges* GpuRaster.Peels* GpuSums.AreThose* GpuTrace.GivesTheSame*
     GpuTrace.HasCopies* IncidentReference.* Lamps.ThatAreSpheres* *LeadsFromSceneToPictures/1
     *LeadsFromSceneToPictures/2 *LeadsFromSceneToPictures/3 Levels.NearestPlaces* LevelsOfDetail.AreBaked*

@@ -4,7 +4,6 @@
 #include "prt/instance_bake.h"
 
 #include "bake_options.h"
-#include "far/far_error.h"
 #include "instances/instance_light.h"
 #include "memory.h"
 #include "prt/support/error.h"
@@ -75,8 +74,6 @@ public:
         light.bounce(progress.part(0.9, 1));
         result_.baked.transfer = assembled(light);
         record(*tracer, light);
-        result_.statistics.far = far_figures(*tracer, traced_, plan_.receivers(),
-                                             receivers_on_surfaces(plan_.receivers()), options_.order);
         result_.instances.factors = light.factors();
         for (const SharedMeshBake& mesh : meshes_)
             result_.instances.boxes.push_back(mesh.box);

@@ -71,9 +71,7 @@ SharedMeshBake bake_shared_mesh(const Scene& stored, int node, int channels, con
             positions.emplace_back(mesh.scene->world(position));
     mesh.box = box_round(positions);
 
-    TracerChoice alone = options.tracer;
-    alone.far_distance = 0; // what voxels may stand in for is no larger than that
-    const std::unique_ptr<Tracer> tracer = make_tracer(*mesh.traced, alone);
+    const std::unique_ptr<Tracer> tracer = make_tracer(*mesh.traced, options.tracer);
     BakeStatistics asked;
     Measured measured = measure(*mesh.plan, *tracer, asked, progress);
     mesh.rays = measured.direct.rays + measured.sealed.rays;

@@ -168,11 +168,6 @@ float RayScene::triangle_offset(unsigned id) const {
     return kOffset * extents_[id];
 }
 
-glm::vec3 RayScene::normal(unsigned id) const {
-    const glm::uvec3& t = corners_[id];
-    return glm::cross(positions_[t.y] - positions_[t.x], positions_[t.z] - positions_[t.x]);
-}
-
 glm::vec3 RayScene::ray_origin(const Receivers& receivers, std::uint32_t index) const {
     const glm::vec3& position = receivers.positions[index];
     const auto& starts = receivers.starts.empty() ? receivers.normals : receivers.starts;

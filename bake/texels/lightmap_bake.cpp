@@ -6,7 +6,6 @@
 #include "available_memory.h"
 #include "bake_options.h"
 #include "bounced_sources.h"
-#include "far/far_error.h"
 #include "memory.h"
 #include "parts.h"
 #include "prt/error_measures.h"
@@ -143,8 +142,6 @@ public:
         const Casters casters{traced, finer_.reach};
         const TexelPlaces places(scene_, finer_.scene ? &casters : nullptr);
         trace(plan, *tracer, places, transport, progress.part(share, 1));
-        statistics().far = far_figures(*tracer, traced, plan.receivers(),
-                                       receivers_on_surfaces(plan.receivers()), options_.order);
         finish(plan, *tracer, places, watch);
         progress.update(1);
         return std::move(result_);

@@ -28,8 +28,6 @@ std::unique_ptr<Tracer> make_vulkan_tracer(const TraceScene& scene, const Vulkan
 }
 
 std::unique_ptr<Tracer> make_ray_tracer(const TraceScene& scene, const TracerChoice& choice) {
-    if (choice.far_distance > 0)
-        return std::make_unique<EmbreeTracer>(scene, choice.far_distance);
     if (choice.backend == Backend::cpu || (choice.backend == Backend::automatic && !may_have_hardware()))
         return std::make_unique<EmbreeTracer>(scene);
     if (choice.backend == Backend::gpu)

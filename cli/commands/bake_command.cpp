@@ -184,13 +184,6 @@ void add_method(CLI::App* command, BakeOptions& options) {
     add_fit(command, options.fit,
             "where light is measured: at vertices; over the surface between them, so that the values of "
             "vertices come nearest to it where they are interpolated; auto: as points between vertices tell");
-    command
-        ->add_option(
-            "--far-blockers", options.tracer.far_distance,
-            "metres from which on translucent voxels stand in for dense meshes, as trees, so that rays "
-            "meet few triangles; 0: nowhere. On the CPU")
-        ->capture_default_str()
-        ->check(real_in(0, 1e9));
     choice(command, "--method", options.tracer.method, kBakeMethods,
            "trace: rays; raster: depth maps from many directions, direct light only, on the GPU", "trace");
     command

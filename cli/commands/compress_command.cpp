@@ -704,11 +704,6 @@ void add_compress(CLI::App& app, Session& session) {
                      "what jumps of the error along mesh edges cost, 0: nothing")
         ->capture_default_str()
         ->check(real_in(0, kMostPrice));
-    command
-        ->add_option("--potts-weight", a.options.compress.border_price,
-                     "price of a neighbour in another cluster, in mean squared errors")
-        ->capture_default_str()
-        ->check(real_in(0, kMostPrice));
     command->add_flag("--whole", a.writing.whole,
                       "direct and indirect light as one: smaller, for who does not light suns apart");
     command

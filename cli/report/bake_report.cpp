@@ -1,7 +1,6 @@
 #include "report/bake_report.h"
 
 #include "options.h"
-#include "report/far_report.h"
 #include "report/publish.h"
 
 #include <fmt/core.h>
@@ -113,7 +112,6 @@ void add_sentences(const BakeOutcome& baked, Report& report) {
     if (s.gather.entries > 0)
         say("bounces: {gather_entries} pairs of receivers that light each other, {gather_bytes:.1fM} MB; at "
             "most {remaining_energy:.2g%} of a receiver's light is missing");
-    add_far_blockers(result.far, report);
     if (s.gather.bytes_moved > 0)
         say("the GPU applied them: {gather_bytes_moved:.1fM} MB went to it and came back");
     if (s.lamps.count > 0)

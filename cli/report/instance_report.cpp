@@ -1,6 +1,5 @@
 #include "report/instance_report.h"
 
-#include "report/far_report.h"
 #include "report/publish.h"
 
 #include <fmt/core.h>
@@ -64,7 +63,6 @@ Report instance_report(const InstanceOutcome& outcome) {
         "{instances/error_relative_l2/most:.2f%} at most (soft skies, at the samples)"};
     for (std::size_t i = 0; i < s.notices.size(); ++i)
         report.sentences.push_back(fmt::format("{{notices/{}}}", i));
-    add_far_blockers(s.far, report);
     report.sentences.emplace_back(
         "{seconds:.3f} s: {receivers_traced} vertices and {samples_traced} samples of "
         "instances, {rays} rays");

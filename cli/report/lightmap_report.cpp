@@ -1,6 +1,5 @@
 #include "report/lightmap_report.h"
 
-#include "report/far_report.h"
 #include "report/publish.h"
 
 #include <fmt/ranges.h>
@@ -76,7 +75,6 @@ Report lightmap_report(const LightmapOutcome& baked) {
                     lightmap.baked.record.backend == Backend::cpu ? "CPU" : "GPU")};
     for (std::size_t i = 0; i < s.notices.size(); ++i)
         report.sentences.push_back(fmt::format("{{notices/{}}}", i));
-    add_far_blockers(s.far, report);
     if (s.sources > 0)
         report.sentences.emplace_back(
             "light bounced between {sources} vertices, of the mesh and between them");

@@ -1,6 +1,5 @@
 // Smooths the error over the mesh, docs/math.md, eq. 28: weights by conjugate gradients on its normal
-// equations, clusters receiver by receiver, as iterated conditional modes (Besag 1986) for the Potts model of
-// its last term.
+// equations, clusters receiver by receiver, by iterated conditional modes (Besag 1986).
 
 #include "coding/seams.h"
 
@@ -91,9 +90,9 @@ public:
           neighbours_(edges, significance.size()),
           edge_shares_(significance_per_edge(neighbours_, significance)),
           dimension_(static_cast<Eigen::Index>(points.dimension)),
-          mean_error_(total_error(significance, codes.errors)),
-          jumps_(jumps, {tuning::kJumpPrice * mean_of(significance),
-                         tuning::kJumpBorder * mean_of(significance) * mean_error_}) {}
+          jumps_(jumps,
+                 {tuning::kJumpPrice * mean_of(significance),
+                  tuning::kJumpBorder * mean_of(significance) * total_error(significance, codes.errors)}) {}
 
     void solve_weights();
     void reassign();
@@ -173,7 +172,6 @@ private:
     Adjacency neighbours_;
     std::vector<double> edge_shares_; ///< [points]
     Eigen::Index dimension_;
-    double mean_error_;
     SeamJumps jumps_; ///< count once they are measured, after all else
     // While weights are solved for:
     std::vector<std::uint32_t> first_;      ///< [points] a receiver's first unknown of as many as components
@@ -326,9 +324,6 @@ void SeamSmoother::pull_at(std::size_t p, Pull& pull) const {
 
 double SeamSmoother::cost_at(std::size_t p, const Pull& pull, std::uint32_t k, const PointVector& e) const {
     double cost = pull.total * static_cast<double>((e - pull.vector).squaredNorm());
-    for (const std::uint32_t q : neighbours_.of(p))
-        if (codes_.clusters[q] != k)
-            cost += options_.border_price * mean_error_ * edge(p, q);
     if (jumps_.measured())
         cost += jumps_.borders(p, [&](std::uint32_t q) { return codes_.clusters[q] != k; });
     return cost;

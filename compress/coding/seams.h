@@ -8,7 +8,6 @@ namespace prt {
 
 struct SeamOptions {
     double seam_price = 0;      ///< mu of docs/math.md, eq. 28
-    double border_price = 0;    ///< beta of eq. 28, times the mean squared error
     double mean_components = 0; ///< receivers have at most so many on average; 0: any
     /// Receivers whose weights are solved for together, as real numbers.
     std::size_t solved_together = tuning::kSolvedTogether;

@@ -56,7 +56,7 @@ TEST_F(Output, ArgumentsOutOfRangeAreWrongUsage) {
         {bake, {"--bounces", "2147483647", "--raster-resolution", "15", "--json", ""}},
         {bake, {"--subsurface", "1e38,1,1,1,1,1", "--subsurface", "1,1,1,nan,1,1"}},
         {compress, {"--clusters", "0", "--clusters", "65537", "--components", "-1", "--bits", "1000"}},
-        {compress, {"--seam-weight", "-1", "--seam-weight", "2e6", "--potts-weight", "nan"}},
+        {compress, {"--seam-weight", "-1", "--seam-weight", "2e6", "--seam-weight", "nan"}},
         {compress, {"--max-error", "0", "--bytes-per-vertex", "-0.5", "--shader-ops", "inf"}},
         {compress, {"--trace", "", "--lights", "", "--seed", "-1"}},
         {project, {"--order", "11", "--rotate", "nan", "--rotate", "inf", "--json", ""}},

@@ -350,7 +350,6 @@ TEST(Compress, RefusesWhatItCannotDo) {
     refused([](CompressOptions& o) { o.basis_share = 1; });
     refused([](CompressOptions& o) { o.metric = natural_metric(layout_of_one(4, 1)); });
     refused([](CompressOptions& o) { o.seam_price = 2 * kMostPrice; });
-    refused([](CompressOptions& o) { o.border_price = std::nan(""); });
     refused([](CompressOptions& o) { o.mean_components = std::numeric_limits<double>::infinity(); });
     const CompressOptions options;
     EXPECT_THROW(compress(fine, {std::vector<float>(9, 1.0f)}, options), Error);

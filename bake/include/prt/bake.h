@@ -3,7 +3,6 @@
 // The baker: transfer vectors of every receiver of a scene.
 
 #include "prt/baked_transfer.h"
-#include "prt/far_blockers.h"
 #include "prt/make_tracer.h"
 #include "prt/scene.h"
 #include "prt/subsurface.h"
@@ -145,7 +144,6 @@ struct BakeResult {
     /// Receivers inside geometry, where no light reaches, ascending: nobody sees them.
     std::vector<std::uint32_t> sealed;
     BakeStatistics statistics;
-    std::optional<FarBlockerFigures> far; ///< where voxels stood in for meshes
 };
 
 /// Bakes transfer for every vertex. On the CPU deterministic from the seed, whatever the number of threads.

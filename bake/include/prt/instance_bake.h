@@ -32,7 +32,6 @@ struct InstanceStatistics {
     std::size_t flat_receivers = 0; ///< that all instances have
     int bounces = 0;                ///< done
     double seconds = 0;
-    std::optional<FarBlockerFigures> far;
     std::vector<std::string> notices;
 };
 

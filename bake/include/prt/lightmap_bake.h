@@ -31,7 +31,6 @@ struct LightmapStatistics {
     double sampling_error = 0;        ///< estimated relative L2 of the direct light, at places of texels
     double rounding_error = 0;        ///< relative L2 of storing float16
     double seam_before = 0, seam = 0; ///< jumps of T_0 / Y_00 across seams, root mean square
-    std::optional<FarBlockerFigures> far;
     std::vector<std::string> notices;
 
     double rays_per_second() const { return static_cast<double>(rays) / seconds.all; }

@@ -19,9 +19,6 @@ struct TracerChoice {
     std::string gpu = {};
     Traversal traversal = Traversal::automatic;
     Falloff falloff = {}; ///< of what blocks; for rays alone
-    /// From so far on, metres, translucent voxels stand in for dense meshes (prt/far_blockers.h); 0: nowhere.
-    /// For rays on the CPU, which is then what `automatic` takes.
-    double far_distance = 0;
 };
 
 /// The tracer that `choice` asks for: on a hardware GPU where the backend is automatic and there is one that

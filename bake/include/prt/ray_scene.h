@@ -56,8 +56,6 @@ public:
 
     /// The same for a point of triangle `id`, and quick.
     float triangle_offset(unsigned id) const;
-    /// To the front of triangle `id`, twice its area long.
-    glm::vec3 normal(unsigned id) const;
 
     /// Replaces `ids` by the triangles whose boxes come as near as `distance` to `position`.
     void triangles_near(const glm::vec3& position, float distance, std::vector<unsigned>& ids) const;

@@ -12,7 +12,6 @@
 
 namespace prt {
 
-class FarBlockers;
 class GatherOperator;
 class GatherProduct;
 class VectorSums;
@@ -78,8 +77,6 @@ public:
     /// Sums of vectors (bake/trace/vector_sums.h) on a device, as many as there are `weights`: what is added
     /// to each has so much weight in all. Null where the processor is as good, or the device has no room.
     virtual std::unique_ptr<VectorSums> vector_sums(int order, std::span<const float> weights);
-    /// What stands in for dense meshes far away; null: they themselves.
-    virtual const FarBlockers* far_blockers() const { return nullptr; }
     TraceSeconds seconds() const { return seconds_; }
 
 protected:

@@ -29,7 +29,7 @@ inline constexpr int kMostPackedBits = 32 * kMostPackedWords - 16;
 /// Largest coefficient of transfer that is compressed: a real one is 1 where all light arrives, a few hundred
 /// behind nearly black sheets, and the squares of these can be summed in floats.
 inline constexpr float kMostTransfer = 1e12f;
-/// Largest price of seams and borders.
+/// Largest price of seams.
 inline constexpr double kMostPrice = 1e6;
 
 /// How a receiver's weights are written.
@@ -81,8 +81,6 @@ struct CompressOptions {
     /// mu of docs/math.md, eq. 28: what a jump of the error along a mesh edge costs, in units of the error
     /// itself.
     double seam_price = 1;
-    /// beta of eq. 28: what a neighbour in another cluster costs, in units of the mean squared error.
-    double border_price = 0;
     std::uint64_t seed = 0;
     int threads = 0;          ///< 0: all
     CompressTrace trace = {}; ///< is told what happens; results are the same with and without

@@ -88,14 +88,11 @@ struct SmallMesh {
             sum += static_cast<double>(significance[p]) * error(of, p).squaredNorm();
         return sum;
     }
-    /// The sum of eq. 28, `border` being beta E.
-    double energy(const Codes& of, double seam_price, double border) const {
+    /// The sum of eq. 28.
+    double energy(const Codes& of, double seam_price) const {
         double sum = mean_error(of);
-        for (const Edge& e : edges) {
+        for (const Edge& e : edges)
             sum += seam_price * share(e) * (error(of, e.first) - error(of, e.second)).squaredNorm();
-            if (of.clusters[e.first] != of.clusters[e.second])
-                sum += border * share(e);
-        }
         return sum;
     }
 };
@@ -134,42 +131,38 @@ TEST(SeamSolver, WeightsThatMayBeAnyReachTheLeastOfTheSum) {
     for (const std::size_t components : {1u, 2u}) {
         SmallMesh mesh(12, components, 100, WeightGrid::any());
         constexpr double kPrice = 50;
-        const double start = mesh.energy(mesh.codes, kPrice, 0), least = least_energy(mesh, kPrice);
+        const double start = mesh.energy(mesh.codes, kPrice), least = least_energy(mesh, kPrice);
         ASSERT_LT(least, 0.9 * start);
         const std::vector<std::uint32_t> before = mesh.codes.clusters;
         smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_price = kPrice},
                      mesh.codes);
         EXPECT_EQ(mesh.codes.clusters, before);
         // Points of 300 are floats, and the solver ends where the squared residual fell to 1e-6.
-        EXPECT_NEAR(mesh.energy(mesh.codes, kPrice, 0), least, 1e-4 * (start - least));
+        EXPECT_NEAR(mesh.energy(mesh.codes, kPrice), least, 1e-4 * (start - least));
     }
 }
 
 TEST(SeamSolver, NoReceiverAloneFindsACheaperCodeAfterwards) {
     // Clusters lie near each other, and weights have eight values, all of which are tried.
-    for (const double border_price : {0.0, 0.3, 3.0}) {
-        SmallMesh mesh(60, 1, 0.5f, WeightGrid::of_bits(3));
-        constexpr double kPrice = 2;
-        const double border = border_price * mesh.mean_error(mesh.codes);
-        const double start = mesh.energy(mesh.codes, kPrice, border);
-        smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters,
-                     {.seam_price = kPrice, .border_price = border_price}, mesh.codes);
-        const double reached = mesh.energy(mesh.codes, kPrice, border);
-        EXPECT_LT(reached, 0.95 * start);
-        for (const Edge& edge : mesh.edges)
-            for (const auto& [p, q] : {std::pair(edge.first, edge.second), {edge.second, edge.first}})
-                for (const std::uint32_t k : {mesh.codes.clusters[p], mesh.codes.clusters[q]})
-                    for (int i = 0; i < 8; ++i) {
-                        Codes other = mesh.codes;
-                        other.clusters[p] = k;
-                        const float weight = static_cast<float>(2 * i - 7) / 7;
-                        other.weights.write(mesh.clusters, k, p, &weight);
-                        EXPECT_GE(mesh.energy(other, kPrice, border), (1 - 1e-6) * reached) << p << " " << k;
-                    }
-        for (std::size_t p = 0; p < mesh.points.count; ++p)
-            EXPECT_NEAR(static_cast<double>(mesh.codes.errors[p]), mesh.error(mesh.codes, p).squaredNorm(),
-                        1e-5);
-    }
+    SmallMesh mesh(60, 1, 0.5f, WeightGrid::of_bits(3));
+    constexpr double kPrice = 2;
+    const double start = mesh.energy(mesh.codes, kPrice);
+    smooth_seams(mesh.points, mesh.significance, mesh.edges, {}, mesh.clusters, {.seam_price = kPrice},
+                 mesh.codes);
+    const double reached = mesh.energy(mesh.codes, kPrice);
+    EXPECT_LT(reached, 0.95 * start);
+    for (const Edge& edge : mesh.edges)
+        for (const auto& [p, q] : {std::pair(edge.first, edge.second), {edge.second, edge.first}})
+            for (const std::uint32_t k : {mesh.codes.clusters[p], mesh.codes.clusters[q]})
+                for (int i = 0; i < 8; ++i) {
+                    Codes other = mesh.codes;
+                    other.clusters[p] = k;
+                    const float weight = static_cast<float>(2 * i - 7) / 7;
+                    other.weights.write(mesh.clusters, k, p, &weight);
+                    EXPECT_GE(mesh.energy(other, kPrice), (1 - 1e-6) * reached) << p << " " << k;
+                }
+    for (std::size_t p = 0; p < mesh.points.count; ++p)
+        EXPECT_NEAR(static_cast<double>(mesh.codes.errors[p]), mesh.error(mesh.codes, p).squaredNorm(), 1e-5);
 }
 
 TEST(SeamSolver, StretchesReachWhatAllTogetherDo) {
@@ -177,14 +170,14 @@ TEST(SeamSolver, StretchesReachWhatAllTogetherDo) {
     // by what binds it to them.
     constexpr double kPrice = 2;
     SmallMesh together(400, 2, 100, WeightGrid::any());
-    const double start = together.energy(together.codes, kPrice, 0);
+    const double start = together.energy(together.codes, kPrice);
     SmallMesh stretches = together;
     smooth_seams(together.points, together.significance, together.edges, {}, together.clusters,
                  {.seam_price = kPrice}, together.codes);
     smooth_seams(stretches.points, stretches.significance, stretches.edges, {}, stretches.clusters,
                  {.seam_price = kPrice, .solved_together = 40}, stretches.codes);
-    const double least = together.energy(together.codes, kPrice, 0),
-                 reached = stretches.energy(stretches.codes, kPrice, 0);
+    const double least = together.energy(together.codes, kPrice),
+                 reached = stretches.energy(stretches.codes, kPrice);
     EXPECT_LT(least, 0.95 * start);
     EXPECT_LT(reached - least, 0.02 * (start - least));
 }
