@@ -85,8 +85,8 @@ Propagated propagate_lamps(const BakePlan& plan, Transfer light, const Transport
     leave_back_sides(plan, exit.transfer);
     const std::size_t stride = static_cast<std::size_t>(coefficient_count(unbounced.layout.order));
     for (std::size_t i = 0; i < unbounced.vectors.size(); ++i)
-        if (const std::size_t k = i % stride; k < plan.lamps.size() && !plan.lamps[k].towards)
-            exit.transfer.vectors[i] -= unbounced.vectors[i]; // of keys nobody else adds it
+        if (i % stride < plan.lamps.size())
+            exit.transfer.vectors[i] -= unbounced.vectors[i];
     return exit;
 }
 

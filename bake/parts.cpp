@@ -92,8 +92,8 @@ Transfer with_lamps(const Transfer& sky, const Transfer& light, const std::vecto
         layout.parts.clear();
     const std::size_t of_sky = layout.dimension();
     for (std::size_t k = 0; k < lamps.size(); ++k)
-        layout.parts.push_back({PartKind::lamp, are_grey(light, k, 1) ? 1 : 3, lamps[k].name,
-                                lamps[k].members, lamps[k].towards});
+        layout.parts.push_back(
+            {PartKind::lamp, are_grey(light, k, 1) ? 1 : 3, lamps[k].name, lamps[k].members});
     const std::span<const TransferPart> parts = layout.lamp_parts();
     Transfer all = zero_transfer(layout, sky.receivers());
     for (std::size_t p = 0; p < all.receivers(); ++p) {

@@ -103,8 +103,7 @@ std::string about_lights(const Evaluation& evaluation) {
                   : "") +
            (lamps
                 ? " Lamps: all of the scene as bright as they are there, without a sky; under skies they are "
-                  "off. The worst lamp, and the worst key of a light set, is that whose error is largest "
-                  "when it shines alone."
+                  "off. The worst lamp is that whose error is largest when it shines alone."
                 : "");
 }
 
@@ -309,35 +308,29 @@ private:
         return error_under(
             {.sky = constant_light(reference().layout.order, glm::vec3(0)), .lamps = std::move(strengths)});
     }
-    /// The error of the lamp, or of the key, that shines worst alone; nothing where there are less than
-    /// `least`.
-    std::optional<NamedError> worst_alone(bool keys, std::size_t least) const {
+    /// The error of the lamp that shines worst alone.
+    NamedError worst_lamp() const {
         const std::span<const TransferPart> lamps = reference().layout.lamp_parts();
         std::optional<NamedError> worst;
-        std::size_t count = 0;
         for (std::size_t k = 0; k < lamps.size(); ++k) {
-            if (lamps[k].towards.has_value() != keys)
-                continue;
-            ++count;
             std::vector<glm::vec3> strengths(lamps.size(), glm::vec3(0));
             strengths[k] = glm::vec3(1);
             const LitError error = error_by_lamps(std::move(strengths));
             if (!worst || error.rms > worst->error.rms)
-                worst = {(keys ? "worst key: " : "worst lamp: ") + printable(lamps[k].name), error, 0, keys};
+                worst = NamedError{"worst lamp: " + printable(lamps[k].name), error};
         }
-        return count >= least ? worst : std::nullopt;
+        return *worst;
     }
 
-    /// All lamps of the scene as bright as they are there, the one that is worst alone, and the worst key of
-    /// a light set: the verdict goes by all and by keys.
+    /// All lamps of the scene as bright as they are there, by which the verdict goes, and the one that is
+    /// worst alone.
     void add_lamps(Evaluation& evaluation) const {
-        const std::vector<glm::vec3> strengths = strengths_of_scene(reference().layout);
-        if (std::ranges::count(strengths, glm::vec3(1)) > 0)
-            evaluation.standard.push_back({"lamps", error_by_lamps(strengths), 0, true});
-        if (const auto lamp = worst_alone(false, 2))
-            evaluation.standard.push_back(*lamp);
-        if (const auto key = worst_alone(true, 1))
-            evaluation.standard.push_back(*key);
+        const std::size_t lamps = reference().layout.lamps();
+        if (lamps > 0)
+            evaluation.standard.push_back(
+                {"lamps", error_by_lamps(std::vector<glm::vec3>(lamps, glm::vec3(1))), 0, true});
+        if (lamps > 1)
+            evaluation.standard.push_back(worst_lamp());
     }
 
     /// With its suns apart errors are over what the whole light gives, since suns are in the picture.

@@ -38,9 +38,7 @@ std::vector<glm::vec3> strengths_of(const Json& file, const TransferLayout& layo
     if (!file.is_object())
         throw Error("is JSON, but no object of lamps and their strengths");
     const glm::vec3 others = file.contains("*") ? color_of(file["*"], "*") : glm::vec3(1);
-    std::vector<glm::vec3> strengths = strengths_of_scene(layout);
-    for (glm::vec3& strength : strengths)
-        strength *= others; // keys of a light set stay dark
+    std::vector<glm::vec3> strengths(layout.lamps(), others);
     const std::vector<std::string> names = names_of(layout);
     for (const auto& [name, value] : file.items()) {
         if (name == "*")
@@ -73,7 +71,7 @@ void add_lamps(CLI::App* command, LampChoice& lamps) {
 std::vector<glm::vec3> lamp_strengths(const LampChoice& lamps, const TransferLayout& layout) {
     if (!lamps.file.empty())
         return about(lamps.file, [&] { return strengths_of(read_json(lamps.file), layout); });
-    return lamps.on ? strengths_of_scene(layout) : std::vector<glm::vec3>(layout.lamps(), glm::vec3(0));
+    return std::vector<glm::vec3>(layout.lamps(), glm::vec3(lamps.on ? 1 : 0));
 }
 
 } // namespace prt::cli

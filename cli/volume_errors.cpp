@@ -252,7 +252,7 @@ void add_volume_errors(BudgetRequest request, SceneFile& baked, Report& report, 
     const TransferLayout layout = volume.baked.transfer.layout.of_one_output();
     const std::vector<BudgetLight> skies = budget_lights(options);
     const BudgetLight night = dark();
-    const SceneLamps lamps(traced, layout.lamp_parts(), strengths_of_scene(layout));
+    const SceneLamps lamps(traced, layout.lamp_parts(), std::vector<glm::vec3>(layout.lamps(), glm::vec3(1)));
     const std::vector<VolumeLight> lights = volume_lights(skies, night, layout, lamps);
     const SkyOcclusion occlusion(volume, options.threads);
     Table table = empty_table();

@@ -55,8 +55,8 @@ SeenLight see_light(PunctualLight light, LampReceiver receiver) {
         seen.towards = -light.direction;
         seen.distance = kFar;
         seen.share = 1.0;
-        seen.half_angle = light.half_angle;
-        reach = sin(light.half_angle);
+        seen.half_angle = 0.0;
+        reach = 0.0;
     } else {
         vec3 to = light.position - receiver.position.xyz;
         seen.distance = length(to);

@@ -67,9 +67,8 @@ struct PunctualLight {
     vec3 position;
     float inverse_range;              // 0: without end
     vec3 direction;                   // unit, the way that it shines
-    float half_angle;                 // of a directional one, radians
     float inner_cosine, outer_cosine; // of a spot; both below -1 where it is none
-    uint unused[2];
+    uint unused[3];
 };
 
 // A triangle that shines.

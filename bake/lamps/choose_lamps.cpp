@@ -40,15 +40,6 @@ public:
         return lamp;
     }
 
-    void add_key(const PunctualLight& light, std::uint32_t index) {
-        if (!places_.try_emplace(light.name, lamps_.size()).second)
-            throw Error(
-                fmt::format("two lamps are called '{}', and one of them is of the light set, or both: "
-                            "give them other names",
-                            printable(light.name)));
-        lamps_.push_back({.name = light.name, .lights = {index}, .towards = -light.direction});
-    }
-
     std::vector<Lamp> finish() {
         for (std::size_t g = 0; g < groups_.size(); ++g)
             if (!used_[g])
@@ -57,7 +48,7 @@ public:
         if (lamps_.size() > kMostLamps)
             throw Error(fmt::format("the scene has {} lamps of different names, and at most {} can be dimmed "
                                     "apart: put some into groups (--lamp-group) or leave them out (--lamps "
-                                    "none); a light set may have fewer keys",
+                                    "none)",
                                     lamps_.size(), kMostLamps));
         return std::move(lamps_);
     }
@@ -72,8 +63,7 @@ private:
 void add_lamps_of_scene(const Surfaces& surfaces, Lamps& lamps) {
     const Scene& scene = surfaces.scene();
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-        if (!scene.lights[i].key)
-            lamps.called(scene.lights[i].name).lights.push_back(i);
+        lamps.called(scene.lights[i].name).lights.push_back(i);
     for (std::uint32_t t = 0; t < surfaces.triangles(); ++t)
         if (surfaces.material(t).emission.radiance != glm::vec3(0))
             lamps.called(lamp_name(scene, scene.primitives[surfaces.primitive(t)].material))
@@ -103,14 +93,10 @@ bool matches(const std::string& text, const std::string& pattern) {
 }
 
 std::vector<Lamp> choose_lamps(const Surfaces& surfaces, const LampOptions& options) {
-    const bool of_scene = options.mode != LampMode::none;
-    Lamps lamps(of_scene ? options.groups : std::vector<LampGroup>());
-    if (of_scene)
-        add_lamps_of_scene(surfaces, lamps);
-    const std::vector<PunctualLight>& lights = surfaces.scene().lights;
-    for (std::uint32_t i = 0; i < lights.size(); ++i)
-        if (lights[i].key)
-            lamps.add_key(lights[i], i);
+    if (options.mode == LampMode::none)
+        return {};
+    Lamps lamps(options.groups);
+    add_lamps_of_scene(surfaces, lamps);
     return lamps.finish();
 }
 

@@ -5,10 +5,7 @@
 #include "prt/bake.h"
 #include "prt/surfaces.h"
 
-#include <glm/vec3.hpp>
-
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,13 +17,11 @@ struct Lamp {
     std::vector<std::string> members = {};     ///< of a group: the names in it
     std::vector<std::uint32_t> lights = {};    ///< indices into Scene::lights
     std::vector<std::uint32_t> triangles = {}; ///< that shine
-    std::optional<glm::vec3> towards = {};     ///< of a key of a light set: unit, to its light
 };
 
 /// All lamps of the scene, in the order of their first member: those of `options.groups` under the names of
-/// the groups, each other one under its own; then the keys of a light set, which no group takes and which
-/// `LampMode::none` leaves. Throws `Error` for a pattern that no lamp has and for more than
-/// kMostLamps.
+/// the groups, each other one under its own; none in `LampMode::none`. Throws `Error` for a pattern that no
+/// lamp has and for more than kMostLamps.
 std::vector<Lamp> choose_lamps(const Surfaces& surfaces, const LampOptions& options);
 
 /// Whether all that `lamps` give off is white.

@@ -29,7 +29,6 @@ SeenLight seen(const PunctualLight& light, const LampReceiver& receiver, double 
     double reach = 0; // how far a light that is partly below the horizon still comes up
     if (light.kind == PunctualKind::directional) {
         seen.towards = -glm::dvec3(light.direction);
-        reach = std::sin(static_cast<double>(light.half_angle));
         seen.distance = std::numeric_limits<double>::infinity();
     } else {
         const glm::dvec3 to = glm::dvec3(light.position) - glm::dvec3(receiver.position);
@@ -45,10 +44,9 @@ SeenLight seen(const PunctualLight& light, const LampReceiver& receiver, double 
     return seen;
 }
 
-/// Half angle of the cone that a light fills, radians; within a sphere light comes from everywhere.
+/// Half angle of the cone that a light fills, radians: 0 of a directional one, which is infinitely far;
+/// within a sphere light comes from everywhere.
 double half_angle_of(const SeenLight& light, double radius) {
-    if (light.light->kind == PunctualKind::directional)
-        return static_cast<double>(light.light->half_angle);
     if (radius <= 0)
         return 0;
     return radius < light.distance ? std::asin(radius / light.distance) : std::numbers::pi / 2;

@@ -102,7 +102,7 @@ void LightPaths::add_lamp_light(const LitSide& side, LightPath& path, PathSample
                          (cosine * sample.balance(cosine) * light.lamps->open(side.origin(), sample));
     };
     if (light.lamps->has_lights())
-        add(light.lamps->sample_light(side.origin(), samples.next()));
+        add(light.lamps->sample_light(side.origin(), samples.next().x));
     if (light.lamps->has_surfaces())
         add(light.lamps->sample_surface(side.origin(), samples.next()));
 }

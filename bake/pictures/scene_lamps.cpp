@@ -6,7 +6,6 @@
 #include "lamps/punctual.h"
 #include "prt/color.h"
 #include "prt/support/error.h"
-#include "prt/support/tangent_frame.h"
 #include "scene/transmittance.h"
 
 #include <fmt/core.h>
@@ -16,7 +15,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -49,15 +47,6 @@ double brightness_of(const Surfaces& surfaces, std::uint32_t triangle, double ar
     const SurfacePoint middle{triangle, glm::vec2(1.0f / 3), static_cast<float>(area)};
     return std::max(luminance(glm::dvec3(surfaces.emission(middle))),
                     0.1 * luminance(glm::dvec3(surfaces.material(triangle).emission.radiance)));
-}
-
-/// Even over the directions within `half_angle` of `axis`.
-glm::vec3 in_cone(const glm::vec3& axis, float half_angle, const glm::vec2& u) {
-    const float depth = u.x * (1 - std::cos(half_angle)), turn = 2 * std::numbers::pi_v<float> * u.y;
-    const float radius = std::sqrt(std::max(0.0f, depth * (2 - depth)));
-    const TangentFrame frame = tangent_frame(axis);
-    return glm::normalize(frame.tangent * (radius * std::cos(turn)) +
-                          frame.bitangent * (radius * std::sin(turn)) + axis * (1 - depth));
 }
 
 } // namespace
@@ -98,13 +87,12 @@ glm::vec3 SceneLamps::strength_of(std::uint32_t triangle) const {
     return strengths_[scene_.scene().primitives[surfaces.primitive(triangle)].material];
 }
 
-SceneLamps::Sample SceneLamps::of_light(const Light& light, const glm::vec3& place,
-                                        const glm::vec2& u) const {
+SceneLamps::Sample SceneLamps::of_light(const Light& light, const glm::vec3& place) const {
     const PunctualLight& l = scene_.scene().lights[light.index];
     Sample sample;
     sample.irradiance = light.strength * l.intensity;
     if (l.kind == PunctualKind::directional) {
-        sample.towards = l.half_angle > 0 ? in_cone(-l.direction, l.half_angle, u) : -l.direction;
+        sample.towards = -l.direction;
         sample.way = sample.towards;
         sample.reach = std::numeric_limits<float>::infinity();
         return sample;
@@ -118,22 +106,21 @@ SceneLamps::Sample SceneLamps::of_light(const Light& light, const glm::vec3& pla
     return sample;
 }
 
-SceneLamps::Sample SceneLamps::sample_light(const glm::vec3& place, const glm::vec2& u) const {
+SceneLamps::Sample SceneLamps::sample_light(const glm::vec3& place, float u) const {
     // A part is by number, so that a light that is hidden takes no more than its share.
     double all = 0;
     const auto weight = [&](const Light& light) {
-        return luminance(glm::dvec3(of_light(light, place, glm::vec2(0)).irradiance));
+        return luminance(glm::dvec3(of_light(light, place).irradiance));
     };
     for (const Light& light : lights_)
         all += weight(light);
     if (!(all > 0))
         return {};
-    double target = static_cast<double>(u.x);
+    double target = static_cast<double>(u);
     for (const Light& light : lights_) {
         const double share = 0.8 * weight(light) / all + 0.2 / static_cast<double>(lights_.size());
         if (target < share || &light == &lights_.back()) {
-            const float rest = static_cast<float>(std::clamp(target / share, 0.0, 1.0));
-            Sample sample = of_light(light, place, {rest, u.y});
+            Sample sample = of_light(light, place);
             sample.irradiance /= static_cast<float>(share);
             return sample;
         }

@@ -54,7 +54,7 @@ void add_lamps(const SceneLamps& lamps, const glm::vec3& place, PathSamples& sam
                     weight * sample.balance(kEven) * lamps.open(place, sample) * sample.irradiance);
     };
     if (lamps.has_lights())
-        add(lamps.sample_light(place, samples.next()));
+        add(lamps.sample_light(place, samples.next().x));
     if (lamps.has_surfaces())
         add(lamps.sample_surface(place, samples.next()));
 }

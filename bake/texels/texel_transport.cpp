@@ -62,13 +62,8 @@ std::size_t TexelTransport::light_of_lamps(Tracer& tracer, const Receivers& rece
                   .threads = plan_.options.threads};
     task.options.rays = std::max(1, task.options.rays / 4); // a texel has four places
     const LampLight direct = tracer.lamp_light(task, progress);
-    const auto coefficients = static_cast<std::size_t>(coefficient_count(lamp_layout_.order));
-    for (std::size_t i = 0; i < to.size(); ++i) {
-        const std::size_t lamp = i % coefficients;
-        const bool wanted = plan_.options.lamps.mode == LampMode::all ||
-                            (lamp < plan_.lamps.size() && plan_.lamps[lamp].towards);
-        to[i] = wanted ? direct.transfer.vectors[i] : 0.0f;
-    }
+    for (std::size_t i = 0; i < to.size(); ++i)
+        to[i] = plan_.options.lamps.mode == LampMode::all ? direct.transfer.vectors[i] : 0.0f;
     std::vector<float> bounced;
     for (std::size_t part = 0; part < lamps_.size(); ++part) {
         const std::size_t stride = lamp_stride() / lamps_.size();

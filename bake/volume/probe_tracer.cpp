@@ -284,7 +284,7 @@ std::size_t ProbeTracer::add_lamps(const Task& task, std::size_t place, Space& s
     std::size_t rays = 0;
     for (std::size_t k = 0; k < plan_.lamps.size(); ++k) {
         const Lamp& lamp = plan_.lamps[k];
-        if (plan_.options.lamps.mode != LampMode::all && !lamp.towards)
+        if (plan_.options.lamps.mode != LampMode::all)
             continue;
         std::array<double, kMostIncidentOrder * kMostIncidentOrder> basis{};
         const auto take = [&](const glm::dvec3& towards, const glm::dvec3& irradiance) {

@@ -2,7 +2,6 @@
 
 #include "instance_arguments.h"
 #include "level_arguments.h"
-#include "light_set.h"
 #include "no_shadow.h"
 #include "options.h"
 #include "outputs.h"
@@ -22,14 +21,13 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cstdio>
 
 namespace prt::cli {
 namespace {
 
 struct BakeArguments {
-    Path scene, output, json, light_set;
+    Path scene, output, json;
     std::vector<std::string> no_shadow; ///< names of materials
     struct Finer {
         std::optional<double> refine;  ///< relative L2 over the surface to split triangles for
@@ -209,11 +207,6 @@ void add_refinement(CLI::App* command, BakeArguments& a) {
         ->needs(refine);
 }
 
-void add_light_set(const BakeArguments& a, Scene& scene) {
-    if (!a.light_set.empty())
-        std::ranges::move(read_light_set(a.light_set), std::back_inserter(scene.lights));
-}
-
 /// Puts the finer document and scene in the place of these.
 RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& scene, Session& session) {
     ProgressBar bar = session.progress_bar("refining");
@@ -224,7 +217,6 @@ RefineStatistics refine(const BakeArguments& a, GltfDocument& document, Scene& s
         return result.statistics;
     document = refined(std::move(document), scene, result.refinement);
     Scene finer = extract_scene(document);
-    add_light_set(a, finer);
     leave_out_shadows(finer, a.no_shadow);
     finer.notices = std::move(scene.notices); // of the file that was given
     scene = std::move(finer);
@@ -282,7 +274,6 @@ void write_vertices(const BakeArguments& a, GltfDocument& document, const Scene&
     if (a.finer.refine) // the mesh of level 0 is another one
         levels->scene = extract_levels(document);
     Scene& all = levels->scene.scene;
-    add_light_set(a, all);
     leave_out_shadows(all, a.no_shadow);
     BakeOptions options = a.options;
     if (a.finer.refine)
@@ -377,7 +368,7 @@ void run(BakeArguments a, Session& session) {
     choose_gpu(a.options.tracer);
     check_arguments(a);
     a.reading.outputs = check_outputs({{a.output, "--output", {".glb"}}, {a.json, "--json", {".json"}}},
-                                      {a.scene, a.light_set, a.texels.casters});
+                                      {a.scene, a.texels.casters});
     GltfOptions reading = a.reading;
     reading.missing_images =
         a.options.repairs.bad_textures == BadTextures::ignore ? MissingImages::ignore : MissingImages::error;
@@ -387,7 +378,6 @@ void run(BakeArguments a, Session& session) {
     TexelRoom room;
     if (a.texels.given())
         room = about(a.scene, [&] { return make_room(a.texels, a.scene, document, scene); });
-    add_light_set(a, scene);
     const SharedMeshes meshes = about(a.scene, [&] {
         return meshes_to_share(a.instances, document, scene,
                                {a.options, a.texels.given() || a.finer.refine.has_value() ||
@@ -426,12 +416,6 @@ void add_bake(CLI::App& app, Session& session) {
         ->excludes(rays);
     add_transport(command, a.options);
     add_lamps(command, a.options.lamps);
-    command
-        ->add_option("--light-set", a.light_set,
-                     "distant lights to keep one by one, by whose shadows suns shine later: a .json with the "
-                     "sun's arc of a day, or a list")
-        ->check(named)
-        ->type_name("FILE");
     add_no_shadow(command, a.no_shadow);
     add_method(command, a.options);
     add_refinement(command, a);

@@ -1,6 +1,6 @@
 #include "commands/commands.h"
 
-#include "light_set.h"
+#include "lamp_strengths.h"
 #include "options.h"
 #include "outputs.h"
 #include "prt/encode_glb.h"
@@ -20,7 +20,6 @@ namespace {
 struct RelightArguments {
     Path model, environment, output, json;
     SunCount suns = {std::nullopt};
-    SunShadows shadows = SunShadows::sharp;
     LampChoice lamps;
     int rays = 256; ///< for each vertex and sun
     LightOptions light_options;
@@ -62,8 +61,8 @@ void add_suns(const TraceScene& scene, std::span<const SunDisc> suns, const SunR
 }
 
 /// Whether suns can only be lit with the sky.
-bool is_together(const RelightArguments& a, const SceneFile& model) {
-    return a.shadows == SunShadows::sharp && layout_of(model).has(PartKind::whole);
+bool is_together(const SceneFile& model) {
+    return layout_of(model).has(PartKind::whole);
 }
 
 void check_model(const RelightArguments& a, const SceneFile& model) {
@@ -72,7 +71,7 @@ void check_model(const RelightArguments& a, const SceneFile& model) {
     check_of_vertices(model, a.model, "relight writes colors of vertices: prt render shows it");
     if (a.environment.empty() && layout_of(model).lamps() == 0)
         throw Error(a.model.string() + ": has no lamps, and without --env nothing lights it");
-    if (is_together(a, model)) {
+    if (is_together(model)) {
         if (a.suns.count.value_or(0) > 0)
             throw Error(a.model.string() + ": " + kNotApart + ", or light it with --suns 0");
         print_notices(a.model.string(), {"keeps no direct light apart: suns are lit with the sky, and no "
@@ -108,17 +107,15 @@ void run(RelightArguments a, Session& session) {
     const Stopwatch stopwatch;
     SceneFile model = load_scene_file(a.model, a.reading);
     check_model(a, model);
-    const SunCount suns = is_together(a, model) ? SunCount{0} : a.suns;
-    SplitLight light = a.environment.empty()
-                           ? dark_sky(model.order())
-                           : load_split_light(a.environment, model.order(), suns, a.light_options, a.threads);
+    const SunCount suns = is_together(model) ? SunCount{0} : a.suns;
+    const SplitLight light = a.environment.empty() ? dark_sky(model.order())
+                                                   : load_split_light(a.environment, model.order(), suns,
+                                                                      a.light_options, a.threads);
     std::vector<Texture> textures = load_textures(model.scene, BadTextures::error);
     const std::vector<bool> solid = solid_materials(model);
     ProgressBar bar = session.progress_bar("relighting");
-    const std::size_t suns_given = light.split.suns.size();
-    std::vector<glm::vec3> strengths = strengths_under(a.model, layout_of(model), a.lamps, a.shadows, light);
     const bool suns_are_apart = !light.split.suns.empty() && layout_of(model).has(PartKind::direct);
-    const Lighting lighting{light.sky.light, light_of_suns(light), std::move(strengths)};
+    const Lighting lighting{light.sky.light, light_of_suns(light), lamp_strengths(a.lamps, layout_of(model))};
     std::vector<glm::vec3> radiance = lit_by_transfer(lighting, a.threads, model);
     const TraceScene scene(model.scene, std::move(textures), {.solid = solid, .threads = a.threads});
     if (suns_are_apart)
@@ -128,7 +125,7 @@ void run(RelightArguments a, Session& session) {
         for (std::size_t p = 0; p < radiance.size(); ++p)
             radiance[p] *= colors[p];
     }
-    Report report = report_of(a, suns_given, radiance, receiver_areas(model.scene));
+    Report report = report_of(a, light.split.suns.size(), radiance, receiver_areas(model.scene));
     write_vertex_colors(model.document, model.scene, radiance);
     const std::vector<std::byte> file = about(a.model, [&] { return encode_glb(model.document); });
     add_figures(report, {{"bytes_file", session.write(a.output, file)}, {"seconds", stopwatch.seconds()}});
@@ -154,7 +151,6 @@ void add_relight(CLI::App& app, Session& session) {
              "find suns in the image, so many or as many as pay, and shadow them by rays; those of a light "
              "file are lit so, too",
              "auto");
-    add_sun_shadows(command, a.shadows);
     add_lamps(command, a.lamps);
     command->add_option("--sun-rays", a.rays, "rays from a vertex to each sun")
         ->capture_default_str()

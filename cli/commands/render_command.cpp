@@ -1,6 +1,6 @@
 #include "commands/commands.h"
 
-#include "light_set.h"
+#include "lamp_strengths.h"
 #include "options.h"
 #include "outputs.h"
 #include "posed_lobes.h"
@@ -56,7 +56,6 @@ struct Look {
 struct Lights {
     SunCount suns = {std::nullopt}; ///< as many as pay: their shadows show first, and no order has them
     int sun_rays = 32;              ///< for each pixel and sun
-    SunShadows shadows = SunShadows::sharp;
     LampChoice lamps;
 };
 
@@ -143,8 +142,6 @@ bool has_unnamed_media(const SceneFile& model, const std::vector<bool>& solid) {
 /// Why suns cannot be lit apart from the sky, and what to do about it; empty: they can. What holds no
 /// transfer has direct light only.
 std::string why_together(const RenderArguments& a, const SceneFile& model, const std::vector<bool>& solid) {
-    if (a.lights.shadows == SunShadows::baked)
-        return {};
     if (model.record() && layout_of(model).has(PartKind::whole))
         return a.model.string() + ": " + kNotApart;
     if (a.backend == Backend::gpu && has_unnamed_media(model, solid))
@@ -177,12 +174,9 @@ TransferLayout layout_of_any(const SceneFile& model) {
     return model.record() ? layout_of(model) : layout_of_one(kUnshadowedOrder, 1, PartKind::direct);
 }
 
-/// Suns of `light` that shine by keys leave it.
-Lighting lighting_of(const RenderArguments& a, const SceneFile& model, SplitLight& light) {
-    std::vector<glm::vec3> lamps =
-        strengths_under(a.model, layout_of_any(model), a.lights.lamps, a.lights.shadows, light);
+Lighting lighting_of(const RenderArguments& a, const SceneFile& model, const SplitLight& light) {
     Lighting lighting = cli::lighting_of(light);
-    lighting.lamps = std::move(lamps);
+    lighting.lamps = lamp_strengths(a.lights.lamps, layout_of_any(model));
     return lighting;
 }
 
@@ -384,7 +378,7 @@ void run(RenderArguments a, Session& session) {
     if (!model.record())
         print_notices(a.model.string(), {"holds no transfer: its sky casts no shadows"});
     const std::vector<bool> solid = solid_materials(model);
-    SplitLight light = load_lit(a, model, solid);
+    const SplitLight light = load_lit(a, model, solid);
     const Lighting lighting = lighting_of(a, model, light);
     const bool suns = !light.split.suns.empty() && a.look.show == Show::lit;
     const TraceScene scene(
@@ -491,7 +485,6 @@ void add_render(CLI::App& app, Session& session) {
              "find suns in the image, so many or as many as pay, and light every pixel by them with sharp "
              "shadows; those of a light file are lit so, too; 0: all light is in the sky",
              "auto");
-    add_sun_shadows(command, a.lights.shadows);
     add_lamps(command, a.lights.lamps);
     command->add_option("--sun-rays", a.lights.sun_rays, "rays from a pixel to each sun")
         ->capture_default_str()

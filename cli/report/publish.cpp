@@ -56,13 +56,8 @@ std::string parts_in_words(const TransferLayout& layout) {
                             ? fmt::format("{} of {} light", part.channels == 1 ? "1 channel" : "3 channels",
                                           to_string(part.kind))
                             : fmt::format("{} of {}", part.channels, to_string(part.kind)));
-    const std::size_t keys = static_cast<std::size_t>(std::ranges::count_if(
-                          layout.lamp_parts(),
-                          [](const TransferPart&lamp) { return lamp.towards.has_value(); })),
-                      lamps = layout.lamps() - keys;
-    for (const auto& [count, word] : {std::pair(lamps, "lamp"), std::pair(keys, "key")})
-        if (count > 0)
-            words.push_back(fmt::format("{} {}{}", count, word, count == 1 ? "" : "s"));
+    if (const std::size_t lamps = layout.lamps(); lamps > 0)
+        words.push_back(fmt::format("{} lamp{}", lamps, lamps == 1 ? "" : "s"));
     return fmt::format("{}", fmt::join(words, ", "));
 }
 

@@ -3,14 +3,11 @@
 #include "model.h"
 
 #include "prt/instances_gltf.h"
-#include "prt/light_set.h"
 #include "prt/shader_source.h"
 
-#include <glm/geometric.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -126,22 +123,6 @@ prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char**
         if (lamp >= lamps.size())
             throw Error("the model has " + std::to_string(lamps.size()) + " lamps");
         *name = lamps[lamp].name.c_str();
-    });
-}
-
-prt_status prt_model_add_sun(const prt_model* model, const float towards[3], const float irradiance[3],
-                             float* lamps, double* away, prt_message* message) {
-    return guarded(message, [&] {
-        check_pointers(model, towards, irradiance, lamps);
-        const prt::TransferLayout& layout = model->former.layout();
-        const glm::dvec3 direction(towards[0], towards[1], towards[2]);
-        const double length = glm::length(direction);
-        if (!(length > 0 && std::isfinite(length)) || !within(kBrightest, irradiance, 3))
-            throw Error("a sun needs a direction, and irradiance of at most 1e20");
-        const prt::SunDisc sun{glm::vec3(direction / length), glm::make_vec3(irradiance)};
-        const double angle = prt::add_sun(layout, sun, {reinterpret_cast<glm::vec3*>(lamps), layout.lamps()});
-        if (away)
-            *away = angle;
     });
 }
 

@@ -26,7 +26,7 @@ std::vector<glm::vec3> emission_strengths(const Scene& scene, const TransferLayo
         for (const TransferPart& lamp : layout.lamp_parts()) {
             const bool is_member =
                 lamp.members.empty() ? lamp.name == name : std::ranges::count(lamp.members, name) > 0;
-            if (is_member && !lamp.towards)
+            if (is_member)
                 strengths[m] = *strength;
             ++strength;
         }

@@ -5,11 +5,8 @@
 #include "prt/support/error.h"
 #include "prt/support/printable.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <set>
 #include <string>
 
@@ -27,20 +24,6 @@ void check_strengths(std::span<const glm::vec3> lamps, const TransferLayout& lay
     if (!lamps.empty() && lamps.size() != layout.lamps())
         throw Error("the lighting has " + std::to_string(lamps.size()) + " strengths, the transfer has " +
                     std::to_string(layout.lamps()) + " lamps");
-}
-
-/// Of a lamp as the scene has it.
-glm::vec3 strength_of_scene(const TransferPart& lamp) {
-    return glm::vec3(lamp.towards ? 0 : 1);
-}
-
-void check_key(const TransferPart& part) {
-    if (!part.towards)
-        return;
-    if (part.kind != PartKind::lamp || !part.members.empty())
-        throw Error("a part of transfer that is no lamp of its own has a direction");
-    if (!(std::abs(glm::length(glm::dvec3(*part.towards)) - 1) <= 1e-3))
-        throw Error("the direction of lamp '" + printable(part.name) + "' is not of length 1");
 }
 
 void check_lamps(const TransferLayout& layout) {
@@ -119,12 +102,6 @@ TransferLayout layout_of_one(int order, int channels, PartKind kind) {
     return {order, {{kind, channels}}};
 }
 
-std::vector<glm::vec3> strengths_of_scene(const TransferLayout& layout) {
-    std::vector<glm::vec3> strengths(layout.lamps());
-    std::ranges::transform(layout.lamp_parts(), strengths.begin(), strength_of_scene);
-    return strengths;
-}
-
 void check_layout(const TransferLayout& layout) {
     check_order(layout.order);
     if (layout.parts.empty())
@@ -134,7 +111,6 @@ void check_layout(const TransferLayout& layout) {
                     " outputs, only 1, 4, 9 or 16 make sense");
     for (std::size_t i = 0; i < layout.parts.size(); ++i) {
         const TransferPart& part = layout.parts[i];
-        check_key(part);
         if (part.channels != 1 && part.channels != 3)
             throw Error(std::string("part '") + to_string(part.kind) + "' has " +
                         std::to_string(part.channels) + " channels, only 1 or 3 make sense");
@@ -166,7 +142,7 @@ void write_light_columns(const TransferLayout& layout, const LightingView& light
             ++to;
         }
     if (lamps.empty())
-        std::ranges::transform(layout.lamp_parts(), to, strength_of_scene);
+        std::fill_n(to, layout.lamps(), glm::vec3(1));
     else
         std::ranges::copy(lamps, to);
 }

@@ -112,70 +112,14 @@ TEST_F(LampsOnTheRoad, AloneLightAPicture) {
     EXPECT_NEAR(report["exposure_stops"].get<double>(), 0, 1);
 }
 
-/// Between the keys as at them: R = E cos / pi.
-TEST_F(LampsOnTheRoad, OfALightSetShineForSuns) {
-    folder.file("set.json", R"({"prtkit_light_set": 1, "lights": [
-        {"name": "morning", "towards": [2, 1, 0]}, {"name": "noon", "towards": [0, 1, 0], "half_angle_radians": 0.01}]})");
-    folder.file("sun.json", R"({"prtkit_light": 1, "order": 3, "coefficients": {"red": [0,0,0,0,0,0,0,0,0],
-        "green": [0,0,0,0,0,0,0,0,0], "blue": [0,0,0,0,0,0,0,0,0]},
-        "suns": [{"towards": [0.6, 0.8, 0], "irradiance": [1, 2, 3], "half_angle_radians": 0}]})");
-    bake("d.glb", {"--light-set", at("set.json"), "--lamps", "none"});
-    EXPECT_EQ(lamps_of("d.glb"), (std::vector<std::string>{"morning", "noon"}));
-    ASSERT_EQ(prt({"compress", at("d.glb"), "-o", at("c.glb"), "--weights", "16"}).status, 0);
-    for (const char* model : {"d.glb", "c.glb"}) {
-        const Outcome outcome = prt({"relight", at(model), "-o", at("lit.glb"), "--env", at("sun.json"),
-                                     "--suns", "1", "--sun-shadows", "baked"});
-        ASSERT_EQ(outcome.status, 0) << outcome.err;
-        EXPECT_EQ(outcome.err, ""); // it stands between them
-        const VertexArray vertices = extract_scene(load_gltf(folder / "lit.glb")).vertex_arrays[0];
-        for (const glm::vec4& color : vertices.colors)
-            EXPECT_LT(glm::distance(glm::vec3(color), 0.8f / std::numbers::pi_v<float> * glm::vec3(1, 2, 3)),
-                      0.01f)
-                << model;
-        for (const glm::vec4& color : lit(model, "on").colors)
-            EXPECT_EQ(glm::vec3(color), glm::vec3(0)); // no scene has them
-    }
-    const Outcome picture = prt({"render", at("c.glb"), "-o", at("p.png"), "--env", at("sun.json"), "--suns",
-                                 "1", "--sun-shadows", "baked", "--backend", "cpu", "--size", "64x36"});
-    EXPECT_EQ(picture.status, 0) << picture.err;
-}
-
-TEST_F(LampsOnTheRoad, OfLightSetsThatAreWrongAreSaidSoInALine) {
-    const auto refused = [&](const char* text, const char* words) {
-        folder.file("set.json", text);
-        const Outcome outcome = prt({"bake", at("s.glb"), "-o", at("no.glb"), "--light-set", at("set.json")});
-        EXPECT_EQ(outcome.status, 1) << words;
-        EXPECT_NE(outcome.err.find(words), std::string::npos) << outcome.err;
-        const bool of_both = outcome.err.find("Lamp.red") + 1 > 0 || outcome.err.find("66 lamps") + 1 > 0;
-        EXPECT_NE(outcome.err.find(of_both ? "s.glb" : "set.json"), std::string::npos) << outcome.err;
-    };
-    const auto arc = [](const std::string& members) {
-        return R"({"prtkit_light_set": 1, "arc": {)" + members + "}}";
-    };
-    refused("[]", "no light set");
-    refused(R"({"prtkit_light_set": 2, "lights": []})", "no light set");
-    refused(R"({"prtkit_light_set": 1})", "neither");
-    refused(R"({"prtkit_light_set": 1, "lights": [], "light": 1})", "\"light\" is no member");
-    refused(R"({"prtkit_light_set": 1, "lights": []})", "no list of lights");
-    refused(R"({"prtkit_light_set": 1, "lights": [{"name": "a", "towards": [0, 0, 0]}]})", "no direction");
-    refused(R"({"prtkit_light_set": 1, "lights": [{"name": "", "towards": [0, 1, 0]}]})", "no name");
-    refused(
-        R"({"prtkit_light_set": 1, "lights": [{"name": "a", "towards": [0, 1, 0], "half_angle_radians": 2}]})",
-        "light 0: \"half_angle_radians\" is not in");
-    refused(R"({"prtkit_light_set": 1, "lights": [{"name": "Lamp.red", "towards": [0, 1, 0]}]})",
-            "'Lamp.red'");
-    const std::string date = R"("date": "2026-06-21")", place = R"("latitude_degrees": 40)";
-    refused(arc(place + R"(, "keys": 3, "date": "2026-02-30")").c_str(), "no date YYYY-MM-DD");
-    refused(arc(place + R"(, "keys": 3, "date": "21.6.")").c_str(), "no date YYYY-MM-DD");
-    refused(arc(place + ", " + date + R"(, "keys": 65)").c_str(), "\"keys\" is not in 1..64");
-    refused(arc(place + ", " + date + R"(, "keys": 2.5)").c_str(), "whole number");
-    refused(arc(place + ", " + date + R"(, "keys": 64)").c_str(), "66 lamps of different names");
-    refused(arc(place + ", " + date + R"(, "keys": 3, "north": [0, 1, 0])").c_str(), "up or down");
-    refused(arc(R"("latitude_degrees": -80, "keys": 3, )" + date).c_str(), "does not rise");
-    const Outcome none = prt({"relight", at("b.glb"), "-o", at("no.glb"), "--sun-shadows", "baked"});
-    EXPECT_EQ(none.status, 1);
-    EXPECT_NE(none.err.find("no light set"), std::string::npos) << none.err;
-    EXPECT_FALSE(std::filesystem::exists(folder / "no.glb"));
+/// An older version wrote them, and gave them no light until suns shone by them.
+TEST_F(LampsOnTheRoad, ThatAreSunsOfAnOlderVersionAreRefused) {
+    GlbFile file = read_glb(folder / "b.glb");
+    file.json["extensions"]["PRTKIT_transfer"]["parts"].back()["towards"] = {0, 1, 0};
+    file.write(folder / "old.glb");
+    const Outcome outcome = prt({"info", at("old.glb")});
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_NE(outcome.err.find("bake the scene again"), std::string::npos) << outcome.err;
 }
 
 TEST_F(LampsOnTheRoad, ThatAreWrongAreSaidSoInALine) {

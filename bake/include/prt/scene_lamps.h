@@ -38,7 +38,7 @@ public:
         float balance(float other) const { return density > 0 ? density / (density + other) : 1.0f; }
     };
     /// One of the lights of KHR_lights_punctual, by what they give at `place`, points without extent.
-    Sample sample_light(const glm::vec3& place, const glm::vec2& u) const;
+    Sample sample_light(const glm::vec3& place, float u) const;
     /// A point of the surfaces that shine, by their power; black where its back is seen.
     Sample sample_surface(const glm::vec3& place, const glm::vec2& u) const;
     /// Share of the light of a sample of `place` that comes through to there.
@@ -60,7 +60,7 @@ private:
     };
 
     glm::vec3 strength_of(std::uint32_t triangle) const;
-    Sample of_light(const Light& light, const glm::vec3& place, const glm::vec2& u) const;
+    Sample of_light(const Light& light, const glm::vec3& place) const;
 
     const TraceScene& scene_;
     std::vector<Light> lights_;

@@ -36,10 +36,9 @@ PRT_AT(PunctualLight, directional, 12);
 PRT_AT(PunctualLight, position, 16);
 PRT_AT(PunctualLight, inverse_range, 28);
 PRT_AT(PunctualLight, direction, 32);
-PRT_AT(PunctualLight, half_angle, 44);
-PRT_AT(PunctualLight, inner_cosine, 48);
-PRT_AT(PunctualLight, outer_cosine, 52);
-PRT_AT(PunctualLight, unused, 56);
+PRT_AT(PunctualLight, inner_cosine, 44);
+PRT_AT(PunctualLight, outer_cosine, 48);
+PRT_AT(PunctualLight, unused, 52);
 
 static_assert(sizeof(ShiningTriangle) == 96);
 PRT_AT(ShiningTriangle, a, 0);

@@ -19,7 +19,6 @@ gpu::PunctualLight packed(const PunctualLight& light) {
             .position = light.position,
             .inverse_range = 1 / light.range,
             .direction = light.direction,
-            .half_angle = light.half_angle,
             .inner_cosine = static_cast<float>(cone.inner),
             .outer_cosine = static_cast<float>(cone.outer),
             .unused = {}};

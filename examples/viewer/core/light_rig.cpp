@@ -4,7 +4,6 @@
 #include "prt/image_file.h"
 #include "prt/sh_basis.h"
 #include "prt/sky.h"
-#include "prt/sun_arc.h"
 #include "prt/sun_shadows.h"
 #include "prt/suns.h"
 #include "prt/tone_map.h"
@@ -26,8 +25,8 @@ constexpr double kSunHalfAngle = 0.265 * kPi / 180; ///< radians, as seen from E
 const glm::vec3 kGround(0.24f, 0.2f, 0.15f);
 
 glm::dvec3 sun_at(double hour) {
-    constexpr int kEquinox = 81;
-    return prt::towards_sun({.latitude = kPi / 4, .day = kEquinox}, hour);
+    const double angle = (hour - 12) / 12 * kPi, latitude = kPi / 4;
+    return {-std::sin(angle), std::cos(angle) * std::cos(latitude), std::cos(angle) * std::sin(latitude)};
 }
 
 LoadedEnvironment ready(std::string name, const prt::Environment& environment) {

@@ -1,6 +1,5 @@
 #include "pictures/gpu_model.h"
 
-#include "prt/light_set.h"
 #include "prt/sh.h"
 #include "prt/support/stopwatch.h"
 #include "shared_layout.h"
@@ -147,13 +146,7 @@ bool GpuModel::lights(const prt::TransferLayout& layout) const {
 }
 
 prt::Lighting GpuModel::lighting_of(const prt::TransferLayout& layout) const {
-    prt::Lighting lighting = with_lamps(*lit_.lighting, lit_.lamps, layout);
-    if (!lit_.suns.empty() && prt::has_light_set(layout)) {
-        lighting.suns.reset(); // keys have their bounces
-        for (const prt::SunDisc& sun : lit_.suns)
-            prt::add_sun(layout, sun, lighting.lamps);
-    }
-    return lighting;
+    return with_lamps(*lit_.lighting, lit_.lamps, layout);
 }
 
 void GpuModel::set_lighting(const prt::Lighting& lighting, std::span<const prt::SunDisc> suns,
@@ -201,14 +194,13 @@ const prt::TransferLayout* GpuModel::layout_shown(PictureKind kind) const {
 
 bool GpuModel::shows_suns(PictureKind kind) const {
     const prt::TransferLayout* layout = layout_shown(kind);
-    const bool apart = !layout || (layout->has(prt::PartKind::direct) && !prt::has_light_set(*layout));
+    const bool apart = !layout || layout->has(prt::PartKind::direct);
     return !lit_.suns.empty() && !shows_numbers(kind) && apart;
 }
 
 bool GpuModel::takes_suns_as_sky(PictureKind kind) const {
     const prt::TransferLayout* layout = layout_shown(kind);
-    return !lit_.suns.empty() && layout && !layout->has(prt::PartKind::direct) &&
-           !prt::has_light_set(*layout);
+    return !lit_.suns.empty() && layout && !layout->has(prt::PartKind::direct);
 }
 
 void GpuModel::draw_shadows(PictureKind kind, const prt::SunShadows::View& view,

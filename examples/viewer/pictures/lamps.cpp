@@ -17,7 +17,7 @@ std::vector<Lamp> lamps_of(std::span<const prt::TransferLayout* const> layouts,
     std::vector<Lamp> lamps;
     for (const prt::TransferLayout* layout : layouts)
         for (const prt::TransferPart& part : layout->lamp_parts()) {
-            if (part.towards || std::ranges::count(lamps, part.name, &Lamp::name) > 0)
+            if (std::ranges::count(lamps, part.name, &Lamp::name) > 0)
                 continue;
             const auto before = std::ranges::find(known, part.name, &Lamp::name);
             lamps.push_back(before == known.end() ? Lamp{.name = part.name} : *before);
@@ -29,8 +29,7 @@ std::vector<glm::vec3> strengths_of(const LampSettings& settings, const prt::Tra
     std::vector<glm::vec3> strengths;
     for (const prt::TransferPart& part : layout.lamp_parts()) {
         const auto known = std::ranges::find(settings.each, part.name, &Lamp::name);
-        const glm::vec3 strength = strength_of(settings, known == settings.each.end() ? Lamp{} : *known);
-        strengths.push_back(part.towards ? glm::vec3(0) : strength);
+        strengths.push_back(strength_of(settings, known == settings.each.end() ? Lamp{} : *known));
     }
     return strengths;
 }

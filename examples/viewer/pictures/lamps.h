@@ -33,12 +33,11 @@ struct LampSettings {
 /// The largest strength; what shines stays within what floats hold.
 inline constexpr float kMostLampStrength = 1e9f;
 
-/// Those that the layouts have but keys of light sets, each name once, as `known` has them set; new ones
-/// shine as in the scene.
+/// Those that the layouts have, each name once, as `known` has them set; new ones shine as in the scene.
 std::vector<Lamp> lamps_of(std::span<const prt::TransferLayout* const> layouts,
                            const std::vector<Lamp>& known);
 
-/// Of each lamp of `layout`, by name; 0 where it is off, or all are, and of keys of a light set.
+/// Of each lamp of `layout`, by name; 0 where it is off, or all are.
 std::vector<glm::vec3> strengths_of(const LampSettings& settings, const prt::TransferLayout& layout);
 
 /// Whether one of them gives light.

@@ -14,9 +14,9 @@ export class LitSurfaces extends LitTransfer {
     this.volume?.setLight(light, angle, suns, this.volume.knownOf(lamps));
   }
 
-  setSky(light, scene, { suns = null, lamps = {}, keyed = [] } = {}) {
+  setSky(light, scene, { suns = null, lamps = {} } = {}) {
     this.volume?.checkOrders(light, suns);
-    super.setSky(light, scene, { suns, lamps, keyed });
-    this.volume?.setSky(light, scene, { suns, lamps: this.volume.knownOf(lamps), keyed: this.volume.keys.length > 0 ? keyed : [] });
+    super.setSky(light, scene, { suns, lamps });
+    this.volume?.setSky(light, scene, { suns, lamps: this.volume.knownOf(lamps) });
   }
 }

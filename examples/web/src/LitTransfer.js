@@ -1,9 +1,8 @@
-// What lights the compressed transfer of one file: a sky, suns that are apart, lamps, keys of a light set.
+// What lights the compressed transfer of one file: a sky, suns that are apart, lamps.
 
 import { Vector3 } from "three";
 import { lightColumns } from "./clusteredPca.js";
-import { strengthsOfSuns } from "./lightSet.js";
-import { shownBy, turnForModel, turnedBy } from "./turns.js";
+import { shownBy, turnForModel } from "./turns.js";
 
 /** Who extends it forms what is drawn: `form(sky, suns)`, of coefficients in the frame of the bake. */
 export class LitTransfer {
@@ -15,12 +14,9 @@ export class LitTransfer {
     this.channels = Math.max(...clusters.parts.map((part) => part.channels));
     this.directApart = clusters.parts[0].kind === "direct";
     /** Names of the lamps that can be dimmed. */
-    const lamps = clusters.parts.filter(({ kind }) => kind === "lamp");
-    this.lamps = lamps.filter(({ towards }) => !towards).map(({ name }) => name);
-    /** Keys of the light set by which suns can shine: { name, towards }. */
-    this.keys = lamps.filter(({ towards }) => towards);
-    /** By lamp or key, what its strength is; of shining materials, uniforms. */
-    this.strengths = new Map(lamps.map(({ name }) => [name, { value: new Vector3() }]));
+    this.lamps = clusters.parts.filter(({ kind }) => kind === "lamp").map(({ name }) => name);
+    /** By lamp, what its strength is; of shining materials, uniforms. */
+    this.strengths = new Map(this.lamps.map((name) => [name, { value: new Vector3() }]));
     this.setStrengths({});
     this.sky = null; // of setSky
   }
@@ -41,32 +37,24 @@ export class LitTransfer {
   /**
    * Lights by `light` as `scene` shows it, in every frame: turned by its environmentRotation, times its
    * environmentIntensity, or those of the background where it has no environment; and as the model is turned itself.
-   * `suns`, `lamps`: as of setLight; `keyed`: suns that shine by the keys of a light set, in the place of `suns`.
+   * `suns`, `lamps`: as of setLight.
    */
-  setSky(light, scene, { suns = null, lamps = {}, keyed = [] } = {}) {
+  setSky(light, scene, { suns = null, lamps = {} } = {}) {
     this.checkOrders(light, suns);
-    if (keyed.length > 0 && this.keys.length === 0) throw new RangeError("the model has no light set");
     this.setStrengths(lamps);
-    this.sky = { light, scene, suns, lamps, keyed, shown: "" };
+    this.sky = { light, scene, suns, shown: "" };
     this.followSky();
   }
 
   /** Forms anew where what the sky is shown by has changed since. */
   followSky() {
     if (!this.sky) return;
-    const { light, scene, suns, lamps, keyed, shown } = this.sky;
+    const { light, scene, suns, shown } = this.sky;
     const { euler, strength } = shownBy(scene);
     const now = [euler.x, euler.y, euler.z, euler.order, strength, ...this.root.matrixWorld.elements.slice(0, 11)].join();
     if (now === shown) return;
     this.sky.shown = now;
     const turn = turnForModel(scene, this.root);
-    if (keyed.length > 0) {
-      const turned = keyed.map(({ towards, irradiance }) => ({
-        towards: turnedBy(turn, towards),
-        irradiance: irradiance.map((value) => strength * value),
-      }));
-      this.setStrengths({ ...strengthsOfSuns(this.keys, turned), ...lamps });
-    }
     const seen = (source) => source.rotated(turn).times(strength).coefficients();
     this.form(seen(light), suns ? seen(suns) : null);
   }
@@ -82,20 +70,9 @@ export class LitTransfer {
     return lightColumns(this.clusters, sky, suns, strengths);
   }
 
-  /**
-   * Strengths of the keys by which `suns` shine, turned as `setLight` turns its light: what `lamps` of it is given beside
-   * those of lamps, in the place of suns that three's lights add.
-   */
-  strengthsOfSuns(suns, angle = 0) {
-    if (this.keys.length === 0) throw new RangeError("the model has no light set");
-    return strengthsOfSuns(this.keys, suns, angle);
-  }
-
   /** By which what a material of this name shines with is multiplied. */
   strengthOf(material) {
-    const lamp = this.clusters.parts.find(
-      ({ kind, name, towards, members = [name] }) => kind === "lamp" && !towards && members.includes(material),
-    );
+    const lamp = this.clusters.parts.find(({ kind, name, members = [name] }) => kind === "lamp" && members.includes(material));
     return lamp ? this.strengths.get(lamp.name) : { value: new Vector3(1, 1, 1) };
   }
 
@@ -109,8 +86,7 @@ export class LitTransfer {
       if (strength?.length !== 3 || ![...strength].every((value) => value >= 0 && value < Infinity))
         throw new RangeError(`the strength of lamp "${name}" is neither a number nor three, or below zero`);
     }
-    for (const { value } of this.strengths.values()) value.set(0, 0, 0);
-    for (const name of this.lamps) this.strengths.get(name).value.set(1, 1, 1);
+    for (const { value } of this.strengths.values()) value.set(1, 1, 1);
     for (const [name, strength] of given) this.strengths.get(name).value.set(...strength);
   }
 }

@@ -32,8 +32,6 @@ export interface SkyOptions {
   /** As of setLight: what the scene's directional lights (SunLights, which `follow` the scene) add. */
   suns?: ShLight | null;
   lamps?: LampStrengths;
-  /** Suns that shine by the keys of a light set, in the place of `suns`. Throws a RangeError where the model has none. */
-  keyed?: Sun[];
 }
 
 /** What surfaces and volumes have alike: what lights them. */
@@ -44,21 +42,15 @@ export class LitTransfer {
   readonly directApart: boolean;
   /** Names of the lamps that can be dimmed: lights and shining materials of the scene, and groups of them. */
   readonly lamps: string[];
-  /** Keys of the light set by which suns can shine: distant lights that are dark until they are set. */
-  readonly keys: { name: string; towards: number[] }[];
   /** Lights all of the file by `light`, all of it or without its suns. `suns`: those that the scene's directional
    * lights add with their shadows; they light here what is lit after a bounce. Without them, and where `directApart` is
-   * false, three's lights add nothing. Lamps that `lamps` does not name shine as in the scene,
-   * keys do not. Throws a RangeError for a
-   * light of fewer bands than `order`, for lamps that are not there, and for strengths below zero. */
+   * false, three's lights add nothing. Lamps that `lamps` does not name shine as in the scene.
+   * Throws a RangeError for a light of fewer bands than `order`, for lamps that are not there, and for strengths below zero. */
   setLight(light: ShLight, angle?: number, suns?: ShLight | null, lamps?: LampStrengths): void;
   /** Lights all of the file by `light` as `scene` shows it, from frame to frame: turned by its environmentRotation and
    * times its environmentIntensity, or by those of the background where it has no environment; and as `gltf.scene` is turned
    * itself. Until `setLight` or `setSky` is called again. Throws as setLight does. */
   setSky(light: ShLight, scene: Scene, options?: SkyOptions): void;
-  /** Strengths of the keys by which `suns` shine without a shadow map, for `lamps` of `setLight` with the same angle; the
-   * suns are then left out of its light. Throws a RangeError where the model has no keys. */
-  strengthsOfSuns(suns: Sun[], angle?: number): Record<string, [number, number, number]>;
 }
 
 /** The compressed transfer of the surfaces of one file: `gltf.userData.prtkit`. Its light is that of `volume`, too. */

@@ -15,10 +15,6 @@
 //   scene.add(lights);
 //   prtkit.setLight(sky.deringed(), angle, lightOfSuns(suns, prtkit.order));
 //
-// Where the model has a light set (`prt bake --light-set`), suns have hard shadows without any light of three's:
-//
-//   prtkit.setLight(sky.deringed(), angle, null, prtkit.strengthsOfSuns(suns, angle));
-//
 // What moves through a model with a volume (`prt bake --volume`) is lit where it is:
 //
 //   prtkit.volume.light(character.scene);
@@ -98,7 +94,7 @@ export class PrtkitPlugin {
   async sharing(gltf, model, definesOf) {
     const { parser } = this;
     const extension = parser.json.extensions[INSTANCES];
-    expect(model.lamps.length + model.keys.length === 0, "transfer of lamps is not shared by instances", INSTANCES);
+    expect(model.lamps.length === 0, "transfer of lamps is not shared by instances", INSTANCES);
     const { bufferView } = extension.factors;
     const bytes = (await this.viewsOf([bufferView], INSTANCES)).get(bufferView);
     gltf.scene.updateMatrixWorld(true);

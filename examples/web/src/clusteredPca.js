@@ -164,15 +164,15 @@ export function clusterTable(clusters) {
 /**
  * The colours that the parts are multiplied with, one behind the other, [columns][3]: `sky` [>= order²][3] for direct
  * light, with `suns` added for the rest (null: all light is in the sky), and `lamps` [lamps][3], what each lamp is dimmed
- * or coloured by (null: all shine as in the scene, and keys of a light set, which are not in it, do not).
+ * or coloured by (null: all shine as in the scene).
  */
 export function lightColumns({ order, parts }, sky, suns = null, lamps = null) {
   const columns = new Float64Array(3 * parts.reduce((sum, part) => sum + columnsOf(order, part), 0));
   let at = 0;
   let lamp = 0;
-  for (const { kind, towards } of parts)
+  for (const { kind } of parts)
     if (kind === "lamp") {
-      for (let c = 0; c < 3; ++c) columns[at++] = lamps ? lamps[3 * lamp + c] : towards ? 0 : 1;
+      for (let c = 0; c < 3; ++c) columns[at++] = lamps ? lamps[3 * lamp + c] : 1;
       ++lamp;
     } else for (let i = 0; i < 3 * order * order; ++i) columns[at++] = sky[i] + (suns && kind !== "direct" ? suns[i] : 0);
   return columns;

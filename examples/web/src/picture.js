@@ -120,7 +120,7 @@ export class Picture {
     this.shadowMapSize = shadowMapSize;
     this.sunsApart = true; // where there are suns, and the model can have them apart
     this.window = "auto";
-    this.lit = null; // what lights the model: { sky, suns, keyed }, as many bands as it has, the sky under the window
+    this.lit = null; // what lights the model: { sky, suns }, as many bands as it has, the sky under the window
     this.angle = 0;
     this.daylight = 1; // times the sky and its suns
     this.lamps = {}; // strengths by name
@@ -245,11 +245,10 @@ export class Picture {
     this.formLight();
   }
 
-  /** Whether suns can be lit apart: where the sky has them, and the model keeps direct light apart or has a light set. */
+  /** Whether suns can be lit apart: where the sky has them, and the model keeps direct light apart. */
   get canSunsBeApart() {
     const model = this.gltf?.userData.prtkit;
-    const apart = model?.directApart || model?.keys.length > 0;
-    return Boolean(this.sunny && apart && this.sunny.sky.order >= model.order);
+    return Boolean(this.sunny && model?.directApart && this.sunny.sky.order >= model.order);
   }
 
   /** One of WINDOWS. */
@@ -260,14 +259,13 @@ export class Picture {
 
   /** Once for each sky and model: turning the light does not change what its window takes out. */
   formLight() {
-    const { order, keys } = this.gltf?.userData.prtkit ?? {};
+    const { order } = this.gltf?.userData.prtkit ?? {};
     if (this.light && order) {
       const apart = this.sunsApart && this.canSunsBeApart;
-      const byMaps = apart && keys.length === 0; // a light set is there so that none are drawn
       const sky = WINDOWS[this.window].apply(truncated(apart ? this.sunny.sky : this.light, order));
-      this.lit = { sky, suns: byMaps ? lightOfSuns(this.sunny.suns, order) : null, keyed: apart && !byMaps };
-      if (this.sunLights) this.sunLights.visible = byMaps;
-      if (byMaps) this.sunLights.fit(this.gltf.scene);
+      this.lit = { sky, suns: apart ? lightOfSuns(this.sunny.suns, order) : null };
+      if (this.sunLights) this.sunLights.visible = apart;
+      if (apart) this.sunLights.fit(this.gltf.scene);
     }
     this.relight();
   }
@@ -302,19 +300,11 @@ export class Picture {
     this.scene.environmentIntensity = this.daylight;
     if (this.gltf && this.lit) {
       const { sky, suns } = this.lit;
-      const strengths = { ...this.keyStrengths(), ...this.lamps };
       for (const { userData } of this.before ? [this.gltf, this.before] : [this.gltf])
-        userData.prtkit.setLight(sky.times(this.daylight), this.angle, suns?.times(this.daylight) ?? null, strengths);
+        userData.prtkit.setLight(sky.times(this.daylight), this.angle, suns?.times(this.daylight) ?? null, this.lamps);
     }
     this.sunLights?.turn(this.angle).dim(this.daylight);
     this.draw();
-  }
-
-  /** Of the model's light set, where suns shine by it. */
-  keyStrengths() {
-    if (!this.lit.keyed) return {};
-    const suns = this.sunny.suns.map((sun) => ({ ...sun, irradiance: sun.irradiance.map((value) => value * this.daylight) }));
-    return this.gltf.userData.prtkit.strengthsOfSuns(suns, this.angle);
   }
 
   /** From the front, a little from the right and above; or `camera`: { position, target, fieldOfView }. */

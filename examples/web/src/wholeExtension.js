@@ -38,8 +38,6 @@ const areRows = (v) => isView(v) && Array.isArray(v.drops) && v.drops.every((dro
 
 const LAYOUTS = [[], ["direct"], ["indirect"], ["whole"], ["direct", "indirect"]];
 
-const isUnit = (v) => Array.isArray(v) && v.length === 3 && Math.abs(Math.hypot(...v) - 1) <= 1e-3;
-
 function areParts(parts) {
   if (!Array.isArray(parts) || parts.length > 66) return false;
   if (!parts.every((part) => part?.channels === 1 || part?.channels === 3)) return false;
@@ -51,8 +49,7 @@ function areParts(parts) {
     names.every((name) => typeof name === "string" && name !== "") &&
     new Set(names).size === names.length &&
     parts.every(({ members }) => members === undefined || (Array.isArray(members) && members.every((m) => typeof m === "string"))) &&
-    lamps.every(({ kind, towards }) => kind === "lamp" && (towards === undefined || isUnit(towards))) &&
-    skies.every(({ towards }) => towards === undefined) &&
+    lamps.every(({ kind }) => kind === "lamp") &&
     LAYOUTS.some((kinds) => kinds.length === skies.length && kinds.every((kind, i) => kind === skies[i].kind))
   );
 }
@@ -104,6 +101,7 @@ export function checkExtension(extension) {
 function checkClusters(extension) {
   const { order, parts, components, guides, centers } = extension;
   expect(isWhole(order, 1, 10) && areParts(parts), "order or parts are wrong");
+  expect(parts.every(({ towards }) => towards === undefined), 'a sun is among the lamps of the parts ("towards"), as older versions wrote it; bake the scene again');
   expect(Array.isArray(components) && isWhole(components.length, 1, 65536), "the components are no list of 1 to 65536");
   expect(components.every((m) => isWhole(m, 0, 600)), "the components of a cluster are wrong");
   if (guides !== undefined) {

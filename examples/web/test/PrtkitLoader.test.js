@@ -328,30 +328,6 @@ test("lamps are dimmed and coloured by name, and so is what shines", async () =>
   lit(5, 7, 11); // what is refused changes nothing
 });
 
-test("suns shine by the keys next to them", async () => {
-  const keys = [[1, 0, 0], [0, 1, 0], [-1, 0, 0]].map((towards, k) => ({ kind: "lamp", channels: 1, name: `key ${k}`, towards }));
-  const parts = [WITH_LAMPS.parts[0], WITH_LAMPS.parts[1], ...keys];
-  const { gltf, parser } = scene({ _prt_cluster: new BufferAttribute(new Uint8Array(2), 1) }, { ...WITH_LAMPS, parts });
-  parser.getDependency = async () => bytesOf(2, 3, 5, 7, 11);
-  await new PrtkitPlugin(parser).afterRoot(gltf);
-  const model = gltf.userData.prtkit;
-  assert.deepEqual(model.lamps, ["Lantern"]);
-  assert.deepEqual(model.keys.map(({ name }) => name), ["key 0", "key 1", "key 2"]);
-  const sky = 2 * Math.sqrt(4 * Math.PI);
-  const red = () => model.constantsTexture.image.data[0] - sky;
-  model.setLight(white());
-  assert.ok(Math.abs(red() - 3) < 1e-5); // the lantern alone
-  // Between two keys at a right angle: cosine and sine of the angle from the first.
-  const suns = [{ towards: [0.8, 0.6, 0], irradiance: [2, 4, 6], halfAngle: 0 }];
-  const strengths = model.strengthsOfSuns(suns);
-  for (const [name, share] of [["key 0", 0.8], ["key 1", 0.6], ["key 2", 0]])
-    strengths[name].forEach((value, c) => assert.ok(Math.abs(value - share * suns[0].irradiance[c]) < 1e-6, `${name}: ${value}`));
-  model.setLight(white(), 0, null, { ...strengths, Lantern: 0 });
-  assert.ok(Math.abs(red() - 2 * (0.8 * 5 + 0.6 * 7)) < 1e-5, `${red()}`);
-  // Turned by a right angle about +Y, +X becomes -Z: beside all keys, nearest to the second.
-  assert.deepEqual(model.strengthsOfSuns(suns, Math.PI / 2)["key 1"].map((x) => Math.round(1e6 * x)), [2e6, 4e6, 6e6]);
-});
-
 test("what shines is dimmed with the group that it is a member of", async () => {
   const [sky, lantern, sign] = WITH_LAMPS.parts;
   const parts = [sky, lantern, { ...sign, name: "Street", members: ["Tube", "material 0"] }];

@@ -551,35 +551,6 @@ await check("lamps light as in prt, and are dimmed", async (page, errors) => {
   assert.deepEqual(errors, []);
 });
 
-await check("suns shine by the keys of a light set as in prt", async (page, errors) => {
-  const at = (suffix) => join(work, `set${suffix}`);
-  const prtRun = (...options) => execFileSync(prt, options, { stdio: "ignore" });
-  const towards = (degrees) => [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180), 0.3];
-  const key = (degrees) => ({ name: `at ${degrees}`, towards: towards(degrees) });
-  writeFileSync(at(".json"), JSON.stringify({ prtkit_light_set: 1, lights: [40, 70, 100].map(key) }));
-  const band = (l0) => [l0, ...new Array(35).fill(0)];
-  const sun = { towards: towards(62), irradiance: [2, 1.8, 1.5], half_angle_radians: 0.004 };
-  const light = { prtkit_light: 1, order: 6, coefficients: { red: band(1), green: band(1), blue: band(1.2) }, suns: [sun] };
-  writeFileSync(at(".light.json"), JSON.stringify(light));
-  lampScene(at(".gltf"), []);
-  prtRun("bake", at(".gltf"), "-o", at(".baked.glb"), "--rays", "256", "--bounces", "1", "--light-set", at(".json"));
-  prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "16", "--clusters", "16", "--components", "16");
-  prtRun("relight", at(".glb"), "--env", at(".light.json"), "--suns", "1", "--sun-shadows", "baked", "--window", "auto", "--albedo", "-o", at(".lit.glb"));
-  const view = { position: [1.5, 2.5, 3], target: [0, 0.2, 0], fieldOfView: 45 };
-  await page.goto(url({ model: "knot", angle: 0, ...query(view), panel: 1, suns: 1 }));
-  await picture(page);
-  await dropped(page, { "set.glb": at(".glb") });
-  await page.waitForFunction(() => /set/.test(document.querySelector("#model").selectedOptions[0].textContent));
-  await dropped(page, { "set.json": at(".light.json") });
-  await page.waitForFunction(() => /set/.test(document.querySelector("#sky").selectedOptions[0].textContent));
-  assert.equal(await page.locator("#lamps").isHidden(), true); // keys are no lamps to dim
-  if (screenshots) await page.screenshot({ path: join(screenshots, "light-set.png") });
-  const d = await radianceAgainst(page, vertexColors(at(".lit.glb")));
-  console.log(`  ${(100 * d.rms).toFixed(2)} % rms, means ${d.ratio.toFixed(4)} times, over ${(100 * d.even).toFixed(0)} % of the model`);
-  assert.ok(d.rms < 0.01 && d.even > 0.2, `${d.rms} over ${d.even}`);
-  assert.deepEqual(errors, []);
-});
-
 await check("suns go back into the sky, and come out of it", async (page, errors) => {
   const view = { ...query(standardCamera), model: "knot", angle: 70 };
   await page.goto(url({ ...view, suns: 1 }));

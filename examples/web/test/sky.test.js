@@ -116,17 +116,6 @@ test("suns follow the scene as the light does", () => {
   near(light.intensity, 1.5, 1e-12);
 });
 
-test("suns by the keys of a light set follow, too", () => {
-  const key = { kind: "lamp", channels: 1, name: "key", towards: [1, 0, 0] };
-  const extension = { version: 6, order: 1, parts: [{ kind: "direct", channels: 1 }, key], components: [0], bases: { bufferView: 0 } };
-  const model = new PrtkitModel(decodeClusters(extension, () => new Uint8Array(new Float32Array([0, 5]).buffer)), new Object3D());
-  const scene = new Scene();
-  scene.backgroundIntensity = 2;
-  model.setSky(lightFrom([0, 1, 0], 1), scene, { keyed: [{ towards: [0, 0, 1], irradiance: [1, 2, 3], halfAngle: 0 }] });
-  allNear(model.constantsTexture.image.data, [10, 20, 30], 1e-5, "keys");
-  assert.throws(() => modelTowardsX(new Object3D()).setSky(lightFrom([0, 1, 0]), scene, { keyed: [{}] }), RangeError);
-});
-
 test("a light probe lights by the radiance that three has in it", () => {
   const probe = new LightProbe(new SphericalHarmonics3(), 2);
   probe.sh.coefficients.forEach((c, i) => c.set(Math.sin(i + 1), Math.cos(i), 0.1 * i));

@@ -37,7 +37,7 @@ export async function show(scene: Scene): Promise<number> {
   scene.add(suns);
   model.setLight(lighting.sky.deringed(), 1, lightOfSuns(lighting.suns, model.order));
   model.setLight(lighting.sky, 1, null, { [model.lamps[0]]: 0.5, Sign: [1, 0.5, 0] });
-  model.setSky(await projectInWorker(sky, 6, { center: "z" }), scene, { suns: lightOfSuns(lighting.suns), keyed: [] });
+  model.setSky(await projectInWorker(sky, 6, { center: "z" }), scene, { suns: lightOfSuns(lighting.suns) });
   model.setSky(lightFromProbe(new LightProbe()).rotated([1, 0, 0, 0, 1, 0, 0, 0, 1]), scene);
   suns.follow(scene).lights[0].shadow.autoUpdate = false;
   const volume: PrtkitVolume | null = model.volume;

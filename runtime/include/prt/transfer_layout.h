@@ -30,9 +30,6 @@ struct TransferPart {
     std::string name = {}; ///< of a lamp, by which it is dimmed; the others have none
     /// Names of the lights and materials of the scene that are in a group; empty: its own is the one.
     std::vector<std::string> members = {};
-    /// Of a lamp that is a key of a light set: the unit direction to a distant light, which no scene has and
-    /// which gives irradiance 1 to what faces it.
-    std::optional<glm::vec3> towards = {};
 
     friend bool operator==(const TransferPart&, const TransferPart&) = default;
 };
@@ -78,10 +75,6 @@ struct TransferLayout {
 /// The layout of a single part.
 TransferLayout layout_of_one(int order, int channels, PartKind kind = PartKind::whole);
 
-/// What lamps shine with as long as nobody sets them, [layout.lamps()]: 1, as in the scene; 0 for keys of a
-/// light set, which are not in it.
-std::vector<glm::vec3> strengths_of_scene(const TransferLayout& layout);
-
 /// Throws `Error` unless the order is one, and the parts are such as the comments above say.
 void check_layout(const TransferLayout& layout);
 
@@ -92,7 +85,7 @@ struct Lighting {
     /// Those that the renderer adds to direct light with sharp shadows: `as_light` of each. Without them all
     /// light is in `sky`.
     std::optional<Light> suns = {};
-    /// What each lamp of the layout is dimmed or colored by; empty: `strengths_of_scene`.
+    /// What each lamp of the layout is dimmed or colored by; empty: 1, as in the scene.
     std::vector<glm::vec3> lamps = {};
 };
 
@@ -100,7 +93,7 @@ struct Lighting {
 struct LightingView {
     std::span<const glm::vec3> sky;   ///< [order² or more]
     std::span<const glm::vec3> suns;  ///< the same; empty: all light is in `sky`
-    std::span<const glm::vec3> lamps; ///< [lamps]; empty: `strengths_of_scene`
+    std::span<const glm::vec3> lamps; ///< [lamps]; empty: 1, as in the scene
 
     LightingView(std::span<const glm::vec3> of_sky, std::span<const glm::vec3> of_suns = {},
                  std::span<const glm::vec3> of_lamps = {})

@@ -36,13 +36,14 @@ PartKind read_kind(const std::string& word) {
     throw Error("the transfer has a part of a kind that this program does not know");
 }
 
-std::optional<glm::vec3> read_direction(const Json& part) {
-    if (!part.contains("towards"))
-        return std::nullopt;
-    const auto towards = part["towards"].get<std::vector<float>>();
-    if (towards.size() != 3)
-        throw Error("towards of a part has " + std::to_string(towards.size()) + " numbers, not 3");
-    return glm::vec3(towards[0], towards[1], towards[2]);
+TransferPart read_part(const Json& part) {
+    if (part.contains("towards"))
+        throw Error(
+            "the transfer has a sun among its lamps (\"towards\"), which only older versions of prt know; "
+            "bake the scene again");
+    return {read_kind(part.at("kind").get<std::string>()),
+            whole_number(part.at("channels"), "channels", 1, 3), part.value("name", ""),
+            part.value("members", std::vector<std::string>())};
 }
 
 /// The member `key`, a whole number that is not negative, 0 where it is not there.
@@ -144,8 +145,6 @@ Json parts_json(const TransferLayout& layout) {
             parts.back()["name"] = part.name;
         if (!part.members.empty())
             parts.back()["members"] = part.members;
-        if (part.towards)
-            parts.back()["towards"] = {part.towards->x, part.towards->y, part.towards->z};
     }
     return parts;
 }
@@ -156,9 +155,7 @@ TransferLayout read_layout(const Json& extension) {
     if (!parts.is_array())
         throw Error("parts of the transfer are no list");
     for (const Json& part : parts)
-        layout.parts.push_back({read_kind(part.at("kind").get<std::string>()),
-                                whole_number(part.at("channels"), "channels", 1, 3), part.value("name", ""),
-                                part.value("members", std::vector<std::string>()), read_direction(part)});
+        layout.parts.push_back(read_part(part));
     check_layout(layout);
     return layout;
 }

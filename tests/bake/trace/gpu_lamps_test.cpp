@@ -47,14 +47,6 @@ PunctualLight far_away(const std::string& name) {
     return light;
 }
 
-/// A key of a light set that is a disc.
-PunctualLight sun_of_a_set(const std::string& name) {
-    PunctualLight light = far_away(name);
-    light.half_angle = 0.15f;
-    light.key = true;
-    return light;
-}
-
 /// A scene, and the light of its lamps by both tracers.
 class LitScene {
 public:
@@ -155,12 +147,8 @@ Scene all_kinds(const Material& screen) {
     Scene scene = test::join({SceneBuilder().floor({0, 0, 0}, 2, 16).build(), textured_quad(0.6f, screen),
                               textured_quad(1.4f, sign), globe,
                               SceneBuilder().sphere({0.9f, 0.4f, 0.2f}, 0.3f, 8).build()});
-    scene.lights = {bulb("bulb", {0.3f, 1.1f, -0.2f}),
-                    spot("spot", {-0.4f, 2, 0.1f}),
-                    far_away("moon"),
-                    bulb("left", {-1.5f, 0.9f, 0.7f}, {2, 1, 0}),
-                    bulb("right", {1.4f, 0.8f, -0.9f}),
-                    sun_of_a_set("noon")};
+    scene.lights = {bulb("bulb", {0.3f, 1.1f, -0.2f}), spot("spot", {-0.4f, 2, 0.1f}), far_away("moon"),
+                    bulb("left", {-1.5f, 0.9f, 0.7f}, {2, 1, 0}), bulb("right", {1.4f, 0.8f, -0.9f})};
     return scene;
 }
 

@@ -136,43 +136,6 @@ protected:
     std::vector<float> alpha;
 };
 
-TEST(LampStrengths, LeaveKeysOfALightSetDark) {
-    prt::TransferLayout layout = layout_with({"a", "noon"});
-    layout.parts.back().towards = glm::vec3(0, 1, 0);
-    EXPECT_EQ(strengths_of({.strength = 2}, layout), (std::vector{glm::vec3(2), glm::vec3(0)}));
-    const prt::TransferLayout* one[] = {&layout};
-    EXPECT_EQ(lamps_of(one, {}).size(), 1u);
-}
-
-/// The keys' shadows, and no map: a sun at a key is as that key alone.
-TEST_F(LampPictures, ShowSunsByALightSetWhereThereIsOne) {
-    prt::Scene scene = lit_scene();
-    scene.lights = {
-        {.name = "key", .kind = prt::PunctualKind::directional, .direction = {-0.6f, -0.8f, 0}, .key = true}};
-    load(std::move(scene));
-    const glm::vec3 irradiance(2, 1.5f, 1);
-    const prt::SunDisc sun{{0.6f, 0.8f, 0}, irradiance, 0.005};
-    prt::Lighting keyed{sky};
-    keyed.lamps = {irradiance};
-    const auto expected = prt::exit_radiance(transfer, keyed);
-    const prt::Light of_suns = prt::as_light(sun, 3);
-    for (const PictureKind kind : {PictureKind::prt, PictureKind::prt_compressed}) {
-        gpu->set_lighting({sky, of_suns}, std::vector{sun}, {});
-        EXPECT_FALSE(gpu->takes_suns_as_sky(kind));
-        renderer->draw(1, kind, *gpu, settings, view, {0, kColumns});
-        const prt::Image image = renderer->read(1, &alpha);
-        const prt::Image right = prt::render_gl(picture_of(expected), *context);
-        double difference = 0, sum = 0;
-        for (std::size_t i = 0; i < image.pixels.size(); ++i)
-            if (on_surface(i)) {
-                difference += std::abs(static_cast<double>(image.pixels[i].g - right.pixels[i].g));
-                sum += static_cast<double>(right.pixels[i].g);
-            }
-        EXPECT_GT(sum, 10);
-        EXPECT_LT(difference, 0.02 * sum);
-    }
-}
-
 TEST_F(LampPictures, ChangeWithTheStrengthAsLightDoes) {
     load(lit_scene());
     ASSERT_EQ(transfer.layout.lamps(), 2u);

@@ -307,8 +307,8 @@ TEST_F(LightmapPictures, OfErrorsAreBrightestWhereATexelLostMost) {
     EXPECT_LT(glm::length(errors[least]), glm::length(errors[most]));
 }
 
-/// A floor that fills a map, gives off some light, and has a lamp and a key of a light set over it.
-prt::Scene floor_with_lamps() {
+/// A floor that fills a map, gives off some light, and has a lamp over it.
+prt::Scene floor_with_lamp() {
     prt::Scene scene =
         prt::test::painted(prt::test::SceneBuilder().floor({0, 0, 0}, 1, 4).build(), {0.7f, 0.5f, 0.3f});
     prt::VertexArray& vertices = scene.vertex_arrays[0];
@@ -316,16 +316,14 @@ prt::Scene floor_with_lamps() {
     for (const glm::vec3& p : vertices.positions)
         vertices.texcoords[0].emplace_back(0.5f * (glm::vec2(p.x, p.z) + 1.0f));
     scene.lights.push_back({.name = "warm", .intensity = {2, 1.5f, 1}, .position = {0.4f, 0.8f, 0.2f}});
-    scene.lights.push_back(
-        {.name = "key", .kind = prt::PunctualKind::directional, .direction = {-0.6f, -0.8f, 0}, .key = true});
     scene.materials[0].name = "glow";
     scene.materials[0].emission.radiance = {0.05f, 0.1f, 0.2f};
     return scene;
 }
 
-TEST_F(LightmapPictures, ShowLampsKeysAndWhatShines) {
+TEST_F(LightmapPictures, ShowLampsAndWhatShines) {
     loaded = {};
-    loaded.model = make_model(floor_with_lamps(), "test");
+    loaded.model = make_model(floor_with_lamp(), "test");
     const prt::Scene& scene = loaded.model->scene;
     prt::BakeOptions options;
     options.order = 4;
@@ -346,25 +344,16 @@ TEST_F(LightmapPictures, ShowLampsKeysAndWhatShines) {
     gpu = std::make_unique<GpuModel>(loaded.model);
     gpu->set_raw(loaded.lightmap.baked);
     gpu->set_compressed(loaded.lightmap.compressed);
-    const prt::SunDisc sun{{0.6f, 0.8f, 0}, {2, 1.5f, 1}, 0.005}; // at the key
     const LampSettings lamps{.strength = 2, .each = {{.name = "warm", .color = {1, 0.5f, 0.25f}}}};
-    gpu->set_lighting({lit.lighting.sky, prt::as_light(sun, 4)}, std::vector{sun}, lamps);
+    gpu->set_lighting({lit.lighting.sky}, {}, lamps);
 
     const prt::TransferLayout& layout = loaded.raw->layout;
-    std::vector<glm::vec3> strengths = strengths_of(lamps, layout);
+    const std::vector<glm::vec3> strengths = strengths_of(lamps, layout);
     const std::vector<glm::vec3> emission = prt::emission_strengths(scene, layout, strengths);
-    ASSERT_EQ(strengths.size(), 3u); // the lamp, the key, and what shines
-    std::size_t lamp = 0;
-    for (const prt::TransferPart& part : layout.parts)
-        if (part.kind == prt::PartKind::lamp) {
-            if (part.name == "key")
-                strengths[lamp] = sun.irradiance;
-            ++lamp;
-        }
-    lit.suns.clear(); // the key has them
+    ASSERT_EQ(strengths.size(), 2u); // the lamp, and what shines
+    lit.suns.clear();
     lit.lighting = {lit.lighting.sky, {}, strengths};
     for (const PictureKind kind : {PictureKind::prt, PictureKind::prt_compressed}) {
-        EXPECT_FALSE(gpu->takes_suns_as_sky(kind));
         const std::vector<glm::vec3> texels = radiance(kind);
         prt::Picture picture = picture_by(texels);
         picture.emission = emission;

@@ -128,13 +128,6 @@ PRT_API prt_status prt_model_count_lamps(const prt_model* model, size_t* lamps, 
 /* The name of one, which lives as long as the model. */
 PRT_API prt_status prt_model_lamp_name(const prt_model* model, size_t lamp, const char** name,
                                        prt_message* message);
-/* Adds a sun to strengths of the lamps, [lamps][3], by the keys of the model's light set: those that were
- * baked as distant lights, on either side of `towards` (of any length above 0, finite). `irradiance` is that
- * of what faces the sun. Strengths of keys begin at 0. `away`: radians from the sun to the nearest place of
- * the set; may be null. PRT_BAD_ARGUMENT where the model has no light set. Allocates nothing. */
-PRT_API prt_status prt_model_add_sun(const prt_model* model, const float towards[3],
-                                     const float irradiance[3], float* lamps, double* away,
-                                     prt_message* message);
 
 typedef struct prt_mesh {
     size_t vertices;
@@ -156,8 +149,7 @@ PRT_API prt_status prt_model_form_constants(const prt_model* model, int order, c
 /* The same for a sky without its suns, whose direct light the renderer adds with sharp shadows, and for
  * their light, which the model is lit by after a bounce; `suns` may be null: there are none. Only a model
  * whose transfer keeps direct light apart knows the two apart: info.direct_apart. `lamps`: their strengths,
- * [lamps][3], at most 1e20; null: 1, as in the scene, and 0 for keys of a light set, as without this
- * function. */
+ * [lamps][3], at most 1e20; null: 1, as in the scene and as without this function. */
 PRT_API prt_status prt_model_form_constants_apart(const prt_model* model, int order, const float* sky,
                                                   const float* suns, const float* lamps, float* constants,
                                                   prt_message* message);

@@ -118,8 +118,6 @@ struct PunctualLight {
     glm::vec3 direction{0, 0, -1}; ///< unit, the way that it shines
     float range = std::numeric_limits<float>::infinity(); ///< metres, where it ends
     float inner_cone = 0, outer_cone = 0.785398f;         ///< radians from the middle: full, and ended
-    float half_angle = 0; ///< radians, of the disc that a directional light fills
-    bool key = false;     ///< not of the scene, but of a light set
 };
 
 struct EncodedImage {
