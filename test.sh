@@ -1,75 +1,166 @@
 #!/usr/bin/env bash
-# Installs what is missing, checks how sources look, builds with warnings as errors by clang and by gcc, and runs all
-# tests: under the address and undefined-behaviour sanitizers, there also with inputs that are wrong, what runs in threads
-# under the thread sanitizer, and everything optimised, with the web page.
-#   ./test.sh [look | sanitize | fuzz | tidy | threads | optimised]...   all, in this order, where none is named
+# Tests prtkit. Installs what is missing first.
+#   ./test.sh          the gate, for every change: source checks, all unit tests under the address and
+#                      undefined-behaviour sanitizers, a short fuzz run, warnings of gcc, clang-tidy over changed files,
+#                      unit tests and three pictures of the web page, threads under the thread sanitizer
+#   ./test.sh all      everything, before a release and before a feature is declared done: also the optimised build with
+#                      the long tests, installed packages and fault injection, drivers with ray queries, mutated models,
+#                      clang-tidy and the thread sanitizer over everything, all of the web page in Chromium
+#   ./test.sh STEP...  single steps
 set -euo pipefail
 cd "$(dirname "$0")"
+
+gate=(look sanitize fuzz warnings tidy web threads)
+all=(look sanitize fuzz mutated_models tidy_all threads_all optimised web_all)
 
 look() {
     git ls-files '*.cpp' '*.h' '*.c' '*.comp' '*.frag' '*.glsl' '*.vert' | xargs clang-format --dry-run --Werror
     git ls-files '*.sh' .ci/run | xargs shellcheck
+    tests/checks/include_arrows.py .
+    tests/checks/sizes.py .
+    tests/checks/checks_test.py
 }
 
 sanitize() {
     build_and_test sanitize
 }
 
-# A bounded number of fuzzed and mutated inputs, in the build of `sanitize`; docs/fuzzing.md says how to run more.
+# The same inputs every time, in the build of `sanitize`; docs/fuzzing.md says how to run more.
 fuzz() {
-    cmake --preset sanitize >/dev/null
-    cmake --build --preset fuzz
-    ctest --preset fuzz
+    build_and_test fuzz
 }
 
-# Over the joined sources of `sanitize`, whose headers are then read once for many sources. Tests are left to two
-# compilers' warnings: reading them took as long as all others.
+# Models that are wrong in one place or a few, through the program.
+mutated_models() {
+    build_and_test mutated_models
+}
+
+# gcc reads every source and builds none.
+warnings() {
+    configure warnings
+    ninja -C build/warnings -t targets all | sed -n 's/^\(.*\.o\): C\(XX\)\?_COMPILER.*/\1/p' |
+        xargs ninja -C build/warnings --quiet
+}
+
+# Sources that changed since the branch left main; on main itself since a day before the last commit.
 tidy() {
-    cmake --preset sanitize >/dev/null
-    local log=build/tidy.log
-    if ! run-clang-tidy -quiet -p build/sanitize '^(?!.*/tests/)' >"$log" 2>/dev/null; then
-        grep -E -A 3 '(warning|error):' "$log"
-        return 1
+    local base
+    base=$(git merge-base HEAD origin/main 2>/dev/null || true)
+    if [ -z "$base" ] || [ "$base" = "$(git rev-parse HEAD)" ]; then
+        base=$(git rev-list -1 --before=$(($(git show -s --format=%ct HEAD) - 86400)) HEAD)
     fi
+    run_tidy ${base:+"$base"}
+}
+
+tidy_all() {
+    run_tidy
 }
 
 threads() {
-    build_and_test tsan
+    build_and_test threads
+}
+
+threads_all() {
+    build_and_test threads_all
 }
 
 optimised() {
     tests/support/fetch_drivers.sh build/drivers || echo "test.sh: no driver with ray queries: tests of them are skipped"
-    cmake --preset check >/dev/null
-    cmake --build --preset check
-    # The web page: lint, units, types, and its pictures in Chromium against those of prt.
-    local web=(npm --silent --prefix examples/web)
-    "${web[@]}" install --no-audit --no-fund --no-package-lock
-    "${web[@]}" test
-    (
-        export PRT=$PWD/build/check/cli/prt PRT_EXAMPLE_SCENES=$PWD/build/check/examples/scenes/example_scenes
-        export PRTKIT_WEB=$PWD/build/web PRT_RAYS=64 PRT_SCENES=knot,tree
-        rm -rf "$PRTKIT_WEB"
-        "${web[@]}" run build
-        node examples/web/test/e2e.mjs
-        node examples/web/test/installed.mjs
-    )
-    ctest --preset check
+    build_and_test check
 }
 
-build_and_test() {
+# Needs the build of `sanitize`.
+web() {
+    check_page sanitize knot 16 'knot, small: the picture|knot: drawn by WebGPU|damaged'
+}
+
+# Needs the build of `optimised`.
+web_all() {
+    check_page check knot,tree 64 ''
+    PRT=$PWD/build/check/cli/prt node examples/web/test/installed.mjs
+}
+
+configure() {
     cmake --preset "$1" >/dev/null
+}
+
+# The preset of a build, of its tests, or of a part of another build's tests.
+build_and_test() {
+    case "$1" in
+    fuzz | mutated_models) configure sanitize ;;
+    threads | threads_all) configure threads ;;
+    *) configure "$1" ;;
+    esac
     cmake --build --preset "$1"
     ctest --preset "$1"
 }
 
-cmake/install_packages.sh
-npm install --silent --no-audit --no-fund --no-package-lock --prefix build/validator gltf-validator@2.0.0-dev.3.10 ajv@8.17.1 pngjs@7.0.0 >/dev/null
-[ $# -gt 0 ] || set -- look sanitize fuzz tidy threads optimised
-for step in "$@"; do
-    case "$step" in
-        look | sanitize | fuzz | tidy | threads | optimised) ;;
-        *) echo "test.sh: there is no step '$step'" >&2; exit 2 ;;
-    esac
-    echo "test.sh: $step, after $((SECONDS / 60)) min $((SECONDS % 60)) s"
+run_tidy() {
+    configure sanitize
+    cmake --build --preset tidy
+    tests/checks/tidy_commands.py build/sanitize build/tidy "$@"
+    local log=build/tidy/log
+    if ! run-clang-tidy -quiet -p build/tidy >"$log" 2>/dev/null; then
+        grep -E -A 3 '(warning|error):' "$log" || cat "$log"
+        return 1
+    fi
+}
+
+# check_page BUILD SCENES RAYS CHECKS: lint, unit tests and types of the web page, and its pictures in Chromium against
+# those of prt.
+check_page() (
+    install_page
+    npm --silent --prefix examples/web test
+    export PRT=$PWD/build/$1/cli/prt PRT_EXAMPLE_SCENES=$PWD/build/$1/examples/scenes/example_scenes
+    export PRTKIT_WEB=$PWD/build/web PRT_SCENES=$2 PRT_RAYS=$3
+    rm -rf "$PRTKIT_WEB"
+    npm --silent --prefix examples/web run build
+    node examples/web/test/e2e.mjs "" "$4"
+)
+
+install_page() {
+    npm --silent --prefix examples/web install --no-audit --no-fund --no-package-lock
+}
+
+# A table of the steps and their times, whether all passed or one failed.
+times=()
+current=
+begin=0
+line() {
+    printf '%-16s %3d:%02d' "$1" $(($2 / 60)) $(($2 % 60))
+}
+finish_step() {
+    [ -z "$current" ] || times+=("$(line "$current" $((SECONDS - begin)))${1-}")
+    current=
+}
+table() {
+    finish_step ' failed'
+    printf '\n%-16s %6s\n' step min:s
+    printf '%s\n' "${times[@]}" "$(line total "$SECONDS")"
+}
+
+packages() {
+    cmake/install_packages.sh
+    npm install --silent --no-audit --no-fund --no-package-lock --prefix build/validator \
+        gltf-validator@2.0.0-dev.3.10 ajv@8.17.1 pngjs@7.0.0 >/dev/null
+}
+
+case "${1-}" in
+"") steps=("${gate[@]}") ;;
+all) steps=("${all[@]}") ;;
+*) steps=("$@") ;;
+esac
+for step in "${steps[@]}"; do
+    if ! [[ " ${gate[*]} ${all[*]} " == *" $step "* ]]; then
+        echo "test.sh: there is no step '$step'; there are ${gate[*]} ${all[*]}" >&2
+        exit 2
+    fi
+done
+trap table EXIT
+for step in packages "${steps[@]}"; do
+    echo "test.sh: $step"
+    current=$step
+    begin=$SECONDS
     "$step"
+    finish_step
 done

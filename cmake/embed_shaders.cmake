@@ -36,6 +36,8 @@ function(prtkit_embed_kernels target)
                 --variable-name ${name} -o ${folder}/${name}.h ${source}
             DEPENDS ${source} ${parts} VERBATIM)
         target_sources(${target} PRIVATE ${folder}/${name}.h)
+        list(APPEND headers ${folder}/${name}.h)
     endforeach()
+    add_custom_target(${target}_kernels DEPENDS ${headers}) # for tools that read sources and build nothing
     target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
 endfunction()

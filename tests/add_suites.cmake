@@ -1,6 +1,6 @@
 # Run as a script after a test program is linked: writes tests for ctest into OUTPUT, one per suite of PROGRAM named
 # `NAME/<suite>`, and one `NAME/<suite>/long` with the tests of the suite that match LONG_TESTS (a filter of gtest).
-# ENVIRONMENT: for each test, as ctest has it.
+# PROPERTIES: of each test, names and values.
 cmake_minimum_required(VERSION 3.25)
 
 # list_tests(<filter> <variable>): sets <variable> to the suites that have tests, and <variable>_<suite> to the tests.
@@ -25,21 +25,15 @@ function(list_tests filter variable)
 endfunction()
 
 # A suite with more tests is likely to take longer: ctest starts those first.
-function(add_suite name tests labels)
+function(add_suite name tests label)
     list(LENGTH tests count)
     list(JOIN tests ":" filter)
-    set(properties "COST ${count}")
-    if(labels)
-        string(APPEND properties " LABELS ${labels}")
-    endif()
-    if(ENVIRONMENT)
-        string(APPEND properties " ENVIRONMENT [==[${ENVIRONMENT}]==]")
-    endif()
     file(APPEND ${OUTPUT}.new "add_test([==[${name}]==] [==[${PROGRAM}]==] [==[--gtest_filter=${filter}]==])
-set_tests_properties([==[${name}]==] PROPERTIES ${properties})
+set_tests_properties([==[${name}]==] PROPERTIES COST ${count} LABELS ${label} ${PROPERTIES})
 ")
 endfunction()
 
+string(REPLACE ";" " " PROPERTIES "${PROPERTIES}")
 file(WRITE ${OUTPUT}.new "# Made by tests/add_suites.cmake.\n")
 list_tests("-${LONG_TESTS}" short)
 list_tests("${LONG_TESTS}" long)
@@ -48,7 +42,7 @@ foreach(suite IN LISTS short)
     if(suite IN_LIST long)
         set(tests ${short_${suite}})
     endif()
-    add_suite(${NAME}/${suite} "${tests}" "")
+    add_suite(${NAME}/${suite} "${tests}" unit)
 endforeach()
 foreach(suite IN LISTS long)
     add_suite(${NAME}/${suite}/long "${long_${suite}}" long)

@@ -4,6 +4,7 @@ if(NOT TARGET prt OR NOT TARGET example_scenes)
 endif()
 add_executable(c_tests c/c_test.c)
 set_target_properties(c_tests PROPERTIES C_STANDARD 11)
+add_dependencies(gate c_tests)
 if(PRTKIT_SANITIZED) # clang's runtime for C++, which prt::c contains
     set_target_properties(c_tests PROPERTIES LINKER_LANGUAGE CXX)
 endif()

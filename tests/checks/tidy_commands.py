@@ -1,0 +1,70 @@
+#!/usr/bin/env python3
+"""Writes the compile commands of the sources that clang-tidy is to read.
+
+tidy_commands.py BUILD OUTPUT [BASE]
+BUILD: a build folder with compile_commands.json. OUTPUT: folder for a compile_commands.json of its own.
+BASE: a commit; only sources that changed since then, and one source for each header that changed. All without it.
+Tests are left out: the warnings of two compilers cover them, and reading them takes as long as all others.
+A joined source (CMAKE_UNITY_BUILD) stands for its members where MANY of them changed, as its headers are read once.
+"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+MANY = 3  # members of a joined source: from here on it is cheaper to read the joined source
+
+
+def members(source):
+    """The sources that a joined source includes; itself if it is none."""
+    if "/Unity/" not in source.as_posix():
+        return [source]
+    return [pathlib.Path(name) for name in re.findall(r'^#include "(.*)"$', source.read_text(), re.M)]
+
+
+def changed_files(root, base):
+    output = subprocess.run(["git", "diff", "--name-only", "-z", "--diff-filter=d", base, "--", "*.cpp", "*.h"],
+                            cwd=root, capture_output=True, text=True, check=True).stdout
+    return {root / name for name in output.split("\0") if name}
+
+
+def with_includers(changed, sources):
+    """Adds a source for each changed header that no changed source includes by its name."""
+    texts = {source: source.read_text() for source in sources}
+    result = {file for file in changed if file in texts}
+    for header in sorted(changed - result):
+        name = re.compile(rf'#include "(?:[^"]*/)?{re.escape(header.name)}"')
+        includers = [source for source, text in texts.items() if name.search(text)]
+        if includers and not result.intersection(includers):
+            result.add(includers[0])
+    return result
+
+
+def main():
+    build, output = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2])
+    root = pathlib.Path(__file__).resolve().parents[2]
+    entries = {}
+    for entry in json.loads((build / "compile_commands.json").read_text()):
+        source = pathlib.Path(entry["directory"], entry["file"])
+        ours = [file for file in members(source) if root in file.parents and root / "tests" not in file.parents
+                and build not in file.parents]
+        if ours and source.suffix != ".c":
+            entries[source] = (entry, ours)
+    selected = {file for _, ours in entries.values() for file in ours}
+    if len(sys.argv) > 3:
+        selected &= with_includers(changed_files(root, sys.argv[3]), selected)
+    commands = []
+    for source, (entry, ours) in entries.items():
+        chosen = [file for file in ours if file in selected]
+        if len(chosen) >= min(MANY, len(ours)):
+            commands.append(entry)
+        else:
+            commands += [{**entry, "file": str(file), "command": entry["command"].replace(str(source), str(file))}
+                         for file in chosen]
+    output.mkdir(parents=True, exist_ok=True)
+    (output / "compile_commands.json").write_text(json.dumps(commands, indent=1))
+    print(f"clang-tidy: {len(selected)} sources")
+
+
+main()
