@@ -12,8 +12,8 @@ set(long_tests
     *LeadsFromSceneToPictures/2 *LeadsFromSceneToPictures/3 Levels.NearestPlaces* LevelsOfDetail.AreBaked*
     Light.ConeAgrees* LightmapBake.BouncesAs* LightmapBake.ComesTo* LightmapScript.* LightmapViewer.BakesVertices*
     LightmapViewer.HasNumbers* LightmapViewer.PutsABake* LightmapViewer.ShowsVertices* Lightmaps.AreDecoded*
-    LobesCommand.GivesTheSame* Make.Keeps* Make.SaysWhat* Make.TellsBounces* ManyReceivers.* MovingBasis.Finds*
-    MovingBasis.IsTheSame* MovingBasis.KeepsToItsBytes* OtherLayouts.NoiseIs* ParallelPlates.OneBounce*
+    LobesCommand.GivesTheSame* Make.Keeps* Make.SaysWhat* Make.TellsBounces* ManyReceivers.*
+    OtherLayouts.NoiseIs* ParallelPlates.OneBounce*
     PathTracer.AgreesWith* PlainSkies.GiveNo* PlainSkies.HaveNo* RenderSuns.* Road.ADecoder* Road.AutomaticExposure*
     Road.BouncesOnTheGpu* Road.EveryView* SamplingError.* SceneLamps.TheBakers* Script.KeysAnd* Script.MeasuresWhere*
     Script.OpensWaits* Search.FindsOn* Search.IsMonotone* Search.IsNeverWorse* Search.Keeps* Search.LimitsJumps*

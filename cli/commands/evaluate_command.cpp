@@ -11,7 +11,6 @@
 #include "prt/support/error.h"
 #include "report/of_texels.h"
 #include "report/sweep_report.h"
-#include "residual_vq.h"
 #include "volume_errors.h"
 
 #include <filesystem>
@@ -47,8 +46,7 @@ Sweep run_sweep(const EvaluateArguments& a, const SceneFile& baked, const std::v
         baked.lightmap ? std::nullopt : std::optional<SceneSurface>(baked.scene);
     const ReceiverSurface surface =
         vertices ? vertices->view() : ReceiverSurface{baked.lightmap->areas, baked.lightmap->edges};
-    return sweep(transfer, surface, all, options, residual_vq_candidates(transfer, options.seed),
-                 bar.progress());
+    return sweep(transfer, surface, all, options, {}, bar.progress());
 }
 
 /// Those that were named, turned as asked, or the default ones.

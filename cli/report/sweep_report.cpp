@@ -110,8 +110,7 @@ void add_sweep(const Sweep& sweep, Report& report) {
     ops.title = "Error at equal shader operations";
     ops.about =
         fmt::format("Multiply-adds of a colour per vertex, on average. Clustered methods of the literature "
-                    "have {} clusters, a moving basis as many nodes; prtkit has as many as take no more "
-                    "bytes than classic CPCA at the "
+                    "have {} clusters; prtkit has as many as take no more bytes than classic CPCA at the "
                     "same operations.",
                     kSweepClusters);
     ops.charts = {chart(sweep.by_components, "multiply-adds per vertex", ops_of)};

@@ -24,19 +24,6 @@ std::string short_number(double value) {
     return text.str();
 }
 
-/// A moving basis for one of `kSweepBytes`: those that were best on the knot, the head, the room or the
-/// bunny.
-struct MovingBasisSetting {
-    double bytes;
-    int weight_bits, components;
-};
-
-constexpr MovingBasisSetting kMovingBasisSettings[] = {
-    {5, 32, 5}, {5, 32, 8}, {7, 32, 5}, {7, 32, 8}, {9, 32, 6}, {9, 64, 12}, {13, 64, 8}, {13, 64, 12},
-};
-/// Each takes eight operations, and the mean as many.
-constexpr int kMovingBasisComponents[] = {0, 1, 2, 4};
-
 class Sweeper {
 public:
     Sweeper(const Transfer& transfer, const ReceiverSurface& surface, std::span<const Light> lights,
@@ -45,23 +32,12 @@ public:
         for (const Light& light : lights)
             references_.push_back(exit_radiance(transfer, light, options.threads));
         one_cluster_.resize(transfer.receivers());
-        metric_ = options.metric ? *options.metric
-                                 : balanced(metric_of_family(LightFamily::outdoor, transfer.layout), transfer,
-                                            surface.areas, options.threads);
     }
 
     Sweep run(std::span<const SweepCandidate> others) {
         truncations();
-        for (const SweepCandidate& other : others) {
-            progress_.update(0.01);
-            const Stopwatch stopwatch;
-            const BaselineResult r = other.run();
-            const SweepPoint point = measured(other.method, other.setting, r, stopwatch.seconds());
-            sweep_.by_bytes.push_back(point);
-            sweep_.by_components.push_back(point);
-        }
         plain_pca();
-        moving_bases();
+        measure(others);
         clustered();
         ours();
         progress_.update(1);
@@ -145,36 +121,24 @@ private:
         }
     }
 
-    void moving_bases() {
-        if (surface_.positions.empty())
-            return;
-        const double receivers = static_cast<double>(transfer_.receivers());
+    void measure(std::span<const SweepCandidate> others) {
         double done = 0.025;
-        for (const MovingBasisSetting& setting : kMovingBasisSettings) {
-            const double words = bound_bytes(static_cast<std::size_t>(setting.weight_bits / 8));
-            moving({.components = setting.components,
-                    .weight_bits = setting.weight_bits,
-                    .table_bytes = receivers * (setting.bytes - words)},
-                   progress_.part(done, done + 0.003), sweep_.by_bytes);
-            done += 0.003;
+        for (const SweepCandidate& other : others) {
+            const double end = done + 0.045 / static_cast<double>(others.size());
+            const Progress progress = progress_.part(done, end);
+            done = end;
+            progress.update(0);
+            const Stopwatch stopwatch;
+            const std::optional<CandidateResult> found = other.run(progress);
+            if (!found)
+                continue;
+            const SweepPoint point =
+                measured(other.method, found->setting, found->coded, stopwatch.seconds());
+            if (other.tables != SweepTables::by_components)
+                sweep_.by_bytes.push_back(point);
+            if (other.tables != SweepTables::by_bytes)
+                sweep_.by_components.push_back(point);
         }
-        for (const int components : kMovingBasisComponents)
-            moving({.components = components,
-                    .weight_bits = std::max(32, 8 * components),
-                    .nodes = static_cast<std::size_t>(kSweepClusters)},
-                   progress_.part(done, done), sweep_.by_components);
-    }
-
-    /// Nothing where no grid keeps to the bytes.
-    void moving(MovingBasisOptions options, const Progress& progress, std::vector<SweepPoint>& points) const {
-        const Stopwatch stopwatch;
-        options.metric = metric_;
-        options.threads = options_.threads;
-        if (const auto found = moving_basis(transfer_, surface_, options, progress))
-            points.push_back(
-                measured("moving basis",
-                         std::to_string(found->nodes) + " nodes x " + std::to_string(options.components),
-                         found->result, stopwatch.seconds()));
     }
 
     /// The most components that K clusters can have in `bytes`, with rows as float16; -1: not even none.
@@ -272,7 +236,6 @@ private:
     std::span<const Light> lights_;
     const CompressOptions& options_;
     const Progress& progress_;
-    LightMetric metric_;
     std::vector<std::vector<glm::vec3>> references_;
     std::vector<std::uint16_t> one_cluster_; ///< [receivers], of all
     Sweep sweep_;

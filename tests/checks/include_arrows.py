@@ -23,9 +23,9 @@ PARTS = {
     "vulkan": ("bake/vulkan", "runtime bake", "glm fmt vulkan"),
     "bake_gpu": ("bake/trace/gpu", "runtime scene gl bake vulkan shaders", "glm embree epoxy"),
     "compress": ("compress", "runtime scene", "glm Eigen"),
-    "compress_study": ("compress/study", "runtime scene compress", "glm Eigen faiss"),
+    "compress_study": ("compress/study", "runtime scene compress", "glm Eigen"),
     "shaders": ("shaders", "", ""),
-    "cli": ("cli", "runtime shader fit image scene render gl bake bake_gpu compress compress_study", "glm fmt CLI nlohmann"),
+    "cli": ("cli", "runtime shader fit image scene render gl bake bake_gpu compress", "glm fmt CLI nlohmann"),
     "example_scenes": ("examples/scenes", "runtime image", "glm tinygltf"),
     "game": ("examples/game", "runtime shader fit image scene gl", "glm epoxy"),
     "viewer": ("examples/viewer", "runtime fit image scene render gl shader bake compress",
@@ -46,7 +46,7 @@ PACKAGES = {  # how their headers begin
     "glm/": "glm", "ceres/": "ceres", "Eigen/": "Eigen", "OpenEXR/": "OpenEXR", "Imath": "OpenEXR", "Imf": "OpenEXR",
     "stb/": "stb", "zlib": "zlib", "tiny_gltf": "tinygltf", "nlohmann/": "nlohmann", "meshoptimizer": "meshoptimizer",
     "draco/": "draco",
-    "epoxy/": "epoxy", "GLFW/": "glfw", "embree3/": "embree", "fmt/": "fmt", "CLI/": "CLI", "faiss/": "faiss",
+    "epoxy/": "epoxy", "GLFW/": "glfw", "embree3/": "embree", "fmt/": "fmt", "CLI/": "CLI",
     "imgui": "imgui", "backends/imgui": "imgui", "vulkan/vulkan_raii": "vulkan",
 }
 SYSTEM = re.compile(r"^[a-z_]+$|^(std[a-z]+|string|math|time|signal|errno|limits|unistd|dirent|fcntl|poll|dlfcn|windows)\.h$|^sys/|^linux/")

@@ -6,6 +6,8 @@
 #include "prt/compress.h"
 
 #include <functional>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +30,8 @@ struct SweepPoint {
 
 struct Sweep {
     std::vector<SweepPoint> by_bytes; ///< every method at sizes that suit it
-    /// The literature's clustered methods with `kSweepClusters` clusters, moving bases with as many nodes,
-    /// and ours with as many as take no more bytes than classic CPCA does with as many components.
+    /// The literature's clustered methods with `kSweepClusters` clusters, and ours with as many as take no
+    /// more bytes than classic CPCA does with as many components.
     std::vector<SweepPoint> by_components;
     std::vector<std::string> left_out; ///< what of ours is missing, and why
 };
@@ -40,10 +42,21 @@ inline constexpr double kSweepBytes[] = {5, 7, 9, 13};
 /// Components per receiver.
 inline constexpr int kSweepComponents[] = {1, 2, 4, 8};
 
+/// The tables of a sweep that a point goes into.
+enum class SweepTables { both, by_bytes, by_components };
+
+/// What a candidate codes, and at which setting.
+struct CandidateResult {
+    std::string setting; ///< as `SweepPoint::setting`
+    BaselineResult coded;
+};
+
 /// A method that the caller brings, at one setting.
 struct SweepCandidate {
-    std::string method, setting;
-    std::function<BaselineResult()> run;
+    std::string method;
+    /// Codes and decodes. Returns nothing where the method has no code at this setting.
+    std::function<std::optional<CandidateResult>(const Progress&)> run;
+    SweepTables tables = SweepTables::both;
 };
 
 /// Measures all methods and `others` under `lights`, which should be others than those that `options`

@@ -20,6 +20,16 @@ Transfer strip() {
     return t;
 }
 
+/// Codes `transfer` as `factor` times itself, in 3 bytes and with 2 components.
+SweepCandidate scaled(const Transfer& transfer, const char* method, float factor) {
+    return {method, [&transfer, factor](const Progress&) {
+                CandidateResult result{"as is", {transfer, 3, 0, 2}};
+                for (float& v : result.coded.decoded.vectors)
+                    v *= factor;
+                return result;
+            }};
+}
+
 TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
     const Transfer transfer = strip();
     const std::vector<float> areas(transfer.receivers(), 1.0f);
@@ -28,15 +38,11 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
         positions.push_back({static_cast<float>(p) / 500, 0, 0});
     const std::vector<Light> lights = {constant_light(2, {1, 1, 1}),
                                        directional_light(2, {0, 1, 0}, {2, 1, 1})};
-    const std::vector<SweepCandidate> others = {{"half", "as is", [&] {
-                                                     BaselineResult r;
-                                                     r.decoded = transfer;
-                                                     for (float& v : r.decoded.vectors)
-                                                         v *= 0.5f;
-                                                     r.payload_bytes = 3;
-                                                     r.mean_components = 2;
-                                                     return r;
-                                                 }}};
+    std::vector<SweepCandidate> others = {scaled(transfer, "half", 0.5f), scaled(transfer, "third", 1 / 3.0f),
+                                          scaled(transfer, "quarter", 0.25f)};
+    others[1].tables = SweepTables::by_bytes;
+    others[2].tables = SweepTables::by_components;
+    others.push_back({"no code", [](const Progress&) { return std::nullopt; }});
     double shown = 0;
     const Progress progress{[&](double share) { // the bar does not run backwards meanwhile
                                 EXPECT_GE(share, shown - 1e-12);
@@ -54,13 +60,15 @@ TEST(Sweep, MeasuresEveryMethodAndOursIsNotWorse) {
     EXPECT_NEAR(half->lit_rms, 0.5, 1e-6);
     EXPECT_EQ(best_by_bytes(result, "half", 2.9), nullptr);
     EXPECT_NE(best_by_components(result, "half", 2), nullptr);
+    EXPECT_EQ(half->setting, "as is");
+    EXPECT_NE(best_by_bytes(result, "third", 3), nullptr);
+    EXPECT_EQ(best_by_components(result, "third", 2), nullptr);
+    EXPECT_EQ(best_by_bytes(result, "quarter", 3), nullptr);
+    EXPECT_NE(best_by_components(result, "quarter", 2), nullptr);
+    EXPECT_EQ(best_by_bytes(result, "no code", 100), nullptr);
 
-    for (const char* method :
-         {"truncated SH", "plain PCA", "static CPCA", "vector quantisation", kClassic, "moving basis"})
+    for (const char* method : {"truncated SH", "plain PCA", "static CPCA", "vector quantisation", kClassic})
         EXPECT_NE(best_by_bytes(result, method, 100), nullptr) << method;
-    const SweepPoint* blend = best_by_components(result, "moving basis", 8); // of means alone
-    ASSERT_NE(blend, nullptr);
-    EXPECT_EQ(blend->payload_bytes, 0);
     for (const double bytes : kSweepBytes) {
         const SweepPoint* ours = best_by_bytes(result, kOurs, bytes);
         ASSERT_NE(ours, nullptr) << bytes;
@@ -90,20 +98,15 @@ TEST(Sweep, MeasuresJumpsAlongAllEdgesAlike) {
     }
     const std::vector<float> areas(count, 1.0f);
     const std::vector<Light> lights = {constant_light(1, {1, 1, 1}), constant_light(1, {8, 8, 8})};
-    const std::vector<SweepCandidate> others = {{"uneven", "",
-                                                 [&] {
-                                                     return BaselineResult{uneven, 0, 0, 0};
+    const std::vector<SweepCandidate> others = {{"uneven",
+                                                 [&](const Progress&) {
+                                                     return CandidateResult{"", {uneven, 0, 0, 0}};
                                                  }},
-                                                {"bright", "", [&] { // by the same everywhere
-                                                     BaselineResult r{transfer, 0, 0, 0};
-                                                     for (float& v : r.decoded.vectors)
-                                                         v *= 1.25f;
-                                                     return r;
-                                                 }}};
+                                                scaled(transfer, "bright", 1.25f)}; // by the same everywhere
     const Sweep result = sweep(transfer, {areas, edges}, lights, {}, others);
     EXPECT_NEAR(best_by_bytes(result, "uneven", 0)->jumps, 0.25, 1e-6);
-    EXPECT_NEAR(best_by_bytes(result, "bright", 0)->jumps, 0, 1e-6);
-    EXPECT_NEAR(best_by_bytes(result, "bright", 0)->lit_rms, 0.25, 1e-6);
+    EXPECT_NEAR(best_by_bytes(result, "bright", 3)->jumps, 0, 1e-6);
+    EXPECT_NEAR(best_by_bytes(result, "bright", 3)->lit_rms, 0.25, 1e-6);
 }
 
 TEST(Sweep, SaysWhyOursIsMissing) {

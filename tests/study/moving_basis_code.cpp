@@ -1,6 +1,6 @@
 // Few bits for a moving basis.
 
-#include "study/moving_basis/moving_basis_code.h"
+#include "moving_basis_code.h"
 
 #include "clusters/component_plan.h"
 #include "prt/support/parallel.h"

@@ -1,6 +1,6 @@
 // A basis that moves through space: its values, and other forms of the same basis.
 
-#include "study/moving_basis/moving_basis.h"
+#include "moving_basis.h"
 
 #include "prt/support/parallel.h"
 

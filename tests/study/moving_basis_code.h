@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/moving_basis/moving_basis_fit.h"
+#include "moving_basis_fit.h"
 
 namespace prt {
 

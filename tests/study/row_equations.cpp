@@ -1,6 +1,6 @@
 // Rows of a moving basis, the weights given: sparse least squares by conjugate gradients.
 
-#include "study/moving_basis/row_equations.h"
+#include "row_equations.h"
 
 #include "prt/support/parallel.h"
 

@@ -1,10 +1,11 @@
 // A basis that moves, within the bytes of a table: as fine a grid as there is room for.
 
+#include "moving_basis_baseline.h"
+
 #include "metric/significance.h"
-#include "prt/baselines.h"
+#include "moving_basis_code.h"
 #include "prt/support/parallel.h"
-#include "study/moving_basis/moving_basis_code.h"
-#include "study/moving_basis/rounded_frame.h"
+#include "rounded_frame.h"
 
 #include <Eigen/Dense>
 

@@ -3,17 +3,12 @@
 
 #include "residual_vq.h"
 
-#ifdef PRTKIT_WITH_FAISS
 #include <faiss/impl/ResidualQuantizer.h>
 
-#include <algorithm>
-#include <cmath>
 #include <set>
-#endif
+#include <string>
 
 namespace prt {
-
-#ifdef PRTKIT_WITH_FAISS
 namespace {
 
 constexpr std::size_t kRows = 256;
@@ -54,15 +49,11 @@ std::vector<SweepCandidate> residual_vq_candidates(const Transfer& transfer, std
         sizes.insert(codebooks);
     }
     for (const std::size_t codebooks : sizes)
-        candidates.push_back(
-            {"residual VQ", std::to_string(codebooks) + " x 256",
-             [&transfer, codebooks, seed] { return residual_vq(transfer, codebooks, seed); }});
+        candidates.push_back({"residual VQ", [&transfer, codebooks, seed](const Progress&) {
+                                  return CandidateResult{std::to_string(codebooks) + " x 256",
+                                                         residual_vq(transfer, codebooks, seed)};
+                              }});
     return candidates;
 }
-#else
-std::vector<SweepCandidate> residual_vq_candidates(const Transfer&, std::uint64_t) {
-    return {};
-}
-#endif
 
 } // namespace prt

@@ -1,7 +1,7 @@
 // A moving basis by alternating least squares (Silvennoinen and Sloan 2021, "Moving Basis Decomposition for
 // Precomputed Light Transport"): docs/math.md, section 4.
 
-#include "study/moving_basis/moving_basis_fit.h"
+#include "moving_basis_fit.h"
 
 #include "prt/support/parallel.h"
 

@@ -1,6 +1,7 @@
-#include "prt/baselines.h"
+#include "moving_basis_baseline.h"
+#include "moving_basis_candidates.h"
+#include "moving_basis_code.h"
 #include "prt/error_measures.h"
-#include "study/moving_basis/moving_basis_code.h"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -221,6 +222,38 @@ TEST(MovingBasis, TakesDegenerateTransfer) {
     EXPECT_EQ(error_of(single, std::span(same).first(1), 32), 0);
     // One node is plain PCA: with all four components only rounding is lost.
     EXPECT_LT(error_of(any, same, 64), 1e-3);
+}
+
+TEST(MovingBasis, IsInTheTablesOfTheSweep) {
+    const std::vector<glm::vec3> positions = places(500);
+    Transfer transfer = zero_transfer(2, 1, 500);
+    for (std::size_t p = 0; p < 500; ++p) {
+        transfer.vector(p)[0] = 1 + 0.4f * std::sin(4 * positions[p].x);
+        transfer.vector(p)[1] = std::cos(3 * positions[p].y);
+        transfer.vector(p)[2] = 0.3f * std::sin(9 * positions[p].z);
+    }
+    const std::vector<float> areas(500, 1.0f);
+    std::size_t by_bytes = 0, by_components = 0;
+    for (const SweepCandidate& candidate :
+         moving_basis_candidates(transfer, {.areas = areas, .positions = positions}, 0)) {
+        EXPECT_EQ(candidate.method, kMovingBasis);
+        const auto found = candidate.run({});
+        ASSERT_TRUE(found);
+        if (candidate.tables == SweepTables::by_bytes) {
+            ++by_bytes;
+            EXPECT_LE(found->coded.payload_bytes + found->coded.table_bytes / 500, kSweepBytes[3]);
+        } else {
+            if (by_components++ == 0) { // means alone
+                EXPECT_EQ(found->coded.payload_bytes, 0);
+                EXPECT_EQ(found->coded.mean_components, 8);
+            }
+            EXPECT_LE(std::stoi(found->setting), kSweepClusters);
+        }
+    }
+    EXPECT_EQ(by_bytes, 8u);
+    EXPECT_EQ(by_components, 4u);
+    // Lightmaps have no positions.
+    EXPECT_TRUE(moving_basis_candidates(transfer, {.areas = areas}, 0).empty());
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/moving_basis/sparse_grid.h"
+#include "sparse_grid.h"
 
 #include <Eigen/Core>
 

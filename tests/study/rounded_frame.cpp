@@ -1,6 +1,6 @@
 // Few bits for the axes of a frame.
 
-#include "study/moving_basis/rounded_frame.h"
+#include "rounded_frame.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "study/moving_basis/moving_basis_tuning.h"
-#include "study/moving_basis/row_equations.h"
+#include "moving_basis_tuning.h"
+#include "row_equations.h"
 
 namespace prt {
 

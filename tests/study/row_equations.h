@@ -1,6 +1,6 @@
 #pragma once
 
-#include "study/moving_basis/moving_basis.h"
+#include "moving_basis.h"
 
 #include <vector>
 

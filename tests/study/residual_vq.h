@@ -1,0 +1,16 @@
+#pragma once
+
+// Residual vector quantisation, the best of general-purpose compressors of vectors, for the sweep.
+
+#include "prt/sweep.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace prt {
+
+/// M codebooks of 256 rows for as many M as the sweep has sizes; nothing where there are fewer receivers than
+/// rows. They keep a reference to `transfer`.
+std::vector<SweepCandidate> residual_vq_candidates(const Transfer& transfer, std::uint64_t seed);
+
+} // namespace prt
