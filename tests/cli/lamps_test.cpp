@@ -71,7 +71,9 @@ protected:
 };
 
 TEST_F(LampsOnTheRoad, LightAsTheirStrengthsSay) {
-    ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "16"}).status, 0);
+    ASSERT_EQ(
+        prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "float", "--clusters", "16"}).status,
+        0);
     EXPECT_EQ(lamps_of("b.glb"), (std::vector<std::string>{"Lamp.white", "Lamp.red"}));
     EXPECT_EQ(lamps_of("c.glb"), lamps_of("b.glb"));
     folder.file("strengths.json", R"({"Lamp.white": [3, 0, 1], "*": 0})");
@@ -121,7 +123,9 @@ TEST_F(LampsOnTheRoad, OfALightSetShineForSuns) {
         "suns": [{"towards": [0.6, 0.8, 0], "irradiance": [1, 2, 3], "half_angle_radians": 0}]})");
     bake("d.glb", {"--light-set", at("set.json"), "--lamps", "none"});
     EXPECT_EQ(lamps_of("d.glb"), (std::vector<std::string>{"morning", "noon"}));
-    ASSERT_EQ(prt({"compress", at("d.glb"), "-o", at("c.glb"), "--weights", "16"}).status, 0);
+    ASSERT_EQ(
+        prt({"compress", at("d.glb"), "-o", at("c.glb"), "--weights", "float", "--clusters", "16"}).status,
+        0);
     for (const char* model : {"d.glb", "c.glb"}) {
         const Outcome outcome = prt({"relight", at(model), "-o", at("lit.glb"), "--env", at("sun.json"),
                                      "--suns", "1", "--sun-shadows", "baked"});

@@ -524,7 +524,7 @@ await check("lamps light as in prt, and are dimmed", async (page, errors) => {
     const at = (suffix) => join(work, name + suffix);
     lampScene(at(".gltf"), lights);
     prtRun("bake", at(".gltf"), "-o", at(".baked.glb"), "--rays", "256", "--bounces", "1");
-    prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "16", "--clusters", "16", "--components", "16");
+    prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "float", "--clusters", "16", "--components", "16");
     prtRun("relight", at(".glb"), "--env", warmSky, "--env-center", "x", "--suns", "0", "--window", "auto", "--albedo", "-o", at(".lit.glb"));
     return { file: at(".glb"), colors: vertexColors(at(".lit.glb")) };
   };
@@ -563,7 +563,7 @@ await check("suns shine by the keys of a light set as in prt", async (page, erro
   writeFileSync(at(".light.json"), JSON.stringify(light));
   lampScene(at(".gltf"), []);
   prtRun("bake", at(".gltf"), "-o", at(".baked.glb"), "--rays", "256", "--bounces", "1", "--light-set", at(".json"));
-  prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "16", "--clusters", "16", "--components", "16");
+  prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "float", "--clusters", "16", "--components", "16");
   prtRun("relight", at(".glb"), "--env", at(".light.json"), "--suns", "1", "--sun-shadows", "baked", "--window", "auto", "--albedo", "-o", at(".lit.glb"));
   const view = { position: [1.5, 2.5, 3], target: [0, 0.2, 0], fieldOfView: 45 };
   await page.goto(url({ model: "knot", angle: 0, ...query(view), panel: 1, suns: 1 }));
