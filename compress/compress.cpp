@@ -84,7 +84,7 @@ struct Coding {
 Coding first_codes(const Task& task, const AlternationOptions& how, FoundClusters&& found) {
     Coding coding{std::move(found.frame), {}, std::move(found.guides), std::move(found.points), {}};
     coding.coded.clusters = quantised_clusters(coding.points, task.significance, found.clustering,
-                                               grid_of(task.options.coding.format), task.options.threads);
+                                               task.options.coding.format, task.options.threads);
     const std::vector<float> scales = scale_guides(found.clustering, coding.coded.clusters);
     for (std::size_t g = 0; g < scales.size(); ++g)
         coding.guides.scale(g) *= scales[g];
@@ -174,7 +174,7 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
     const CompressOptions& options = task.options;
     const bool draft = task.course.draft;
     const AlternationOptions how{.stay = options.mean_components > 0,
-                                 .basis_share = bases_are_coded(options) ? basis_share(options) : 0,
+                                 .basis_share = basis_share(options),
                                  .rounds = draft ? 1 : tuning::kCodingRounds,
                                  .rounded_from = draft ? 0 : tuning::kRoundedFrom,
                                  .trace = options.trace,
@@ -183,7 +183,7 @@ ClusteredTransfer code(const Task& task, const ReceiverSurface& surface, FoundCl
     CodedClusters& coded = coding.coded;
     if (bases_are_coded(options))
         round_frame(task, coding);
-    if (options.coding.format != WeightFormat::float32)
+    if (options.coding.format == WeightFormat::packed)
         alternate(coding.points, task.significance, how, progress.part(0, 0.7), coded);
     progress.update(0.7);
     if (options.seam_price > 0 && !surface.edges.empty() && !draft)

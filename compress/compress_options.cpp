@@ -121,23 +121,12 @@ LightMetric metric_of(const CompressOptions& options, const TransferView& transf
 }
 
 double basis_share(const CompressOptions& options) {
-    if (options.basis_share)
-        return *options.basis_share;
-    switch (options.coding.format) {
-    case WeightFormat::packed:
-        return tuning::kBasisSharePacked;
-    case WeightFormat::snorm8:
-        return tuning::kBasisShare8;
-    case WeightFormat::snorm16:
-        return tuning::kBasisShare16;
-    case WeightFormat::float32:
-        break;
-    }
-    return 0;
+    return options.coding.format == WeightFormat::packed ? options.basis_share.value_or(tuning::kBasisShare)
+                                                         : 0;
 }
 
 bool bases_are_coded(const CompressOptions& options) {
-    return options.coding.format != WeightFormat::float32 && basis_share(options) > 0;
+    return basis_share(options) > 0;
 }
 
 ClusteringOptions clustering_options(const CompressOptions& options, std::size_t dimension) {
@@ -160,20 +149,6 @@ ClusteringOptions clustering_options(const CompressOptions& options, std::size_t
     how.spending.bits = coding.bits;
     how.spending.fixed_bits = coding.fixed_bits;
     return how;
-}
-
-std::optional<WeightGrid> grid_of(WeightFormat format) {
-    switch (format) {
-    case WeightFormat::snorm8:
-        return WeightGrid::of_multiples(127);
-    case WeightFormat::snorm16:
-        return WeightGrid::of_multiples(32767);
-    case WeightFormat::float32:
-        return WeightGrid::any();
-    case WeightFormat::packed:
-        break;
-    }
-    return std::nullopt;
 }
 
 } // namespace prt

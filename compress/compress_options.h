@@ -1,10 +1,7 @@
 #pragma once
 
 #include "clusters/clustering.h"
-#include "coding/weight_grid.h"
 #include "prt/compress.h"
-
-#include <optional>
 
 namespace prt {
 
@@ -16,7 +13,7 @@ void check_input(const TransferView& transfer, const ReceiverSurface& surface,
 LightMetric metric_of(const CompressOptions& options, const TransferView& transfer,
                       std::span<const float> areas);
 
-/// As given, or by the format of the weights.
+/// As given, or as tuned; none beside floats.
 double basis_share(const CompressOptions& options);
 
 /// Whether the file holds its bases in code, rounded.
@@ -24,8 +21,5 @@ bool bases_are_coded(const CompressOptions& options);
 
 /// What the clustering is told of transfer of this dimension.
 ClusteringOptions clustering_options(const CompressOptions& options, std::size_t dimension);
-
-/// The grid of all weights; nothing where it goes by the bits of each cluster's plan.
-std::optional<WeightGrid> grid_of(WeightFormat format);
 
 } // namespace prt

@@ -64,9 +64,9 @@ inline constexpr double kRoundingOverDropped = 0.1, kPointsRoundingShare = 0.001
 inline constexpr double kAxesShare = 0.01, kAxisRoundingShare = 0.02;
 /// So many times that where a receiver has several outputs, whose axes are long. By hand.
 inline constexpr double kSharesOfOutputs = 4;
-/// Share of the error that rounding the bases may add: bytes of bases against error, measured on small meshes
-/// for packed weights; the others follow their size. [sweep]
-inline constexpr double kBasisSharePacked = 0.1, kBasisShare8 = 0.05, kBasisShare16 = 0.0001;
+/// Share of the error that rounding the bases may add: bytes of bases against error, measured on small
+/// meshes. [sweep]
+inline constexpr double kBasisShare = 0.1;
 /// Mean square of a weight, for the step of the bases. Measured on the demo scenes. [preset]
 inline constexpr double kMeanSquareWeight = 0.2;
 

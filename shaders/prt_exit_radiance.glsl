@@ -3,7 +3,7 @@
 //
 // Define before including (prt::relight_defines writes the lines for a model)
 //     PRT_PACKED_WORDS n     packed weights: n 32-bit words per vertex, 1..8, and PRT_CLUSTER_BITS b, or
-//     PRT_WEIGHT_VECTORS n   others: the number of VEC4 weight attributes, 0..12 (0: clusters only),
+//     PRT_WEIGHT_VECTORS n   floats: the number of VEC4 weight attributes, 0..12 (0: clusters only),
 // where all clusters are divided alike, which makes a loop and the table of clusters needless:
 //     PRT_CLUSTER_ROWS n     the rows of a cluster, and
 //     PRT_SAME_WEIGHTS       PRT_ADD(j, weight) for every weight j, which is PRT_BITS(position, width) where packed,

@@ -54,9 +54,7 @@ struct CompressArguments {
 };
 
 const std::map<std::string, WeightFormat> kWeights = {{"packed", WeightFormat::packed},
-                                                      {"float", WeightFormat::float32},
-                                                      {"16", WeightFormat::snorm16},
-                                                      {"8", WeightFormat::snorm8}};
+                                                      {"float", WeightFormat::float32}};
 const std::map<std::string, WeightCoding (*)()> kPresets = {
     {"u32", preset_u32}, {"u64", preset_u64}, {"u32x4", preset_u32x4}, {"u64x9", preset_u64x9}};
 const std::map<std::string, GuideChoice> kGuides = {{"none", GuideChoice::none},
@@ -109,7 +107,7 @@ void add_sizes(CLI::App* command, SearchOptions& o) {
                      "bits of a vertex's weights together, where they are packed")
         ->check(CLI::Range(0, kMostPackedBits));
     choice(command, "--weights", o.compress.coding.format, kWeights,
-           "packed: bits by variance; or 8 or 16 bits each, or float", "packed");
+           "packed: bits by variance; float: not rounded, to find out what rounding costs", "packed");
     choice(
         command, "--guides", o.compress.guides, kGuides,
         "what the vertex shader tells clusters: its normal, also its position, or nothing; each costs three "

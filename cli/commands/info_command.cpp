@@ -94,28 +94,25 @@ void add_guides(const ClusteredBases& bases, const std::string& own, Report& rep
 void add_compressed(const CompressedTransfer& compressed, Report& report) {
     const ClusteredTransfer& t = compressed.transfer;
     const auto [least, most] = std::minmax_element(t.bases.components.begin(), t.bases.components.end());
-    const bool packed = t.receivers.format == WeightFormat::packed;
-    add_figures(report,
-                {{"clustered_pca",
-                  {{"order", t.bases.layout.order},
-                   {"channels", t.bases.layout.channels()},
-                   {"parts", parts_figures(t.bases.layout)},
-                   {"clusters", t.bases.clusters()},
-                   {"components_least", *least},
-                   {"components_most", *most},
-                   {"weights", packed ? "packed" : std::to_string(8 * bytes_per_weight(t.receivers.format))},
-                   {"bytes_bound_per_vertex", bytes_per_receiver(t)},
-                   {"bits_used_per_vertex", bits_per_receiver(t)},
-                   {"guides", guide_names(t.bases)},
-                   {"guide_rows", t.bases.guide_rows()},
-                   {"bytes_bases", basis_bytes(t.bases)},
-                   {"bake", bake_record_json(compressed.record)}}}});
+    add_figures(report, {{"clustered_pca",
+                          {{"order", t.bases.layout.order},
+                           {"channels", t.bases.layout.channels()},
+                           {"parts", parts_figures(t.bases.layout)},
+                           {"clusters", t.bases.clusters()},
+                           {"components_least", *least},
+                           {"components_most", *most},
+                           {"weights", t.receivers.format == WeightFormat::packed ? "packed" : "float"},
+                           {"bytes_bound_per_vertex", bytes_per_receiver(t)},
+                           {"bits_used_per_vertex", bits_per_receiver(t)},
+                           {"guides", guide_names(t.bases)},
+                           {"guide_rows", t.bases.guide_rows()},
+                           {"bytes_bases", basis_bytes(t.bases)},
+                           {"bake", bake_record_json(compressed.record)}}}});
     const std::string own = "clustered_pca/";
-    report.sentences.push_back(
-        fmt::format("clustered PCA: order {{{0}order}}, {1}, {2} x {{{0}components_least}} to "
-                    "{{{0}components_most}} components, {{{0}weights}}{3} weights",
-                    own, parts_in_words(t.bases.layout),
-                    counted(own + "clusters", t.bases.clusters(), "cluster"), packed ? "" : "-bit"));
+    report.sentences.push_back(fmt::format(
+        "clustered PCA: order {{{0}order}}, {1}, {2} x {{{0}components_least}} to "
+        "{{{0}components_most}} components, {{{0}weights}} weights",
+        own, parts_in_words(t.bases.layout), counted(own + "clusters", t.bases.clusters(), "cluster")));
     report.sentences.push_back(fmt::format(
         "{{{0}bytes_bound_per_vertex}} bytes per vertex to bind ({{{0}bits_used_per_vertex}} bits in use)",
         own));

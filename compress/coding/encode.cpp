@@ -1,5 +1,5 @@
-// Writes clusters and codes as a file has them: rows as integers over rounded axes, weights in bits or as
-// signed normalised integers (docs/format.md, PRTKIT_clustered_pca).
+// Writes clusters and codes as a file has them: rows as integers over rounded axes, weights in bits; or both
+// as floats (docs/format.md, PRTKIT_clustered_pca).
 
 #include "coding/encode.h"
 
@@ -16,11 +16,6 @@ namespace prt {
 namespace {
 
 constexpr std::int32_t kLargestValue = (1 << (kMostRowBits - 1)) - 1;
-
-template <class Stored>
-void store(std::byte* to, Stored value) {
-    std::memcpy(to, &value, sizeof value);
-}
 
 /// Rows of all clusters over the axes of the frame, in units of the step.
 std::vector<std::int32_t> integer_rows(const QuantisedClusters& clusters, double step, std::size_t axes) {
@@ -160,18 +155,6 @@ void pack(const QuantisedClusters& clusters, const Codes& codes, const Encoding&
     }
 }
 
-void store_weight(std::byte* to, float weight, WeightFormat format) {
-    switch (format) {
-    case WeightFormat::snorm16:
-        return store(to, static_cast<std::int16_t>(std::lround(weight * 32767)));
-    case WeightFormat::snorm8:
-        return store(to, static_cast<std::int8_t>(std::lround(weight * 127)));
-    case WeightFormat::float32:
-    case WeightFormat::packed:
-        return store(to, weight);
-    }
-}
-
 } // namespace
 
 CodedBases code_frame(Frame& frame, const LightMetric& metric, double most_error) {
@@ -233,13 +216,14 @@ ClusteredTransfer encode(const Frame& frame, const CodedBases& coded_frame, cons
         return result;
     }
     receivers.components = (result.bases.max_components() + 3) / 4 * 4;
-    const std::size_t size = bytes_per_weight(encoding.format), stride = receivers.stride();
+    const std::size_t stride = receivers.stride();
     receivers.weights.assign(codes.clusters.size() * stride, std::byte{0});
     std::vector<float> weights(clusters.max_components);
     for (std::size_t p = 0; p < codes.clusters.size(); ++p) {
         codes.read(clusters, p, weights.data());
-        for (std::size_t j = 0; j < clusters.components_of(codes.clusters[p]); ++j)
-            store_weight(&receivers.weights[p * stride + j * size], weights[j], encoding.format);
+        const auto used = std::span(weights).first(clusters.components_of(codes.clusters[p]));
+        std::ranges::copy(std::as_bytes(used),
+                          receivers.weights.begin() + static_cast<std::ptrdiff_t>(p * stride));
     }
     return result;
 }

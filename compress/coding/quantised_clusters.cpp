@@ -62,12 +62,11 @@ ClusterLists members_of(std::span<const std::uint32_t> clusters, std::size_t cou
 }
 
 QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const float> significance,
-                                     const Clustering& clustering, const std::optional<WeightGrid>& grid,
-                                     int threads) {
+                                     const Clustering& clustering, WeightFormat format, int threads) {
     const std::vector<ClusterFit>& fits = clustering.fits;
     QuantisedClusters result{penalised_clusters(fits, points.dimension), {}};
     result.grids.resize(fits.size() * result.max_components, WeightGrid::any());
-    if (grid && grid->is_any())
+    if (format == WeightFormat::float32)
         return result;
     const ClusterLists members = members_of(clustering.clusters, fits.size());
     parallel_for(fits.size(), 1, threads, [&](std::size_t begin, std::size_t end) {
@@ -75,7 +74,7 @@ QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const 
             const std::size_t n = members[k].size();
             const MemberCoordinates of = coordinates_of(points, significance, result, k, members[k]);
             for (std::size_t j = 0; j < result.components_of(k); ++j) {
-                const WeightGrid own = grid ? *grid : WeightGrid::of_bits(fits[k].plan.bits[j]);
+                const WeightGrid own = WeightGrid::of_bits(fits[k].plan.bits[j]);
                 result.grids[k * result.max_components + j] = own;
                 const double length =
                     best_length(std::span(of.along).subspan(j * n, n), of.significance, own.steps());

@@ -2,8 +2,7 @@
 
 #include "clusters/clustering.h"
 #include "coding/weight_grid.h"
-
-#include <optional>
+#include "prt/clustered_transfer.h"
 
 namespace prt {
 
@@ -17,11 +16,10 @@ struct QuantisedClusters : AffineClusters {
 /// Points by their cluster, ascending.
 ClusterLists members_of(std::span<const std::uint32_t> clusters, std::size_t count);
 
-/// Rows from the principal axes of `clustering`, each as long as loses least when the weights of its points
-/// are rounded to `grid`, or of length 1 where that is any. No grid: by the bits of each cluster's plan.
+/// Rows from the principal axes of `clustering`. Packed: each as long as loses least when the weights of its
+/// points are rounded to the bits of its cluster's plan. Floats: of length 1.
 QuantisedClusters quantised_clusters(const PointBlocks& points, std::span<const float> significance,
-                                     const Clustering& clustering, const std::optional<WeightGrid>& grid,
-                                     int threads);
+                                     const Clustering& clustering, WeightFormat format, int threads);
 
 /// Guides in units of their deviation within a cluster, on average, as weights are, so that their rows need
 /// the digits of means; centers become whole numbers. Returns what the guides are to be multiplied with.

@@ -13,8 +13,6 @@ public:
     static WeightGrid any() { return WeightGrid(0); }
     /// 2^bits values, symmetric about zero, without zero.
     static WeightGrid of_bits(int bits) { return WeightGrid(0.5f * (static_cast<float>(1u << bits) - 1.0f)); }
-    /// Multiples of 1/largest, as signed normalised integers have.
-    static WeightGrid of_multiples(int largest) { return WeightGrid(static_cast<float>(largest)); }
 
     bool is_any() const { return !(steps_ > 0); }
     /// Steps from 0 to 1; a value lies at w = q / steps - 1, q = 0, 1, ...

@@ -8,8 +8,7 @@
 namespace prt {
 
 double payload_bytes(WeightFormat format, int payload) {
-    return format == WeightFormat::packed ? 4.0 * payload
-                                          : 4 + 4.0 * payload * static_cast<double>(bytes_per_weight(format));
+    return format == WeightFormat::packed ? 4.0 * payload : 4 + 16.0 * payload;
 }
 
 int payload_of(const WeightCoding& preset, std::size_t dimension) {

@@ -143,17 +143,14 @@ void attach_words(const prt::ClusteredReceivers& receivers, std::size_t first) {
     }
 }
 
-/// Attributes of other weights: floats or normalised integers, four an attribute.
+/// Attributes of weights that are floats, four an attribute.
 void attach_weights(const prt::ClusteredReceivers& receivers, std::size_t first) {
-    const GLenum type = receivers.format == prt::WeightFormat::float32   ? GL_FLOAT
-                        : receivers.format == prt::WeightFormat::snorm16 ? GL_SHORT
-                                                                         : GL_BYTE;
-    const std::size_t stride = receivers.stride(), size = prt::bytes_per_weight(receivers.format);
+    const std::size_t stride = receivers.stride();
     for (int weight = 0; weight < receivers.components; weight += 4) {
         const auto location = static_cast<GLuint>(PRT_LOCATION_WEIGHTS + weight / 4);
         glEnableVertexAttribArray(location);
-        glVertexAttribPointer(location, 4, type, GL_TRUE, static_cast<GLsizei>(stride),
-                              offset(first * stride + static_cast<std::size_t>(weight) * size));
+        glVertexAttribPointer(location, 4, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                              offset(first * stride + static_cast<std::size_t>(weight) * sizeof(GLfloat)));
     }
 }
 

@@ -24,9 +24,7 @@ namespace {
 using namespace prt::c;
 using prt::Error;
 
-static_assert(static_cast<int>(prt::ConstantSource::texture) == PRT_CONSTANTS_IN_TEXTURE &&
-              static_cast<int>(prt::WeightFormat::packed) == PRT_PACKED &&
-              static_cast<int>(prt::WeightFormat::snorm8) == PRT_SNORM8);
+static_assert(static_cast<int>(prt::ConstantSource::texture) == PRT_CONSTANTS_IN_TEXTURE);
 static_assert(sizeof(prt::ClusterLayout) == 4 * sizeof(std::uint32_t) &&
               sizeof(glm::uvec3) == 3 * sizeof(std::uint32_t));
 
@@ -84,7 +82,7 @@ prt_status prt_model_get_info(const prt_model* model, prt_model_info* out, prt_m
         out->receivers = receivers.size();
         out->clusters = model->layouts.size();
         out->rows = model->former.rows();
-        out->format = static_cast<prt_weight_format>(receivers.format);
+        out->format = receivers.format == prt::WeightFormat::packed ? PRT_PACKED : PRT_FLOAT32;
         out->stride = receivers.stride();
         out->weights = receivers.weights.data();
         out->cluster_of = receivers.clusters.data();

@@ -5,27 +5,11 @@
 #include "transfer/packed_weights.h"
 
 #include <algorithm>
-#include <cassert>
 
 namespace prt {
 
-std::size_t bytes_per_weight(WeightFormat format) {
-    switch (format) {
-    case WeightFormat::snorm16:
-        return 2;
-    case WeightFormat::snorm8:
-        return 1;
-    case WeightFormat::float32:
-    case WeightFormat::packed:
-        break;
-    }
-    assert(format == WeightFormat::float32);
-    return 4;
-}
-
 std::size_t ClusteredReceivers::stride() const {
-    return format == WeightFormat::packed ? static_cast<std::size_t>(words) * 4
-                                          : static_cast<std::size_t>(components) * bytes_per_weight(format);
+    return 4 * static_cast<std::size_t>(format == WeightFormat::packed ? words : components);
 }
 
 std::size_t bytes_per_receiver(const ClusteredTransfer& transfer) {
@@ -40,7 +24,7 @@ std::size_t bits_per_receiver(const ClusteredTransfer& transfer) {
     const ClusteredBases& bases = transfer.bases;
     if (receivers.format != WeightFormat::packed)
         return 8 * ((bases.clusters() > 256 ? 2 : 1) +
-                    static_cast<std::size_t>(bases.max_components()) * bytes_per_weight(receivers.format));
+                    static_cast<std::size_t>(bases.max_components()) * sizeof(float));
     std::size_t most = 0;
     for (const ClusterLayout& layout : cluster_layouts(bases)) {
         auto bits = static_cast<std::size_t>(receivers.cluster_bits);

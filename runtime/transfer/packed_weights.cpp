@@ -16,24 +16,14 @@ void decode_weights(const ClusteredTransfer& transfer, std::span<const ClusterLa
     const std::byte* from = receivers.weights.data() + receiver * receivers.stride();
     auto position = static_cast<std::size_t>(receivers.cluster_bits);
     for (std::size_t j = 0; j < layout.components; ++j) {
-        switch (receivers.format) {
-        case WeightFormat::float32:
+        if (receivers.format == WeightFormat::float32) {
             weights[j] = load<float>(from + 4 * j);
-            break;
-        case WeightFormat::snorm16:
-            weights[j] = std::max(static_cast<float>(load<std::int16_t>(from + 2 * j)) / 32767.0f, -1.0f);
-            break;
-        case WeightFormat::snorm8:
-            weights[j] = std::max(static_cast<float>(load<std::int8_t>(from + j)) / 127.0f, -1.0f);
-            break;
-        case WeightFormat::packed: {
-            const int width = width_of(layout, j);
-            const auto largest = static_cast<float>((1u << width) - 1);
-            weights[j] = (2 * static_cast<float>(bits_at(from, position, width)) - largest) / largest;
-            position += static_cast<std::size_t>(width);
-            break;
+            continue;
         }
-        }
+        const int width = width_of(layout, j);
+        const auto largest = static_cast<float>((1u << width) - 1);
+        weights[j] = (2 * static_cast<float>(bits_at(from, position, width)) - largest) / largest;
+        position += static_cast<std::size_t>(width);
     }
 }
 

@@ -137,8 +137,10 @@ ClusteredTransfer clustered(int clusters, int components, const TransferLayout& 
     t.bases.layout = layout;
     t.bases.components.assign(static_cast<std::size_t>(clusters), components);
     t.bases.rows = random_values(static_cast<std::size_t>(clusters * (1 + components)) * t.bases.dimension());
-    t.receivers.format = WeightFormat::snorm8;
-    t.receivers.components = components;
+    t.bases.bits.assign(static_cast<std::size_t>(clusters * components), 7);
+    t.receivers.format = WeightFormat::packed;
+    t.receivers.cluster_bits = 8;
+    t.receivers.words = (8 + 7 * components + 31) / 32;
     std::mt19937 random(3);
     for (std::size_t p = 0; p < receivers; ++p)
         t.receivers.clusters.push_back(
@@ -192,7 +194,6 @@ CompressedLightmap lightmap_of(int side) {
     CompressedLightmap lightmap{{{{kSide, kSide}}, {}}, {}};
     ClusteredTransfer& t = lightmap.compressed.transfer;
     t = clustered(256, 8, layout_of_one(kOrder, 1), 1, 1);
-    t.bases.bits.assign(256 * 8, 7);
     t.receivers = {.format = WeightFormat::packed,
                    .cluster_bits = 8,
                    .words = 2,

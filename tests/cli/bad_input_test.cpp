@@ -220,7 +220,7 @@ TEST_F(BadInput, WrongUsageIsStatusTwo) {
           {"bench", scene, "--classic"},
           {"compress", scene, "-o", out, "--clusters", "auto"},
           {"compress", scene, "-o", out, "--components", "auto"},
-          {"compress", scene, "-o", out, "--weights", "5"},
+          {"compress", scene, "-o", out, "--weights", "8"},
           {"compress", scene, "-o", out, "--preset", "u32", "--clusters", "4"},
           {"compress", scene, "-o", out, "--preset", "u16"},
           {"compress", scene, "-o", out, "--max-error", "0.1", "--bits", "24"},

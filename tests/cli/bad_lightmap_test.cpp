@@ -321,12 +321,12 @@ TEST_F(BadLightmaps, AreNotThoseThatAreRight) {
                   .status,
               0);
     ASSERT_EQ(
-        prt({"compress", at("vertices.glb"), "-o", at("bytes.glb"), "--clusters", "1", "--weights", "8"})
+        prt({"compress", at("vertices.glb"), "-o", at("floats.glb"), "--clusters", "1", "--weights", "float"})
             .status,
         0);
-    for (const char* name : {"vertices.glb", "packed.glb", "bytes.glb"})
+    for (const char* name : {"vertices.glb", "packed.glb", "floats.glb"})
         files.push_back(at(name));
-    expect_by_schemas(files, {"raw", "shipped", "alike", "coded", "vertices", "packed", "bytes"});
+    expect_by_schemas(files, {"raw", "shipped", "alike", "coded", "vertices", "packed", "floats"});
 }
 
 } // namespace

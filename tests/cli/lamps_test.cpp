@@ -71,7 +71,9 @@ protected:
 };
 
 TEST_F(LampsOnTheRoad, LightAsTheirStrengthsSay) {
-    ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "16"}).status, 0);
+    ASSERT_EQ(
+        prt({"compress", at("b.glb"), "-o", at("c.glb"), "--weights", "float", "--clusters", "16"}).status,
+        0);
     EXPECT_EQ(lamps_of("b.glb"), (std::vector<std::string>{"Lamp.white", "Lamp.red"}));
     EXPECT_EQ(lamps_of("c.glb"), lamps_of("b.glb"));
     folder.file("strengths.json", R"({"Lamp.white": [3, 0, 1], "*": 0})");

@@ -172,7 +172,7 @@ TEST_F(Lightmaps, AreRefusedWhereTheyCannotBe) {
         return prt(arguments);
     };
     expect_refused(compress({"--guides", "normal"}), "texels know neither");
-    expect_refused(compress({"--weights", "8"}), "packed");
+    expect_refused(compress({"--weights", "float"}), "packed");
     expect_refused(compress({"--reorder"}), "texels stay where they are");
     expect_refused(compress({"--fallback", at("sky.exr")}), "the light of this file is in texels");
     EXPECT_FALSE(std::filesystem::exists(folder / "shipped.glb"));

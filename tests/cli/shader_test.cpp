@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(
     Weights, Shader,
     testing::Values(std::vector<std::string>{}, std::vector<std::string>{"--preset", "u64"},
                     std::vector<std::string>{"--clusters", "1", "--bits", "200"},
-                    std::vector<std::string>{"--weights", "8", "--clusters", "1"},
+                    std::vector<std::string>{"--weights", "float", "--clusters", "1"},
                     std::vector<std::string>{"--weights", "float", "--clusters", "2", "--components", "0"}));
 
 TEST_P(Shader, CompilesInEveryLanguage) {

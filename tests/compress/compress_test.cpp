@@ -136,11 +136,18 @@ TEST(Compress, MoreClustersOrComponentsNeverHurtMuchAndQuantisingCostsLittle) {
         EXPECT_LT(error, before);
         before = error;
     }
-    const double exact = error_of(t, run(t, 16, 4)),
-                 bits16 = error_of(t, run(t, 16, 4, WeightFormat::snorm16)),
-                 bits8 = error_of(t, run(t, 16, 4, WeightFormat::snorm8));
-    EXPECT_NEAR(bits16, exact, 1e-4 * exact);
-    EXPECT_LT(bits8, 1.05 * exact);
+    const auto error_in_bits = [&](int bits) {
+        CompressOptions options;
+        options.clusters = 16;
+        options.coding.components = 4;
+        options.coding.bits = bits;
+        options.basis_share = 0;
+        options.metric = plain_metric(t.layout);
+        return error_of(t, compress(t, {std::vector<float>(t.receivers(), 1.0f)}, options));
+    };
+    const double exact = error_of(t, run(t, 16, 4));
+    EXPECT_NEAR(error_in_bits(4 * 16), exact, 1e-4 * exact);
+    EXPECT_LT(error_in_bits(4 * 8), 1.05 * exact);
 }
 
 TEST(Compress, QuantisationErrorIsHalfAStepAtMost) {
@@ -148,8 +155,7 @@ TEST(Compress, QuantisationErrorIsHalfAStepAtMost) {
     const Transfer t = synthetic(500, 3, 2, truth); // exact but for the weights' rounding
     CompressOptions options;
     options.clusters = 3;
-    options.coding.components = 2;
-    options.coding.format = WeightFormat::snorm8;
+    options.coding.fixed_bits = {8, 8};
     options.basis_share = 0;
     options.metric = plain_metric(layout_of_one(4, 1));
     const CompressResult result = compress(t, {std::vector<float>(500, 1.0f)}, options);
@@ -168,7 +174,7 @@ TEST(Compress, QuantisationErrorIsHalfAStepAtMost) {
         for (std::size_t i = 0; i < t.dimension(); ++i)
             squared += std::pow(static_cast<double>(t.vector(p)[i] - decoded.vector(p)[i]), 2);
         // Two weights, half a step each; refitted rows are not quite orthogonal, which 1.2 allows for.
-        EXPECT_LT(std::sqrt(squared), 1.2 * std::sqrt(2.0) * 0.5 / 127 * largest + 1e-4);
+        EXPECT_LT(std::sqrt(squared), 1.2 * std::sqrt(2.0) / 255 * largest + 1e-4);
     }
 }
 
@@ -196,9 +202,9 @@ TEST(Compress, EveryFormatIsTheSameForAnyNumberOfThreads) {
 
 TEST(Compress, IsTheSameForAnyNumberOfThreads) {
     const Transfer t = random_transfer(1000, 5, 1, 21);
-    const CompressResult one = run(t, 12, 5, WeightFormat::snorm8, 1);
+    const CompressResult one = run(t, 12, 5, WeightFormat::packed, 1);
     for (const int threads : {2, 5}) {
-        const CompressResult other = run(t, 12, 5, WeightFormat::snorm8, threads);
+        const CompressResult other = run(t, 12, 5, WeightFormat::packed, threads);
         EXPECT_EQ(one.transfer.bases.rows, other.transfer.bases.rows);
         EXPECT_EQ(one.transfer.receivers.weights, other.transfer.receivers.weights);
         EXPECT_EQ(one.transfer.receivers.clusters, other.transfer.receivers.clusters);
@@ -207,7 +213,7 @@ TEST(Compress, IsTheSameForAnyNumberOfThreads) {
 
 TEST(HardCase, OneReceiver) {
     const Transfer t = random_transfer(1, 3, 1, 1);
-    const CompressResult result = run(t, 8, 4, WeightFormat::snorm8);
+    const CompressResult result = run(t, 8, 4, WeightFormat::packed);
     EXPECT_EQ(result.transfer.bases.clusters(), 1u);
     EXPECT_LT(error_of(t, result), 1e-6);
 }
@@ -238,7 +244,7 @@ TEST(HardCase, FewerMembersThanComponents) {
 
 TEST(HardCase, ZeroTransferStaysZero) {
     const Transfer t = zero_transfer(4, 1, 100);
-    const CompressResult result = run(t, 4, 4, WeightFormat::snorm8);
+    const CompressResult result = run(t, 4, 4, WeightFormat::packed);
     EXPECT_EQ(error_of(t, result), 0);
     for (const float v : decode(result.transfer).vectors)
         EXPECT_EQ(v, 0);
@@ -276,7 +282,7 @@ TEST(HardCase, NearZeroCovarianceIsRoundingAndNotADirection) {
     for (int i = 0; i < 50; ++i)
         for (const float v : one)
             t.vectors.push_back(i % 2 ? v : std::nextafter(v, 2 * v));
-    const CompressResult result = run(t, 1, 4, WeightFormat::snorm8);
+    const CompressResult result = run(t, 1, 4, WeightFormat::packed);
     EXPECT_LT(error_of(t, result), 2e-7);
 }
 

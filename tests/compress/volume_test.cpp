@@ -120,7 +120,7 @@ TEST(CompressedVolumes, EvaluateWhatTheyDecodeTo) {
 
 TEST(CompressedVolumes, HavePackedWeights) {
     CompressOptions options;
-    options.coding.format = WeightFormat::snorm8;
+    options.coding.format = WeightFormat::float32;
     EXPECT_THROW(compress_volume(smooth_volume(3, 0), options), Error);
 }
 

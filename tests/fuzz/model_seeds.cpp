@@ -229,8 +229,6 @@ void write_model_seeds(const Path& to) {
     std::ofstream(folder / "triangle.gltf") << text.json.dump(1);
     write_bakes(folder);
     constexpr std::pair<const char*, WeightFormat> kFormats[] = {{"float32", WeightFormat::float32},
-                                                                 {"snorm16", WeightFormat::snorm16},
-                                                                 {"snorm8", WeightFormat::snorm8},
                                                                  {"packed", WeightFormat::packed}};
     for (const auto& [name, format] : kFormats)
         write_shipped(folder, name, {.clusters = 3, .coding = {.format = format, .components = 4}});

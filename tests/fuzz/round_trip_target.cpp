@@ -51,7 +51,7 @@ Transfer transfer_of(std::span<const std::uint8_t> head, std::span<const std::ui
 CompressOptions options_of(std::span<const std::uint8_t> head) {
     CompressOptions options{.clusters = 1 + head[2] % 32, .threads = 1};
     WeightCoding& coding = options.coding;
-    coding.format = static_cast<WeightFormat>(head[3] % 4);
+    coding.format = head[3] % 2 == 0 ? WeightFormat::float32 : WeightFormat::packed;
     coding.components = head[4] % 20;
     coding.bits = head[5];
     if (head[3] & 4)

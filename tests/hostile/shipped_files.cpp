@@ -116,9 +116,8 @@ CompressedVolume coded_volume(std::mt19937& random) {
 }
 
 std::vector<Recipe> recipes() {
-    WeightCoding fixed = preset_u32x4(), free = preset_u64(), floats{.format = WeightFormat::float32},
-                 bytes{.format = WeightFormat::snorm8};
-    floats.components = bytes.components = 5;
+    const WeightCoding fixed = preset_u32x4(), free = preset_u64(),
+                       floats{.format = WeightFormat::float32, .components = 5};
     return {
         {"none_fixed", kSky, {.clusters = 6, .coding = fixed, .guides = GuideChoice::none}},
         {"normal_fixed", kSky, {.clusters = 6, .coding = fixed}},
@@ -127,7 +126,6 @@ std::vector<Recipe> recipes() {
         {"both_floats",
          kLamps,
          {.clusters = 4, .coding = floats, .guides = GuideChoice::normal_and_position}},
-        {"both_bytes", kSky, {.clusters = 3, .coding = bytes, .guides = GuideChoice::normal_and_position}},
         {"position_plain", kSky, {.clusters = 4, .coding = fixed, .guides = GuideChoice::none}, true},
         {"both_hard",
          kLamps,

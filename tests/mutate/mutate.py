@@ -38,7 +38,7 @@ SCENE = [["info", "{file}"],
          ["render", "{file}", "--env", "light.json", "-o", "out.exr", "--size", "16x8", "--samples", "1", "--backend", "cpu"]]
 COMPRESS = ["compress", "{file}", "-o", "out.glb"]
 BAKED = SCENE[:2] + SCENE[3:] + [COMPRESS, COMPRESS + ["--meshopt"], COMPRESS + ["--reorder"],
-                                 COMPRESS + ["--weights", "16", "--preset", "custom", "--clusters", "3", "--components", "2"],
+                                 COMPRESS + ["--weights", "float", "--preset", "custom", "--clusters", "3", "--components", "2"],
                                  ["evaluate", "{file}", "{shipped}"]]
 SHIPPED = SCENE[:1] + SCENE[3:] + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.vert"],
                                  ["relight", "{file}", "--env", "light.json", "-o", "out.glb"]] + SCENE[1:2]
@@ -47,8 +47,7 @@ RAW_TEXELS = SCENE[:1] + SCENE[3:] + [COMPRESS, COMPRESS + ["--preset", "custom"
                                       ["evaluate", "{file}", "{shipped}"]]
 TEXELS = SCENE[:1] + SCENE[3:] + [["evaluate", "{baked}", "{file}"], ["shader", "{file}", "-o", "out.comp"],
                                   ["shader", "{file}", "-o", "out.frag", "--fragment"]] + SCENE[1:2]
-SHIPMENTS = [["--meshopt"], ["--preset", "custom", "--weights", "8", "--clusters", "2", "--components", "3"],
-             ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3"], ["--preset", "u64", "--reorder"],
+SHIPMENTS = [["--meshopt"], ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3"], ["--preset", "u64", "--reorder"],
              ["--preset", "u32x4", "--guides", "position"],
              ["--preset", "custom", "--weights", "float", "--clusters", "2", "--components", "3", "--guides", "position"]]
 

@@ -6,6 +6,7 @@
 #include "support/temporary_folder.h"
 
 #include <random>
+#include <span>
 
 namespace prt::test {
 
@@ -21,12 +22,11 @@ std::vector<std::byte> lit_model() {
     std::mt19937 random(5);
     for (std::size_t i = 0; i < 8 * transfer.bases.dimension(); ++i)
         transfer.bases.rows.push_back(static_cast<float>(random() % 1000) / 1000);
-    transfer.receivers.format = WeightFormat::snorm8;
     transfer.receivers.components = 4;
     transfer.receivers.clusters = {0, 1, 0};
-    transfer.receivers.weights = {std::byte{127}, std::byte{3}, std::byte{5}, std::byte{7},
-                                  std::byte{9},   std::byte{1}, std::byte{0}, std::byte{0},
-                                  std::byte{1},   std::byte{2}, std::byte{3}, std::byte{4}};
+    const float weights[] = {1, 0.03f, 0.05f, 0.07f, 0.09f, 0.01f, 0, 0, 0.01f, 0.02f, 0.03f, 0.04f};
+    const auto bytes = std::as_bytes(std::span(weights));
+    transfer.receivers.weights.assign(bytes.begin(), bytes.end());
     write_clustered(document, scene, compressed);
     save_glb(document, folder / "lit.glb");
     return read_file(folder / "lit.glb");

@@ -46,23 +46,17 @@ class Glb {
     const view = this.json.bufferViews[accessor.bufferView];
     const components = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4 }[accessor.type];
     const [size, read] = {
-      5120: [1, (o) => this.bin.readInt8(o)],
       5121: [1, (o) => this.bin.readUInt8(o)],
-      5122: [2, (o) => this.bin.readInt16LE(o)],
       5123: [2, (o) => this.bin.readUInt16LE(o)],
       5125: [4, (o) => this.bin.readUInt32LE(o)],
       5126: [4, (o) => this.bin.readFloatLE(o)],
     }[accessor.componentType];
-    const largest = { 5120: 127, 5122: 32767 }[accessor.componentType];
     const start = (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
     const stride = view.byteStride ?? size * components;
     const elements = [];
     for (let i = 0; i < accessor.count; ++i) {
       const element = [];
-      for (let c = 0; c < components; ++c) {
-        const stored = read(start + i * stride + c * size);
-        element.push(accessor.normalized ? Math.max(stored / largest, -1) : stored);
-      }
+      for (let c = 0; c < components; ++c) element.push(read(start + i * stride + c * size));
       elements.push(element);
     }
     return elements;

@@ -71,7 +71,7 @@ struct CompressOptions {
     double mean_components = 0;
     GuideChoice guides = GuideChoice::normal;
     /// Squared error that rounding the bases may add, as a share of what there is; 0: bases are float32.
-    /// Unset: 0.1 for packed weights, 0.05 for 8 bits, 0.0001 for 16, 0 for floats.
+    /// Unset: 0.1. Not for floats, beside which bases are float32.
     std::optional<double> basis_share = {};
     /// Packed weights: bases count in the size, so that clusters leave out directions which take more than
     /// they give.

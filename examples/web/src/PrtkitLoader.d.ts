@@ -57,7 +57,7 @@ export class LitTransfer {
 export class PrtkitModel extends LitTransfer {
   /** Vertices that have transfer. */
   readonly vertices: number;
-  /** Of the vertex attributes that transfer takes, as they are bound: packed weights in whole 32-bit words, others
+  /** Of the vertex attributes that transfer takes, as they are bound: packed weights in whole 32-bit words, floats
    * as vectors of four beside the cluster in a word of its own. */
   readonly bytesPerVertex: number;
   /** Texels of lightmaps that have transfer, where vertices have none, and the bytes of words of each. */

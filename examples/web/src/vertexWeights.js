@@ -59,7 +59,10 @@ function convertWords(geometry, clusters) {
   return { PRT_PACKED_WORDS: count, PRT_CLUSTER_BITS: clusters.clusterBits };
 }
 
-/** Where vertices have a cluster and weights. Returns their defines. */
+/** Integers of earlier versions, which were normalised. */
+const REMOVED = new Map([[Int8Array, "snorm8"], [Int16Array, "snorm16"]]);
+
+/** Where vertices have a cluster and floats. Returns their defines. */
 function convertWeights(geometry, { components }) {
   const groups = takeGroups(geometry, Math.ceil(Math.max(...components) / 4));
   expect(groups.length <= 12, "a vertex has more than 48 components");
@@ -70,10 +73,10 @@ function convertWeights(geometry, { components }) {
   expect(outside < 0, `vertex ${outside} is in no cluster`);
   for (const group of groups) {
     const { array } = group.data ?? group;
-    expect(
-      array instanceof Int8Array || array instanceof Int16Array || array.every((weight) => Math.abs(weight) <= LARGEST_WEIGHT),
-      `the weights are not finite, or beyond ${LARGEST_WEIGHT}`,
-    );
+    const removed = REMOVED.get(array.constructor);
+    expect(!removed, `weights '${removed}' are not supported: compress again with prt compress`);
+    expect(array instanceof Float32Array, "the weights are no floats");
+    expect(array.every((weight) => Math.abs(weight) <= LARGEST_WEIGHT), `the weights are not finite, or beyond ${LARGEST_WEIGHT}`);
   }
   geometry.deleteAttribute("_prt_cluster");
   geometry.setAttribute("prt_cluster", new BufferAttribute(numbers, 1));

@@ -77,6 +77,14 @@ test("clusters and weights that are none are refused with a reason", async () =>
   await assert.rejects(loading({ _prt_weights_0: weights(0), _prt_cluster: cluster(0, 1) }, plain), /vertex 1 is in no cluster/);
   for (const wrong of [NaN, 2e9])
     await assert.rejects(loading({ _prt_weights_0: weights(wrong), _prt_cluster: cluster(0, 0) }, plain), /weights are not finite/);
+  for (const [Stored, reason] of [
+    [Int8Array, /weights 'snorm8' are not supported: compress again with prt compress/],
+    [Int16Array, /weights 'snorm16' are not supported: compress again with prt compress/],
+    [Uint8Array, /the weights are no floats/],
+  ]) {
+    const integers = new BufferAttribute(new Stored(8), 4, true);
+    await assert.rejects(loading({ _prt_weights_0: integers, _prt_cluster: cluster(0, 0) }, plain), reason);
+  }
 });
 
 test("packed weights become words, and the material keeps its colour", async () => {
@@ -102,20 +110,20 @@ test("packed weights become words, and the material keeps its colour", async () 
 
 test("weights that are not packed stay as they are, beside the cluster", async () => {
   const { packing: _packing, ...extension } = packed;
-  const weights = new BufferAttribute(new Int8Array(8), 4, true);
+  const weights = new BufferAttribute(new Float32Array(8), 4);
   const cluster = new BufferAttribute(new Uint8Array([0, 0]), 1);
   const { gltf, parser, mesh } = scene({ _prt_weights_0: weights, _prt_cluster: cluster }, extension);
   await new PrtkitPlugin(parser).afterRoot(gltf);
   assert.equal(mesh.geometry.getAttribute("prt_weights_0"), weights);
   assert.ok(mesh.geometry.getAttribute("prt_cluster").array instanceof Uint32Array);
-  assert.equal(gltf.userData.prtkit.bytesPerVertex, 4 + 4); // a word, and one weight in a vector of four
+  assert.equal(gltf.userData.prtkit.bytesPerVertex, 4 + 16); // a word, and one weight in a vector of four
 });
 
 test("bytes of a vertex are those of the attributes that are bound", async () => {
   const { packing: _packing, ...extension } = { ...packed, components: [5], bases: { bufferView: 0, componentType: 5126 } };
   const attributes = {
-    _prt_weights_0: new BufferAttribute(new Int16Array(8), 4, true),
-    _prt_weights_1: new BufferAttribute(new Int16Array(8), 4, true),
+    _prt_weights_0: new BufferAttribute(new Float32Array(8), 4),
+    _prt_weights_1: new BufferAttribute(new Float32Array(8), 4),
     _prt_cluster: new BufferAttribute(new Uint8Array([0, 0]), 1),
   };
   const { gltf, parser, mesh } = scene(attributes, extension);
@@ -124,7 +132,7 @@ test("bytes of a vertex are those of the attributes that are bound", async () =>
   const names = ["prt_cluster", "prt_weights_0", "prt_weights_1"];
   const bound = names.map((name) => mesh.geometry.getAttribute(name).array.byteLength);
   assert.equal(gltf.userData.prtkit.bytesPerVertex, bound.reduce((a, b) => a + b) / 2);
-  assert.equal(gltf.userData.prtkit.bytesPerVertex, 4 + 2 * 4 * 2);
+  assert.equal(gltf.userData.prtkit.bytesPerVertex, 4 + 2 * 4 * 4);
 });
 
 test("tables longer than a row of their texture go on in the next", async () => {

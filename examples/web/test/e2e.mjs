@@ -524,7 +524,7 @@ await check("lamps light as in prt, and are dimmed", async (page, errors) => {
     const at = (suffix) => join(work, name + suffix);
     lampScene(at(".gltf"), lights);
     prtRun("bake", at(".gltf"), "-o", at(".baked.glb"), "--rays", "256", "--bounces", "1");
-    prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "16", "--clusters", "16", "--components", "16");
+    prtRun("compress", at(".baked.glb"), "-o", at(".glb"), "--weights", "float", "--clusters", "16", "--components", "16");
     prtRun("relight", at(".glb"), "--env", warmSky, "--env-center", "x", "--suns", "0", "--window", "auto", "--albedo", "-o", at(".lit.glb"));
     return { file: at(".glb"), colors: vertexColors(at(".lit.glb")) };
   };

@@ -34,7 +34,7 @@ copyFileSync(join(distFolder, models[0].levels[1].file), served("model.glb"));
 copyFileSync(join(distFolder, skies[0].file), served("sky.exr"));
 writeFileSync(join(folder, "ball.gltf"), ballScene());
 run(prt, "bake", "ball.gltf", "-o", "ball.baked.glb", "--rays", "4096", "--bounces", "0");
-run(prt, "compress", "ball.baked.glb", "-o", served("ball.glb"), "--weights", "16", "--clusters", "16", "--components", "16");
+run(prt, "compress", "ball.baked.glb", "-o", served("ball.glb"), "--weights", "float", "--clusters", "16", "--components", "16");
 
 await build({ root: folder, base: "./", logLevel: "error", build: { chunkSizeWarningLimit: 2000 } });
 const built = await preview({ root: folder, preview: { port: 0, host: "127.0.0.1" }, logLevel: "error" });

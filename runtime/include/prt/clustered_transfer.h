@@ -24,24 +24,19 @@
 
 namespace prt {
 
-/// How weights are stored. Normalised integers decode as in glTF and OpenGL: max(i / 127, -1), max(i / 32767,
-/// -1). Packed: cluster and weights share 32-bit words; a weight of b bits holds q = 0 .. 2^b - 1 and means
-/// (2 q - (2^b - 1)) / (2^b - 1).
-enum class WeightFormat { float32, snorm16, snorm8, packed };
-
-/// Of the formats that are not packed.
-std::size_t bytes_per_weight(WeightFormat format);
+/// How weights are stored. Packed: cluster and weights share 32-bit words; a weight of b bits holds q = 0 ..
+/// 2^b - 1 and means (2 q - (2^b - 1)) / (2^b - 1). Floats show the error without that rounding.
+enum class WeightFormat { float32, packed };
 
 /// Per receiver: its cluster and its weights, ready to be uploaded.
 struct ClusteredReceivers {
     WeightFormat format = WeightFormat::float32;
-    int components = 0;   ///< not packed: weights stored per receiver, max m_k rounded up to a multiple of 4
+    int components = 0;   ///< floats: weights stored per receiver, max m_k rounded up to a multiple of 4
     int cluster_bits = 0; ///< packed: the lowest bits of the first word, which hold the cluster
     int words = 0;        ///< packed: 32-bit words per receiver
     std::vector<std::uint16_t>
-        clusters; ///< [receivers]; packed: the same as in the words, for use on the CPU
-    std::vector<std::byte>
-        weights; ///< [receivers][components] of `format`, unused ones 0; or [receivers][words]
+        clusters;                   ///< [receivers]; packed: the same as in the words, for use on the CPU
+    std::vector<std::byte> weights; ///< [receivers][components] floats, unused ones 0; or [receivers][words]
     /// [receivers][guide rows]: coordinates of the guides, seen from their origins; a vertex shader has them
     /// from the mesh.
     std::vector<float> guides;
@@ -69,8 +64,8 @@ void pack_words(std::uint32_t cluster, int cluster_bits, const ClusterLayout& la
 void unpack_clusters(std::size_t clusters, std::size_t first, std::size_t count, const char* what,
                      ClusteredReceivers& receivers);
 
-/// Bytes that a game binds per receiver. Packed: whole 32-bit words. Else the cluster, padded to four bytes
-/// as glTF asks of vertex attributes, and the weights as vectors of four.
+/// Bytes that a game binds per receiver. Packed: whole 32-bit words. Floats: the cluster, padded to four
+/// bytes as glTF asks of vertex attributes, and the weights as vectors of four.
 std::size_t bytes_per_receiver(const ClusteredTransfer& transfer);
 
 /// Bits of them that are in use in the cluster that uses most: the rest is zeros, which

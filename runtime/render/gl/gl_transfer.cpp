@@ -16,20 +16,6 @@
 namespace prt {
 namespace {
 
-GLenum component_type(WeightFormat format) {
-    switch (format) {
-    case WeightFormat::packed:
-        return GL_UNSIGNED_INT;
-    case WeightFormat::snorm8:
-        return GL_BYTE;
-    case WeightFormat::snorm16:
-        return GL_SHORT;
-    case WeightFormat::float32:
-        break;
-    }
-    return GL_FLOAT;
-}
-
 // The header of ClusterLayout is installed and includes no shader's; the table may also be a texture, which
 // has no structs. So both sides have it, and here they meet.
 static_assert(sizeof(ClusterLayout) == sizeof(glm::uvec4) &&
@@ -40,9 +26,8 @@ static_assert(sizeof(ClusterLayout) == sizeof(glm::uvec4) &&
 } // namespace
 
 GlTransfer::GlTransfer(const ClusteredTransfer& transfer)
-    : format_(transfer.receivers.format), weight_vectors_(transfer.receivers.components / 4),
-      words_(transfer.receivers.words), defines_("#define PRT_COMPRESSED\n" + relight_defines(transfer)),
-      former_(transfer) {
+    : weight_vectors_(transfer.receivers.components / 4), words_(transfer.receivers.words),
+      defines_("#define PRT_COMPRESSED\n" + relight_defines(transfer)), former_(transfer) {
     clusters_ = make_buffer(std::span<const std::uint16_t>(transfer.receivers.clusters));
     weights_ = make_buffer(std::span<const std::byte>(transfer.receivers.weights));
     const std::vector<ClusterLayout> layouts = cluster_layouts(transfer.bases);
@@ -73,20 +58,20 @@ void GlTransfer::attach(std::uint32_t vertex_array, std::size_t first) const {
     const int attributes = words_ > 0 ? (words_ + 3) / 4 : weight_vectors_;
     if (attributes == 0)
         return;
-    const std::size_t size = words_ > 0 ? 16 : 4 * bytes_per_weight(format_),
-                      stride = words_ > 0 ? 4 * static_cast<std::size_t>(words_)
-                                          : size * static_cast<std::size_t>(weight_vectors_);
+    constexpr std::size_t kAttributeBytes = 16; // four words, or four floats
+    const std::size_t stride = words_ > 0 ? 4 * static_cast<std::size_t>(words_)
+                                          : kAttributeBytes * static_cast<std::size_t>(weight_vectors_);
     glVertexArrayVertexBuffer(vertex_array, kWeightBinding, weights_.name(),
                               static_cast<GLintptr>(first * stride), static_cast<GLsizei>(stride));
     for (int v = 0; v < attributes; ++v) {
         const auto location = static_cast<GLuint>(PRT_LOCATION_WEIGHTS + v);
-        const auto offset = static_cast<GLuint>(static_cast<std::size_t>(v) * size);
+        const auto offset = static_cast<GLuint>(static_cast<std::size_t>(v) * kAttributeBytes);
         glEnableVertexArrayAttrib(vertex_array, location);
         if (words_ > 0)
-            glVertexArrayAttribIFormat(vertex_array, location, std::min(4, words_ - 4 * v),
-                                       component_type(format_), offset);
+            glVertexArrayAttribIFormat(vertex_array, location, std::min(4, words_ - 4 * v), GL_UNSIGNED_INT,
+                                       offset);
         else
-            glVertexArrayAttribFormat(vertex_array, location, 4, component_type(format_), GL_TRUE, offset);
+            glVertexArrayAttribFormat(vertex_array, location, 4, GL_FLOAT, GL_FALSE, offset);
         glVertexArrayAttribBinding(vertex_array, location, kWeightBinding);
     }
 }

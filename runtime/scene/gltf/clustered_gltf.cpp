@@ -23,33 +23,19 @@ namespace {
 
 constexpr int kClusteredVersion = 6;
 
-int weight_component_type(WeightFormat format) {
-    switch (format) {
-    case WeightFormat::packed:
-        return TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
-    case WeightFormat::snorm8:
-        return TINYGLTF_COMPONENT_TYPE_BYTE;
-    case WeightFormat::snorm16:
-        return TINYGLTF_COMPONENT_TYPE_SHORT;
-    case WeightFormat::float32:
-        break;
-    }
-    return TINYGLTF_COMPONENT_TYPE_FLOAT;
+int component_type(WeightFormat format) {
+    return format == WeightFormat::packed ? TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE
+                                          : TINYGLTF_COMPONENT_TYPE_FLOAT;
 }
 
-WeightFormat weight_format(int component_type) {
-    switch (component_type) {
-    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
-        return WeightFormat::packed;
-    case TINYGLTF_COMPONENT_TYPE_BYTE:
-        return WeightFormat::snorm8;
-    case TINYGLTF_COMPONENT_TYPE_SHORT:
-        return WeightFormat::snorm16;
-    case TINYGLTF_COMPONENT_TYPE_FLOAT:
-        return WeightFormat::float32;
-    default:
-        throw Error("weights have component type " + std::to_string(component_type));
-    }
+/// Throws unless weights of `format` are of this type. Earlier programs wrote normalised integers, too.
+void check_component_type(const std::string& name, int type, WeightFormat format) {
+    if (type == TINYGLTF_COMPONENT_TYPE_BYTE || type == TINYGLTF_COMPONENT_TYPE_SHORT)
+        throw Error(std::string("weights '") + (type == TINYGLTF_COMPONENT_TYPE_BYTE ? "snorm8" : "snorm16") +
+                    "' are not supported: compress again with prt compress");
+    if (type != component_type(format))
+        throw Error(name + " has component type " + std::to_string(type) + ", not " +
+                    std::to_string(component_type(format)));
 }
 
 /// _PRT_CLUSTER: one or two bytes per vertex, aligned to four as glTF wants it.
@@ -64,9 +50,9 @@ std::size_t write_clusters(GltfContents& contents, std::span<const std::uint16_t
                                   {"type", "SCALAR"}});
 }
 
-/// Bytes of one _PRT_WEIGHTS_ attribute: four weights, or a word of packed ones.
+/// Bytes of one _PRT_WEIGHTS_ attribute: four floats, or a word of packed weights.
 std::size_t group_bytes(WeightFormat format) {
-    return format == WeightFormat::packed ? 4 : 4 * bytes_per_weight(format);
+    return format == WeightFormat::packed ? 4 : 4 * sizeof(float);
 }
 
 std::size_t group_count(const ClusteredReceivers& receivers) {
@@ -80,13 +66,10 @@ std::size_t write_weights(GltfContents& contents, const ClusteredReceivers& rece
     std::vector<std::byte> bytes(count * size);
     for (std::size_t i = 0; i < count; ++i)
         std::memcpy(&bytes[i * size], &receivers.weights[(first + i) * stride + group * size], size);
-    Json accessor = {{"bufferView", contents.add_buffer_view(bytes, size, true)},
-                     {"componentType", weight_component_type(receivers.format)},
-                     {"count", count},
-                     {"type", "VEC4"}};
-    if (receivers.format == WeightFormat::snorm8 || receivers.format == WeightFormat::snorm16)
-        accessor["normalized"] = true;
-    return contents.add_accessor(std::move(accessor));
+    return contents.add_accessor({{"bufferView", contents.add_buffer_view(bytes, size, true)},
+                                  {"componentType", component_type(receivers.format)},
+                                  {"count", count},
+                                  {"type", "VEC4"}});
 }
 
 /// Cluster indices of one vertex array.
@@ -112,9 +95,9 @@ void read_weights(const GltfContents& contents, const Json& attributes, std::siz
         const std::string name = "_PRT_WEIGHTS_" + std::to_string(group);
         const int accessor = attributes.at(name).get<int>();
         const auto& description = contents.model.accessors.at(static_cast<std::size_t>(accessor));
-        if (description.type != TINYGLTF_TYPE_VEC4 || description.count != count ||
-            weight_format(description.componentType) != receivers.format)
-            throw Error(name + " has another type or number than the others");
+        check_component_type(name, description.componentType, receivers.format);
+        if (description.type != TINYGLTF_TYPE_VEC4 || description.count != count)
+            throw Error(name + " is no VEC4 for each vertex");
         const std::vector<std::byte> elements = read_elements(contents.model, accessor);
         if (receivers.format == WeightFormat::float32)
             check_magnitudes(read_floats(contents.model, accessor, 4), kLargestWeight, "the weights");
@@ -155,15 +138,8 @@ void write_into(GltfContents& contents, const Scene& scene, const CompressedTran
     contents.use_extension(kClusteredExtension);
 }
 
-/// Room for the weights of all receivers, whose `attributes` name the first.
-void make_room(const GltfContents& contents, const Json& attributes, ClusteredReceivers& receivers) {
-    const bool packed = receivers.format == WeightFormat::packed;
-    if (!packed && receivers.components > 0) {
-        const auto first = attributes.at("_PRT_WEIGHTS_0").get<int>();
-        receivers.format = weight_format(get_accessor(contents.model, first).componentType);
-        if (receivers.format == WeightFormat::packed)
-            throw Error("_PRT_WEIGHTS_0 is packed, but the file does not say how");
-    }
+/// Room for the weights of all receivers.
+void make_room(const GltfContents& contents, ClusteredReceivers& receivers) {
     check_allowed(static_cast<double>(receivers.size()) * static_cast<double>(receivers.stride()),
                   contents.file_bytes, "its weights");
     receivers.weights.resize(receivers.size() * receivers.stride());
@@ -188,7 +164,7 @@ void read_receivers(const GltfContents& contents, const Json& attributes, const 
         read_clusters(contents, attributes, clusters,
                       std::span(receivers.clusters).subspan(vertices.first_receiver, vertices.size()));
     if (receivers.weights.empty())
-        make_room(contents, attributes, receivers);
+        make_room(contents, receivers);
     read_weights(contents, attributes, vertices.first_receiver, vertices.size(), receivers);
     if (packed)
         unpack_clusters(clusters, vertices.first_receiver, vertices.size(), "vertex", receivers);

@@ -36,7 +36,7 @@ TEST(Alternation, NeverLosesWhatARoundHasFound) {
         how.spending.bits = 33;
         std::mt19937_64 random(seed);
         const Clustering found = cluster_points(points, significance, how, random, {});
-        QuantisedClusters clusters = quantised_clusters(points, significance, found, std::nullopt, 1);
+        QuantisedClusters clusters = quantised_clusters(points, significance, found, WeightFormat::packed, 1);
         Codes codes;
         codes.clusters = found.clusters;
         encode_in_place(points, clusters, codes, 1);

@@ -52,10 +52,6 @@ TEST(CodeWeights, KeepWhatLiesOnAGridExactly) {
         some_clusters(9, random,
                       [](std::mt19937& r) { return WeightGrid::of_bits(1 + static_cast<int>(r() % 16)); }),
         random);
-    for (const int largest : {127, 32767})
-        expect_kept(
-            some_clusters(5, random, [&](std::mt19937&) { return WeightGrid::of_multiples(largest); }),
-            random);
 }
 
 TEST(CodeWeights, KeepFloatsWhereTheyMayBeAny) {

@@ -59,13 +59,13 @@ CompressedTransfer made_up_transfer(const Scene& scene) {
     transfer.bases.layout = layout_of_one(1, 1);
     transfer.bases.components = {1};
     transfer.bases.rows = {0, 1};
-    transfer.receivers.format = WeightFormat::snorm8;
     transfer.receivers.components = 4;
     transfer.receivers.clusters.resize(scene.receivers());
-    transfer.receivers.weights.resize(4 * scene.receivers());
+    std::vector<float> weights(4 * scene.receivers());
     for (std::size_t p = 0; p < scene.receivers(); ++p)
-        transfer.receivers.weights[4 * p] =
-            static_cast<std::byte>(p % 5 == 4 ? 0x90 : 30 * (p % 5)); // one below 0
+        weights[4 * p] = p % 5 == 4 ? -0.9f : 0.25f * static_cast<float>(p % 5);
+    const auto bytes = std::as_bytes(std::span(weights));
+    transfer.receivers.weights.assign(bytes.begin(), bytes.end());
     return compressed;
 }
 

@@ -93,8 +93,8 @@ TEST(Reorder, ByClusterPutsClustersSideBySideWithinEachArray) {
     scene.vertex_arrays[1].positions.resize(3);
     scene.vertex_arrays[1].first_receiver = 4;
     ClusteredReceivers receivers;
-    receivers.format = WeightFormat::snorm8;
-    receivers.components = 4;
+    receivers.format = WeightFormat::packed;
+    receivers.words = 1;
     receivers.clusters = {2, 0, 2, 1, 1, 0, 1};
     for (std::size_t i = 0; i < 28; ++i)
         receivers.weights.push_back(static_cast<std::byte>(i));
@@ -102,7 +102,7 @@ TEST(Reorder, ByClusterPutsClustersSideBySideWithinEachArray) {
     EXPECT_EQ(order, (std::vector<std::uint32_t>{1, 3, 0, 2, 5, 4, 6}));
     const ClusteredReceivers moved = reordered(receivers, order);
     EXPECT_EQ(moved.clusters, (std::vector<std::uint16_t>{0, 1, 2, 2, 0, 1, 1}));
-    EXPECT_EQ(moved.weights[5], std::byte{13}); // receiver 3, second weight
+    EXPECT_EQ(moved.weights[5], std::byte{13}); // receiver 3, second byte
 }
 
 TEST(Reorder, OtherScenesDoNotMatch) {

@@ -83,16 +83,11 @@ CompressedTransfer random_compressed(const Scene& scene, int clusters, WeightFor
     r.components = (b.max_components() + 3) / 4 * 4;
     for (std::size_t p = 0; p < scene.receivers(); ++p)
         r.clusters.push_back(static_cast<std::uint16_t>(random() % static_cast<unsigned>(clusters)));
-    r.weights.resize(scene.receivers() * static_cast<std::size_t>(r.components) * bytes_per_weight(format));
-    if (format == WeightFormat::float32) {
-        std::vector<float> floats(r.weights.size() / sizeof(float));
-        for (float& v : floats)
-            v = static_cast<float>(random() % 1000) / 100 - 5;
-        std::memcpy(r.weights.data(), floats.data(), r.weights.size());
-        return c;
-    }
-    for (std::byte& v : r.weights)
-        v = static_cast<std::byte>(random() % 127);
+    std::vector<float> floats(scene.receivers() * static_cast<std::size_t>(r.components));
+    for (float& v : floats)
+        v = static_cast<float>(random() % 1000) / 100 - 5;
+    const auto bytes = std::as_bytes(std::span(floats));
+    r.weights.assign(bytes.begin(), bytes.end());
     return c;
 }
 
@@ -230,8 +225,8 @@ TEST(TransferInGltf, WhatIsUnknownSurvives) {
 class Weights : public testing::TestWithParam<std::pair<WeightFormat, int>> {};
 INSTANTIATE_TEST_SUITE_P(
     Formats, Weights,
-    testing::Values(std::pair{WeightFormat::float32, 3}, std::pair{WeightFormat::snorm16, 256},
-                    std::pair{WeightFormat::snorm8, 257}, std::pair{WeightFormat::snorm8, 1},
+    testing::Values(std::pair{WeightFormat::float32, 3}, std::pair{WeightFormat::float32, 256},
+                    std::pair{WeightFormat::float32, 257}, std::pair{WeightFormat::float32, 1},
                     std::pair{WeightFormat::packed, 1}, std::pair{WeightFormat::packed, 300}));
 
 TEST_P(Weights, CompressedTransferComesBackExactly) {
@@ -248,9 +243,7 @@ TEST_P(Weights, CompressedTransferComesBackExactly) {
     EXPECT_EQ(read->transfer.bases.components, c.transfer.bases.components);
     EXPECT_EQ(read->transfer.bases.rows, c.transfer.bases.rows);
     EXPECT_EQ(read->transfer.bases.bits, c.transfer.bases.bits);
-    if (c.transfer.bases.max_components() > 0 || format == WeightFormat::packed) {
-        EXPECT_EQ(read->transfer.receivers.format, format); // without weights there is no format
-    }
+    EXPECT_EQ(read->transfer.receivers.format, format);
     EXPECT_EQ(read->transfer.receivers.words, c.transfer.receivers.words);
     EXPECT_EQ(read->transfer.receivers.clusters, c.transfer.receivers.clusters);
     EXPECT_EQ(read->transfer.receivers.weights, c.transfer.receivers.weights);
@@ -267,7 +260,7 @@ TEST(TransferInGltf, CompressingTakesTheRawVectorsOut) {
 
     GltfDocument baked = load_gltf(files.written);
     const Scene baked_scene = extract_scene(baked);
-    write_clustered(baked, baked_scene, random_compressed(baked_scene, 2, WeightFormat::snorm8));
+    write_clustered(baked, baked_scene, random_compressed(baked_scene, 2, WeightFormat::packed));
     save_glb(baked, files.written);
     EXPECT_LT(std::filesystem::file_size(files.written) + scene.receivers() * 1000, baked_size);
     const auto json = test::read_glb(files.written).json;
@@ -284,7 +277,7 @@ TEST(TransferInGltf, WritingTwiceIsWritingOnce) {
         GltfDocument document = load_gltf(time == 0 ? files.source : files.written);
         const Scene scene = extract_scene(document);
         if (time % 2 == 1)
-            write_clustered(document, scene, random_compressed(scene, 2, WeightFormat::snorm8));
+            write_clustered(document, scene, random_compressed(scene, 2, WeightFormat::packed));
         write_transfer(document, scene, random_bake(scene, 3, 1));
         save_glb(document, files.folder / ("size" + std::to_string(time)));
         save_glb(document, files.written);
@@ -352,7 +345,7 @@ TEST(TransferInGltf, DamagedPackedTransferIsRefused) {
 }
 
 TEST(TransferInGltf, DamagedTransferIsRefused) {
-    const Damage read_changed(WeightFormat::snorm8);
+    const Damage read_changed(WeightFormat::float32);
     EXPECT_NO_THROW(read_changed([](auto&) {}));
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["version"] = 99; }), Error);
     EXPECT_THROW(read_changed([&](auto& j) { extension(j)["order"] = 11; }), Error);
@@ -374,7 +367,7 @@ TEST(TransferInGltf, DamagedTransferIsRefused) {
 }
 
 TEST(TransferInGltf, PrimitivesOfTheSameVerticesAreInTheSameClusters) {
-    const Damage read_changed(WeightFormat::snorm8);
+    const Damage read_changed(WeightFormat::float32);
     const auto doubled = [](auto& j) -> auto& {
         auto& primitives = j["meshes"][0]["primitives"];
         primitives.push_back(primitives[0]);
@@ -392,6 +385,23 @@ std::string refusal(const Damage& read_changed, const std::function<void(GlbFile
         return error.what();
     }
     return "was read";
+}
+
+TEST(TransferInGltf, NormalisedIntegersAreRefusedByName) {
+    const Damage read_changed(WeightFormat::float32);
+    for (const auto& [type, name] :
+         {std::pair(test::kByte, "'snorm8'"), std::pair(test::kShort, "'snorm16'")}) {
+        const std::string said = refusal(read_changed, [&, type = type](GlbFile& file) {
+            const auto& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+            auto& accessor = file.json["accessors"][attributes["_PRT_WEIGHTS_0"].get<std::size_t>()];
+            accessor["componentType"] = type;
+            accessor["normalized"] = true;
+        });
+        EXPECT_NE(said.find(std::string("weights ") + name +
+                            " are not supported: compress again with prt compress"),
+                  std::string::npos)
+            << said;
+    }
 }
 
 /// Puts `value` over float `index` of a buffer view.
@@ -477,7 +487,7 @@ TEST(TransferInGltf, WeightsAndVectorsAreFiniteAndNotHuge) {
 }
 
 TEST(TransferInGltf, WhatTheFileDoesNotHoldIsNotAllocated) {
-    const Damage read_plain(WeightFormat::snorm8), read_coded(WeightFormat::packed);
+    const Damage read_plain(WeightFormat::float32), read_coded(WeightFormat::packed);
     const auto many_clusters = [](GlbFile& file) {
         extension(file.json)["components"] = std::vector<int>(65536, 27);
     };

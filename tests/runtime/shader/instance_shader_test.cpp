@@ -129,7 +129,7 @@ TEST(InstanceShader, BlocksAndManyWeightsAreRefused) {
     ClusteredTransfer mesh = random_mesh(random);
     EXPECT_THROW(instance_shader(mesh, ConstantSource::block), Error);
     EXPECT_THROW(instance_shader(mesh, ConstantSource::buffer, ShaderLanguage::essl300), Error);
-    mesh.receivers.format = WeightFormat::snorm8;
+    mesh.receivers.format = WeightFormat::float32;
     mesh.bases.components.front() = 25;
     EXPECT_THROW(instance_shader(mesh), Error);
 }

@@ -59,20 +59,15 @@ void bind_receivers(const ClusteredReceivers& receivers) {
     const auto stride = static_cast<GLsizei>(receivers.stride());
     const bool packed = receivers.format == WeightFormat::packed;
     const int vectors = packed ? (receivers.words + 3) / 4 : receivers.components / 4;
-    const std::size_t size = packed ? 16 : 4 * bytes_per_weight(receivers.format);
     for (int v = 0; v < vectors; ++v) {
         const auto location = static_cast<GLuint>(PRT_LOCATION_WEIGHTS + v);
-        const auto* offset = reinterpret_cast<const void*>(static_cast<std::size_t>(v) * size);
+        const auto* offset = reinterpret_cast<const void*>(16 * static_cast<std::size_t>(v));
         glEnableVertexAttribArray(location);
         if (packed)
             glVertexAttribIPointer(location, std::min(4, receivers.words - 4 * v), GL_UNSIGNED_INT, stride,
                                    offset);
         else
-            glVertexAttribPointer(location, 4,
-                                  receivers.format == WeightFormat::snorm8    ? GL_BYTE
-                                  : receivers.format == WeightFormat::snorm16 ? GL_SHORT
-                                                                              : GL_FLOAT,
-                                  GL_TRUE, stride, offset);
+            glVertexAttribPointer(location, 4, GL_FLOAT, GL_FALSE, stride, offset);
     }
     if (packed)
         return;

@@ -107,8 +107,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShaderVariants,
                                          Variant{ShaderLanguage::essl300, ConstantSource::block},
                                          Variant{ShaderLanguage::essl300, ConstantSource::texture}));
 
-constexpr WeightFormat kFormats[] = {WeightFormat::packed, WeightFormat::snorm8, WeightFormat::snorm16,
-                                     WeightFormat::float32};
+constexpr WeightFormat kFormats[] = {WeightFormat::packed, WeightFormat::float32};
 
 TEST_P(ShaderVariants, ComputeWhatCppComputes) {
     for (const WeightFormat format : kFormats) {
@@ -133,7 +132,7 @@ TEST(ConstantsShader, FormsWhatCppForms) {
     ASSERT_TRUE(context);
     const Light light = random_light();
     std::vector<ClusteredTransfer> transfers = {compressed(WeightFormat::packed),
-                                                compressed(WeightFormat::snorm8)};
+                                                compressed(WeightFormat::float32)};
     for (const auto& [first, second] :
          {std::pair(1, 3), std::pair(3, 1)}) { // rows of four channels as those of parts
         transfers.push_back(transfers[1]);

@@ -51,35 +51,22 @@ ClusteredTransfer random_transfer(const Shape& shape, std::mt19937& random) {
         t.receivers.clusters.push_back(cluster);
         for (int j = 0; j < 8; ++j) {
             const bool used = j < t.bases.components[cluster];
-            const auto push = [&](auto value) {
-                const auto* bytes = reinterpret_cast<const std::byte*>(&value);
-                t.receivers.weights.insert(t.receivers.weights.end(), bytes, bytes + sizeof value);
-            };
-            switch (shape.format) {
-            case WeightFormat::float32:
-                push(used ? normal(random) : 0.0f);
-                break;
-            case WeightFormat::snorm16:
-                push(static_cast<std::int16_t>(used ? random() : 0));
-                break;
-            case WeightFormat::snorm8:
-                push(static_cast<std::int8_t>(used ? random() : 0));
-                break;
-            case WeightFormat::packed:
-                break;
-            }
+            const float weight = used ? normal(random) : 0.0f;
+            const auto* bytes = reinterpret_cast<const std::byte*>(&weight);
+            t.receivers.weights.insert(t.receivers.weights.end(), bytes, bytes + sizeof weight);
         }
     }
     return t;
 }
 
 class Clustered : public testing::TestWithParam<Shape> {};
-INSTANTIATE_TEST_SUITE_P(
-    Shapes, Clustered,
-    testing::Values(Shape{1, 1, WeightFormat::float32}, Shape{3, 1, WeightFormat::snorm8},
-                    Shape{6, 3, WeightFormat::snorm16}, Shape{10, 3, WeightFormat::snorm8},
-                    Shape{4, 3, WeightFormat::float32}, Shape{6, 1, WeightFormat::packed},
-                    Shape{3, 3, WeightFormat::packed}));
+INSTANTIATE_TEST_SUITE_P(Shapes, Clustered,
+                         testing::Values(Shape{1, 1, WeightFormat::float32},
+                                         Shape{6, 3, WeightFormat::float32},
+                                         Shape{4, 3, WeightFormat::float32},
+                                         Shape{3, 1, WeightFormat::packed}, Shape{6, 1, WeightFormat::packed},
+                                         Shape{3, 3, WeightFormat::packed},
+                                         Shape{10, 3, WeightFormat::packed}));
 
 TEST_P(Clustered, RadianceThroughConstantsEqualsDecodedTransferTimesLight) {
     for (const std::vector<GuideKind>& guides : test::sets_of_guides()) {
@@ -135,20 +122,6 @@ TEST(Guides, AddScaledCoordinatesLessTheCenterOfTheCluster) {
     EXPECT_EQ(bytes_per_receiver(t), 20u); // of guides none
 }
 
-TEST(ClusteredTransfer, IntegersDecodeAsInOpenGl) {
-    ClusteredTransfer transfer;
-    transfer.bases.layout = layout_of_one(1, 1);
-    transfer.bases.components = {4};
-    ClusteredReceivers& receivers = transfer.receivers;
-    receivers.format = WeightFormat::snorm8;
-    receivers.components = 4;
-    receivers.clusters = {0};
-    receivers.weights = {std::byte{127}, std::byte{0x81}, std::byte{0x80}, std::byte{0}};
-    std::vector<float> weights(4);
-    decode_weights(transfer, cluster_layouts(transfer.bases), 0, weights);
-    EXPECT_EQ(weights, (std::vector<float>{1, -1, -1, 0})); // 127, -127, -128, 0
-}
-
 TEST(ClusteredTransfer, PackedWeightsLieWhereTheFormatSays) {
     ClusteredTransfer transfer;
     transfer.bases.layout = layout_of_one(1, 1);
@@ -187,13 +160,13 @@ TEST(ClusteredTransfer, BytesPerReceiverAreThoseOfTheArraysThatAreBound) {
     EXPECT_EQ(10 * bytes_per_receiver(packed), packed.receivers.weights.size());
     EXPECT_EQ(bits_per_receiver(packed), 34u);
 
-    ClusteredTransfer bytes = packed;
-    bytes.receivers.format = WeightFormat::snorm8;
-    bytes.receivers.components = 4; // three in use
-    bytes.receivers.weights.assign(40, std::byte{0});
-    EXPECT_EQ(10 * bytes_per_receiver(bytes),
-              bytes.receivers.weights.size() + 40); // the cluster's byte is padded to four
-    EXPECT_EQ(bits_per_receiver(bytes), 8u + 3 * 8);
+    ClusteredTransfer floats = packed;
+    floats.receivers.format = WeightFormat::float32;
+    floats.receivers.components = 4; // three in use
+    floats.receivers.weights.assign(160, std::byte{0});
+    EXPECT_EQ(10 * bytes_per_receiver(floats),
+              floats.receivers.weights.size() + 40); // the cluster's byte is padded to four
+    EXPECT_EQ(bits_per_receiver(floats), 8u + 3 * 32);
 }
 
 TEST(ClusteredTransfer, ALightOfHigherOrderIsCutAndALowerOneRefused) {
@@ -205,10 +178,11 @@ TEST(ClusteredTransfer, ALightOfHigherOrderIsCutAndALowerOneRefused) {
     EXPECT_THROW(exit_radiance(transfer, truncated(light, 2)), Error);
 }
 
-/// Runs of a cluster are evaluated sixteen at a time: against the definition, weight by weight.
+/// Against the definition, weight by weight.
 TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
     std::mt19937 random(11);
     std::normal_distribution<float> normal;
+    std::uniform_real_distribution<float> unit(-1, 1);
     for (const int components : {0, 1, 5, 8, 12}) {
         const std::vector<GuideKind>& guides =
             test::sets_of_guides()[static_cast<std::size_t>(components) % 4];
@@ -217,15 +191,14 @@ TEST(Evaluate, RunsOfAClusterAreWhatTheirReceiversAre) {
         t.bases.components = {components, components > 2 ? components - 2 : 0};
         for (std::size_t i = 0; i < constant_rows(t.bases); ++i)
             t.bases.rows.push_back(normal(random));
-        t.receivers.format = WeightFormat::snorm8;
         t.receivers.components = (components + 3) / 4 * 4;
         for (int p = 0; p < 100; ++p) // 40, then 33, then single ones
             t.receivers.clusters.push_back(static_cast<std::uint16_t>(p < 40 ? 1 : p < 73 ? 0 : p % 2));
-        t.receivers.weights.resize(100 * t.receivers.stride());
-        for (std::byte& b : t.receivers.weights)
-            b = static_cast<std::byte>(random());
-        if (!t.receivers.weights.empty())
-            t.receivers.weights[0] = std::byte{0x80}; // -128 stands for -1 as -127 does
+        std::vector<float> stored(100 * static_cast<std::size_t>(t.receivers.components));
+        for (float& weight : stored)
+            weight = unit(random);
+        const auto bytes = std::as_bytes(std::span(stored));
+        t.receivers.weights.assign(bytes.begin(), bytes.end());
         test::add_guides(t, guides, random);
         std::vector<glm::vec4> constants(constant_rows(t.bases));
         for (glm::vec4& c : constants)

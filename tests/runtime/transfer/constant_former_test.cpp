@@ -49,8 +49,8 @@ struct Kind {
 };
 class Constants : public testing::TestWithParam<Kind> {};
 INSTANTIATE_TEST_SUITE_P(Kinds, Constants,
-                         testing::Values(Kind{1, 1, WeightFormat::float32}, Kind{6, 1, WeightFormat::snorm8},
-                                         Kind{6, 3, WeightFormat::snorm8}, Kind{6, 3, WeightFormat::packed},
+                         testing::Values(Kind{1, 1, WeightFormat::float32}, Kind{6, 1, WeightFormat::float32},
+                                         Kind{6, 3, WeightFormat::float32}, Kind{6, 3, WeightFormat::packed},
                                          Kind{10, 3, WeightFormat::packed}));
 
 TEST_P(Constants, AreDotProductsOfRowsAndLight) {
@@ -115,7 +115,7 @@ TEST(ConstantsOfParts, AreTheSumOfEachUnderItsLight) {
     for (const auto& [direct, indirect] :
          {std::pair(1, 1), std::pair(1, 3), std::pair(3, 1), std::pair(3, 3)}) {
         const TransferLayout layout{5, {{PartKind::direct, direct}, {PartKind::indirect, indirect}}};
-        const ClusteredTransfer t = random_transfer(layout, WeightFormat::snorm8);
+        const ClusteredTransfer t = random_transfer(layout, WeightFormat::float32);
         const Light sky = random_light(6), suns = directional_light(5, {0, 1, 0}, {3, 2, 1});
         const ConstantFormer former(t);
         std::vector<glm::vec4> constants(former.rows());
@@ -146,7 +146,7 @@ TEST(ConstantsOfParts, AreLitByLampsBesideTheSkyAndAlone) {
             layout.parts = {{PartKind::whole, 3}};
         layout.parts.push_back({PartKind::lamp, 1, "white"});
         layout.parts.push_back({PartKind::lamp, 3, "red"});
-        const ClusteredTransfer t = random_transfer(layout, WeightFormat::snorm8);
+        const ClusteredTransfer t = random_transfer(layout, WeightFormat::float32);
         Lighting lighting{random_light(4)};
         lighting.lamps = {{1, 2, 3}, {0, 5, 1}};
         const ConstantFormer former(t);
@@ -174,7 +174,7 @@ TEST_P(Constants, FormedInPartsAreTheSame) {
 }
 
 TEST(Constants, BlendAsTheLightsDo) {
-    const ClusteredTransfer t = random_transfer(4, 1, WeightFormat::snorm8);
+    const ClusteredTransfer t = random_transfer(4, 1, WeightFormat::float32);
     const ConstantFormer former(t);
     const Light a = random_light(4), b = constant_light(4, {1, 2, 3});
     std::vector<glm::vec4> of_a(former.rows()), of_b(former.rows()), of_blend(former.rows()),
@@ -188,7 +188,7 @@ TEST(Constants, BlendAsTheLightsDo) {
 }
 
 TEST(Constants, LightOfFewerBandsIsRefused) {
-    const ConstantFormer former(random_transfer(4, 1, WeightFormat::snorm8));
+    const ConstantFormer former(random_transfer(4, 1, WeightFormat::float32));
     std::vector<glm::vec4> constants(former.rows());
     EXPECT_THROW(former.form(constant_light(3, {1, 1, 1}).coefficients, constants), Error);
     EXPECT_NO_THROW(former.form(constant_light(5, {1, 1, 1}).coefficients, constants)); // more do no harm

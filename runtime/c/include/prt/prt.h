@@ -91,12 +91,8 @@ PRT_API prt_status prt_model_load_memory(const void* bytes, size_t size, prt_mod
                                          prt_message* message);
 PRT_API void prt_model_destroy(prt_model* model); /* null is fine */
 
-typedef enum prt_weight_format {
-    PRT_FLOAT32 = 0,
-    PRT_SNORM16 = 1,
-    PRT_SNORM8 = 2,
-    PRT_PACKED = 3
-} prt_weight_format;
+/* 1 and 2 were formats that are no more. */
+typedef enum prt_weight_format { PRT_FLOAT32 = 0, PRT_PACKED = 3 } prt_weight_format;
 
 typedef struct prt_model_info {
     int order, channels;

@@ -30,7 +30,6 @@ public:
     std::size_t bytes() const { return bytes_; }
 
 private:
-    WeightFormat format_;
     int weight_vectors_ = 0, words_ = 0;
     std::string defines_;
     ConstantFormer former_;
