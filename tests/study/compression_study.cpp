@@ -47,9 +47,10 @@ std::vector<Light> lights_of(const StudyArguments& arguments, int order) {
     return {constant_light(order, glm::vec3(1)), overcast_sky(order, glm::vec3(1)), as_light(sun, order)};
 }
 
-/// A bar of one line on the terminal.
-Progress progress_line() {
-    return {[shown = -1](double share) mutable {
+/// One line on the terminal. Keeps a reference to `shown`, the per cent that it shows: parts of the progress
+/// are copies that share it.
+Progress progress_line(int& shown) {
+    return {[&shown](double share) {
                 const int percent = static_cast<int>(100 * share);
                 if (percent == shown)
                     return;
@@ -75,8 +76,9 @@ Sweep run_sweep(const StudyArguments& arguments) {
     std::vector<SweepCandidate> others = residual_vq_candidates(transfer, options.seed);
     std::vector<SweepCandidate> moving = moving_basis_candidates(transfer, surface.view(), arguments.threads);
     std::move(moving.begin(), moving.end(), std::back_inserter(others));
+    int shown = -1;
     return sweep(transfer, surface.view(), lights_of(arguments, transfer.layout.order), options, others,
-                 progress_line());
+                 progress_line(shown));
 }
 
 void run(const StudyArguments& arguments) {
