@@ -71,7 +71,7 @@ optimised() {
 
 # Needs the build of `sanitize`.
 web() {
-    check_page sanitize knot 16 'knot, small: the picture|knot: drawn by WebGPU|damaged'
+    check_page sanitize knot 16 '^knot, (small|normal): |^knot: with suns apart|without transfer'
 }
 
 # Needs the build of `optimised`.

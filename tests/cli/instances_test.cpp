@@ -20,11 +20,7 @@ namespace shared_transfer {
 class SharedInstances : public Road {
 protected:
     void make(const char* scene) {
-#ifdef PRT_EXAMPLE_SCENES
         ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), scene, "sky"}).status, 0);
-#else
-        GTEST_SKIP() << "the example scenes are not built";
-#endif
     }
     Outcome bake(const char* scene, const char* output, const char* mode,
                  const std::vector<std::string>& options = {}) {

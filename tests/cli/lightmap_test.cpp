@@ -19,13 +19,7 @@ class Lightmaps : public Road {
 protected:
     static constexpr const char* kScene = "plain_room.glb";
 
-    void SetUp() override {
-#ifdef PRT_EXAMPLE_SCENES
-        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "plain_room", "sky"}).status, 0);
-#else
-        GTEST_SKIP() << "the example scenes are not built";
-#endif
-    }
+    void SetUp() override { copy_examples(folder.path(), {"plain_room", "sky"}); }
     Outcome bake(const std::vector<std::string>& options, const char* output = "baked.glb") {
         std::vector<std::string> arguments = {"bake",   at(kScene), "-o",      at(output),
                                               "--rays", "16",       "--order", "3"};

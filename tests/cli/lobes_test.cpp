@@ -18,13 +18,7 @@ namespace {
 
 class LobesCommand : public Road {
 protected:
-    void SetUp() override {
-#ifdef PRT_EXAMPLE_SCENES
-        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "figure"}).status, 0);
-#else
-        GTEST_SKIP() << "the example scenes are not built";
-#endif
-    }
+    void SetUp() override { copy_examples(folder.path(), {"figure"}); }
     Outcome lobes(const char* model, std::vector<std::string> options = {}) {
         options.insert(options.begin(), {"lobes", at(model), "-o", at("out.glb")});
         return prt(options);

@@ -12,7 +12,6 @@
 namespace prt::test {
 namespace {
 
-#ifdef PRT_EXAMPLE_SCENES
 /// A bake, or another command, that takes minutes.
 class LongWork : public Road, public testing::WithParamInterface<std::vector<const char*>> {};
 INSTANTIATE_TEST_SUITE_P(Phases, LongWork,
@@ -36,7 +35,7 @@ bool minds_interrupts(pid_t process) {
 }
 
 TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "room"}).status, 0);
+    copy_examples(folder.path(), {"room"});
     const std::size_t before = folder.files();
     const std::string scene = at("room.glb"), output = at("b.glb");
     const pid_t child = fork();
@@ -63,14 +62,13 @@ TEST_P(LongWork, IsEndedByCtrlCAndLeavesNothing) {
     EXPECT_EQ(folder.files(), before);
 }
 TEST_F(Road, TooLargeABakeIsRefusedWithItsSize) {
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "room"}).status, 0);
+    copy_examples(folder.path(), {"room"});
     const Outcome bake =
         prt({"bake", at("room.glb"), "-o", at("b.glb"), "--rays", "16777216", "--bounces", "1"});
     EXPECT_EQ(bake.status, 1);
     EXPECT_NE(bake.err.find(" GB of memory"), std::string::npos) << bake.err;
     EXPECT_FALSE(std::filesystem::exists(folder / "b.glb"));
 }
-#endif
 
 } // namespace
 } // namespace prt::test

@@ -22,12 +22,9 @@ std::vector<std::string> arguments_of(const std::string& line) {
     return arguments;
 }
 
-#ifdef PRT_EXAMPLE_SCENES
 class Make : public Road {
 protected:
-    void SetUp() override {
-        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "knot", "sky"}).status, 0);
-    }
+    void SetUp() override { copy_examples(folder.path(), {"knot", "sky"}); }
     Outcome make(std::vector<std::string> options) const {
         options.insert(options.begin(), {"make", at("knot.glb"), "-o", at("s.glb"), "--lights", at("sky.exr"),
                                          "--json", at("m.json")});
@@ -90,7 +87,6 @@ TEST_F(Make, TellsBouncesThatWereNotBaked) {
     EXPECT_GT(report["budget"][0]["bounces_error"], 0.1);
     EXPECT_LT(report["total_error_with_advice"], 0.1);
 }
-#endif
 
 TEST_F(Road, RefusesBudgetsOfWhatPathsCannotTell) {
     triangle_file().write(folder / "t.glb");

@@ -13,13 +13,7 @@ namespace {
 
 class OccluderCommand : public Road {
 protected:
-    void SetUp() override {
-#ifdef PRT_EXAMPLE_SCENES
-        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "figure"}).status, 0);
-#else
-        GTEST_SKIP() << "the example scenes are not built";
-#endif
-    }
+    void SetUp() override { copy_examples(folder.path(), {"figure"}); }
     Outcome ao(const std::vector<std::string>& options) {
         std::vector<std::string> arguments = {"ao", at("figure.glb"), "-o", at("out.glb"), "--volume"};
         arguments.insert(arguments.end(), options.begin(), options.end());

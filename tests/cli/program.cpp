@@ -1,11 +1,13 @@
 #include "program.h"
 
+#include "support/made_once.h"
 #include "support/temporary_folder.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <stdexcept>
 
 #include <sys/wait.h>
 
@@ -47,6 +49,32 @@ Outcome prt(const std::vector<std::string>& arguments) {
     std::vector<std::string> with_environment = {"ASAN_OPTIONS=detect_leaks=0", PRT_PROGRAM};
     with_environment.insert(with_environment.end(), arguments.begin(), arguments.end());
     return run("env", with_environment);
+}
+
+void prt_once(const std::string& key, const std::vector<std::string>& arguments,
+              const std::filesystem::path& to) {
+    made_once(key, to, [&](const std::filesystem::path& path) {
+        std::vector<std::string> all = arguments;
+        all.insert(all.end(), {"-o", path.string()});
+        const Outcome outcome = prt(all);
+        if (outcome.status != 0)
+            throw std::runtime_error(outcome.err);
+    });
+}
+
+std::filesystem::path fixture(const std::string& name) {
+    const std::filesystem::path path = std::filesystem::path(PRT_FIXTURES) / name;
+    if (!std::filesystem::exists(path))
+        throw std::runtime_error(path.string() + " is missing: ctest -R models makes it");
+    return path;
+}
+
+void copy_examples(const std::filesystem::path& folder, const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        const bool scene = std::filesystem::exists(std::filesystem::path(PRT_FIXTURES) / (name + ".glb"));
+        const std::string file = name + (scene ? ".glb" : ".exr");
+        std::filesystem::copy_file(fixture(file), folder / file);
+    }
 }
 
 } // namespace prt::test

@@ -10,9 +10,8 @@
 namespace prt::test {
 namespace {
 
-#ifdef PRT_EXAMPLE_SCENES
 TEST_F(Road, RefinesAndSaysWhatItDid) {
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "plain_room"}).status, 0);
+    copy_examples(folder.path(), {"plain_room"});
     const Outcome bake = prt({"bake", at("plain_room.glb"), "-o", at("b.glb"), "--order", "3", "--rays", "64",
                               "--refine", "0.1", "--json", at("b.json"), "--backend", "cpu"});
     ASSERT_EQ(bake.status, 0) << bake.err;
@@ -35,7 +34,7 @@ TEST_F(Road, RefinesAndSaysWhatItDid) {
 }
 
 TEST_F(Road, KeepsToTheVerticesThatARefinementMayHave) {
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "plain_room"}).status, 0);
+    copy_examples(folder.path(), {"plain_room"});
     const Outcome bake = prt({"bake", at("plain_room.glb"), "-o", at("b.glb"), "--order", "3", "--rays", "64",
                               "--refine", "0.05", "--most-vertices", "600", "--backend", "cpu"});
     ASSERT_EQ(bake.status, 0) << bake.err;
@@ -44,7 +43,6 @@ TEST_F(Road, KeepsToTheVerticesThatARefinementMayHave) {
     EXPECT_LE(vertices, 600);
     EXPECT_GT(vertices, 580);
 }
-#endif
 
 TEST_F(Road, RefusesRefinementOfWhatItCannotMeasure) {
     triangle_file().write(folder / "t.glb");

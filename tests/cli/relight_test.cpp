@@ -21,8 +21,8 @@ class Relight : public testing::Test {
 protected:
     void SetUp() override {
         scene_file(SceneBuilder().floor({0, 0, 0}, 1, 2).build()).write(folder / "s.glb");
-        ASSERT_EQ(prt({"bake", at("s.glb"), "-o", at("b.glb"), "--rays", "256", "--order", "4"}).status, 0);
-        ASSERT_EQ(prt({"compress", at("b.glb"), "-o", at("c.glb")}).status, 0);
+        prt_once("b.glb", {"bake", at("s.glb"), "--rays", "256", "--order", "4"}, folder / "b.glb");
+        prt_once("c.glb", {"compress", at("b.glb")}, folder / "c.glb");
         folder.file("sun.json",
                     R"({"prtkit_light": 1, "order": 4, "coefficients": {"red": [1.7724539, 0, 0, 0, 0,
             0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0], "green": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],

@@ -32,12 +32,11 @@ TEST_F(Road, NoticesOfTheSceneAreSaidOnceAndStandInTheReports) {
     }
 }
 
-#ifdef PRT_EXAMPLE_SCENES
 class ExampleRoad : public Road, public testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Scenes, ExampleRoad, testing::Values("knot", "room", "terrain", "tree"));
 
 TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), GetParam(), "sky"}).status, 0);
+    copy_examples(folder.path(), {GetParam(), "sky"});
     const std::string scene = at((std::string(GetParam()) + ".glb").c_str());
     const Outcome bake =
         prt({"bake", scene, "-o", at("b.glb"), "--rays", "32", "--order", "4", "--json", at("b.json")});
@@ -86,7 +85,7 @@ TEST_P(ExampleRoad, LeadsFromSceneToPictures) {
 TEST_F(Road, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
     if (std::string(PRT_NODE).empty())
         GTEST_SKIP() << "node is not installed";
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "knot"}).status, 0);
+    copy_examples(folder.path(), {"knot"});
     ASSERT_EQ(
         prt({"bake", at("knot.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "3", "--bounces", "1"})
             .status,
@@ -114,7 +113,6 @@ TEST_F(Road, ADecoderWrittenFromTheFormatPageFindsTheSameError) {
         EXPECT_NEAR(lit_rms, expected_lit_rms, 1e-5 * expected_lit_rms);
     }
 }
-#endif
 
 TEST_F(Road, FilesWrittenFromDemandingScenesAreValidGltf) {
     demanding_file().write(folder / "d.glb");
@@ -183,9 +181,8 @@ TEST_F(Road, SameSeedSameBytesWhateverTheThreads) {
     EXPECT_EQ(read_file(folder / "c1"), read_file(folder / "c2"));
 }
 
-#ifdef PRT_EXAMPLE_SCENES
 TEST_F(Road, BouncesOnTheGpuLandInTheFileAndItsReport) {
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "tree"}).status, 0);
+    copy_examples(folder.path(), {"tree"});
     const Outcome bake = prt({"bake", at("tree.glb"), "-o", at("b.glb"), "--rays", "16", "--order", "2",
                               "--bounces", "2", "--backend", "gpu", "--json", at("b.json")});
     ASSERT_EQ(bake.status, 0) << bake.err;
@@ -217,7 +214,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, LampRoad,
 
 TEST_P(LampRoad, BakesTheLampsOfAScene) {
     const auto& [name, group, lights, lamps] = GetParam();
-    ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), name}).status, 0);
+    copy_examples(folder.path(), {name});
     const std::string scene = at((std::string(name) + ".glb").c_str());
     const Outcome bake = prt({"bake", scene, "-o", at("b.glb"), "--rays", "2", "--order", "1", "--lamp-rays",
                               "1", "--lamp-group", group, "--json", at("b.json")});
@@ -230,8 +227,6 @@ TEST_P(LampRoad, BakesTheLampsOfAScene) {
     if (validator_errors(scene) < 0)
         GTEST_SKIP() << "gltf-validator is not installed";
 }
-
-#endif
 
 } // namespace
 } // namespace prt::test

@@ -21,13 +21,7 @@ class Volumes : public Road {
 protected:
     static constexpr const char* kScene = "plain_room.glb";
 
-    void SetUp() override {
-#ifdef PRT_EXAMPLE_SCENES
-        ASSERT_EQ(run(PRT_EXAMPLE_SCENES, {folder.path().string(), "plain_room", "sky"}).status, 0);
-#else
-        GTEST_SKIP() << "the example scenes are not built";
-#endif
-    }
+    void SetUp() override { copy_examples(folder.path(), {"plain_room", "sky"}); }
     Outcome bake(const std::vector<std::string>& options) {
         std::vector<std::string> arguments = {"bake",   at(kScene), "-o",      at("baked.glb"),
                                               "--rays", "32",       "--order", "3"};

@@ -14,7 +14,7 @@ namespace prt {
 enum class Backend {
     automatic, ///< a hardware GPU where there is one, else the CPU; not in records
     cpu,
-    gpu, ///< any OpenGL 4.5
+    gpu, ///< Vulkan 1.2
 };
 
 enum class BakeMethod {

@@ -5,10 +5,13 @@
 #include "prt/lightmap_file.h"
 #include "prt/unwrap.h"
 #include "support/glb_file.h"
+#include "support/made_once.h"
 #include "support/scene_builder.h"
 
 namespace viewer {
 namespace {
+
+using prt::test::made_once;
 
 /// Few rays: pictures are compared with others of the same transfer.
 prt::BakeOptions rough_bake() {
@@ -29,14 +32,20 @@ LightmapFiles::LightmapFiles() {
 }
 
 std::filesystem::path LightmapFiles::vertices() const {
-    prt::GltfDocument document = prt::load_gltf(unbaked());
-    const prt::Scene scene = prt::extract_scene(document);
-    prt::write_transfer(document, scene, prt::bake(scene, rough_bake()).baked);
-    prt::save_glb(document, folder_ / "vertices.glb");
-    return folder_ / "vertices.glb";
+    return made_once("vertices", folder_ / "vertices.glb", [&](const std::filesystem::path& path) {
+        prt::GltfDocument document = prt::load_gltf(unbaked());
+        const prt::Scene scene = prt::extract_scene(document);
+        prt::write_transfer(document, scene, prt::bake(scene, rough_bake()).baked);
+        prt::save_glb(document, path);
+    });
 }
 
 std::filesystem::path LightmapFiles::raw(int size) const {
+    return made_once("raw" + std::to_string(size), folder_ / "lightmap.glb",
+                     [&](const std::filesystem::path& path) { write_raw(size, path); });
+}
+
+void LightmapFiles::write_raw(int size, const std::filesystem::path& path) const {
     prt::GltfDocument document = prt::load_gltf(unbaked());
     prt::Scene scene = prt::extract_scene(document);
     prt::Unwrapping unwrapping = prt::unwrap(scene, {.size = size});
@@ -47,11 +56,15 @@ std::filesystem::path LightmapFiles::raw(int size) const {
         atlas.uv_set = set;
     prt::write_lightmap(document, scene,
                         prt::bake_lightmap(scene, unwrapping.atlases, rough_bake()).lightmap);
-    prt::save_glb(document, folder_ / "lightmap.glb");
-    return folder_ / "lightmap.glb";
+    prt::save_glb(document, path);
 }
 
 std::filesystem::path LightmapFiles::shipped(int size) const {
+    return made_once("shipped" + std::to_string(size), folder_ / "lightmap.shipped.glb",
+                     [&](const std::filesystem::path& path) { write_shipped(size, path); });
+}
+
+void LightmapFiles::write_shipped(int size, const std::filesystem::path& path) const {
     prt::GltfDocument document = prt::load_gltf(raw(size));
     const prt::Scene scene = prt::extract_scene(document);
     const prt::BakedLightmap lightmap = *prt::read_lightmap(document, scene);
@@ -63,8 +76,7 @@ std::filesystem::path LightmapFiles::shipped(int size) const {
         document, scene,
         prt::spread_over_maps(
             lightmap, prt::compress(lightmap.baked.transfer, {lightmap.areas, edges}, options).transfer));
-    prt::save_glb(document, folder_ / "lightmap.shipped.glb");
-    return folder_ / "lightmap.shipped.glb";
+    prt::save_glb(document, path);
 }
 
 } // namespace viewer

@@ -24,6 +24,9 @@ public:
     const prt::test::TemporaryFolder& folder() const { return folder_; }
 
 private:
+    void write_raw(int size, const std::filesystem::path& path) const;
+    void write_shipped(int size, const std::filesystem::path& path) const;
+
     prt::test::TemporaryFolder folder_;
 };
 

@@ -11,6 +11,7 @@
 #include "prt/image_file.h"
 #include "prt/reorder.h"
 #include "support/glb_file.h"
+#include "support/made_once.h"
 #include "support/scene_builder.h"
 #include "support/temporary_folder.h"
 
@@ -26,6 +27,7 @@
 namespace viewer {
 namespace {
 
+using prt::test::made_once;
 using prt::test::SceneBuilder;
 
 constexpr int kWidth = 160, kHeight = 90;
@@ -53,17 +55,22 @@ protected:
         return path;
     }
     std::filesystem::path baked(int order = 4) const {
-        prt::GltfDocument document = prt::load_gltf(unbaked());
-        const prt::Scene scene = prt::extract_scene(document);
-        prt::BakeOptions options;
-        options.order = order;
-        options.rays = 64;
-        options.tracer.backend = prt::Backend::cpu;
-        prt::write_transfer(document, scene, prt::bake(scene, options).baked);
-        prt::save_glb(document, folder / "baked.glb");
-        return folder / "baked.glb";
+        return made_once("baked" + std::to_string(order), folder / "baked.glb", [&](const auto& path) {
+            prt::GltfDocument document = prt::load_gltf(unbaked());
+            const prt::Scene scene = prt::extract_scene(document);
+            prt::BakeOptions options;
+            options.order = order;
+            options.rays = 64;
+            options.tracer.backend = prt::Backend::cpu;
+            prt::write_transfer(document, scene, prt::bake(scene, options).baked);
+            prt::save_glb(document, path);
+        });
     }
     std::filesystem::path shipped(bool reordered = false) const {
+        return made_once(reordered ? "reordered" : "shipped", folder / "shipped.glb",
+                         [&](const auto& path) { write_shipped(path, reordered); });
+    }
+    void write_shipped(const std::filesystem::path& path, bool reordered) const {
         prt::GltfDocument document = prt::load_gltf(baked());
         const prt::Scene scene = prt::extract_scene(document);
         const auto transfer = prt::read_transfer(document, scene);
@@ -78,8 +85,7 @@ protected:
             compressed.transfer.receivers = prt::reordered(compressed.transfer.receivers, order);
         }
         prt::write_clustered(document, scene, compressed);
-        prt::save_glb(document, folder / "shipped.glb");
-        return folder / "shipped.glb";
+        prt::save_glb(document, path);
     }
 
     void frame() {

@@ -157,8 +157,7 @@ TEST(TransferInGltf, PartsComeBackAsTheyAre) {
                                 {{PartKind::direct, 1},
                                  {PartKind::indirect, 3},
                                  {PartKind::lamp, 3, "lanterns", {"Lantern.1", "glass"}},
-                                 {PartKind::lamp, 1, "sign"},
-                                 {PartKind::lamp, 1, "noon", {}, glm::vec3(0.6f, 0.8f, 0)}}};
+                                 {PartKind::lamp, 1, "sign"}}};
     const BakedTransfer baked = random_bake(scene, layout);
     write_transfer(document, scene, baked);
     save_glb(document, files.written);
