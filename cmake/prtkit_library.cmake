@@ -6,6 +6,14 @@ target_compile_options(prtkit_settings INTERFACE -Wall -Wextra -Wpedantic -Wshad
     # -Wconversion as GCC has it; vectors may be loaded at float's alignment and passed by value.
     "$<$<CXX_COMPILER_ID:Clang>:-Wno-sign-conversion;-Wno-align-mismatch>"
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>) # GCC 12 warns of its own std::string (bug 105651)
+# What is hot is compiled with -O3 where it stands; elsewhere -O3 only doubles the code. GCC collects garbage less often:
+# a tenth less time for a quarter more memory.
+target_compile_options(prtkit_settings INTERFACE $<$<CONFIG:Release>:-O2>
+    "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-expand=300>"
+    "$<$<CXX_COMPILER_ID:GNU>:SHELL:--param ggc-min-heapsize=1000000>")
+if(NOT PRTKIT_CLONES)
+    target_compile_definitions(prtkit_settings INTERFACE PRTKIT_NO_CLONES)
+endif()
 if(PRTKIT_WERROR)
     target_compile_options(prtkit_settings INTERFACE -Werror)
 endif()
@@ -13,12 +21,11 @@ endif()
 # For targets that take longer to build than they ever run: tests, and prt, whose CLI11 takes a minute to optimise.
 add_library(prtkit_quick INTERFACE)
 target_link_libraries(prtkit_quick INTERFACE prtkit_cold)
-target_compile_options(prtkit_quick INTERFACE $<$<CONFIG:Release>:-O1>)
 
 # For libraries without inner loops. With debug information they are not optimised: clang takes twice as long to optimise
 # what sanitizers insert (one joined source of prt::gltf: 38 s of CPU at -O1, 18 s at -O0).
 add_library(prtkit_cold INTERFACE)
-target_compile_options(prtkit_cold INTERFACE $<$<CONFIG:RelWithDebInfo>:-O0>)
+target_compile_options(prtkit_cold INTERFACE $<$<CONFIG:Release>:-O1> $<$<CONFIG:RelWithDebInfo>:-O0>)
 
 # prtkit_library(<target> <name> [COLD]): gives a library its public headers, its alias prt::<name> and its export name.
 # COLD: see prtkit_cold.
