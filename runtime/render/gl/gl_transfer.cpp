@@ -6,10 +6,8 @@
 #include "shared_layout.h"
 
 #include <epoxy/gl.h>
-#include <glm/vec4.hpp>
 
 #include <algorithm>
-#include <cstddef>
 
 namespace prt {
 namespace {
